@@ -1,0 +1,74 @@
+# `make demo` needs Python 3.11 or later and nothing else; every other target sets itself up in the same way.
+PYTHON ?= python3
+JOBS ?= auto
+STUDY ?= bevly_1997
+VENV := .venv
+BIN := $(VENV)/bin
+STAMP := $(VENV)/.installed
+LOCKED := $(shell command -v flock >/dev/null 2>&1 && echo "flock $(VENV)/.lock")
+
+# Many small matrices: the threads of BLAS only get in each other's way.
+export OPENBLAS_NUM_THREADS := 1
+export PIP_DISABLE_PIP_VERSION_CHECK := 1
+
+.DEFAULT_GOAL := help
+.PHONY: help setup demo test slow lint types architecture check bench study lock clean
+
+help:  ## list the targets
+	@grep -hE '^[a-z]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 14
+
+setup: $(STAMP)  ## make .venv and install Clamber into it, once per change of the requirements
+
+# Under a lock, and looking again inside it, so that two runs in one tree don't install over each other.
+$(STAMP): requirements.txt pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+		{ echo "Clamber needs Python 3.11 or later; $(PYTHON) is older: make PYTHON=python3.11 ..." >&2; exit 1; }
+	@mkdir -p $(VENV)
+	@$(LOCKED) sh -eu -c '\
+		if [ -e $@ ] && [ ! requirements.txt -nt $@ ] && [ ! pyproject.toml -nt $@ ]; then exit 0; fi; \
+		[ -x $(BIN)/python ] || $(PYTHON) -m venv $(VENV); \
+		echo "installing into $(VENV) (a minute or two, once)"; \
+		$(BIN)/python -m pip install --quiet --require-hashes -r requirements.txt; \
+		$(BIN)/python -m pip install --quiet --no-deps --no-build-isolation -e .; \
+		touch $@'
+
+demo: setup  ## plan a climb up the ladder, check every step, draw it
+	@mkdir -p out
+	$(BIN)/clamber plan ladder -o out/ladder.json
+	$(BIN)/clamber check out/ladder.json
+	$(BIN)/clamber show out/ladder.json -o out/ladder.png
+	$(BIN)/clamber show out/ladder.json -o out/ladder.gif
+	@echo "Look at out/ladder.gif (the climb), out/ladder.png (one picture) and out/ladder.json (the plan)."
+
+test: setup  ## fast tests
+	$(BIN)/python -m pytest -n $(JOBS) -m "not slow"
+
+slow: setup  ## slow tests: published results, peers, long searches
+	$(BIN)/python -m pytest -n $(JOBS) -m slow
+
+lint: setup  ## format and lint
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+
+types: setup  ## mypy --strict
+	$(BIN)/mypy --strict src
+
+architecture: setup  ## who may import whom
+	$(BIN)/python -m pytest -q tests/test_architecture.py
+
+check: lint types architecture test  ## all that a change has to pass
+
+bench: setup  ## speed and success beside DEAP, pymoo and pygad
+	$(BIN)/clamber bench
+
+study: setup  ## one paper's results, ours beside the printed ones: make study STUDY=name
+	$(BIN)/clamber study $(STUDY)
+
+# The lock file carries hashes and no address of a package index.
+lock: setup  ## renew requirements.txt after a change of the dependencies in pyproject.toml
+	$(BIN)/pip-compile --quiet --extra dev --extra bench --extra video --allow-unsafe --generate-hashes --strip-extras \
+		--no-header --no-emit-index-url --no-emit-find-links --no-emit-trusted-host --no-emit-options \
+		-o requirements.txt pyproject.toml
+
+clean:  ## remove what the targets made, except .venv
+	rm -rf out build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -1,0 +1,71 @@
+"""The family seam: a family registers its scalar kernels under the class of its parameters; the loops over them are written once.
+
+The kernel is chosen while compiling, by the record type of the parameters `p`, so the choice costs nothing at run time and the machine code is cached on disk
+(a jitted function handed in as an argument never is).
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numba import from_dtype, types
+from numba.extending import overload
+
+SCALARS = ("step", "candidates", "key", "measure", "bound", "done", "cell")
+FAMILIES: dict[types.Type, dict[str, Any]] = {}
+
+
+def family_kernels(params: np.dtype[np.void], **kernels: Any) -> None:
+    """Register a family: the record type of its parameters and its scalar kernels, one for each of `SCALARS`."""
+    wrong = set(SCALARS) ^ set(kernels)
+    assert not wrong, f"kernels {sorted(wrong)} missing or unknown"
+    FAMILIES[from_dtype(params)] = kernels
+
+
+def _chosen(name: str, params: types.Type) -> Callable[..., Any]:
+    assert params in FAMILIES, f"no family has parameters of type {params}"
+    return FAMILIES[params][name].py_func  # type: ignore[no-any-return]
+
+
+def step(p, before, code, after, margins):  # type: ignore[no-untyped-def]
+    """Carry out one action: writes `after` and `margins`, returns the first violated hard check, or -1."""
+    raise TypeError("called from kernels only")
+
+
+def candidates(p, s, codes):  # type: ignore[no-untyped-def]
+    """Write every different action from a stance; return their number."""
+    raise TypeError("called from kernels only")
+
+
+def key(p, s, words):  # type: ignore[no-untyped-def]
+    """Write the integers that stances with equal futures share."""
+    raise TypeError("called from kernels only")
+
+
+def measure(p, s, row):  # type: ignore[no-untyped-def]
+    """Write the features of the action that led to a stance."""
+    raise TypeError("called from kernels only")
+
+
+def bound(p, s):  # type: ignore[no-untyped-def]
+    """An admissible number of actions to the goal."""
+    raise TypeError("called from kernels only")
+
+
+def done(p, s):  # type: ignore[no-untyped-def]
+    """Whether a stance has met every goal."""
+    raise TypeError("called from kernels only")
+
+
+def cell(p, s):  # type: ignore[no-untyped-def]
+    """A coarse place in the search space, for niching."""
+    raise TypeError("called from kernels only")
+
+
+overload(step)(lambda p, before, code, after, margins: _chosen("step", p))
+overload(candidates)(lambda p, s, codes: _chosen("candidates", p))
+overload(key)(lambda p, s, words: _chosen("key", p))
+overload(measure)(lambda p, s, row: _chosen("measure", p))
+overload(bound)(lambda p, s: _chosen("bound", p))
+overload(done)(lambda p, s: _chosen("done", p))
+overload(cell)(lambda p, s: _chosen("cell", p))

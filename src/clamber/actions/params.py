@@ -1,0 +1,35 @@
+"""A family's parameters for its kernels: one record that holds the addresses of arrays, and the arrays kept alive."""
+
+import numpy as np
+import numpy.typing as npt
+
+AnyArray = npt.NDArray[np.generic]
+
+
+class Params:
+    """The record that kernels are handed (`record`), with an address field `NAME_at` for every array, and `n_NAME` where it has one."""
+
+    def __init__(self, record: npt.NDArray[np.void], **arrays: AnyArray) -> None:
+        """Point the record at its arrays.
+
+        Args:
+            record: Array of one record, its other fields filled.
+            **arrays: C-ordered arrays by name; `work` is scratch.
+        """
+        self._record = record
+        self._arrays = {name: np.ascontiguousarray(array) for name, array in arrays.items()}
+        for name, array in self._arrays.items():
+            record[f"{name}_at"] = array.ctypes.data
+            counted = f"n_{name}"
+            if counted in (record.dtype.names or ()) and name != "keep_out":
+                record[counted] = len(array)
+
+    @property
+    def record(self) -> np.void:
+        """What kernels take; valid as long as this object lives."""
+        row: np.void = self._record[0]
+        return row
+
+    def for_thread(self) -> "Params":
+        """The same parameters with scratch of their own."""
+        return Params(self._record.copy(), **{**self._arrays, "work": np.zeros_like(self._arrays["work"])})

@@ -1,0 +1,198 @@
+"""A family bound to a task, as planners see it: batches of arrays in, batches of arrays out."""
+
+import os
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from clamber.actions.loops import expand, possible, replay, rollout
+from clamber.actions.params import Params
+from clamber.actions.table import ActionTable
+
+MAX_FEATURES = 8
+ROLLOUT = np.dtype(
+    [
+        ("fitness", "f8"),  # at the stop
+        ("best", "f8"),  # largest fitness of any prefix
+        ("features", "f8", (MAX_FEATURES,)),
+        ("cell", "i8"),
+        ("genes", "i4"),  # genes that held
+        ("actions", "i4"),  # actions that held
+        ("checks", "i4"),  # actions tried
+        ("best_genes", "i4"),  # genes of the prefix with the best fitness
+        ("reason", "i4"),  # check that stopped it; -1: none, -2: too many actions
+        ("done", "i4"),
+    ],
+    align=True,
+)
+Records = npt.NDArray[np.void]
+
+
+@dataclass(frozen=True, slots=True)
+class Replay:
+    """A plan carried out: stances (n + 1), margins (n, n_checks), reasons (n; -1 where the action holds)."""
+
+    stances: Records
+    margins: npt.NDArray[np.float64]
+    reasons: npt.NDArray[np.int32]
+
+    @property
+    def ok(self) -> bool:
+        """Whether every action holds."""
+        return bool(np.all(self.reasons < 0))
+
+
+@dataclass(frozen=True, slots=True)
+class Children:
+    """Every valid child of a batch of stances: index of the parent, code of the action, stance."""
+
+    parent: npt.NDArray[np.int32]
+    code: npt.NDArray[np.int32]
+    stance: Records
+
+
+class Problem(Protocol):
+    """A task that planners can work on, whatever the robot; a worker rebuilds it from the task's text."""
+
+    start: Records
+    """Start stance, array of one record."""
+    actions: ActionTable
+    checks: tuple[str, ...]
+    """Names of the checks, in the order of `Replay.margins` and of reasons."""
+    features: tuple[str, ...]
+    """Names of the features that weights apply to."""
+
+    def rollout(
+        self, genes: npt.NDArray[np.int32], lengths: npt.NDArray[np.int32], weights: npt.NDArray[np.float64], limit: int
+    ) -> Records:
+        """Carry out many plans; records of `ROLLOUT`."""
+        ...
+
+    def replay(self, codes: npt.NDArray[np.int32], *, go_on: bool = False) -> Replay:
+        """Carry out one plan, keeping every stance and margin."""
+        ...
+
+    def expand(self, stances: Records) -> Children:
+        """Every valid child of every stance."""
+        ...
+
+    def is_done(self, stance: Records) -> bool:
+        """Whether a stance (array of one record) has met every goal."""
+        ...
+
+
+class CompiledProblem:
+    """A `Problem` whose family is a set of kernels: the loops of `actions.loops`, spread over threads.
+
+    The answer does not depend on the number of threads: every plan is carried out alone.
+    """
+
+    def __init__(
+        self,
+        params: Params,
+        start: Records,
+        actions: ActionTable,
+        checks: tuple[str, ...],
+        features: tuple[str, ...],
+        threads: int | None = None,
+    ) -> None:
+        self.params = params
+        self.start = start
+        self.actions = actions
+        self.checks = checks
+        self.features = features
+        self.threads = max(1, threads if threads is not None else (os.cpu_count() or 1))
+        self._pool: ThreadPoolExecutor | None = None
+        self._kept: list[Params] = []
+        self._scratch = [self._make_scratch() for _ in range(self.threads)]
+
+    def _make_scratch(self) -> tuple[Any, Records, npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        params = self.params.for_thread()
+        self._kept.append(params)
+        stances = np.zeros(3, self.start.dtype)
+        return params.record, stances, np.zeros(len(self.checks)), np.zeros((2, len(self.features)))
+
+    def rollout(
+        self, genes: npt.NDArray[np.int32], lengths: npt.NDArray[np.int32], weights: npt.NDArray[np.float64], limit: int
+    ) -> Records:
+        """Carry out many plans, each up to its goal or its first failure.
+
+        Args:
+            genes: Entries of the action table, shape (n, longest).
+            lengths: Genes of each plan, shape (n,).
+            weights: One per feature.
+            limit: Most actions of a plan.
+
+        Returns:
+            Records of `ROLLOUT`, shape (n,).
+        """
+        out = np.zeros(len(genes), ROLLOUT)
+
+        def part(worker: int, first: int, end: int) -> None:
+            params, stances, margins, row = self._scratch[worker]
+            table = self.actions
+            rollout(
+                params, self.start, genes, lengths, first, end, table.offsets, table.codes, limit, weights, stances, margins, row, out
+            )  # fmt: skip
+
+        self._spread(len(genes), part)
+        return out
+
+    def _spread(self, n: int, part: Any) -> None:
+        """Run `part(worker, first, end)` over n items: in chunks on the pool, or here if there are few."""
+        if self.threads == 1 or n < 4 * self.threads:
+            part(0, 0, n)
+            return
+        if self._pool is None:
+            self._pool = ThreadPoolExecutor(self.threads, thread_name_prefix="clamber")
+        cuts = np.linspace(0, n, self.threads + 1).astype(int)
+        jobs = [self._pool.submit(part, w, int(cuts[w]), int(cuts[w + 1])) for w in range(self.threads)]
+        for job in jobs:
+            job.result()
+
+    def replay(self, codes: npt.NDArray[np.int32], *, go_on: bool = False) -> Replay:
+        """Carry out one plan and keep every stance, margin and reason; stops at the first violation unless `go_on`."""
+        codes = np.ascontiguousarray(codes, np.int32)
+        stances = np.zeros(len(codes) + 1, self.start.dtype)
+        margins = np.full((len(codes), len(self.checks)), np.nan)
+        reasons = np.full(len(codes), -1, np.int32)
+        n = replay(self._scratch[0][0], self.start, codes, go_on, stances, margins, reasons)
+        return Replay(stances[: n + 1], margins[:n], reasons[:n])
+
+    def expand(self, stances: Records) -> Children:
+        """Every valid child of every stance."""
+        most = 6 + 9 * 256
+        parts: list[Children] = []
+        first = 0
+        params, _, margins, _ = self._scratch[0]
+        codes = np.zeros(most, np.int32)
+        while first < len(stances):
+            room = max(4 * most, 16 * (len(stances) - first))
+            children = np.zeros(room, self.start.dtype)
+            parent = np.zeros(room, np.int32)
+            code = np.zeros(room, np.int32)
+            n, first = expand(params, stances, first, len(stances), codes, margins, children, parent, code)
+            parts.append(Children(parent[:n], code[:n], children[:n]))
+        if len(parts) == 1:
+            return parts[0]
+        return Children(
+            np.concatenate([part.parent for part in parts]),
+            np.concatenate([part.code for part in parts]),
+            np.concatenate([part.stance for part in parts]),
+        )
+
+    def possible(self, genes: npt.NDArray[np.int32]) -> npt.NDArray[np.uint8]:
+        """Which table entries hold after a plan that holds (the configuration filter), one byte per entry."""
+        params, stances, margins, _ = self._scratch[0]
+        mask = np.zeros(len(self.actions), np.uint8)
+        possible(
+            params, self.start, genes, len(genes), self.actions.offsets, self.actions.codes, stances, margins, mask
+        )
+        return mask
+
+    def is_done(self, stance: Records) -> bool:
+        """Whether a stance (array of one record) has met every goal."""
+        raise NotImplementedError

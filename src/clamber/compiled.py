@@ -1,0 +1,137 @@
+"""The one way to compile: ``@kernel``, with a disk cache that knows every kernel source.
+
+Numba's own cache looks at the file of the outermost function only, so a change in a function that it calls would leave the old machine
+code in use, silently. Here the cache folder is named by a hash of all kernel sources together: edit any of them and everything compiles
+again, edit none and nothing does.
+"""
+
+import contextlib
+import hashlib
+import os
+import sys
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import Any, TypeVar
+
+import llvmlite
+import numba
+import numpy as np
+from numba.core import cgutils, types
+from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLocator
+from numba.core.types import unliteral
+from numba.extending import intrinsic
+
+carray = numba.carray
+"""View of the memory at a `pointer` as an array of given shape and type, for kernels; it owns nothing and counts no references."""
+F = TypeVar("F", bound=Callable[..., Any])
+
+PACKAGE = Path(__file__).resolve().parent
+KERNEL_MARK = b"clamber.compiled import"
+
+
+def kernel_files(package: Path = PACKAGE) -> tuple[Path, ...]:
+    """The source files of `package` that hold kernels: those that import from this module, and this module."""
+    files = [path for path in sorted(package.rglob("*.py")) if KERNEL_MARK in path.read_bytes()]
+    return (*files, package / "compiled.py") if (package / "compiled.py").exists() else tuple(files)
+
+
+@cache
+def kernel_hash(package: Path = PACKAGE) -> str:
+    """Hash of all kernel sources and of the versions that turn them into machine code."""
+    digest = hashlib.sha256()
+    for version in (sys.version, numba.__version__, llvmlite.__version__, np.__version__):
+        digest.update(version.encode())
+    for path in kernel_files(package):
+        digest.update(str(path.relative_to(package)).encode())
+        digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def cache_root() -> Path:
+    """Folder of the compiled kernels: ``$CLAMBER_CACHE``, else the user's cache folder."""
+    named = os.environ.get("CLAMBER_CACHE")
+    if named:
+        return Path(named)
+    base = os.environ.get("XDG_CACHE_HOME")
+    return (Path(base) if base else Path.home() / ".cache") / "clamber"
+
+
+def cache_folder(package: Path = PACKAGE) -> Path:
+    """Where the machine code of the kernels as they are now lies."""
+    return cache_root() / f"kernels-{kernel_hash(package)}"
+
+
+def is_compiled() -> bool:
+    """Whether some machine code of the present kernels is on disk, so that a start needs no compiler."""
+    return next(iter(cache_folder().glob("*.nbc")), None) is not None
+
+
+class _KernelLocator(_CacheLocator):  # type: ignore[misc]
+    """Puts every kernel's machine code into the one folder of `cache_folder`."""
+
+    def __init__(self, py_func: Callable[..., Any], py_file: str) -> None:
+        self._lineno = py_func.__code__.co_firstlineno
+        self._module = py_func.__module__
+
+    def get_cache_path(self) -> str:
+        return str(cache_folder())
+
+    def get_source_stamp(self) -> str:
+        return kernel_hash()
+
+    def get_disambiguator(self) -> str:
+        return f"{self._module}-{self._lineno}"
+
+    @classmethod
+    def from_function(cls, py_func: Callable[..., Any], py_file: str) -> "_KernelLocator | None":
+        self = cls(py_func, py_file)
+        try:
+            self.ensure_cache_path()
+        except OSError:
+            return None
+        return self
+
+
+class _KernelCacheImpl(CompileResultCacheImpl):  # type: ignore[misc]
+    _locator_classes = [_KernelLocator]
+
+
+class _KernelCache(FunctionCache):  # type: ignore[misc]
+    _impl_class = _KernelCacheImpl
+
+
+def kernel(function: F) -> F:
+    """Compile `function` with Numba: cached by the hash of all kernels, without the interpreter's lock, strict IEEE arithmetic.
+
+    Never ``parallel=True`` (slow to compile, and its threading layer aborts a process that enters it from two Python threads): threads
+    are a pool over chunks, outside.
+    """
+    return _compile(function, inline=False)
+
+
+def inlined(function: F) -> F:
+    """A kernel that becomes part of its callers: for small ones, where passing a family's parameters costs more than the work."""
+    return _compile(function, inline=True)
+
+
+def _compile(function: F, *, inline: bool) -> F:
+    dispatcher = numba.njit(nogil=True, error_model="numpy", forceinline=inline)(function)
+    template = dispatcher.get_call_template
+    # Numba would compile a kernel anew for every literal number that another kernel calls it with: three times the compile time
+    dispatcher.get_call_template = lambda args, kws: template(
+        tuple(unliteral(arg) for arg in args), {name: unliteral(arg) for name, arg in kws.items()}
+    )
+    with contextlib.suppress(RuntimeError):  # nowhere to write: compile at every start rather than fail
+        dispatcher._cache = _KernelCache(dispatcher.py_func)
+    return dispatcher  # type: ignore[no-any-return]
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def pointer(typing_context: Any, address: types.Type) -> Any:
+    """An integer address as a pointer, for kernels. Whoever stores the address keeps the array alive."""
+
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return builder.inttoptr(arguments[0], cgutils.voidptr_t)
+
+    return types.voidptr(address), generate

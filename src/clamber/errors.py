@@ -1,0 +1,102 @@
+"""Everything Clamber raises on purpose, under one base; each error's `args` rebuild it in another process."""
+
+import difflib
+from collections.abc import Iterable
+
+
+def near_matches(name: str, known: Iterable[str], limit: int = 3) -> list[str]:
+    """The known names most like `name`, best first; empty when none is like it."""
+    by_lower = {word.lower(): word for word in known}
+    return [by_lower[word] for word in difflib.get_close_matches(name.lower(), by_lower, n=limit, cutoff=0.6)]
+
+
+def describe_choices(name: str, known: Iterable[str], limit: int = 40) -> str:
+    """What may stand in place of the unknown `name`: all choices, or the first ones, and the likeliest."""
+    words = list(known)
+    listed = ", ".join(words[:limit]) + (f", ... ({len(words)} in all)" if len(words) > limit else "")
+    near = near_matches(name, words)
+    hint = f"; did you mean {' or '.join(repr(word) for word in near)}?" if near else ""
+    return f"{listed or '(nothing)'}{hint}"
+
+
+class ClamberError(Exception):
+    """Base of every error that Clamber raises for bad input."""
+
+
+class FileError(ClamberError):
+    """A file cannot be read or written as what it should be."""
+
+    def __init__(self, path: str, problem: str, allowed: str) -> None:
+        super().__init__(path, problem, allowed)
+        self.path, self.problem, self.allowed = path, problem, allowed
+
+    def __str__(self) -> str:
+        return f"{self.path}: {self.problem}; {self.allowed}"
+
+
+class UnitError(ClamberError):
+    """A value is not a quantity of the dimension asked for."""
+
+    def __init__(self, value: object, problem: str, allowed: str) -> None:
+        super().__init__(value, problem, allowed)
+        self.value, self.problem, self.allowed = value, problem, allowed
+
+    def __str__(self) -> str:
+        return f"{self.value!r} {self.problem}; {self.allowed}"
+
+
+class SpecError(ClamberError):
+    """A robot, world or task file says something that cannot be used."""
+
+    def __init__(self, file: str, key: str, value: object, allowed: str, others: tuple[str, ...] = ()) -> None:
+        super().__init__(file, key, value, allowed, others)
+        self.file, self.key, self.value, self.allowed, self.others = file, key, value, allowed, others
+
+    @property
+    def headline(self) -> str:
+        """The first problem alone, in one line."""
+        shown = "" if isinstance(self.value, _Missing) else f" = {_short(self.value)}"
+        return f"{self.file}: {self.key}{shown}: {self.allowed}"
+
+    def __str__(self) -> str:
+        return "\n".join((self.headline, *(f"  also {other}" for other in self.others)))
+
+
+class UnknownNameError(ClamberError):
+    """A robot, board, task or other named thing that does not exist."""
+
+    def __init__(self, kind: str, name: str, known: tuple[str, ...]) -> None:
+        super().__init__(kind, name, known)
+        self.kind, self.name, self.known = kind, name, known
+
+    def __str__(self) -> str:
+        return f"no {self.kind} is called {self.name!r}; there are {describe_choices(self.name, self.known)}"
+
+
+class UnknownHoldError(ClamberError):
+    """A task or plan names a hold that its board does not have."""
+
+    def __init__(self, hold: int, board: str, known: tuple[int, ...]) -> None:
+        super().__init__(hold, board, known)
+        self.hold, self.board, self.known = hold, board, known
+
+    def __str__(self) -> str:
+        near = sorted(self.known, key=lambda number: (abs(number - self.hold), number))[:3]
+        listed = ", ".join(str(number) for number in sorted(near))
+        return f"board '{self.board}' has no hold {self.hold}: it has {len(self.known)}, such as {listed}"
+
+
+class _Missing:
+    """Stands for a key that is not there; its own class, so that it survives pickling."""
+
+    def __repr__(self) -> str:
+        return "(not given)"
+
+
+MISSING = _Missing()
+"""The value of a `SpecError` about a key that the file does not have."""
+
+
+def _short(value: object, limit: int = 120) -> str:
+    text = repr(value)
+    return text if len(text) <= limit else text[: limit - 3] + "..."

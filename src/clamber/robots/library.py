@@ -1,0 +1,55 @@
+"""Robots by name or path: which family builds which file."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Final, TypeAlias
+
+from ..errors import describe_choices
+from ..files import Document, data_names, find_data, read_toml
+from .limbed import LimbedRobot, build_limbed
+
+DATA: Final = Path(__file__).parent / "data"
+Robot: TypeAlias = LimbedRobot
+"""A robot of any family."""
+
+ROBOT_FAMILIES: Final[dict[str, Callable[[Document], Robot]]] = {"limbed": build_limbed}
+"""What a robot file calls its `family` -> what builds it."""
+
+
+def robot_names() -> tuple[str, ...]:
+    """Names of the robots that come with Clamber."""
+    return data_names(DATA)
+
+
+def read_robot(name_or_path: str, folder: Path | None = None) -> Document:
+    """The document of a robot, shipped or the user's own (a path, relative to `folder`)."""
+    path, label = find_data("robot", name_or_path, DATA, folder)
+    return read_toml(path, label)
+
+
+def family_of(document: Document) -> str:
+    """The family that a robot's document names.
+
+    Raises:
+        SpecError: If it names none, or one that does not exist.
+    """
+    family = document.data.get("family")
+    if not isinstance(family, str) or family not in ROBOT_FAMILIES:
+        raise document.problem("family", f"must be one of {describe_choices(str(family), ROBOT_FAMILIES)}")
+    return family
+
+
+def build_robot(document: Document) -> Robot:
+    """The robot that a document describes."""
+    return ROBOT_FAMILIES[family_of(document)](document)
+
+
+def load_robot(name_or_path: str) -> Robot:
+    """A robot by its shipped name, such as "libra", or from the user's TOML file.
+
+    Raises:
+        UnknownNameError: If no shipped robot has that name.
+        FileError: If the file cannot be read.
+        SpecError: If the file says something that cannot be used.
+    """
+    return build_robot(read_robot(name_or_path))

@@ -1,0 +1,115 @@
+"""Tasks by name or path: a task file names its robot and its board, and the robot's family builds the whole."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final, TypeAlias
+
+from ..files import Document, data_names, find_data, read_toml
+from ..robots.library import family_of, read_robot
+from ..robots.limbed import LimbedRobot
+from ..specs import field_names
+from ..types import Json
+from ..worlds.library import read_board
+from .limbed import LimbedTask, TaskSpec, build_limbed_task
+from .overrides import apply_overrides, split_override
+
+DATA: Final = Path(__file__).parent / "data"
+Task: TypeAlias = LimbedTask
+"""A task of any family."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TaskFamily:
+    """How the tasks of one family of robots are read."""
+
+    world_key: str
+    """The key under which a task names its world."""
+    read_world: Callable[[str, Path | None], Document]
+    """The world's document by name or path, relative to the task's folder."""
+    build: Callable[[Document], Task]
+    """The task of a merged document."""
+    task_keys: tuple[str, ...]
+    """Keys of a task file beside robot and world."""
+    robot_keys: tuple[str, ...]
+    """Keys of a robot file; an override may start with them."""
+
+
+TASK_FAMILIES: Final[dict[str, TaskFamily]] = {
+    "limbed": TaskFamily(
+        world_key="board",
+        read_world=read_board,
+        build=build_limbed_task,
+        task_keys=field_names(TaskSpec),
+        robot_keys=tuple(name for name in field_names(LimbedRobot) if name != "sources"),
+    )
+}
+"""The `family` of the task's robot -> how its tasks are read."""
+
+
+def task_names() -> tuple[str, ...]:
+    """Names of the tasks that come with Clamber."""
+    return data_names(DATA)
+
+
+def load_task(name_or_path: str, overrides: Sequence[str] = ()) -> Task:
+    """A task by its shipped name, such as "ladder", or from the user's TOML file.
+
+    Args:
+        name_or_path: Name, or a path that ends in .toml; robot and board may be paths relative to it.
+        overrides: Texts "key=value", such as "start.y=6.2in", "board.ladder.rungs=100",
+            "robot.limbs.right.l1=16cm", "motor.torque_limit=1500oz-in", or "board=h" for another board.
+
+    Raises:
+        UnknownNameError: If a name of task, robot or board does not exist.
+        FileError: If a file cannot be read.
+        SpecError: If a file or an override says something that cannot be used.
+    """
+    path, label = find_data("task", name_or_path, DATA)
+    document = read_toml(path, label)
+    merged, rest = _merge(document, overrides)
+    family = TASK_FAMILIES[family_of(merged.section("robot", merged.data["labels"]["robot"]))]
+    task_keys = (*family.task_keys, "robot", family.world_key)
+    return family.build(apply_overrides(merged, rest, task_keys, family.robot_keys))
+
+
+def task_from_document(document: Json, label: str = "stored task") -> Task:
+    """The task that `Task.document` describes, in another process or from a stored plan.
+
+    Raises:
+        SpecError: If the document is not one that this version can build.
+    """
+    whole = Document(label, document)
+    family = TASK_FAMILIES[family_of(whole.section("robot", f"{label} [robot]"))]
+    return family.build(whole)
+
+
+def _merge(document: Document, overrides: Sequence[str]) -> tuple[Document, list[str]]:
+    """The task's document with its robot and world in place of their names, and the overrides still to apply."""
+    data = dict(document.data)
+    named: list[tuple[str, str]] = []
+    rest: list[str] = []
+    world_keys = {family.world_key for family in TASK_FAMILIES.values()}
+    for text in overrides:
+        key, value = split_override(text)
+        if key in {"robot", *world_keys}:
+            data[key] = value
+            named.append((key, text))
+        else:
+            rest.append(text)
+    source = Document(document.label, data, tuple(named), document.folder)
+    from_here = {key for key, _ in named}  # a path in an override starts where the user stands, not at the task
+    robot = read_robot(_named(source, "robot"), None if "robot" in from_here else document.folder)
+    family = TASK_FAMILIES[family_of(robot)]
+    folder = None if family.world_key in from_here else document.folder
+    world = family.read_world(_named(source, family.world_key), folder)
+    data["robot"], data[family.world_key] = robot.data, world.data
+    data["labels"] = {"robot": robot.label, family.world_key: world.label}
+    return Document(document.label, data, (), document.folder), rest
+
+
+def _named(document: Document, key: str) -> str:
+    name = document.data.get(key)
+    if not isinstance(name, str) or not name:
+        raise document.problem(key, f"must name a {key}, or give the path of its file, in quotes")
+    return name

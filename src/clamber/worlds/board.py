@@ -1,0 +1,239 @@
+"""A board: numbered holds on a vertical wall, and regions that no part of a robot may enter."""
+
+import math
+from itertools import pairwise
+from typing import Annotated, Any, Final
+
+import numpy as np
+from pydantic import Field, StrictInt, StrictStr
+
+from ..errors import UnknownHoldError
+from ..files import Document, check_schema
+from ..specs import Name, build_spec, spec
+from ..types import Floats, Ints
+from ..units import (
+    Angle,
+    ConeAngle,
+    Length,
+    NonNegativeLength,
+    Polygon,
+    PositiveForce,
+    PositiveLength,
+    Ratio,
+)
+
+SCHEMA: Final = "clamber-board-1"
+
+
+@spec
+class Hold:
+    """One hold. World frame: x to the right, y up, on a vertical wall."""
+
+    number: Annotated[int, Field(strict=True, ge=1, lt=2**31)]
+    """Its name in plans; unique on the board."""
+    x: Length
+    """Centre [m]."""
+    y: Length
+    """Centre [m]."""
+    radius: PositiveLength
+    """Radius of the disc that stands for it [m]."""
+    direction: Angle | None = None
+    """World direction about which it can be pulled [rad]; None: every direction."""
+    cone: ConeAngle | None = None
+    """Half angle about `direction` within which it holds [rad]."""
+    strength: PositiveForce | None = None
+    """Largest force it takes [N]; None: any."""
+
+
+@spec
+class Board:
+    """A wall with holds, in SI units, world frame."""
+
+    name: str
+    title: str
+    holds: tuple[Hold, ...]
+    """Ordered by number; at least one."""
+    keep_out: tuple[Polygon, ...] = ()
+    """Corners of regions that neither body nor links may enter [m]."""
+
+    def by_number(self, number: int) -> Hold:
+        """The hold with this number.
+
+        Raises:
+            UnknownHoldError: If the board has none.
+        """
+        for hold in self.holds:
+            if hold.number == number:
+                return hold
+        raise UnknownHoldError(number, self.name, tuple(hold.number for hold in self.holds))
+
+    def positions(self) -> Floats:
+        """Centres of the holds [m], world frame, in the order of `holds`, shape (n_holds, 2)."""
+        return np.array([(hold.x, hold.y) for hold in self.holds], dtype=np.float64).reshape(-1, 2)
+
+    def numbers(self) -> Ints:
+        """Numbers of the holds, in the order of `holds`, shape (n_holds,)."""
+        return np.array([hold.number for hold in self.holds], dtype=np.int32)
+
+
+@spec
+class LadderSpec:
+    """Generates two columns of holds: 1 at the origin, 2 to its right, 3 above 1, and so on."""
+
+    rungs: Annotated[int, Field(strict=True, ge=1, le=10_000)]
+    """Rows of two holds."""
+    spacing: PositiveLength
+    """Height between rows [m]."""
+    width: PositiveLength
+    """Distance of the columns [m]."""
+    removed: tuple[StrictInt, ...] = ()
+    """Numbers left out; the others keep theirs."""
+
+    def holds(self, radius: float) -> tuple[Hold, ...]:
+        """The holds, by number."""
+        return tuple(
+            Hold(number=number, x=self.width * ((number - 1) % 2), y=self.spacing * ((number - 1) // 2), radius=radius)
+            for number in range(1, 2 * self.rungs + 1)
+            if number not in self.removed
+        )
+
+
+@spec
+class GridSpec:
+    """Generates a jittered grid, numbered row by row from the bottom left; some holds take pull only within a cone."""
+
+    columns: Annotated[int, Field(strict=True, ge=1, le=1000)]
+    rows: Annotated[int, Field(strict=True, ge=1, le=1000)]
+    spacing: PositiveLength
+    """Distance of neighbours before the jitter [m]."""
+    jitter: NonNegativeLength = 0.0
+    """Each coordinate moves by up to this much either way [m]."""
+    seed: Annotated[int, Field(strict=True, ge=0)] = 0
+    """The same seed gives the same board."""
+    sloped: Ratio = 0.0
+    """Share of holds that have a direction and a strength [-]; those point down, give or take `tilt`."""
+    tilt: Angle = 0.0
+    """Largest deviation of such a direction from straight down [rad]."""
+    cone: ConeAngle = math.pi / 2
+    """Half angle of such holds [rad]."""
+    strength: PositiveForce | None = None
+    """Largest force on such holds [N]."""
+
+    def holds(self, radius: float) -> tuple[Hold, ...]:
+        """The holds, by number."""
+        # Every hold draws the same count of random numbers, so that the places do not depend on `sloped`.
+        draws = np.random.default_rng(self.seed).random((self.rows * self.columns, 4))
+        made = []
+        for index, (dx, dy, share, lean) in enumerate(draws.tolist()):
+            row, column = divmod(index, self.columns)
+            is_sloped = share < self.sloped
+            made.append(
+                Hold(
+                    number=index + 1,
+                    x=column * self.spacing + (2.0 * dx - 1.0) * self.jitter,
+                    y=row * self.spacing + (2.0 * dy - 1.0) * self.jitter,
+                    radius=radius,
+                    direction=-math.pi / 2 + (2.0 * lean - 1.0) * self.tilt if is_sloped else None,
+                    cone=self.cone if is_sloped else None,
+                    strength=self.strength if is_sloped else None,
+                )
+            )
+        return tuple(made)
+
+
+@spec
+class BoardSpec:
+    """What a board file says: holds one by one, or one generator."""
+
+    name: Name
+    title: StrictStr = ""
+    source: StrictStr = ""
+    """Where the places of the holds come from."""
+    hold_radius: PositiveLength | None = None
+    """Radius of every hold that states none [m]."""
+    position_error: NonNegativeLength = 0.0
+    """How well the places are known, either way [m]."""
+    holds: tuple[Hold, ...] | None = None
+    ladder: LadderSpec | None = None
+    grid: GridSpec | None = None
+    keep_out: tuple[Polygon, ...] = ()
+    """Corners of regions that neither body nor links may enter [m]."""
+
+
+def build_board(document: Document) -> Board:
+    """A board from its document.
+
+    Raises:
+        SpecError: If the document breaks a rule of the format, or holds overlap or repeat.
+    """
+    check_schema(document, SCHEMA)
+    stated = build_spec(BoardSpec, _with_radius(document), without=("schema",))
+    given = [key for key in ("holds", "ladder", "grid") if getattr(stated, key) is not None]
+    if len(given) != 1:
+        said = " and ".join(given) or "none"
+        raise document.problem("holds", f"a board states exactly one of 'holds', [ladder], [grid]; here: {said}")
+    generator = stated.ladder or stated.grid
+    if generator is not None and stated.hold_radius is None:
+        raise document.problem("hold_radius", "must be given beside a generator, such as '5 mm'")
+    if stated.ladder is not None:
+        _check_removed(stated.ladder, document)
+    holds = stated.holds if generator is None else generator.holds(stated.hold_radius or 0.0)
+    holds = tuple(sorted(holds or (), key=lambda hold: hold.number))
+    board = Board(name=stated.name, title=stated.title, holds=holds, keep_out=stated.keep_out)
+    _check_holds(board, document, given[0])
+    for index, polygon in enumerate(board.keep_out):
+        check_polygon(polygon, document, f"keep_out.{index}")
+    return board
+
+
+def _with_radius(document: Document) -> Document:
+    """The document with `hold_radius` filled in wherever a hold states none."""
+    holds, radius = document.data.get("holds"), document.data.get("hold_radius")
+    if not isinstance(holds, list) or radius is None:
+        return document
+    filled: list[Any] = [{"radius": radius} | hold if isinstance(hold, dict) else hold for hold in holds]
+    return Document(document.label, document.data | {"holds": filled}, document.overrides, document.folder)
+
+
+def _check_removed(ladder: LadderSpec, document: Document) -> None:
+    for number in ladder.removed:
+        if not 1 <= number <= 2 * ladder.rungs:
+            raise document.problem("ladder.removed", f"must be numbers from 1 to {2 * ladder.rungs}; {number} is not")
+
+
+def _check_holds(board: Board, document: Document, key: str) -> None:
+    holds = board.holds
+    if not holds:
+        raise document.problem(key, "the board has no holds; it needs at least one")
+    for before, after in pairwise(holds):
+        if before.number == after.number:
+            raise document.problem(key, f"hold numbers must differ; {after.number} is there twice")
+    for hold in holds:
+        if (hold.direction is None) != (hold.cone is None):
+            raise document.problem(f"{key}.{hold.number}", "states 'direction' and 'cone' both or neither")
+    widest = 2.0 * max(hold.radius for hold in holds)
+    across = sorted(holds, key=lambda hold: hold.x)
+    for index, a in enumerate(across):
+        for b in across[index + 1 :]:
+            if b.x - a.x >= widest:
+                break
+            distance = math.hypot(b.x - a.x, b.y - a.y)
+            if distance < a.radius + b.radius:
+                first, second = sorted((a.number, b.number))
+                place = f"{key}.{second}" if key == "holds" else key
+                sizes = f"{distance:.4g} m apart, radii {a.radius:.4g} and {b.radius:.4g} m"
+                raise document.problem(place, f"holds {first} and {second} overlap: {sizes}")
+
+
+def check_polygon(polygon: Polygon, document: Document, key: str) -> None:
+    """Makes sure that a polygon encloses something.
+
+    Raises:
+        SpecError: If it has less than three corners or no area.
+    """
+    if len(polygon) < 3:
+        raise document.problem(key, "a region needs at least three corners")
+    (x0, y0), rest = polygon[0], polygon[1:]
+    doubled = sum((x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0) for (x1, y1), (x2, y2) in pairwise(rest))
+    if abs(doubled) < 1e-12:
+        raise document.problem(key, "the corners must enclose an area")

@@ -1,0 +1,503 @@
+"""What an action does to a stance, and every check of it, read plainly from docs/model.md (sections 2 to 6).
+
+Slow and obvious on purpose. Holds go by their number, limbs by their index from 0; SI units and radians.
+"""
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+from .carriers import Carrier, best_option, torques
+from .forces import NO_SPLIT_TORQUE, equal_share_options, split_forces
+from .hook import hang_margins, many_margin, pair_margins
+from .interference import FAR, clearance, contains, interference_margins, point_to_segment, swing_clearance
+from .kinematics import (
+    EPS,
+    Option,
+    Point,
+    Pose,
+    limb_length,
+    option,
+    port_in_world,
+    to_body,
+    to_world,
+    usable,
+    wrap,
+)
+
+CHECKS: tuple[str, ...] = ("reach", "joint", "support", "hangs", "torque", "power", "clearance", "swing", "keep_out")
+CHECKS += ("limb_limb", "limb_body", "limb_peg", "hook", "shared", "stability")
+TICKS = 2**20
+"""Ticks of pose in one step."""
+NO_CANDIDATE = -1e9
+"""`reach` when there is no hold at all that the limb may take [m]."""
+
+Action = tuple[Any, ...]
+"""("none",), ("move", axis, sign), ("release", limb), ("nearest", limb, k), ("hold", limb, number) or
+("random", limb, r); r is the random number already drawn."""
+
+
+@dataclass
+class PlainStance:
+    """Where the robot is and what it remembers."""
+
+    ix: int
+    iy: int
+    ia: int
+    hold: list[int | None]
+    left: list[int | None]
+    """Per free limb the hold it held last."""
+    foot: list[Point | None]
+    """Per free limb its foot in the body frame [m]."""
+    in_use: int | None
+    hangs: int
+    stage: int
+    laps: int
+    open: list[set[int]]
+    """Branches still open per limb, read under `branch = "kept"` only."""
+    count: int
+
+    def copy(self) -> "PlainStance":
+        return PlainStance(
+            self.ix,
+            self.iy,
+            self.ia,
+            list(self.hold),
+            list(self.left),
+            list(self.foot),
+            self.in_use,
+            self.hangs,
+            self.stage,
+            self.laps,
+            [set(s) for s in self.open],
+            self.count,
+        )
+
+    def holders(self) -> list[int]:
+        return [i for i, h in enumerate(self.hold) if h is not None]
+
+
+@dataclass
+class PlainResult:
+    """The stance after an action, why it is no good (if so), and what every check says."""
+
+    stance: PlainStance
+    reason: str | None
+    margins: dict[str, float]
+    torques: list[tuple[float, float]]
+    """Shoulder and elbow [N m] per limb."""
+    power: float
+    branches: list[int]
+    hold: int | None
+    """Hold that a grab resolved to."""
+    forces: list[Point]
+    """Of the hold on each limb [N], world."""
+
+
+@dataclass
+class Swing:
+    """What a hang did: turned by `turn` [rad] about `centre`, from angle `start`, at `radius` [m]."""
+
+    centre: Point
+    radius: float
+    start: float
+    turn: float
+
+
+@dataclass
+class Judgement:
+    """All checks of one stance, before anybody asks which are hard."""
+
+    margins: dict[str, float]
+    torques: list[tuple[float, float]]
+    power: float
+    branches: list[int]
+    forces: list[Point]
+    good: list[set[int]] = field(default_factory=list)
+    """Per limb the branches that stay open after a valid action."""
+
+
+class PlainEvaluator:
+    """Takes stances of one task forward, one action at a time."""
+
+    def __init__(self, task: Any) -> None:
+        self.task = task
+        self.robot, self.rules = task.robot, task.rules
+        self.holds = {h.number: h for h in task.world.holds}
+        self.tick = task.step.length / TICKS
+        self.angle_tick = task.step.angle / TICKS
+        self.turn_ticks = round(2.0 * math.pi / task.step.angle) * TICKS
+        self.n = len(task.robot.limbs)
+
+    # Stances
+
+    def start(self) -> PlainStance:
+        start, limbs = self.task.start, self.robot.limbs
+        hold = [start.holds.get(limb.name, 0) or None for limb in limbs]
+        foot: list[Point | None] = []
+        for limb, h in zip(limbs, hold, strict=True):
+            reach = 0.6 * limb_length(limb)
+            out = (
+                limb.port_x + reach * math.cos(limb.port_angle),
+                limb.port_y + reach * math.sin(limb.port_angle),
+            )
+            foot.append(None if h is not None else tuple(start.feet.get(limb.name, out)))
+        holders = [i for i, h in enumerate(hold) if h is not None]
+        names = [limb.name for limb in limbs]
+        in_use = names.index(start.in_use) if start.in_use else (holders[-1] if holders else None)
+        both = [{0, 1} for _ in limbs]
+        return PlainStance(0, 0, 0, hold, [None] * self.n, foot, in_use, 0, 0, 0, both, 0)
+
+    def pose(self, s: PlainStance) -> Pose:
+        start = self.task.start
+        return Pose(start.x + s.ix * self.tick, start.y + s.iy * self.tick, start.theta + s.ia * self.angle_tick)
+
+    def place(self, number: int) -> Point:
+        return self.holds[number].x, self.holds[number].y
+
+    # Actions
+
+    def step(self, stance: PlainStance, action: Action) -> PlainResult:
+        kind = action[0]
+        after = stance.copy()
+        after.count += 1
+        if kind == "move":
+            self.move(after, action[1], action[2])
+        elif kind == "release":
+            self.release(after, action[1])
+        elif kind in ("nearest", "hold", "random"):
+            return self.grab(stance, action)
+        elif kind != "none":
+            raise ValueError(f"action {action}: kind must be none, move, release, nearest, hold or random")
+        return self.settle(stance, after, None, set())
+
+    def move(self, s: PlainStance, axis: int, sign: int) -> None:
+        if axis == 0:
+            s.ix += sign * TICKS
+        elif axis == 1:
+            s.iy += sign * TICKS
+        else:
+            s.ia = (s.ia + sign * TICKS) % self.turn_ticks
+
+    def release(self, s: PlainStance, limb: int) -> None:
+        number = s.hold[limb]
+        if number is None:
+            return
+        s.foot[limb] = to_body(self.pose(s), self.place(number))
+        s.left[limb], s.hold[limb] = number, None
+        s.open[limb] = {0, 1}
+        s.in_use = limb
+
+    def grab(self, stance: PlainStance, action: Action) -> PlainResult:
+        """A grab, and before it the release that `support = "strict"` asks for."""
+        limb = action[1]
+        again = action[0] == "hold" and stance.hold[limb] is not None and stance.hold[limb] == action[2]
+        others = [i for i in stance.holders() if i != limb]
+        if self.rules.support == "atomic" or stance.hold[limb] is None or again or len(others) >= 2:
+            return self.place_limb(stance, action)
+        after = stance.copy()
+        after.count += 1
+        self.release(after, limb)
+        if not others:
+            margins = dict.fromkeys(CHECKS, math.nan)
+            margins["support"] = -1.0
+            return self.failed(after, "support", margins)
+        swung = self.settle(stance, after, None, set())
+        if swung.reason is not None:
+            return swung
+        base = swung.stance.copy()
+        base.count -= 1  # release and grab are one action
+        result = self.place_limb(base, action)
+        if not math.isnan(result.margins["torque"]):
+            for name in CHECKS:
+                result.margins[name] = min(result.margins[name], swung.margins[name])
+            result.reason = self.first_violated(result.margins)
+        return result
+
+    def place_limb(self, stance: PlainStance, action: Action) -> PlainResult:
+        limb, pose = action[1], self.pose(stance)
+        after = stance.copy()
+        after.count += 1
+        if action[0] == "hold" and action[2] == stance.hold[limb]:
+            after.in_use = limb
+            return self.settle(stance, after, action[2], set())
+        candidates = self.candidates(stance, limb)
+        number: int | None = None
+        if action[0] == "hold":
+            out_of_reach = self.spare(limb, pose, action[2], grabbing=True) < -EPS
+            forbidden = not self.may_use(limb, action[2])
+            if not out_of_reach and not forbidden:
+                number = action[2]
+            elif self.rules.replace_out_of_reach:
+                number = candidates[0] if candidates else None
+            elif forbidden:
+                return self.failed_grab(stance, NO_CANDIDATE)
+            else:
+                number = action[2]
+        elif candidates:
+            k = action[2] if action[0] == "nearest" else 1 + action[2] % len(candidates)
+            number = candidates[min(k, len(candidates)) - 1]
+        if number is None:
+            unheld = [h for h in self.holds if h not in stance.hold and self.may_use(limb, h)]
+            return self.failed_grab(
+                stance, max((self.spare(limb, pose, h, grabbing=True) for h in unheld), default=NO_CANDIDATE)
+            )
+        after.hold[limb], after.foot[limb], after.left[limb] = number, None, None
+        after.open[limb] = {0, 1}
+        after.in_use = limb
+        return self.settle(stance, after, number, {limb})
+
+    def candidates(self, s: PlainStance, limb: int) -> list[int]:
+        """Numbers of the holds that the limb may grab, nearest first."""
+        pose = self.pose(s)
+        px, py = port_in_world(self.robot.limbs[limb], pose)
+        ranked: list[tuple[int, int]] = []
+        for number, h in self.holds.items():
+            if number in s.hold or not self.may_use(limb, number):
+                continue
+            if self.spare(limb, pose, number, grabbing=True) >= -EPS:
+                ranked.append((round(((h.x - px) ** 2 + (h.y - py) ** 2) / 1e-10), number))
+        return [number for _, number in sorted(ranked)]
+
+    def may_use(self, limb: int, number: int) -> bool:
+        hold = self.holds[number]
+        for keep in self.rules.keep:
+            if keep.limb != self.robot.limbs[limb].name:
+                continue
+            for value, low, high in ((hold.x, keep.x_min, keep.x_max), (hold.y, keep.y_min, keep.y_max)):
+                if (low is not None and value < low - EPS) or (high is not None and value > high + EPS):
+                    return False
+        return True
+
+    def spare(self, limb: int, pose: Pose, number: int, grabbing: bool) -> float:
+        """Reach limit less the distance from port to hold [m]."""
+        px, py = port_in_world(self.robot.limbs[limb], pose)
+        hx, hy = self.place(number)
+        limit = limb_length(self.robot.limbs[limb])
+        if grabbing or self.rules.offset_while_holding:
+            limit -= self.rules.reach_offset
+        return limit - math.hypot(hx - px, hy - py)
+
+    # Outcomes
+
+    def failed(self, stance: PlainStance, reason: str, margins: dict[str, float]) -> PlainResult:
+        nothing = [(math.nan, math.nan)] * self.n
+        return PlainResult(stance, reason, margins, nothing, math.nan, [0] * self.n, None, nothing)
+
+    def failed_grab(self, stance: PlainStance, reach: float) -> PlainResult:
+        margins = dict.fromkeys(CHECKS, math.nan)
+        margins["reach"] = reach
+        return self.failed(stance.copy(), "reach", margins)
+
+    def first_violated(self, margins: dict[str, float]) -> str | None:
+        return next((c for c in CHECKS if c in self.rules.hard and margins[c] < -EPS), None)
+
+    def settle(self, before: PlainStance, after: PlainStance, number: int | None, grabbed: set[int]) -> PlainResult:
+        """The hang, the checks and what a valid action changes besides."""
+        swing = None
+        if len(after.holders()) == 1:
+            swing = self.hang(after)
+            after.hangs += len(before.holders()) >= 2
+        self.count_laps(before, after)
+        seen = self.judge(after, swing, grabbed)
+        reason = self.first_violated(seen.margins)
+        if reason is None:
+            if self.rules.branch == "kept":
+                for i in after.holders():
+                    after.open[i] = seen.good[i]
+            while after.stage < len(self.task.goals) and self.met(after, self.task.goals[after.stage]):
+                after.stage += 1
+        return PlainResult(after, reason, seen.margins, seen.torques, seen.power, seen.branches, number, seen.forces)
+
+    def hang(self, s: PlainStance) -> Swing | None:
+        """Turns the robot about its one hold until the origin is straight below it."""
+        number = s.hold[s.holders()[0]]
+        assert number is not None
+        hx, hy = self.place(number)
+        pose, start = self.pose(s), self.task.start
+        rx, ry = pose.x - hx, pose.y - hy
+        radius = math.hypot(rx, ry)
+        if radius < 1e-9:
+            return None
+        at = math.atan2(ry, rx)
+        turn = wrap(-math.pi / 2.0 - at)
+        s.ix = round((hx - start.x) / self.tick)
+        s.iy = round((hy - radius - start.y) / self.tick)
+        s.ia = round((pose.angle + turn - start.theta) / self.angle_tick) % self.turn_ticks
+        return Swing((hx, hy), radius, at, turn)
+
+    # Checks
+
+    def judge(self, s: PlainStance, swing: Swing | None, grabbed: set[int]) -> Judgement:
+        limbs, rules, pose = self.robot.limbs, self.rules, self.pose(s)
+        holders = s.holders()
+        zero = [(0.0, 0.0)] * self.n
+        margins = dict.fromkeys(CHECKS, math.nan)
+        if not holders:
+            margins["support"] = -1.0
+            return Judgement(margins, zero, math.nan, [0] * self.n, zero)
+
+        both: list[list[Option]] = []
+        usables: list[list[Option]] = []
+        for i, limb in enumerate(limbs):
+            number, foot = s.hold[i], s.foot[i]
+            if number is not None:
+                target = self.place(number)
+            else:
+                assert foot is not None
+                target = to_world(pose, foot)
+            both.append([option(limb, pose, target, b) for b in (0, 1)])
+            usables.append(usable(both[i], self.allowed(s, i)))
+
+        margins["reach"] = min(self.spare(i, pose, s.hold[i] or 0, grabbing=i in grabbed) for i in holders)
+        margins["joint"] = min(
+            max((o.joint_margin for o in both[i] if o.branch in self.allowed(s, i)), default=-math.pi) for i in holders
+        )
+        margins["support"] = float(len(holders) - rules.min_supports)
+        margins["hangs"] = FAR if rules.max_hangs == -1 else float(rules.max_hangs - s.hangs)
+
+        carriers = self.carriers(s, pose, usables)
+        split = split_forces(carriers, self.task)
+        taken = [best_option([(o, (0.0, 0.0)) for o in u]) for u in usables]
+        all_torques, forces = list(zero), list(zero)
+        fixed = equal_share_options(carriers, self.robot.weight) if len(carriers) > 2 else []
+        for j, c in enumerate(carriers):
+            force = (math.nan, math.nan) if split is None else split[j]
+            loads = [(o, self.load(c, o, split, j)) for o in c.options]
+            taken[c.index] = fixed[j] if fixed else best_option(loads)
+            forces[c.index] = force
+            all_torques[c.index] = self.load(c, taken[c.index], split, j)
+        margins["torque"] = min(
+            limit - abs(t) for c in carriers for t, limit in zip(all_torques[c.index], c.limits, strict=True)
+        )
+        motor = self.robot.motor
+        power = sum(
+            (t / (joint.gear * motor.torque_constant)) ** 2 * motor.resistance
+            for c in carriers
+            for t, joint in zip(all_torques[c.index], (c.limb.shoulder, c.limb.elbow), strict=True)
+        )
+        margins["power"] = FAR if rules.max_power is None else rules.max_power - power
+        margins["clearance"] = clearance(self.task, (pose.x, pose.y))
+        margins["swing"] = (
+            FAR if swing is None else swing_clearance(self.task, swing.centre, swing.radius, swing.start, swing.turn)
+        )
+        own = [s.hold[i] if s.hold[i] is not None else s.left[i] for i in range(self.n)]
+        margins.update(interference_margins(self.task, pose, taken, own))
+        margins["hook"], in_good = self.hook(carriers, taken, 0.0 if swing is None else swing.turn)
+        held = [h for h in s.hold if h is not None]
+        margins["shared"] = -1.0 if len(set(held)) < len(held) else 0.0
+        xs = [c.hold.x for c in carriers]
+        margins["stability"] = min(max(xs) - pose.x, pose.x - min(xs)) if len(xs) > 1 else 0.0
+        good = self.still_open(s, both, carriers, split, in_good)
+        return Judgement(margins, all_torques, power, [o.branch for o in taken], forces, good)
+
+    def allowed(self, s: PlainStance, limb: int) -> set[int]:
+        kept = self.rules.branch == "kept" and s.hold[limb] is not None
+        return s.open[limb] if kept else {0, 1}
+
+    def carriers(self, s: PlainStance, pose: Pose, usables: list[list[Option]]) -> list[Carrier]:
+        holders = s.holders()
+        if len(holders) >= 3 and self.rules.limb_in_use == "idle":
+            holders = [i for i in holders if i != s.in_use]
+        found: list[Carrier] = []
+        for i in holders:
+            limb, hold = self.robot.limbs[i], self.holds[s.hold[i] or 0]
+            default = self.robot.motor.torque_limit
+            limits = [default if j.torque_limit is None else j.torque_limit for j in (limb.shoulder, limb.elbow)]
+            r = (hold.x - pose.x, hold.y - pose.y)
+            found.append(Carrier(i, limb, hold, r, port_in_world(limb, pose), usables[i], (limits[0], limits[1])))
+        return found
+
+    def load(self, c: Carrier, o: Option, split: list[Point] | None, j: int) -> tuple[float, float]:
+        return (NO_SPLIT_TORQUE, NO_SPLIT_TORQUE) if split is None else torques(c, o, split[j])
+
+    def hook(self, carriers: list[Carrier], taken: list[Option], turn: float) -> tuple[float, dict[int, set[int]]]:
+        """Margin [N], and per carrier the branches that are in a good combination."""
+        W, cone = self.robot.weight, self.rules.hook_cone
+        if len(carriers) == 1:
+            by_branch = hang_margins(carriers[0], W, turn, cone)
+            good = {b for b, margin in by_branch.items() if margin >= -EPS}
+            return max(by_branch.values()), {carriers[0].index: good}
+        if len(carriers) == 2:
+            by_pair = pair_margins(carriers[0], carriers[1], W, cone)
+            pairs = [pair for pair, margin in by_pair.items() if margin >= -EPS]
+            return max(by_pair.values()), {c.index: {p[j] for p in pairs} for j, c in enumerate(carriers)}
+        return many_margin(carriers, [taken[c.index] for c in carriers], W, cone), {}
+
+    def still_open(
+        self,
+        s: PlainStance,
+        both: list[list[Option]],
+        carriers: list[Carrier],
+        split: list[Point] | None,
+        in_good: dict[int, set[int]],
+    ) -> list[set[int]]:
+        keep = [set(branches) for branches in s.open]
+        by_limb = {c.index: (j, c) for j, c in enumerate(carriers)}
+        for i in s.holders():
+            for o in both[i]:
+                bad = o.joint_margin < -EPS
+                if i in by_limb:
+                    j, c = by_limb[i]
+                    loads = zip(self.load(c, o, split, j), c.limits, strict=True)
+                    bad = bad or any(limit - abs(t) < -EPS for t, limit in loads)
+                if "hook" in self.rules.hard and i in in_good:
+                    bad = bad or o.branch not in in_good[i]
+                if bad:
+                    keep[i].discard(o.branch)
+        return keep
+
+    # Goals
+
+    def centre(self) -> Point | None:
+        """Centre of the first goal that counts turns."""
+        return next((g.centre for g in self.task.goals if g.turns is not None), None)
+
+    def count_laps(self, before: PlainStance, after: PlainStance) -> None:
+        centre = self.centre()
+        if centre is None:
+            return
+        now, then = (self.bearing(self.pose(s), centre) for s in (after, before))
+        if now - then > math.pi:
+            after.laps -= 1
+        elif now - then < -math.pi:
+            after.laps += 1
+
+    def bearing(self, pose: Pose, centre: Point) -> float:
+        return math.atan2(pose.y - centre[1], pose.x - centre[0])
+
+    def met(self, s: PlainStance, goal: Any) -> bool:
+        pose, start = self.pose(s), self.task.start
+        for value, low, high in ((pose.x, goal.x_min, goal.x_max), (pose.y, goal.y_min, goal.y_max)):
+            if (low is not None and value < low - EPS) or (high is not None and value > high + EPS):
+                return False
+        if not angle_within(pose.angle, goal.theta_min, goal.theta_max):
+            return False
+        if goal.region is not None:
+            corners = [(float(x), float(y)) for x, y in goal.region]
+            here = (pose.x, pose.y)
+            on_edge = any(
+                point_to_segment(here, a, b) <= EPS for a, b in zip(corners, corners[1:] + corners[:1], strict=True)
+            )
+            if not (on_edge or contains(corners, here)):
+                return False
+        names = [limb.name for limb in self.robot.limbs]
+        if any(s.hold[names.index(name)] != number for name, number in goal.holds.items()):
+            return False
+        if goal.turns is not None:
+            first = self.bearing(Pose(start.x, start.y, start.theta), goal.centre)
+            total = 2.0 * math.pi * s.laps + self.bearing(pose, goal.centre) - first
+            if math.copysign(1.0, goal.turns) * (total - 2.0 * math.pi * goal.turns) < -EPS:
+                return False
+        return True
+
+
+def angle_within(angle: float, low: float | None, high: float | None) -> bool:
+    """Whether some whole number of turns brings the angle [rad] into [low, high]."""
+    if low is None and high is None:
+        return True
+    if low is None or high is None:
+        here = wrap(angle)
+        return (low is None or here >= low - EPS) and (high is None or here <= high + EPS)
+    turns = (2.0 * math.pi * k for k in range(-2, 3))
+    return any(low - EPS <= wrap(angle) + t <= high + EPS for t in turns)

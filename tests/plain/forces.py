@@ -1,0 +1,168 @@
+"""How the holds share the weight, and the joint torques that follow (docs/model.md, section 7).
+
+Two carriers under `min_torque` are a linear programme in (lambda, s) given to HiGHS, under `min_norm` one least
+squares problem; three or more are a programme in all force components. No breakpoint is searched for by hand.
+"""
+
+import itertools
+import math
+from typing import Any
+
+import numpy as np
+from scipy.optimize import linprog, nnls
+
+from .carriers import Carrier, balance, best_option, general_split, placed, strength_rows, torque_rows, torques
+from .hook import BIG, cone_cuts, force_cuts, lam_interval
+from .kinematics import Option, Point
+
+NO_SPLIT_TORQUE = 1e6
+"""What every joint counts when no force split exists [N m]."""
+
+
+def is_push_pull(a: Carrier, b: Carrier, robot: Any) -> bool:
+    """Whether the thesis would let both forces pass through the centre of gravity."""
+    names = {a.limb.name, b.limb.name}
+    opposed = any(set(pair) == names for pair in robot.opposed)
+    return not (opposed or a.r[0] * b.r[0] < 0.0)
+
+
+def thesis_split(a: Carrier, b: Carrier, robot: Any) -> list[Point] | None:
+    W, (ax, ay), (bx, by) = robot.weight, a.r, b.r
+    if abs(ax) < 1e-9 and abs(bx) < 1e-9:
+        return [(0.0, W / 2.0), (0.0, W / 2.0)]
+    if not is_push_pull(a, b, robot) and abs(ax - bx) >= 1e-9:
+        return [(0.0, -W * bx / (ax - bx)), (0.0, W * ax / (ax - bx))]
+    D = ax * by - bx * ay  # also for opposed limbs on one vertical line beside the centre
+    if abs(D) < 1e-12:
+        return None
+    A, B = -W * bx / D, W * ax / D
+    return [(A * ax, A * ay), (B * bx, B * by)]
+
+
+def two_carrier_split(a: Carrier, b: Carrier, task: Any, norm: bool) -> list[Point] | None:
+    """Least torque (or least norm) over branches and lambda, within the cuts if they can be met."""
+    split = general_split(a, b, task.robot.weight)
+    if split is None:
+        return None
+    combos = list(itertools.product(a.options, b.options))
+    windows = [lam_interval(force_cuts((a, b), combo, split, task.rules.hook_cone)) for combo in combos]
+    kept = [(combo, w) for combo, w in zip(combos, windows, strict=True) if w is not None]
+    if not kept:
+        kept = [(combo, (-BIG, BIG)) for combo in combos]
+    best, best_lam = math.inf, 0.0
+    for combo, (low, high) in kept:
+        const: list[float] = []
+        slope: list[float] = []
+        for carrier, o, (c, s) in zip((a, b), combo, split, strict=True):
+            for row in torque_rows(carrier, o):
+                const.append(row[0] * c[0] + row[1] * c[1])
+                slope.append(row[0] * s[0] + row[1] * s[1])
+        lam = least_norm_lam(const, slope) if norm else least_largest_lam(const, slope, low, high)
+        lam = max(low, min(high, lam))
+        ratios = [c + s * lam for c, s in zip(const, slope, strict=True)]
+        cost = sum(x * x for x in ratios) if norm else max(abs(x) for x in ratios)
+        if cost < best - 1e-9:
+            best, best_lam = cost, lam
+    return [(c[0] + best_lam * s[0], c[1] + best_lam * s[1]) for c, s in split]
+
+
+def least_norm_lam(const: list[float], slope: list[float]) -> float:
+    solution = np.linalg.lstsq(np.array(slope)[:, None], -np.array(const), rcond=None)[0]
+    return float(solution[0])
+
+
+def least_largest_lam(const: list[float], slope: list[float], low: float, high: float) -> float:
+    """Minimise s subject to |const + slope lam| <= s and low <= lam <= high."""
+    rows = [[sign * s, -1.0] for s in slope for sign in (1.0, -1.0)]
+    bounds = [-sign * c for c in const for sign in (1.0, -1.0)]
+    answer = linprog([0.0, 1.0], A_ub=rows, b_ub=bounds, bounds=[(low, high), (0.0, None)], method="highs")
+    assert answer.status == 0, answer.message
+    return float(answer.x[0])
+
+
+def many_carrier_split(carriers: list[Carrier], options: list[Option], task: Any) -> list[Point] | None:
+    """Three or more carriers in given branches; the cuts hold if they can be met."""
+    n = len(carriers)
+    A_eq, b_eq = balance(carriers, task.robot.weight)
+    torque = [
+        placed(row, i, n) for i, (c, o) in enumerate(zip(carriers, options, strict=True)) for row in torque_rows(c, o)
+    ]
+    cuts: list[list[float]] = []  # cuts . F <= right
+    right: list[float] = []
+    for i, (c, o) in enumerate(zip(carriers, options, strict=True)):
+        for cut in cone_cuts(c, o, task.rules.hook_cone):
+            cuts.append([-x for x in placed(cut, i, n)])
+            right.append(0.0)
+        normals, distance = strength_rows(c.hold)
+        for normal in normals:
+            cuts.append(placed(normal, i, n))
+            right.append(distance)
+    solve = least_squares_split if task.rules.force_rule == "min_norm" else least_largest_split
+    flat = solve(torque, A_eq, b_eq, cuts, right)
+    if flat is None and cuts:
+        flat = solve(torque, A_eq, b_eq, [], [])
+    return None if flat is None else [(flat[2 * i], flat[2 * i + 1]) for i in range(n)]
+
+
+def least_largest_split(
+    torque: list[list[float]], A_eq: list[list[float]], b_eq: list[float], cuts: list[list[float]], right: list[float]
+) -> list[float] | None:
+    width = len(A_eq[0])
+    rows = [[sign * x for x in row] + [-1.0] for row in torque for sign in (1.0, -1.0)]
+    rows += [[*cut, 0.0] for cut in cuts]
+    answer = linprog(
+        [0.0] * width + [1.0],
+        A_ub=rows,
+        b_ub=[0.0] * (2 * len(torque)) + right,
+        A_eq=[[*row, 0.0] for row in A_eq],
+        b_eq=b_eq,
+        bounds=[(None, None)] * width + [(0.0, None)],
+        method="highs",
+    )
+    return None if answer.status != 0 else [float(x) for x in answer.x[:width]]
+
+
+def least_squares_split(
+    torque: list[list[float]], A_eq: list[list[float]], b_eq: list[float], cuts: list[list[float]], right: list[float]
+) -> list[float] | None:
+    """Least |torque F|^2 on the balance, within cuts . F <= right (Lawson and Hanson's least distance programme)."""
+    E, e, T = np.array(A_eq), np.array(b_eq), np.array(torque)
+    F0 = np.linalg.lstsq(E, e, rcond=None)[0]
+    if not np.allclose(E @ F0, e, atol=1e-9):
+        return None
+    null = np.linalg.svd(E)[2][np.linalg.matrix_rank(E) :].T
+    z0 = np.linalg.lstsq(T @ null, -T @ F0, rcond=None)[0]
+    F = F0 + null @ z0
+    G, h = -np.array(cuts).reshape(-1, len(F)), -np.array(right)
+    if not cuts or np.all(G @ F - h >= -1e-9):
+        return [float(x) for x in F]
+    # With y = R dz, R upper triangular of the torque map: least |y| subject to (G null R^-1) y >= h - G F.
+    R = np.linalg.qr(T @ null)[1]
+    P = np.linalg.solve(R.T, (G @ null).T).T
+    q = h - G @ F
+    target = np.zeros(P.shape[1] + 1)
+    target[-1] = 1.0
+    u = nnls(np.vstack([P.T, q]), target, maxiter=100 * len(q))[0]
+    residual = np.vstack([P.T, q]) @ u - target
+    if np.linalg.norm(residual) < 1e-9:
+        return None
+    y = -residual[:-1] / residual[-1]
+    return [float(x) for x in F + null @ np.linalg.solve(R, y)]
+
+
+def split_forces(carriers: list[Carrier], task: Any) -> list[Point] | None:
+    """Force of each hold on its limb [N], world; None when no split exists."""
+    W = task.robot.weight
+    if len(carriers) == 1:
+        return [(0.0, W)]
+    if len(carriers) == 2:
+        a, b = carriers
+        if task.rules.force_rule == "thesis":
+            return thesis_split(a, b, task.robot)
+        return two_carrier_split(a, b, task, norm=task.rules.force_rule == "min_norm")
+    return many_carrier_split(carriers, equal_share_options(carriers, W), task)
+
+
+def equal_share_options(carriers: list[Carrier], weight: float) -> list[Option]:
+    share = (0.0, weight / len(carriers))
+    return [best_option([(o, torques(c, o, share)) for o in c.options]) for c in carriers]
