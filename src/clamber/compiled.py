@@ -8,6 +8,7 @@ again, edit none and nothing does.
 import contextlib
 import hashlib
 import os
+import re
 import sys
 from collections.abc import Callable
 from functools import cache
@@ -27,13 +28,12 @@ carray = numba.carray
 F = TypeVar("F", bound=Callable[..., Any])
 
 PACKAGE = Path(__file__).resolve().parent
-KERNEL_MARK = b"clamber.compiled import"
+KERNEL_MARK = re.compile(rb"^\s*(?:from|import)\s+(?:[\w.]*\bcompiled|numba)\b", re.MULTILINE)
 
 
 def kernel_files(package: Path = PACKAGE) -> tuple[Path, ...]:
-    """The source files of `package` that hold kernels: those that import from this module, and this module."""
-    files = [path for path in sorted(package.rglob("*.py")) if KERNEL_MARK in path.read_bytes()]
-    return (*files, package / "compiled.py") if (package / "compiled.py").exists() else tuple(files)
+    """The source files of `package` that decide what is compiled: those that import this module or Numba."""
+    return tuple(path for path in sorted(package.rglob("*.py")) if KERNEL_MARK.search(path.read_bytes()))
 
 
 @cache

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from .carriers import Carrier, best_option, torques
-from .forces import NO_SPLIT_TORQUE, equal_share_options, split_forces
+from .forces import NO_SPLIT_TORQUE, shared_load
 from .hook import hang_margins, many_margin, pair_margins
 from .interference import FAR, clearance, contains, interference_margins, point_to_segment, swing_clearance
 from .kinematics import (
@@ -34,7 +34,7 @@ NO_CANDIDATE = -1e9
 
 Action = tuple[Any, ...]
 """("none",), ("move", axis, sign), ("release", limb), ("nearest", limb, k), ("hold", limb, number) or
-("random", limb, r); r is the random number already drawn."""
+("random", limb, u); u in [0, 1) is the random number already drawn."""
 
 
 @dataclass
@@ -158,6 +158,16 @@ class PlainEvaluator:
     # Actions
 
     def step(self, stance: PlainStance, action: Action) -> PlainResult:
+        """One action, and the laps and goals that come of it."""
+        result = self.act(stance, action)
+        after = result.stance
+        self.count_laps(stance, after)
+        if result.reason is None:
+            while after.stage < len(self.task.goals) and self.met(after, self.task.goals[after.stage]):
+                after.stage += 1
+        return result
+
+    def act(self, stance: PlainStance, action: Action) -> PlainResult:
         kind = action[0]
         after = stance.copy()
         after.count += 1
@@ -194,7 +204,7 @@ class PlainEvaluator:
         again = action[0] == "hold" and stance.hold[limb] is not None and stance.hold[limb] == action[2]
         others = [i for i in stance.holders() if i != limb]
         if self.rules.support == "atomic" or stance.hold[limb] is None or again or len(others) >= 2:
-            return self.place_limb(stance, action)
+            return self.place_limb(stance, action, stance.hold[limb])
         after = stance.copy()
         after.count += 1
         self.release(after, limb)
@@ -207,21 +217,22 @@ class PlainEvaluator:
             return swung
         base = swung.stance.copy()
         base.count -= 1  # release and grab are one action
-        result = self.place_limb(base, action)
+        result = self.place_limb(base, action, stance.hold[limb])
         if not math.isnan(result.margins["torque"]):
             for name in CHECKS:
                 result.margins[name] = min(result.margins[name], swung.margins[name])
-            result.reason = self.first_violated(result.margins)
+            result.reason = self.why_not(result.margins)
         return result
 
-    def place_limb(self, stance: PlainStance, action: Action) -> PlainResult:
+    def place_limb(self, stance: PlainStance, action: Action, own: int | None) -> PlainResult:
+        """The grab itself; `own` is the hold that the limb came from."""
         limb, pose = action[1], self.pose(stance)
         after = stance.copy()
         after.count += 1
         if action[0] == "hold" and action[2] == stance.hold[limb]:
             after.in_use = limb
             return self.settle(stance, after, action[2], set())
-        candidates = self.candidates(stance, limb)
+        candidates = [h for h in self.candidates(stance, limb) if h != own]
         number: int | None = None
         if action[0] == "hold":
             out_of_reach = self.spare(limb, pose, action[2], grabbing=True) < -EPS
@@ -235,10 +246,10 @@ class PlainEvaluator:
             else:
                 number = action[2]
         elif candidates:
-            k = action[2] if action[0] == "nearest" else 1 + action[2] % len(candidates)
+            k = action[2] if action[0] == "nearest" else 1 + math.floor(action[2] * len(candidates))
             number = candidates[min(k, len(candidates)) - 1]
         if number is None:
-            unheld = [h for h in self.holds if h not in stance.hold and self.may_use(limb, h)]
+            unheld = [h for h in self.holds if h not in stance.hold and h != own and self.may_use(limb, h)]
             return self.failed_grab(
                 stance, max((self.spare(limb, pose, h, grabbing=True) for h in unheld), default=NO_CANDIDATE)
             )
@@ -287,26 +298,27 @@ class PlainEvaluator:
     def failed_grab(self, stance: PlainStance, reach: float) -> PlainResult:
         margins = dict.fromkeys(CHECKS, math.nan)
         margins["reach"] = reach
-        return self.failed(stance.copy(), "reach", margins)
+        after = stance.copy()
+        after.count += 1
+        return self.failed(after, "reach", margins)
 
-    def first_violated(self, margins: dict[str, float]) -> str | None:
+    def why_not(self, margins: dict[str, float]) -> str | None:
+        """The first violated hard check; a robot that nothing holds fails `support` whatever is hard."""
+        if math.isnan(margins["reach"]):
+            return "support"
         return next((c for c in CHECKS if c in self.rules.hard and margins[c] < -EPS), None)
 
     def settle(self, before: PlainStance, after: PlainStance, number: int | None, grabbed: set[int]) -> PlainResult:
-        """The hang, the checks and what a valid action changes besides."""
+        """The hang, the checks, and the branches that they leave open."""
         swing = None
         if len(after.holders()) == 1:
             swing = self.hang(after)
             after.hangs += len(before.holders()) >= 2
-        self.count_laps(before, after)
         seen = self.judge(after, swing, grabbed)
-        reason = self.first_violated(seen.margins)
-        if reason is None:
-            if self.rules.branch == "kept":
-                for i in after.holders():
-                    after.open[i] = seen.good[i]
-            while after.stage < len(self.task.goals) and self.met(after, self.task.goals[after.stage]):
-                after.stage += 1
+        reason = self.why_not(seen.margins)
+        if reason is None and self.rules.branch == "kept":
+            for i in after.holders():
+                after.open[i] = seen.good[i]
         return PlainResult(after, reason, seen.margins, seen.torques, seen.power, seen.branches, number, seen.forces)
 
     def hang(self, s: PlainStance) -> Swing | None:
@@ -339,6 +351,7 @@ class PlainEvaluator:
 
         both: list[list[Option]] = []
         usables: list[list[Option]] = []
+        tips: list[Point] = []
         for i, limb in enumerate(limbs):
             number, foot = s.hold[i], s.foot[i]
             if number is not None:
@@ -346,6 +359,7 @@ class PlainEvaluator:
             else:
                 assert foot is not None
                 target = to_world(pose, foot)
+            tips.append(target)
             both.append([option(limb, pose, target, b) for b in (0, 1)])
             usables.append(usable(both[i], self.allowed(s, i)))
 
@@ -357,14 +371,13 @@ class PlainEvaluator:
         margins["hangs"] = FAR if rules.max_hangs == -1 else float(rules.max_hangs - s.hangs)
 
         carriers = self.carriers(s, pose, usables)
-        split = split_forces(carriers, self.task)
+        split, given = shared_load(carriers, self.task)
         taken = [best_option([(o, (0.0, 0.0)) for o in u]) for u in usables]
         all_torques, forces = list(zero), list(zero)
-        fixed = equal_share_options(carriers, self.robot.weight) if len(carriers) > 2 else []
         for j, c in enumerate(carriers):
             force = (math.nan, math.nan) if split is None else split[j]
             loads = [(o, self.load(c, o, split, j)) for o in c.options]
-            taken[c.index] = fixed[j] if fixed else best_option(loads)
+            taken[c.index] = given[j] if given else best_option(loads)
             forces[c.index] = force
             all_torques[c.index] = self.load(c, taken[c.index], split, j)
         margins["torque"] = min(
@@ -382,7 +395,7 @@ class PlainEvaluator:
             FAR if swing is None else swing_clearance(self.task, swing.centre, swing.radius, swing.start, swing.turn)
         )
         own = [s.hold[i] if s.hold[i] is not None else s.left[i] for i in range(self.n)]
-        margins.update(interference_margins(self.task, pose, taken, own))
+        margins.update(interference_margins(self.task, pose, taken, tips, own))
         margins["hook"], in_good = self.hook(carriers, taken, 0.0 if swing is None else swing.turn)
         held = [h for h in s.hold if h is not None]
         margins["shared"] = -1.0 if len(set(held)) < len(held) else 0.0

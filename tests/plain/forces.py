@@ -9,10 +9,10 @@ import math
 from typing import Any
 
 import numpy as np
-from scipy.optimize import linprog, nnls
+from scipy.optimize import linprog
 
 from .carriers import Carrier, balance, best_option, general_split, placed, strength_rows, torque_rows, torques
-from .hook import BIG, cone_cuts, force_cuts, lam_interval
+from .hook import BIG, EXACT, cone_cuts, force_cuts, lam_interval
 from .kinematics import Option, Point
 
 NO_SPLIT_TORQUE = 1e6
@@ -39,17 +39,17 @@ def thesis_split(a: Carrier, b: Carrier, robot: Any) -> list[Point] | None:
     return [(A * ax, A * ay), (B * bx, B * by)]
 
 
-def two_carrier_split(a: Carrier, b: Carrier, task: Any, norm: bool) -> list[Point] | None:
-    """Least torque (or least norm) over branches and lambda, within the cuts if they can be met."""
+def two_carrier_split(a: Carrier, b: Carrier, task: Any, norm: bool) -> tuple[list[Point] | None, list[Option]]:
+    """Least torque (or least norm) over branches and lambda, within the cuts if they can be met; and the branches."""
     split = general_split(a, b, task.robot.weight)
     if split is None:
-        return None
+        return None, []
     combos = list(itertools.product(a.options, b.options))
     windows = [lam_interval(force_cuts((a, b), combo, split, task.rules.hook_cone)) for combo in combos]
     kept = [(combo, w) for combo, w in zip(combos, windows, strict=True) if w is not None]
     if not kept:
         kept = [(combo, (-BIG, BIG)) for combo in combos]
-    best, best_lam = math.inf, 0.0
+    best, best_lam, taken = math.inf, 0.0, kept[0][0]
     for combo, (low, high) in kept:
         const: list[float] = []
         slope: list[float] = []
@@ -62,8 +62,8 @@ def two_carrier_split(a: Carrier, b: Carrier, task: Any, norm: bool) -> list[Poi
         ratios = [c + s * lam for c, s in zip(const, slope, strict=True)]
         cost = sum(x * x for x in ratios) if norm else max(abs(x) for x in ratios)
         if cost < best - 1e-9:
-            best, best_lam = cost, lam
-    return [(c[0] + best_lam * s[0], c[1] + best_lam * s[1]) for c, s in split]
+            best, best_lam, taken = cost, lam, combo
+    return [(c[0] + best_lam * s[0], c[1] + best_lam * s[1]) for c, s in split], list(taken)
 
 
 def least_norm_lam(const: list[float], slope: list[float]) -> float:
@@ -75,18 +75,22 @@ def least_largest_lam(const: list[float], slope: list[float], low: float, high: 
     """Minimise s subject to |const + slope lam| <= s and low <= lam <= high."""
     rows = [[sign * s, -1.0] for s in slope for sign in (1.0, -1.0)]
     bounds = [-sign * c for c in const for sign in (1.0, -1.0)]
-    answer = linprog([0.0, 1.0], A_ub=rows, b_ub=bounds, bounds=[(low, high), (0.0, None)], method="highs")
+    answer = linprog(
+        [0.0, 1.0], A_ub=rows, b_ub=bounds, bounds=[(low, high), (0.0, None)], method="highs", options=EXACT
+    )
     assert answer.status == 0, answer.message
     return float(answer.x[0])
 
 
 def many_carrier_split(carriers: list[Carrier], options: list[Option], task: Any) -> list[Point] | None:
-    """Three or more carriers in given branches; the cuts hold if they can be met."""
+    """Three or more carriers in given branches; the cuts hold if they can be met (not under `min_norm`)."""
     n = len(carriers)
     A_eq, b_eq = balance(carriers, task.robot.weight)
     torque = [
         placed(row, i, n) for i, (c, o) in enumerate(zip(carriers, options, strict=True)) for row in torque_rows(c, o)
     ]
+    if task.rules.force_rule == "min_norm":
+        return in_pairs(least_squares_split(torque, A_eq, b_eq))
     cuts: list[list[float]] = []  # cuts . F <= right
     right: list[float] = []
     for i, (c, o) in enumerate(zip(carriers, options, strict=True)):
@@ -97,11 +101,14 @@ def many_carrier_split(carriers: list[Carrier], options: list[Option], task: Any
         for normal in normals:
             cuts.append(placed(normal, i, n))
             right.append(distance)
-    solve = least_squares_split if task.rules.force_rule == "min_norm" else least_largest_split
-    flat = solve(torque, A_eq, b_eq, cuts, right)
+    flat = least_largest_split(torque, A_eq, b_eq, cuts, right)
     if flat is None and cuts:
-        flat = solve(torque, A_eq, b_eq, [], [])
-    return None if flat is None else [(flat[2 * i], flat[2 * i + 1]) for i in range(n)]
+        flat = least_largest_split(torque, A_eq, b_eq, [], [])
+    return in_pairs(flat)
+
+
+def in_pairs(flat: list[float] | None) -> list[Point] | None:
+    return None if flat is None else list(zip(flat[::2], flat[1::2], strict=True))
 
 
 def least_largest_split(
@@ -118,49 +125,42 @@ def least_largest_split(
         b_eq=b_eq,
         bounds=[(None, None)] * width + [(0.0, None)],
         method="highs",
+        options=EXACT,
     )
     return None if answer.status != 0 else [float(x) for x in answer.x[:width]]
 
 
-def least_squares_split(
-    torque: list[list[float]], A_eq: list[list[float]], b_eq: list[float], cuts: list[list[float]], right: list[float]
-) -> list[float] | None:
-    """Least |torque F|^2 on the balance, within cuts . F <= right (Lawson and Hanson's least distance programme)."""
+def least_squares_split(torque: list[list[float]], A_eq: list[list[float]], b_eq: list[float]) -> list[float] | None:
+    """Least |torque F|^2 on the balance."""
     E, e, T = np.array(A_eq), np.array(b_eq), np.array(torque)
     F0 = np.linalg.lstsq(E, e, rcond=None)[0]
     if not np.allclose(E @ F0, e, atol=1e-9):
         return None
     null = np.linalg.svd(E)[2][np.linalg.matrix_rank(E) :].T
     z0 = np.linalg.lstsq(T @ null, -T @ F0, rcond=None)[0]
-    F = F0 + null @ z0
-    G, h = -np.array(cuts).reshape(-1, len(F)), -np.array(right)
-    if not cuts or np.all(G @ F - h >= -1e-9):
-        return [float(x) for x in F]
-    # With y = R dz, R upper triangular of the torque map: least |y| subject to (G null R^-1) y >= h - G F.
-    R = np.linalg.qr(T @ null)[1]
-    P = np.linalg.solve(R.T, (G @ null).T).T
-    q = h - G @ F
-    target = np.zeros(P.shape[1] + 1)
-    target[-1] = 1.0
-    u = nnls(np.vstack([P.T, q]), target, maxiter=100 * len(q))[0]
-    residual = np.vstack([P.T, q]) @ u - target
-    if np.linalg.norm(residual) < 1e-9:
-        return None
-    y = -residual[:-1] / residual[-1]
-    return [float(x) for x in F + null @ np.linalg.solve(R, y)]
+    return [float(x) for x in F0 + null @ z0]
+
+
+def shared_load(carriers: list[Carrier], task: Any) -> tuple[list[Point] | None, list[Option]]:
+    """Force of each hold on its limb [N], world (None when no split exists), and the branches that go with it.
+
+    No branches: each limb takes the one that is best for its force.
+    """
+    W = task.robot.weight
+    if len(carriers) == 1:
+        return [(0.0, W)], []
+    if len(carriers) == 2:
+        a, b = carriers
+        if task.rules.force_rule == "thesis":
+            return thesis_split(a, b, task.robot), []
+        return two_carrier_split(a, b, task, norm=task.rules.force_rule == "min_norm")
+    options = equal_share_options(carriers, W)
+    return many_carrier_split(carriers, options, task), options
 
 
 def split_forces(carriers: list[Carrier], task: Any) -> list[Point] | None:
     """Force of each hold on its limb [N], world; None when no split exists."""
-    W = task.robot.weight
-    if len(carriers) == 1:
-        return [(0.0, W)]
-    if len(carriers) == 2:
-        a, b = carriers
-        if task.rules.force_rule == "thesis":
-            return thesis_split(a, b, task.robot)
-        return two_carrier_split(a, b, task, norm=task.rules.force_rule == "min_norm")
-    return many_carrier_split(carriers, equal_share_options(carriers, W), task)
+    return shared_load(carriers, task)[0]
 
 
 def equal_share_options(carriers: list[Carrier], weight: float) -> list[Option]:

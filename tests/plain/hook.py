@@ -21,6 +21,8 @@ MANY_WEIGHTS = 1e4
 """The margin of three or more carriers is capped at so many times the weight [-]."""
 FREE = 1e9
 """Margin of what nothing restricts [N]."""
+EXACT = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
+"""As fine as HiGHS goes."""
 
 
 @dataclass(frozen=True)
@@ -85,7 +87,7 @@ def signed_half_width(cuts: list[Cut]) -> float:
     from_below = [-c.const / c.slope for c in everything if c.slope >= 1e-12]
     from_above = [-c.const / c.slope for c in everything if c.slope <= -1e-12]
     halves = [(high - low) / 2.0 for low, high in itertools.product(from_below, from_above)]
-    broken = [c.const for c in cuts if abs(c.slope) < 1e-12 and c.const < 0.0]
+    broken = [c.const for c in cuts if abs(c.slope) < 1e-12 and c.const < -EPS]
     return min(halves + broken)
 
 
@@ -160,5 +162,6 @@ def many_margin(carriers: list[Carrier], options: list[Option], weight: float, h
         b_eq=b_eq,
         bounds=[(None, None)] * (2 * n) + [(None, MANY_WEIGHTS * weight)],
         method="highs",
+        options=EXACT,
     )
     return -FREE if answer.status != 0 else float(answer.x[-1])

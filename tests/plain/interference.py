@@ -74,15 +74,17 @@ def hull(points: list[Point]) -> Polygon:
     return halves[0] + halves[1]
 
 
-def links(limb: Any, pose: Pose, o: Option) -> list[Polygon]:
-    return [[port_in_world(limb, pose), o.elbow], [o.elbow, o.tip]]
+def links(limb: Any, pose: Pose, o: Option, tip: Point) -> list[Polygon]:
+    return [[port_in_world(limb, pose), o.elbow], [o.elbow, tip]]
 
 
-def interference_margins(task: Any, pose: Pose, taken: list[Option], own_hold: list[int | None]) -> dict[str, float]:
+def interference_margins(
+    task: Any, pose: Pose, taken: list[Option], tips: list[Point], own_hold: list[int | None]
+) -> dict[str, float]:
     """Margins [m] `keep_out`, `limb_limb`, `limb_body`, `limb_peg`; `own_hold`: the hold each limb may touch."""
     robot, board = task.robot, task.world
     body = hull([port_in_world(limb, pose) for limb in robot.limbs])
-    limb_links = [links(limb, pose, o) for limb, o in zip(robot.limbs, taken, strict=True)]
+    limb_links = [links(limb, pose, o, tip) for limb, o, tip in zip(robot.limbs, taken, tips, strict=True)]
     keep_out = limb_limb = limb_body = limb_peg = FAR
     for polygon in board.keep_out:
         corners = [(float(x), float(y)) for x, y in polygon]

@@ -264,7 +264,7 @@ def random_action(rng: random.Random, numbers: list[int]) -> Action:
             ("release", i),
             ("nearest", i, rng.randint(1, 4)),
             ("hold", i, rng.choice(numbers)),
-            ("random", i, rng.randrange(1000)),
+            ("random", i, rng.random()),
         ]
     )
 

@@ -4,7 +4,7 @@ import math
 
 from clamber.actions.codes import HOLD, MOVE, NONE, RANDOM, RELEASE, pack_code, unpack
 from clamber.actions.family import family_kernels
-from clamber.actions.randoms import draw
+from clamber.actions.randoms import below, draw
 from clamber.compiled import inlined, kernel
 from clamber.robots.kinematics import SOLUTION, TWO_PI, wrap
 from clamber.statics.grip import port_of
@@ -199,9 +199,21 @@ def meets(p, s, goal):
     for i in range(p.n_limbs):
         if goal.hold[i] >= 0 and s.hold[i] != goal.hold[i]:
             return False
-    if goal.n_vertices and not inside(s.x, s.y, vertices(p)[goal.vertex : goal.vertex + goal.n_vertices]):
-        return False
+    if goal.n_vertices:
+        polygon = vertices(p)[goal.vertex : goal.vertex + goal.n_vertices]
+        return inside(s.x, s.y, polygon) or edge_distance(s.x, s.y, polygon) <= 1e-9
     return True
+
+
+@inlined
+def edge_distance(x, y, polygon):
+    """Distance of a point from the nearest edge of a polygon, shape (n, 2) [m]."""
+    near = math.inf
+    j = polygon.shape[0] - 1
+    for i in range(polygon.shape[0]):
+        near = min(near, point_segment(x, y, polygon[j, 0], polygon[j, 1], polygon[i, 0], polygon[i, 1]))
+        j = i
+    return near
 
 
 @inlined
@@ -274,7 +286,7 @@ def act(p, before, code, after, margins):
         if kind == RANDOM:
             _, candidates, margin = find_hold(p, after, i, 1, before.hold[i])
             if candidates:
-                rank = 1 + int(draw(p.seed, before.count, i, 0) % candidates)
+                rank = 1 + below(draw(p.seed, before.count, i, 0), candidates)
         h, _, margin = find_hold(p, after, i, rank, before.hold[i])
         if h < 0:
             return fail(margins, REACH, margin)
@@ -314,8 +326,8 @@ def step(p, before, code, after, margins):
     after.turned = 0.0
     after.count = before.count + 1
     reason = act(p, before, code, after, margins)
+    count_laps(p, before, after)  # even where a check is violated: whoever goes on from there has turned all the same
     if reason < 0:
-        count_laps(p, before, after)
         advance(p, after)
     return reason
 
@@ -332,12 +344,7 @@ def goal_distance(p, s, x, y, goal):
     if goal.n_vertices:
         polygon = vertices(p)[goal.vertex : goal.vertex + goal.n_vertices]
         if not inside(x, y, polygon):
-            near = math.inf
-            j = polygon.shape[0] - 1
-            for i in range(polygon.shape[0]):
-                near = min(near, point_segment(x, y, polygon[j, 0], polygon[j, 1], polygon[i, 0], polygon[i, 1]))
-                j = i
-            way = max(way, near)
+            way = max(way, edge_distance(x, y, polygon))
     return way
 
 

@@ -6,7 +6,8 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from clamber.actions.codes import pack
+from clamber.actions.codes import HOLD as HOLD_KIND
+from clamber.actions.codes import NEAREST, Code, pack
 from clamber.actions.limbed import FEATURES
 from clamber.actions.loops import replay
 from clamber.actions.params import Params
@@ -20,7 +21,7 @@ from clamber.statics.records import GOAL, HOLD, LIMB, PARAMS, STANCE, TICKS
 from clamber.tasks.limbed import Goal, LimbedTask
 
 CHECKS: Final = tuple(check.name for check in LIMBED_CHECKS)
-FEATURE_NAMES: Final = ("body", "limbs", "power", "stages", "length", "unstable", "torque")
+FEATURE_NAMES: Final = ("body", "limbs", "effort", "stages", "length", "unstable", "peak")
 FEATURE_KINDS: Final = (0, 0, 1, 0, 1, 1, 2)
 FORCE_RULES: Final = ("thesis", "min_torque", "min_norm")
 ANY_DIRECTION: Final = -2.0
@@ -52,6 +53,35 @@ class LimbedProblem(CompiledProblem):
     def is_done(self, stance: Records) -> bool:
         """Whether a stance has met every goal."""
         return bool(stance["stage"][0] >= len(self.task.goals))
+
+    def resolve(self, codes: npt.NDArray[np.int32], stances: Records) -> npt.NDArray[np.int32]:
+        """Codes with "nearest" and "random" replaced by the hold that each took."""
+        named = codes.copy()
+        for i, code in enumerate(codes):
+            opened = Code.of(int(code))
+            taken = int(stances["resolved"][i + 1])
+            if opened.kind in ("nearest", "random") and taken >= 0:
+                named[i] = pack(HOLD_KIND, opened.limb, taken)
+        return named
+
+    def relative(self, codes: npt.NDArray[np.int32], stances: Records) -> npt.NDArray[np.int32]:
+        """Codes with every named hold replaced by its rank among those in reach where it was taken; others stay."""
+        ranked = codes.copy()
+        for i, code in enumerate(codes):
+            opened = Code.of(int(code))
+            if opened.kind != "hold":
+                continue
+            here = self.rebind(self.actions, stances[i : i + 1])
+            before = None
+            for rank in range(1, len(self.task.world.holds) + 1):
+                nearest = pack(NEAREST, opened.limb, rank)
+                taken = int(here.replay(np.array([nearest], np.int32), go_on=True).stances["resolved"][-1])
+                if taken == opened.argument:
+                    ranked[i] = nearest
+                if taken in (opened.argument, before, -1):
+                    break
+                before = taken
+        return ranked
 
 
 class StartError(ClamberError):

@@ -1,7 +1,5 @@
 """The loops over a family's `step`, written once for all families: rollout of many plans, replay of one, expansion of many stances."""
 
-import math
-
 from clamber.actions.family import candidates, cell, done, measure, step
 from clamber.compiled import kernel
 
@@ -50,9 +48,9 @@ def rollout(p, start, genes, lengths, first, end, offsets, codes, limit, weights
         held = 0
         reason = -1
         checks = 0
-        best = -math.inf
+        best = 0.0
         best_genes = 0
-        fitness = -math.inf
+        fitness = 0.0
         finished = done(p, stances[0])
         for g in range(lengths[plan]):
             if finished:
@@ -162,3 +160,9 @@ def possible(p, start, genes, length, offsets, codes, stances, margins, mask):
         at = offsets[entry]
         mask[entry] = 1 if step(p, stances[now], codes[at], stances[2], margins) < 0 else 0
     return True
+
+
+@kernel
+def features_of(p, stance, row):
+    """Features of one stance (array of one record)."""
+    measure(p, stance[0], row)

@@ -14,7 +14,7 @@ class Params:
 
         Args:
             record: Array of one record, its other fields filled.
-            **arrays: C-ordered arrays by name; `work` is scratch.
+            **arrays: C-ordered arrays by name; `work`, if a family has one, is scratch.
         """
         self._record = record
         self._arrays = {name: np.ascontiguousarray(array) for name, array in arrays.items()}
@@ -32,4 +32,5 @@ class Params:
 
     def for_thread(self) -> "Params":
         """The same parameters with scratch of their own."""
-        return Params(self._record.copy(), **{**self._arrays, "work": np.zeros_like(self._arrays["work"])})
+        own = {"work": np.zeros_like(self._arrays["work"])} if "work" in self._arrays else {}
+        return Params(self._record.copy(), **{**self._arrays, **own})

@@ -1,14 +1,15 @@
 """A family bound to a task, as planners see it: batches of arrays in, batches of arrays out."""
 
+import copy
 import os
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, Protocol, Self
 
 import numpy as np
 import numpy.typing as npt
 
-from clamber.actions.loops import expand, possible, replay, rollout
+from clamber.actions.loops import expand, features_of, possible, replay, rollout
 from clamber.actions.params import Params
 from clamber.actions.table import ActionTable
 
@@ -192,6 +193,28 @@ class CompiledProblem:
             params, self.start, genes, len(genes), self.actions.offsets, self.actions.codes, stances, margins, mask
         )
         return mask
+
+    def rebind(self, actions: ActionTable, start: Records | None = None) -> Self:
+        """The same problem with another inventory, and from another stance if one is given; threads and scratch are shared."""
+        other = copy.copy(self)
+        other.actions = actions
+        if start is not None:
+            other.start = start
+        return other
+
+    def resolve(self, codes: npt.NDArray[np.int32], stances: Records) -> npt.NDArray[np.int32]:
+        """Codes with every choice that the world made for them written down; `stances` are those of the plan's replay."""
+        return codes
+
+    def relative(self, codes: npt.NDArray[np.int32], stances: Records) -> npt.NDArray[np.int32]:
+        """Codes that say what to do from where the robot is, rather than name places; `stances` are those of the plan's replay."""
+        return codes
+
+    def progress(self, stance: Records) -> float:
+        """The feature `body` of a stance (array of one record): how far along the goals the body is [m]."""
+        row = np.zeros(len(self.features))
+        features_of(self.params.record, stance, row)
+        return float(row[self.features.index("body")])
 
     def is_done(self, stance: Records) -> bool:
         """Whether a stance (array of one record) has met every goal."""

@@ -41,4 +41,4 @@ def unit(bits):
 @kernel
 def below(bits, n):
     """An integer in [0, n) from 64 random bits; n up to 2^32, bias under 2^-32."""
-    return int((bits >> np.uint64(32)) * np.uint64(n) >> np.uint64(32))
+    return np.int64((bits >> np.uint64(32)) * np.uint64(n) >> np.uint64(32))

@@ -28,6 +28,14 @@ class ActionTable:
             np.array([run for _, _, run in entries], np.uint8),
         )
 
+    def extended(self, entries: Sequence[tuple[str, Sequence[int], bool]]) -> "ActionTable":
+        """This table with more entries behind its own."""
+        own = [
+            (name, self.codes[self.offsets[g] : self.offsets[g + 1]].tolist(), bool(self.runs[g]))
+            for g, name in enumerate(self.names)
+        ]
+        return ActionTable.build([*own, *entries])
+
     def __len__(self) -> int:
         return len(self.names)
 

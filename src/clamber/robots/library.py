@@ -7,18 +7,20 @@ from typing import Final, TypeAlias
 from ..errors import describe_choices
 from ..files import Document, data_names, find_data, read_toml
 from .limbed import LimbedRobot, build_limbed
+from .walker import WalkerRobot, build_walker
 
 DATA: Final = Path(__file__).parent / "data"
-Robot: TypeAlias = LimbedRobot
+Robot: TypeAlias = LimbedRobot | WalkerRobot
 """A robot of any family."""
 
-ROBOT_FAMILIES: Final[dict[str, Callable[[Document], Robot]]] = {"limbed": build_limbed}
+ROBOT_FAMILIES: Final[dict[str, Callable[[Document], Robot]]] = {"limbed": build_limbed, "walker": build_walker}
 """What a robot file calls its `family` -> what builds it."""
 
 
-def robot_names() -> tuple[str, ...]:
-    """Names of the robots that come with Clamber."""
-    return data_names(DATA)
+def robot_names(family: str | None = None) -> tuple[str, ...]:
+    """Names of the robots that come with Clamber; those of one family, if it is named."""
+    names = data_names(DATA)
+    return names if family is None else tuple(name for name in names if family_of(read_robot(name)) == family)
 
 
 def read_robot(name_or_path: str, folder: Path | None = None) -> Document:

@@ -3,6 +3,7 @@
 import math
 
 from clamber.compiled import inlined, kernel
+from clamber.statics.records import TOLERANCE
 
 NO_SPLIT = 1.0e6
 """Torque that stands for "no such split exists" [N m]."""
@@ -68,7 +69,7 @@ def general_split(weight, pax, pay, pbx, pby, cx, out):
 def cut(lo, hi, flat, c0, c1):
     """Intersect the interval [lo, hi] of lam with c0 + c1 lam >= 0; `flat` keeps the worst constant cut that is violated."""
     if abs(c1) < 1e-12:
-        if c0 < 0.0:
+        if c0 < -TOLERANCE:
             flat = min(flat, c0)
     elif c1 > 0.0:
         lo = max(lo, -c0 / c1)

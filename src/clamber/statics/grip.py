@@ -7,7 +7,7 @@ import numpy as np
 from clamber.compiled import inlined, kernel
 from clamber.statics.forces import FAR, cut, cut_cone, cut_strength, general_split
 from clamber.statics.programme import maximise
-from clamber.statics.records import UNLIMITED, holds, limbs, work
+from clamber.statics.records import TOLERANCE, UNLIMITED, holds, limbs, work
 
 CORNERS = 16
 """Sides of the polygon that stands for a hold's strength with three or more carriers."""
@@ -79,7 +79,7 @@ def pair_margin(p, s, a, b, use_a, use_b):
             lo_b, hi_b, flat_b = interval(limbs(p)[b], hold_b, s.solved[b], j, bx, by, f[4:], True)
             margin = min(0.5 * (min(hi_a, hi_b) - max(lo_a, lo_b)), min(flat_a, flat_b))
             best = max(best, margin)
-            if margin >= -1e-9:
+            if margin >= -TOLERANCE:
                 good_a |= 1 << i
                 good_b |= 1 << j
     return best, good_a, good_b
@@ -109,7 +109,7 @@ def hang_margin(p, s, a, use):
             margin = min(margin, weight * (-gy - limb.c_cone))
             margin = min(margin, weight * (-start - limb.c_cone))
         best = max(best, margin)
-        if margin >= -1e-9:
+        if margin >= -TOLERANCE:
             good |= 1 << i
     return best, good
 
@@ -199,8 +199,11 @@ def least_pair(p, s, a, b, use_a, use_b, norm):
                     lo_b, hi_b, flat_b = interval(limbs(p)[b], hold_b, s.solved[b], j, bx, by, f[4:], False)
                     lo = max(lo_a, lo_b)
                     hi = min(hi_a, hi_b)
-                    if hi < lo or flat_a < 0.0 or flat_b < 0.0:
+                    if 0.5 * (hi - lo) < -TOLERANCE or flat_a < -TOLERANCE or flat_b < -TOLERANCE:
                         continue
+                    if hi < lo:
+                        lo = 0.5 * (lo + hi)
+                        hi = lo
                 torque_lines(limbs(p)[a], hold_a, s.solved[a], i, ax, ay, f[:4], alpha[:2], beta[:2])
                 torque_lines(limbs(p)[b], hold_b, s.solved[b], j, bx, by, f[4:], alpha[2:], beta[2:])
                 if norm:
@@ -368,8 +371,8 @@ def many_least_norm(p, s, carriers, forces):
             m[column, column + 1] += gx * gy
             m[column + 1, column] += gx * gy
             m[column + 1, column + 1] += gy * gy
-        m[column, column] += 1e-12  # a stretched limb has no torque along its line
-        m[column + 1, column + 1] += 1e-12
+        m[column, column] += 1e-14  # a stretched limb has no torque along its line
+        m[column + 1, column + 1] += 1e-14
         m[column, 2 * k] = 1.0
         m[column + 1, 2 * k + 1] = 1.0
         m[column, 2 * k + 2] = -(hold.y - s.y)
@@ -384,7 +387,7 @@ def many_least_norm(p, s, carriers, forces):
         for j in range(i + 1, d):
             if abs(m[j, i]) > abs(m[pivot, i]):
                 pivot = j
-        if abs(m[pivot, i]) < 1e-14:
+        if abs(m[pivot, i]) < 1e-16:
             return False
         for j in range(i, d + 1):
             m[i, j], m[pivot, j] = m[pivot, j], m[i, j]

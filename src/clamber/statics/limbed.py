@@ -371,6 +371,8 @@ def judge(p, s, grabbing, swing, margins):
 @kernel
 def still_open(p, s, i, good):
     """The open branches of a holder that this stance leaves open (bit set)."""
+    if abs(s.torques[i, 0]) == NO_SPLIT:
+        return 0
     left = 0
     for branch in range(2):
         if s.open[i] & good & (1 << branch) and s.solved[i, 1 + 5 * branch] >= -TOLERANCE:

@@ -8,14 +8,16 @@ from typing import Final, TypeAlias
 from ..files import Document, data_names, find_data, read_toml
 from ..robots.library import family_of, read_robot
 from ..robots.limbed import LimbedRobot
+from ..robots.walker import WalkerRobot
 from ..specs import field_names
 from ..types import Json
-from ..worlds.library import read_board
+from ..worlds.library import read_board, read_field
 from .limbed import LimbedTask, TaskSpec, build_limbed_task
 from .overrides import apply_overrides, split_override
+from .walker import WalkerTask, WalkerTaskSpec, build_walker_task
 
 DATA: Final = Path(__file__).parent / "data"
-Task: TypeAlias = LimbedTask
+Task: TypeAlias = LimbedTask | WalkerTask
 """A task of any family."""
 
 
@@ -42,14 +44,28 @@ TASK_FAMILIES: Final[dict[str, TaskFamily]] = {
         build=build_limbed_task,
         task_keys=field_names(TaskSpec),
         robot_keys=tuple(name for name in field_names(LimbedRobot) if name != "sources"),
-    )
+    ),
+    "walker": TaskFamily(
+        world_key="field",
+        read_world=read_field,
+        build=build_walker_task,
+        task_keys=field_names(WalkerTaskSpec),
+        robot_keys=tuple(name for name in field_names(WalkerRobot) if name != "sources"),
+    ),
 }
 """The `family` of the task's robot -> how its tasks are read."""
 
 
-def task_names() -> tuple[str, ...]:
-    """Names of the tasks that come with Clamber."""
-    return data_names(DATA)
+def task_names(family: str | None = None) -> tuple[str, ...]:
+    """Names of the tasks that come with Clamber; those of one family of robots, if it is named."""
+    names = data_names(DATA)
+    return names if family is None else tuple(name for name in names if _family_of_task(name) == family)
+
+
+def _family_of_task(name: str) -> str:
+    path, label = find_data("task", name, DATA)
+    document = read_toml(path, label)
+    return family_of(read_robot(_named(document, "robot"), document.folder))
 
 
 def load_task(name_or_path: str, overrides: Sequence[str] = ()) -> Task:
@@ -68,9 +84,11 @@ def load_task(name_or_path: str, overrides: Sequence[str] = ()) -> Task:
     path, label = find_data("task", name_or_path, DATA)
     document = read_toml(path, label)
     merged, rest = _merge(document, overrides)
-    family = TASK_FAMILIES[family_of(merged.section("robot", merged.data["labels"]["robot"]))]
+    label = merged.data["labels"]["robot"]
+    family = TASK_FAMILIES[family_of(merged.section("robot", label))]
     task_keys = (*family.task_keys, "robot", family.world_key)
-    return family.build(apply_overrides(merged, rest, task_keys, family.robot_keys))
+    whole = apply_overrides(merged, rest, task_keys, family.robot_keys)
+    return TASK_FAMILIES[family_of(whole.section("robot", label))].build(whole)
 
 
 def task_from_document(document: Json, label: str = "stored task") -> Task:

@@ -9,8 +9,7 @@ from pydantic import Field, StrictBool, StrictInt, StrictStr
 
 from ..errors import describe_choices
 from ..files import Document, check_schema, content_hash
-from ..robots.library import build_robot
-from ..robots.limbed import LimbedRobot
+from ..robots.limbed import LimbedRobot, build_limbed
 from ..specs import Name, build_spec, spec
 from ..statics.checks import DEFAULT_HARD, LIMBED_CHECKS
 from ..types import Json
@@ -200,7 +199,7 @@ def build_limbed_task(document: Document) -> LimbedTask:
     check_schema(document, SCHEMA)
     robot_document = document.section("robot", _label(document, "robot"))
     board_document = document.section("board", _label(document, "board"))
-    robot, board = build_robot(robot_document), build_board(board_document)
+    robot, board = build_limbed(robot_document), build_board(board_document)
     stated = build_spec(TaskSpec, document, without=("schema", "robot", "board", "labels"))
     _check_step(stated.step, document)
     _check_start(stated.start, robot, board, document)

@@ -1,18 +1,30 @@
-"""Boards by name or path."""
+"""Boards and fields by name or path."""
 
 from pathlib import Path
 from typing import Final
 
 from ..files import Document, data_names, find_data, read_toml
+from .board import SCHEMA as BOARD_SCHEMA
 from .board import Board, build_board
 from .csv_board import read_csv_board
+from .field import SCHEMA as FIELD_SCHEMA
+from .field import PatchField, build_field
 
 DATA: Final = Path(__file__).parent / "data"
 
 
 def board_names() -> tuple[str, ...]:
     """Names of the boards that come with Clamber."""
-    return data_names(DATA)
+    return _names_of(BOARD_SCHEMA)
+
+
+def patch_field_names() -> tuple[str, ...]:
+    """Names of the fields that come with Clamber."""
+    return _names_of(FIELD_SCHEMA)
+
+
+def _names_of(schema: str) -> tuple[str, ...]:
+    return tuple(name for name in data_names(DATA) if read_toml(DATA / f"{name}.toml").data.get("schema") == schema)
 
 
 def read_board(name_or_path: str, folder: Path | None = None, unit: str | None = None) -> Document:
@@ -34,3 +46,20 @@ def load_board(name_or_path: str, unit: str | None = None) -> Board:
         SpecError: If the file says something that cannot be used.
     """
     return build_board(read_board(name_or_path, unit=unit))
+
+
+def read_field(name_or_path: str, folder: Path | None = None) -> Document:
+    """The document of a field, shipped or the user's own (a path, relative to `folder`)."""
+    path, label = find_data("field", name_or_path, DATA, folder)
+    return read_toml(path, label)
+
+
+def load_field(name_or_path: str) -> PatchField:
+    """A field by its shipped name, such as "patches", or from the user's TOML file.
+
+    Raises:
+        UnknownNameError: If no shipped field has that name.
+        FileError: If the file cannot be read.
+        SpecError: If the file says something that cannot be used.
+    """
+    return build_field(read_field(name_or_path))

@@ -1,0 +1,69 @@
+"""What a plan and its verdict have to know about a family of robots, and the families that have it."""
+
+from typing import Any, Final, Protocol
+
+import numpy as np
+
+from ..statics.checks import Check
+from ..tasks import Task
+from ..types import Ints
+from .limbed_plans import LimbedPlans
+from .planned import PlannedAction
+from .problem import CompiledProblem, Records
+from .walker_plans import WalkerPlans
+
+
+class PlanFamily(Protocol):
+    """How plans of one family are named, replayed and reported; tasks and stances are the family's own."""
+
+    checks: tuple[Check, ...]
+    """In the order of a replay's margins."""
+
+    def problem(self, task: Any) -> CompiledProblem:
+        """The task with every check evaluated, for replays."""
+        ...
+
+    def hard(self, task: Any) -> tuple[str, ...]:
+        """Names of the checks that forbid an action."""
+        ...
+
+    def action(self, task: Any, code: int, after: np.void, gene: str | None) -> PlannedAction:
+        """A packed code as a named action, its hold read from the stance that it led to."""
+        ...
+
+    def code(self, task: Any, action: PlannedAction) -> int:
+        """The packed code of a named action; raises `ActionError` where the task has no such action."""
+        ...
+
+    def pose(self, stance: np.void) -> tuple[float, float, float]:
+        """Place [m] and angle [rad] of the body, world frame."""
+        ...
+
+    def holds(self, task: Any, stance: np.void) -> dict[str, int]:
+        """Limb name -> number of its hold, 0 if it is free."""
+        ...
+
+    def taken(self, task: Any, stance: np.void) -> int | None:
+        """Number of the hold that the last action took, None if it took none."""
+        ...
+
+    def torque(self, stance: np.void) -> float:
+        """Largest joint torque [N m]."""
+        ...
+
+    def nearest(self, task: Any, problem: CompiledProblem, stances: Records, asked: Ints) -> list[int | None]:
+        """What each "nearest" among the codes `asked` takes from the stance before it: hold numbers, shape (n,)."""
+        ...
+
+    def goals_met(self, stance: np.void) -> int:
+        """Goals met, in order."""
+        ...
+
+
+PLAN_FAMILIES: Final[dict[str, PlanFamily]] = {"limbed": LimbedPlans(), "walker": WalkerPlans()}
+"""The `family` of the task's robot -> its plans."""
+
+
+def plan_family(task: Task) -> PlanFamily:
+    """The family of a task's robot."""
+    return PLAN_FAMILIES[task.document["robot"]["family"]]

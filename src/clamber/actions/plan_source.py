@@ -1,0 +1,108 @@
+"""Plans from files of either kind, each with the task that it is for: what `clamber plan` wrote, and printed plans."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import SpecError
+from ..files import Document, read_toml
+from ..robots.library import family_of
+from ..tasks import Task, load_task
+from ..tasks.library import TASK_FAMILIES
+from ..tasks.limbed import LimbedTask
+from ..tasks.overrides import apply_overrides
+from ..types import Ints
+from .plan import Plan, load_plan
+from .plan_families import plan_family
+from .problem import Replay
+from .thesis_plan import load_thesis_plan
+from .verdict import Verdict, check_plan
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OpenedPlan:
+    """A plan that was read, and what it takes to carry it out."""
+
+    task: Task
+    plan: Plan
+    label: str
+    """What errors call the plan: the path of its file."""
+    asked: Ints | None = None
+    """Packed codes with "nearest" as it stands in the file, where the file also prints the pegs taken."""
+    notes: tuple[str, ...] = ()
+    """What was read in a way that the reader should know of."""
+
+    def check(self, *, go_on: bool = False) -> Verdict:
+        """The verdict on it."""
+        return check_plan(self.task, self.plan, go_on=go_on, asked=self.asked, notes=self.notes, label=self.label)
+
+
+def is_plan_file(name_or_path: str) -> bool:
+    """Whether a text names a plan rather than a task: a JSON file, or a TOML file with a list of actions."""
+    path = Path(name_or_path)
+    if path.suffix == ".json":
+        return True
+    return path.suffix == ".toml" and path.is_file() and "actions" in read_toml(path).data
+
+
+def open_plan(path: Path, task: str | None = None, overrides: Sequence[str] = ()) -> OpenedPlan:
+    """A plan from its file, with its task.
+
+    Args:
+        path: JSON as `Plan.save` writes it, or TOML with the thesis's numbers.
+        task: Name or path of a task in place of the one that the plan names.
+        overrides: Texts "key=value" that change the task.
+
+    Raises:
+        FileError: If the file cannot be read.
+        SpecError: If the file, the task or an override says something that cannot be used.
+        UnknownNameError: If there is no such task.
+    """
+    if path.suffix == ".toml":
+        return _open_thesis_plan(path, task, tuple(overrides))
+    label = str(path)
+    plan = load_plan(path)
+    if task is not None:
+        return OpenedPlan(task=load_task(task, overrides), plan=plan, label=label)
+    own = plan.rebuild_task(label)
+    return OpenedPlan(task=_changed(own, overrides, label) if overrides else own, plan=plan, label=label)
+
+
+def open_replay(name_or_path: str, task: str | None = None, overrides: Sequence[str] = ()) -> tuple[Task, Replay]:
+    """A task and a plan carried out in it, violations and all; of a task alone, its start.
+
+    Args:
+        name_or_path: A plan's file, or a task's name or file.
+        task: Name or path of a task in place of the one that the plan names.
+        overrides: Texts "key=value" that change the task.
+
+    Raises:
+        ClamberError: As `open_plan` and `load_task`.
+    """
+    if not is_plan_file(name_or_path):
+        shown = load_task(name_or_path, overrides)
+        return shown, plan_family(shown).problem(shown).replay(np.zeros(0, np.int32))
+    opened = open_plan(Path(name_or_path), task, overrides)
+    codes = opened.plan.codes(opened.task, opened.label)
+    return opened.task, plan_family(opened.task).problem(opened.task).replay(codes, go_on=True)
+
+
+def _open_thesis_plan(path: Path, name: str | None, overrides: tuple[str, ...]) -> OpenedPlan:
+    printed, label = load_thesis_plan(path), str(path)
+    task = printed.load_task(name, overrides)
+    if not isinstance(task, LimbedTask):
+        raise SpecError(label, "task", task.name, "must be the task of a limbed robot; such a plan knows no other")
+    taken = printed.step_overrides(overrides)
+    notes = (f"step sizes as the plan file says: {', '.join(taken)}",) if taken else ()
+    asked = None if printed.actual_peg is None else np.array(printed.asked(task, label), np.int32)
+    return OpenedPlan(task=task, plan=printed.build(task, label), label=label, asked=asked, notes=notes)
+
+
+def _changed(task: Task, overrides: Sequence[str], label: str) -> Task:
+    """A task with overrides on its stored document."""
+    document = Document(f"{label}: document", task.document)
+    family = TASK_FAMILIES[family_of(document.section("robot", f"{label}: document.robot"))]
+    keys = (*family.task_keys, "robot", family.world_key)
+    return family.build(apply_overrides(document, overrides, keys, family.robot_keys))

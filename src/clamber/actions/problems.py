@@ -1,0 +1,46 @@
+"""From a task to the problem that planners work on, by family."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Final
+
+from clamber.actions.inventory import Dropped, make_inventory
+from clamber.actions.limbed_problem import LimbedProblem
+from clamber.actions.problem import CompiledProblem
+from clamber.actions.walker_problem import WalkerProblem, walker_table
+from clamber.tasks import Task
+
+
+@dataclass(frozen=True, slots=True)
+class Posed:
+    """A task as a problem, and what its inventory's filters did."""
+
+    problem: CompiledProblem
+    full_size: int
+    """Modules of the unfiltered inventory."""
+    dropped: tuple[Dropped, ...] = ()
+
+
+def _limbed(task: Any, threads: int | None, filters: bool) -> Posed:
+    inventory = make_inventory(task, filters=filters)
+    return Posed(LimbedProblem(task, inventory.table(), threads=threads), inventory.full_size, inventory.dropped)
+
+
+def _walker(task: Any, threads: int | None, filters: bool) -> Posed:
+    table = walker_table()
+    return Posed(WalkerProblem(task, table, threads=threads), len(table))
+
+
+PROBLEMS: Final[dict[str, Callable[[Any, int | None, bool], Posed]]] = {"limbed": _limbed, "walker": _walker}
+"""Family of the robot -> how its tasks become problems."""
+
+
+def pose_problem(task: Task, *, threads: int | None = None, filters: bool = True) -> Posed:
+    """A task as a problem with the hard checks alone, for planners.
+
+    Args:
+        task: The task.
+        threads: Threads for batches; None for one a core.
+        filters: Whether the inventory's filters are applied.
+    """
+    return PROBLEMS[task.document["robot"]["family"]](task, threads, filters)

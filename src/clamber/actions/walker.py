@@ -1,0 +1,208 @@
+"""What an action does to a two-frame walker (page "The walker's model", section 3), and the family's scalar kernels."""
+
+import math
+
+from clamber.actions.codes import MOVE, NONE, RELEASE, pack_code, unpack
+from clamber.actions.family import family_kernels
+from clamber.compiled import inlined, kernel
+from clamber.robots.kinematics import wrap
+from clamber.statics.records import TICKS
+from clamber.statics.walker import DELTA, WALKER_PARAMS, Y, judge, place, walker_goals
+
+FEATURES = 7
+"""Body progress, feet progress, travel, stages, length, poor stability, nearness of singularity."""
+KEY_WORDS = 7
+SLIDES_AND_TURNS = 6
+CELL = 0.3
+"""Side of a niching cell [m]."""
+
+
+@inlined
+def copy_stance(s, t):
+    """Copy a stance record."""
+    t.stands = s.stands
+    t.stage = s.stage
+    t.count = s.count
+    t.x = s.x
+    t.y = s.y
+    t.angle = s.angle
+    t.mass_x = s.mass_x
+    t.mass_y = s.mass_y
+    t.foothold = s.foothold
+    t.balance = s.balance
+    t.travel = s.travel
+    t.strain = s.strain
+    for f in range(2):
+        t.c[f] = s.c[f]
+        t.s[f] = s.s[f]
+        for i in range(3):
+            t.ticks[f, i] = s.ticks[f, i]
+            t.pose[f, i] = s.pose[f, i]
+            for j in range(2):
+                t.foot[f, i, j] = s.foot[f, i, j]
+    for i in range(3):
+        t.actuator[i] = s.actuator[i]
+
+
+@inlined
+def act(p, code, after, margins):
+    """Carry out one action; see `step`."""
+    kind, _, argument = unpack(code)
+    if kind == MOVE:
+        f = 1 - after.stands
+        axis = argument >> 1
+        ticks = after.ticks[f, axis] + (1 - 2 * (argument & 1)) * TICKS
+        if axis == 2:
+            after.travel = TICKS * p.tick_angle * p.foot_radius[f]
+            ticks %= p.turn_ticks
+        else:
+            after.travel = TICKS * p.tick
+        after.ticks[f, axis] = ticks
+        place(p, after, f)
+        return judge(p, after, False, margins)
+    if kind == RELEASE:
+        after.stands = 1 - after.stands
+        return judge(p, after, True, margins)
+    if kind == NONE:
+        place(p, after, DELTA)  # so that a start given by its ticks alone becomes a stance
+        place(p, after, Y)
+    return judge(p, after, True, margins)
+
+
+@kernel
+def step(p, before, code, after, margins):
+    """Carry out the action `code` from the stance `before`, judge where it leads, write it all down. Allocates nothing.
+
+    Args:
+        p: Record of `WALKER_PARAMS`.
+        before: Stance record; only read.
+        code: Packed action: a move of the lifted frame along the world's axes or about its own origin, or a release,
+            which swaps the frames.
+        after: Stance record that is written, whatever the verdict.
+        margins: Every check's signed margin, shape (N_CHECKS,).
+
+    Returns:
+        -1 if the action holds, else the number of the first hard check that it violates.
+    """
+    copy_stance(before, after)
+    after.travel = 0.0
+    after.count = before.count + 1
+    reason = act(p, code, after, margins)
+    if reason < 0:
+        while after.stage < p.n_goals and meets(after, walker_goals(p)[after.stage]):
+            after.stage += 1
+    return reason
+
+
+@inlined
+def meets(s, goal):
+    """Whether a stance meets one goal."""
+    if s.x < goal.x_min - 1e-9 or s.x > goal.x_max + 1e-9 or s.y < goal.y_min - 1e-9 or s.y > goal.y_max + 1e-9:
+        return False
+    return goal.a_half >= math.pi or abs(wrap(s.angle - goal.a_mid)) <= goal.a_half + 1e-9
+
+
+@inlined
+def beyond(value, low, high):
+    """How far a value lies outside a range; 0 inside."""
+    return max(0.0, max(low - value, value - high))
+
+
+@inlined
+def goal_distance(x, y, goal):
+    """Way from a point to a goal's box [m]."""
+    dx = beyond(x, goal.x_min, goal.x_max)
+    dy = beyond(y, goal.y_min, goal.y_max)
+    return math.sqrt(dx * dx + dy * dy)
+
+
+@inlined
+def measure(p, s, row):
+    """Features of one action's stance (page "The walker's model", 5)."""
+    last = min(s.stage, p.n_goals - 1)
+    goal = walker_goals(p)[last]
+    base = goal.before + goal.way
+    if s.stage >= p.n_goals:
+        row[0] = base
+        row[1] = 6.0 * base
+    else:
+        row[0] = base - goal_distance(s.x, s.y, goal)
+        feet = 0.0
+        for f in range(2):
+            for i in range(3):
+                feet += base - goal_distance(s.foot[f, i, 0], s.foot[f, i, 1], goal)
+        row[1] = feet
+    row[2] = s.travel
+    row[3] = s.stage
+    row[4] = 1.0
+    row[5] = 1.0 if s.balance < p.least_balance else 0.0
+    row[6] = s.strain
+
+
+@kernel
+def done(p, s):
+    """Whether every goal has been met."""
+    return s.stage >= p.n_goals
+
+
+@kernel
+def cell(p, s):
+    """A coarse place in the search space for niching: stage, standing frame and the body's place, as one number."""
+    value = (s.stage * 2 + s.stands) * 1000003 + int(math.floor(s.x / CELL))
+    return value * 1000003 + int(math.floor(s.y / CELL))
+
+
+@kernel
+def key(p, s, words):
+    """Everything that checks and actions read of a stance, as KEY_WORDS integers: equal keys have equal futures."""
+    for f in range(2):
+        for i in range(3):
+            words[3 * f + i] = s.ticks[f, i]
+    words[6] = s.stands | s.stage << 32
+
+
+@kernel
+def candidates(p, s, codes):
+    """Every different action from a stance; returns their number, which is seven."""
+    for axis in range(SLIDES_AND_TURNS):
+        codes[axis] = pack_code(MOVE, 0, axis)
+    codes[SLIDES_AND_TURNS] = pack_code(RELEASE, 0, 0)
+    return SLIDES_AND_TURNS + 1
+
+
+@kernel
+def bound(p, s):
+    """An admissible number of actions that both frames still need to the goal (page "The walker's model", 5)."""
+    if s.stage >= p.n_goals:
+        return 0.0
+    goal = walker_goals(p)[s.stage]
+    stride = p.tick * TICKS
+    moves = 0.0
+    dx = beyond(s.x, goal.x_min, goal.x_max)
+    dy = beyond(s.y, goal.y_min, goal.y_max)
+    moves += math.ceil(dx / stride - 1e-6) + math.ceil(dy / stride - 1e-6)
+    if goal.a_half < math.pi:
+        turn = max(0.0, abs(wrap(s.angle - goal.a_mid)) - goal.a_half)
+        moves += math.ceil(turn / (p.tick_angle * TICKS) - 1e-6)
+    follow = 0.0
+    dx = max(0.0, beyond(s.pose[Y, 0], goal.x_min, goal.x_max) - p.apart)
+    dy = max(0.0, beyond(s.pose[Y, 1], goal.y_min, goal.y_max) - p.apart)
+    follow += math.ceil(dx / stride - 1e-6) + math.ceil(dy / stride - 1e-6)
+    swaps = 0.0
+    if moves > 0.0 and s.stands == DELTA:
+        swaps = 1.0
+    if moves > 0.0 and follow > 0.0 and s.stands == Y:
+        swaps = 1.0
+    return moves + follow + swaps
+
+
+family_kernels(
+    WALKER_PARAMS,
+    step=step,
+    candidates=candidates,
+    key=key,
+    measure=measure,
+    bound=bound,
+    done=done,
+    cell=cell,
+)

@@ -1,0 +1,194 @@
+"""The two-frame walker's `Problem`: a task as the arrays that the kernels read, its start stance, its outlines."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from clamber.actions.codes import MOVE, RELEASE, pack
+from clamber.actions.loops import replay
+from clamber.actions.params import Params
+from clamber.actions.problem import CompiledProblem, Records
+from clamber.actions.table import ActionTable
+from clamber.actions.walker import FEATURES
+from clamber.errors import MISSING, SpecError
+from clamber.robots.walker import FRAMES
+from clamber.statics.records import TICKS
+from clamber.statics.walker import WALKER_CHECKS, WALKER_GOAL, WALKER_PARAMS, WALKER_STANCE
+from clamber.tasks.walker import Goal, WalkerTask
+from clamber.types import Floats
+
+CHECKS: Final = tuple(check.name for check in WALKER_CHECKS)
+# Named as the limbed climber's, so that a profile's weights fit: effort is travel, peak is |p| / rho
+FEATURE_NAMES: Final = ("body", "limbs", "effort", "stages", "length", "unstable", "peak")
+FEATURE_KINDS: Final = (0, 0, 1, 0, 1, 1, 2)
+MOVES: Final = ("+x", "-x", "+y", "-y", "+theta", "-theta")
+
+
+def walker_table(repeats: Sequence[int] = ()) -> ActionTable:
+    """The walker's inventory: six moves of the lifted frame, the swap, and macros that repeat each move."""
+    entries = [(name, [pack(MOVE, 0, axis)], True) for axis, name in enumerate(MOVES)]
+    entries.append(("swap", [pack(RELEASE)], False))
+    for times in repeats:
+        entries += [(f"{name} x{times}", [pack(MOVE, 0, axis)] * times, True) for axis, name in enumerate(MOVES)]
+    return ActionTable.build(entries)
+
+
+class WalkerProblem(CompiledProblem):
+    """A walker's task, ready for planners."""
+
+    def __init__(
+        self, task: WalkerTask, actions: ActionTable, *, every_check: bool = False, threads: int | None = None
+    ) -> None:
+        """Bind a task.
+
+        Args:
+            task: The task.
+            actions: The inventory's table.
+            every_check: Changes nothing: the walker's checks are cheap, so planners evaluate all of them, too.
+            threads: Threads for batches; None for one a core.
+
+        Raises:
+            SpecError: If the start stance violates a hard check.
+        """
+        params = walker_params(task)
+        start = start_stance(task, params)
+        super().__init__(params, start, actions, CHECKS, FEATURE_NAMES, threads)
+        self.task = task
+        assert len(FEATURE_NAMES) == FEATURES
+
+    def is_done(self, stance: Records) -> bool:
+        """Whether a stance has met every goal."""
+        return bool(stance["stage"][0] >= len(self.task.goals))
+
+
+def start_stance(task: WalkerTask, params: Params) -> Records:
+    """The task's start as an array of one stance record.
+
+    Raises:
+        SpecError: If it violates a hard check.
+    """
+    start = np.zeros(1, WALKER_STANCE)
+    start["stands"] = FRAMES.index(task.start.stands)
+    margins = np.zeros((1, len(CHECKS)))
+    reasons = np.zeros(1, np.int32)
+    stances = np.zeros(2, WALKER_STANCE)
+    replay(params.record, start, np.array([pack(0)], np.int32), True, stances, margins, reasons)
+    reason = int(reasons[0])
+    if reason >= 0:
+        check = WALKER_CHECKS[reason]
+        short = f"violates the hard check '{check.name}' ({check.meaning}) by {-margins[0, reason]:.4g} {check.unit}"
+        allowed = f"{short}; move the frames, or take '{check.name}' out of 'rules.hard'"
+        raise SpecError(f"task '{task.name}'", "start", MISSING, allowed)
+    stances["count"] = 0
+    return stances[1:]
+
+
+def walker_params(task: WalkerTask) -> Params:
+    """The arrays that the kernels read."""
+    robot, rules, start = task.robot, task.rules, task.start
+    record = np.zeros(1, WALKER_PARAMS)
+    row = record[0]
+    c, s = math.cos(start.theta), math.sin(start.theta)
+    ox, oy = start.offset
+    row["origin"][0] = start.x, start.y, start.theta
+    row["origin"][1] = start.x + c * ox - s * oy, start.y + s * ox + c * oy, start.theta + start.twist
+    turn = round(math.tau / task.step.angle)
+    row["tick"] = task.step.length / TICKS
+    row["tick_angle"] = math.tau / turn / TICKS
+    row["turn_ticks"] = turn * TICKS
+    row["joint"], row["rest"] = robot.attachments(), robot.feet()
+    row["foot_radius"] = robot.legs.radius_delta, robot.legs.radius_y
+    row["shortest"], row["longest"] = robot.mechanism.shortest, robot.mechanism.longest
+    row["guard"] = robot.mechanism.guard
+    row["share_delta"] = robot.share_delta
+    row["clearance"] = rules.clearance + robot.legs.pad_radius
+    row["least_balance"] = rules.balance
+    row["apart"] = farthest_apart(task)
+    row["n_goals"] = len(task.goals)
+    row["n_patches"] = len(task.world.patches)
+    row["hard"] = sum(1 << CHECKS.index(name) for name in rules.hard)
+    row["kinds"][: len(FEATURE_KINDS)] = FEATURE_KINDS
+    corners = [corner for patch in task.world.patches for corner in patch]
+    return Params(
+        record,
+        goals=_goals(task),
+        vertices=np.array(corners, np.float64).reshape(-1, 2),
+        patch_start=np.cumsum([0, *map(len, task.world.patches)]).astype(np.int64),
+    )
+
+
+def farthest_apart(task: WalkerTask) -> float:
+    """No valid stance has the frames' origins farther apart [m].
+
+    The mean of the squared lengths |p + c_i| is |p|^2 + rho^2, for the c_i add up to nothing; the guard adds
+    |p| <= guard rho.
+    """
+    mechanism, hard = task.robot.mechanism, task.rules.hard
+    if "stroke" not in hard:
+        return math.inf
+    return mechanism.longest / (math.hypot(1.0, 1.0 / mechanism.guard) if "singular" in hard else 1.0)
+
+
+def _goals(task: WalkerTask) -> Records:
+    out = np.zeros(len(task.goals), WALKER_GOAL)
+    at = (task.start.x, task.start.y)
+    way = 0.0
+    for row, goal in zip(out, task.goals, strict=True):
+        row["x_min"], row["x_max"], row["y_min"], row["y_max"] = goal.box
+        row["a_half"] = math.tau
+        if goal.theta_min is not None and goal.theta_max is not None:
+            row["a_mid"] = 0.5 * (goal.theta_min + goal.theta_max)
+            row["a_half"] = 0.5 * (goal.theta_max - goal.theta_min)
+        there = _middle(goal, at)
+        row["before"] = way
+        row["way"] = math.hypot(there[0] - at[0], there[1] - at[1])
+        way += float(row["way"])
+        at = there
+    return out
+
+
+def _middle(goal: Goal, start: tuple[float, float]) -> tuple[float, float]:
+    """The place that stands for a goal when ways add up: nearest in open directions, the middle of closed ones."""
+    x_min, x_max, y_min, y_max = goal.box
+    place = []
+    for lower, upper, at in ((x_min, x_max, start[0]), (y_min, y_max, start[1])):
+        closed = math.isfinite(lower) and math.isfinite(upper)
+        place.append(0.5 * (lower + upper) if closed else min(max(at, lower), upper))
+    return place[0], place[1]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WalkerOutline:
+    """What a picture of one stance needs, world frame [m]."""
+
+    frames: tuple[Floats, Floats]
+    """Corners of the Delta-frame, shape (3, 2), and the Y-frame's origin and three tips, shape (4, 2)."""
+    feet: Floats
+    """Feet of both frames, shape (2, 3, 2)."""
+    stands: int
+    """Index of the frame whose feet are on the ground."""
+    actuators: Floats
+    """Ends of the actuators on Delta-frame and Y-frame, shape (3, 2, 2)."""
+    centre_of_mass: Floats
+    """Shape (2,)."""
+    patches: tuple[Floats, ...]
+    """Corners of each patch, shape (n, 2)."""
+
+
+def outline(task: WalkerTask, stance: np.void) -> WalkerOutline:
+    """Frames, feet and patches of one stance record as plain arrays."""
+    joints = []
+    for attachments, pose in zip(task.robot.attachments(), stance["pose"], strict=True):
+        c, s = math.cos(pose[2]), math.sin(pose[2])
+        joints.append(pose[:2] + attachments @ np.array([[c, s], [-s, c]]))
+    return WalkerOutline(
+        frames=(joints[0], np.vstack([stance["pose"][1, :2], joints[1]])),
+        feet=np.array(stance["foot"]),
+        stands=int(stance["stands"]),
+        actuators=np.stack(joints, axis=1),
+        centre_of_mass=np.array([stance["mass_x"], stance["mass_y"]]),
+        patches=tuple(np.array(patch) for patch in task.world.patches),
+    )

@@ -1,0 +1,61 @@
+"""The application: its commands, what all of them share, and how it leaves.
+
+Exit codes: 0 found, holds, or done; 1 no plan, or a violation; 2 bad input; 130 interrupted.
+"""
+
+import sys
+from collections.abc import Sequence
+from typing import Annotated
+
+import typer
+
+from .. import __version__
+from ..errors import ClamberError
+from .bench import bench
+from .check import check
+from .list import list_names
+from .plan import plan
+from .show import show
+from .study import study
+
+app = typer.Typer(
+    name="clamber",
+    help="Plan and control robots that climb and walk on several limbs.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+app.command("list")(list_names)
+app.command("plan")(plan)
+app.command("check")(check)
+app.command("show")(show)
+app.command("bench")(bench)
+app.command("study")(study)
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        print(f"clamber {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version.")
+    ] = False,
+) -> None:
+    pass
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run a command and leave with its exit code; the user's mistakes come out as one message on stderr.
+
+    Args:
+        arguments: Words after `clamber`; None takes those of the process.
+    """
+    try:
+        app(args=None if arguments is None else list(arguments), prog_name="clamber")
+    except ClamberError as error:
+        print(f"clamber: {error}", file=sys.stderr)
+        sys.exit(2)

@@ -1,0 +1,45 @@
+"""Names and titles of what `clamber list` shows."""
+
+from collections.abc import Callable
+from typing import Final
+
+from ..files import data_names, read_toml
+
+
+def _shipped(folder: str) -> list[tuple[str, str]]:
+    """Name and title of the data files of a folder of the package."""
+    from .. import robots, tasks, worlds
+
+    package = {"robots": robots, "worlds": worlds, "tasks": tasks}[folder]
+    data = package.library.DATA
+    return [(name, str(read_toml(data / f"{name}.toml").data.get("title", ""))) for name in data_names(data)]
+
+
+def _planners() -> list[tuple[str, str]]:
+    from ..planning.planners import PLANNERS
+
+    return [(name, _first_line(planner)) for name, planner in PLANNERS.items()]
+
+
+def _studies() -> list[tuple[str, str]]:
+    from ..studies.library import STUDIES
+
+    return [(paper, ", ".join(results)) for paper, results in STUDIES.items()]
+
+
+def _first_line(thing: object) -> str:
+    return (thing.__doc__ or "").strip().partition("\n")[0]
+
+
+ENTRIES: Final[dict[str, Callable[[], list[tuple[str, str]]]]] = {
+    "robots": lambda: _shipped("robots"),
+    "boards": lambda: _shipped("worlds"),
+    "tasks": lambda: _shipped("tasks"),
+    "planners": _planners,
+    "studies": _studies,
+}
+
+
+def entries(kind: str) -> list[tuple[str, str]]:
+    """Name and title of everything of one kind."""
+    return ENTRIES[kind]()

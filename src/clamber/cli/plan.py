@@ -1,0 +1,58 @@
+"""`clamber plan`: find a plan for a task."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..errors import UnknownNameError
+from .options import AsJson, Output, Overrides, Quiet
+from .output import announce_compilation, check_writable, print_json, stderr, stdout
+
+
+def plan(
+    task: Annotated[str, typer.Argument(help="A task's name (`clamber list tasks`), or the path of its TOML file.")],
+    planner: Annotated[str, typer.Option(help="How to search (`clamber list planners`).")] = "genetic",
+    profile: Annotated[str, typer.Option(help="The planner's settings: default, or thesis.")] = "default",
+    overrides: Overrides = None,
+    seed: Annotated[int, typer.Option(min=0, help="Same seed, same plan, on any number of threads.")] = 0,
+    threads: Annotated[int | None, typer.Option(min=1, help="Threads; one a core unless given.")] = None,
+    evaluations: Annotated[int, typer.Option(min=1, help="Most whole plans to try.")] = 50_000,
+    seconds: Annotated[float | None, typer.Option(min=0.0, help="Most time to take.")] = None,
+    checkpoint: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Write the state of the search here, and go on from it.")
+    ] = None,
+    output: Output = None,
+    as_json: AsJson = False,
+    quiet: Quiet = False,
+) -> None:
+    """Find a sequence of grabs and body moves that every check allows, from the start to the goal."""
+    check_writable(output)
+    check_writable(checkpoint)
+    from ..tasks import load_task
+
+    problem = load_task(task, overrides or ())
+    announce_compilation(quiet=quiet)
+    from ..planning.planners import PLANNERS
+    from .plan_text import ProgressLine, print_result
+
+    if planner not in PLANNERS:
+        raise UnknownNameError("planner", planner, tuple(PLANNERS))
+    with ProgressLine(stderr(), quiet=quiet) as line:
+        result = PLANNERS[planner](
+            problem,
+            seed=seed,
+            profile=profile,
+            max_evaluations=evaluations,
+            seconds=seconds,
+            threads=threads,
+            progress=line.update,
+            checkpoint=checkpoint,
+        )
+    if output is not None:
+        result.plan.save(output)
+    if as_json:
+        print_json(result.to_json())
+    else:
+        print_result(stdout(), result, output)
+    raise typer.Exit(0 if result.status == "found" else 1)

@@ -1,0 +1,87 @@
+"""A search as people read it: a live line on the way, and the plan or why there is none."""
+
+from pathlib import Path
+from types import TracebackType
+
+from rich.console import Console
+from rich.live import Live
+from rich.text import Text
+
+from ..actions.plan import Plan
+from ..planning.progress import Progress
+from ..planning.result import Furthest, PlanResult
+from ..units import OZ_IN
+
+STEADY = 20
+"""Where stderr is no terminal, every so many generations get a line."""
+
+
+class ProgressLine:
+    """A line on stderr that follows a search: rewritten on a terminal, a line now and then elsewhere."""
+
+    def __init__(self, console: Console, *, quiet: bool) -> None:
+        self._console = console
+        self._quiet = quiet
+        self._live = Live(console=console, refresh_per_second=8, transient=True) if console.is_terminal else None
+
+    def __enter__(self) -> "ProgressLine":
+        if self._live is not None and not self._quiet:
+            self._live.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if self._live is not None and not self._quiet:
+            self._live.stop()
+
+    def update(self, progress: Progress) -> None:
+        """Show one moment of the search."""
+        if self._quiet:
+            return
+        if self._live is not None:
+            self._live.update(Text(progress_text(progress), no_wrap=True, overflow="ellipsis"))
+        elif progress.generation % STEADY == 0:
+            self._console.print(progress_text(progress), soft_wrap=True)
+
+
+def progress_text(progress: Progress) -> str:
+    """One moment of a search in a line of at most 80 columns."""
+    best = "" if progress.best_length is None else f", found {progress.best_length} actions"
+    return (
+        f"generation {progress.generation}, {progress.evaluations} plans, fitness {progress.best_fitness:.2f}, "
+        f"{progress.furthest} steps, goal {progress.stage}/{progress.stages}{best}"
+    )
+
+
+def print_result(console: Console, result: PlanResult, output: Path | None) -> None:
+    """Print what a search found, or how far it came and what stopped it."""
+    found = result.status == "found"
+    if found:
+        console.print(f"found: {result.length} actions for '{result.plan.task}'", style="bold green")
+        console.print(f"largest torque {result.max_torque / OZ_IN:.0f} oz-in")
+    else:
+        console.print(f"{result.status}: no plan for '{result.plan.task}'", style="bold red")
+        console.print(result.reason)
+        if result.furthest is not None:
+            _print_furthest(console, result.furthest)
+    console.print(
+        f"{result.evaluations} plans, {result.checks} actions judged, {result.seconds:.1f} s, seed {result.seed}"
+    )
+    if found:
+        console.print(_spelled(result.plan))
+    if output is not None:
+        what = "the plan" if found else "the actions that lead furthest"
+        console.print(f"{what}: {output}", soft_wrap=True)
+
+
+def _print_furthest(console: Console, furthest: Furthest) -> None:
+    stops = ", ".join(f"{check} {count}" for check, count in furthest.stopped_by.items())
+    console.print(f"furthest: {furthest.actions} actions, {furthest.goals_met} of {furthest.goals} goals")
+    console.print(f"there, actions that each check forbids: {stops or 'none'}")
+
+
+def _spelled(plan: Plan) -> str:
+    """The plan in the thesis's numbers, or in words where it has none."""
+    numbers = plan.numbers()
+    return "; ".join(a.title for a in plan.actions) if numbers is None else " ".join(map(str, numbers))

@@ -1,0 +1,45 @@
+"""`clamber show`: a picture or an animation of a task or a plan."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from .options import Output, Overrides
+from .output import announce_compilation, check_writable, stdout
+
+
+def show(
+    thing: Annotated[str, typer.Argument(metavar="TASK|PLAN", help="A task's name or file, or a plan's file.")],
+    output: Output = None,
+    step: Annotated[int | None, typer.Option(min=0, help="Draw the stance after this step; 0 is the start.")] = None,
+    torques: Annotated[bool, typer.Option("--torques", help="Draw the joint torques of every step.")] = False,
+    task: Annotated[str | None, typer.Option(help="Show a plan in this task, in place of its own.")] = None,
+    overrides: Overrides = None,
+) -> None:
+    """Draw a task, a plan or one step of it (png, svg, pdf), or a plan in motion (gif, html, mp4)."""
+    path = output or Path(f"{Path(thing).stem}.png")
+    check_writable(path)
+    announce_compilation()
+    from ..actions.plan_source import open_replay
+    from ..tasks.limbed import LimbedTask
+
+    shown, replay = open_replay(thing, task, overrides or ())
+    last = len(replay.stances) - 1
+    if step is not None and step > last:
+        raise typer.BadParameter(f"{step} is past the last step, {last}", param_hint="--step")
+    if torques and (last == 0 or not isinstance(shown, LimbedTask)):
+        raise typer.BadParameter("needs the plan of a limbed robot", param_hint="--torques")
+    from ..viewing.charts import draw_torques
+    from ..viewing.output import CANVASES
+    from ..viewing.pictures import animate, draw_route, draw_stance
+
+    if torques and isinstance(shown, LimbedTask):
+        draw_torques(shown, {Path(thing).stem: replay}, path)
+    elif path.suffix.lower() not in CANVASES:
+        animate(shown, replay, path)
+    elif step is None and last > 0:
+        draw_route(shown, replay, path)
+    else:
+        draw_stance(shown, replay, step or 0, path)
+    stdout().print(f"written to {path}", soft_wrap=True)

@@ -1,0 +1,40 @@
+"""`clamber study`: a paper's published results, ours beside the printed ones."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from .options import AsJson
+from .output import announce_compilation, print_json, stderr, stdout
+
+
+def study(
+    paper: Annotated[str, typer.Argument(help="A paper (`clamber list studies`).")],
+    result: Annotated[str | None, typer.Argument(help="One of its results; all unless given.")] = None,
+    as_json: AsJson = False,
+    report: Annotated[Path | None, typer.Option(metavar="DIR", help="Write tables and pictures there.")] = None,
+) -> None:
+    """Repeat what a paper reports, and say for each result whether it holds."""
+    from ..errors import UnknownNameError
+    from ..studies.library import STUDIES
+    from .study_text import print_results
+
+    if paper not in STUDIES:
+        raise UnknownNameError("study", paper, tuple(STUDIES))
+    if result is not None and result not in STUDIES[paper]:
+        raise UnknownNameError(f"result of '{paper}'", result, tuple(STUDIES[paper]))
+    announce_compilation()
+    results = []
+    for chosen in STUDIES[paper] if result is None else (result,):
+        stderr().print(f"working on {chosen}")
+        results.append(STUDIES[paper][chosen]())
+    if report is not None:
+        from ..studies.report import write_report
+
+        write_report(results, report)
+    if as_json:
+        told = [one.to_json() for one in results]
+        print_json(told if result is None else told[0])
+    else:
+        print_results(stdout(), results)

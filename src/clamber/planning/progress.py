@@ -1,0 +1,24 @@
+"""What a planner tells while it works."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """One moment of a search."""
+
+    generation: int
+    evaluations: int
+    """Whole plans evaluated."""
+    best_fitness: float
+    furthest: int
+    """Actions of the best plan that hold."""
+    stage: int
+    """Goals that the best plan meets, in order."""
+    stages: int
+    best_length: int | None
+    """Actions of the best plan that reaches the goal."""
+
+
+Listener = Callable[[Progress], None]

@@ -1,0 +1,220 @@
+"""Judge one stance of the two-frame walker: records, checks, and their kernels (page "The walker's model")."""
+
+import math
+from typing import Final
+
+import numpy as np
+
+from clamber.compiled import carray, inlined, kernel, pointer
+from clamber.robots.kinematics import wrap
+from clamber.statics.checks import Check
+from clamber.statics.interference import inside, point_segment
+from clamber.statics.records import TOLERANCE, UNLIMITED
+
+STROKE, SINGULAR, FOOTHOLD, BALANCE = 0, 1, 2, 3
+N_CHECKS = 4
+DELTA, Y = 0, 1
+"""The frames, in the order of every array."""
+FEATURE_SLOTS = 8
+
+WALKER_CHECKS: Final[tuple[Check, ...]] = (
+    Check("stroke", "m", "how far the actuators' lengths lie inside their range, smallest of the three"),
+    Check("singular", "m", "guarded distance at which the mechanism is singular, less the distance of the origins"),
+    Check("foothold", "m", "distance of the standing feet from the nearest patch, less what the task asks for"),
+    Check("balance", "m", "how far the centre of mass lies inside the standing feet, less what the task asks for"),
+)
+"""In the order in which a failing check is named as the reason; all are hard unless the task says otherwise."""
+
+WALKER_PARAMS = np.dtype(
+    [
+        ("origin", "f8", (2, 3)),  # x, y [m] and angle [rad] of each frame at tick zero
+        ("tick", "f8"),
+        ("tick_angle", "f8"),
+        ("turn_ticks", "i8"),
+        ("joint", "f8", (2, 3, 2)),  # attachments of the actuators, each in its frame [m]
+        ("rest", "f8", (2, 3, 2)),  # feet, each in its frame [m], anticlockwise
+        ("foot_radius", "f8", (2,)),
+        ("shortest", "f8"),
+        ("longest", "f8"),
+        ("guard", "f8"),
+        ("share_delta", "f8"),
+        ("clearance", "f8"),  # of a foot's centre from a patch
+        ("least_balance", "f8"),
+        ("apart", "f8"),  # the origins are never farther apart in a valid stance; inf where nothing says so
+        ("n_goals", "i4"),
+        ("n_patches", "i4"),
+        ("hard", "i4"),
+        ("kinds", "i4", (FEATURE_SLOTS,)),
+        ("goals_at", "i8"),
+        ("vertices_at", "i8"),
+        ("patch_start_at", "i8"),
+        ("n_vertices", "i8"),
+    ],
+    align=True,
+)
+"""What the walker's kernels read. Its type chooses the family while compiling."""
+
+WALKER_GOAL = np.dtype(
+    [
+        ("x_min", "f8"),
+        ("x_max", "f8"),
+        ("y_min", "f8"),
+        ("y_max", "f8"),
+        ("a_mid", "f8"),
+        ("a_half", "f8"),  # at least pi: any angle
+        ("before", "f8"),  # way from the start to the goal before this one, along the goals [m]
+        ("way", "f8"),  # way from the goal before to this one [m]
+    ],
+    align=True,
+)
+
+WALKER_STANCE = np.dtype(
+    [
+        ("ticks", "i8", (2, 3)),  # x, y, angle of each frame
+        ("stands", "i4"),  # the frame whose feet are on the ground
+        ("stage", "i4"),
+        ("count", "i4"),
+        ("spare", "i4"),
+        ("x", "f8"),  # the body's pose, under the names that the stances of every family have: that of the Delta-frame
+        ("y", "f8"),
+        ("angle", "f8"),
+        ("pose", "f8", (2, 3)),
+        ("c", "f8", (2,)),
+        ("s", "f8", (2,)),
+        ("foot", "f8", (2, 3, 2)),  # feet over the ground, world [m]
+        ("actuator", "f8", (3,)),  # lengths [m]
+        ("mass_x", "f8"),  # centre of mass, world [m]
+        ("mass_y", "f8"),
+        ("foothold", "f8"),  # margins that feature or next action read
+        ("balance", "f8"),
+        ("strain", "f8"),  # distance of the origins per distance at which the mechanism is singular [-]
+        ("travel", "f8"),  # how far a foot of the lifted frame went in the last action [m]
+    ],
+    align=True,
+)
+
+
+@inlined
+def walker_goals(p):
+    """Records of `WALKER_GOAL`, in order."""
+    return carray(pointer(p.goals_at), p.n_goals, WALKER_GOAL)
+
+
+@inlined
+def patch_vertices(p):
+    """Corners of all patches, shape (n, 2) [m]."""
+    return carray(pointer(p.vertices_at), (p.n_vertices, 2), np.float64)
+
+
+@inlined
+def patch_start(p):
+    """First corner of each patch, and the end."""
+    return carray(pointer(p.patch_start_at), p.n_patches + 1, np.int64)
+
+
+@inlined
+def place(p, s, f):
+    """World pose and feet of frame f from its ticks."""
+    x = p.origin[f, 0] + s.ticks[f, 0] * p.tick
+    y = p.origin[f, 1] + s.ticks[f, 1] * p.tick
+    angle = wrap(p.origin[f, 2] + s.ticks[f, 2] * p.tick_angle)
+    c = math.cos(angle)
+    sine = math.sin(angle)
+    s.pose[f, 0] = x
+    s.pose[f, 1] = y
+    s.pose[f, 2] = angle
+    s.c[f] = c
+    s.s[f] = sine
+    for i in range(3):
+        s.foot[f, i, 0] = x + c * p.rest[f, i, 0] - sine * p.rest[f, i, 1]
+        s.foot[f, i, 1] = y + sine * p.rest[f, i, 0] + c * p.rest[f, i, 1]
+    if f == DELTA:
+        s.x = x
+        s.y = y
+        s.angle = angle
+
+
+@kernel
+def patch_distance(p, x, y):
+    """Distance of a point from the nearest patch [m]; negative inside one, by how deep."""
+    best = UNLIMITED
+    for k in range(p.n_patches):
+        corners = patch_vertices(p)[patch_start(p)[k] : patch_start(p)[k + 1]]
+        near = math.inf
+        j = corners.shape[0] - 1
+        for i in range(corners.shape[0]):
+            near = min(near, point_segment(x, y, corners[j, 0], corners[j, 1], corners[i, 0], corners[i, 1]))
+            j = i
+        best = min(best, -near if inside(x, y, corners) else near)
+    return best
+
+
+@kernel
+def foothold(p, s):
+    """Margin of the standing feet from the patches [m]."""
+    if p.n_patches == 0:
+        return UNLIMITED
+    f = s.stands
+    best = UNLIMITED
+    for i in range(3):
+        best = min(best, patch_distance(p, s.foot[f, i, 0], s.foot[f, i, 1]))
+    return best - p.clearance
+
+
+@inlined
+def stretch(p, s):
+    """Set the actuators' lengths; return the stroke margin and the singular one [m]."""
+    dx = s.pose[Y, 0] - s.pose[DELTA, 0]
+    dy = s.pose[Y, 1] - s.pose[DELTA, 1]
+    room = math.inf
+    reach = 0.0
+    for i in range(3):
+        # c_i of the paper's geometry, turned into the world: its size rho is the same for all three
+        cx = s.c[Y] * p.joint[Y, i, 0] - s.s[Y] * p.joint[Y, i, 1]
+        cy = s.s[Y] * p.joint[Y, i, 0] + s.c[Y] * p.joint[Y, i, 1]
+        cx -= s.c[DELTA] * p.joint[DELTA, i, 0] - s.s[DELTA] * p.joint[DELTA, i, 1]
+        cy -= s.s[DELTA] * p.joint[DELTA, i, 0] + s.c[DELTA] * p.joint[DELTA, i, 1]
+        length = math.sqrt((dx + cx) * (dx + cx) + (dy + cy) * (dy + cy))
+        s.actuator[i] = length
+        room = min(room, min(length - p.shortest, p.longest - length))
+        reach = math.sqrt(cx * cx + cy * cy)
+    apart = math.sqrt(dx * dx + dy * dy)
+    s.strain = apart / reach if reach > 0.0 else 0.0
+    return room, p.guard * reach - apart
+
+
+@inlined
+def balance(p, s):
+    """Set the centre of mass; return how far it lies inside the standing feet [m], less what the task asks for."""
+    f = s.stands
+    s.mass_x = p.share_delta * s.pose[DELTA, 0] + (1.0 - p.share_delta) * s.pose[Y, 0]
+    s.mass_y = p.share_delta * s.pose[DELTA, 1] + (1.0 - p.share_delta) * s.pose[Y, 1]
+    qx = s.mass_x - s.pose[f, 0]
+    qy = s.mass_y - s.pose[f, 1]
+    # The feet are a regular triangle: each side lies half a radius from the origin, opposite to a foot
+    least = math.inf
+    for i in range(3):
+        least = min(least, qx * (s.foot[f, i, 0] - s.pose[f, 0]) + qy * (s.foot[f, i, 1] - s.pose[f, 1]))
+    return 0.5 * p.foot_radius[f] + least / p.foot_radius[f] - p.least_balance
+
+
+@kernel
+def judge(p, s, landed, margins):
+    """Write every margin of a placed stance; return the first hard check that is violated, or -1.
+
+    Args:
+        p: Record of `WALKER_PARAMS`.
+        s: Stance record, both frames placed.
+        landed: Whether the standing feet are new on the ground; else the foothold margin of the stance still counts.
+        margins: Output, shape (N_CHECKS,).
+    """
+    if landed:
+        s.foothold = foothold(p, s)
+    s.balance = balance(p, s)
+    margins[STROKE], margins[SINGULAR] = stretch(p, s)
+    margins[FOOTHOLD] = s.foothold
+    margins[BALANCE] = s.balance
+    for check in range(N_CHECKS):
+        if p.hard & (1 << check) and margins[check] < -TOLERANCE:
+            return check
+    return -1

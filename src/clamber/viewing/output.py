@@ -1,0 +1,72 @@
+"""Where pictures go: formats by suffix, errors that name them, files written whole."""
+
+from collections.abc import Iterable
+from io import BytesIO
+from pathlib import Path
+
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_pdf import FigureCanvasPdf
+from matplotlib.backends.backend_svg import FigureCanvasSVG
+from matplotlib.figure import Figure
+
+from ..errors import ClamberError, describe_choices
+from ..files import write_atomically
+
+CANVASES = {".png": FigureCanvasAgg, ".svg": FigureCanvasSVG, ".pdf": FigureCanvasPdf}
+"""Suffix of a still picture -> the canvas that writes it."""
+DPI = 150
+"""Dots per inch of still pictures."""
+
+
+class SuffixError(ClamberError):
+    """A picture's file name says no format that can be written."""
+
+    def __init__(self, path: str, allowed: tuple[str, ...]) -> None:
+        super().__init__(path, allowed)
+        self.path, self.allowed = path, allowed
+
+    def __str__(self) -> str:
+        suffix = Path(self.path).suffix
+        shown = f"no picture can be written as '{suffix}'" if suffix else "the name has no suffix that says the format"
+        return f"{self.path}: {shown}; allowed are {describe_choices(suffix, self.allowed)}"
+
+
+class MissingExtraError(ClamberError):
+    """A picture needs a package that is installed only with an extra."""
+
+    def __init__(self, what: str, package: str, extra: str) -> None:
+        super().__init__(what, package, extra)
+        self.what, self.package, self.extra = what, package, extra
+
+    def __str__(self) -> str:
+        return (
+            f"{self.what} needs the package '{self.package}', which is not installed; "
+            f"install 'clamber[{self.extra}]', or write .gif or .html"
+        )
+
+
+def check_suffix(path: str | Path, allowed: Iterable[str]) -> str:
+    """The suffix of a file name, in lower case.
+
+    Raises:
+        SuffixError: If it is none of `allowed`.
+    """
+    suffix = Path(path).suffix.lower()
+    if suffix not in tuple(allowed):
+        raise SuffixError(str(path), tuple(allowed))
+    return suffix
+
+
+def save_figure(figure: Figure, path: str | Path, dpi: int = DPI) -> Path:
+    """Write a figure as its suffix says.
+
+    Raises:
+        SuffixError: If the suffix names no format for still pictures.
+        FileError: If the file cannot be written.
+    """
+    suffix = check_suffix(path, CANVASES)
+    content = BytesIO()
+    metadata = {".png": {"Software": "Clamber"}, ".svg": {"Date": None}, ".pdf": {"CreationDate": None}}[suffix]
+    CANVASES[suffix](figure).print_figure(content, format=suffix[1:], dpi=dpi, metadata=metadata)
+    write_atomically(Path(path), content.getvalue())
+    return Path(path)

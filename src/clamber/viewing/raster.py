@@ -1,0 +1,35 @@
+"""Frames as pixels: what stands still is drawn once, and only the climber and the panel's bars again."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import numpy.typing as npt
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+from .frames import Frame
+from .view import ClimbView
+
+Pixels = npt.NDArray[np.uint8]
+"""RGB, shape (height, width, 3)."""
+
+
+def rasterise(view: ClimbView, frames: list[Frame], dpi: int) -> Iterator[Pixels]:
+    """Each frame as pixels; both sides are even, as video formats want them."""
+    figure = view.figure
+    w, h = figure.get_size_inches()
+    figure.set_size_inches(2 * round(w * dpi / 2) / dpi, 2 * round(h * dpi / 2) / dpi)
+    figure.set_dpi(dpi)
+    canvas = FigureCanvasAgg(figure)
+    artists = view.artists
+    for artist in artists:
+        artist.set_animated(True)
+    canvas.draw()
+    still = canvas.copy_from_bbox(figure.bbox)
+    for frame in frames:
+        canvas.restore_region(still)
+        view.show(frame.step, frame.snapshot)
+        for artist in artists:
+            figure.draw_artist(artist)
+        yield np.asarray(canvas.buffer_rgba())[..., :3].copy()
+    for artist in artists:
+        artist.set_animated(False)

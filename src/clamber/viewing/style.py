@@ -1,0 +1,57 @@
+"""How every picture looks: one palette that colour-blind readers can tell apart (after Okabe and Ito), light and calm."""
+
+from contextlib import AbstractContextManager
+from typing import Any, Final
+
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+
+PARTS: Final = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#8C564B", "#B5A900", "#6B6B6B")
+"""Colour of each limb, in the robot's order."""
+INK: Final = "#22303C"
+QUIET: Final = "#6E7B87"
+FAINT: Final = "#DCE1E6"
+PAPER: Final = "#FFFFFF"
+WALL: Final = "#F7F8FA"
+BODY: Final = "#C9D1D9"
+HOLD: Final = "#8E99A4"
+GOAL: Final = "#7A9E3B"
+FORCE: Final = "#3D3553"
+ALERT: Final = "#C1272D"
+STRIP: Final = (ALERT, "#F2A65A", "#BFD8E8", "#7FB0D0")
+"""Colour of a step by its smallest relative margin: violated, tight, fair, ample (`margins.grade`)."""
+STRIP_WORDS: Final = ("violated", "under 5 %", "under 15 %", "ample")
+
+RC: Final[dict[str, Any]] = {
+    "font.family": "sans-serif",
+    "font.sans-serif": ["DejaVu Sans"],  # shipped with Matplotlib, so pictures are the same everywhere
+    "font.size": 9.0,
+    "text.color": INK,
+    "axes.edgecolor": QUIET,
+    "axes.labelcolor": INK,
+    "axes.linewidth": 0.6,
+    "axes.titlesize": 11.0,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "xtick.color": QUIET,
+    "ytick.color": QUIET,
+    "xtick.labelsize": 8.0,
+    "ytick.labelsize": 8.0,
+    "xtick.major.size": 3.0,
+    "ytick.major.size": 3.0,
+    "legend.frameon": False,
+    "hatch.linewidth": 0.6,
+    "savefig.facecolor": PAPER,
+    "svg.hashsalt": "clamber",  # the same picture gives the same bytes
+}
+"""Matplotlib settings of every picture."""
+
+
+def styled() -> AbstractContextManager[None]:
+    """A `with` block in which Matplotlib draws in Clamber's style; nothing global stays changed."""
+    return rc_context(RC)
+
+
+def bare(axes: Axes) -> None:
+    """Take away the frame's top and right side."""
+    axes.spines[["top", "right"]].set_visible(False)

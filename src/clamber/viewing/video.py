@@ -1,0 +1,50 @@
+"""MP4, through the ffmpeg that the extra `video` brings."""
+
+import tempfile
+from pathlib import Path
+from typing import Final
+
+from ..files import write_atomically
+from .frames import make_frames
+from .output import MissingExtraError
+from .raster import rasterise
+from .view import ClimbView
+
+MOST_FRAMES: Final = 6000
+RATE: Final = 15
+"""Frames per second."""
+DPI: Final = 140
+
+
+def write_mp4(view: ClimbView, path: Path, *, most_frames: int = MOST_FRAMES) -> None:
+    """Write a climb as H.264 video.
+
+    Raises:
+        MissingExtraError: If imageio-ffmpeg is not installed.
+    """
+    try:
+        import imageio_ffmpeg
+    except ImportError:
+        raise MissingExtraError(f"writing {path.name}", "imageio-ffmpeg", "video") from None
+    frames = make_frames(view, most_frames)
+    with tempfile.TemporaryDirectory() as folder:
+        target = Path(folder) / "climb.mp4"
+        writer = None
+        for frame, pixels in zip(frames, rasterise(view, frames, DPI), strict=True):
+            if writer is None:
+                size = pixels.shape[1], pixels.shape[0]
+                writer = imageio_ffmpeg.write_frames(
+                    str(target),
+                    size,
+                    fps=RATE,
+                    codec="libx264",
+                    quality=7,
+                    macro_block_size=2,
+                    ffmpeg_log_level="error",
+                )
+                writer.send(None)
+            for _ in range(max(1, round(frame.length))):
+                writer.send(pixels.tobytes())
+        if writer is not None:
+            writer.close()
+        write_atomically(path, target.read_bytes())
