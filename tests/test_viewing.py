@@ -1,6 +1,7 @@
-"""Pictures: what is drawn is where the model says it is, motion begins and ends in its stances, files are what they say."""
+"""Pictures: what is drawn is where the model says, motion starts and ends in its stances, files are what they say."""
 
 import cmath
+import itertools
 import math
 import re
 from pathlib import Path
@@ -69,7 +70,10 @@ def hanging() -> Climb:
     """The robot lets go until it hangs on one limb and swings, moves while it hangs, and takes hold again."""
     return climb(
         "h",
-        [UP, UP, pack(3, LEFT, 3), pack(3, RIGHT, 1), UP, pack(2, BOTTOM), pack(2, RIGHT), UP, pack(3, RIGHT, 1), pack(3, BOTTOM, 1)],
+        [
+            UP, UP, pack(3, LEFT, 3), pack(3, RIGHT, 1), UP, pack(2, BOTTOM), pack(2, RIGHT), UP, pack(3, RIGHT, 1),
+            pack(3, BOTTOM, 1),
+        ],
         "start.y=6.2in", "rules.clearance=0in",
     )  # fmt: skip
 
@@ -153,7 +157,7 @@ def test_motion_has_no_jumps(any_climb: Climb) -> None:
         phases = Transition(task.robot, task.world, before, after).phases()
         moving = [phase for phase in phases if phase.kind in {"move", "swing", "reach"}]
         ways = [phase.at(float(share)) for phase in moving for share in np.linspace(0, 1, 201)]
-        for first, second in zip(ways[:-1], ways[1:], strict=True):
+        for first, second in itertools.pairwise(ways):
             assert np.abs(second.chains - first.chains).max() < 0.02
             assert np.hypot(second.x - first.x, second.y - first.y) < 0.01
 

@@ -62,9 +62,9 @@ def cache_folder(package: Path = PACKAGE) -> Path:
     return cache_root() / f"kernels-{kernel_hash(package)}"
 
 
-def is_compiled() -> bool:
-    """Whether some machine code of the present kernels is on disk, so that a start needs no compiler."""
-    return next(iter(cache_folder().glob("*.nbc")), None) is not None
+def is_compiled(name: str) -> bool:
+    """Whether machine code of the present kernel `name` is on disk, so that using it needs no compiler."""
+    return next(iter(cache_folder().glob(f"*.{name}-*.nbc")), None) is not None
 
 
 class _KernelLocator(_CacheLocator):  # type: ignore[misc]
@@ -94,7 +94,7 @@ class _KernelLocator(_CacheLocator):  # type: ignore[misc]
 
 
 class _KernelCacheImpl(CompileResultCacheImpl):  # type: ignore[misc]
-    _locator_classes = [_KernelLocator]
+    _locator_classes = (_KernelLocator,)
 
 
 class _KernelCache(FunctionCache):  # type: ignore[misc]

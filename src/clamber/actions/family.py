@@ -1,6 +1,7 @@
 """The family seam: a family registers its scalar kernels under the class of its parameters; the loops over them are written once.
 
-The kernel is chosen while compiling, by the record type of the parameters `p`, so the choice costs nothing at run time and the machine code is cached on disk
+The kernel is chosen while compiling, by the record type of the parameters `p`, so the choice costs nothing at run
+time and the machine code is cached on disk
 (a jitted function handed in as an argument never is).
 """
 

@@ -1,8 +1,6 @@
 """The inventory of a limbed climber: every action module a gene can be, and the named filters that make it smaller without loss."""
 
-import math
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -47,21 +45,10 @@ class Inventory:
     modules: tuple[Module, ...]
     full_size: int
     dropped: tuple[Dropped, ...] = ()
-    macros: tuple[Module, ...] = field(default=())
 
     def table(self) -> ActionTable:
         """As arrays, for planners."""
-        return ActionTable.build(
-            [(module.name, module.codes, module.kind == "move") for module in (*self.modules, *self.macros)]
-        )
-
-    def shrinkage(self, length: int) -> float:
-        """log10 of the factor by which the filters shrank the search of plans with `length` actions, D = N^m [thesis 2.2.1]."""
-        return length * math.log10(self.full_size / max(1, len(self.modules)))
-
-    def with_macros(self, macros: Sequence[Module]) -> "Inventory":
-        """The same inventory with more macros."""
-        return Inventory(self.modules, self.full_size, self.dropped, (*self.macros, *macros))
+        return ActionTable.build([(module.name, module.codes, module.kind == "move") for module in self.modules])
 
 
 def module_name(task: LimbedTask, code: int) -> str:
@@ -129,8 +116,8 @@ def make_inventory(task: LimbedTask, *, filters: bool = True) -> Inventory:
     """The inventory of a task, with the task filters applied or not.
 
     The filters, in order: `rules` (what `rules.allowed` leaves out), `no_effect` (the no-op), `rank_clip` (N9k beyond the most holds
-    that ever lie in reach is N9k with a smaller k), `named_by_rank` (a hold in reach always has a rank, so NXX and N99 add nothing).
-    None of them loses a reachable stance.
+    that ever lie in reach is N9k with a smaller k), `named_by_rank` (a free hold in reach always has a rank, so NXX and N99 add
+    nothing). None of them loses a reachable stance, except that only NXX can put two limbs on one hold (the check `shared`).
 
     Raises:
         SpecError: If `rules.allowed` names something that is no action.
@@ -165,7 +152,7 @@ def make_inventory(task: LimbedTask, *, filters: bool = True) -> Inventory:
             and Code.of(module.codes[0]).limb in ranked
             and "nearest" in _kinds(task)
         }
-        drop("named_by_rank", "every hold in reach is some N9k", named)
+        drop("named_by_rank", "every free hold in reach is some N9k", named)
     return Inventory(modules, full_size, tuple(dropped))
 
 

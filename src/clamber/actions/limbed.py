@@ -230,7 +230,6 @@ def count_laps(p, before, after):
 @inlined
 def act(p, before, code, after, margins):
     """Carry out one action; see `step`."""
-    n = p.n_limbs
     kind, i, argument = unpack(code)
     holders, _ = count_holders(p, before)
     if kind == NONE:

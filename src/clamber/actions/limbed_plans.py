@@ -9,6 +9,7 @@ from ..statics.checks import LIMBED_CHECKS, Check
 from ..tasks.limbed import LimbedTask
 from ..types import Ints
 from .codes import HOLD, MOVE, NEAREST, NONE, RANDOM, RELEASE, Code, pack
+from .inventory import module_name
 from .limbed_problem import LimbedProblem
 from .loops import replay
 from .planned import ActionError, PlannedAction
@@ -77,6 +78,10 @@ class LimbedPlans:
         if action.hold is None:
             return _unresolved(limb, action.gene)
         return hold_code(task, limb, action.hold)
+
+    def module(self, task: LimbedTask, code: int) -> str:
+        """The thesis's number of a module where it has one, words otherwise."""
+        return module_name(task, code)
 
     def pose(self, stance: np.void) -> tuple[float, float, float]:
         """Place [m] and angle [rad] of the body, world frame."""

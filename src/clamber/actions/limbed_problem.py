@@ -50,6 +50,12 @@ class LimbedProblem(CompiledProblem):
         self.task = task
         assert len(FEATURE_NAMES) == FEATURES
 
+    @property
+    def way(self) -> float:
+        """The feature `body` of a stance that has met every goal [m]."""
+        last = self.params.array("goals")[-1]
+        return float(last["before"] + last["way"])
+
     def is_done(self, stance: Records) -> bool:
         """Whether a stance has met every goal."""
         return bool(stance["stage"][0] >= len(self.task.goals))

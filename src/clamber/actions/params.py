@@ -30,6 +30,10 @@ class Params:
         row: np.void = self._record[0]
         return row
 
+    def array(self, name: str) -> AnyArray:
+        """One of the arrays."""
+        return self._arrays[name]
+
     def for_thread(self) -> "Params":
         """The same parameters with scratch of their own."""
         own = {"work": np.zeros_like(self._arrays["work"])} if "work" in self._arrays else {}

@@ -35,6 +35,10 @@ class PlanFamily(Protocol):
         """The packed code of a named action; raises `ActionError` where the task has no such action."""
         ...
 
+    def module(self, task: Any, code: int) -> str:
+        """Name of a packed code as a module of the inventory."""
+        ...
+
     def pose(self, stance: np.void) -> tuple[float, float, float]:
         """Place [m] and angle [rad] of the body, world frame."""
         ...

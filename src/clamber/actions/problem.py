@@ -216,6 +216,20 @@ class CompiledProblem:
         features_of(self.params.record, stance, row)
         return float(row[self.features.index("body")])
 
+    def way_left(self, stance: Records) -> float:
+        """How far the body still has to go along the goals from a stance (array of one record) [m]."""
+        return self.way - self.progress(stance)
+
+    @property
+    def goals(self) -> int:
+        """Number of the task's goals."""
+        return len(self.params.array("goals"))
+
+    @property
+    def way(self) -> float:
+        """The feature `body` of a stance that has met every goal [m]."""
+        raise NotImplementedError
+
     def is_done(self, stance: Records) -> bool:
         """Whether a stance (array of one record) has met every goal."""
         raise NotImplementedError

@@ -1,7 +1,8 @@
 """From a task to the problem that planners work on, by family."""
 
+import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Final
 
 from clamber.actions.inventory import Dropped, make_inventory
@@ -9,6 +10,7 @@ from clamber.actions.limbed_problem import LimbedProblem
 from clamber.actions.problem import CompiledProblem
 from clamber.actions.walker_problem import WalkerProblem, walker_table
 from clamber.tasks import Task
+from clamber.types import Json
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,6 +21,22 @@ class Posed:
     full_size: int
     """Modules of the unfiltered inventory."""
     dropped: tuple[Dropped, ...] = ()
+
+    def to_json(self, length: int) -> Json:
+        """The inventory as plain data, with the search sizes D = N^m for plans of `length` actions (thesis 2.2.1)."""
+        modules = len(self.problem.actions)
+        return {
+            "modules": modules,
+            "full_size": self.full_size,
+            "names": list(self.problem.actions.names),
+            "dropped": [
+                {"filter": dropped.filter, "reason": dropped.reason, "names": list(dropped.names)}
+                for dropped in self.dropped
+            ],
+            "length": length,
+            "log10_before": length * math.log10(self.full_size),
+            "log10_after": length * math.log10(modules),
+        }
 
 
 def _limbed(task: Any, threads: int | None, filters: bool) -> Posed:
@@ -33,6 +51,13 @@ def _walker(task: Any, threads: int | None, filters: bool) -> Posed:
 
 PROBLEMS: Final[dict[str, Callable[[Any, int | None, bool], Posed]]] = {"limbed": _limbed, "walker": _walker}
 """Family of the robot -> how its tasks become problems."""
+
+
+def last_goal_only(task: Task) -> Task:
+    """The same task without its sub-goals."""
+    bare: Any = task  # each family's task has goals of its own type
+    last: Task = replace(bare, goals=bare.goals[-1:])
+    return last
 
 
 def pose_problem(task: Task, *, threads: int | None = None, filters: bool = True) -> Posed:

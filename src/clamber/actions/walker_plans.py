@@ -11,7 +11,7 @@ from ..types import Ints
 from .codes import MOVE, NONE, RELEASE, Code, pack
 from .planned import ActionError, PlannedAction
 from .problem import CompiledProblem, Records
-from .walker_problem import WalkerProblem, walker_table
+from .walker_problem import MOVES, WalkerProblem, walker_table
 
 SAME = 1e-6
 """Moves that differ from a step by less than this part of it are that step."""
@@ -56,6 +56,11 @@ class WalkerPlans:
         if action.kind == "move":
             return pack(MOVE, 0, _axis(task, action.delta))
         raise ActionError("kind", "a walker's actions are none, move and release")
+
+    def module(self, task: WalkerTask, code: int) -> str:
+        """Name of a code: the move, or "swap"."""
+        opened = Code.of(code)
+        return MOVES[opened.argument] if opened.kind == "move" else "swap"
 
     def pose(self, stance: np.void) -> tuple[float, float, float]:
         """Place [m] and angle [rad] of the Delta-frame, world frame."""

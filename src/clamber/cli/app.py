@@ -13,6 +13,8 @@ from .. import __version__
 from ..errors import ClamberError
 from .bench import bench
 from .check import check
+from .inventory import inventory
+from .learn import learn
 from .list import list_names
 from .plan import plan
 from .show import show
@@ -27,6 +29,8 @@ app = typer.Typer(
 )
 app.command("list")(list_names)
 app.command("plan")(plan)
+app.command("learn")(learn)
+app.command("inventory")(inventory)
 app.command("check")(check)
 app.command("show")(show)
 app.command("bench")(bench)

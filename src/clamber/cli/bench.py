@@ -19,7 +19,7 @@ def bench(
 
     if name is not None and name not in BENCHES:
         raise UnknownNameError("benchmark", name, tuple(BENCHES))
-    announce_compilation()
+    announce_compilation("rollout")
     rows = []
     for chosen in BENCHES if name is None else (name,):
         stderr().print(f"measuring {chosen}")

@@ -5,7 +5,8 @@ from typing import Annotated
 
 import typer
 
-from .output import plain_table, stdout
+from .options import AsJson
+from .output import plain_table, print_json, stdout
 
 
 class Listed(StrEnum):
@@ -18,10 +19,19 @@ class Listed(StrEnum):
     studies = "studies"
 
 
-def list_names(what: Annotated[Listed | None, typer.Argument(help="One kind; all kinds unless given.")] = None) -> None:
+def list_names(
+    what: Annotated[Listed | None, typer.Argument(help="One kind; all kinds unless given.")] = None,
+    as_json: AsJson = False,
+) -> None:
     """List robots, boards, tasks, planners and studies by name."""
     from .catalogue import entries
 
+    if as_json:
+        kinds = list(Listed) if what is None else [what]
+        print_json(
+            {kind.value: [{"name": name, "title": title} for name, title in entries(kind.value)] for kind in kinds}
+        )
+        return
     console = stdout()
     for number, kind in enumerate(Listed if what is None else [what]):
         if what is None:

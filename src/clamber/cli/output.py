@@ -37,11 +37,11 @@ def plain_table(*columns: str, right: tuple[str, ...] = ()) -> Table:
     return table
 
 
-def announce_compilation(*, quiet: bool = False) -> None:
-    """Tells on stderr that the first run compiles, if it does."""
+def announce_compilation(kernel: str = "replay", *, quiet: bool = False) -> None:
+    """Tells on stderr that the first run compiles, if it does; `kernel` is the loop that the command runs."""
     from ..compiled import is_compiled
 
-    if not quiet and not is_compiled():
+    if not quiet and not is_compiled(kernel):
         stderr().print("compiling the kernels (about half a minute, once)")
 
 

@@ -22,6 +22,12 @@ def plan(
     checkpoint: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Write the state of the search here, and go on from it.")
     ] = None,
+    macros: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Learned modules to add (`clamber learn -o`).")
+    ] = None,
+    history: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Draw how the fitness grew (png, svg, pdf).")
+    ] = None,
     output: Output = None,
     as_json: AsJson = False,
     quiet: Quiet = False,
@@ -29,15 +35,18 @@ def plan(
     """Find a sequence of grabs and body moves that every check allows, from the start to the goal."""
     check_writable(output)
     check_writable(checkpoint)
+    check_writable(history)
     from ..tasks import load_task
 
     problem = load_task(task, overrides or ())
-    announce_compilation(quiet=quiet)
+    announce_compilation("rollout", quiet=quiet)
+    from ..planning.learning import load_macros
     from ..planning.planners import PLANNERS
     from .plan_text import ProgressLine, print_result
 
     if planner not in PLANNERS:
         raise UnknownNameError("planner", planner, tuple(PLANNERS))
+    learned = () if macros is None else load_macros(macros)
     with ProgressLine(stderr(), quiet=quiet) as line:
         result = PLANNERS[planner](
             problem,
@@ -46,11 +55,16 @@ def plan(
             max_evaluations=evaluations,
             seconds=seconds,
             threads=threads,
+            macros=learned,
             progress=line.update,
             checkpoint=checkpoint,
         )
     if output is not None:
         result.plan.save(output)
+    if history is not None:
+        from ..viewing.charts import draw_history
+
+        draw_history(result.history, history, goals=[goal.name for goal in problem.goals])
     if as_json:
         print_json(result.to_json())
     else:

@@ -8,8 +8,12 @@ from rich.live import Live
 from rich.text import Text
 
 from ..actions.plan import Plan
+from ..actions.plan_families import plan_family
+from ..planning.genetic.learning import Macro
+from ..planning.learning import Lesson
 from ..planning.progress import Progress
 from ..planning.result import Furthest, PlanResult
+from ..tasks import Task
 from ..units import OZ_IN
 
 STEADY = 20
@@ -22,6 +26,7 @@ class ProgressLine:
     def __init__(self, console: Console, *, quiet: bool) -> None:
         self._console = console
         self._quiet = quiet
+        self._told = -1
         self._live = Live(console=console, refresh_per_second=8, transient=True) if console.is_terminal else None
 
     def __enter__(self) -> "ProgressLine":
@@ -41,7 +46,8 @@ class ProgressLine:
             return
         if self._live is not None:
             self._live.update(Text(progress_text(progress), no_wrap=True, overflow="ellipsis"))
-        elif progress.generation % STEADY == 0:
+        elif progress.generation % STEADY == 0 and progress.generation != self._told:
+            self._told = progress.generation
             self._console.print(progress_text(progress), soft_wrap=True)
 
 
@@ -73,6 +79,27 @@ def print_result(console: Console, result: PlanResult, output: Path | None) -> N
     if output is not None:
         what = "the plan" if found else "the actions that lead furthest"
         console.print(f"{what}: {output}", soft_wrap=True)
+
+
+def print_lesson(console: Console, task: Task, lesson: Lesson, output: Path | None) -> None:
+    """Print the macros that were learned, and how they proved themselves."""
+    if not lesson.macros:
+        console.print(f"nothing in {lesson.plans} plans of '{lesson.task}' repeats", style="bold red")
+        return
+    for macro in lesson.macros:
+        console.print(f"{macro.name}: {macro_text(task, macro)}", style="bold green")
+        console.print(
+            f"  {macro.gain:.3f} m in {len(macro.codes)} actions; works from {macro.starts} of {macro.tried} starts, "
+            f"{macro.from_start} times in a row from the task's own"
+        )
+    console.print(f"{lesson.plans} plans, {lesson.evaluations} evaluations")
+    if output is not None:
+        console.print(f"macros: {output}", soft_wrap=True)
+
+
+def macro_text(task: Task, macro: Macro) -> str:
+    """A macro's actions by name."""
+    return " ".join(plan_family(task).module(task, code) for code in macro.codes)
 
 
 def _print_furthest(console: Console, furthest: Furthest) -> None:

@@ -5,8 +5,8 @@ from typing import Annotated
 
 import typer
 
-from .options import Output, Overrides
-from .output import announce_compilation, check_writable, stdout
+from .options import AsJson, Output, Overrides
+from .output import announce_compilation, check_writable, print_json, stdout
 
 
 def show(
@@ -16,6 +16,7 @@ def show(
     torques: Annotated[bool, typer.Option("--torques", help="Draw the joint torques of every step.")] = False,
     task: Annotated[str | None, typer.Option(help="Show a plan in this task, in place of its own.")] = None,
     overrides: Overrides = None,
+    as_json: AsJson = False,
 ) -> None:
     """Draw a task, a plan or one step of it (png, svg, pdf), or a plan in motion (gif, html, mp4)."""
     path = output or Path(f"{Path(thing).stem}.png")
@@ -42,4 +43,7 @@ def show(
         draw_route(shown, replay, path)
     else:
         draw_stance(shown, replay, step or 0, path)
+    if as_json:
+        print_json({"written": str(path), "task": shown.name, "steps": last, "bytes": path.stat().st_size})
+        return
     stdout().print(f"written to {path}", soft_wrap=True)

@@ -24,7 +24,7 @@ def study(
         raise UnknownNameError("study", paper, tuple(STUDIES))
     if result is not None and result not in STUDIES[paper]:
         raise UnknownNameError(f"result of '{paper}'", result, tuple(STUDIES[paper]))
-    announce_compilation()
+    announce_compilation("rollout")
     results = []
     for chosen in STUDIES[paper] if result is None else (result,):
         stderr().print(f"working on {chosen}")

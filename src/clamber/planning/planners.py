@@ -1,8 +1,7 @@
 """The planners by name."""
 
 import time
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Final
 
@@ -11,7 +10,8 @@ import numpy as np
 from clamber.actions.plan import Plan
 from clamber.actions.plan_families import plan_family
 from clamber.actions.problem import CompiledProblem
-from clamber.actions.problems import pose_problem
+from clamber.actions.problems import last_goal_only, pose_problem
+from clamber.planning.genetic.learning import Macro
 from clamber.planning.genetic.profile import Profile, load_profile
 from clamber.planning.genetic.search import Budget, Outcome, search
 from clamber.planning.progress import Listener
@@ -28,6 +28,7 @@ def plan_genetic(
     seconds: float | None = None,
     threads: int | None = None,
     filters: bool = True,
+    macros: Sequence[Macro] = (),
     progress: Listener | None = None,
     checkpoint: Path | None = None,
 ) -> PlanResult:
@@ -41,6 +42,7 @@ def plan_genetic(
         seconds: Most wall-clock time [s].
         threads: Threads; None for one a core.
         filters: Whether the inventory's filters are applied.
+        macros: Learned modules to add to the inventory.
         progress: Called after every generation.
         checkpoint: File to save the search to, and to resume it from.
 
@@ -49,20 +51,22 @@ def plan_genetic(
     """
     started = time.monotonic()
     settings = load_profile(profile) if isinstance(profile, str) else profile
-    aim = task if settings.search.subgoals else replace(task, goals=task.goals[-1:])
+    aim = task if settings.search.subgoals else last_goal_only(task)
     posed = pose_problem(aim, threads=threads, filters=filters)
-    identity = f"genetic/{dict(task.hashes)}/{len(posed.problem.actions)} modules"
+    table = posed.problem.actions.extended([(macro.name, macro.codes, False) for macro in macros])
+    problem = posed.problem.rebind(table)
+    identity = f"genetic/{dict(task.hashes)}/{table.names}"
     outcome = search(
-        posed.problem,
+        problem,
         settings,
         seed=seed,
         budget=Budget(max_evaluations, seconds),
-        stages=len(aim.goals),
+        stages=problem.goals,
         listener=progress,
         checkpoint=checkpoint,
         identity=identity,
     )
-    replayed = posed.problem.replay(outcome.codes)
+    replayed = problem.replay(outcome.codes)
     family = plan_family(task)
     plan = Plan.of_codes(
         task, outcome.codes, seed=seed, planner=f"genetic/{settings.name}", genes=outcome.names or None
@@ -78,7 +82,7 @@ def plan_genetic(
         seed=seed,
         planner=f"genetic/{settings.name}",
         max_torque=max((family.torque(stance) for stance in replayed.stances[1:]), default=0.0),
-        furthest=None if outcome.found else _furthest(task, posed.problem, outcome),
+        furthest=None if outcome.found else _furthest(task, problem, outcome),
         first_length=outcome.first_length,
         first_evaluations=outcome.first_evaluations,
         history=outcome.history,
@@ -87,6 +91,8 @@ def plan_genetic(
 
 
 def _reason(outcome: Outcome) -> str:
+    if outcome.found and not len(outcome.codes):
+        return "the start meets every goal already"
     if outcome.found and outcome.interrupted:
         return f"interrupted while polishing; the plan of {len(outcome.codes)} actions works"
     if outcome.found:
@@ -109,7 +115,7 @@ def _furthest(task: Task, problem: CompiledProblem, outcome: Outcome) -> Furthes
     x, y, angle = family.pose(last[0])
     pose = {"x_m": x, "y_m": y, "theta_rad": angle, "holds": family.holds(task, last[0])}
     ranked = dict(sorted(stopped.items(), key=lambda item: (-item[1], item[0])))
-    return Furthest(len(outcome.codes), family.goals_met(last[0]), len(task.goals), pose, ranked)
+    return Furthest(len(outcome.codes), family.goals_met(last[0]), problem.goals, pose, ranked)
 
 
 Planner = Callable[..., PlanResult]

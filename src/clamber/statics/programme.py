@@ -7,9 +7,13 @@ from clamber.compiled import kernel
 BOX = 1.0e4
 """Bound on every |x|; callers scale their unknowns to the order of one."""
 TINY = 1.0e-9
-"""Smallest pivot, and the violation of a row that counts as none."""
-ROUNDS = 3
-"""How often the table is made anew from its basis."""
+"""Smallest pivot."""
+SLACK = 1.0e-10
+"""The violation of a row that counts as none; ten times as much each time that the rows seem to contradict each other."""
+REFUSALS = 3
+"""So often they must, before that is believed: by rounding, the two rows of an equality contradict each other a little."""
+ROUNDS = 6
+"""How often the table may be made anew from its basis."""
 
 
 @kernel
@@ -50,7 +54,7 @@ def pivot(table, d, n, row, column):
 
 
 @kernel
-def improve(table, basis, d, n):
+def improve(table, basis, d, n, slack):
     """Pivot until no row is violated: the most violated one first, by Bland's rule after a while, so it ends.
 
     Returns:
@@ -59,7 +63,7 @@ def improve(table, basis, d, n):
     for turn in range(200 * (n + d)):
         bland = turn >= 20 * d
         enter = -1
-        worst = -TINY
+        worst = -slack
         for j in range(n):
             if table[d, j] < worst:
                 enter = j
@@ -75,10 +79,11 @@ def improve(table, basis, d, n):
         leave = -1
         for i in range(d):
             size = table[i, enter]
-            if size > TINY and max(table[i, n], 0.0) <= (best + 1e-12) * size:
-                # of equals the largest pivot: small ones spoil the table
-                if leave < 0 or (basis[i] < basis[leave] if bland else size > table[leave, enter]):
-                    leave = i
+            if size <= TINY or max(table[i, n], 0.0) > (best + 1e-12) * size:
+                continue
+            # of equals the largest pivot: small ones spoil the table
+            if leave < 0 or (basis[i] < basis[leave] if bland else size > table[leave, enter]):
+                leave = i
         if leave < 0:
             return False
         pivot(table, d, n, leave, enter)
@@ -87,7 +92,7 @@ def improve(table, basis, d, n):
 
 
 @kernel
-def renew(a, b, c, table, basis, columns):
+def renew(a, b, c, table, basis, columns, slack):
     """Make the table of a basis anew from the data, without the rounding errors of the pivots that led there.
 
     Returns:
@@ -107,10 +112,10 @@ def renew(a, b, c, table, basis, columns):
                 row = i
         pivot(table, d, n, row, column)
         basis[row] = column
+    least = 0.0
     for j in range(n):
-        if table[d, j] < -TINY:
-            return False
-    return True
+        least = min(least, table[d, j])
+    return least >= -slack
 
 
 @kernel
@@ -133,17 +138,25 @@ def maximise(a, b, c, table, basis, x):
     fill(a, b, c, table)
     for i in range(d):
         basis[i] = m + i if c[i] >= 0.0 else m + d + i
+    refused = 0
+    slack = SLACK
     for _ in range(ROUNDS):
-        if not improve(table, basis, d, n):
-            return False
-        if renew(a, b, c, table, basis, x):
+        met = improve(table, basis, d, n, slack)
+        if not met:
+            refused += 1
+            slack *= 10.0
+            if refused == REFUSALS:
+                return False
+        if renew(a, b, c, table, basis, x, slack) and met:
             break
     for i in range(d):
         x[i] = BOX - table[d, m + i]
     for j in range(m):  # the answer proves itself
         left = -b[j]
+        size = 1.0
         for i in range(d):
             left += a[j, i] * x[i]
-        if left > 1e-7:
+            size += abs(a[j, i] * x[i])
+        if left > 1e-7 * size:
             return False
     return True

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -71,8 +71,8 @@ def draw_history(history: Sequence[Generation], path: str | Path, *, goals: Sequ
             # labels on rows of their own, for goals are often met close together
             left = at <= 0.6 * max(number[-1], 1)
             upper.annotate(
-                goal, (at, top), xytext=(3 if left else -3, -3 - 9 * ((k - 1) % 3)), textcoords="offset points", va="top",
-                ha="left" if left else "right", fontsize=8, color="#4F6B20", path_effects=[halo()],
+                goal, (at, top), xytext=(3 if left else -3, -3 - 9 * ((k - 1) % 3)), textcoords="offset points",
+                va="top", ha="left" if left else "right", fontsize=8, color="#4F6B20", path_effects=[halo()],
             )  # fmt: skip
         upper.set_ylabel("actions that hold")
         upper.yaxis.set_major_locator(MaxNLocator(integer=True, nbins=5))
@@ -93,7 +93,16 @@ def draw_history(history: Sequence[Generation], path: str | Path, *, goals: Sequ
 def largest_torques(task: LimbedTask, replay: Replay) -> Floats:
     """Largest |torque| over all joints after each action [N m], shape (n_actions,)."""
     torques: Floats = np.abs(replay.stances["torques"][1:, : len(task.robot.limbs)]).reshape(len(replay.reasons), -1)
-    return torques.max(axis=1, initial=0.0)
+    largest: Floats = torques.max(axis=1, initial=0.0)
+    return largest
+
+
+def _from_ounces(torque: Any) -> Any:
+    return torque * OZ_IN
+
+
+def _to_ounces(torque: Any) -> Any:
+    return torque / OZ_IN
 
 
 def draw_torques(
@@ -137,7 +146,7 @@ def draw_torques(
         axes.set_xlim(left=0.0)
         axes.set_xlabel("step")
         axes.set_ylabel("largest joint torque [oz-in]")
-        metric = axes.secondary_yaxis("right", functions=(lambda t: t * OZ_IN, lambda t: t / OZ_IN))
+        metric = axes.secondary_yaxis("right", functions=(_from_ounces, _to_ounces))
         metric.set_ylabel("[N m]")
         metric.spines["right"].set_color(style.FAINT)
         axes.set_title("Largest joint torque of every step")

@@ -1,4 +1,4 @@
-"""What moves in a picture: body, limbs, end effectors, held holds and forces of one posture, as artists that can be updated."""
+"""What moves in a picture: body, limbs, end effectors, held holds and forces of a posture, as updatable artists."""
 
 import math
 from dataclasses import dataclass
@@ -59,31 +59,37 @@ class ClimberArtists:
         self.least = hold_radius(task, bounds)
         self.radius = max(robot.link_radius, 0.004)
         n = len(robot.limbs)
-        self.body = axes.add_patch(
-            Polygon(np.zeros((1, 2)), fc=style.BODY, ec=style.INK, lw=1.2, alpha=alpha, zorder=4, joinstyle="round")
+        self.body = Polygon(
+            np.zeros((1, 2)), fc=style.BODY, ec=style.INK, lw=1.2, alpha=alpha, zorder=4, joinstyle="round"
         )
+        axes.add_patch(self.body)
         self.up = axes.add_line(
             Line2D([], [], color=style.INK, lw=1.2, alpha=alpha, zorder=4.2, solid_capstyle="round")
         )
-        self.links, self.grips, self.rings, self.joints = [], [], [], []
+        self.links: list[Polygon] = []
+        self.grips: list[Line2D] = []
+        self.rings: list[Circle] = []
+        self.joints: list[Line2D] = []
         for i in range(n):
             colour = style.PARTS[i % len(style.PARTS)]
             for _ in range(2):
                 link = Polygon(
                     np.zeros((1, 2)), fc=colour, ec=style.PAPER, lw=0.7, alpha=0.88 * alpha, zorder=5 + 0.1 * i
                 )
-                self.links.append(axes.add_patch(link))
+                axes.add_patch(link)
+                self.links.append(link)
             line = Line2D([], [], color=colour, lw=1.8, alpha=alpha, zorder=6.5, solid_capstyle="round")
             self.grips.append(axes.add_line(line))
             ring = Circle((0, 0), 2.2 * self.least, fc=colour, ec=style.PAPER, lw=0.6, alpha=0.9 * alpha, zorder=6)
-            self.rings.append(axes.add_patch(ring))
+            axes.add_patch(ring)
+            self.rings.append(ring)
             dots = Line2D([], [], ls="", marker="o", ms=2.6, mfc=style.PAPER, mec="none", alpha=alpha, zorder=6)
             self.joints.append(axes.add_line(dots))
         self.numbers: list[Annotation] = []
         for _ in range(n if arrows else 0):
             number = axes.annotate(
-                "", (0.0, 0.0), xytext=(-4, 4), textcoords="offset points", ha="right", va="bottom", fontsize=7.5, weight="bold",
-                color=style.INK, zorder=8, path_effects=[halo(2.5)],
+                "", (0.0, 0.0), xytext=(-4, 4), textcoords="offset points", ha="right", va="bottom", fontsize=7.5,
+                weight="bold", color=style.INK, zorder=8, path_effects=[halo(2.5)],
             )  # fmt: skip
             self.numbers.append(number)
         self.arrows: list[FancyArrowPatch] = []
@@ -100,7 +106,8 @@ class ClimberArtists:
                 shrinkB=0,
                 clip_on=False,
             )
-            self.arrows.append(axes.add_patch(arrow))
+            axes.add_patch(arrow)
+            self.arrows.append(arrow)
 
     @property
     def artists(self) -> list[Artist]:

@@ -1,6 +1,7 @@
 """A climb as frames: what every animation shows, whatever it is written as."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -32,10 +33,7 @@ def make_frames(view: ClimbView, most: int) -> list[Frame]:
     Forces and torques pass evenly from one stance to the next; only those of settled stances are computed.
     """
     task, stances = view.task, view.replay.stances
-    transitions = [
-        Transition(task.robot, task.world, before, after).phases()
-        for before, after in zip(stances[:-1], stances[1:], strict=True)
-    ]
+    transitions = [Transition(task.robot, task.world, before, after).phases() for before, after in pairwise(stances)]
     wanted = sum(FRAMES[phase.kind] for phases in transitions for phase in phases)
     thin = min(1.0, most / max(wanted + 1, 1))
     frames = [Frame(0, view.snapshot(0), 3 * PAUSE)]

@@ -1,6 +1,6 @@
 """Where the parts of a limbed climber are in a stance: joints, tips and body outline from the pose, without kernels.
 
-Points are complex numbers x + iy inside this file, and arrays of shape (..., 2) outside it. World frame [m] unless said otherwise.
+Points are complex numbers x + iy inside this file, and arrays of shape (..., 2) outside it; world frame [m] unless said.
 """
 
 import cmath
@@ -8,6 +8,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from ..actions.problem import Records
 from ..robots.limbed import Limb, LimbedRobot
@@ -46,8 +47,8 @@ def limb_chain(limb: Limb, origin: complex, angle: float, tip: complex, side: fl
         origin: Body origin, world frame [m].
         angle: Body angle [rad].
         tip: Where the tip should be, world frame [m]; out of reach, the limb points at it, stretched.
-        side: 1 for branch 0 and -1 for branch 1. Between them the elbow passes from one side to the other, as if it turned out
-            of the plane: the links look shorter then, and both ends stay where they are.
+        side: 1 for branch 0 and -1 for branch 1. Between them the elbow passes from one side to the other, as if it
+            turned out of the plane: the links look shorter then, and both ends stay where they are.
 
     Returns:
         Four points, world frame [m].
@@ -59,10 +60,7 @@ def limb_chain(limb: Limb, origin: complex, angle: float, tip: complex, side: fl
     distance = abs(v)
     ahead = v / distance if distance > 0.0 else turn * cmath.exp(1j * limb.port_angle)
     reached = min(max(distance, abs(l1 - l2)), l1 + l2)
-    if reached > 0.0:
-        along = (reached * reached + l1 * l1 - l2 * l2) / (2.0 * reached)
-    else:
-        along = 0.0
+    along = (reached * reached + l1 * l1 - l2 * l2) / (2.0 * reached) if reached > 0.0 else 0.0
     across = math.sqrt(max(l1 * l1 - along * along, 0.0))
     # branch 0 bends the second link to the left, so that the elbow lies to the right of the line from port to tip
     elbow = port + ahead * complex(along, -side * across)
@@ -100,7 +98,7 @@ def stance_tips(robot: LimbedRobot, board: Board, stance: np.void) -> list[compl
 
 
 def stance_sides(robot: LimbedRobot, stance: np.void, tips: list[complex]) -> list[float]:
-    """Side of each limb's elbow (1: branch 0, -1: branch 1): as solved; a free limb's other one where only that fits its joints."""
+    """Side of each elbow (1: branch 0, -1: branch 1): as solved; a free limb's other one if only that fits its joints."""
     origin, angle = complex(stance["x"], stance["y"]), float(stance["angle"])
     sides = []
     for i, limb in enumerate(robot.limbs):
@@ -145,7 +143,7 @@ def stance_posture(robot: LimbedRobot, board: Board, stance: np.void) -> Posture
     return pose(robot, origin, angle, tips, stance_sides(robot, stance, tips), held)
 
 
-def body_outline(robot: LimbedRobot) -> np.ndarray[tuple[int], np.dtype[np.complex128]]:
+def body_outline(robot: LimbedRobot) -> npt.NDArray[np.complex128]:
     """Corners of the body, body frame [m], anticlockwise: the polygon of its ports, extended by the body margin."""
     round_ = max(robot.body_margin, 1e-3) * np.exp(1j * np.linspace(0.0, math.tau, ROUNDING, endpoint=False))
     ports = np.array([complex(limb.port_x, limb.port_y) for limb in robot.limbs])
@@ -154,7 +152,8 @@ def body_outline(robot: LimbedRobot) -> np.ndarray[tuple[int], np.dtype[np.compl
     directions = np.exp(1j * np.linspace(-math.pi, math.pi, 8 * ROUNDING, endpoint=False))
     farthest = np.argmax((points[None, :] * directions.conj()[:, None]).real, axis=1)
     kept = [int(k) for k, before in zip(farthest, np.roll(farthest, 1), strict=True) if k != before]
-    return points[kept]
+    corners: npt.NDArray[np.complex128] = points[kept]
+    return corners
 
 
 def capsule(a: Floats, b: Floats, radius: float, points: int = 10) -> Floats:

@@ -37,7 +37,12 @@ def make_palette(pixels: Pixels) -> Image.Image:
     exact = [int(colour[k : k + 2], 16) for colour in (*named, *style.PARTS, *style.STRIP) for k in (1, 3, 5)]
     room = COLOURS - len(exact) // 3
     mixed = Image.fromarray(pixels).quantize(room, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
-    colours = exact + (mixed.getpalette() or [])[: 3 * room]
+    ours = np.array(exact).reshape(-1, 3)
+    colours = list(exact)
+    for colour in np.array((mixed.getpalette() or [])[: 3 * room]).reshape(-1, 3):
+        # one that is nearly ours would win over it now and then, for Pillow looks colours up coarsely
+        if np.abs(ours - colour).max(axis=1).min() > 8:
+            colours += colour.tolist()
     palette = Image.new("P", (1, 1))
     palette.putpalette(colours + exact[:3] * (COLOURS - len(colours) // 3))  # filled up, so that no index is left over
     return palette
@@ -63,7 +68,7 @@ def write_gif(view: ClimbView, path: Path, *, most_frames: int = MOST_FRAMES) ->
     content = BytesIO()
     durations = [10 * round(FRAME_MS * frame.length / 10) for frame in frames]
     images[0].save(
-        content, "GIF", save_all=True, append_images=images[1:], duration=durations, loop=0, disposal=1, transparency=COLOURS,
-        optimize=False,
+        content, "GIF", save_all=True, append_images=images[1:], duration=durations, loop=0, disposal=1,
+        transparency=COLOURS, optimize=False,
     )  # fmt: skip
     write_atomically(path, content.getvalue())

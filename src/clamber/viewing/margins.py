@@ -1,4 +1,4 @@
-"""Which check is the nearest to failing: margins of different units compared by the size of what they are margins of."""
+"""Which check is the nearest to failing: margins of different units, compared as shares of what is limited."""
 
 import math
 from dataclasses import dataclass

@@ -1,7 +1,7 @@
 """What happens between two stances, so that it can be drawn: the body moves, hangs and swings, a limb reaches out.
 
-A replay keeps the stances after each action only. The motion in between is ours: it starts and ends exactly in them, keeps every
-holding tip on its hold, and swings a hanging robot about the hold it hangs on.
+A replay keeps the stances after each action only. The motion in between is ours: it starts and ends exactly in them,
+keeps every holding tip on its hold, and swings a hanging robot about the hold it hangs on.
 """
 
 import cmath

@@ -1,4 +1,4 @@
-"""The panel beside the wall: torque of every joint against its limit, key of the force arrows, and the strip of steps."""
+"""The panel beside the wall: torques of joints against their limits, key of the force arrows, strip of steps."""
 
 from dataclasses import dataclass
 
@@ -30,7 +30,7 @@ def torque_limits(task: LimbedTask) -> Floats:
     )
 
 
-def show_torque(task: LimbedTask, torque: float, *, ounces: bool) -> str:
+def show_torque(torque: float, *, ounces: bool) -> str:
     """A torque for people: ounce-inches beside a task in inches, else newton metres."""
     return f"{torque / OZ_IN:.0f} oz-in" if ounces else f"{torque:.2f} N m"
 
@@ -71,7 +71,8 @@ class TorqueBars:
             axes.text(self.start - 0.06, y, name, fontsize=7, ha="right", va="center", color=style.INK)
             axes.add_patch(Rectangle((self.start, y - 0.3 * pitch), self.length, 0.6 * pitch, fc=style.FAINT, lw=0))
             bar = Rectangle((self.start, y - 0.3 * pitch), 0.0, 0.6 * pitch, fc=colour, lw=0)
-            self.bars.append(axes.add_patch(bar))
+            axes.add_patch(bar)
+            self.bars.append(bar)
             value = axes.text(self.start + self.length + 0.06, y, "", fontsize=7, va="center", color=style.INK)
             self.values.append(value)
         self.bottom = top - pitch * count - 0.05 * (count // 2) - 0.05
@@ -92,7 +93,7 @@ class TorqueBars:
             share = abs(torque) / limit
             self.bars[k].set_width(self.length * min(share, 1.0))
             self.bars[k].set_facecolor(style.ALERT if share > NEAR_LIMIT else style.PARTS[(k // 2) % len(style.PARTS)])
-            self.values[k].set_text(show_torque(self.task, torque if abs(torque) > 1e-9 else 0.0, ounces=self.ounces))
+            self.values[k].set_text(show_torque(torque if abs(torque) > 1e-9 else 0.0, ounces=self.ounces))
 
 
 def draw_force_key(axes: Axes, task: LimbedTask, place: Place, inches_per_metre: float) -> None:

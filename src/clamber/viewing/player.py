@@ -1,4 +1,4 @@
-"""A climb as one HTML file that plays in any browser, from a local file too: all data inside, nothing loaded from elsewhere."""
+"""A climb as one HTML file that plays in any browser: all data inside, nothing loaded from elsewhere."""
 
 import html
 import json
@@ -47,8 +47,8 @@ def player_data(view: ClimbView, frames: list[Frame]) -> Json:
         "unit": [unit, size * GRID],
         "bounds": _whole(view.bounds),
         "palette": {
-            "strip": style.STRIP, "words": style.STRIP_WORDS, "body": style.BODY, "hold": style.HOLD, "goal": style.GOAL,
-            "force": style.FORCE, "alert": style.ALERT,
+            "strip": style.STRIP, "words": style.STRIP_WORDS, "body": style.BODY, "hold": style.HOLD,
+            "goal": style.GOAL, "force": style.FORCE, "alert": style.ALERT,
         },
         "holds": [
             {

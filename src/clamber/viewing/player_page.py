@@ -1,3 +1,4 @@
+# ruff: noqa: E501 - a page, not code
 """The page of the player: HTML, style and script; `player` puts the title and the data into it."""
 
 from typing import Final
@@ -22,7 +23,7 @@ aside { display: flex; flex-direction: column; min-height: 0; gap: 10px; }
 dl { margin: 0; display: grid; grid-template-columns: 94px 1fr; gap: 2px 6px; font-size: 13px; }
 dt { color: var(--quiet); } dd { margin: 0; }
 h2 { font-size: 13px; margin: 0 0 4px; }
-.bar { display: grid; grid-template-columns: 118px 1fr 80px; gap: 6px; align-items: center; font-size: 12px; height: 18px; }
+.bar { display: grid; grid-template-columns: 134px 1fr 80px; gap: 6px; align-items: center; font-size: 12px; height: 18px; }
 .bar span:first-child { text-align: right; white-space: nowrap; overflow: hidden; text-overflow: ellipsis; }
 .bar span:last-child { font-variant-numeric: tabular-nums; }
 .track { background: var(--faint); height: 10px; position: relative; border-right: 2px solid #c1272d; }
@@ -201,7 +202,7 @@ function describe(step) {
 }
 function drawStrip(step) {
   const g = fit(strip), W = strip.clientWidth, H = strip.clientHeight; g.clearRect(0, 0, W, H);
-  for (let s = 0; s < D.steps.length; s++) { const a = starts[s ? firstFrame[s - 1] : 0] / total * W, b = starts[firstFrame[s]] / total * W;
+  for (let s = 0; s < D.steps.length; s++) { const a = starts[s ? firstFrame[s - 1] : 0] / total * W, b = s === D.steps.length - 1 ? W : starts[firstFrame[s]] / total * W;
     if (s) { g.fillStyle = D.palette.strip[D.steps[s].grade]; g.fillRect(a, 0, Math.max(b - a, 1) + .5, H); } }
   g.fillStyle = "#22303c"; g.fillRect(now / total * W - 1, 0, 2, H);
 }

@@ -23,13 +23,14 @@ def rasterise(view: ClimbView, frames: list[Frame], dpi: int) -> Iterator[Pixels
     artists = view.artists
     for artist in artists:
         artist.set_animated(True)
-    canvas.draw()
-    still = canvas.copy_from_bbox(figure.bbox)
+    canvas.draw()  # type: ignore[no-untyped-call]
+    still = canvas.copy_from_bbox(figure.bbox)  # type: ignore[no-untyped-call]
     for frame in frames:
-        canvas.restore_region(still)
+        canvas.restore_region(still)  # type: ignore[no-untyped-call]
         view.show(frame.step, frame.snapshot)
         for artist in artists:
             figure.draw_artist(artist)
-        yield np.asarray(canvas.buffer_rgba())[..., :3].copy()
+        colours = np.asarray(canvas.buffer_rgba())  # type: ignore[no-untyped-call]
+        yield colours[..., :3].copy()
     for artist in artists:
         artist.set_animated(False)

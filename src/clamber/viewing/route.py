@@ -1,23 +1,25 @@
-"""One still picture of a whole climb: the body's way, ghosts of the robot along it, and the order in which holds are used."""
+"""One still picture of a whole climb: way of the body, ghosts of the robot along it, holds in the order of use."""
 
 from pathlib import Path
 from typing import Final
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ..actions.problem import Replay
 from ..tasks.limbed import LimbedTask
+from ..types import Floats
 from . import style
 from .climber import ClimberArtists, Snapshot
-from .geometry import postures
+from .geometry import Posture, postures
 from .margins import all_limiting, grade
 from .motion import Transition
 from .output import CANVASES, check_suffix, save_figure
 from .panel import Place, StepStrip, show_torque, torque_limits
-from .scene import draw_scene, find_bounds, halo
+from .scene import Bounds, draw_scene, find_bounds, halo
 from .style import styled
 from .view import EDGE, PANEL_WIDTH, WIDE, Layout
 from .words import length_unit
@@ -25,7 +27,11 @@ from .words import length_unit
 GHOSTS: Final = 6
 """Postures drawn between start and end, at most."""
 ARC: Final = 12
-"""Points of the body's way within one action."""
+"""Points of the body's way within one swing."""
+FACTS: Final = 1.85
+"""Height of the panel's facts and strip [in]."""
+ROW: Final = 0.15
+"""Height of a row of small print [in]."""
 
 
 def draw_limbed_route(task: LimbedTask, replay: Replay, path: str | Path) -> None:
@@ -43,77 +49,86 @@ def draw_limbed_route(task: LimbedTask, replay: Replay, path: str | Path) -> Non
 def _route_figure(task: LimbedTask, replay: Replay) -> Figure:
     shown = postures(task.robot, task.world, replay.stances)
     bounds = find_bounds(task, shown)
-    uses = holds_used(task, replay)
-    lines = [
-        f"{name}:  " + " › ".join(str(number) for number in uses[i]) for i, name in enumerate(task.robot.limb_names)
+    uses = [
+        wrap_words(f"{name}:  " + " › ".join(map(str, numbers)))
+        for name, numbers in zip(task.robot.limb_names, holds_used(task, replay), strict=True)
     ]
-    wrapped = [wrap_words(line) for line in lines]
-    rows = sum(len(words) for words in wrapped)
+    words = 0.4 + sum(ROW * len(rows) + 0.05 for rows in uses)
     below = bounds[1] - bounds[0] > WIDE * (bounds[3] - bounds[2])
-    words_height = 0.4 + 0.15 * rows + 0.05 * len(wrapped)
-    layout = Layout(bounds, max(words_height, 1.7) if below else 1.85 + words_height, height=6.6)
+    layout = Layout(bounds, max(words, FACTS) if below else FACTS + words, height=6.6)
     figure = Figure(figsize=layout.size)
     figure.set_facecolor(style.PAPER)
     wall = layout.axes(figure, layout.wall_at, layout.wall)
     draw_scene(wall, task, bounds)
-    picked = _ghosts(replay, shown)
-    for rank, k in enumerate(picked):
-        last = rank == len(picked) - 1
-        climber = ClimberArtists(wall, task, bounds, alpha=1.0 if last else 0.30, arrows=False)
-        n = len(task.robot.limbs)
-        climber.update(Snapshot(shown[k], np.zeros((n, 2)), np.zeros((n, 2))))
-        if not last:
-            wall.annotate(
-                "start" if k == 0 else f"step {k}", (shown[k].x, shown[k].y), xytext=(7, -9), textcoords="offset points",
-                fontsize=6.5, color=style.INK, zorder=9, path_effects=[halo()],
-            )  # fmt: skip
-    way, step_of = body_way(task, replay)
-    segments = np.stack([way[:-1], way[1:]], axis=1)
-    colours = np.arange(len(segments)) / max(len(segments), 1)
-    wall.add_collection(LineCollection(list(segments), linewidths=3.4, colors=style.PAPER, zorder=7, capstyle="round"))
-    line = LineCollection(list(segments), linewidths=1.8, cmap="viridis", zorder=7.1, capstyle="round")
-    line.set_array(colours * 0.85)
-    line.set_clim(0.0, 1.0)
-    wall.add_collection(line)
-    assert len(step_of) == len(way)
+    _draw_ghosts(wall, task, shown, bounds)
+    _draw_way(wall, body_way(task, replay))
     panel = layout.axes(figure, layout.panel_at, layout.panel)
-    limits = all_limiting(task, replay.margins, replay.reasons)
     width, height = layout.panel
-    ounces = length_unit(task)[0] == "in"
-    worst = min((limit for limit in limits if limit is not None), key=lambda limit: limit.share, default=None)
-    torque = float(np.max(np.abs(replay.stances["torques"][:, : len(task.robot.limbs)])))
-    facts = [
-        ("Actions", f"{len(replay.reasons)}, {int(np.sum(replay.reasons >= 0))} of them violated"
-         if not replay.ok else f"{len(replay.reasons)}, all of them hold"),
-        ("Hangs", str(int(replay.stances["hangs"][-1]))),
-        ("Largest torque", f"{show_torque(task, torque, ounces=ounces)} of {show_torque(task, float(torque_limits(task).max()), ounces=ounces)}"),
-        ("Nearest limit", "not judged" if worst is None else f"{worst} at step {limits.index(worst) + 1}"),
-    ]  # fmt: skip
-    for k, (name, words) in enumerate(facts):
-        panel.text(0.0, height - 0.2 * k, name, fontsize=8, va="top", color=style.QUIET)
-        panel.text(1.05, height - 0.2 * k, words, fontsize=8, va="top")
-    strip = StepStrip(panel, [grade(limit) for limit in limits], Place(0.0, height - 1.0, PANEL_WIDTH - 0.1))
-    strip.update(len(replay.reasons))
-    left, top = (PANEL_WIDTH + 0.4, height) if layout.below else (0.0, height - 1.85)
-    panel.text(left, top, "Holds in the order of use", fontsize=9, weight="bold", va="top")
-    y = top - 0.26
-    for i, words in enumerate(wrapped):
-        panel.add_line(
-            Line2D([left + 0.04], [y - 0.06], marker="s", ms=6, color=style.PARTS[i % len(style.PARTS)], ls="")
-        )
-        for row in words:
-            panel.text(left + 0.18, y, row, fontsize=7, va="top")
-            y -= 0.15
-        y -= 0.05
+    _write_facts(panel, task, replay, height)
+    _write_uses(panel, uses, *((PANEL_WIDTH + 0.4, height) if layout.below else (0.0, height - FACTS)))
     panel.set_xlim(0.0, width)
     panel.set_ylim(0.0, height)
     panel.axis("off")
     w, h = layout.size
-    words = f"The whole climb: {len(replay.reasons)} actions"
-    figure.text(EDGE / w, 1 - 0.13 / h, words, fontsize=11, weight="bold", va="top")
+    title = f"The whole climb: {len(replay.reasons)} actions"
+    figure.text(EDGE / w, 1 - 0.13 / h, title, fontsize=11, weight="bold", va="top")
     subtitle = f"{task.title}. Line: way of the body, dark at the start"
     figure.text(EDGE / w, 1 - 0.35 / h, subtitle, fontsize=8.5, va="top", color=style.QUIET)
     return figure
+
+
+def _draw_ghosts(wall: Axes, task: LimbedTask, shown: list[Posture], bounds: Bounds) -> None:
+    unloaded = np.zeros((len(task.robot.limbs), 2))
+    last = len(shown) - 1
+    for k in _ghosts(shown):
+        climber = ClimberArtists(wall, task, bounds, alpha=1.0 if k == last else 0.3, arrows=False)
+        climber.update(Snapshot(shown[k], unloaded, unloaded))
+        if k < last:
+            wall.annotate(
+                f"step {k}" if k else "start", (shown[k].x, shown[k].y), xytext=(7, -9), textcoords="offset points",
+                fontsize=6.5, color=style.INK, zorder=9, path_effects=[halo()],
+            )  # fmt: skip
+
+
+def _draw_way(wall: Axes, way: Floats) -> None:
+    segments = list(np.stack([way[:-1], way[1:]], axis=1))
+    wall.add_collection(LineCollection(segments, linewidths=3.4, colors=style.PAPER, zorder=7, capstyle="round"))
+    line = LineCollection(segments, linewidths=1.8, cmap="viridis", zorder=7.1, capstyle="round")
+    line.set_array(np.linspace(0.0, 0.85, len(segments)))  # the palest yellow would not show
+    line.set_clim(0.0, 1.0)
+    wall.add_collection(line)
+
+
+def _write_facts(panel: Axes, task: LimbedTask, replay: Replay, height: float) -> None:
+    limits = all_limiting(task, replay.margins, replay.reasons)
+    worst = min((limit for limit in limits if limit is not None), key=lambda limit: limit.share, default=None)
+    ounces = length_unit(task)[0] == "in"
+    torque = float(np.max(np.abs(replay.stances["torques"][:, : len(task.robot.limbs)])))
+    most = show_torque(torque, ounces=ounces)
+    actions, violated = len(replay.reasons), int(np.sum(replay.reasons >= 0))
+    facts = (
+        ("Actions", f"{actions}, all of them hold" if replay.ok else f"{actions}, {violated} of them violated"),
+        ("Hangs", str(int(replay.stances["hangs"][-1]))),
+        ("Largest torque", f"{most} of {show_torque(float(torque_limits(task).max()), ounces=ounces)}"),
+        ("Nearest limit", "not judged" if worst is None else f"{worst} at step {limits.index(worst) + 1}"),
+    )
+    for k, (name, words) in enumerate(facts):
+        panel.text(0.0, height - 0.2 * k, name, fontsize=8, va="top", color=style.QUIET)
+        panel.text(1.05, height - 0.2 * k, words, fontsize=8, va="top")
+    strip = StepStrip(panel, [grade(limit) for limit in limits], Place(0.0, height - 1.0, PANEL_WIDTH - 0.1))
+    strip.update(actions)
+
+
+def _write_uses(panel: Axes, uses: list[list[str]], left: float, top: float) -> None:
+    panel.text(left, top, "Holds in the order of use", fontsize=9, weight="bold", va="top")
+    y = top - 0.26
+    for i, rows in enumerate(uses):
+        colour = style.PARTS[i % len(style.PARTS)]
+        panel.add_line(Line2D([left + 0.04], [y - 0.06], marker="s", ms=6, color=colour, ls=""))
+        for row in rows:
+            panel.text(left + 0.18, y, row, fontsize=7, va="top")
+            y -= ROW
+        y -= 0.05
 
 
 def holds_used(task: LimbedTask, replay: Replay) -> list[list[int]]:
@@ -127,20 +142,19 @@ def holds_used(task: LimbedTask, replay: Replay) -> list[list[int]]:
     return uses
 
 
-def body_way(task: LimbedTask, replay: Replay) -> tuple[np.ndarray, np.ndarray]:  # type: ignore[type-arg]
-    """Way of the body's origin, swings as arcs, world frame [m], shape (n, 2), and the action of each point, shape (n,)."""
-    points, steps = [(float(replay.stances["x"][0]), float(replay.stances["y"][0]))], [0]
-    for k, (before, after) in enumerate(zip(replay.stances[:-1], replay.stances[1:], strict=True), start=1):
+def body_way(task: LimbedTask, replay: Replay) -> Floats:
+    """Way of the body's origin, swings as arcs, world frame [m], shape (n, 2)."""
+    points = [(float(replay.stances["x"][0]), float(replay.stances["y"][0]))]
+    for before, after in zip(replay.stances[:-1], replay.stances[1:], strict=True):
         for phase in Transition(task.robot, task.world, before, after).phases():
             shares = np.linspace(0, 1, ARC)[1:] if phase.kind == "swing" else (1.0,)
             for share in shares if phase.kind in ("move", "swing") else ():
                 at = phase.at(float(share))
                 points.append((at.x, at.y))
-                steps.append(k)
-    return np.array(points), np.array(steps)
+    return np.array(points)
 
 
-def _ghosts(replay: Replay, shown: list) -> list[int]:  # type: ignore[type-arg]
+def _ghosts(shown: list[Posture]) -> list[int]:
     """Stances to draw: the start, the end, and between them some that are equally far apart along the body's way."""
     places = np.array([(posture.x, posture.y) for posture in shown])
     way = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(places, axis=0).T))])

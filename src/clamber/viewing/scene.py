@@ -32,7 +32,7 @@ def find_bounds(task: LimbedTask, postures: list[Posture]) -> Bounds:
     points = np.vstack(parts)
     low, high = points.min(axis=0), points.max(axis=0)
     pad = max(PAD, 0.03 * float((high - low).max()))
-    x0, y0, x1, y1 = *(low - pad), *(high + pad)
+    x0, y0, x1, y1 = (float(edge) for edge in (*(low - pad).tolist(), *(high + pad).tolist()))
     room = 2 * pad
     for goal in task.goals:  # an edge of a goal must be seen, with some of what lies beyond
         for edge, along_x, sign in (
@@ -44,7 +44,7 @@ def find_bounds(task: LimbedTask, postures: list[Posture]) -> Bounds:
                 x0, x1 = min(x0, edge + min(sign * room, 0.0)), max(x1, edge + max(sign * room, 0.0))
             else:
                 y0, y1 = min(y0, edge + min(sign * room, 0.0)), max(y1, edge + max(sign * room, 0.0))
-    return float(x0), float(x1), float(y0), float(y1)
+    return x0, x1, y0, y1
 
 
 def hold_radius(task: LimbedTask, bounds: Bounds) -> float:
@@ -53,7 +53,7 @@ def hold_radius(task: LimbedTask, bounds: Bounds) -> float:
 
 
 def goal_outline(goal: Goal, bounds: Bounds) -> Floats | None:
-    """Corners of a goal's region or box, open sides cut off at the picture's edge, shape (n, 2); None if it has neither."""
+    """Corners of a goal's region or box, open sides cut off at the picture's edge, shape (n, 2); None without either."""
     if goal.region is not None:
         return np.array(goal.region, dtype=np.float64)
     if all(side is None for side in (goal.x_min, goal.x_max, goal.y_min, goal.y_max)):

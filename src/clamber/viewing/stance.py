@@ -34,7 +34,7 @@ def draw_limbed_stance(task: LimbedTask, replay: Replay, step: int, target: str 
         task: The task.
         replay: A plan carried out on it.
         step: Number of the action, from 1; 0 is the start.
-        target: A file (.png, .svg, .pdf), which also gets torques, pose and nearest limit; or axes, which get the wall alone.
+        target: A file (.png, .svg, .pdf), which also gets torques, pose and nearest limit; or axes, for the wall alone.
 
     Raises:
         StepError: If there is no such step.

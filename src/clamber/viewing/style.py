@@ -1,4 +1,4 @@
-"""How every picture looks: one palette that colour-blind readers can tell apart (after Okabe and Ito), light and calm."""
+"""How every picture looks: light, calm, in colours that colour-blind readers can tell apart (after Okabe and Ito)."""
 
 from contextlib import AbstractContextManager
 from typing import Any, Final
@@ -49,7 +49,7 @@ RC: Final[dict[str, Any]] = {
 
 def styled() -> AbstractContextManager[None]:
     """A `with` block in which Matplotlib draws in Clamber's style; nothing global stays changed."""
-    return rc_context(RC)
+    return rc_context(RC)  # type: ignore[arg-type]  # its keys are literals there
 
 
 def bare(axes: Axes) -> None:

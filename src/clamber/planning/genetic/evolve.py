@@ -187,7 +187,7 @@ def _look(problem: CompiledProblem, state: Evolution) -> None:
             state.generation,
             state.evaluations,
             float(records["best"].max()),
-            int(records["actions"].max()),
+            int(records["actions"][np.argmax(records["best"])]),
             int(stages.max()),
         )
     )

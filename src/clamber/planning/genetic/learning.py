@@ -15,6 +15,8 @@ REPEATS = 2
 """How often a macro must work in a row from a start to count as working from there."""
 STARTS = 3
 """From how many different starts it must work."""
+LONG_RUN = 200
+"""How often in a row a macro is tried from the task's start."""
 LEAST_GAIN = 1e-3
 """Progress that every repetition must make [m]."""
 
@@ -45,7 +47,7 @@ def learn(problem: CompiledProblem, codes: Genes, *, most: int = 1) -> list[Macr
         most: How many macros to give.
 
     Returns:
-        Macros by how often they work in a row from the task's start, then by progress per action.
+        Macros by how far they lead when done again and again from the task's start, then by progress per action.
     """
     windows = {
         tuple(int(code) for code in codes[first : first + n])
@@ -81,32 +83,32 @@ def _choose(problem: CompiledProblem, codes: Genes, windows: Sequence[tuple[int,
         held, gain = _repeat(problem, table, start, REPEATS)
         works[:, column] = (held >= REPEATS) & (gain > REPEATS * LEAST_GAIN)
         gains = np.where(works[:, column], np.maximum(gains, gain / REPEATS), gains)
-    good = np.flatnonzero(works.sum(axis=1) >= min(STARTS, len(starts)))
-    if not len(good):
+    good = [int(i) for i in np.flatnonzero(works.sum(axis=1) >= min(STARTS, len(starts)))]
+    if not good:
         return []
-    long_run = 200
-    held, _ = _repeat(problem, ActionTable.build([(str(i), windows[i], False) for i in good]), problem.start, long_run)
+    table = ActionTable.build([(str(i), windows[i], False) for i in good])
+    held, _ = _repeat(problem, table, problem.start, LONG_RUN)
     lengths = np.array([len(windows[i]) for i in good])
-    rate = gains[good] / lengths
     way = held * gains[good]
-    order = np.lexsort((lengths, -np.round(rate, 9), -np.round(way, 6)))
-    text = [
-        tuple(int(code) for code in codes[i : i + n])
-        for n in {len(w) for w in windows}
-        for i in range(len(codes) - n + 1)
-    ]
+    order = np.lexsort((lengths, -np.round(gains[good] / lengths, 9), -np.round(way, 6)))
     return [
         Macro(
             name=f"macro {rank + 1}",
-            codes=windows[good[i]],
-            gain=float(gains[good[i]]),
-            starts=int(works[good[i]].sum()),
+            codes=windows[good[place]],
+            gain=float(gains[good[place]]),
+            starts=int(works[good[place]].sum()),
             tried=len(starts),
-            seen=text.count(windows[good[i]]),
-            from_start=int(held[i]),
+            seen=_count(codes, windows[good[place]]),
+            from_start=int(held[place]),
         )
-        for rank, i in enumerate(order[:most])
+        for rank, place in enumerate(order[:most].tolist())
     ]
+
+
+def _count(codes: Genes, window: tuple[int, ...]) -> int:
+    """How often a plan has a sequence."""
+    n = len(window)
+    return sum(tuple(codes[i : i + n].tolist()) == window for i in range(len(codes) - n + 1))
 
 
 def _spread_out(stances: Records, most: int = 12) -> list[Records]:

@@ -13,13 +13,20 @@ PATIENCE = 6
 """Turns without a shorter plan before polishing stops."""
 
 
+def spell_to_goal(problem: CompiledProblem, genes: Genes) -> Genes:
+    """The codes of a plan up to the goal, holds named; a macro may go on past it."""
+    codes = problem.actions.spell(genes)
+    stances = problem.replay(codes).stances
+    done = next((i for i in range(len(stances)) if problem.is_done(stances[i : i + 1])), len(codes))
+    return problem.resolve(codes[:done], stances)
+
+
 def explicit_problem(problem: CompiledProblem, genes: Genes) -> tuple[CompiledProblem, Genes]:
     """The problem with an inventory in which every hold is named, and the plan in it.
 
     "Nearest" changes its meaning when an earlier gene changes; a named hold does not, so a plan survives small cuts.
     """
-    codes = problem.actions.spell(genes)
-    named = problem.resolve(codes, problem.replay(codes).stances)
+    named = spell_to_goal(problem, genes)
     plain = [
         int(problem.actions.codes[problem.actions.offsets[g]])
         for g in range(len(problem.actions))

@@ -22,7 +22,7 @@ from clamber.planning.genetic.evolve import (
     tell,
 )
 from clamber.planning.genetic.learning import Macro, learn_while_searching
-from clamber.planning.genetic.polish import PATIENCE, explicit_problem, polish
+from clamber.planning.genetic.polish import BATCH, PATIENCE, explicit_problem, polish, spell_to_goal
 from clamber.planning.genetic.profile import Profile
 from clamber.planning.progress import Listener
 
@@ -38,7 +38,7 @@ class Budget:
     """When a search stops."""
 
     evaluations: int
-    """Most plans to evaluate, polishing included."""
+    """Most plans to evaluate, polishing included; the first generation is always evaluated."""
     seconds: float | None = None
     """Most wall-clock time [s]; a search that it ends is not repeatable."""
 
@@ -138,8 +138,14 @@ def search(
         _polish(problem, profile, run, seed, budget, started, keeper, listener, stages)
     except KeyboardInterrupt:
         interrupted = True
+    _note_success(run)
     keeper.save(run, now=True)
     return _outcome(problem, run, interrupted)
+
+
+def _note_success(run: _Run) -> None:
+    if run.state.found and run.first_length is None:
+        run.first_length, run.first_evaluations = run.state.best_actions, run.state.evaluations
 
 
 def _polish(
@@ -156,12 +162,11 @@ def _polish(
     state = run.state
     if not state.found:
         return
-    if run.first_length is None:
-        run.first_length, run.first_evaluations = state.best_actions, state.evaluations
+    _note_success(run)
     most = min(budget.evaluations, run.first_evaluations + profile.search.polish if run.first_evaluations else 0)
     named, start = explicit_problem(problem, state.best)
     genes = start if run.polished is None else _entries(named, run.polished)
-    while state.evaluations < most and run.stale < PATIENCE and not out_of_time(started, budget.seconds):
+    while state.evaluations + BATCH <= most and run.stale < PATIENCE and not out_of_time(started, budget.seconds):
         genes, shorter = polish(named, profile, state, genes, seed, run.turn)
         run.polished = named.actions.spell(genes)
         run.turn += 1
@@ -184,22 +189,13 @@ def _with_macros(problem: CompiledProblem, macros: list[Macro]) -> CompiledProbl
 def _outcome(problem: CompiledProblem, run: _Run, interrupted: bool) -> Outcome:
     state = run.state
     names: tuple[str, ...] = ()
+    codes = spell_to_goal(problem, state.best) if run.polished is None else run.polished
     if run.polished is None:
-        spelled = problem.actions.spell(state.best)
-        codes = problem.resolve(spelled, problem.replay(spelled).stances) if len(spelled) else spelled
         names = tuple(
             problem.actions.names[g]
             for g in state.best
             for _ in range(problem.actions.offsets[g + 1] - problem.actions.offsets[g])
         )[: len(codes)]
-    else:
-        codes = run.polished
-    if state.found:  # a macro may go on past the goal
-        replayed = problem.replay(codes)
-        done = next(
-            (i for i in range(len(replayed.stances)) if problem.is_done(replayed.stances[i : i + 1])), len(codes)
-        )
-        codes, names = codes[:done], names[:done]
     return Outcome(
         codes, state.found, interrupted, run.first_length, run.first_evaluations, state.evaluations, state.checks,
         tuple(state.history), tuple(run.macros), names,

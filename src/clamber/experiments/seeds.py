@@ -1,0 +1,39 @@
+"""How surely the default profile finds plans: many seeds of every task of the thesis, with and without hangs."""
+
+from collections.abc import Iterable
+from typing import Final
+
+from clamber.planning.genetic.profile import load_profile
+from clamber.tasks import load_task
+
+from .rows import Row, Say, keep_quiet
+from .trials import run_trials
+
+SEEDS: Final = range(20)
+TASKS: Final[dict[str, tuple[str, tuple[str, ...]]]] = {
+    "ladder, 3 in": ("ladder", ()),
+    "ladder, 1 in": ("ladder", ("step.length=1in",)),
+    "modified-ladder": ("modified-ladder", ()),
+    "h": ("h", ()),
+    "h, 1500 oz-in": ("h", ("motor.torque_limit=1500ozin",)),
+    "across": ("across", ()),
+    "circle": ("circle", ()),
+}
+"""Label -> task and overrides."""
+HANGS: Final[dict[str, tuple[str, ...]]] = {"hangs allowed": (), "no hangs": ("rules.max_hangs=0",)}
+
+
+def bench_seeds(
+    *, seeds: Iterable[int] = SEEDS, tasks: Iterable[str] = tuple(TASKS), say: Say = keep_quiet
+) -> list[Row]:
+    """Success, evaluations and lengths of the default profile on every task."""
+    profile = load_profile("default")
+    chosen = tuple(seeds)
+    rows = []
+    for label in tasks:
+        name, overrides = TASKS[label]
+        for hangs, rule in HANGS.items():
+            say(f"{label}, {hangs}")
+            trials = run_trials(load_task(name, (*overrides, *rule)), profile, chosen)
+            rows += trials.rows(f"{label}, {hangs}", aim=f"{len(chosen)}")
+    return rows

@@ -1,0 +1,162 @@
+"""Compiled kernels: a warm cache never answers for source that has changed, and threads and runs never change an answer."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from clamber.actions import codes
+from clamber.actions.codes import pack
+from clamber.actions.limbed_problem import LimbedProblem
+from clamber.actions.table import ActionTable
+from clamber.compiled import PACKAGE, kernel_files, kernel_hash
+from clamber.tasks import load_task
+
+FAMILY = """
+import numpy as np
+
+from clamber.actions.family import SCALARS, family_kernels
+from clamber.actions.tiny_rule import grown
+from clamber.compiled import kernel
+
+PARAMS = np.dtype([("gain", "f8")], align=True)
+STANCE = np.dtype([("x", "f8")], align=True)
+
+
+@kernel
+def step(p, before, code, after, margins):
+    after.x = grown(before.x, p.gain) + code
+    return -1
+
+
+@kernel
+def nothing(p, s):
+    return 0
+
+
+family_kernels(PARAMS, **{name: step if name == "step" else nothing for name in SCALARS})
+"""
+RULE = """
+from clamber.compiled import kernel
+
+
+@kernel
+def grown(x, gain):
+    return x * gain
+"""
+RUN = """
+import numpy as np
+from clamber.actions.loops import replay
+from clamber.actions.tiny import PARAMS, STANCE
+
+params, start, stances = np.zeros(1, PARAMS), np.zeros(1, STANCE), np.zeros(4, STANCE)
+params["gain"] = 3.0
+replay(params[0], start, np.array([1, 0, 2], np.int32), True, stances, np.zeros((3, 1)), np.zeros(3, np.int32))
+hits = sum(replay.stats.cache_hits.values())
+print(stances["x"][-1], hits)
+"""
+
+
+def copied(folder: Path) -> Path:
+    """The package without its data, and a family of a few lines in it whose step calls a kernel of another file."""
+    package = folder / "clamber"
+    shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__", "data"))
+    (package / "actions" / "tiny.py").write_text(FAMILY)
+    (package / "actions" / "tiny_rule.py").write_text(RULE)
+    return package
+
+
+def answer(package: Path, cache: Path) -> tuple[float, int]:
+    """What the copy computes in a process of its own, and how often its cache had the machine code."""
+    environment = {
+        **os.environ,
+        "CLAMBER_CACHE": str(cache),
+        "PYTHONPATH": str(package.parent),
+        "PYTHONDONTWRITEBYTECODE": "1",
+    }
+    done = subprocess.run([sys.executable, "-c", RUN], env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    value, hits = done.stdout.split()
+    return float(value), int(hits)
+
+
+def edit(path: Path, old: str, new: str) -> None:
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new))
+
+
+def test_an_edited_kernel_answers_anew_though_the_cache_is_warm(tmp_path: Path) -> None:
+    package, cache = copied(tmp_path), tmp_path / "cache"
+    assert answer(package, cache) == (11.0, 0)
+    assert answer(package, cache) == (11.0, 1)
+    edit(package / "actions" / "tiny_rule.py", "x * gain", "x * gain + 1.0")  # a helper in another file
+    assert answer(package, cache) == (24.0, 0)
+    edit(package / "actions" / "tiny.py", "+ code", "- code")  # the step itself
+    assert answer(package, cache) == (2.0, 0)
+    edit(package / "actions" / "tiny.py", "- code", "+ code")
+    edit(package / "actions" / "tiny_rule.py", "x * gain + 1.0", "x * gain")
+    assert answer(package, cache) == (11.0, 1)  # the old sources find their old machine code
+
+
+@pytest.mark.parametrize("name", ["actions/family.py", "actions/loops.py", "statics/programme.py", "compiled.py"])
+def test_the_hash_follows_every_file_that_decides_what_is_compiled(tmp_path: Path, name: str) -> None:
+    package = copied(tmp_path)
+    before = kernel_hash(package)
+    edit(package / name, "\n", "\n\n")
+    kernel_hash.cache_clear()
+    assert kernel_hash(package) != before
+
+
+def test_the_hash_leaves_out_files_without_kernels(tmp_path: Path) -> None:
+    package = copied(tmp_path)
+    before = kernel_hash(package)
+    edit(package / "units.py", "\n", "\n\n")
+    kernel_hash.cache_clear()
+    assert kernel_hash(package) == before
+    assert package / "units.py" not in kernel_files(package)
+    assert package / "actions" / "family.py" in kernel_files(package)
+
+
+def table(limbs: int) -> ActionTable:
+    """Every body move, release, nearest and random grab."""
+    entries = [(f"move {axis}", [pack(codes.MOVE, 0, axis)], True) for axis in range(6)]
+    for i in range(limbs):
+        entries.append((f"release {i}", [pack(codes.RELEASE, i)], False))
+        entries.append((f"random {i}", [pack(codes.RANDOM, i)], False))
+        entries += [(f"nearest {i} {k}", [pack(codes.NEAREST, i, k)], False) for k in (1, 2, 3)]
+    return ActionTable.build(entries)
+
+
+def plans(n: int, entries: int, longest: int = 60) -> tuple[Any, Any]:
+    rng = np.random.default_rng(7)
+    return rng.integers(0, entries, (n, longest)).astype(np.int32), rng.integers(1, longest + 1, n).astype(np.int32)
+
+
+@pytest.mark.parametrize("name", ["ladder", "circle", "gecko-climb"])
+def test_any_number_of_threads_gives_the_same_bits(name: str) -> None:
+    task: Any = load_task(name)
+    actions = table(len(task.robot.limbs))
+    genes, lengths = plans(4000, len(actions))
+    answers = []
+    for threads in (1, 2, 4):
+        problem = LimbedProblem(task, actions, threads=threads)
+        answers.append(problem.rollout(genes, lengths, np.ones(len(problem.features)), 60).tobytes())
+    assert answers[0] == answers[1] == answers[2]
+
+
+def test_random_grabs_are_the_same_every_time_and_differ_with_the_seed() -> None:
+    plan = np.array(
+        [pack(codes.RANDOM, 2), pack(codes.MOVE, 0, 2), pack(codes.RANDOM, 0), pack(codes.RANDOM, 1)] * 8, np.int32
+    )
+    taken = {}
+    for seed in (0, 0, 1, 2, 3, 2**62):
+        task: Any = load_task("circle", (f"seed={seed}",))
+        resolved = LimbedProblem(task, table(3)).replay(plan, go_on=True).stances["resolved"].tolist()
+        assert taken.setdefault(seed, resolved) == resolved
+    assert len({tuple(resolved) for resolved in taken.values()}) > 2
