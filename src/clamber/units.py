@@ -227,6 +227,7 @@ PositiveTorqueConstant = Annotated[float, Quantity("torque constant", above=0.0)
 PositiveAmplifierGain = Annotated[float, Quantity("amplifier gain", above=0.0)]
 PositiveAngularSpeed = Annotated[float, Quantity("angular speed", above=0.0)]
 PositivePower = Annotated[float, Quantity("power", above=0.0)]
+PositiveTime = Annotated[float, Quantity("time", above=0.0)]
 PositiveFrequency = Annotated[float, Quantity("frequency", above=0.0)]
 Ratio = Annotated[float, Quantity("ratio")]
 PositiveRatio = Annotated[float, Quantity("ratio", above=0.0)]

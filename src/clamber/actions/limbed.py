@@ -218,7 +218,9 @@ def edge_distance(x, y, polygon):
 
 @inlined
 def count_laps(p, before, after):
-    """Follow the branch cut of atan2 about the task's centre."""
+    """Follow the branch cut of atan2 about the task's centre, if some goal asks for turns."""
+    if not p.circles:
+        return
     was = math.atan2(before.y - p.centre_y, before.x - p.centre_x)
     now = math.atan2(after.y - p.centre_y, after.x - p.centre_x)
     if now - was > math.pi:

@@ -97,6 +97,14 @@ class LimbedPlans:
         index = int(stance["resolved"])
         return None if index < 0 else task.world.holds[index].number
 
+    def power(self, stance: np.void) -> float:
+        """Electrical power of the joints that hold the weight [W] (thesis 2.22)."""
+        return float(stance["power"])
+
+    def duration(self, task: LimbedTask) -> float:
+        """Time that one action takes [s]."""
+        return task.step.duration
+
     def torque(self, stance: np.void) -> float:
         """Largest joint torque [N m]."""
         return float(stance["torque"])

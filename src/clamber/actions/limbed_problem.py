@@ -177,6 +177,7 @@ def _fill_rules(
     centre = next((goal.centre for goal in task.goals if goal.centre is not None), (0.0, 0.0))
     row["centre_x"], row["centre_y"] = centre
     row["centre_angle"] = math.atan2(task.start.y - centre[1], task.start.x - centre[0])
+    row["circles"] = any(goal.turns is not None for goal in task.goals)
     row["seed"] = task.seed
     row["n_limbs"] = len(task.robot.limbs)
     row["n_goals"] = len(task.goals)
@@ -331,6 +332,8 @@ def _grid(
 ) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32], tuple[float, float, float, int, int]]:
     """Holds sorted into square cells: indices cell by cell, where each cell starts, and the grid's place and size."""
     low = points.min(axis=0) - 1e-6
+    size = points.max(axis=0) - low
+    cell = max(cell, float(np.sqrt(size[0] * size[1] / (4 * len(points) + 1024))), float(size.max()) / (len(points) + 1024))
     count = np.maximum(1, np.ceil((points.max(axis=0) + 1e-6 - low) / cell).astype(int))
     column = ((points - low) / cell).astype(int)
     where = column[:, 1] * count[0] + column[:, 0]

@@ -51,6 +51,14 @@ class PlanFamily(Protocol):
         """Number of the hold that the last action took, None if it took none."""
         ...
 
+    def power(self, stance: np.void) -> float:
+        """Power that holding the stance takes [W]."""
+        ...
+
+    def duration(self, task: Any) -> float:
+        """Time that one action takes [s]."""
+        ...
+
     def torque(self, stance: np.void) -> float:
         """Largest joint torque [N m]."""
         ...

@@ -37,6 +37,8 @@ class StepVerdict:
     """Number of the hold that "nearest" takes here, where the plan's file asks for that and prints the hold taken."""
     max_torque: float | None
     """Largest joint torque [N m]; None where it could not be had."""
+    power: float | None
+    """Electrical power that holding the stance takes [W]; None where it could not be had."""
     margins: dict[str, float | None]
     """Check -> signed margin in its own unit; None where nothing limits it or it could not be had."""
     reported: tuple[str, ...]
@@ -57,6 +59,7 @@ class StepVerdict:
             "hold": self.hold,
             "nearest": self.nearest,
             "max_torque_oz_in": None if self.max_torque is None else self.max_torque / OZ_IN,
+            "power_W": self.power,
             "reported": list(self.reported),
             "margins": self.margins,
         }
@@ -83,6 +86,10 @@ class Verdict:
     goals_met: int
     max_torque: float
     """Largest joint torque of the actions that hold [N m]."""
+    max_power: float
+    """Largest electrical power that holding a stance takes [W]."""
+    energy: float
+    """Electrical energy of the actions that hold: power of each stance times the time of an action [J]."""
     pose: tuple[float, float, float]
     """Body at the end, world frame [m, m, rad]; before the violating action where the replay stopped there."""
     holds: dict[str, int]
@@ -141,6 +148,8 @@ class Verdict:
             "first_violation": None if first is None else _violation(first),
             "max_torque_oz_in": self.max_torque / OZ_IN,
             "max_torque_Nm": self.max_torque,
+            "max_power_W": self.max_power,
+            "energy_J": self.energy,
             "final": {"x_in": x / INCH, "y_in": y / INCH, "theta_deg": theta / DEGREE, "holds": self.holds},
             "hard": list(self.hard),
             "warnings": {name: list(steps) for name, steps in self.warnings().items()},
@@ -186,6 +195,7 @@ def check_plan(
     hard = family.hard(task)
     rows = tuple(_judge(family, task, plan.actions[i], replay, i, hard, nearest[i]) for i in range(len(replay.reasons)))
     held = [row for row in rows if row.ok]
+    powers = [row.power for row in held if row.power is not None]
     last = replay.stances[-1] if go_on or replay.ok else replay.stances[-2]
     return Verdict(
         task=task.name,
@@ -198,6 +208,8 @@ def check_plan(
         goals=len(task.goals),
         goals_met=family.goals_met(last),
         max_torque=max((row.max_torque for row in held if row.max_torque is not None), default=0.0),
+        max_power=max(powers, default=0.0),
+        energy=family.duration(task) * sum(powers),
         pose=family.pose(last),
         holds=family.holds(task, last),
         checks=family.checks,
@@ -230,6 +242,7 @@ def _judge(
         hold=family.taken(task, after),
         nearest=nearest,
         max_torque=family.torque(after) if whole else None,
+        power=family.power(after) if whole else None,
         margins=margins,
         reported=tuple(
             name for name, margin in zip(names, row, strict=True) if margin < -TOLERANCE and name not in hard

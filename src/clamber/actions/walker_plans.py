@@ -74,6 +74,14 @@ class WalkerPlans:
         """None: a walker takes no holds."""
         return None
 
+    def power(self, stance: np.void) -> float:
+        """0: the model has no forces."""
+        return 0.0
+
+    def duration(self, task: WalkerTask) -> float:
+        """0: the model has no time."""
+        return 0.0
+
     def torque(self, stance: np.void) -> float:
         """0: the model has no forces."""
         return 0.0

@@ -53,10 +53,11 @@ def _summary(verdict: Verdict) -> str:
     loaded = any(check.name == "torque" for check in verdict.checks)
     held = f"; holds: {held}" if held else ""
     reached = "goal reached" if verdict.reached else "goal not reached"
+    torque = f"largest torque {verdict.max_torque / OZ_IN:.0f} oz-in, power {verdict.max_power:.1f} W, "
     return (
         f"{verdict.steps} of {verdict.length} actions of '{verdict.task}' hold; "
-        f"{reached} ({verdict.goals_met} of {verdict.goals})"
-        f"{f'; largest torque {verdict.max_torque / OZ_IN:.0f} oz-in' if loaded else ''}\n"
+        f"{reached} ({verdict.goals_met} of {verdict.goals})\n"
+        f"{f'{torque}energy {verdict.energy:.0f} J' + chr(10) if loaded else ''}"
         f"end: x {x / INCH:.2f} in, y {y / INCH:.2f} in, theta {theta / DEGREE:.1f} deg{held}"
     )
 

@@ -358,9 +358,15 @@ def judge(p, s, grabbing, swing, margins):
     fenced = p.n_keep_out > 0 and p.seen & (1 << KEEP_OUT)
     if fenced or p.seen & (1 << LIMB_LIMB | 1 << LIMB_BODY | 1 << LIMB_PEG):
         interference(p, s, margins)
-    for check in range(N_CHECKS):
-        if p.hard & (1 << check) and margins[check] < -TOLERANCE:
-            return check
+    violated = 0
+    for check in range(N_CHECKS):  # no branches, so that it vectorises
+        violated |= (1 << check) if margins[check] < -TOLERANCE else 0
+    violated &= p.hard
+    if violated:
+        check = 0
+        while not violated & (1 << check):
+            check += 1
+        return check
     if p.kept:
         for i in range(n):
             if s.hold[i] >= 0:

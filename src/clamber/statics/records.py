@@ -75,6 +75,7 @@ PARAMS = np.dtype(
         ("offset_while_holding", "i4"),
         ("replace", "i4"),
         ("kept", "i4"),
+        ("circles", "i4"),  # some goal asks for turns about the centre
         ("hard", "i4"),
         ("seen", "i4"),
         ("opposed", "i4", (LIMBS,)),  # bit j of entry i: limbs i and j count as one on each side

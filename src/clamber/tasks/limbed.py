@@ -22,6 +22,7 @@ from ..units import (
     Point,
     Polygon,
     PositivePower,
+    PositiveTime,
     Quantity,
     Ratio,
 )
@@ -43,6 +44,8 @@ class Step:
     """[m]."""
     angle: Annotated[float, Quantity("angle", at_least=1e-6)]
     """[rad]; divides a turn."""
+    duration: PositiveTime = 1.0
+    """Time that one action takes, for the energy of a plan [s]; chosen, nobody prints it."""
 
 
 @spec
@@ -208,6 +211,7 @@ def build_limbed_task(document: Document) -> LimbedTask:
     goals = tuple(_resolve(goal, stated.step) for goal in (*stated.subgoals, stated.goal))
     for key, goal in zip(keys, goals, strict=True):
         _check_goal(goal, key, robot, board, document)
+    _check_centres(keys, goals, document)
     rest = {key: value for key, value in document.data.items() if key not in {"robot", "board", "labels"}}
     return LimbedTask(
         name=stated.name,
@@ -304,6 +308,13 @@ def _check_goal(goal: Goal, key: str, robot: LimbedRobot, board: Board, document
             key,
             f"lies {nearest:.4g} m from the nearest hold, but robot '{robot.name}' reaches {robot.longest_reach:.4g} m",
         )
+
+
+def _check_centres(keys: tuple[str, ...], goals: tuple[Goal, ...], document: Document) -> None:
+    circled = [(key, goal.centre) for key, goal in zip(keys, goals, strict=True) if goal.centre is not None]
+    for key, centre in circled[1:]:
+        if centre != circled[0][1]:
+            raise document.problem(f"{key}.centre", f"must be that of '{circled[0][0]}'; turns count about one centre a task")
 
 
 def _check_order(box: Goal | Keep, key: str, axes: tuple[str, ...], document: Document) -> None:

@@ -118,7 +118,7 @@ def search(
         tell(listener, problem, run.state, stages)
         while (
             not run.state.found
-            and run.state.evaluations < budget.evaluations
+            and run.state.evaluations + profile.search.population <= budget.evaluations
             and not out_of_time(started, budget.seconds)
         ):
             if (

@@ -1,0 +1,32 @@
+"""The benchmarks by name."""
+
+from collections.abc import Callable
+from typing import Final
+
+from .ablation import bench_ablation
+from .races import race_rows
+from .reductions import filter_rows, macro_rows
+from .rows import Row as Row
+from .rows import Say, keep_quiet
+from .seeds import bench_seeds
+from .speed import speed_rows
+from .starts import start_rows
+
+
+def bench_plan(*, say: Say = keep_quiet) -> list[Row]:
+    """Speed of planning, whole: the evaluator, the search beside peers, processes, and what makes searches smaller."""
+    parts: tuple[Callable[..., list[Row]], ...] = (speed_rows, race_rows, start_rows, filter_rows, macro_rows)
+    return [row for part in parts for row in part(say=say)]
+
+
+BENCHES: Final[dict[str, Callable[..., list[Row]]]] = {
+    "plan": bench_plan,
+    "seeds": bench_seeds,
+    "ablation": bench_ablation,
+}
+"""Name -> benchmark; the command line's choices and the tests read it. Each can be called without arguments, or with `say`."""
+
+
+def run_bench(name: str, say: Say = keep_quiet) -> list[Row]:
+    """Run a benchmark by name."""
+    return BENCHES[name](say=say)

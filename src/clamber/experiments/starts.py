@@ -1,0 +1,64 @@
+"""What a user waits for and pays in memory: whole processes of the command line, from start to end."""
+
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+from typing import Final
+
+from .rows import NOTHING, Row, Say, keep_quiet
+
+COMMAND: Final = (sys.executable, "-c", "from clamber.cli import main; main()")
+STARTS: Final = 3
+BYTES_PER_UNIT: Final = 1 if sys.platform == "darwin" else 1024
+"""Of `ru_maxrss`."""
+
+
+def run_command(arguments: tuple[str, ...], cache: Path) -> tuple[float, float]:
+    """Run the command line once: seconds, and peak memory [MiB] (`NOTHING` on Windows).
+
+    Raises:
+        CalledProcessError: If it fails.
+    """
+    environment = {**os.environ, "CLAMBER_CACHE": str(cache)}
+    started = time.perf_counter()
+    quiet = subprocess.DEVNULL
+    child = subprocess.Popen((*COMMAND, *arguments), env=environment, stdout=quiet, stderr=quiet, stdin=quiet)
+    memory = NOTHING
+    if sys.platform == "win32":
+        code = child.wait()
+    else:
+        _, status, used = os.wait4(child.pid, 0)
+        code = child.returncode = os.waitstatus_to_exitcode(status)
+        memory = used.ru_maxrss * BYTES_PER_UNIT / 2**20
+    taken = time.perf_counter() - started
+    if code:
+        raise subprocess.CalledProcessError(code, arguments)
+    return taken, memory
+
+
+def start_rows(*, say: Say = keep_quiet) -> list[Row]:
+    """First start with an empty cache, second start, memory of a long search, and help."""
+    with tempfile.TemporaryDirectory(prefix="clamber-bench-") as name:
+        cache = Path(name)
+        say("first start: compiles")
+        first, _ = run_command(("plan", "ladder", "--json"), cache)
+        compiled = set(cache.rglob("*.nbc"))
+        say("second start")
+        again = [run_command(("plan", "ladder", "--json"), cache) for _ in range(STARTS)]
+        added = set(cache.rglob("*.nbc")) - compiled
+        say("memory")
+        long, memory = run_command(("plan", "h", "--json"), cache)
+        say("help")
+        helped = min(run_command(("--help",), cache)[0] for _ in range(STARTS))
+    return [
+        Row("clamber plan ladder --json, first start, compiles everything", first, "s"),
+        Row(f"clamber plan ladder --json, second start, best of {STARTS}", min(taken for taken, _ in again), "s"),
+        Row("files of machine code that the second start added", len(added), "files", "0"),
+        Row("clamber plan ladder --json, peak memory", max(used for _, used in again), "MiB"),
+        Row("clamber plan h --json, whole process", long, "s"),
+        Row("clamber plan h --json, peak memory", memory, "MiB"),
+        Row(f"clamber --help, best of {STARTS}", helped, "s"),
+    ]

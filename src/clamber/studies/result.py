@@ -1,0 +1,85 @@
+"""One published result repeated: the claim, what we get, what is printed, the verdict, and where we deviate."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal, TypeAlias
+
+from ..types import Json
+
+Verdict: TypeAlias = Literal["holds", "differs", "open"]
+Value: TypeAlias = int | float | str | None
+
+
+@dataclass(frozen=True, slots=True)
+class Compared:
+    """One number, ours beside the printed one."""
+
+    name: str
+    """What it is, with its unit in brackets."""
+    ours: Value
+    printed: Value = None
+    """None where nothing is printed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Rows behind the numbers, for the report."""
+
+    columns: tuple[str, ...]
+    rows: tuple[tuple[Value, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """A picture that the report draws."""
+
+    name: str
+    """Of the file, without suffix."""
+    caption: str
+    draw: Callable[[Path], object]
+    """Draws it into a file whose suffix says the format."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StudyResult:
+    """A published result and ours."""
+
+    paper: str
+    result: str
+    """Its name on the command line."""
+    claim: str
+    """What the paper says, in our words, with the place where it says so."""
+    verdict: Verdict
+    """holds: we get it too; differs: we do not; open: what is printed, or what we did, does not decide it."""
+    compared: tuple[Compared, ...]
+    deviations: tuple[str, ...]
+    """What we inferred, chose or left out, each in a sentence."""
+    table: Table | None = None
+    figures: tuple[Figure, ...] = ()
+
+    @property
+    def command(self) -> str:
+        """What repeats it."""
+        return f"clamber study {self.paper} {self.result}"
+
+    @property
+    def numbers(self) -> dict[str, Value]:
+        """Name -> our value, each printed one under the same name with ", printed"."""
+        out: dict[str, Value] = {}
+        for row in self.compared:
+            out[row.name] = row.ours
+            if row.printed is not None:
+                out[f"{row.name}, printed"] = row.printed
+        return out
+
+    def to_json(self) -> Json:
+        """Plain data: what `clamber study PAPER RESULT --json` prints."""
+        return {
+            "paper": self.paper,
+            "result": self.result,
+            "claim": self.claim,
+            "verdict": self.verdict,
+            "numbers": self.numbers,
+            "deviations": list(self.deviations),
+        }

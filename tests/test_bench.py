@@ -1,0 +1,128 @@
+"""The benchmarks' adapters do what they say; how fast, only the benchmarks themselves tell."""
+
+import math
+import random
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from clamber.actions.problem import CompiledProblem
+from clamber.actions.problems import pose_problem
+from clamber.experiments import benches, peers, races, rows, speed, workload
+from clamber.experiments.ablation import TASKS, VARIANTS, bench_ablation, varied
+from clamber.experiments.plain_problem import PlainProblem, plain_module
+from clamber.experiments.rows import NOTHING, Row, median_or_nothing
+from clamber.experiments.trials import run_trials
+from clamber.planning.genetic.evolve import weights_for
+from clamber.planning.genetic.profile import load_profile
+from clamber.planning.planners import plan_genetic
+from clamber.tasks import load_task
+
+NEAR = ("goal.y_min=12in",)
+"""A goal two steps up: found at once."""
+
+
+@pytest.fixture(scope="module")
+def problem() -> CompiledProblem:
+    return pose_problem(load_task("ladder", NEAR), threads=1).problem
+
+
+def test_a_row_without_a_value_is_null_in_json() -> None:
+    assert Row("x", NOTHING, "s").to_json() == {"name": "x", "value": None, "unit": "s", "aim": None}
+    assert Row("x", 2.5, "s", "<= 3").to_json() == {"name": "x", "value": 2.5, "unit": "s", "aim": "<= 3"}
+
+
+def test_a_failure_counts_as_slower_than_anything_in_a_median() -> None:
+    assert median_or_nothing([1.0, None, 2.0]) == 2.0
+    assert math.isnan(median_or_nothing([1.0, None, None]))
+    assert math.isnan(median_or_nothing([]))
+
+
+def test_every_benchmark_of_the_issue_is_there() -> None:
+    assert {"plan", "seeds", "ablation"} <= set(benches.BENCHES)
+
+
+@pytest.mark.parametrize("variant", VARIANTS)
+def test_every_variant_but_the_default_changes_the_profile(variant: str) -> None:
+    default = load_profile("default")
+    assert (varied(default, VARIANTS[variant]) == default) == (variant == "default")
+    assert replace(varied(default, VARIANTS[variant]), search=default.search) == default
+
+
+def test_the_plain_problem_tries_as_many_actions_as_the_kernels() -> None:
+    module = plain_module()
+    assert module is not None
+    load = workload.evolved_load("ladder", generations=5, copies=1)
+    plain = PlainProblem(load.task, load.table, module)
+    few = load.few(40)
+    tried = [plain.carry_out(few.table.spell(row[:n])) for row, n in zip(few.genes, few.lengths, strict=True)]
+    compiled = few.problem(1)
+    assert tried == few.run(compiled)["checks"].tolist()
+    assert np.array_equal(few.run(plain), few.run(compiled))
+
+
+def test_a_package_without_its_tests_has_no_plain_evaluator(tmp_path: Any) -> None:
+    assert plain_module(tmp_path) is None
+
+
+@pytest.mark.parametrize("peer", peers.PEERS)
+def test_a_peer_is_given_our_fitness_and_its_count_is_true(peer: str, problem: CompiledProblem) -> None:
+    if not races.installed(peer):
+        pytest.skip(f"{peer} comes with the extra `bench`")
+    asked: list[int] = []
+
+    class Counting(type(problem)):  # type: ignore[misc]
+        def rollout(self, genes: Any, lengths: Any, weights: Any, limit: int) -> Any:
+            assert np.array_equal(weights, weights_for(problem, load_profile("default")))
+            assert genes.min() >= 0 and genes.max() < len(problem.actions)
+            assert lengths.max() <= limit
+            asked.append(len(genes))
+            return super().rollout(genes, lengths, weights, limit)
+
+    counting = problem.rebind(problem.actions)
+    counting.__class__ = Counting
+    before = random.getstate()
+    np_before = np.random.get_state()[1].tolist()  # type: ignore[index, union-attr]
+    run = peers.race(peer, counting, 3, seconds=60.0, length=30)
+    assert run.success is not None and run.success <= run.seconds
+    assert run.evaluations == sum(asked)
+    assert random.getstate() == before
+    assert np.random.get_state()[1].tolist() == np_before  # type: ignore[index, union-attr]
+    first = list(asked)
+    asked.clear()
+    peers.race(peer, counting, 3, seconds=60.0, length=30)
+    assert asked == first, "same seed, same search"
+
+
+def test_trials_tell_what_the_planner_told() -> None:
+    task, profile = load_task("ladder", NEAR), load_profile("default")
+    trials = run_trials(task, profile, range(3))
+    for seed in range(3):
+        result = plan_genetic(task, seed=seed, profile=profile, threads=1)
+        assert trials.evaluations[seed] == result.first_evaluations
+        assert (trials.first_lengths[seed], trials.lengths[seed]) == (result.first_length, result.length)
+    assert trials.found == 3
+
+
+def test_trials_that_run_out_of_budget_count_as_failures() -> None:
+    trials = run_trials(load_task("h"), load_profile("default"), range(2), max_evaluations=200)
+    assert trials.lengths == (None, None)
+    assert trials.found == 0
+    assert math.isnan(trials.rows("h")[1].value)
+
+
+def test_speed_is_reported_for_every_load() -> None:
+    loads = [workload.evolved_load("ladder", generations=3, copies=1)]
+    loads += [workload.printed_load(path, copies=2) for path in workload.printed_plans()[:1]]
+    told = speed.speed_rows(loads=loads, repeats=1)
+    assert {load.name for load in loads} <= {row.name.rpartition("one core, ")[2] for row in told}
+    assert all(row.value > 0.0 for row in told if "load of the machine" not in row.name)
+
+
+@pytest.mark.slow
+def test_the_ablation_runs_on_every_task() -> None:
+    told = bench_ablation(seeds=range(1), variants=("default",))
+    assert {row.name.split(", default")[0] for row in told} == set(TASKS)
+    assert all(isinstance(row, rows.Row) for row in told)
