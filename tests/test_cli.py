@@ -110,6 +110,7 @@ def test_check_of_a_plan_that_fails_leaves_with_1_and_says_where(run: Any) -> No
         "hold": 4,
         "nearest": 4,
         "max_torque_oz_in": answer.json["per_step"][2]["max_torque_oz_in"],
+        "power_W": answer.json["per_step"][2]["power_W"],
         "reported": [],
         "margins": 0,
     }

@@ -13,24 +13,29 @@ from clamber.actions.problems import pose_problem
 from clamber.actions.table import ActionTable
 from clamber.errors import ClamberError, FileError
 from clamber.planning.genetic.learning import learn
+from clamber.planning.genetic.planner import plan_genetic
 from clamber.planning.genetic.profile import load_profile, profile_names
 from clamber.planning.genetic.search import Budget, search
 from clamber.planning.learning import learn_macros, load_macros
-from clamber.planning.planners import PLANNERS, plan_genetic
+from clamber.planning.planners import PLANNERS
 from clamber.planning.progress import Progress
 from clamber.tasks import load_task, task_names
 
-QUICK = {"ladder": (), "modified-ladder": (), "h": (), "across": (), "circle": (), "patch-walk": ()}
+QUICK = ("ladder", "modified-ladder", "h", "across", "circle", "patch-walk", "gecko-climb")
 
 
 @pytest.mark.parametrize("planner", sorted(PLANNERS))
-@pytest.mark.parametrize("name", sorted(QUICK))
-def test_every_planner_finds_a_plan_that_replays_to_the_goal(planner: str, name: str) -> None:
-    task = load_task(name, QUICK[name])
-    result = PLANNERS[planner](task, seed=3)
-    assert result.status == "found"
+def test_every_planner_finds_a_plan_that_replays_to_the_goal(planner: str) -> None:
+    result = PLANNERS[planner](load_task("ladder", ("rules.max_hangs=0",)), seed=3)
+    assert result.status in ("found", "optimal")
     verdict = result.check()
     assert verdict.ok and verdict.reached
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_the_genetic_planner_solves_every_task(name: str) -> None:
+    result = plan_genetic(load_task(name), seed=3)
+    assert result.status == "found" and result.check().reached
     assert result.evaluations <= 50_000
     assert result.first_length is not None and result.length <= result.first_length
 

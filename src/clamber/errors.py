@@ -100,3 +100,14 @@ MISSING = _Missing()
 def _short(value: object, limit: int = 120) -> str:
     text = repr(value)
     return text if len(text) <= limit else text[: limit - 3] + "..."
+
+
+class PlannerError(ClamberError):
+    """A planner can't work on a task as it is."""
+
+    def __init__(self, planner: str, task: str, problem: str) -> None:
+        super().__init__(planner, task, problem)
+        self.planner, self.task, self.problem = planner, task, problem
+
+    def __str__(self) -> str:
+        return f"the {self.planner} planner can't take task '{self.task}': {self.problem}"

@@ -12,7 +12,7 @@ import numpy as np
 from numba import from_dtype, types
 from numba.extending import overload
 
-SCALARS = ("step", "candidates", "key", "measure", "bound", "done", "cell")
+SCALARS = ("step", "candidates", "key", "restore", "measure", "bound", "done", "cell")
 FAMILIES: dict[types.Type, dict[str, Any]] = {}
 
 
@@ -43,6 +43,11 @@ def key(p, s, words):  # type: ignore[no-untyped-def]
     raise TypeError("called from kernels only")
 
 
+def restore(p, words, s):  # type: ignore[no-untyped-def]
+    """Make a stance again from its key: all that actions and hard checks read."""
+    raise TypeError("called from kernels only")
+
+
 def measure(p, s, row):  # type: ignore[no-untyped-def]
     """Write the features of the action that led to a stance."""
     raise TypeError("called from kernels only")
@@ -66,6 +71,7 @@ def cell(p, s):  # type: ignore[no-untyped-def]
 overload(step)(lambda p, before, code, after, margins: _chosen("step", p))
 overload(candidates)(lambda p, s, codes: _chosen("candidates", p))
 overload(key)(lambda p, s, words: _chosen("key", p))
+overload(restore)(lambda p, words, s: _chosen("restore", p))
 overload(measure)(lambda p, s, row: _chosen("measure", p))
 overload(bound)(lambda p, s: _chosen("bound", p))
 overload(done)(lambda p, s: _chosen("done", p))

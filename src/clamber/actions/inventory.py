@@ -157,7 +157,10 @@ def make_inventory(task: LimbedTask, *, filters: bool = True) -> Inventory:
 
 
 def _kinds(task: LimbedTask) -> set[str]:
-    return set(WORDS) if task.rules.allowed is None else {word for word in task.rules.allowed if word in WORDS}
+    if task.rules.allowed is None:
+        return set(WORDS)
+    grabs = {"nearest", "hold", "random"} if "grab" in task.rules.allowed else set()
+    return {word for word in task.rules.allowed if word in WORDS} | grabs
 
 
 def _allowed(task: LimbedTask, modules: tuple[Module, ...]) -> set[str]:
@@ -182,3 +185,22 @@ def _allowed(task: LimbedTask, modules: tuple[Module, ...]) -> set[str]:
             )
         out |= found
     return out
+
+
+def whole_kinds(task: LimbedTask) -> tuple[int, bool]:
+    """What exact search may do: which body moves, whether limbs may release and grab; and whether that is all that is allowed.
+
+    Returns:
+        Bits 0 to 5 for the moves, 6 for releases, 7 for grabs of any hold; False if `rules.allowed` names some grabs or releases only.
+    """
+    modules = full_inventory(task, 3)
+    allowed = _allowed(task, modules)
+    bits = sum(1 << axis for axis in range(6) if str(1 + axis) in allowed)
+    whole = True
+    for bit, kinds in ((6, {"release"}), (7, {"nearest", "hold"})):
+        by_kind = [{m.name for m in modules if m.kind == kind} for kind in kinds]
+        if any(names <= allowed for names in by_kind):
+            bits |= 1 << bit
+        elif any(names & allowed for names in by_kind):
+            whole = False
+    return bits, whole

@@ -97,6 +97,15 @@ class LimbedPlans:
         index = int(stance["resolved"])
         return None if index < 0 else task.world.holds[index].number
 
+    def model(self, task: LimbedTask) -> str:
+        """The rules that a proof about a task holds for."""
+        rules = task.rules
+        hangs = "any number of hangs" if rules.max_hangs < 0 else f"at most {rules.max_hangs} hangs"
+        return (
+            f"support {rules.support}, {hangs}, force rule {rules.force_rule}, branch {rules.branch}, "
+            f"hard checks {', '.join(rules.hard)}"
+        )
+
     def power(self, stance: np.void) -> float:
         """Electrical power of the joints that hold the weight [W] (thesis 2.22)."""
         return float(stance["power"])

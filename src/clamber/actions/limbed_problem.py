@@ -8,7 +8,8 @@ import numpy.typing as npt
 
 from clamber.actions.codes import HOLD as HOLD_KIND
 from clamber.actions.codes import NEAREST, Code, pack
-from clamber.actions.limbed import FEATURES
+from clamber.actions.inventory import most_in_reach, whole_kinds
+from clamber.actions.limbed import FEATURES, KEY_WORDS
 from clamber.actions.loops import replay
 from clamber.actions.params import Params
 from clamber.actions.problem import CompiledProblem, Records
@@ -24,6 +25,7 @@ CHECKS: Final = tuple(check.name for check in LIMBED_CHECKS)
 FEATURE_NAMES: Final = ("body", "limbs", "effort", "stages", "length", "unstable", "peak")
 FEATURE_KINDS: Final = (0, 0, 1, 0, 1, 1, 2)
 FORCE_RULES: Final = ("thesis", "min_torque", "min_norm")
+FOOT_CHECKS: Final = ("limb_limb", "limb_body", "limb_peg")
 ANY_DIRECTION: Final = -2.0
 
 
@@ -49,6 +51,29 @@ class LimbedProblem(CompiledProblem):
         super().__init__(params, start, actions, CHECKS, FEATURE_NAMES, threads)
         self.task = task
         assert len(FEATURE_NAMES) == FEATURES
+
+    @property
+    def incomplete(self) -> str | None:
+        """`rules.allowed` may name single grabs; exact search knows grabs as a whole only."""
+        _, whole = whole_kinds(self.task)
+        return (
+            None
+            if whole
+            else "rules.allowed names single grabs or releases; exact search takes them as kinds: grab, release"
+        )
+
+    @property
+    def key_words(self) -> int:
+        """Integers of a stance's key: more where checks that read free feet are hard."""
+        fenced = "keep_out" in self.task.rules.hard and bool(self.task.world.keep_out)
+        reads_feet = fenced or any(name in self.task.rules.hard for name in FOOT_CHECKS)
+        return KEY_WORDS + (3 * len(self.task.robot.limbs) if reads_feet else 0)
+
+    @property
+    def branching(self) -> int:
+        """Most actions from one stance: six moves, and per limb a release and every hold that can be in reach at once."""
+        limbs = range(len(self.task.robot.limbs))
+        return 6 + sum(1 + most_in_reach(self.task, limb) for limb in limbs)
 
     @property
     def way(self) -> float:
@@ -177,6 +202,7 @@ def _fill_rules(
     centre = next((goal.centre for goal in task.goals if goal.centre is not None), (0.0, 0.0))
     row["centre_x"], row["centre_y"] = centre
     row["centre_angle"] = math.atan2(task.start.y - centre[1], task.start.x - centre[0])
+    row["allowed"], _ = whole_kinds(task)
     row["circles"] = any(goal.turns is not None for goal in task.goals)
     row["seed"] = task.seed
     row["n_limbs"] = len(task.robot.limbs)
@@ -291,7 +317,18 @@ def _goals(task: LimbedTask, polygons: list[tuple[tuple[float, float], ...]], n_
             row["way"] = max(float(row["way"]), float(row["radius"]) * abs(float(row["turns"])))
         way += float(row["way"])
         at = there
+    for i in range(len(out) - 2, -1, -1):
+        out["after"][i] = out["after"][i + 1] + _steps_between(out[i], out[i + 1], task.step.length)
     return out
+
+
+def _steps_between(first: np.void, second: np.void, stride: float) -> int:
+    """Fewest body steps along x and y from one goal's box to another's."""
+    steps = 0
+    for low, high in (("x_min", "x_max"), ("y_min", "y_max")):
+        gap = max(0.0, float(second[low] - first[high]), float(first[low] - second[high]))
+        steps += math.ceil(gap / stride - 1e-6)
+    return steps
 
 
 def _middle(goal: Goal, start: tuple[float, float]) -> tuple[float, float]:
@@ -333,7 +370,9 @@ def _grid(
     """Holds sorted into square cells: indices cell by cell, where each cell starts, and the grid's place and size."""
     low = points.min(axis=0) - 1e-6
     size = points.max(axis=0) - low
-    cell = max(cell, float(np.sqrt(size[0] * size[1] / (4 * len(points) + 1024))), float(size.max()) / (len(points) + 1024))
+    cell = max(
+        cell, float(np.sqrt(size[0] * size[1] / (4 * len(points) + 1024))), float(size.max()) / (len(points) + 1024)
+    )
     count = np.maximum(1, np.ceil((points.max(axis=0) + 1e-6 - low) / cell).astype(int))
     column = ((points - low) / cell).astype(int)
     where = column[:, 1] * count[0] + column[:, 0]

@@ -51,6 +51,10 @@ class PlanFamily(Protocol):
         """Number of the hold that the last action took, None if it took none."""
         ...
 
+    def model(self, task: Any) -> str:
+        """The rules that a proof about a task holds for."""
+        ...
+
     def power(self, stance: np.void) -> float:
         """Power that holding the stance takes [W]."""
         ...

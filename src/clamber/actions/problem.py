@@ -2,6 +2,7 @@
 
 import copy
 import os
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any, Protocol, Self
@@ -14,6 +15,10 @@ from clamber.actions.params import Params
 from clamber.actions.table import ActionTable
 
 MAX_FEATURES = 8
+PIECES = 8
+"""Most pieces of a batch that one thread takes."""
+LEAST_PIECE = 64
+"""Fewest plans of a piece, where a batch is cut into several per thread."""
 ROLLOUT = np.dtype(
     [
         ("fitness", "f8"),  # at the stop
@@ -142,16 +147,24 @@ class CompiledProblem:
         self._spread(len(genes), part)
         return out
 
-    def _spread(self, n: int, part: Any) -> None:
-        """Run `part(worker, first, end)` over n items: in chunks on the pool, or here if there are few."""
+    def _spread(self, n: int, part: Callable[[int, int, int], None]) -> None:
+        """Run `part(worker, first, end)` over n items: spread over the pool, or here if there are few.
+
+        Every worker takes several pieces from all over the batch, so that a run of long plans keeps no one waiting.
+        """
         if self.threads == 1 or n < 4 * self.threads:
             part(0, 0, n)
             return
         if self._pool is None:
             self._pool = ThreadPoolExecutor(self.threads, thread_name_prefix="clamber")
-        cuts = np.linspace(0, n, self.threads + 1).astype(int)
-        jobs = [self._pool.submit(part, w, int(cuts[w]), int(cuts[w + 1])) for w in range(self.threads)]
-        for job in jobs:
+        pieces = self.threads * max(1, min(PIECES, n // (LEAST_PIECE * self.threads)))
+        cuts = np.linspace(0, n, pieces + 1).astype(int).tolist()
+
+        def work(worker: int) -> None:
+            for piece in range(worker, pieces, self.threads):
+                part(worker, cuts[piece], cuts[piece + 1])
+
+        for job in [self._pool.submit(work, worker) for worker in range(self.threads)]:
             job.result()
 
     def replay(self, codes: npt.NDArray[np.int32], *, go_on: bool = False) -> Replay:
@@ -165,7 +178,7 @@ class CompiledProblem:
 
     def expand(self, stances: Records) -> Children:
         """Every valid child of every stance."""
-        most = 6 + 9 * 256
+        most = self.branching
         parts: list[Children] = []
         first = 0
         params, _, margins, _ = self._scratch[0]
@@ -219,6 +232,21 @@ class CompiledProblem:
     def way_left(self, stance: Records) -> float:
         """How far the body still has to go along the goals from a stance (array of one record) [m]."""
         return self.way - self.progress(stance)
+
+    @property
+    def incomplete(self) -> str | None:
+        """Why `expand` and exact search can't list all that the task allows, or None: they can."""
+        return None
+
+    @property
+    def key_words(self) -> int:
+        """Integers of a stance's key."""
+        raise NotImplementedError
+
+    @property
+    def branching(self) -> int:
+        """Most actions that `candidates` may list from one stance."""
+        raise NotImplementedError
 
     @property
     def goals(self) -> int:

@@ -7,7 +7,7 @@ from clamber.actions.family import family_kernels
 from clamber.compiled import inlined, kernel
 from clamber.robots.kinematics import wrap
 from clamber.statics.records import TICKS
-from clamber.statics.walker import DELTA, WALKER_PARAMS, Y, judge, place, walker_goals
+from clamber.statics.walker import DELTA, WALKER_PARAMS, Y, balance, foothold, judge, place, stretch, walker_goals
 
 FEATURES = 7
 """Body progress, feet progress, travel, stages, length, poor stability, nearness of singularity."""
@@ -162,6 +162,21 @@ def key(p, s, words):
 
 
 @kernel
+def restore(p, words, s):
+    """The stance of a key; `travel` is that of no action."""
+    for f in range(2):
+        for i in range(3):
+            s.ticks[f, i] = words[3 * f + i]
+        place(p, s, f)
+    s.stands = words[6] & 1
+    s.stage = words[6] >> 32
+    s.travel = 0.0
+    stretch(p, s)
+    s.foothold = foothold(p, s)
+    s.balance = balance(p, s)
+
+
+@kernel
 def candidates(p, s, codes):
     """Every different action from a stance; returns their number, which is seven."""
     for axis in range(SLIDES_AND_TURNS):
@@ -201,6 +216,7 @@ family_kernels(
     step=step,
     candidates=candidates,
     key=key,
+    restore=restore,
     measure=measure,
     bound=bound,
     done=done,

@@ -74,6 +74,10 @@ class WalkerPlans:
         """None: a walker takes no holds."""
         return None
 
+    def model(self, task: WalkerTask) -> str:
+        """The rules that a proof about a task holds for."""
+        return f"hard checks {', '.join(self.hard(task))}"
+
     def power(self, stance: np.void) -> float:
         """0: the model has no forces."""
         return 0.0

@@ -12,7 +12,7 @@ from clamber.actions.loops import replay
 from clamber.actions.params import Params
 from clamber.actions.problem import CompiledProblem, Records
 from clamber.actions.table import ActionTable
-from clamber.actions.walker import FEATURES
+from clamber.actions.walker import FEATURES, KEY_WORDS
 from clamber.errors import MISSING, SpecError
 from clamber.robots.walker import FRAMES
 from clamber.statics.records import TICKS
@@ -58,6 +58,16 @@ class WalkerProblem(CompiledProblem):
         super().__init__(params, start, actions, CHECKS, FEATURE_NAMES, threads)
         self.task = task
         assert len(FEATURE_NAMES) == FEATURES
+
+    @property
+    def key_words(self) -> int:
+        """Integers of a stance's key."""
+        return KEY_WORDS
+
+    @property
+    def branching(self) -> int:
+        """Six moves and the swap."""
+        return len(MOVES) + 1
 
     @property
     def way(self) -> float:

@@ -46,19 +46,16 @@ def plan(
 
     if planner not in PLANNERS:
         raise UnknownNameError("planner", planner, tuple(PLANNERS))
-    learned = () if macros is None else load_macros(macros)
-    with ProgressLine(stderr(), quiet=quiet) as line:
-        result = PLANNERS[planner](
-            problem,
-            seed=seed,
-            profile=profile,
-            max_evaluations=evaluations,
-            seconds=seconds,
-            threads=threads,
-            macros=learned,
-            progress=line.update,
-            checkpoint=checkpoint,
+    options = {"seed": seed, "seconds": seconds, "threads": threads}
+    if planner == "genetic":
+        learned = () if macros is None else load_macros(macros)
+        options |= {"profile": profile, "max_evaluations": evaluations, "macros": learned, "checkpoint": checkpoint}
+    elif checkpoint is not None or macros is not None or history is not None:
+        raise typer.BadParameter(
+            "only the genetic planner takes --checkpoint, --macros and --history", param_hint="--planner"
         )
+    with ProgressLine(stderr(), quiet=quiet) as line:
+        result = PLANNERS[planner](problem, progress=line.update, **options)
     if output is not None:
         result.plan.save(output)
     if history is not None:
@@ -69,4 +66,4 @@ def plan(
         print_json(result.to_json())
     else:
         print_result(stdout(), result, output)
-    raise typer.Exit(0 if result.status == "found" else 1)
+    raise typer.Exit(0 if result.status in ("found", "optimal") else 1)

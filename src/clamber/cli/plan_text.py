@@ -11,7 +11,7 @@ from ..actions.plan import Plan
 from ..actions.plan_families import plan_family
 from ..planning.genetic.learning import Macro
 from ..planning.learning import Lesson
-from ..planning.progress import Progress
+from ..planning.progress import Exploring, Progress
 from ..planning.result import Furthest, PlanResult
 from ..tasks import Task
 from ..units import OZ_IN
@@ -40,19 +40,26 @@ class ProgressLine:
         if self._live is not None and not self._quiet:
             self._live.stop()
 
-    def update(self, progress: Progress) -> None:
+    def update(self, progress: Progress | Exploring) -> None:
         """Show one moment of the search."""
         if self._quiet:
             return
         if self._live is not None:
             self._live.update(Text(progress_text(progress), no_wrap=True, overflow="ellipsis"))
-        elif progress.generation % STEADY == 0 and progress.generation != self._told:
-            self._told = progress.generation
+        elif (turn := _turn(progress)) % STEADY == 0 and turn != self._told:
+            self._told = turn
             self._console.print(progress_text(progress), soft_wrap=True)
 
 
-def progress_text(progress: Progress) -> str:
+def _turn(progress: Progress | Exploring) -> int:
+    """What counts up while a search goes on."""
+    return progress.generation if isinstance(progress, Progress) else progress.lower_bound
+
+
+def progress_text(progress: Progress | Exploring) -> str:
     """One moment of a search in a line of at most 80 columns."""
+    if isinstance(progress, Exploring):
+        return f"{progress.stances} stances, no plan has fewer than {progress.lower_bound} actions"
     best = "" if progress.best_length is None else f", found {progress.best_length} actions"
     return (
         f"generation {progress.generation}, {progress.evaluations} plans, fitness {progress.best_fitness:.2f}, "
@@ -62,18 +69,19 @@ def progress_text(progress: Progress) -> str:
 
 def print_result(console: Console, result: PlanResult, output: Path | None) -> None:
     """Print what a search found, or how far it came and what stopped it."""
-    found = result.status == "found"
+    found = result.status in ("found", "optimal")
     if found:
-        console.print(f"found: {result.length} actions for '{result.plan.task}'", style="bold green")
+        console.print(f"{result.status}: {result.length} actions for '{result.plan.task}'", style="bold green")
         console.print(f"largest torque {result.max_torque / OZ_IN:.0f} oz-in")
     else:
         console.print(f"{result.status}: no plan for '{result.plan.task}'", style="bold red")
         console.print(result.reason)
         if result.furthest is not None:
             _print_furthest(console, result.furthest)
-    console.print(
-        f"{result.evaluations} plans, {result.checks} actions judged, {result.seconds:.1f} s, seed {result.seed}"
-    )
+    if result.model:
+        console.print(f"proved for: {result.model}; {result.reason}" if found else f"proved for: {result.model}")
+    effort = f"{result.evaluations} plans" if result.stances is None else f"{result.stances} stances"
+    console.print(f"{effort}, {result.checks} actions judged, {result.seconds:.1f} s, seed {result.seed}")
     if found:
         console.print(_spelled(result.plan))
     if output is not None:

@@ -6,8 +6,8 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 from clamber.planning.genetic.learning import Macro
+from clamber.planning.genetic.planner import plan_genetic
 from clamber.planning.genetic.profile import Profile
-from clamber.planning.planners import plan_genetic
 from clamber.tasks import Task
 
 from .rows import Row, median_or_nothing

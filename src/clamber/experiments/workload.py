@@ -7,7 +7,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from clamber.actions.limbed_problem import LimbedProblem
+from clamber.actions.limbed_problem import FEATURE_NAMES, LimbedProblem
 from clamber.actions.plan_source import open_plan
 from clamber.actions.problem import CompiledProblem, Records
 from clamber.actions.problems import pose_problem
@@ -76,7 +76,9 @@ def printed_load(path: Path, *, copies: int = PRINTED_COPIES) -> Load:
     codes = opened.plan.codes(opened.task)
     table = ActionTable.build([(str(i), [int(code)], False) for i, code in enumerate(codes)])
     genes = np.tile(np.arange(len(codes), dtype=np.int32), (copies, 1))
-    return Load(path.stem, opened.task, table, genes, np.full(copies, len(codes), np.int32), np.zeros(7))
+    return Load(
+        path.stem, opened.task, table, genes, np.full(copies, len(codes), np.int32), np.zeros(len(FEATURE_NAMES))
+    )
 
 
 def whole_load() -> list[Load]:

@@ -10,8 +10,8 @@ from clamber.actions.problems import pose_problem
 from clamber.errors import FileError
 from clamber.files import read_text, write_atomically
 from clamber.planning.genetic.learning import Macro, learn
+from clamber.planning.genetic.planner import plan_genetic
 from clamber.planning.genetic.profile import Profile, load_profile
-from clamber.planning.planners import plan_genetic
 from clamber.planning.progress import Listener
 from clamber.tasks import Task
 from clamber.types import Json

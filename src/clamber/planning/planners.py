@@ -1,125 +1,15 @@
 """The planners by name."""
 
-import time
-from collections.abc import Callable, Sequence
-from pathlib import Path
+from collections.abc import Callable
 from typing import Any, Final
 
-import numpy as np
-
-from clamber.actions.plan import Plan
-from clamber.actions.plan_families import plan_family
-from clamber.actions.problem import CompiledProblem
-from clamber.actions.problems import last_goal_only, pose_problem
-from clamber.planning.genetic.learning import Macro
-from clamber.planning.genetic.profile import Profile, load_profile
-from clamber.planning.genetic.search import Budget, Outcome, search
-from clamber.planning.progress import Listener
-from clamber.planning.result import Furthest, PlanResult
-from clamber.tasks import Task
-
-
-def plan_genetic(
-    task: Task,
-    *,
-    seed: int = 0,
-    profile: str | Profile = "default",
-    max_evaluations: int = 50_000,
-    seconds: float | None = None,
-    threads: int | None = None,
-    filters: bool = True,
-    macros: Sequence[Macro] = (),
-    progress: Listener | None = None,
-    checkpoint: Path | None = None,
-) -> PlanResult:
-    """Plan by genetic search (thesis 2.2.3; page "The model", section 10).
-
-    Args:
-        task: What to plan.
-        seed: Same seed, same plan, on any number of threads.
-        profile: Name or file of a profile, or a profile.
-        max_evaluations: Most plans to evaluate, polishing included.
-        seconds: Most wall-clock time [s].
-        threads: Threads; None for one a core.
-        filters: Whether the inventory's filters are applied.
-        macros: Learned modules to add to the inventory.
-        progress: Called after every generation.
-        checkpoint: File to save the search to, and to resume it from.
-
-    Returns:
-        The plan ("found"), or the furthest stance and what stopped it ("stopped").
-    """
-    started = time.monotonic()
-    settings = load_profile(profile) if isinstance(profile, str) else profile
-    aim = task if settings.search.subgoals else last_goal_only(task)
-    posed = pose_problem(aim, threads=threads, filters=filters)
-    table = posed.problem.actions.extended([(macro.name, macro.codes, False) for macro in macros])
-    problem = posed.problem.rebind(table)
-    identity = f"genetic/{dict(task.hashes)}/{table.names}"
-    outcome = search(
-        problem,
-        settings,
-        seed=seed,
-        budget=Budget(max_evaluations, seconds),
-        stages=problem.goals,
-        listener=progress,
-        checkpoint=checkpoint,
-        identity=identity,
-    )
-    replayed = problem.replay(outcome.codes)
-    family = plan_family(task)
-    plan = Plan.of_codes(
-        task, outcome.codes, seed=seed, planner=f"genetic/{settings.name}", genes=outcome.names or None
-    )
-    return PlanResult(
-        status="found" if outcome.found else "stopped",
-        plan=plan,
-        task=task,
-        reason=_reason(outcome),
-        evaluations=outcome.evaluations,
-        checks=outcome.checks,
-        seconds=time.monotonic() - started,
-        seed=seed,
-        planner=f"genetic/{settings.name}",
-        max_torque=max((family.torque(stance) for stance in replayed.stances[1:]), default=0.0),
-        furthest=None if outcome.found else _furthest(task, problem, outcome),
-        first_length=outcome.first_length,
-        first_evaluations=outcome.first_evaluations,
-        history=outcome.history,
-        macros=outcome.macros,
-    )
-
-
-def _reason(outcome: Outcome) -> str:
-    if outcome.found and not len(outcome.codes):
-        return "the start meets every goal already"
-    if outcome.found and outcome.interrupted:
-        return f"interrupted while polishing; the plan of {len(outcome.codes)} actions works"
-    if outcome.found:
-        return f"reached every goal after {outcome.first_evaluations} evaluations"
-    how = "interrupted" if outcome.interrupted else "the budget ran out"
-    return f"{how} after {outcome.evaluations} evaluations without reaching the goal; this search proves nothing"
-
-
-def _furthest(task: Task, problem: CompiledProblem, outcome: Outcome) -> Furthest:
-    family = plan_family(task)
-    replayed = problem.replay(outcome.codes)
-    last = replayed.stances[-1:]
-    here = problem.rebind(problem.actions, last)
-    stopped: dict[str, int] = {}
-    for entry in range(len(problem.actions)):
-        tried = here.replay(problem.actions.spell(np.array([entry], np.int32)))
-        if not tried.ok:
-            name = problem.checks[int(tried.reasons[-1])]
-            stopped[name] = stopped.get(name, 0) + 1
-    x, y, angle = family.pose(last[0])
-    pose = {"x_m": x, "y_m": y, "theta_rad": angle, "holds": family.holds(task, last[0])}
-    ranked = dict(sorted(stopped.items(), key=lambda item: (-item[1], item[0])))
-    return Furthest(len(outcome.codes), family.goals_met(last[0]), problem.goals, pose, ranked)
-
+from ..tasks import Task
+from .exact.planner import plan_exact
+from .genetic.planner import plan_genetic
+from .result import PlanResult
 
 Planner = Callable[..., PlanResult]
-PLANNERS: Final[dict[str, Planner]] = {"genetic": plan_genetic}
+PLANNERS: Final[dict[str, Planner]] = {"genetic": plan_genetic, "exact": plan_exact}
 """Name -> planner; the command line's choices and the tests read it."""
 
 

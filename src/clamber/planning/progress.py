@@ -21,4 +21,14 @@ class Progress:
     """Actions of the best plan that reaches the goal."""
 
 
-Listener = Callable[[Progress], None]
+@dataclass(frozen=True, slots=True)
+class Exploring:
+    """One moment of an exact search."""
+
+    stances: int
+    """Different stances seen."""
+    lower_bound: int
+    """No plan has fewer actions."""
+
+
+Listener = Callable[[Progress | Exploring], None]

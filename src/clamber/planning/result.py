@@ -3,15 +3,19 @@
 from dataclasses import dataclass, field
 from typing import Literal
 
+import numpy as np
+
 from clamber.actions.plan import Plan
+from clamber.actions.plan_families import plan_family
+from clamber.actions.problem import CompiledProblem
 from clamber.actions.verdict import Verdict, check_plan
 from clamber.planning.genetic.evolve import Generation
 from clamber.planning.genetic.learning import Macro
 from clamber.tasks import Task
-from clamber.types import Json
+from clamber.types import Ints, Json
 from clamber.units import OZ_IN
 
-Status = Literal["found", "infeasible", "bounded", "stopped"]
+Status = Literal["optimal", "found", "infeasible", "bounded", "stopped"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +46,8 @@ class PlanResult:
     """A planner's answer. It proves itself: `check` replays the plan without the planner."""
 
     status: Status
-    """found: a plan; infeasible: proved that there is none; bounded: a plan that may not be the best; stopped: none yet."""
+    """optimal: proved to be the shortest plan; found: a plan; infeasible: proved that there is none; bounded: no plan
+    yet, and none has fewer than `lower_bound` actions; stopped: none yet, and nothing proved."""
     plan: Plan
     """The plan; without success, the actions that lead furthest."""
     task: Task
@@ -58,6 +63,12 @@ class PlanResult:
     max_torque: float
     """Largest joint torque of the plan [N m]."""
     furthest: Furthest | None = None
+    lower_bound: int | None = None
+    """Proved: no plan has fewer actions."""
+    stances: int | None = None
+    """Different stances that an exact search saw."""
+    model: str = ""
+    """The rules that a proof holds for."""
     first_length: int | None = None
     """Actions of the first plan found, before it was polished."""
     first_evaluations: int | None = None
@@ -89,6 +100,9 @@ class PlanResult:
             "seconds": self.seconds,
             "seed": self.seed,
             "planner": self.planner,
+            "lower_bound": self.lower_bound,
+            "stances": self.stances,
+            "model": self.model,
             "first_length": self.first_length,
             "first_evaluations": self.first_evaluations,
             "furthest": None if self.furthest is None else self.furthest.to_json(),
@@ -97,3 +111,20 @@ class PlanResult:
                 for macro in self.macros
             ],
         }
+
+
+def furthest_of(task: Task, problem: CompiledProblem, codes: Ints) -> Furthest:
+    """Where a plan that misses the goal leads, and which checks stop the inventory's modules there."""
+    family = plan_family(task)
+    last = problem.replay(codes).stances[-1:]
+    here = problem.rebind(problem.actions, last)
+    stopped: dict[str, int] = {}
+    for entry in range(len(problem.actions)):
+        tried = here.replay(problem.actions.spell(np.array([entry], np.int32)))
+        if not tried.ok:
+            name = problem.checks[int(tried.reasons[-1])]
+            stopped[name] = stopped.get(name, 0) + 1
+    x, y, angle = family.pose(last[0])
+    pose: Json = {"x_m": x, "y_m": y, "theta_rad": angle, "holds": family.holds(task, last[0])}
+    ranked = dict(sorted(stopped.items(), key=lambda item: (-item[1], item[0])))
+    return Furthest(len(codes), family.goals_met(last[0]), problem.goals, pose, ranked)

@@ -76,6 +76,7 @@ PARAMS = np.dtype(
         ("replace", "i4"),
         ("kept", "i4"),
         ("circles", "i4"),  # some goal asks for turns about the centre
+        ("allowed", "i4"),  # bits 0 to 5: body moves, 6: releases, 7: grabs; what `candidates` lists
         ("hard", "i4"),
         ("seen", "i4"),
         ("opposed", "i4", (LIMBS,)),  # bit j of entry i: limbs i and j count as one on each side
@@ -128,6 +129,7 @@ GOAL = np.dtype(
         ("radius", "f8"),
         ("before", "f8"),  # way from the start to the goal before this one, along the goals [m]
         ("way", "f8"),  # way from the goal before to this one [m]
+        ("after", "f8"),  # fewest body steps from this goal's box through those of the later goals
         ("vertex", "i8"),
         ("n_vertices", "i8"),
         ("hold", "i4", (LIMBS,)),  # index of the hold that limb must hold; -1: any

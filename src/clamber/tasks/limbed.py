@@ -314,7 +314,9 @@ def _check_centres(keys: tuple[str, ...], goals: tuple[Goal, ...], document: Doc
     circled = [(key, goal.centre) for key, goal in zip(keys, goals, strict=True) if goal.centre is not None]
     for key, centre in circled[1:]:
         if centre != circled[0][1]:
-            raise document.problem(f"{key}.centre", f"must be that of '{circled[0][0]}'; turns count about one centre a task")
+            raise document.problem(
+                f"{key}.centre", f"must be that of '{circled[0][0]}'; turns count about one centre a task"
+            )
 
 
 def _check_order(box: Goal | Keep, key: str, axes: tuple[str, ...], document: Document) -> None:

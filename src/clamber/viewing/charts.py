@@ -14,9 +14,9 @@ from ..types import Floats
 from ..units import OZ_IN
 from . import style
 from .output import CANVASES, check_suffix, save_figure
-from .panel import torque_limits
 from .scene import halo
 from .style import styled
+from .torques import torque_limits
 
 
 class Generation(Protocol):

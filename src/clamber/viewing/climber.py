@@ -15,7 +15,8 @@ from ..tasks.limbed import LimbedTask
 from ..types import Floats
 from . import style
 from .geometry import Posture, capsule, end_effector
-from .scene import Bounds, halo, hold_radius
+from .scene import Bounds, halo
+from .wall import hold_radius
 
 WEIGHT_ARROW: Final = 0.4
 """Length of an arrow as large as the robot's weight, over the longest limb [-]."""
@@ -37,6 +38,14 @@ class Snapshot:
 def force_scale(task: LimbedTask) -> float:
     """Length of force arrows [m/N]."""
     return WEIGHT_ARROW * max(limb.length for limb in task.robot.limbs) / task.robot.weight
+
+
+def arrow_ends(task: LimbedTask, at: Snapshot) -> Floats:
+    """Both ends of the arrows of all limbs' forces, world frame [m], shape (2 n_limbs, 2)."""
+    tips = at.posture.chains[:, 3]
+    holding = np.array([held >= 0 for held in at.posture.held])[:, None]
+    ends: Floats = np.concatenate([tips, tips + force_scale(task) * np.where(holding, at.forces, 0.0)])
+    return ends
 
 
 class ClimberArtists:

@@ -2,7 +2,7 @@
 
 from io import BytesIO
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from PIL import Image
@@ -11,7 +11,7 @@ from ..files import write_atomically
 from . import style
 from .frames import make_frames
 from .raster import Pixels, rasterise
-from .view import ClimbView
+from .view import View
 
 MOST_FRAMES: Final = 640
 FRAME_MS: Final = 70
@@ -48,8 +48,8 @@ def make_palette(pixels: Pixels) -> Image.Image:
     return palette
 
 
-def write_gif(view: ClimbView, path: Path, *, most_frames: int = MOST_FRAMES) -> None:
-    """Write a climb as an animated GIF that runs for ever."""
+def write_gif(view: View[Any], path: Path, *, most_frames: int = MOST_FRAMES) -> None:
+    """Write a plan as an animated GIF that runs for ever."""
     frames = make_frames(view, most_frames)
     palette: Image.Image | None = None
     before: np.ndarray[tuple[int, int], np.dtype[np.uint8]] | None = None

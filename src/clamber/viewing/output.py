@@ -45,6 +45,17 @@ class MissingExtraError(ClamberError):
         )
 
 
+class StepError(ClamberError):
+    """A step is asked for that the replay does not have."""
+
+    def __init__(self, step: int, steps: int) -> None:
+        super().__init__(step, steps)
+        self.step, self.steps = step, steps
+
+    def __str__(self) -> str:
+        return f"step = {self.step}: the plan has no such step; allowed are 0 (the start) to {self.steps}"
+
+
 def check_suffix(path: str | Path, allowed: Iterable[str]) -> str:
     """The suffix of a file name, in lower case.
 

@@ -1,43 +1,20 @@
-"""The panel beside the wall: torques of joints against their limits, key of the force arrows, strip of steps."""
+"""The panel beside a picture: bars of values between limits, strip of steps."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.patches import FancyArrowPatch, Rectangle
+from matplotlib.patches import Rectangle
 
-from ..tasks.limbed import LimbedTask
 from ..types import Floats
-from ..units import OZ_IN
 from . import style
-from .climber import force_scale
 
-NEAR_LIMIT = 0.9
-"""Share of a joint's limit beyond which its bar turns red [-]."""
 LINE = 0.19
 """Height of a line of text [in]."""
-
-
-def torque_limits(task: LimbedTask) -> Floats:
-    """Torque limits of shoulders and elbows [N m], shape (n_limbs, 2)."""
-    motor = task.robot.motor.torque_limit
-    return np.array(
-        [
-            [motor if joint.torque_limit is None else joint.torque_limit for joint in (limb.shoulder, limb.elbow)]
-            for limb in task.robot.limbs
-        ]
-    )
-
-
-def show_torque(torque: float, *, ounces: bool) -> str:
-    """A torque for people: ounce-inches beside a task in inches, else newton metres."""
-    return f"{torque / OZ_IN:.0f} oz-in" if ounces else f"{torque:.2f} N m"
-
-
-def nice_force(weight: float) -> float:
-    """A round force for the key, near half the weight [N]."""
-    return next(f for f in (1000, 500, 200, 100, 50, 20, 10, 5, 2, 1, 0.5, 0.2, 0.1, 0.0) if f <= 0.6 * weight)
+GAP = 0.05
+"""Between groups of bars [in]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,25 +26,57 @@ class Place:
     width: float
 
 
-class TorqueBars:
-    """One bar per joint: share of its torque limit, red beyond nine tenths."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Gauges:
+    """What a block of bars shows: sizes of values between a lower and an upper end."""
 
-    def __init__(self, axes: Axes, task: LimbedTask, place: Place, *, ounces: bool) -> None:
-        self.task, self.ounces = task, ounces
-        self.limits = torque_limits(task).ravel()
+    title: str
+    names: tuple[str, ...]
+    colours: tuple[str, ...]
+    low: Floats
+    """Value at which a bar is empty, in SI units, shape (n,)."""
+    high: Floats
+    """Value at which a bar is full."""
+    limits: tuple[tuple[float, str], ...]
+    """Shares of a bar at which a line marks a limit, each with its word."""
+    calm: tuple[float, float]
+    """Shares beyond which a bar turns red."""
+    show: Callable[[float], str]
+    """A value in words."""
+    unit: tuple[str, float, int]
+    """The same for the player: unit, its size in SI units, decimals."""
+    group: int
+    """Bars that stand close together."""
+
+    @property
+    def height(self) -> float:
+        """Height of the block [in]."""
+        return self.pitch * len(self.names) + GAP * (len(self.names) // self.group) + 0.5
+
+    @property
+    def pitch(self) -> float:
+        """From bar to bar [in]."""
+        return min(LINE + 0.01, 2.2 / len(self.names))
+
+    def shares(self, values: Floats) -> Floats:
+        """How full the bars are [-]; the sign of a value does not count."""
+        full: Floats = (np.abs(values) - self.low) / (self.high - self.low)
+        return full
+
+
+class GaugeBars:
+    """One bar per value, red where it is close to a limit."""
+
+    def __init__(self, axes: Axes, gauges: Gauges, place: Place) -> None:
+        self.gauges = gauges
         self.start = place.left + 1.22
         self.length = place.width - 1.22 - 0.92
-        axes.text(place.left, place.top, "Joint torques", fontsize=9, weight="bold", va="top")
+        axes.text(place.left, place.top, gauges.title, fontsize=9, weight="bold", va="top")
         self.bars: list[Rectangle] = []
         self.values = []
-        count = len(self.limits)
-        pitch = min(LINE + 0.01, 2.2 / count)
-        top = place.top - 0.42
-        for k in range(count):
-            limb, which = divmod(k, 2)
-            y = top - pitch * (k + 0.9) - 0.05 * limb
-            colour = style.PARTS[limb % len(style.PARTS)]
-            name = f"{task.robot.limbs[limb].name} {('shoulder', 'elbow')[which]}"
+        pitch, top = gauges.pitch, place.top - 0.42
+        for k, (name, colour) in enumerate(zip(gauges.names, gauges.colours, strict=True)):
+            y = top - pitch * (k + 0.9) - GAP * (k // gauges.group)
             axes.text(self.start - 0.06, y, name, fontsize=7, ha="right", va="center", color=style.INK)
             axes.add_patch(Rectangle((self.start, y - 0.3 * pitch), self.length, 0.6 * pitch, fc=style.FAINT, lw=0))
             bar = Rectangle((self.start, y - 0.3 * pitch), 0.0, 0.6 * pitch, fc=colour, lw=0)
@@ -75,39 +84,28 @@ class TorqueBars:
             self.bars.append(bar)
             value = axes.text(self.start + self.length + 0.06, y, "", fontsize=7, va="center", color=style.INK)
             self.values.append(value)
-        self.bottom = top - pitch * count - 0.05 * (count // 2) - 0.05
-        for share, words in ((0.0, "0"), (NEAR_LIMIT, ""), (1.0, "limit")):
+        self.bottom = place.top - gauges.height + 0.03
+        marks = {share: ("", ":") for share in gauges.calm if 0.0 < share < 1.0}
+        marks |= {share: (words, "-") for share, words in gauges.limits}
+        for share, (words, line) in marks.items():
             x = self.start + share * self.length
-            if share:
-                axes.plot([x, x], [self.bottom + 0.03, top], color=style.ALERT, lw=0.8, ls="-" if share == 1 else ":")
+            axes.plot([x, x], [self.bottom + 0.03, top], color=style.ALERT, lw=0.8, ls=line)
             axes.text(x, top + 0.03, words, fontsize=6.5, ha="center", va="bottom", color=style.QUIET)
+        if 0.0 not in marks:
+            axes.text(self.start, top + 0.03, "0", fontsize=6.5, ha="center", va="bottom", color=style.QUIET)
 
     @property
     def artists(self) -> list[Artist]:
         """The artists that change."""
         return [*self.bars, *self.values]
 
-    def update(self, torques: Floats) -> None:
-        """Show torques [N m], shape (n_limbs, 2)."""
-        for k, (torque, limit) in enumerate(zip(torques.ravel().tolist(), self.limits.tolist(), strict=True)):
-            share = abs(torque) / limit
-            self.bars[k].set_width(self.length * min(share, 1.0))
-            self.bars[k].set_facecolor(style.ALERT if share > NEAR_LIMIT else style.PARTS[(k // 2) % len(style.PARTS)])
-            self.values[k].set_text(show_torque(torque if abs(torque) > 1e-9 else 0.0, ounces=self.ounces))
-
-
-def draw_force_key(axes: Axes, task: LimbedTask, place: Place, inches_per_metre: float) -> None:
-    """An arrow of a round force, in the scale of the picture."""
-    force = nice_force(task.robot.weight)
-    length = force * force_scale(task) * inches_per_metre
-    axes.add_patch(
-        FancyArrowPatch(
-            (place.left, place.top), (place.left + length, place.top), arrowstyle="-|>", mutation_scale=9, lw=1.6,
-            color=style.FORCE, shrinkA=0, shrinkB=0,
-        )
-    )  # fmt: skip
-    words = f"{force:g} N, force of a hold on its limb"
-    axes.text(place.left + length + 0.1, place.top, words, fontsize=7, va="center", color=style.QUIET)
+    def update(self, values: Floats) -> None:
+        """Show values in SI units, shape (n,)."""
+        low, high = self.gauges.calm
+        for k, (value, share) in enumerate(zip(values.tolist(), self.gauges.shares(values).tolist(), strict=True)):
+            self.bars[k].set_width(self.length * min(max(share, 0.0), 1.0))
+            self.bars[k].set_facecolor(self.gauges.colours[k] if low <= share <= high else style.ALERT)
+            self.values[k].set_text(self.gauges.show(value))
 
 
 class StepStrip:

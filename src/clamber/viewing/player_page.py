@@ -26,7 +26,8 @@ h2 { font-size: 13px; margin: 0 0 4px; }
 .bar { display: grid; grid-template-columns: 134px 1fr 80px; gap: 6px; align-items: center; font-size: 12px; height: 18px; }
 .bar span:first-child { text-align: right; white-space: nowrap; overflow: hidden; text-overflow: ellipsis; }
 .bar span:last-child { font-variant-numeric: tabular-nums; }
-.track { background: var(--faint); height: 10px; position: relative; border-right: 2px solid #c1272d; }
+.track { background: var(--faint); height: 10px; position: relative; }
+.track i { position: absolute; inset: 0 auto 0 0; width: 2px; margin-left: -1px; background: #c1272d; }
 .fill { position: absolute; inset: 0 auto 0 0; }
 #list { overflow-y: auto; flex: 1; min-height: 60px; margin: 0; padding: 0; list-style: none; font-size: 12.5px;
   border: 1px solid var(--faint); border-radius: 6px; }
@@ -49,10 +50,10 @@ button:focus-visible, select:focus-visible, input:focus-visible { outline: 2px s
 <body>
 <header><h1 id="head"></h1><p id="title"></p></header>
 <main>
-<canvas id="wall" role="img" aria-label="The robot on its wall"></canvas>
+<canvas id="wall" role="img" aria-label="The robot in its world"></canvas>
 <aside>
-<dl><dt>Pose</dt><dd id="pose"></dd><dt>Holds</dt><dd id="holds"></dd><dt>Nearest limit</dt><dd id="limit"></dd></dl>
-<div><h2>Joint torques (line: limit)</h2><div id="bars"></div></div>
+<dl id="facts"></dl>
+<div><h2 id="gauges"></h2><div id="bars"></div></div>
 <h2 style="margin:0">Steps</h2><ol id="list"></ol>
 </aside>
 </main>
@@ -70,7 +71,7 @@ button:focus-visible, select:focus-visible, input:focus-visible { outline: 2px s
 "use strict";
 const D = JSON.parse(document.getElementById("data").textContent);
 const el = id => document.getElementById(id), wall = el("wall"), strip = el("strip");
-const RATE = 15, n = D.limbs.length, F = D.frames;
+const RATE = 15, F = D.frames;
 // Frame k is fully shown at time starts[k]; the picture passes evenly from frame to frame and then rests.
 const starts = []; let total = 0;
 for (const f of F) { starts.push(total); total += f[1] / RATE; }
@@ -78,13 +79,17 @@ const firstFrame = D.steps.map((_, s) => { let k = F.findIndex(f => f[0] > s); r
 let now = 0, playing = false, last = 0, shown = -1;
 el("title").textContent = D.title; el("time").max = total;
 
-const rows = D.limits.map((_, k) => {
-  const row = document.createElement("div"), limb = D.limbs[k >> 1];
+D.rows.forEach(name => { const dt = document.createElement("dt"); dt.textContent = name; el("facts").append(dt, document.createElement("dd")); });
+const facts = [...el("facts").querySelectorAll("dd")], G = D.bars;
+el("gauges").textContent = G.title + (G.limits.length > 1 ? " (lines: limits)" : " (line: limit)");
+const rows = G.names.map((name, k) => {
+  const row = document.createElement("div");
   row.className = "bar";
   row.innerHTML = "<span></span><div class=track><div class=fill></div></div><span></span>";
-  row.firstChild.textContent = limb.name + (k % 2 ? " elbow" : " shoulder");
+  row.firstChild.textContent = name;
+  for (const share of G.limits) { const line = document.createElement("i"); line.style.left = 100 * share + "%"; row.children[1].append(line); }
   el("bars").append(row);
-  return [row.querySelector(".fill"), row.lastChild, limb.colour];
+  return [row.querySelector(".fill"), row.lastChild];
 });
 const items = D.steps.map((s, k) => {
   const li = document.createElement("li"), i = document.createElement("i"), b = document.createElement("b");
@@ -103,11 +108,10 @@ function mix(a, b, u) { return a.map((v, k) => v + (b[k] - v) * u); }
 function between(t) {
   const k = frameAt(t), a = F[k], b = F[Math.min(k + 1, F.length - 1)];
   const gap = 1 / RATE, rest = a[1] / RATE - gap, u = Math.min(1, Math.max(0, (t - starts[k] - rest) / gap));
-  if (u === 0 || a === b) return { step: a[0], pose: a[2], c: a[3], g: a[4], h: a[5], f: a[6], t: a[7] };
+  if (u === 0 || a === b) return { step: a[0], at: a[2], angles: a[3], marks: a[4], values: a[5] };
   const turn = v => v - 2 * Math.PI * Math.round(v / (2 * Math.PI));
-  const pose = mix(a[2], b[2], u); pose[2] = a[2][2] + turn(b[2][2] - a[2][2]) * u;
-  return { step: u > 0 ? b[0] : a[0], pose, c: mix(a[3], b[3], u), g: a[4].map((v, k) => v + turn(b[4][k] - v) * u),
-    h: a[5].map((v, k) => v === b[5][k] ? v : -1), f: mix(a[6], b[6], u), t: mix(a[7], b[7], u) };
+  return { step: b[0], at: mix(a[2], b[2], u), angles: a[3].map((v, k) => v + turn(b[3][k] - v) * u),
+    marks: a[4].map((v, k) => v === b[4][k] ? v : -1), values: mix(a[5], b[5], u) };
 }
 function fit(canvas) {
   const r = window.devicePixelRatio || 1, w = Math.round(canvas.clientWidth * r), h = Math.round(canvas.clientHeight * r);
@@ -125,7 +129,8 @@ function draw() {
   g.fillStyle = "#fff"; g.fillRect(X(B[0]), Y(B[3]), k * (B[1] - B[0]), k * (B[3] - B[2]));
   g.strokeStyle = "#dce1e6"; g.lineWidth = 1; g.strokeRect(X(B[0]), Y(B[3]), k * (B[1] - B[0]), k * (B[3] - B[2]));
   axes(g, X, Y, B, k);
-  for (const q of D.keepOut) {
+  g.save(); g.beginPath(); g.rect(X(B[0]), Y(B[3]), k * (B[1] - B[0]), k * (B[3] - B[2])); g.clip();
+  for (const q of D.forbidden) {
     path(q); g.closePath(); g.save(); g.fillStyle = "#eceef1"; g.fill(); g.clip(); g.strokeStyle = "#aab3bc"; g.lineWidth = 1; g.beginPath();
     for (let d = -H; d < W; d += 9) { g.moveTo(d, H); g.lineTo(d + H, 0); } g.stroke(); g.restore();
     path(q); g.closePath(); g.strokeStyle = "#6e7b87"; g.stroke();
@@ -134,20 +139,15 @@ function draw() {
     path(q.corners); g.closePath(); g.globalAlpha = q.last ? .2 : .11; g.fillStyle = D.palette.goal; g.fill(); g.globalAlpha = 1;
     g.setLineDash(q.last ? [] : [5, 4]); g.strokeStyle = D.palette.goal; g.lineWidth = 1.2; g.stroke(); g.setLineDash([]);
   }
-  const used = {}; s.h.forEach((h, i) => { if (h >= 0) used[h] = D.limbs[i].colour; });
-  g.font = "11px system-ui, sans-serif"; g.textAlign = "right"; g.textBaseline = "bottom";
-  for (const h of D.holds) {
-    if (h.cone) { g.beginPath(); g.moveTo(X(h.at[0]), Y(h.at[1])); g.arc(X(h.at[0]), Y(h.at[1]), 3.2 * h.r * k, -h.cone[0] - h.cone[1], -h.cone[0] + h.cone[1]);
-      g.fillStyle = D.palette.hold + "44"; g.fill(); }
-    g.beginPath(); g.arc(X(h.at[0]), Y(h.at[1]), h.r * k, 0, 7); g.fillStyle = D.palette.hold; g.fill();
-    text(h.n, X(h.at[0]) - 3, Y(h.at[1]) - 3, "#6e7b87");
-  }
-  g.font = "12px system-ui, sans-serif"; g.textAlign = "left";
+  g.restore(); g.font = "12px system-ui, sans-serif"; g.textAlign = "left"; g.textBaseline = "bottom";
   for (const q of D.goals) { const x = Math.min(...q.corners.map(c => c[0])), y = Math.max(...q.corners.map(c => c[1])), w = g.measureText(q.label).width;
     text(q.label, Math.min(X(x) + 2, W - w - 4), Y(y) - 2, "#4f6b20"); }
-  robot(g, s, X, Y, k, path, used, text);
-  g.font = "11px system-ui, sans-serif"; g.textBaseline = "middle"; g.textAlign = "left";
-  const L = D.forceKey * D.forceScale * k; arrow(g, 10, H - 10, 10 + L, H - 10); g.fillStyle = "#6e7b87"; g.fillText(D.forceKey + " N", 16 + L, H - 10);
+  robot({ g, s, X, Y, k, W, H, path, text }); gauge(s.values); describe(s.step);
+}
+function gauge(values) {
+  values.forEach((v, q) => { const [fill, value] = rows[q], u = (Math.abs(v) - G.low[q]) / (G.high[q] - G.low[q]);
+    fill.style.width = 100 * Math.min(Math.max(u, 0), 1) + "%"; fill.style.background = u < G.calm[0] || u > G.calm[1] ? D.palette.alert : G.colours[q];
+    value.textContent = (v / G.unit[1]).toFixed(G.unit[2]).replace(/^-(0\.?0*)$/, "$1") + " " + G.unit[0]; });
 }
 function axes(g, X, Y, B, k) {
   const u = D.unit[1], span = Math.max(B[1] - B[0], B[3] - B[2]) / u, every = [3, 5, 6, 10, 12, 20, 24, 50, 96, 200, 500, 1e9].find(e => span / e <= 8 && (D.unit[0] !== "in" || e % 3 === 0 || e > 1e8));
@@ -156,38 +156,7 @@ function axes(g, X, Y, B, k) {
   g.textAlign = "right"; g.textBaseline = "middle";
   for (let v = Math.ceil(B[2] / u / every) * every; v * u <= B[3]; v += every) g.fillText(v, X(B[0]) - 6, Y(v * u));
 }
-function arrow(g, x0, y0, x1, y1) {
-  const a = Math.atan2(y1 - y0, x1 - x0), c = D.palette.force; g.strokeStyle = g.fillStyle = c; g.lineWidth = 2;
-  g.beginPath(); g.moveTo(x0, y0); g.lineTo(x1 - 5 * Math.cos(a), y1 - 5 * Math.sin(a)); g.stroke();
-  g.beginPath(); g.moveTo(x1, y1); g.lineTo(x1 - 8 * Math.cos(a - .45), y1 - 8 * Math.sin(a - .45)); g.lineTo(x1 - 8 * Math.cos(a + .45), y1 - 8 * Math.sin(a + .45)); g.fill();
-}
-function robot(g, s, X, Y, k, path, used, text) {
-  const [bx, by, a] = s.pose, ca = Math.cos(a), sa = Math.sin(a), body = D.body.map(p => [bx + ca * p[0] - sa * p[1], by + sa * p[0] + ca * p[1]]);
-  path(body); g.closePath(); g.fillStyle = D.palette.body; g.fill(); g.strokeStyle = "#22303c"; g.lineWidth = 1.5; g.stroke();
-  const up = Math.min(...D.body.map(p => Math.hypot(...p))) * .5; path([[bx, by], [bx - sa * up, by + ca * up]]); g.stroke();
-  for (let i = 0; i < n; i++) {
-    const p = [0, 1, 2, 3].map(q => [s.c[8 * i + 2 * q], s.c[8 * i + 2 * q + 1]]), limb = D.limbs[i], h = s.h[i];
-    for (const [from, to, w] of [[0, 1, 1], [1, 2, .8]]) { for (const [colour, extra] of [["#fff", 1.6], [limb.colour, 0]]) {
-      path([p[from], p[to]]); g.strokeStyle = colour; g.lineWidth = 2 * D.radius * w * k + extra; g.stroke(); } }
-    path([p[2], p[3]]); g.strokeStyle = limb.colour; g.lineWidth = 2; g.stroke();
-    if (h >= 0) { const hold = D.holds[h]; g.beginPath(); g.arc(X(hold.at[0]), Y(hold.at[1]), 1.25 * hold.r * k, 0, 7); g.fillStyle = limb.colour; g.fill(); }
-    const r = 1.35 * Math.max(D.holds[0].r * 2.2, D.radius * .9) * k, x = X(p[3][0]), y = Y(p[3][1]), d = -s.g[i];
-    g.lineWidth = 2.2; g.beginPath();
-    if (limb.kind === "foot") { g.moveTo(x - r * Math.sin(d), y + r * Math.cos(d)); g.lineTo(x + r * Math.sin(d), y - r * Math.cos(d)); }
-    else { const gap = limb.kind === "hook" ? 1.31 : h >= 0 ? .21 : 1.05; g.arc(x, y, r, d + gap, d + 2 * Math.PI - gap); }
-    g.stroke(); g.fillStyle = "#fff";
-    for (const q of [0, 1]) { g.beginPath(); g.arc(X(p[q][0]), Y(p[q][1]), 2.2, 0, 7); g.fill(); }
-  }
-  for (let i = 0; i < n; i++) {
-    const x = s.c[8 * i + 6], y = s.c[8 * i + 7], fx = s.f[2 * i], fy = s.f[2 * i + 1];
-    if (s.h[i] >= 0 && Math.hypot(fx, fy) * D.forceScale * k > 4) arrow(g, X(x), Y(y), X(x + fx * D.forceScale), Y(y + fy * D.forceScale));
-    if (s.h[i] >= 0) { g.font = "bold 12px system-ui, sans-serif"; g.textAlign = "right"; g.textBaseline = "bottom"; const h = D.holds[s.h[i]]; text(h.n, X(h.at[0]) - 5, Y(h.at[1]) - 5, "#22303c"); }
-  }
-  s.t.forEach((t, q) => { const [fill, value, colour] = rows[q], u = Math.abs(t) / D.limits[q];
-    fill.style.width = 100 * Math.min(u, 1) + "%"; fill.style.background = u > D.nearLimit ? D.palette.alert : colour;
-    const v = t / D.torqueUnit[1]; value.textContent = (D.torqueUnit[1] === 1 ? v.toFixed(2) : Math.round(v) || 0) + " " + D.torqueUnit[0]; });
-  describe(s.step);
-}
+@ROBOT@
 function describe(step) {
   el("time").value = now; drawStrip(step);
   if (step === shown) return;
@@ -197,8 +166,8 @@ function describe(step) {
   if (top < list.scrollTop + 20 || top > list.scrollTop + list.clientHeight - 50) list.scrollTop = top - list.clientHeight / 2;
   el("head").textContent = step ? "Step " + step + " of " + (D.steps.length - 1) + ": " + s.action : "Start";
   el("head").style.color = s.grade === 0 ? D.palette.alert : "";
-  el("pose").textContent = s.pose; el("holds").textContent = s.holds; el("limit").textContent = s.limit;
-  el("limit").style.color = [D.palette.alert, "#b35900", "", ""][s.grade];
+  s.facts.forEach((words, k) => { facts[k].textContent = words; });
+  facts[facts.length - 1].style.color = [D.palette.alert, "#b35900", "", ""][s.grade];
 }
 function drawStrip(step) {
   const g = fit(strip), W = strip.clientWidth, H = strip.clientHeight; g.clearRect(0, 0, W, H);
@@ -224,4 +193,9 @@ asked ? jump(Number(asked[1])) : draw();
 </body>
 </html>
 """
-"""`@TITLE@` and `@DATA@` are replaced; the data is JSON as `player.player_data` makes it."""
+"""`@TITLE@`, `@ROBOT@` and `@DATA@` are replaced.
+
+The data is JSON as `player.player_data` makes it. The robot's script defines `robot(draw)`, which draws one moment: `draw`
+has the canvas `g`, the moment `s` with `at`, `angles` and `marks` (`view.Spread`), from metres to pixels `X`, `Y` and the
+scale `k`, the canvas's size `W`, `H`, `path(points)` and `text(words, x, y, colour)`.
+"""

@@ -1,4 +1,4 @@
-"""Frames as pixels: what stands still is drawn once, and only the climber and the panel's bars again."""
+"""Frames as pixels: what stands still is drawn once, and only the robot and the panel's bars again."""
 
 from collections.abc import Iterator
 
@@ -7,13 +7,13 @@ import numpy.typing as npt
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from .frames import Frame
-from .view import ClimbView
+from .view import Moment, View
 
 Pixels = npt.NDArray[np.uint8]
 """RGB, shape (height, width, 3)."""
 
 
-def rasterise(view: ClimbView, frames: list[Frame], dpi: int) -> Iterator[Pixels]:
+def rasterise(view: View[Moment], frames: list[Frame[Moment]], dpi: int) -> Iterator[Pixels]:
     """Each frame as pixels; both sides are even, as video formats want them."""
     figure = view.figure
     w, h = figure.get_size_inches()
@@ -27,7 +27,7 @@ def rasterise(view: ClimbView, frames: list[Frame], dpi: int) -> Iterator[Pixels
     still = canvas.copy_from_bbox(figure.bbox)  # type: ignore[no-untyped-call]
     for frame in frames:
         canvas.restore_region(still)  # type: ignore[no-untyped-call]
-        view.show(frame.step, frame.snapshot)
+        view.show(frame.step, frame.moment)
         for artist in artists:
             figure.draw_artist(artist)
         colours = np.asarray(canvas.buffer_rgba())  # type: ignore[no-untyped-call]

@@ -2,13 +2,13 @@
 
 import tempfile
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 from ..files import write_atomically
 from .frames import make_frames
 from .output import MissingExtraError
 from .raster import rasterise
-from .view import ClimbView
+from .view import View
 
 MOST_FRAMES: Final = 6000
 RATE: Final = 15
@@ -16,8 +16,8 @@ RATE: Final = 15
 DPI: Final = 140
 
 
-def write_mp4(view: ClimbView, path: Path, *, most_frames: int = MOST_FRAMES) -> None:
-    """Write a climb as H.264 video.
+def write_mp4(view: View[Any], path: Path, *, most_frames: int = MOST_FRAMES) -> None:
+    """Write a plan as H.264 video.
 
     Raises:
         MissingExtraError: If imageio-ffmpeg is not installed.
@@ -28,7 +28,7 @@ def write_mp4(view: ClimbView, path: Path, *, most_frames: int = MOST_FRAMES) ->
         raise MissingExtraError(f"writing {path.name}", "imageio-ffmpeg", "video") from None
     frames = make_frames(view, most_frames)
     with tempfile.TemporaryDirectory() as folder:
-        target = Path(folder) / "climb.mp4"
+        target = Path(folder) / "plan.mp4"
         writer = None
         for frame, pixels in zip(frames, rasterise(view, frames, DPI), strict=True):
             if writer is None:

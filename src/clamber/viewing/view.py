@@ -1,35 +1,47 @@
-"""One picture of a climber at one moment: wall on one side, what the moment says on the other."""
+"""One picture of a robot at one moment: its world on one side, what the moment says on the other."""
 
-from typing import Final
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, ClassVar, Final, Generic, Protocol, TypeVar
 
-import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 
-from ..actions.problem import Records, Replay
-from ..tasks.limbed import LimbedTask
+from ..actions.problem import Replay
+from ..types import Floats, Json
 from . import style
-from .climber import ClimberArtists, Snapshot
-from .geometry import Posture, postures
-from .margins import Limiting, all_limiting, grade
-from .panel import LINE, Place, StepStrip, TorqueBars, draw_force_key
-from .scene import Bounds, draw_scene, find_bounds
-from .words import describe_action, describe_holds, describe_pose, length_unit
+from .margins import Limiting, Yardsticks, all_limiting, grade
+from .panel import LINE, GaugeBars, Gauges, Place, StepStrip
+from .scene import Bounds
+
+Moment = TypeVar("Moment")
+"""What a family's robot looks like at one moment."""
+Shown = TypeVar("Shown", contravariant=True)
+"""The same where it is only taken."""
 
 PANEL_WIDTH: Final = 3.7
 EDGE: Final = 0.5
 TITLE: Final = 0.80
+TEXTS: Final = 2.75
+"""Height of facts, strip and key [in]."""
 WIDE: Final = 1.7
-"""Walls that are wider than high by more than this have the panel below [-]."""
+"""Worlds that are wider than high by more than this have the panel below [-]."""
+
+
+def is_wide(bounds: Bounds) -> bool:
+    """Whether the panel is below the world rather than beside it."""
+    return bounds[1] - bounds[0] > WIDE * (bounds[3] - bounds[2])
 
 
 class Layout:
-    """Sizes of a picture in inches: the wall in one scale both ways, the panel beside or below it."""
+    """Sizes of a picture in inches: the world in one scale both ways, the panel beside or below it."""
 
     def __init__(self, bounds: Bounds, panel_height: float, *, height: float = 6.0, width: float = 6.6) -> None:
         w, h = bounds[1] - bounds[0], bounds[3] - bounds[2]
-        self.below = w > WIDE * h
+        self.below = is_wide(bounds)
         if self.below:
             width, height = 9.0, 4.0
         self.scale = min(width / w, height / h)
@@ -54,92 +66,150 @@ class Layout:
         w, h = self.size
         return figure.add_axes((at[0] / w, at[1] / h, size[0] / w, size[1] / h))
 
+    def figure(self, title: str, subtitle: str) -> tuple[Figure, Axes, Axes, Text]:
+        """An empty picture: the figure, the world's axes, the panel's, in inches, and the title's artist."""
+        figure = Figure(figsize=self.size)
+        figure.set_facecolor(style.PAPER)
+        wall = self.axes(figure, self.wall_at, self.wall)
+        panel = self.axes(figure, self.panel_at, self.panel)
+        w, h = self.size
+        shown = figure.text(EDGE / w, 1 - 0.13 / h, title, fontsize=11, weight="bold", va="top")
+        figure.text(EDGE / w, 1 - 0.35 / h, subtitle, fontsize=8.5, va="top", color=style.QUIET)
+        return figure, wall, panel, shown
 
-class ClimbView:
-    """A picture of a replay that can be set to any moment of it."""
+    def fix_panel(self, panel: Axes) -> None:
+        """Set the panel's limits, in inches; last, for the strip's image sets limits of its own."""
+        panel.set_xlim(0.0, self.panel[0])
+        panel.set_ylim(0.0, self.panel[1])
+        panel.axis("off")
 
-    def __init__(self, task: LimbedTask, replay: Replay) -> None:
-        self.task, self.replay = task, replay
-        self.postures: list[Posture] = postures(task.robot, task.world, replay.stances)
-        self.bounds = find_bounds(task, self.postures)
-        self.limiting: list[Limiting | None] = all_limiting(task, replay.margins, replay.reasons)
-        joints = 2 * len(task.robot.limbs)
-        bars = min(LINE + 0.01, 2.2 / joints) * joints + 0.025 * joints + 0.5
-        below = (self.bounds[1] - self.bounds[0]) > WIDE * (self.bounds[3] - self.bounds[2])
-        self.layout = Layout(self.bounds, max(bars, 2.75) if below else bars + 2.75)
-        self.figure = Figure(figsize=self.layout.size)
-        self.figure.set_facecolor(style.PAPER)
-        self.wall = self.layout.axes(self.figure, self.layout.wall_at, self.layout.wall)
-        draw_scene(self.wall, task, self.bounds)
-        self.climber = ClimberArtists(self.wall, task, self.bounds)
-        panel = self.layout.axes(self.figure, self.layout.panel_at, self.layout.panel)
-        self.strip: StepStrip
-        self._make_panel(panel, bars)
-        self._make_title()
 
-    def _make_panel(self, panel: Axes, bars: float) -> None:
-        width, height = self.layout.panel
-        ounces = length_unit(self.task)[0] == "in"
+@dataclass(frozen=True, slots=True)
+class Part(Generic[Moment]):
+    """One part of an action's motion."""
+
+    kind: str
+    """One of `frames.FRAMES`."""
+    at: Callable[[float, float], Moment]
+    """The moment at a share of the part and at a share of the whole action, both in [0, 1], ends included."""
+
+
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """A moment as numbers that the player can pass between."""
+
+    lengths: Floats
+    """World frame [m] and whatever else passes evenly, shape (n,)."""
+    angles: Floats
+    """Pass the shorter way round [rad]."""
+    marks: tuple[int, ...]
+    """Do not pass: -1 while two frames differ."""
+
+
+class Robot(Protocol[Shown]):
+    """A robot as updatable artists."""
+
+    @property
+    def artists(self) -> list[Artist]:
+        """All artists, from back to front."""
+        ...
+
+    def update(self, at: Shown) -> None:
+        """Put every artist where a moment has it."""
+        ...
+
+
+class View(ABC, Generic[Moment]):
+    """A picture of a replay that can be set to any moment of it; each family draws its own world and robot."""
+
+    rows: ClassVar[tuple[str, ...]]
+    """Names of the facts in the panel; the nearest limit comes after them."""
+    script: ClassVar[str]
+    """How the player draws the robot: JavaScript that defines `robot` (see `player_page`)."""
+    robot: Robot[Moment]
+    """Made by the family, after this class has made the axes."""
+
+    def __init__(self, task: Any, replay: Replay, bounds: Bounds, gauges: Gauges, yardsticks: Yardsticks) -> None:
+        self.title, self.replay, self.bounds, self.gauges = task.title or task.name, replay, bounds, gauges
+        self.limiting: list[Limiting | None] = all_limiting(yardsticks, replay)
+        height = max(gauges.height, TEXTS) if is_wide(bounds) else gauges.height + TEXTS
+        self.layout = Layout(bounds, height)
+        self.figure, self.wall, self.panel, self.head = self.layout.figure("", self.title)
+        height = self.layout.panel[1]
         left = PANEL_WIDTH + 0.4 if self.layout.below else 0.0
-        rows = ("Pose", "Holds", "Nearest limit")
+        rows = (*self.rows, "Nearest limit")
         self.texts = []
         for k, row in enumerate(rows):
             y = height - (k * 2.2 * LINE)
-            panel.text(0.0, y, row, fontsize=7.5, va="top", color=style.QUIET)
-            self.texts.append(panel.text(0.0, y - 0.85 * LINE, "", fontsize=8.5, va="top"))
+            self.panel.text(0.0, y, row, fontsize=7.5, va="top", color=style.QUIET)
+            self.texts.append(self.panel.text(0.0, y - 0.85 * LINE, "", fontsize=8.5, va="top"))
         text_end = height - len(rows) * 2.2 * LINE - 0.1
-        bars_top = height if self.layout.below else text_end
-        self.bars = TorqueBars(panel, self.task, Place(left, bars_top, PANEL_WIDTH), ounces=ounces)
-        strip_top = text_end if self.layout.below else self.bars.bottom - 0.12
-        self.strip = StepStrip(panel, [grade(step) for step in self.limiting], Place(0.0, strip_top, PANEL_WIDTH - 0.1))
-        # last, for the strip's image sets limits of its own
-        panel.set_xlim(0.0, width)
-        panel.set_ylim(0.0, height)
-        panel.axis("off")
-        key_y = strip_top - 0.92
-        draw_force_key(panel, self.task, Place(0.0, key_y, PANEL_WIDTH), self.layout.scale)
+        self.bars = GaugeBars(self.panel, gauges, Place(left, height if self.layout.below else text_end, PANEL_WIDTH))
+        top = text_end if self.layout.below else self.bars.bottom - 0.12
+        grades = [grade(step) for step in self.limiting]
+        self.strip = StepStrip(self.panel, grades, Place(0.0, top, PANEL_WIDTH - 0.1))
+        self.layout.fix_panel(self.panel)
+        self.key = Place(0.0, top - 0.92, PANEL_WIDTH)
 
-    def _make_title(self) -> None:
-        w, h = self.layout.size
-        self.title = self.figure.text(EDGE / w, 1 - 0.13 / h, "", fontsize=11, weight="bold", va="top")
-        self.figure.text(EDGE / w, 1 - 0.35 / h, self.task.title, fontsize=8.5, va="top", color=style.QUIET)
+    @abstractmethod
+    def settled(self, step: int) -> Moment:
+        """The stance after a step; 0 is the start."""
+
+    @abstractmethod
+    def motion(self, step: int) -> list[Part[Moment]]:
+        """The parts of a step's motion, in order; at least one."""
+
+    @abstractmethod
+    def values(self, at: Moment) -> Floats:
+        """What the bars show, SI units, shape (n,)."""
+
+    @abstractmethod
+    def action(self, step: int) -> str:
+        """A step in words."""
+
+    @abstractmethod
+    def facts(self, step: int, at: Moment) -> tuple[str, ...]:
+        """A moment in words, one for each of `rows`."""
+
+    @abstractmethod
+    def world(self) -> Json:
+        """What the player draws beside the moments: see `player`."""
+
+    @abstractmethod
+    def spread(self, at: Moment) -> Spread:
+        """A moment for the player, as `script` reads it."""
 
     @property
     def artists(self) -> list[Artist]:
         """The artists that change, from back to front."""
-        return [self.title, *self.climber.artists, *self.texts, *self.bars.artists, *self.strip.artists]
+        return [self.head, *self.robot.artists, *self.texts, *self.bars.artists, *self.strip.artists]
 
-    def snapshot(self, step: int) -> Snapshot:
-        """The settled stance after a step, as it is drawn."""
-        n = len(self.task.robot.limbs)
-        stance = self.replay.stances[step]
-        return Snapshot(self.postures[step], np.array(stance["force"][:n]), np.array(stance["torques"][:n]))
+    def reason(self, step: int) -> int:
+        """Number of the check that a step violates; -1: none."""
+        return int(self.replay.reasons[step - 1]) if step else -1
 
-    def show(self, step: int, at: Snapshot) -> None:
+    def limit(self, step: int) -> Limiting | None:
+        """What limits the stance after a step; None if nothing has judged it."""
+        return self.limiting[step - 1] if step else None
+
+    def show(self, step: int, at: Moment) -> None:
         """Set the picture to a moment of a step.
 
         Args:
             step: Number of the action, from 1; 0 is the start.
-            at: What the climber looks like.
+            at: What the robot looks like.
         """
         steps = len(self.replay.reasons)
-        stances: Records = self.replay.stances
-        if step == 0:
-            self.title.set_text("Start")
-        else:
-            reason = int(self.replay.reasons[step - 1])
-            action = describe_action(self.task, stances[step - 1], stances[step], reason)
-            self.title.set_text(f"Step {step} of {steps}: {action}")
-            self.title.set_color(style.ALERT if reason >= 0 else style.INK)
-        limit = self.limiting[step - 1] if step else None
-        self.texts[0].set_text(describe_pose(self.task, at.posture.x, at.posture.y, at.posture.angle))
-        words = describe_holds(self.task, stances[step])
-        self.texts[1].set_text(_shortened(words, 64))
-        self.texts[1].set_fontsize(8.5 if len(words) <= 50 else 7.0)
-        self.texts[2].set_text("not judged" if limit is None else str(limit))
-        self.texts[2].set_color((style.ALERT, "#B35900", style.INK, style.INK)[grade(limit)])
-        self.climber.update(at)
-        self.bars.update(at.torques)
+        self.head.set_text(f"Step {step} of {steps}: {self.action(step)}" if step else "Start")
+        self.head.set_color(style.ALERT if self.reason(step) >= 0 else style.INK)
+        limit = self.limit(step)
+        words = (*self.facts(step, at), "not judged" if limit is None else str(limit))
+        for text, line in zip(self.texts, words, strict=True):
+            text.set_text(_shortened(line, 64))
+            text.set_fontsize(8.5 if len(line) <= 50 else 7.0)
+        self.texts[-1].set_color((style.ALERT, "#B35900", style.INK, style.INK)[grade(limit)])
+        self.robot.update(at)
+        self.bars.update(self.values(at))
         self.strip.update(step)
 
 

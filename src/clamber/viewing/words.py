@@ -7,19 +7,20 @@ from typing import Final
 import numpy as np
 
 from ..actions.limbed_problem import CHECKS
+from ..tasks import Task
 from ..tasks.limbed import LimbedTask
 from ..units import DEGREE, INCH
 
 DIRECTIONS: Final = (("right", 1.0 + 0j), ("left", -1.0 + 0j), ("up", 1j), ("down", -1j))
 
 
-def length_unit(task: LimbedTask) -> tuple[str, float]:
-    """Unit of length for people, and its size [m]: inches where the body steps by quarter inches, else centimetres."""
+def length_unit(task: Task) -> tuple[str, float]:
+    """Unit of length for people, and its size [m]: inches where the task steps by quarter inches, else centimetres."""
     quarters = 4.0 * task.step.length / INCH
     return ("in", INCH) if abs(quarters - round(quarters)) < 1e-6 else ("cm", 0.01)
 
 
-def describe_pose(task: LimbedTask, x: float, y: float, angle: float) -> str:
+def describe_pose(task: Task, x: float, y: float, angle: float) -> str:
     """A pose in words: x, y in the task's unit, angle in degrees."""
     unit, size = length_unit(task)
     turn = math.remainder(angle, math.tau) / DEGREE

@@ -5,8 +5,6 @@ from pathlib import Path
 from typing import Final
 
 from ...units import OZ_IN
-from ...viewing.charts import draw_torques
-from ...viewing.pictures import draw_route
 from ..result import Compared, Figure, StudyResult, Table
 from . import PAPER
 from .replayed import H_START, INFERRED, Replayed, replay_printed
@@ -39,7 +37,9 @@ PRINTED: Final[dict[str, Printed]] = {
         69,
         torque="about 1900",
         torque_limit=2000.0,
-        deviations=("At step 20 both supporting legs hold pegs on one vertical line; we take the push-pull split there.",),
+        deviations=(
+            "At step 20 both supporting legs hold pegs on one vertical line; we take the push-pull split there.",
+        ),
     ),
     "h-planner-plan": Printed(
         "h_ga",
@@ -93,7 +93,9 @@ def repeat_plan(result: str) -> StudyResult:
         for name, steps in verdict.warnings().items()
     ]
     if verdict.first_violation is not None:
-        compared.append(Compared("first violation", f"step {verdict.first_violation.step}: {verdict.first_violation.reason}"))
+        compared.append(
+            Compared("first violation", f"step {verdict.first_violation.step}: {verdict.first_violation.reason}")
+        )
     held = verdict.steps >= printed.holds and (printed.torque_limit is None or torque < printed.torque_limit)
     return StudyResult(
         paper=PAPER,
@@ -120,17 +122,28 @@ def _largest(done: Replayed) -> str:
 
 def _steps(done: Replayed) -> Table:
     rows = tuple(
-        (row.step, row.asked, row.hold, "ok" if row.ok else row.reason, None if row.max_torque is None else row.max_torque / OZ_IN, ", ".join(row.reported))
+        (
+            row.step,
+            row.asked,
+            row.hold,
+            "ok" if row.ok else row.reason,
+            None if row.max_torque is None else row.max_torque / OZ_IN,
+            ", ".join(row.reported),
+        )
         for row in done.verdict.per_step
-    )  # fmt: skip
+    )
     return Table(("step", "action", "peg", "verdict", "largest torque [oz-in]", "warnings"), rows)
 
 
 def _figures(done: Replayed) -> tuple[Figure, ...]:
     def route(path: Path) -> None:
+        from ...viewing.pictures import draw_route
+
         draw_route(done.task, done.replay, path)
 
     def torques(path: Path) -> None:
+        from ...viewing.charts import draw_torques
+
         draw_torques(done.task, {done.opened.plan.planner: done.replay}, path)
 
     return (

@@ -18,9 +18,11 @@ H_START: Final = ("start.y=6.2in",)
 """The start that the printed pegs of Table 2.4 fit best."""
 START: Final = "The start of the plan is not printed; it is inferred from the plan and the board."
 MIRRORED: Final = (
-    "The hook of leg 1 is taken as -90 deg, the mirror image of leg 2's; +90 deg is printed for both, and leg 1 could not carry weight so."
+    "The hook of leg 1 is -90 deg, mirroring leg 2's; +90 deg is printed for both, and leg 1 could carry no weight so."
 )
-LEG_3: Final = "The second link of leg 3 is taken as 15.5 cm; 15.0 cm is printed, which is too short for two of the printed plans."
+LEG_3: Final = (
+    "The second link of leg 3 is taken as 15.5 cm; 15.0 cm is printed, which is too short for two of the printed plans."
+)
 CLEARANCE: Final = "The least distance of the body from a peg is not printed: 6 in is ours."
 OPPOSED: Final = "Legs 1 and 2 always count as one on each side of the body, so that they share the weight vertically."
 INFERRED: Final = (START, MIRRORED, LEG_3, OPPOSED, CLEARANCE)

@@ -1,0 +1,35 @@
+"""The studies by name: paper, then published result, to the function that repeats it."""
+
+from collections.abc import Callable
+from functools import partial
+from typing import Final, TypeAlias
+
+from .bevly_1997 import PAPER
+from .bevly_1997.evolution import follow_h, follow_modified_ladder
+from .bevly_1997.h_torques import compare_h_torques
+from .bevly_1997.hook_check import check_hooks
+from .bevly_1997.inventory_size import count_modules
+from .bevly_1997.no_rotation import rotation_is_needed, rotation_is_not_needed
+from .bevly_1997.nominal_gait import climb_with_gait
+from .bevly_1997.planner_success import count_successes
+from .bevly_1997.printed_plans import PRINTED, repeat_plan
+from .bevly_1997.step_size import vary_step_size
+from .result import StudyResult
+
+Repeat: TypeAlias = Callable[[], StudyResult]
+STUDIES: Final[dict[str, dict[str, Repeat]]] = {
+    PAPER: {
+        "inventory-size": count_modules,
+        **{result: partial(repeat_plan, result) for result in PRINTED},
+        "hook-check": check_hooks,
+        "nominal-gait": climb_with_gait,
+        "no-rotation": rotation_is_needed,
+        "no-rotation-free": rotation_is_not_needed,
+        "step-size": vary_step_size,
+        "h-torques": compare_h_torques,
+        "modified-ladder-evolution": follow_modified_ladder,
+        "h-evolution": follow_h,
+        "planner-success": count_successes,
+    },
+}
+"""Paper -> result -> what repeats it; the command line, the pages and the tests read it."""

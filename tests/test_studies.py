@@ -1,0 +1,105 @@
+"""Studies: what each published result comes to, and that its report can be read."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from clamber.actions.codes import MOVE, pack
+from clamber.actions.plan_families import plan_family
+from clamber.studies.bevly_1997.modified_ladder import NO_HANGS, OWN, OWN_HALVES
+from clamber.studies.bevly_1997.printed_plans import PRINTED
+from clamber.studies.bevly_1997.replayed import limbed_task
+from clamber.studies.exhaust import exhaust
+from clamber.studies.library import STUDIES
+from clamber.studies.report import write_report
+
+BEVLY = STUDIES["bevly-1997"]
+LONG = ("no-rotation-free", "step-size", "modified-ladder-evolution", "h-evolution", "planner-success")
+TURNS = (pack(MOVE, 0, 4), pack(MOVE, 0, 5))
+
+
+@pytest.mark.parametrize("name", [name for name in BEVLY if name not in LONG])
+def test_quick_results_of_bevly_keep_their_verdicts(name: str) -> None:
+    result = BEVLY[name]()
+    assert result.result == name
+    assert result.verdict == ("differs" if name == "hook-check" else "holds")
+    told = result.to_json()
+    assert set(told) == {"paper", "result", "claim", "verdict", "numbers", "deviations"}
+    json.dumps(told, allow_nan=False)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", LONG)
+def test_long_results_of_bevly_keep_their_verdicts(name: str) -> None:
+    assert BEVLY[name]().verdict == EXPECTED[name]
+
+
+EXPECTED = {
+    "no-rotation-free": "differs",
+    "step-size": "holds",
+    "modified-ladder-evolution": "holds",
+    "h-evolution": "differs",
+    "planner-success": "holds",
+}
+
+
+def test_hook_counts_are_those_of_the_record() -> None:
+    table = BEVLY["hook-check"]().table
+    assert table is not None
+    counts = {row[0]: (row[2], row[1], row[3]) for row in table.rows}
+    assert counts == {
+        "Table D.1, ladder": (0, 63, 0),
+        "Table D.2, H by hand": (8, 69, 9),
+        "Table 2.4, H by the planner": (14, 119, 14),
+        "Table 2.3, modified ladder": (0, 60, 0),
+        "Table D.3, across": (11, 214, 11),
+        "Table D.4, circle": (14, 201, 14),
+    }
+
+
+def test_one_cycle_of_the_nominal_gait_climbs_one_rung() -> None:
+    numbers = BEVLY["nominal-gait"]().numbers
+    assert numbers["actions of the gait to y = 60 in, 6 in steps"] == 45  # nine rungs of five actions
+    assert numbers["largest torque, 6 in steps [oz-in]"] == pytest.approx(648.0)
+
+
+def test_without_rotation_the_modified_ladder_ends_at_21_inches_if_legs_keep_to_their_column() -> None:
+    numbers = BEVLY["no-rotation"]().numbers
+    assert numbers["stances that can be reached without rotation"] == 2234
+    assert numbers["highest body without rotation [in]"] == pytest.approx(21.0)
+    assert numbers["steps of Table 2.3 that keep these rules"] == 60
+
+
+def test_a_plan_found_by_exhaustion_holds_and_reaches_the_goal() -> None:
+    task = limbed_task("modified-ladder", (OWN_HALVES, NO_HANGS))
+    found = exhaust(task, without=TURNS)
+    assert found.codes is not None
+    replay = plan_family(task).problem(task).replay(found.codes)
+    assert replay.ok
+    assert replay.stances["stage"][-1] == 1
+    assert not np.isin(found.codes, TURNS).any()
+
+
+def test_exhaustion_without_an_answer_says_whether_it_was_complete() -> None:
+    task = limbed_task("modified-ladder", OWN)
+    assert exhaust(task, without=TURNS).closed
+    cut = exhaust(task, without=TURNS, most=100)
+    assert (cut.codes, cut.closed) == (None, False)
+
+
+def test_report_has_a_page_for_each_result_and_its_pictures(tmp_path: Path) -> None:
+    results = [BEVLY[name]() for name in ("inventory-size", "ladder-plan")]
+    write_report(results, tmp_path)
+    pages = tmp_path / "bevly-1997"
+    assert "| modules without the no-op | 111 | 111 |" in (pages / "inventory-size.md").read_text(encoding="utf-8")
+    page = (pages / "ladder-plan.md").read_text(encoding="utf-8")
+    for figure in results[1].figures:
+        assert f"ladder-plan-{figure.name}.png" in page
+        assert (pages / f"ladder-plan-{figure.name}.png").read_bytes().startswith(b"\x89PNG")
+    assert not (tmp_path / "bevly-1997.md").exists()  # only all results make a paper's page
+
+
+def test_every_printed_plan_is_a_result() -> None:
+    assert set(PRINTED) <= set(BEVLY)
