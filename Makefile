@@ -1,7 +1,7 @@
 # `make demo` needs Python 3.11 or later and nothing else; every other target sets itself up in the same way.
 PYTHON ?= python3
 JOBS ?= auto
-STUDY ?= bevly_1997
+STUDY ?= bevly-1997
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
@@ -59,7 +59,7 @@ architecture: setup  ## who may import whom
 check: lint types architecture test  ## all that a change has to pass
 
 bench: setup  ## speed and success beside DEAP, pymoo and pygad
-	$(BIN)/clamber bench
+	$(BIN)/clamber bench plan
 
 study: setup  ## one paper's results, ours beside the printed ones: make study STUDY=name
 	$(BIN)/clamber study $(STUDY)

@@ -10,7 +10,7 @@ import pytest
 
 from clamber.actions.problem import CompiledProblem
 from clamber.actions.problems import pose_problem
-from clamber.experiments import benches, peers, races, rows, speed, workload
+from clamber.experiments import benches, peers, races, rows, speed, starts, workload
 from clamber.experiments.ablation import TASKS, VARIANTS, bench_ablation, varied
 from clamber.experiments.plain_problem import PlainProblem, plain_module
 from clamber.experiments.rows import NOTHING, Row, median_or_nothing
@@ -119,6 +119,13 @@ def test_speed_is_reported_for_every_load() -> None:
     told = speed.speed_rows(loads=loads, repeats=1)
     assert {load.name for load in loads} <= {row.name.rpartition("by CPU time, ")[2] for row in told}
     assert all(row.value > 0.0 for row in told if "load of the machine" not in row.name)
+
+
+def test_memory_is_that_of_the_command_and_not_of_the_process_that_starts_it(tmp_path: Any) -> None:
+    ballast = np.ones(400 * 2**20 // 8)
+    seconds, memory = starts.run_command(("--help",), tmp_path)
+    assert ballast.all() and seconds > 0.0
+    assert 5.0 < memory < 300.0  # MiB
 
 
 @pytest.mark.slow

@@ -1,5 +1,6 @@
 """`clamber bench`: measure speed and success, beside peers."""
 
+from functools import partial
 from typing import Annotated
 
 import typer
@@ -23,7 +24,7 @@ def bench(
     rows = []
     for chosen in BENCHES if name is None else (name,):
         stderr().print(f"measuring {chosen}")
-        rows += BENCHES[chosen]()
+        rows += BENCHES[chosen](say=partial(stderr().print, style="dim"))
     if as_json:
         print_json([row.to_json() for row in rows])
     else:

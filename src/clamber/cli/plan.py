@@ -1,7 +1,7 @@
 """`clamber plan`: find a plan for a task."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -46,7 +46,7 @@ def plan(
 
     if planner not in PLANNERS:
         raise UnknownNameError("planner", planner, tuple(PLANNERS))
-    options = {"seed": seed, "seconds": seconds, "threads": threads}
+    options: dict[str, Any] = {"seed": seed, "seconds": seconds, "threads": threads}
     if planner == "genetic":
         learned = () if macros is None else load_macros(macros)
         options |= {"profile": profile, "max_evaluations": evaluations, "macros": learned, "checkpoint": checkpoint}

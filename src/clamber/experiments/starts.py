@@ -4,11 +4,10 @@ import os
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 from typing import Final
 
-from .rows import NOTHING, Row, Say, keep_quiet
+from .rows import Row, Say, keep_quiet
 
 COMMAND: Final = (sys.executable, "-c", "from clamber.cli import main; main()")
 STARTS: Final = 3
@@ -16,27 +15,33 @@ BYTES_PER_UNIT: Final = 1 if sys.platform == "darwin" else 1024
 """Of `ru_maxrss`."""
 
 
+LAUNCHER: Final = """
+import os, subprocess, sys, time
+started = time.perf_counter()
+quiet = subprocess.DEVNULL
+child = subprocess.Popen(sys.argv[1:], stdin=quiet, stdout=quiet, stderr=quiet)
+if hasattr(os, "wait4"):
+    _, status, used = os.wait4(child.pid, 0)
+    code, memory = os.waitstatus_to_exitcode(status), used.ru_maxrss
+else:
+    code, memory = child.wait(), "nan"
+print(time.perf_counter() - started, memory)
+sys.exit(code)
+"""
+"""A small process between us and the one measured: Linux counts the memory of whoever starts a process as its own."""
+
+
 def run_command(arguments: tuple[str, ...], cache: Path) -> tuple[float, float]:
-    """Run the command line once: seconds, and peak memory [MiB] (`NOTHING` on Windows).
+    """Run the command line once: seconds, and peak memory [MiB] (NaN on Windows).
 
     Raises:
         CalledProcessError: If it fails.
     """
     environment = {**os.environ, "CLAMBER_CACHE": str(cache)}
-    started = time.perf_counter()
-    quiet = subprocess.DEVNULL
-    child = subprocess.Popen((*COMMAND, *arguments), env=environment, stdout=quiet, stderr=quiet, stdin=quiet)
-    memory = NOTHING
-    if sys.platform == "win32":
-        code = child.wait()
-    else:
-        _, status, used = os.wait4(child.pid, 0)
-        code = child.returncode = os.waitstatus_to_exitcode(status)
-        memory = used.ru_maxrss * BYTES_PER_UNIT / 2**20
-    taken = time.perf_counter() - started
-    if code:
-        raise subprocess.CalledProcessError(code, arguments)
-    return taken, memory
+    launch = (sys.executable, "-S", "-c", LAUNCHER, *COMMAND, *arguments)
+    told = subprocess.run(launch, env=environment, capture_output=True, text=True, check=True)
+    seconds, memory = (float(word) for word in told.stdout.split())
+    return seconds, memory * BYTES_PER_UNIT / 2**20
 
 
 def start_rows(*, say: Say = keep_quiet) -> list[Row]:

@@ -124,7 +124,7 @@ class StepStrip:
             x = place.left + k * place.width / 4
             axes.add_patch(Rectangle((x, top - height - 0.25), 0.11, 0.11, fc=colour, lw=0))
             axes.text(x + 0.15, top - height - 0.2, words, fontsize=6.5, va="center", color=style.QUIET)
-        (self.mark,) = axes.plot([], [], marker="v", ms=6, color=style.INK, ls="")
+        (self.mark,) = axes.plot([], [], marker="v", ms=6, color=style.INK, ls="", clip_on=False)
         self.y = top + 0.05
 
     @property

@@ -134,14 +134,14 @@ class View(ABC, Generic[Moment]):
         self.limiting: list[Limiting | None] = all_limiting(yardsticks, replay)
         height = max(gauges.height, TEXTS) if is_wide(bounds) else gauges.height + TEXTS
         self.layout = Layout(bounds, height)
-        self.figure, self.wall, self.panel, self.head = self.layout.figure("", self.title)
+        self.figure, self.wall, self.panel, self.title_text = self.layout.figure("", self.title)
         height = self.layout.panel[1]
         left = PANEL_WIDTH + 0.4 if self.layout.below else 0.0
         rows = (*self.rows, "Nearest limit")
-        self.texts = []
+        self.heads, self.texts = [], []
         for k, row in enumerate(rows):
             y = height - (k * 2.2 * LINE)
-            self.panel.text(0.0, y, row, fontsize=7.5, va="top", color=style.QUIET)
+            self.heads.append(self.panel.text(0.0, y, row, fontsize=7.5, va="top", color=style.QUIET))
             self.texts.append(self.panel.text(0.0, y - 0.85 * LINE, "", fontsize=8.5, va="top"))
         text_end = height - len(rows) * 2.2 * LINE - 0.1
         self.bars = GaugeBars(self.panel, gauges, Place(left, height if self.layout.below else text_end, PANEL_WIDTH))
@@ -182,7 +182,7 @@ class View(ABC, Generic[Moment]):
     @property
     def artists(self) -> list[Artist]:
         """The artists that change, from back to front."""
-        return [self.head, *self.robot.artists, *self.texts, *self.bars.artists, *self.strip.artists]
+        return [self.title_text, *self.robot.artists, *self.texts, *self.bars.artists, *self.strip.artists]
 
     def reason(self, step: int) -> int:
         """Number of the check that a step violates; -1: none."""
@@ -200,8 +200,8 @@ class View(ABC, Generic[Moment]):
             at: What the robot looks like.
         """
         steps = len(self.replay.reasons)
-        self.head.set_text(f"Step {step} of {steps}: {self.action(step)}" if step else "Start")
-        self.head.set_color(style.ALERT if self.reason(step) >= 0 else style.INK)
+        self.title_text.set_text(f"Step {step} of {steps}: {self.action(step)}" if step else "Start")
+        self.title_text.set_color(style.ALERT if self.reason(step) >= 0 else style.INK)
         limit = self.limit(step)
         words = (*self.facts(step, at), "not judged" if limit is None else str(limit))
         for text, line in zip(self.texts, words, strict=True):

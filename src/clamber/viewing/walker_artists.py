@@ -24,11 +24,11 @@ SUPPORT: Final = "#8FA3B5"
 
 def walker_bounds(task: WalkerTask, moments: list[WalkerMoment]) -> Bounds:
     """The part of the ground that holds every moment, the goals' edges and the patches close by."""
-    parts = [np.vstack([*at.outline.frames, at.outline.feet.reshape(-1, 2)]) for at in moments]
-    points = np.vstack(parts)
-    reach = max(task.robot.legs.radius_delta, task.robot.legs.radius_y)
-    low, high = points.min(axis=0) - 0.5 * reach, points.max(axis=0) + 0.5 * reach
+    points = np.vstack([np.vstack([*at.outline.frames, at.outline.feet.reshape(-1, 2)]) for at in moments])
+    x0, x1, y0, y1 = fit_bounds(points, task.goals)
+    room = 0.5 * max(task.robot.legs.radius_delta, task.robot.legs.radius_y)
     corners = [np.array(patch) for patch in task.world.patches]
+    low, high = (x0 - room, y0 - room), (x1 + room, y1 + room)
     near = [patch for patch in corners if np.all((patch >= low) & (patch <= high))]
     return fit_bounds(np.vstack([points, *near]), task.goals)
 
@@ -123,14 +123,14 @@ def mixed(colour: str, lift: float) -> tuple[float, float, float]:
 
 def draw_key(panel: Axes, left: float, y: float) -> None:
     """Say in the panel, in inches, what the marks mean."""
-    paper, ink = style.PAPER, style.INK
+    paper, ink, quiet = style.PAPER, style.INK, style.QUIET
     entries: tuple[tuple[str, str, str, float, str], ...] = (
-        ("o", COLOURS[0], COLOURS[0], 0.0, "Delta, standing"),
-        ("o", paper, COLOURS[1], 1.0, "Y, lifted"),
-        ("^", SUPPORT, SUPPORT, 1.9, "support"),
-        ("o", paper, ink, 2.5, "centre of mass"),
-        ("+", ink, ink, 2.5, ""),
+        ("o", quiet, quiet, 0.0, "standing foot"),
+        ("o", paper, quiet, 1.02, "lifted foot"),
+        ("^", SUPPORT, SUPPORT, 1.88, "support"),
+        ("o", paper, ink, 2.55, "centre of mass"),
+        ("+", ink, ink, 2.55, ""),
     )
     for marker, face, edge, x, words in entries:
-        panel.plot([left + x + 0.05], [y], marker=marker, ms=7, mfc=face, mec=edge, mew=1.3, ls="")
-        panel.text(left + x + 0.15, y, words, fontsize=7, va="center", color=style.QUIET)
+        panel.plot([left + x + 0.06], [y], marker=marker, ms=7, mfc=face, mec=edge, mew=1.3, ls="", clip_on=False)
+        panel.text(left + x + 0.17, y, words, fontsize=7, va="center", color=quiet)

@@ -68,7 +68,10 @@ SCRIPT: Final = r"""function robot({ g, s, X, Y, k, H, path, text }) {
   g.beginPath(); g.arc(x, y, 6, 0, 7); g.fillStyle = "#fff"; g.fill(); g.strokeStyle = "#22303c"; g.lineWidth = 1.8; g.stroke();
   g.beginPath(); g.moveTo(x - 6, y); g.lineTo(x + 6, y); g.moveTo(x, y - 6); g.lineTo(x, y + 6); g.stroke();
   g.font = "11px system-ui, sans-serif"; g.textBaseline = "middle"; g.textAlign = "left";
-  text("filled feet stand, hollow feet are lifted; shaded: support; ⊕ centre of mass", 10, H - 10, "#6e7b87");
+  let left = 10;
+  for (const [words, colour] of [["Delta-frame", D.colours[0]], ["Y-frame", D.colours[1]], ["filled feet stand, hollow ones are lifted; shaded: support; ⊕ centre of mass", "#6e7b87"]]) {
+    text(words, left, H - 10, colour); left += g.measureText(words).width + 12;
+  }
 }
 function hull(points) {
   const turn = (a, b, c) => (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);

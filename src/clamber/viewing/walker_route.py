@@ -36,7 +36,7 @@ def walker_route(task: WalkerTask, replay: Replay) -> Figure:
     unit, size = length_unit(task)
     way = np.abs(np.diff([at.poses[0, :2] for at in moments], axis=0)).sum()
     swaps = int(np.sum(np.diff(replay.stances["stands"]) != 0))
-    facts = ("Swaps", str(swaps)), ("Way", f"{way / size:.0f} {unit} by the Delta-frame, turns aside")
+    facts = ("Swaps", str(swaps)), ("Way", f"{way / size:.0f} {unit}, Delta-frame")
     height = layout.panel[1]
     write_facts(panel, replay, walker_yardsticks(task), facts, height)
     for f, (name, colour) in enumerate(zip(NAMES, COLOURS, strict=True)):

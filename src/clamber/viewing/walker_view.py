@@ -14,7 +14,7 @@ from . import style
 from .margins import walker_yardsticks
 from .panel import Gauges
 from .view import Part, Spread, View
-from .walker_artists import NAMES, WalkerArtists, draw_ground, draw_key, walker_bounds
+from .walker_artists import COLOURS, NAMES, WalkerArtists, draw_ground, draw_key, walker_bounds
 from .walker_motion import WalkerMoment, settled_moment, walker_motion
 from .walker_player import SCRIPT, spread_moment, walker_world
 from .words import describe_pose, length_unit
@@ -36,6 +36,8 @@ class WalkerView(View[WalkerMoment]):
         super().__init__(task, replay, bounds, actuator_gauges(task), walker_yardsticks(task))
         draw_ground(self.wall, task, bounds)
         self.robot = WalkerArtists(self.wall, task, bounds)
+        for head, colour in zip(self.heads, COLOURS, strict=False):
+            head.set(color=colour, weight="bold")
         draw_key(self.panel, self.key.left, self.key.top)
 
     def settled(self, step: int) -> WalkerMoment:
