@@ -9,6 +9,7 @@ import pytest
 from clamber.actions.codes import MOVE, pack
 from clamber.actions.plan_families import plan_family
 from clamber.studies.bevly_1997.modified_ladder import NO_HANGS, OWN, OWN_HALVES
+from clamber.studies.bevly_1997.no_rotation import WITHOUT_TURNS
 from clamber.studies.bevly_1997.printed_plans import PRINTED
 from clamber.studies.bevly_1997.replayed import limbed_task
 from clamber.studies.exhaust import exhaust
@@ -17,7 +18,6 @@ from clamber.studies.report import write_report
 
 BEVLY = STUDIES["bevly-1997"]
 LONG = ("no-rotation-free", "step-size", "modified-ladder-evolution", "h-evolution", "planner-success")
-TURNS = (pack(MOVE, 0, 4), pack(MOVE, 0, 5))
 
 
 @pytest.mark.parametrize("name", [name for name in BEVLY if name not in LONG])
@@ -73,19 +73,19 @@ def test_without_rotation_the_modified_ladder_ends_at_21_inches_if_legs_keep_to_
 
 
 def test_a_plan_found_by_exhaustion_holds_and_reaches_the_goal() -> None:
-    task = limbed_task("modified-ladder", (OWN_HALVES, NO_HANGS))
-    found = exhaust(task, without=TURNS)
+    task = limbed_task("modified-ladder", (OWN_HALVES, NO_HANGS, WITHOUT_TURNS))
+    found = exhaust(task)
     assert found.codes is not None
     replay = plan_family(task).problem(task).replay(found.codes)
     assert replay.ok
     assert replay.stances["stage"][-1] == 1
-    assert not np.isin(found.codes, TURNS).any()
+    assert not np.isin(found.codes, [pack(MOVE, 0, axis) for axis in (4, 5)]).any()
 
 
 def test_exhaustion_without_an_answer_says_whether_it_was_complete() -> None:
-    task = limbed_task("modified-ladder", OWN)
-    assert exhaust(task, without=TURNS).closed
-    cut = exhaust(task, without=TURNS, most=100)
+    task = limbed_task("modified-ladder", (*OWN, WITHOUT_TURNS))
+    assert exhaust(task).closed
+    cut = exhaust(task, most=100)
     assert (cut.codes, cut.closed) == (None, False)
 
 

@@ -16,27 +16,36 @@ from clamber.actions.codes import pack
 from clamber.actions.limbed_problem import LimbedProblem
 from clamber.actions.problem import Replay
 from clamber.actions.table import ActionTable
+from clamber.actions.walker_problem import WalkerProblem, outline, walker_table
 from clamber.errors import ClamberError, FileError
 from clamber.robots.limbed import Limb
 from clamber.tasks import load_task
 from clamber.tasks.limbed import LimbedTask
+from clamber.tasks.walker import WalkerTask
 from clamber.viewing.charts import draw_history, draw_torques
+from clamber.viewing.climb_view import ClimbView
+from clamber.viewing.climber import arrow_ends
 from clamber.viewing.frames import make_frames
 from clamber.viewing.geometry import body_outline, joint_angles, limb_chain, postures, stance_posture
 from clamber.viewing.gif import write_gif
-from clamber.viewing.margins import all_limiting, grade
+from clamber.viewing.margins import all_limiting, climber_yardsticks, grade, walker_yardsticks
 from clamber.viewing.motion import Transition, swung_foot
-from clamber.viewing.output import MissingExtraError, SuffixError
+from clamber.viewing.output import MissingExtraError, StepError, SuffixError
 from clamber.viewing.pictures import animate, draw_route, draw_stance
 from clamber.viewing.player import write_html
-from clamber.viewing.stance import StepError
 from clamber.viewing.style import styled
 from clamber.viewing.video import write_mp4
-from clamber.viewing.view import ClimbView
+from clamber.viewing.walker_motion import hull, settled_moment, walker_motion
+from clamber.viewing.walker_view import WalkerView, describe_walk
 from clamber.viewing.words import describe_action
 
 RIGHT, LEFT, BOTTOM = 0, 1, 2
 UP = pack(1, 0, 2)
+
+
+class Walk(NamedTuple):
+    task: WalkerTask
+    replay: Replay
 
 
 class Climb(NamedTuple):
@@ -76,6 +85,18 @@ def hanging() -> Climb:
         ],
         "start.y=6.2in", "rules.clearance=0in",
     )  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def walk() -> Walk:
+    """The Y-frame slides and turns, the frames swap, the Delta-frame follows; all of it holds."""
+    task = load_task("patch-walk")
+    assert isinstance(task, WalkerTask)
+    move, swap = [pack(1, 0, axis) for axis in range(6)], pack(2)
+    codes = [move[0], move[0], move[4], move[4], move[3], swap, move[0], move[0], move[0], swap, move[5], 0]
+    replay = WalkerProblem(task, walker_table(), threads=1).replay(np.array(codes, np.int32), go_on=True)
+    assert replay.ok
+    return Walk(task, replay)
 
 
 @pytest.fixture(scope="module", params=["ladder", "hanging"])
@@ -169,10 +190,10 @@ def test_tips_stay_on_held_holds_in_every_frame(any_climb: Climb) -> None:
     places = task.world.positions()
     held = 0
     for frame in frames:
-        for i, index in enumerate(frame.snapshot.posture.held):
+        for i, index in enumerate(frame.moment.posture.held):
             if index >= 0:
                 held += 1
-                assert np.abs(frame.snapshot.posture.chains[i, 3] - places[index]).max() < 1e-6
+                assert np.abs(frame.moment.posture.chains[i, 3] - places[index]).max() < 1e-6
     assert held > len(frames)
 
 
@@ -221,7 +242,7 @@ def test_actions_are_told_from_what_they_change(ladder: Climb) -> None:
 def test_the_limiting_check_of_a_violated_step_is_its_reason() -> None:
     task, replay = climb("ladder", [UP, UP, UP, UP, UP])
     assert not replay.ok
-    limits = all_limiting(task, replay.margins, replay.reasons)
+    limits = all_limiting(climber_yardsticks(task), replay)
     for limit, reason in zip(limits, replay.reasons, strict=True):
         assert (grade(limit) == 0) == (reason >= 0)
 
@@ -324,3 +345,111 @@ def test_charts_are_written(ladder: Climb, tmp_path: Path) -> None:
     for name in ("history.png", "torques.png"):
         with Image.open(tmp_path / name) as image:
             assert image.width > 500
+
+
+def test_arrows_of_forces_stay_inside_the_wall(any_climb: Climb) -> None:
+    with styled():
+        view = ClimbView(*any_climb)
+    x0, x1, y0, y1 = view.bounds
+    ends = np.vstack([arrow_ends(any_climb.task, view.settled(k)) for k in range(len(any_climb.replay.stances))])
+    assert x0 < ends[:, 0].min() < ends[:, 0].max() < x1
+    assert y0 < ends[:, 1].min() < ends[:, 1].max() < y1
+
+
+def test_a_walkers_motion_begins_and_ends_exactly_in_its_stances(walk: Walk) -> None:
+    task, replay = walk
+    for before, after in itertools.pairwise(replay.stances):
+        parts = walker_motion(task, before, after)
+        if len(parts) == 1 and parts[0].kind == "still":
+            parts = [parts[0], parts[0]]
+        for share, part, stance in ((0.0, parts[0], before), (1.0, parts[-1], after)):
+            drawn, meant = part.at(share, share), settled_moment(task, stance)
+            assert drawn.lifts == meant.lifts
+            np.testing.assert_array_equal(drawn.poses, meant.poses)
+            np.testing.assert_array_equal(drawn.outline.feet, outline(task, stance).feet)
+
+
+def test_between_its_stances_a_walker_keeps_its_shape_and_its_standing_feet(walk: Walk) -> None:
+    task, replay = walk
+    for before, after in itertools.pairwise(replay.stances):
+        start = settled_moment(task, before)
+        stands = start.lifts.index(0.0)
+        for part in walker_motion(task, before, after):
+            shares = np.linspace(0.0, 1.0, 41).tolist()
+            ways = [part.at(share, share) for share in shares]
+            for at in ways:
+                np.testing.assert_allclose(at.outline.feet[stands], start.outline.feet[stands], atol=1e-12)
+                for f, feet in enumerate(at.outline.feet):
+                    sides = np.hypot(*(feet - np.roll(feet, 1, axis=0)).T)
+                    np.testing.assert_allclose(sides, math.sqrt(3) * np.hypot(*task.robot.feet()[f, 0]), atol=1e-12)
+                assert 0.0 in at.lifts
+            for first, second in itertools.pairwise(ways):
+                assert np.abs(second.outline.feet - first.outline.feet).max() < 1e-3
+
+
+def test_both_frames_stand_within_a_swap_alone(walk: Walk) -> None:
+    task, replay = walk
+    with styled():
+        frames = make_frames(WalkerView(task, replay), 10_000)
+    both = {frame.step for frame in frames if frame.moment.lifts == (0.0, 0.0)}
+    assert both == {6, 10}
+    at = next(frame.moment for frame in frames if frame.step == 6 and frame.moment.lifts == (0.0, 0.0))
+    assert len(at.support) == 6
+
+
+def test_a_hull_holds_its_points_and_turns_left() -> None:
+    points = np.random.default_rng(0).normal(size=(40, 2))
+    corners = hull(points)
+    for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+        assert np.min((b - a)[0] * (points - a)[:, 1] - (b - a)[1] * (points - a)[:, 0]) >= -1e-12
+
+
+def test_drawn_actuators_are_as_long_as_the_kernel_says(walk: Walk) -> None:
+    for stance in walk.replay.stances:
+        np.testing.assert_allclose(settled_moment(walk.task, stance).lengths, stance["actuator"], atol=1e-12)
+
+
+def test_a_walkers_actions_are_told_from_what_they_change(walk: Walk) -> None:
+    task, replay = walk
+    moments = [settled_moment(task, stance) for stance in replay.stances]
+    told = [describe_walk(task, before, after, -1) for before, after in itertools.pairwise(moments)]
+    assert told[0] == "Y-frame slides 2 cm along +x"
+    assert told[2] == "Y-frame turns +6°"
+    assert told[4:7] == [
+        "Y-frame slides 2 cm along −y",
+        "Y-frame lands, Delta-frame lifts",
+        "Delta-frame slides 2 cm along +x",
+    ]
+    assert told[-1] == "stays"
+    assert describe_walk(task, moments[0], moments[1], 1).endswith("violates singular")
+
+
+def test_a_walkers_limiting_check_has_the_smallest_share(walk: Walk) -> None:
+    task, replay = walk
+    yardsticks = walker_yardsticks(task)
+    for limit, row in zip(all_limiting(yardsticks, replay), replay.margins, strict=True):
+        shares = [margin / yardsticks.sizes[check.name] for check, margin in zip(yardsticks.checks, row, strict=True)]
+        assert limit is not None
+        assert limit.share == pytest.approx(min(1.0, *shares))
+
+
+def test_walkers_are_drawn_in_every_format(walk: Walk, tmp_path: Path) -> None:
+    draw_stance(walk.task, walk.replay, 6, tmp_path / "stance.png")
+    draw_route(walk.task, walk.replay, tmp_path / "route.svg")
+    animate(walk.task, walk.replay, tmp_path / "walk.html")
+    with styled():
+        write_gif(WalkerView(*walk), tmp_path / "walk.gif", most_frames=12)
+    with Image.open(tmp_path / "walk.gif") as image:
+        assert 2 <= getattr(image, "n_frames", 1) <= 12
+    page = (tmp_path / "walk.html").read_text(encoding="utf-8")
+    assert not re.search(r"https?://|@[A-Z]+@", page)
+    assert (tmp_path / "stance.png").read_bytes().startswith(b"\x89PNG")
+    axes = Figure().add_subplot()
+    draw_stance(walk.task, walk.replay, 0, axes)
+    assert len(axes.patches) > len(walk.task.world.patches)
+
+
+def test_a_walkers_task_alone_is_drawn(walk: Walk, tmp_path: Path) -> None:
+    start = WalkerProblem(walk.task, walker_table(), threads=1).replay(np.zeros(0, np.int32))
+    draw_stance(walk.task, start, 0, tmp_path / "start.png")
+    assert (tmp_path / "start.png").stat().st_size > 10_000

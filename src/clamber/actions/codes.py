@@ -5,7 +5,7 @@ A code packs kind, limb and argument into 31 bits. The thesis's numbers (106, 39
 
 from dataclasses import dataclass
 
-from clamber.compiled import inlined
+from ..compiled import inlined
 
 NONE, MOVE, RELEASE, NEAREST, HOLD, RANDOM = 0, 1, 2, 3, 4, 5
 KINDS = ("none", "move", "release", "nearest", "hold", "random")

@@ -5,10 +5,10 @@ from typing import Final
 
 import numpy as np
 
-from clamber.actions.codes import HOLD, MOVE, NEAREST, NONE, RANDOM, RELEASE, Code, pack
-from clamber.actions.table import ActionTable
-from clamber.errors import SpecError
-from clamber.tasks.limbed import LimbedTask
+from ..errors import SpecError
+from ..tasks.limbed import LimbedTask
+from .codes import HOLD, MOVE, NEAREST, NONE, RANDOM, RELEASE, Code, pack
+from .table import ActionTable
 
 DIRECTIONS: Final = ("+x", "-x", "+y", "-y", "+theta", "-theta")
 WORDS: Final = {"none": NONE, "move": MOVE, "release": RELEASE, "nearest": NEAREST, "hold": HOLD, "random": RANDOM}

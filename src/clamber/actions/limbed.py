@@ -4,14 +4,11 @@ import math
 
 import numpy as np
 
-from clamber.actions.codes import HOLD, MOVE, NONE, RANDOM, RELEASE, pack_code, unpack
-from clamber.actions.family import family_kernels
-from clamber.actions.randoms import below, draw
-from clamber.compiled import inlined, kernel
-from clamber.robots.kinematics import SOLUTION, TWO_PI, wrap
-from clamber.statics.grip import port_of
-from clamber.statics.interference import inside, point_segment
-from clamber.statics.limbed import (
+from ..compiled import inlined, kernel
+from ..robots.kinematics import SOLUTION, TWO_PI, wrap
+from ..statics.grip import port_of
+from ..statics.interference import inside, point_segment
+from ..statics.limbed import (
     N_CHECKS,
     REACH,
     SUPPORT,
@@ -24,7 +21,10 @@ from clamber.statics.limbed import (
     solve,
     tip_of,
 )
-from clamber.statics.records import PARAMS, TICKS, TOLERANCE, UNLIMITED, cells, goals, holds, limbs, vertices, work
+from ..statics.records import PARAMS, TICKS, TOLERANCE, UNLIMITED, cells, goals, holds, limbs, vertices, work
+from .codes import HOLD, MOVE, NONE, RANDOM, RELEASE, pack_code, unpack
+from .family import family_kernels
+from .randoms import below, draw
 
 FEATURES = 7
 """Body progress, limb progress, power, stages, length, poor stability, largest torque."""

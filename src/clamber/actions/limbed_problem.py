@@ -6,20 +6,20 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from clamber.actions.codes import HOLD as HOLD_KIND
-from clamber.actions.codes import NEAREST, Code, pack
-from clamber.actions.inventory import most_in_reach, whole_kinds
-from clamber.actions.limbed import FEATURES, KEY_WORDS
-from clamber.actions.loops import replay
-from clamber.actions.params import Params
-from clamber.actions.problem import CompiledProblem, Records
-from clamber.actions.table import ActionTable
-from clamber.errors import ClamberError
-from clamber.robots.limbed import Limb
-from clamber.statics.checks import LIMBED_CHECKS
-from clamber.statics.grip import work_size
-from clamber.statics.records import GOAL, HOLD, LIMB, PARAMS, STANCE, TICKS
-from clamber.tasks.limbed import Goal, LimbedTask
+from ..errors import ClamberError
+from ..robots.limbed import Limb
+from ..statics.checks import LIMBED_CHECKS
+from ..statics.grip import work_size
+from ..statics.records import GOAL, HOLD, LIMB, PARAMS, STANCE, TICKS
+from ..tasks.limbed import Goal, LimbedTask
+from .codes import HOLD as HOLD_KIND
+from .codes import NEAREST, Code, pack
+from .inventory import most_in_reach, whole_kinds
+from .limbed import FEATURES, KEY_WORDS
+from .loops import replay
+from .params import Params
+from .problem import CompiledProblem, Records
+from .table import ActionTable
 
 CHECKS: Final = tuple(check.name for check in LIMBED_CHECKS)
 FEATURE_NAMES: Final = ("body", "limbs", "effort", "stages", "length", "unstable", "peak")

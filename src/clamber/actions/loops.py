@@ -1,7 +1,7 @@
 """The loops over a family's `step`, written once for all families: rollout of many plans, replay of one, expansion of many stances."""
 
-from clamber.actions.family import candidates, cell, done, measure, step
-from clamber.compiled import kernel
+from ..compiled import kernel
+from .family import candidates, cell, done, measure, step
 
 SUM, LARGEST = 1, 2
 

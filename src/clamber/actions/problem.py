@@ -10,9 +10,9 @@ from typing import Any, Protocol, Self
 import numpy as np
 import numpy.typing as npt
 
-from clamber.actions.loops import expand, features_of, possible, replay, rollout
-from clamber.actions.params import Params
-from clamber.actions.table import ActionTable
+from .loops import expand, features_of, possible, replay, rollout
+from .params import Params
+from .table import ActionTable
 
 MAX_FEATURES = 8
 PIECES = 8

@@ -5,12 +5,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Final
 
-from clamber.actions.inventory import Dropped, make_inventory
-from clamber.actions.limbed_problem import LimbedProblem
-from clamber.actions.problem import CompiledProblem
-from clamber.actions.walker_problem import WalkerProblem, walker_table
-from clamber.tasks import Task
-from clamber.types import Json
+from ..tasks import Task
+from ..types import Json
+from .inventory import Dropped, make_inventory
+from .limbed_problem import LimbedProblem
+from .problem import CompiledProblem
+from .walker_problem import WalkerProblem, walker_table
 
 
 @dataclass(frozen=True, slots=True)

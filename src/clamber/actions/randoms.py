@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from clamber.compiled import kernel
+from ..compiled import kernel
 
 GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 MIX_1 = np.uint64(0xBF58476D1CE4E5B9)

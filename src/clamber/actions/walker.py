@@ -2,12 +2,12 @@
 
 import math
 
-from clamber.actions.codes import MOVE, NONE, RELEASE, pack_code, unpack
-from clamber.actions.family import family_kernels
-from clamber.compiled import inlined, kernel
-from clamber.robots.kinematics import wrap
-from clamber.statics.records import TICKS
-from clamber.statics.walker import DELTA, WALKER_PARAMS, Y, balance, foothold, judge, place, stretch, walker_goals
+from ..compiled import inlined, kernel
+from ..robots.kinematics import wrap
+from ..statics.records import TICKS
+from ..statics.walker import DELTA, WALKER_PARAMS, Y, balance, foothold, judge, place, stretch, walker_goals
+from .codes import MOVE, NONE, RELEASE, pack_code, unpack
+from .family import family_kernels
 
 FEATURES = 7
 """Body progress, feet progress, travel, stages, length, poor stability, nearness of singularity."""

@@ -7,18 +7,18 @@ from typing import Final
 
 import numpy as np
 
-from clamber.actions.codes import MOVE, RELEASE, pack
-from clamber.actions.loops import replay
-from clamber.actions.params import Params
-from clamber.actions.problem import CompiledProblem, Records
-from clamber.actions.table import ActionTable
-from clamber.actions.walker import FEATURES, KEY_WORDS
-from clamber.errors import MISSING, SpecError
-from clamber.robots.walker import FRAMES
-from clamber.statics.records import TICKS
-from clamber.statics.walker import WALKER_CHECKS, WALKER_GOAL, WALKER_PARAMS, WALKER_STANCE
-from clamber.tasks.walker import Goal, WalkerTask
-from clamber.types import Floats
+from ..errors import MISSING, SpecError
+from ..robots.walker import FRAMES
+from ..statics.records import TICKS
+from ..statics.walker import WALKER_CHECKS, WALKER_GOAL, WALKER_PARAMS, WALKER_STANCE
+from ..tasks.walker import Goal, WalkerTask
+from ..types import Floats
+from .codes import MOVE, RELEASE, pack
+from .loops import replay
+from .params import Params
+from .problem import CompiledProblem, Records
+from .table import ActionTable
+from .walker import FEATURES, KEY_WORDS
 
 CHECKS: Final = tuple(check.name for check in WALKER_CHECKS)
 # Named as the limbed climber's, so that a profile's weights fit: effort is travel, peak is |p| / rho

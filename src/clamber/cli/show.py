@@ -29,8 +29,12 @@ def show(
     last = len(replay.stances) - 1
     if step is not None and step > last:
         raise typer.BadParameter(f"{step} is past the last step, {last}", param_hint="--step")
-    if torques and (last == 0 or not isinstance(shown, LimbedTask)):
-        raise typer.BadParameter("needs the plan of a limbed robot", param_hint="--torques")
+    if torques and not isinstance(shown, LimbedTask):
+        family = shown.document["robot"]["family"]
+        words = f"the robot of '{shown.name}' is of the family '{family}', which has no joint torques"
+        raise typer.BadParameter(f"needs the plan of a limbed robot; {words}", param_hint="--torques")
+    if torques and last == 0:
+        raise typer.BadParameter(f"needs the plan of a limbed robot; '{thing}' has no steps", param_hint="--torques")
     from ..viewing.charts import draw_torques
     from ..viewing.output import CANVASES
     from ..viewing.pictures import animate, draw_route, draw_stance

@@ -4,9 +4,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any, Final
 
-from clamber.planning.genetic.profile import Profile, load_profile
-from clamber.tasks import load_task
-
+from ..planning.genetic.profile import Profile, load_profile
+from ..tasks import load_task
 from .rows import Row, Say, keep_quiet
 from .trials import run_trials
 

@@ -9,9 +9,9 @@ from typing import Any, Final
 
 import numpy as np
 
-from clamber.actions.problem import CompiledProblem
-from clamber.planning.genetic.evolve import Genes, first_generation, next_generation, weights_for
-from clamber.planning.genetic.profile import load_profile
+from ..actions.problem import CompiledProblem
+from ..planning.genetic.evolve import Genes, first_generation, next_generation, weights_for
+from ..planning.genetic.profile import load_profile
 
 POPULATION: Final = 150
 """As in the default profile."""

@@ -10,11 +10,11 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
-from clamber.actions.codes import Code
-from clamber.actions.limbed_problem import LimbedProblem
-from clamber.actions.problem import Records
-from clamber.actions.table import ActionTable
-from clamber.tasks.limbed import LimbedTask
+from ..actions.codes import Code
+from ..actions.limbed_problem import LimbedProblem
+from ..actions.problem import Records
+from ..actions.table import ActionTable
+from ..tasks.limbed import LimbedTask
 
 CHECKOUT: Final = Path(__file__).resolve().parents[3]
 PACKAGE: Final = "clamber_tests_plain"

@@ -6,10 +6,9 @@ from dataclasses import dataclass
 from statistics import median
 from typing import Any, Final
 
-from clamber.actions.problem import CompiledProblem
-from clamber.actions.problems import pose_problem
-from clamber.tasks import load_task
-
+from ..actions.problem import CompiledProblem
+from ..actions.problems import pose_problem
+from ..tasks import load_task
 from .peers import OPTIONAL, PEERS, Race, race
 from .plain_problem import PlainProblem, plain_module
 from .rows import NOTHING, Row, Say, keep_quiet, median_or_nothing

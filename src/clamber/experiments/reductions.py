@@ -3,11 +3,10 @@
 from statistics import median
 from typing import Final
 
-from clamber.actions.problems import pose_problem
-from clamber.planning.genetic.profile import load_profile
-from clamber.planning.learning import learn_macros
-from clamber.tasks import load_task
-
+from ..actions.problems import pose_problem
+from ..planning.genetic.profile import load_profile
+from ..planning.learning import learn_macros
+from ..tasks import load_task
 from .ablation import varied
 from .rows import NOTHING, Row, Say, keep_quiet, median_or_nothing
 from .trials import Trials, run_trials

@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from statistics import median
 
-from clamber.types import Json
+from ..types import Json
 
 NOTHING = math.nan
 """The value of a row that could not be measured, or of a time until something that did not happen."""

@@ -3,9 +3,8 @@
 from collections.abc import Iterable
 from typing import Final
 
-from clamber.planning.genetic.profile import load_profile
-from clamber.tasks import load_task
-
+from ..planning.genetic.profile import load_profile
+from ..tasks import load_task
 from .rows import Row, Say, keep_quiet
 from .trials import run_trials
 

@@ -9,9 +9,8 @@ from typing import Any, Final
 
 import numpy as np
 
-from clamber.actions.problem import CompiledProblem
-from clamber.types import Ints
-
+from ..actions.problem import CompiledProblem
+from ..types import Ints
 from .plain_problem import PlainProblem, plain_module
 from .rows import NOTHING, Row, Say, keep_quiet
 from .workload import Load, whole_load

@@ -5,11 +5,10 @@ from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
-from clamber.planning.genetic.learning import Macro
-from clamber.planning.genetic.planner import plan_genetic
-from clamber.planning.genetic.profile import Profile
-from clamber.tasks import Task
-
+from ..planning.genetic.learning import Macro
+from ..planning.genetic.planner import plan_genetic
+from ..planning.genetic.profile import Profile
+from ..tasks import Task
 from .rows import Row, median_or_nothing
 
 EVALUATIONS = 50_000

@@ -7,14 +7,14 @@ from typing import Any, Final
 
 import numpy as np
 
-from clamber.actions.limbed_problem import FEATURE_NAMES, LimbedProblem
-from clamber.actions.plan_source import open_plan
-from clamber.actions.problem import CompiledProblem, Records
-from clamber.actions.problems import pose_problem
-from clamber.actions.table import ActionTable
-from clamber.planning.genetic.evolve import Genes, first_generation, next_generation, weights_for
-from clamber.planning.genetic.profile import load_profile
-from clamber.tasks import load_task
+from ..actions.limbed_problem import FEATURE_NAMES, LimbedProblem
+from ..actions.plan_source import open_plan
+from ..actions.problem import CompiledProblem, Records
+from ..actions.problems import pose_problem
+from ..actions.table import ActionTable
+from ..planning.genetic.evolve import Genes, first_generation, next_generation, weights_for
+from ..planning.genetic.profile import load_profile
+from ..tasks import load_task
 
 BOARDS: Final = ("ladder", "modified-ladder", "h", "across", "circle")
 GENERATIONS: Final = 60

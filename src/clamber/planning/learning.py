@@ -6,15 +6,15 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from clamber.actions.problems import pose_problem
-from clamber.errors import FileError
-from clamber.files import read_text, write_atomically
-from clamber.planning.genetic.learning import Macro, learn
-from clamber.planning.genetic.planner import plan_genetic
-from clamber.planning.genetic.profile import Profile, load_profile
-from clamber.planning.progress import Listener
-from clamber.tasks import Task
-from clamber.types import Json
+from ..actions.problems import pose_problem
+from ..errors import FileError
+from ..files import read_text, write_atomically
+from ..tasks import Task
+from ..types import Json
+from .genetic.learning import Macro, learn
+from .genetic.planner import plan_genetic
+from .genetic.profile import Profile, load_profile
+from .progress import Listener
 
 SCHEMA: Final = "clamber-macros-1"
 ENOUGH: Final = 0.8

@@ -5,15 +5,15 @@ from typing import Literal
 
 import numpy as np
 
-from clamber.actions.plan import Plan
-from clamber.actions.plan_families import plan_family
-from clamber.actions.problem import CompiledProblem
-from clamber.actions.verdict import Verdict, check_plan
-from clamber.planning.genetic.evolve import Generation
-from clamber.planning.genetic.learning import Macro
-from clamber.tasks import Task
-from clamber.types import Ints, Json
-from clamber.units import OZ_IN
+from ..actions.plan import Plan
+from ..actions.plan_families import plan_family
+from ..actions.problem import CompiledProblem
+from ..actions.verdict import Verdict, check_plan
+from ..tasks import Task
+from ..types import Ints, Json
+from ..units import OZ_IN
+from .genetic.evolve import Generation
+from .genetic.learning import Macro
 
 Status = Literal["optimal", "found", "infeasible", "bounded", "stopped"]
 

@@ -2,7 +2,7 @@
 
 import math
 
-from clamber.compiled import inlined
+from ..compiled import inlined
 
 TWO_PI = 2.0 * math.pi
 SOLUTION = 11

@@ -2,8 +2,8 @@
 
 import math
 
-from clamber.compiled import inlined, kernel
-from clamber.statics.records import TOLERANCE
+from ..compiled import inlined, kernel
+from .records import TOLERANCE
 
 NO_SPLIT = 1.0e6
 """Torque that stands for "no such split exists" [N m]."""

@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 
-from clamber.compiled import inlined, kernel
-from clamber.statics.forces import FAR, cut, cut_cone, cut_strength, general_split
-from clamber.statics.programme import maximise
-from clamber.statics.records import TOLERANCE, UNLIMITED, holds, limbs, work
+from ..compiled import inlined, kernel
+from .forces import FAR, cut, cut_cone, cut_strength, general_split
+from .programme import maximise
+from .records import TOLERANCE, UNLIMITED, holds, limbs, work
 
 CORNERS = 16
 """Sides of the polygon that stands for a hold's strength with three or more carriers."""

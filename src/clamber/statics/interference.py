@@ -2,7 +2,7 @@
 
 import math
 
-from clamber.compiled import kernel
+from ..compiled import kernel
 
 
 @kernel

@@ -2,12 +2,12 @@
 
 import math
 
-from clamber.compiled import inlined, kernel
-from clamber.robots.kinematics import solve_limb, wrap
-from clamber.statics.forces import NO_SPLIT, general_split, thesis_split
-from clamber.statics.grip import hang_margin, least_pair, many_least_norm, many_split, pair_margin, port_of
-from clamber.statics.interference import point_segment, polygon_polygon, segment_polygon, segment_segment
-from clamber.statics.records import (
+from ..compiled import inlined, kernel
+from ..robots.kinematics import solve_limb, wrap
+from .forces import NO_SPLIT, general_split, thesis_split
+from .grip import hang_margin, least_pair, many_least_norm, many_split, pair_margin, port_of
+from .interference import point_segment, polygon_polygon, segment_polygon, segment_segment
+from .records import (
     LIMBS,
     TOLERANCE,
     UNLIMITED,

@@ -2,7 +2,7 @@
 
 import math
 
-from clamber.compiled import kernel
+from ..compiled import kernel
 
 BOX = 1.0e4
 """Bound on every |x|; callers scale their unknowns to the order of one."""

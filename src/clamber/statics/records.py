@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from clamber.compiled import carray, inlined, pointer
-from clamber.robots.kinematics import SOLUTION
+from ..compiled import carray, inlined, pointer
+from ..robots.kinematics import SOLUTION
 
 LIMBS = 8
 """Limb slots of a stance; a robot uses the first n."""

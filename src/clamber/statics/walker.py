@@ -5,11 +5,11 @@ from typing import Final
 
 import numpy as np
 
-from clamber.compiled import carray, inlined, kernel, pointer
-from clamber.robots.kinematics import wrap
-from clamber.statics.checks import Check
-from clamber.statics.interference import inside, point_segment
-from clamber.statics.records import TOLERANCE, UNLIMITED
+from ..compiled import carray, inlined, kernel, pointer
+from ..robots.kinematics import wrap
+from .checks import Check
+from .interference import inside, point_segment
+from .records import TOLERANCE, UNLIMITED
 
 STROKE, SINGULAR, FOOTHOLD, BALANCE = 0, 1, 2, 3
 N_CHECKS = 4

@@ -20,17 +20,16 @@ def rasterise(view: View[Moment], frames: list[Frame[Moment]], dpi: int) -> Iter
     figure.set_size_inches(2 * round(w * dpi / 2) / dpi, 2 * round(h * dpi / 2) / dpi)
     figure.set_dpi(dpi)
     canvas = FigureCanvasAgg(figure)
-    artists = view.artists
-    for artist in artists:
+    for artist in view.artists:
         artist.set_animated(True)
     canvas.draw()  # type: ignore[no-untyped-call]
     still = canvas.copy_from_bbox(figure.bbox)  # type: ignore[no-untyped-call]
     for frame in frames:
         canvas.restore_region(still)  # type: ignore[no-untyped-call]
         view.show(frame.step, frame.moment)
-        for artist in artists:
+        for artist in view.artists:  # again for each frame: a lifted frame passes over a standing one
             figure.draw_artist(artist)
         colours = np.asarray(canvas.buffer_rgba())  # type: ignore[no-untyped-call]
         yield colours[..., :3].copy()
-    for artist in artists:
+    for artist in view.artists:
         artist.set_animated(False)

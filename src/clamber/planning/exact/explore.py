@@ -8,8 +8,8 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from clamber.actions.problem import CompiledProblem
-from clamber.planning.exact.kernels import EXHAUSTED, FOUND, FULL, RUNNING, furthest, plant, rehash, search
+from ...actions.problem import CompiledProblem
+from .kernels import EXHAUSTED, FOUND, FULL, RUNNING, furthest, plant, rehash, search
 
 QUOTA: Final = 20_000
 """Stances expanded between looks at the clock."""

@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 
-from clamber.actions.family import bound, candidates, done, key, measure, restore, step
-from clamber.actions.randoms import scramble
-from clamber.compiled import inlined, kernel
+from ...actions.family import bound, candidates, done, key, measure, restore, step
+from ...actions.randoms import scramble
+from ...compiled import inlined, kernel
 
 RUNNING, FOUND, EXHAUSTED, FULL = 0, 1, 2, 3
 NONE = -1

@@ -6,10 +6,10 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
-from clamber.actions.problem import CompiledProblem, Records
-from clamber.planning.genetic.operators import breed, random_genes
-from clamber.planning.genetic.profile import Profile, Search
-from clamber.planning.progress import Listener, Progress
+from ...actions.problem import CompiledProblem, Records
+from ..progress import Listener, Progress
+from .operators import breed, random_genes
+from .profile import Profile, Search
 
 Genes = npt.NDArray[np.int32]
 SELECTIONS = ("roulette", "rank")

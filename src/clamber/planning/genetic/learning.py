@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from clamber.actions.problem import CompiledProblem, Records
-from clamber.actions.table import ActionTable
-from clamber.planning.genetic.evolve import Evolution, Genes
+from ...actions.problem import CompiledProblem, Records
+from ...actions.table import ActionTable
+from .evolve import Evolution, Genes
 
 SHORTEST, LONGEST = 2, 24
 """Genes of a macro."""

@@ -2,8 +2,8 @@
 
 import math
 
-from clamber.actions.randoms import below, draw, unit
-from clamber.compiled import inlined, kernel
+from ...actions.randoms import below, draw, unit
+from ...compiled import inlined, kernel
 
 ROULETTE, RANK = 0, 1
 TAIL, ONE_POINT, TWO_POINT = 0, 1, 2

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from clamber.actions.problem import CompiledProblem
-from clamber.actions.table import ActionTable
-from clamber.planning.genetic.evolve import Evolution, Genes
-from clamber.planning.genetic.operators import vary
-from clamber.planning.genetic.profile import Profile
+from ...actions.problem import CompiledProblem
+from ...actions.table import ActionTable
+from .evolve import Evolution, Genes
+from .operators import vary
+from .profile import Profile
 
 BATCH = 600
 PATIENCE = 6

@@ -6,9 +6,9 @@ from typing import Annotated, Final, Literal
 
 from pydantic import Field, StrictBool, StrictStr
 
-from clamber.errors import UnknownNameError
-from clamber.files import check_schema, read_toml
-from clamber.specs import build_spec, spec
+from ...errors import UnknownNameError
+from ...files import check_schema, read_toml
+from ...specs import build_spec, spec
 
 SCHEMA: Final = "clamber-profile-1"
 Share = Annotated[float, Field(ge=0.0, le=1.0)]

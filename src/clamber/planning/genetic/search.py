@@ -8,10 +8,11 @@ from typing import Any, Final
 
 import numpy as np
 
-from clamber.actions.problem import ROLLOUT, CompiledProblem
-from clamber.errors import FileError
-from clamber.files import write_atomically
-from clamber.planning.genetic.evolve import (
+from ...actions.problem import ROLLOUT, CompiledProblem
+from ...errors import FileError
+from ...files import write_atomically
+from ..progress import Listener
+from .evolve import (
     Evolution,
     Generation,
     Genes,
@@ -21,10 +22,9 @@ from clamber.planning.genetic.evolve import (
     out_of_time,
     tell,
 )
-from clamber.planning.genetic.learning import Macro, learn_while_searching
-from clamber.planning.genetic.polish import BATCH, PATIENCE, explicit_problem, polish, spell_to_goal
-from clamber.planning.genetic.profile import Profile
-from clamber.planning.progress import Listener
+from .learning import Macro, learn_while_searching
+from .polish import BATCH, PATIENCE, explicit_problem, polish, spell_to_goal
+from .profile import Profile
 
 CHECKPOINT_SCHEMA: Final = "clamber-checkpoint-1"
 CHECKPOINT_EVERY: Final = 2.0
