@@ -58,6 +58,7 @@ def copy_stance(n, s, t):
     t.c = s.c
     t.s = s.s
     t.turned = s.turned
+    t.bearing = s.bearing
     t.power = s.power
     t.torque = s.torque
     for i in range(n):
@@ -191,7 +192,7 @@ def advance(p, s):
 @inlined
 def swept(p, s):
     """Angle that the origin has swept about the task's centre since the start [rad]."""
-    return TWO_PI * s.laps + math.atan2(s.y - p.centre_y, s.x - p.centre_x) - p.centre_angle
+    return TWO_PI * s.laps + s.bearing - p.centre_angle
 
 
 @inlined
@@ -228,8 +229,9 @@ def count_laps(p, before, after):
     """Follow the branch cut of atan2 about the task's centre, if some goal asks for turns."""
     if not p.circles:
         return
-    was = math.atan2(before.y - p.centre_y, before.x - p.centre_x)
     now = math.atan2(after.y - p.centre_y, after.x - p.centre_x)
+    was = before.bearing
+    after.bearing = now
     if now - was > math.pi:
         after.laps -= 1
     elif now - was < -math.pi:
@@ -442,9 +444,12 @@ def restore(p, words, s):
     s.hangs = (words[7] >> 8) & 0xFFFFFF
     s.stage = words[7] >> 32
     s.laps = words[9]
+    s.bearing = 0.0
     s.resolved = -1
     s.turned = 0.0
     place(p, s)
+    if p.circles:
+        s.bearing = math.atan2(s.y - p.centre_y, s.x - p.centre_x)
     for i in range(p.n_limbs):
         long = words.shape[0] > KEY_WORDS
         s.left[i] = words[KEY_WORDS + 3 * i + 2] if long else -1

@@ -148,6 +148,7 @@ def start_stance(task: LimbedTask, params: Params) -> Records:
     start["in_use"] = last if task.start.in_use is None else names.index(task.start.in_use)
     start["open"] = 3
     start["x"], start["y"] = task.start.x, task.start.y
+    start["bearing"] = params.record["centre_angle"] if params.record["circles"] else 0.0
     margins = np.zeros((1, len(CHECKS)))
     reasons = np.zeros(1, np.int32)
     stances = np.zeros(2, STANCE)

@@ -160,6 +160,7 @@ STANCE = np.dtype(
         ("c", "f8"),
         ("s", "f8"),
         ("turned", "f8"),  # angle of the hang in the last action [rad]
+        ("bearing", "f8"),  # direction of the origin from the task's centre [rad]; 0 if no goal asks for turns
         ("power", "f8"),
         ("torque", "f8"),  # largest |torque| [N m]
         ("foot", "f8", (LIMBS, 2)),  # a free limb's tip, body frame [m]
