@@ -220,7 +220,7 @@ def _fill_rules(
     row["hard"] = hard
     row["seen"] = (1 << len(CHECKS)) - 1 if every_check else hard
     row["kinds"][: len(FEATURE_KINDS)] = FEATURE_KINDS
-    row["n_keep_out"] = len(task.world.keep_out)
+    row["fences"] = len(task.world.keep_out)
     for first, second in task.robot.opposed:
         i, j = task.robot.limb_index(first), task.robot.limb_index(second)
         row["opposed"][i] |= 1 << j

@@ -20,9 +20,8 @@ class Params:
         self._arrays = {name: np.ascontiguousarray(array) for name, array in arrays.items()}
         for name, array in self._arrays.items():
             record[f"{name}_at"] = array.ctypes.data
-            counted = f"n_{name}"
-            if counted in (record.dtype.names or ()) and name != "keep_out":
-                record[counted] = len(array)
+            if f"n_{name}" in (record.dtype.names or ()):
+                record[f"n_{name}"] = len(array)
 
     @property
     def record(self) -> np.void:

@@ -355,7 +355,7 @@ def judge(p, s, grabbing, swing, margins):
     if p.seen & (1 << HOOK):
         margins[HOOK], good = hook(p, s, k)
     margins[KEEP_OUT] = UNLIMITED
-    fenced = p.n_keep_out > 0 and p.seen & (1 << KEEP_OUT)
+    fenced = p.fences > 0 and p.seen & (1 << KEEP_OUT)
     if fenced or p.seen & (1 << LIMB_LIMB | 1 << LIMB_BODY | 1 << LIMB_PEG):
         interference(p, s, margins)
     violated = 0
@@ -458,7 +458,7 @@ def interference(p, s, margins):
     fence = UNLIMITED
     radius = p.link_radius
     x0, x1, y0, y1 = cells_about(p, s.x, s.y, SIGHT)
-    for k in range(p.n_keep_out):
+    for k in range(p.fences):
         polygon = vertices(p)[keep_out(p)[k] : keep_out(p)[k + 1]]
         fence = min(fence, polygon_polygon(body, polygon) - p.body_margin)
     for i in range(n):
@@ -468,7 +468,7 @@ def interference(p, s, margins):
         by = s.solved[i, at + 2]
         cx, cy = tip_of(p, s, i)
         limb_body = min(limb_body, segment_polygon(bx, by, cx, cy, body) - radius - p.body_margin)
-        for k in range(p.n_keep_out):
+        for k in range(p.fences):
             polygon = vertices(p)[keep_out(p)[k] : keep_out(p)[k + 1]]
             near = min(segment_polygon(ax, ay, bx, by, polygon), segment_polygon(bx, by, cx, cy, polygon))
             fence = min(fence, near - radius)

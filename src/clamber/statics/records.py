@@ -93,7 +93,7 @@ PARAMS = np.dtype(
         ("work_at", "i8"),
         ("n_holds", "i8"),
         ("n_vertices", "i8"),
-        ("n_keep_out", "i8"),
+        ("fences", "i8"),  # number of keep-out polygons
         ("n_hull", "i8"),
         ("n_work", "i8"),
     ],
@@ -211,7 +211,7 @@ def vertices(p):
 @inlined
 def keep_out(p):
     """First vertex of each keep-out polygon, and the end."""
-    return carray(pointer(p.keep_out_at), p.n_keep_out + 1, np.int64)
+    return carray(pointer(p.keep_out_at), p.fences + 1, np.int64)
 
 
 @inlined
