@@ -15,8 +15,8 @@ from clamber.actions.limbed import find_hold
 from clamber.actions.limbed_problem import CHECKS, FORCE_RULES, LimbedProblem, StartError
 from clamber.actions.loops import replay
 from clamber.actions.table import ActionTable
-from clamber.statics.interference import inside, point_segment, polygon_polygon, segment_polygon, segment_segment
-from clamber.statics.limbed import nearest_hold
+from clamber.statics.distances import inside, point_segment, polygon_polygon, segment_polygon, segment_segment
+from clamber.statics.near import nearest_hold
 from clamber.statics.programme import BOX, maximise
 from clamber.statics.records import TICKS
 from clamber.tasks import load_task

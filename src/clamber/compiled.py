@@ -28,11 +28,11 @@ carray = numba.carray
 F = TypeVar("F", bound=Callable[..., Any])
 
 PACKAGE = Path(__file__).resolve().parent
-KERNEL_MARK = re.compile(rb"^\s*(?:from|import)\s+(?:[\w.]*\bcompiled|numba)\b", re.MULTILINE)
+KERNEL_MARK = re.compile(rb"^\s*(?:from|import)\s+(?:[\w.]*\b(?:compiled|family)|numba)\b", re.MULTILINE)
 
 
 def kernel_files(package: Path = PACKAGE) -> tuple[Path, ...]:
-    """The source files of `package` that decide what is compiled: those that import this module or Numba."""
+    """The source files of `package` that decide what is compiled: those that import this module, the family seam, or Numba."""
     return tuple(path for path in sorted(package.rglob("*.py")) if KERNEL_MARK.search(path.read_bytes()))
 
 

@@ -1,39 +1,18 @@
-"""What an action does to a limbed climber: the one compiled meaning (page "The model", section 4), and the family's scalar kernels."""
+"""What an action does to a limbed climber: the one compiled meaning (page "The model", section 4)."""
 
 import math
 
-import numpy as np
-
 from ..compiled import inlined, kernel
-from ..robots.kinematics import SOLUTION, TWO_PI, wrap
-from ..statics.grip import port_of
-from ..statics.interference import inside, point_segment
-from ..statics.limbed import (
-    N_CHECKS,
-    REACH,
-    SUPPORT,
-    cells_about,
-    cells_in_row,
-    count_holders,
-    hang,
-    judge,
-    place,
-    solve,
-    tip_of,
-)
-from ..statics.records import PARAMS, TICKS, TOLERANCE, UNLIMITED, cells, goals, holds, limbs, vertices, work
-from .codes import HOLD, MOVE, NONE, RANDOM, RELEASE, pack_code, unpack
-from .family import family_kernels
+from ..robots.kinematics import SOLUTION
+from ..statics.hang import hang
+from ..statics.limbed import N_CHECKS, REACH, SUPPORT, judge
+from ..statics.near import cells_about, cells_in_row
+from ..statics.pose import count_holders, held, place, port_of, solve
+from ..statics.records import TICKS, TOLERANCE, UNLIMITED, cells, holds, limbs, work
+from .codes import HOLD, MOVE, NONE, RANDOM, RELEASE, unpack
+from .limbed_goals import advance, count_laps
 from .randoms import below, draw
 
-FEATURES = 7
-"""Body progress, limb progress, power, stages, length, poor stability, largest torque."""
-KEY_WORDS = 10
-"""Integers of a key; three more per limb where checks of interference are hard."""
-RELEASES, GRABS = 1 << 6, 1 << 7
-"""Bits of `allowed`."""
-FOOT_SCALE = float(1 << 40)
-"""Free feet are kept in a key to 2^-40 m."""
 RANK_QUANTUM = 1.0e-10
 """Squared distances that differ by less are a tie [m^2]."""
 
@@ -86,15 +65,6 @@ def let_go(p, s, i):
     s.hold[i] = -1
     s.open[i] = 3
     s.in_use = i
-
-
-@inlined
-def held(p, s, h):
-    """Whether any limb holds hold h."""
-    for i in range(p.n_limbs):
-        if s.hold[i] == h:
-            return True
-    return False
 
 
 @kernel
@@ -180,62 +150,6 @@ def fail(margins, check, margin):
         margins[i] = math.nan
     margins[check] = margin
     return check
-
-
-@inlined
-def advance(p, s):
-    """Count the goals that the stance meets, in order."""
-    while s.stage < p.n_goals and meets(p, s, goals(p)[s.stage]):
-        s.stage += 1
-
-
-@inlined
-def swept(p, s):
-    """Angle that the origin has swept about the task's centre since the start [rad]."""
-    return TWO_PI * s.laps + s.bearing - p.centre_angle
-
-
-@inlined
-def meets(p, s, goal):
-    """Whether a stance meets one goal."""
-    if s.x < goal.x_min - 1e-9 or s.x > goal.x_max + 1e-9 or s.y < goal.y_min - 1e-9 or s.y > goal.y_max + 1e-9:
-        return False
-    if goal.a_half < math.pi and abs(wrap(s.angle - goal.a_mid)) > goal.a_half + 1e-9:
-        return False
-    if goal.turns != 0.0 and swept(p, s) * math.copysign(1.0, goal.turns) < abs(goal.turns) - 1e-9:
-        return False
-    for i in range(p.n_limbs):
-        if goal.hold[i] >= 0 and s.hold[i] != goal.hold[i]:
-            return False
-    if goal.n_vertices:
-        polygon = vertices(p)[goal.vertex : goal.vertex + goal.n_vertices]
-        return inside(s.x, s.y, polygon) or edge_distance(s.x, s.y, polygon) <= 1e-9
-    return True
-
-
-@inlined
-def edge_distance(x, y, polygon):
-    """Distance of a point from the nearest edge of a polygon, shape (n, 2) [m]."""
-    near = math.inf
-    j = polygon.shape[0] - 1
-    for i in range(polygon.shape[0]):
-        near = min(near, point_segment(x, y, polygon[j, 0], polygon[j, 1], polygon[i, 0], polygon[i, 1]))
-        j = i
-    return near
-
-
-@inlined
-def count_laps(p, before, after):
-    """Follow the branch cut of atan2 about the task's centre, if some goal asks for turns."""
-    if not p.circles:
-        return
-    now = math.atan2(after.y - p.centre_y, after.x - p.centre_x)
-    was = before.bearing
-    after.bearing = now
-    if now - was > math.pi:
-        after.laps -= 1
-    elif now - was < -math.pi:
-        after.laps += 1
 
 
 @inlined
@@ -340,183 +254,3 @@ def step(p, before, code, after, margins):
     if reason < 0:
         advance(p, after)
     return reason
-
-
-@inlined
-def goal_distance(p, s, x, y, goal):
-    """Way from a point to a goal: to its box, region and named holds, or along its circle [m]."""
-    dx = max(0.0, max(goal.x_min - x, x - goal.x_max))
-    dy = max(0.0, max(goal.y_min - y, y - goal.y_max))
-    way = math.sqrt(dx * dx + dy * dy)
-    if goal.turns != 0.0:
-        left = abs(goal.turns) - swept(p, s) * math.copysign(1.0, goal.turns)
-        way = max(way, goal.radius * max(0.0, left))
-    if goal.n_vertices:
-        polygon = vertices(p)[goal.vertex : goal.vertex + goal.n_vertices]
-        if not inside(x, y, polygon):
-            way = max(way, edge_distance(x, y, polygon))
-    return way
-
-
-@inlined
-def measure(p, s, row):
-    """Features of one action's stance (page "The model", section 10)."""
-    if s.stage >= p.n_goals:
-        last = goals(p)[p.n_goals - 1]
-        done = last.before + last.way
-        row[0] = done
-        row[1] = p.n_limbs * done
-    else:
-        goal = goals(p)[s.stage]
-        base = goal.before + goal.way
-        row[0] = base - goal_distance(p, s, s.x, s.y, goal)
-        total = 0.0
-        for i in range(p.n_limbs):
-            tx, ty = tip_of(p, s, i)
-            way = goal_distance(p, s, tx, ty, goal)
-            if goal.hold[i] >= 0:
-                way = math.hypot(holds(p)[goal.hold[i]].x - tx, holds(p)[goal.hold[i]].y - ty)
-            total += base - way
-        row[1] = total
-    row[2] = s.power
-    row[3] = s.stage
-    row[4] = 1.0
-    holders, _ = count_holders(p, s)
-    row[5] = 1.0 if s.push_pull or holders == 1 else 0.0
-    row[6] = s.torque
-
-
-@kernel
-def done(p, s):
-    """Whether every goal has been met."""
-    return s.stage >= p.n_goals
-
-
-@kernel
-def cell(p, s):
-    """A coarse place in the search space for niching: stage, contacts and x to a third of a metre, as one number."""
-    value = s.stage
-    for i in range(p.n_limbs):
-        value = value * 1000003 + (s.hold[i] + 1)
-    return value * 1000003 + int(math.floor(s.x / 0.3))
-
-
-@kernel
-def key(p, s, words):
-    """Everything that the hard checks and actions read of a stance, as integers: equal keys have equal futures."""
-    n = p.n_limbs
-    words[0] = s.ix
-    words[1] = s.iy
-    words[2] = s.ia
-    holders, _ = count_holders(p, s)
-    for w in range(4):
-        low = s.hold[2 * w] if 2 * w < n else -1
-        high = s.hold[2 * w + 1] if 2 * w + 1 < n else -1
-        words[3 + w] = ((high + 1) << 32) | (low + 1)
-    idle = s.in_use + 1 if p.idle and holders >= 3 and s.in_use >= 0 and s.hold[s.in_use] >= 0 else 0
-    hangs = s.hangs if p.max_hangs >= 0 else 0
-    words[7] = idle | hangs << 8 | s.stage << 32
-    opened = 0
-    if p.kept:
-        for i in range(n):
-            if s.hold[i] >= 0:
-                opened |= s.open[i] << (2 * i)
-    words[8] = opened
-    words[9] = s.laps
-    if words.shape[0] > KEY_WORDS:  # checks of interference are hard: they read free feet, and the holds these left
-        for i in range(n):
-            free = s.hold[i] < 0
-            words[KEY_WORDS + 3 * i] = np.int64(round(s.foot[i, 0] * FOOT_SCALE)) if free else 0
-            words[KEY_WORDS + 3 * i + 1] = np.int64(round(s.foot[i, 1] * FOOT_SCALE)) if free else 0
-            words[KEY_WORDS + 3 * i + 2] = s.left[i] if free else -1
-
-
-@kernel
-def restore(p, words, s):
-    """The stance of a key. In a short key free feet lie at the origin: no hard check reads them."""
-    s.ix = words[0]
-    s.iy = words[1]
-    s.ia = words[2]
-    for w in range(4):
-        s.hold[2 * w] = (words[3 + w] & 0xFFFFFFFF) - 1
-        s.hold[2 * w + 1] = (words[3 + w] >> 32) - 1
-    s.in_use = (words[7] & 0xFF) - 1
-    s.hangs = (words[7] >> 8) & 0xFFFFFF
-    s.stage = words[7] >> 32
-    s.laps = words[9]
-    s.bearing = 0.0
-    s.resolved = -1
-    s.turned = 0.0
-    place(p, s)
-    if p.circles:
-        s.bearing = math.atan2(s.y - p.centre_y, s.x - p.centre_x)
-    for i in range(p.n_limbs):
-        long = words.shape[0] > KEY_WORDS
-        s.left[i] = words[KEY_WORDS + 3 * i + 2] if long else -1
-        s.open[i] = (words[8] >> (2 * i)) & 3 if p.kept and s.hold[i] >= 0 else 3
-        s.foot[i, 0] = words[KEY_WORDS + 3 * i] / FOOT_SCALE if long else 0.0
-        s.foot[i, 1] = words[KEY_WORDS + 3 * i + 1] / FOOT_SCALE if long else 0.0
-        if s.hold[i] >= 0:
-            solve(p, s, i)
-
-
-@kernel
-def candidates(p, s, codes):
-    """Every different action from a stance, holds named one by one through the grid; returns their number.
-
-    Args:
-        p, s: Parameters and stance.
-        codes: Output; holds beyond its length are left out, so give it 6 + n (1 + holds in reach).
-    """
-    n = 0
-    for axis in range(6):
-        if p.allowed & (1 << axis):
-            codes[n] = pack_code(MOVE, 0, axis)
-            n += 1
-    for i in range(p.n_limbs):
-        if s.hold[i] >= 0 and p.allowed & RELEASES:
-            codes[n] = pack_code(RELEASE, i, 0)
-            n += 1
-        if not p.allowed & GRABS:
-            continue
-        px, py = port_of(limbs(p)[i], s)
-        limit = limbs(p)[i].length - p.reach_offset
-        x0, x1, y0, y1 = cells_about(p, px, py, limit + 1e-9)
-        for row in range(y0, y1 + 1):
-            first, end = cells_in_row(p, row, x0, x1)
-            for at in range(first, end):
-                h = cells(p)[at]
-                hold = holds(p)[h]
-                if n < codes.shape[0] and (hold.limbs >> i) & 1 and not held(p, s, h):
-                    if limit - math.hypot(hold.x - px, hold.y - py) >= -TOLERANCE:
-                        codes[n] = pack_code(HOLD, i, h)
-                        n += 1
-    return n
-
-
-@kernel
-def bound(p, s):
-    """An admissible, consistent number of actions still needed: body steps along x and y from goal to goal; 0 if hangs are allowed.
-
-    A body move changes x or y by one step; only a hang could do more. Boxes that no goal asks for are infinitely wide.
-    """
-    if s.stage >= p.n_goals or p.max_hangs != 0:
-        return 0.0
-    goal = goals(p)[s.stage]
-    stride = p.tick * TICKS
-    dx = max(0.0, max(goal.x_min - s.x, s.x - goal.x_max))
-    dy = max(0.0, max(goal.y_min - s.y, s.y - goal.y_max))
-    return math.ceil(dx / stride - 1e-6) + math.ceil(dy / stride - 1e-6) + goal.after
-
-
-family_kernels(
-    PARAMS,
-    step=step,
-    candidates=candidates,
-    key=key,
-    restore=restore,
-    measure=measure,
-    bound=bound,
-    done=done,
-    cell=cell,
-)

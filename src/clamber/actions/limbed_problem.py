@@ -9,13 +9,16 @@ import numpy.typing as npt
 from ..errors import ClamberError
 from ..robots.limbed import Limb
 from ..statics.checks import LIMBED_CHECKS
-from ..statics.grip import work_size
+from ..statics.many import work_size
 from ..statics.records import GOAL, HOLD, LIMB, PARAMS, STANCE, TICKS
 from ..tasks.limbed import Goal, LimbedTask
 from .codes import HOLD as HOLD_KIND
 from .codes import NEAREST, Code, pack
+from .family import family_kernels
 from .inventory import most_in_reach, whole_kinds
-from .limbed import FEATURES, KEY_WORDS
+from .limbed import step
+from .limbed_goals import FEATURES, done, measure
+from .limbed_keys import KEY_WORDS, bound, candidates, cell, key, restore
 from .loops import replay
 from .params import Params
 from .problem import CompiledProblem, Records
@@ -27,6 +30,18 @@ FEATURE_KINDS: Final = (0, 0, 1, 0, 1, 1, 2)
 FORCE_RULES: Final = ("thesis", "min_torque", "min_norm")
 FOOT_CHECKS: Final = ("limb_limb", "limb_body", "limb_peg")
 ANY_DIRECTION: Final = -2.0
+
+family_kernels(
+    PARAMS,
+    step=step,
+    candidates=candidates,
+    key=key,
+    restore=restore,
+    measure=measure,
+    bound=bound,
+    done=done,
+    cell=cell,
+)
 
 
 class LimbedProblem(CompiledProblem):

@@ -1,82 +1,70 @@
-"""Distances of the cores of links, body, holds and keep-outs (page "The model", section 9)."""
-
-import math
+"""Margins of limbs, body, holds and keep-outs against each other (page "The model", section 9)."""
 
 from ..compiled import kernel
+from .distances import point_segment, polygon_polygon, segment_polygon, segment_segment
+from .near import SIGHT, cells_about, cells_in_row
+from .pose import port_of, solve, take_branch, tip_of, usable
+from .records import UNLIMITED, cells, holds, hull, keep_out, limbs, vertices, work
+
+KEEP_OUT, LIMB_LIMB, LIMB_BODY, LIMB_PEG = 8, 9, 10, 11
+"""Places of these checks among the margins."""
 
 
 @kernel
-def point_segment(px, py, ax, ay, bx, by):
-    """Distance of a point from a segment [m]."""
-    dx = bx - ax
-    dy = by - ay
-    square = dx * dx + dy * dy
-    t = 0.0
-    if square > 0.0:
-        t = ((px - ax) * dx + (py - ay) * dy) / square
-        t = min(1.0, max(0.0, t))
-    ex = px - ax - t * dx
-    ey = py - ay - t * dy
-    return math.sqrt(ex * ex + ey * ey)
-
-
-@kernel
-def segment_segment(ax, ay, bx, by, cx, cy, dx, dy):
-    """Distance of two segments [m]; 0 if they touch or cross."""
-    ux = bx - ax
-    uy = by - ay
-    vx = dx - cx
-    vy = dy - cy
-    side_c = ux * (cy - ay) - uy * (cx - ax)
-    side_d = ux * (dy - ay) - uy * (dx - ax)
-    side_a = vx * (ay - cy) - vy * (ax - cx)
-    side_b = vx * (by - cy) - vy * (bx - cx)
-    if side_c * side_d < 0.0 and side_a * side_b < 0.0:
-        return 0.0
-    near = min(point_segment(ax, ay, cx, cy, dx, dy), point_segment(bx, by, cx, cy, dx, dy))
-    return min(near, min(point_segment(cx, cy, ax, ay, bx, by), point_segment(dx, dy, ax, ay, bx, by)))
-
-
-@kernel
-def inside(px, py, polygon):
-    """Whether a point lies inside a simple polygon, shape (n, 2) (even-odd rule; the edge itself is the distance's business)."""
-    odd = False
-    n = polygon.shape[0]
-    j = n - 1
+def interference(p, s, margins):
+    """Margins of limbs, body, holds and keep-outs against each other [m]."""
+    n = p.n_limbs
+    corners = p.n_hull
+    body = work(p)[64 : 64 + 2 * corners].reshape((corners, 2))
+    for i in range(corners):
+        body[i, 0] = s.x + s.c * hull(p)[i, 0] - s.s * hull(p)[i, 1]
+        body[i, 1] = s.y + s.s * hull(p)[i, 0] + s.c * hull(p)[i, 1]
     for i in range(n):
-        if (polygon[i, 1] > py) != (polygon[j, 1] > py):
-            at = polygon[j, 0] + (py - polygon[j, 1]) * (polygon[i, 0] - polygon[j, 0]) / (
-                polygon[i, 1] - polygon[j, 1]
-            )
-            if px < at:
-                odd = not odd
-        j = i
-    return odd
-
-
-@kernel
-def segment_polygon(ax, ay, bx, by, polygon):
-    """Distance of a segment from a polygon with its inside [m]."""
-    if polygon.shape[0] > 2 and inside(ax, ay, polygon):
-        return 0.0
-    near = math.inf
-    j = polygon.shape[0] - 1
-    for i in range(polygon.shape[0]):
-        near = min(near, segment_segment(ax, ay, bx, by, polygon[j, 0], polygon[j, 1], polygon[i, 0], polygon[i, 1]))
-        j = i
-    return near
-
-
-@kernel
-def polygon_polygon(first, second):
-    """Distance of two polygons with their insides [m]."""
-    if second.shape[0] > 2 and inside(first[0, 0], first[0, 1], second):
-        return 0.0
-    if first.shape[0] > 2 and inside(second[0, 0], second[0, 1], first):
-        return 0.0
-    near = math.inf
-    j = first.shape[0] - 1
-    for i in range(first.shape[0]):
-        near = min(near, segment_polygon(first[j, 0], first[j, 1], first[i, 0], first[i, 1], second))
-        j = i
-    return near
+        if s.hold[i] < 0:
+            solve(p, s, i)
+            s.branch[i] = take_branch(p, s, i, usable(s, i, p.kept), 0.0, 0.0)
+    limb_limb = UNLIMITED
+    limb_body = UNLIMITED
+    limb_peg = UNLIMITED
+    fence = UNLIMITED
+    radius = p.link_radius
+    x0, x1, y0, y1 = cells_about(p, s.x, s.y, SIGHT)
+    for k in range(p.fences):
+        polygon = vertices(p)[keep_out(p)[k] : keep_out(p)[k + 1]]
+        fence = min(fence, polygon_polygon(body, polygon) - p.body_margin)
+    for i in range(n):
+        ax, ay = port_of(limbs(p)[i], s)
+        at = 1 + 5 * s.branch[i]
+        bx = s.solved[i, at + 1]
+        by = s.solved[i, at + 2]
+        cx, cy = tip_of(p, s, i)
+        limb_body = min(limb_body, segment_polygon(bx, by, cx, cy, body) - radius - p.body_margin)
+        for k in range(p.fences):
+            polygon = vertices(p)[keep_out(p)[k] : keep_out(p)[k + 1]]
+            near = min(segment_polygon(ax, ay, bx, by, polygon), segment_polygon(bx, by, cx, cy, polygon))
+            fence = min(fence, near - radius)
+        for j in range(i + 1, n):
+            dx, dy = port_of(limbs(p)[j], s)
+            ex = s.solved[j, 1 + 5 * s.branch[j] + 1]
+            ey = s.solved[j, 1 + 5 * s.branch[j] + 2]
+            fx, fy = tip_of(p, s, j)
+            near = min(segment_segment(ax, ay, bx, by, dx, dy, ex, ey), segment_segment(ax, ay, bx, by, ex, ey, fx, fy))
+            near = min(near, segment_segment(bx, by, cx, cy, dx, dy, ex, ey))
+            near = min(near, segment_segment(bx, by, cx, cy, ex, ey, fx, fy))
+            limb_limb = min(limb_limb, near - 2.0 * radius)
+        own = s.hold[i] if s.hold[i] >= 0 else s.left[i]
+        for row in range(y0, y1 + 1):
+            first, end = cells_in_row(p, row, x0, x1)
+            for c in range(first, end):
+                h = cells(p)[c]
+                if h == own:
+                    continue
+                hold = holds(p)[h]
+                if (hold.x - s.x) ** 2 + (hold.y - s.y) ** 2 > SIGHT * SIGHT:
+                    continue
+                near = min(point_segment(hold.x, hold.y, ax, ay, bx, by), point_segment(hold.x, hold.y, bx, by, cx, cy))
+                limb_peg = min(limb_peg, near - radius - hold.radius)
+    margins[KEEP_OUT] = fence
+    margins[LIMB_LIMB] = limb_limb
+    margins[LIMB_BODY] = limb_body
+    margins[LIMB_PEG] = limb_peg

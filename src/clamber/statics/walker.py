@@ -8,7 +8,7 @@ import numpy as np
 from ..compiled import carray, inlined, kernel, pointer
 from ..robots.kinematics import wrap
 from .checks import Check
-from .interference import inside, point_segment
+from .distances import inside, point_segment
 from .records import TOLERANCE, UNLIMITED
 
 STROKE, SINGULAR, FOOTHOLD, BALANCE = 0, 1, 2, 3

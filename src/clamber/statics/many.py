@@ -1,0 +1,193 @@
+"""Three or more carriers: the split of least torque and the `hook` margin as linear programmes (page "The model", sections 7 and 8)."""
+
+import math
+
+import numpy as np
+
+from ..compiled import kernel
+from .pose import port_of
+from .programme import maximise
+from .records import holds, limbs, work
+
+CORNERS = 16
+"""Sides of the polygon that stands for a hold's strength."""
+
+
+@kernel
+def cone_rows(a, row, column, mx, my, c_cone, s_cone, slack, last):
+    """Two rows: the force -F of columns (column, column + 1) within a cone about (mx, my), with slack in column `last`."""
+    for side in range(2):
+        turn = c_cone if side == 0 else -c_cone
+        a[row, column] = mx * s_cone - my * turn
+        a[row, column + 1] = my * s_cone + mx * turn
+        a[row, last] = slack
+        row += 1
+    return row
+
+
+@kernel
+def many_split(p, s, carriers, goal, forces):
+    """The split of three or more carriers by linear programme, in units of the weight.
+
+    Args:
+        p, s: Parameters and stance.
+        carriers: Bit set of the carrying limbs.
+        goal: 0: least largest |torque|/limit within the cuts; 1: the same without cuts; 2: largest slack of the cuts with torques and
+            strengths within limits (the `hook` margin).
+        forces: Where the forces of the holds on the limbs go [N], shape (LIMBS, 2).
+
+    Returns:
+        Whether a split exists, and the optimum (goal 2 in N).
+    """
+    n = p.n_limbs
+    weight = p.weight
+    k = 0
+    for i in range(n):
+        if carriers & (1 << i):
+            k += 1
+    d = 2 * k + 1
+    last = 2 * k
+    most = 6 + k * (8 + CORNERS)
+    at = 32
+    a = work(p)[at : at + most * d].reshape((most, d))
+    at += most * d
+    b = work(p)[at : at + most]
+    at += most
+    c = work(p)[at : at + d]
+    at += d
+    x = work(p)[at : at + d]
+    at += d
+    basis = work(p)[at : at + d]
+    at += d
+    table = work(p)[at : at + (d + 1) * (most + 2 * d + 1)].reshape((d + 1, most + 2 * d + 1))
+    for i in range(most):
+        b[i] = 0.0
+        for j in range(d):
+            a[i, j] = 0.0
+    for j in range(d):
+        c[j] = 0.0
+    c[last] = 1.0 if goal == 2 else -1.0
+    column = 0
+    row = 6
+    b[2] = 1.0
+    b[3] = -1.0
+    for i in range(n):
+        if not carriers & (1 << i):
+            continue
+        hold = holds(p)[s.hold[i]]
+        limb = limbs(p)[i]
+        for sign in range(2):  # an equality is two inequalities
+            e = 1.0 if sign == 0 else -1.0
+            a[sign, column] = e
+            a[2 + sign, column + 1] = e
+            a[4 + sign, column] = -e * (hold.y - s.y)
+            a[4 + sign, column + 1] = e * (hold.x - s.x)
+        px, py = port_of(limb, s)
+        branch_at = 1 + 5 * s.branch[i]
+        for joint in range(2):
+            rx = hold.x - (px if joint == 0 else s.solved[i, branch_at + 1])
+            ry = hold.y - (py if joint == 0 else s.solved[i, branch_at + 2])
+            scale = weight / (limb.limit1 if joint == 0 else limb.limit2)
+            for sign in range(2):
+                e = scale if sign == 0 else -scale
+                a[row, column] = e * ry
+                a[row, column + 1] = -e * rx
+                if goal == 2:
+                    b[row] = 1.0
+                else:
+                    a[row, last] = -1.0
+                row += 1
+        if goal != 1:
+            slack = 1.0 if goal == 2 else 0.0
+            if limb.c_cone > -1.5:
+                gx = s.solved[i, branch_at + 3]
+                gy = s.solved[i, branch_at + 4]
+                row = cone_rows(a, row, column, gx, gy, limb.c_cone, limb.s_cone, slack, last)
+            if hold.c_cone > -1.5:
+                row = cone_rows(a, row, column, hold.dir_x, hold.dir_y, hold.c_cone, hold.s_cone, slack, last)
+            if hold.strength < math.inf:
+                for side in range(CORNERS):
+                    angle = (2 * side + 1) * math.pi / CORNERS
+                    a[row, column] = math.cos(angle)
+                    a[row, column + 1] = math.sin(angle)
+                    b[row] = hold.strength / weight * math.cos(math.pi / CORNERS)
+                    row += 1
+        column += 2
+    if not maximise(a[:row], b[:row], c, table, basis, x):
+        return False, 0.0
+    column = 0
+    for i in range(n):
+        if carriers & (1 << i):
+            forces[i, 0] = weight * x[column]
+            forces[i, 1] = weight * x[column + 1]
+            column += 2
+    return True, weight * x[last] if goal == 2 else x[last]
+
+
+@kernel
+def many_least_norm(p, s, carriers, forces):
+    """The split of three or more carriers with the smallest sum of (torque / limit)^2: the normal equations, by elimination."""
+    n = p.n_limbs
+    weight = p.weight
+    k = 0
+    for i in range(n):
+        if carriers & (1 << i):
+            k += 1
+    d = 2 * k + 3
+    m = work(p)[32 : 32 + d * (d + 1)].reshape((d, d + 1))
+    m[:] = 0.0
+    column = 0
+    for i in range(n):
+        if not carriers & (1 << i):
+            continue
+        hold = holds(p)[s.hold[i]]
+        limb = limbs(p)[i]
+        px, py = port_of(limb, s)
+        at = 1 + 5 * s.branch[i]
+        for joint in range(2):
+            limit = limb.limit1 if joint == 0 else limb.limit2
+            gx = (hold.y - (py if joint == 0 else s.solved[i, at + 2])) / limit
+            gy = -(hold.x - (px if joint == 0 else s.solved[i, at + 1])) / limit
+            m[column, column] += gx * gx
+            m[column, column + 1] += gx * gy
+            m[column + 1, column] += gx * gy
+            m[column + 1, column + 1] += gy * gy
+        m[column, column] += 1e-14  # a stretched limb has no torque along its line
+        m[column + 1, column + 1] += 1e-14
+        m[column, 2 * k] = 1.0
+        m[column + 1, 2 * k + 1] = 1.0
+        m[column, 2 * k + 2] = -(hold.y - s.y)
+        m[column + 1, 2 * k + 2] = hold.x - s.x
+        for j in range(3):
+            m[2 * k + j, column] = m[column, 2 * k + j]
+            m[2 * k + j, column + 1] = m[column + 1, 2 * k + j]
+        column += 2
+    m[2 * k + 1, d] = weight
+    for i in range(d):
+        pivot = i
+        for j in range(i + 1, d):
+            if abs(m[j, i]) > abs(m[pivot, i]):
+                pivot = j
+        if abs(m[pivot, i]) < 1e-16:
+            return False
+        for j in range(i, d + 1):
+            m[i, j], m[pivot, j] = m[pivot, j], m[i, j]
+        for j in range(d):
+            if j != i:
+                factor = m[j, i] / m[i, i]
+                for l in range(i, d + 1):  # noqa: E741
+                    m[j, l] -= factor * m[i, l]
+    column = 0
+    for i in range(n):
+        if carriers & (1 << i):
+            forces[i, 0] = m[column, d] / m[column, column]
+            forces[i, 1] = m[column + 1, d] / m[column + 1, column + 1]
+            column += 2
+    return True
+
+
+def work_size(n_limbs: int, n_ports: int) -> int:
+    """Floats of scratch that the kernels of a robot with `n_limbs` limbs need."""
+    d = 2 * n_limbs + 3
+    most = 6 + n_limbs * (8 + CORNERS)
+    return int(64 + 2 * n_ports + most * d + most + 3 * d + (d + 1) * (most + 2 * d + 1) + np.int64(d * (d + 1)))

@@ -1,0 +1,104 @@
+"""How the carriers share the weight, and the torques and power that this takes (page "The model", section 7)."""
+
+from ..compiled import inlined
+from .forces import NO_SPLIT, general_split, thesis_split
+from .grip import least_pair
+from .many import many_least_norm, many_split
+from .pose import joint_torques, take_branch, usable
+from .records import holds, limbs, work
+
+
+@inlined
+def share(p, s):
+    """Forces, branches and torques of all limbs; sets carriers, push_pull, force, torques, power and torque of the stance."""
+    n = p.n_limbs
+    holders = 0
+    for i in range(n):
+        if s.hold[i] >= 0:
+            holders += 1
+    carriers = 0
+    a = -1
+    b = -1
+    k = 0
+    for i in range(n):
+        s.force[i, 0] = 0.0
+        s.force[i, 1] = 0.0
+        if s.hold[i] >= 0 and not (p.idle and holders >= 3 and i == s.in_use):
+            carriers |= 1 << i
+            k += 1
+            if a < 0:
+                a = i
+            elif b < 0:
+                b = i
+    s.carriers = carriers
+    s.push_pull = 0
+    split = True
+    given_a = -1
+    given_b = -1
+    if k == 1:
+        s.force[a, 1] = p.weight
+    elif k == 2:
+        hold_a = holds(p)[s.hold[a]]
+        hold_b = holds(p)[s.hold[b]]
+        opposed = (p.opposed[a] >> b) & 1 == 1
+        rax = hold_a.x - s.x
+        rbx = hold_b.x - s.x
+        if p.force_rule == 0:
+            split, push_pull, fax, fay, fbx, fby = thesis_split(
+                p.weight, opposed, rax, hold_a.y - s.y, rbx, hold_b.y - s.y
+            )
+            s.push_pull = 1 if push_pull else 0
+            s.force[a, 0] = fax
+            s.force[a, 1] = fay
+            s.force[b, 0] = fbx
+            s.force[b, 1] = fby
+        else:
+            s.push_pull = 0 if opposed or rax * rbx < 0.0 else 1
+            use_a = usable(s, a, p.kept)
+            use_b = usable(s, b, p.kept)
+            given_a, given_b, lam = least_pair(p, s, a, b, use_a, use_b, p.force_rule == 2)
+            split = given_a >= 0
+            if split:
+                f = work(p)[:8]
+                general_split(p.weight, hold_a.x, hold_a.y, hold_b.x, hold_b.y, s.x, f)
+                s.force[a, 0] = f[0] + lam * f[2]
+                s.force[a, 1] = f[1] + lam * f[3]
+                s.force[b, 0] = f[4] + lam * f[6]
+                s.force[b, 1] = f[5] + lam * f[7]
+    for i in range(n):
+        if s.hold[i] < 0:
+            continue
+        if i == a and given_a >= 0:
+            s.branch[i] = given_a
+        elif i == b and given_b >= 0:
+            s.branch[i] = given_b
+        elif k >= 3 and carriers & (1 << i):
+            s.branch[i] = take_branch(p, s, i, usable(s, i, p.kept), 0.0, p.weight / k)
+        else:
+            s.branch[i] = take_branch(p, s, i, usable(s, i, p.kept), s.force[i, 0], s.force[i, 1])
+    if k >= 3:
+        if p.force_rule == 2:
+            split = many_least_norm(p, s, carriers, s.force)
+        else:
+            split, _ = many_split(p, s, carriers, 0, s.force)
+            if not split:
+                split, _ = many_split(p, s, carriers, 1, s.force)
+    worst = 0.0
+    power = 0.0
+    for i in range(n):
+        s.torques[i, 0] = 0.0
+        s.torques[i, 1] = 0.0
+        if not carriers & (1 << i):
+            continue
+        if split:
+            t1, t2 = joint_torques(p, s, i, s.branch[i], s.force[i, 0], s.force[i, 1])
+        else:
+            t1 = NO_SPLIT
+            t2 = NO_SPLIT
+        s.torques[i, 0] = t1
+        s.torques[i, 1] = t2
+        worst = max(worst, max(abs(t1), abs(t2)))
+        power += t1 * t1 * limbs(p)[i].heat1 + t2 * t2 * limbs(p)[i].heat2
+    s.torque = worst
+    s.power = power
+    return k
