@@ -15,9 +15,10 @@ import pytest
 
 from clamber.actions import codes
 from clamber.actions.codes import Code, pack
-from clamber.actions.limbed_problem import LimbedProblem, StartError
+from clamber.actions.limbed_problem import LimbedProblem
 from clamber.actions.loops import replay
 from clamber.actions.table import ActionTable
+from clamber.errors import StartError
 from clamber.tasks.limbed import LimbedTask
 from plain.evaluator import CHECKS, Action, PlainEvaluator, PlainResult, PlainStance
 from plain.variants import random_task

@@ -12,9 +12,10 @@ from scipy.optimize import linprog
 from clamber.actions import codes
 from clamber.actions.codes import pack
 from clamber.actions.limbed import find_hold
-from clamber.actions.limbed_problem import CHECKS, FORCE_RULES, LimbedProblem, StartError
+from clamber.actions.limbed_problem import CHECKS, FORCE_RULES, LimbedProblem
 from clamber.actions.loops import replay
 from clamber.actions.table import ActionTable
+from clamber.errors import StartError
 from clamber.statics.distances import inside, point_segment, polygon_polygon, segment_polygon, segment_segment
 from clamber.statics.near import nearest_hold
 from clamber.statics.programme import BOX, maximise

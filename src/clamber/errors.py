@@ -111,3 +111,17 @@ class PlannerError(ClamberError):
 
     def __str__(self) -> str:
         return f"the {self.planner} planner can't take task '{self.task}': {self.problem}"
+
+
+class StartError(ClamberError):
+    """The start stance of a task violates a hard check."""
+
+    def __init__(self, task: str, check: str, margin: float, meaning: str) -> None:
+        super().__init__(task, check, margin, meaning)
+        self.task, self.check, self.margin, self.meaning = task, check, margin, meaning
+
+    def __str__(self) -> str:
+        return (
+            f"task '{self.task}', key 'start': the start stance violates the hard check '{self.check}' "
+            f"({self.meaning}) by {-self.margin:.4g}; move the body or the holds, or take '{self.check}' out of 'rules.hard'"
+        )

@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import ClamberError
+from ..errors import StartError
 from ..robots.limbed import Limb
 from ..statics.checks import LIMBED_CHECKS
 from ..statics.many import work_size
@@ -128,20 +128,6 @@ class LimbedProblem(CompiledProblem):
                     break
                 before = taken
         return ranked
-
-
-class StartError(ClamberError):
-    """The start stance of a task violates a hard check."""
-
-    def __init__(self, task: str, check: str, margin: float, meaning: str) -> None:
-        super().__init__(task, check, margin, meaning)
-        self.task, self.check, self.margin, self.meaning = task, check, margin, meaning
-
-    def __str__(self) -> str:
-        return (
-            f"task '{self.task}', key 'start': the start stance violates the hard check '{self.check}' "
-            f"({self.meaning}) by {-self.margin:.4g}; move the body or the holds, or take '{self.check}' out of 'rules.hard'"
-        )
 
 
 def start_stance(task: LimbedTask, params: Params) -> Records:

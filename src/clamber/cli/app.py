@@ -19,6 +19,7 @@ from .list import list_names
 from .plan import plan
 from .show import show
 from .study import study
+from .sweep import sweep
 
 app = typer.Typer(
     name="clamber",
@@ -34,6 +35,7 @@ app.command("inventory")(inventory)
 app.command("check")(check)
 app.command("show")(show)
 app.command("bench")(bench)
+app.command("sweep")(sweep)
 app.command("study")(study)
 
 

@@ -1,0 +1,114 @@
+"""The store of a batch: one SQLite file that gets each result as it ends, so that a killed run loses none."""
+
+import json
+import sqlite3
+from collections.abc import Iterator
+from pathlib import Path
+from types import TracebackType
+from typing import Final
+
+from ..errors import ClamberError
+from ..types import Json
+
+SCHEMA: Final = "clamber-jobs-1"
+
+
+class StoreError(ClamberError):
+    """A file can't be the store of this batch."""
+
+    def __init__(self, path: str, problem: str, allowed: str) -> None:
+        super().__init__(path, problem, allowed)
+        self.path, self.problem, self.allowed = path, problem, allowed
+
+    def __str__(self) -> str:
+        return f"{self.path}: {self.problem}; {self.allowed}"
+
+
+class Store:
+    """Items and their results by key; a result is either there whole or not at all. Used in a `with` block."""
+
+    def __init__(self, path: Path, identity: str, title: str, *, resume: bool) -> None:
+        """Open it, or make it if there is no such file.
+
+        Args:
+            path: The file.
+            identity: Hash of what the batch is about; a store of another one is refused.
+            title: What the batch is about, for the error that refuses it later.
+            resume: Whether finished items may be there already.
+
+        Raises:
+            StoreError: If the file is no store, belongs to another batch, is in use, or has results and `resume` is off.
+        """
+        self._path = path
+        if not path.absolute().parent.is_dir():
+            raise self._refuse(f"the folder {path.absolute().parent} does not exist", "make it first")
+        try:
+            self._file = sqlite3.connect(path, timeout=1.0, isolation_level=None)
+        except sqlite3.Error as error:
+            raise self._refuse(f"cannot be opened ({error})", "name a file in a writable folder") from None
+        try:
+            self._open(identity, title, resume=resume)
+        except sqlite3.Error as error:
+            self._file.close()
+            if "locked" in str(error):
+                raise self._refuse("is in use by another process", "wait for it, or name another file") from None
+            raise self._refuse(f"is no store of results ({error})", "name another file") from None
+        except StoreError:
+            self._file.close()
+            raise
+
+    def _open(self, identity: str, title: str, *, resume: bool) -> None:
+        # Exclusive: two runs at once on one store would do everything twice. The system frees it when a process dies.
+        self._file.execute("PRAGMA locking_mode = EXCLUSIVE")
+        self._file.execute("BEGIN EXCLUSIVE")
+        tables = {name for (name,) in self._file.execute("SELECT name FROM sqlite_master WHERE type = 'table'")}
+        if not tables:
+            self._file.execute("CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL)")
+            self._file.execute(
+                "CREATE TABLE items (key TEXT PRIMARY KEY, item TEXT NOT NULL, "
+                "result TEXT, seconds REAL NOT NULL, error TEXT, tries INTEGER NOT NULL)"
+            )
+            about = (("schema", SCHEMA), ("identity", identity), ("title", title))
+            self._file.executemany("INSERT INTO about VALUES (?, ?)", about)
+        elif not {"about", "items"} <= tables:
+            raise self._refuse("is a database of something else", "name another file")
+        self._file.execute("COMMIT")
+        stored = dict(self._file.execute("SELECT key, value FROM about"))
+        if stored.get("schema") != SCHEMA:
+            raise self._refuse(f"has the schema {stored.get('schema')!r}, not {SCHEMA!r}", "name another file")
+        if stored["identity"] != identity:
+            mine = "" if stored["title"] == title else f", not {title}"
+            why = mine or ", but with other data, settings or version"
+            raise self._refuse(f"holds the results of {stored['title']}{why}", "name another file")
+        (finished,) = self._file.execute("SELECT count(*) FROM items WHERE error IS NULL").fetchone()
+        if finished and not resume:
+            raise self._refuse(f"has {finished} finished items of this batch", "resume it, or name another file")
+
+    def _refuse(self, problem: str, allowed: str) -> StoreError:
+        return StoreError(str(self._path), problem, allowed)
+
+    def __enter__(self) -> "Store":
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._file.close()
+
+    def finished(self) -> Iterator[tuple[str, Json, float, int]]:
+        """Key, result, seconds and tries of every item that ended without an error."""
+        rows = self._file.execute("SELECT key, result, seconds, tries FROM items WHERE error IS NULL").fetchall()
+        for key, result, seconds, tries in rows:
+            yield key, json.loads(result), seconds, tries
+
+    def keep(self, key: str, item: str, result: str | None, seconds: float, error: str | None, tries: int) -> None:
+        """Write one item's end; it is on disk when this returns.
+
+        Raises:
+            StoreError: If it cannot be written, as on a full disk.
+        """
+        row = (key, item, result, seconds, error, tries)
+        try:
+            self._file.execute("INSERT OR REPLACE INTO items VALUES (?, ?, ?, ?, ?, ?)", row)
+        except sqlite3.Error as problem:
+            raise self._refuse(f"cannot be written ({problem})", "what is in it stays; resume when it can") from None

@@ -1,0 +1,135 @@
+"""An axis of a sweep: one key of a task and the values that it takes."""
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from ..errors import ClamberError
+from ..tasks.overrides import split_override
+from ..types import Json
+from ..units import split_quantity
+
+POINTS: Final = 8
+"""Points of a range that states no number."""
+MOST_POINTS: Final = 100_000
+"""Of one sweep."""
+_RANGE: Final = re.compile(r"(?P<low>.+?)\s*\.\.\s*(?P<high>[^:]+?)\s*(?::\s*(?P<points>.*?)\s*)?\Z")
+
+
+class SweepError(ClamberError):
+    """A sweep is asked for that can't be made."""
+
+    def __init__(self, option: str, problem: str, allowed: str) -> None:
+        super().__init__(option, problem, allowed)
+        self.option, self.problem, self.allowed = option, problem, allowed
+
+    def __str__(self) -> str:
+        return f"{self.option}: {self.problem}; {self.allowed}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Axis:
+    """A key and its values, in order."""
+
+    key: str
+    """As in an override, such as "motor.torque_limit"."""
+    values: tuple[str, ...]
+    """As in an override, such as "12 N m"; no two are the same."""
+    numbers: tuple[float, ...] | None = None
+    """The values in `unit`; None where they are names."""
+    unit: str = ""
+    """As the user wrote it; empty for a count, a ratio or a name."""
+
+    def overrides(self) -> tuple[str, ...]:
+        """One override per value."""
+        return tuple(f"{self.key}={value}" for value in self.values)
+
+    def to_json(self) -> Json:
+        """Plain data."""
+        numbers = None if self.numbers is None else list(self.numbers)
+        return {"key": self.key, "unit": self.unit, "values": list(self.values), "numbers": numbers}
+
+
+def range_axis(text: str) -> Axis:
+    """The axis of "key=low..high" or "key=low..high:points", such as "motor.torque_limit=10Nm..21Nm:12".
+
+    Both ends name the unit, if the key has one. Between whole numbers without a unit only whole ones are taken.
+
+    Raises:
+        SweepError: If it is no such text, or the range is empty.
+    """
+    option = f"--vary {text}"
+    allowed = "write key=low..high:points, such as motor.torque_limit=10Nm..21Nm:12"
+    key, _ = split_override(text)
+    match = _RANGE.match(text.partition("=")[2].strip())
+    if match is None:
+        raise SweepError(option, "is no range", allowed)
+    ends = [split_quantity(match[end]) for end in ("low", "high")]
+    for end, parts in zip((match["low"], match["high"]), ends, strict=True):
+        if parts is None:
+            raise SweepError(option, f"'{end}' is no number", allowed)
+    (low, unit), (high, other) = (parts for parts in ends if parts is not None)
+    if unit != other:
+        raise SweepError(option, f"one end is in '{unit}', the other in '{other}'", "state the same unit at both ends")
+    points = _points(match["points"], option)
+    if not low < high:
+        raise SweepError(option, "the range is empty", "the first end must be less than the second")
+    whole = not unit and all(re.fullmatch(r"[+-]?\d+", match[end]) for end in ("low", "high"))
+    steps = [low + (high - low) * k / (points - 1) for k in range(points - 1)] + [high]
+    if whole and any(step != round(step) for step in steps):
+        span = round(high - low)
+        counts = [n + 1 for n in range(1, span + 1) if span % n == 0]
+        if match["points"] is not None:
+            fits = f"take {' or '.join(map(str, counts[:12]))} points, or write a decimal point"
+            raise SweepError(option, f"{points} points between whole numbers are not all whole", fits)
+        points = max(count for count in counts if count <= POINTS)
+        steps = [low + (high - low) * k / (points - 1) for k in range(points)]
+    texts = tuple(f"{step:.0f}" if whole else f"{step:.12g} {unit}".rstrip() for step in steps)
+    return Axis(key=key, values=texts, numbers=tuple(steps), unit=unit)
+
+
+def _points(text: str | None, option: str) -> int:
+    if text is None:
+        return POINTS
+    if not re.fullmatch(r"\d{1,9}", text) or int(text) < 2:
+        raise SweepError(option, f"'{text}' is no number of points", "state a whole number, 2 or more")
+    if int(text) > MOST_POINTS:
+        raise SweepError(option, f"{text} points are too many", f"at most {MOST_POINTS} are planned")
+    return int(text)
+
+
+def values_axis(text: str) -> Axis:
+    """The axis of "key=a,b,c", such as "rules.force_rule=thesis,min_torque".
+
+    Raises:
+        SweepError: If it is no such text, or a value is there twice.
+    """
+    option = f"--values {text}"
+    key, _ = split_override(text)
+    values = tuple(value.strip() for value in text.partition("=")[2].split(","))
+    if not all(values):
+        raise SweepError(option, "has an empty value", "write key=a,b,c, such as board=ladder,h")
+    if len(set(values)) < len(values):
+        raise SweepError(option, "names a value twice", "name each once")
+    parts = [split_quantity(value) for value in values]
+    known = [part for part in parts if part is not None]
+    if len(known) == len(values) and len({unit for _, unit in known}) == 1:
+        return Axis(key=key, values=values, numbers=tuple(number for number, _ in known), unit=known[0][1])
+    return Axis(key=key, values=values)
+
+
+def check_axes(axes: Sequence[Axis]) -> None:
+    """Makes sure that a sweep has one or two axes of different keys.
+
+    Raises:
+        SweepError: If it has not, or has too many points.
+    """
+    keys = [axis.key for axis in axes]
+    if not 1 <= len(axes) <= 2:
+        raise SweepError("--vary, --values", f"{len(axes)} keys are to vary", "name one or two")
+    if len(set(keys)) < len(keys):
+        raise SweepError("--vary, --values", f"'{keys[0]}' is to vary twice", "name two different keys")
+    if (points := math.prod(len(axis.values) for axis in axes)) > MOST_POINTS:
+        raise SweepError("--vary, --values", f"{points} points are too many", f"at most {MOST_POINTS} are planned")

@@ -1,0 +1,215 @@
+"""A sweep: one or two keys of a task varied, each point planned by itself, over worker processes."""
+
+import csv
+import io
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from itertools import product
+from pathlib import Path
+from typing import Any, Final
+
+from .. import __version__
+from ..compiled import is_compiled
+from ..errors import ClamberError, SpecError, StartError, UnknownNameError
+from ..files import write_atomically
+from ..jobs import Outcome, map_items
+from ..tasks import Task, load_task, task_from_document
+from ..types import Json
+from ..units import OZ_IN
+from .axes import Axis, check_axes
+from .planners import PLANNERS
+
+SUCCESS: Final = ("optimal", "found")
+NO_START: Final = "no start"
+"""Status of a point whose task can't begin: its values contradict each other, or its start violates a hard check."""
+FAILED: Final = "failed"
+"""Status of a point whose planner raised an error or died."""
+_FIRST_LOOP: Final = {"exact": "expand", "genetic": "rollout"}
+_SMALLEST: Final[dict[str, dict[str, Any]]] = {"exact": {"max_stances": 1}, "genetic": {"max_evaluations": 1}}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Point:
+    """One point of a sweep."""
+
+    values: tuple[str, ...]
+    """One per axis, as in an override."""
+    status: str
+    """A planner's status, `NO_START`, or `FAILED`."""
+    reason: str
+    """In a sentence."""
+    length: int | None = None
+    """Actions of the plan; None without one."""
+    least_torque: float | None = None
+    """Largest joint torque of the plan's easiest step [N m]; None without a plan, or where joints are not modelled."""
+    largest_torque: float | None = None
+    """Largest joint torque of the plan [N m]."""
+    lower_bound: int | None = None
+    """Proved: no plan has fewer actions."""
+    seconds: float = 0.0
+    """Time that planning took [s]."""
+
+    def to_json(self) -> Json:
+        """Plain data."""
+        torques = {"least": self.least_torque, "max": self.largest_torque}
+        return {
+            "values": list(self.values),
+            "status": self.status,
+            "length": self.length,
+            **{f"{name}_torque_Nm": torque for name, torque in torques.items()},
+            **{f"{name}_torque_oz_in": None if torque is None else torque / OZ_IN for name, torque in torques.items()},
+            "lower_bound": self.lower_bound,
+            "seconds": self.seconds,
+            "reason": self.reason,
+        }
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sweep:
+    """All points of a sweep, the last axis fastest."""
+
+    task: str
+    planner: str
+    axes: tuple[Axis, ...]
+    points: tuple[Point, ...]
+
+    @property
+    def found(self) -> int:
+        """Points with a plan."""
+        return sum(point.status in SUCCESS for point in self.points)
+
+    def to_json(self) -> Json:
+        """Plain data: what `clamber sweep --json` prints."""
+        return {
+            "task": self.task,
+            "planner": self.planner,
+            "axes": [axis.to_json() for axis in self.axes],
+            "found": self.found,
+            "points": [point.to_json() for point in self.points],
+        }
+
+    def save_table(self, path: Path) -> None:
+        """Write the points as CSV, whole or not at all."""
+        text = io.StringIO()
+        table = csv.writer(text, lineterminator="\n")
+        columns = [column for column in self.points[0].to_json() if column != "values"]
+        table.writerow([*(axis.key for axis in self.axes), *columns])
+        for point in self.points:
+            told = point.to_json()
+            table.writerow([*point.values, *("" if told[column] is None else told[column] for column in columns)])
+        write_atomically(path, text.getvalue())
+
+
+def run_sweep(
+    name: str,
+    axes: Sequence[Axis],
+    *,
+    overrides: Sequence[str] = (),
+    planner: str = "exact",
+    options: Json | None = None,
+    workers: int = 1,
+    store: Path | None = None,
+    resume: bool = False,
+    progress: Callable[[int, int, Outcome], None] | None = None,
+) -> Sweep:
+    """Plan a task at every point of one or two axes.
+
+    Args:
+        name: Name or path of the task.
+        axes: What varies.
+        overrides: What is set at every point, before the axes.
+        planner: Name of the planner; each point is planned on one thread.
+        options: Plain options of the planner, such as `seed`.
+        workers: Processes; the table doesn't depend on it, but for the seconds.
+        store: SQLite file that keeps each point as it ends.
+        resume: Whether to go on with that file.
+        progress: Told of each end.
+
+    Raises:
+        SweepError: If the axes don't fit.
+        UnknownNameError: If there is no such task or planner.
+        SpecError: If no point of the sweep is a task; the first point's error.
+        StoreError: If the file can't be the store of this sweep.
+    """
+    check_axes(axes)
+    if planner not in PLANNERS:
+        raise UnknownNameError("planner", planner, tuple(PLANNERS))
+    places = list(product(*(axis.values for axis in axes)))
+    loaded = [_load(name, (*overrides, *made)) for made in product(*(axis.overrides() for axis in axes))]
+    tasks = [task for task in loaded if not isinstance(task, SpecError)]
+    if not tasks:
+        assert isinstance(loaded[0], SpecError)
+        raise loaded[0]
+    settings = dict(options or {})
+    items: list[Json] = [
+        {"document": task.document, "planner": planner, "options": settings, "version": __version__} for task in tasks
+    ]
+    _compile(tasks, planner)
+    outcomes = iter(
+        map_items(
+            plan_point,
+            items,
+            workers=workers,
+            store=store,
+            about={"axes": [axis.to_json() for axis in axes], "items": items},
+            title=f"the sweep of '{name}' over {' and '.join(axis.key for axis in axes)}",
+            resume=resume,
+            progress=progress,
+        )
+    )
+    points = tuple(
+        Point(values=values, status=NO_START, reason=task.headline)
+        if isinstance(task, SpecError)
+        else _point(values, next(outcomes))
+        for values, task in zip(places, loaded, strict=True)
+    )
+    return Sweep(task=name, planner=planner, axes=tuple(axes), points=points)
+
+
+def plan_point(item: Json) -> Json:
+    """Plan one point; runs in a worker.
+
+    Args:
+        item: `document` of the task, `planner`, `options`.
+
+    Returns:
+        The fields of `Point` beside `values` and `seconds`.
+    """
+    task = task_from_document(item["document"])
+    try:
+        result = PLANNERS[item["planner"]](task, threads=1, **item["options"])
+    except StartError as error:
+        return {"status": NO_START, "reason": str(error)}
+    point: Json = {"status": result.status, "reason": result.reason, "lower_bound": result.lower_bound}
+    if result.status in SUCCESS:
+        torques = [row.max_torque for row in result.check().per_step if row.max_torque is not None]
+        point |= {
+            "length": result.length,
+            "least_torque": min(torques, default=None),
+            "largest_torque": max(torques, default=None),
+        }
+    return point
+
+
+def _point(values: tuple[str, ...], outcome: Outcome) -> Point:
+    if outcome.result is None:
+        return Point(values=values, status=FAILED, reason=outcome.error or "", seconds=outcome.seconds)
+    return Point(values=values, seconds=outcome.seconds, **outcome.result)
+
+
+def _load(name: str, overrides: Sequence[str]) -> Task | SpecError:
+    try:
+        return load_task(name, overrides)
+    except SpecError as error:
+        return error
+
+
+def _compile(tasks: Sequence[Task], planner: str) -> None:
+    """Compile the kernels here, once, and not in every worker at the same time."""
+    if is_compiled(_FIRST_LOOP[planner]) and is_compiled("replay"):
+        return
+    for task in tasks:
+        with suppress(ClamberError):
+            PLANNERS[planner](task, threads=1, **_SMALLEST[planner]).check()
+            return

@@ -1,0 +1,105 @@
+"""Batches over worker processes: order, deaths of workers and of the whole, stores that refuse what isn't theirs."""
+
+import os
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+import clamber
+from clamber.jobs import StoreError, map_items
+from jobs_by_hand import batch, square
+
+
+def ran(log: Path) -> Counter[int]:
+    return Counter(int(line) for line in log.read_text().split()) if log.exists() else Counter()
+
+
+def finished(store: Path) -> int:
+    if not store.exists():
+        return 0
+    with sqlite3.connect(store, timeout=0.0) as file:
+        return int(file.execute("SELECT count(*) FROM items WHERE error IS NULL").fetchone()[0])
+
+
+@pytest.mark.parametrize("workers", [1, 2, 4])
+def test_results_come_in_the_order_of_the_items(workers: int) -> None:
+    items = [{"n": n, "sleep": 0.02 * (n % 3 == 0)} for n in range(12)]
+    told = map_items(square, items, workers=workers)
+    assert [one.result for one in told] == [{"square": n**2, "blas": "1"} for n in range(12)]
+
+
+def test_equal_items_run_once(tmp_path: Path) -> None:
+    item = {"n": 7, "log": str(tmp_path / "log")}
+    assert [one.result["square"] for one in map_items(square, [item, item]) if one.result] == [49, 49]
+    assert ran(tmp_path / "log") == {7: 1}
+
+
+def test_a_killed_worker_loses_and_repeats_no_finished_item(tmp_path: Path) -> None:
+    items = [{"n": n, "log": str(tmp_path / "log")} for n in range(10)]
+    items[4]["die_once"] = str(tmp_path / "died")
+    told = map_items(square, items, workers=2, store=tmp_path / "store.db")
+    assert [one.result["square"] for one in told if one.result] == [n**2 for n in range(10)]
+    assert ran(tmp_path / "log") == Counter(range(10)) + Counter([4])
+    assert [one.tries for one in told] == [1, 1, 1, 1, 2, 1, 1, 1, 1, 1]
+
+
+def test_what_always_kills_its_worker_or_raises_is_an_outcome_and_harms_no_other() -> None:
+    told = map_items(square, [{"n": 1}, {"n": 2, "die": True}, {"n": 3, "raise": True}, {"n": 4}], workers=2)
+    assert told[1].error == "its worker process died 3 times, with exit code 3" and told[1].tries == 3
+    assert told[2].error == "ValueError: thirteen is not liked"
+    assert [one.result is None for one in told] == [False, True, True, False]
+
+
+@pytest.mark.parametrize("stop", [signal.SIGKILL, signal.SIGINT])
+def test_a_batch_stopped_at_several_moments_ends_with_the_same_results_and_runs_nothing_finished_again(
+    tmp_path: Path, stop: signal.Signals
+) -> None:
+    store, log = tmp_path / "store.db", tmp_path / "log"
+    path = os.pathsep.join((str(Path(clamber.__file__).parents[1]), str(Path(__file__).parent)))
+    command = [sys.executable, str(Path(__file__).parent / "jobs_by_hand.py"), str(tmp_path)]
+    for enough in (1, 4, 9):
+        process = subprocess.Popen(command, env=os.environ | {"PYTHONPATH": path}, stderr=subprocess.DEVNULL)
+        while process.poll() is None and sum(ran(log).values()) < enough:
+            time.sleep(0.005)
+        process.send_signal(stop)
+        process.wait(30)
+        time.sleep(0.1)  # its workers leave with it
+        kept = finished(store)
+        before = ran(log)
+    assert 0 < kept < 16
+    with sqlite3.connect(store) as file:
+        names = [row[0] for row in file.execute("SELECT json_extract(item, '$.n') FROM items")]
+    told = map_items(square, batch(tmp_path), workers=2, store=store, about=None, resume=True)
+    assert [one.result["square"] for one in told if one.result] == [n**2 for n in range(16)]
+    assert [one.stored for one in told].count(True) == kept
+    assert all(ran(log)[name] == before[name] for name in names), "a finished item was run again"
+    assert finished(store) == 16
+
+
+def test_a_store_refuses_what_is_not_its_own(tmp_path: Path) -> None:
+    store = tmp_path / "store.db"
+    map_items(square, [{"n": 1}], store=store, about={"a": 1}, title="batch one")
+    with pytest.raises(StoreError, match=r"store\.db: holds the results of batch one, not batch two; name another"):
+        map_items(square, [{"n": 1}], store=store, about={"a": 2}, title="batch two", resume=True)
+    with pytest.raises(StoreError, match="has 1 finished items of this batch; resume it, or name another file"):
+        map_items(square, [{"n": 1}], store=store, about={"a": 1}, title="batch one")
+    (tmp_path / "text").write_text("no database at all, but longer than a header of one hundred bytes" * 3)
+    with pytest.raises(StoreError, match="is no store of results"):
+        map_items(square, [{"n": 1}], store=tmp_path / "text")
+    with pytest.raises(StoreError, match="does not exist; make it first"):
+        map_items(square, [{"n": 1}], store=tmp_path / "no" / "store.db")
+
+
+def test_two_runs_at_once_on_one_store_are_refused(tmp_path: Path) -> None:
+    store = tmp_path / "store.db"
+    other = sqlite3.connect(store, isolation_level=None)
+    other.execute("BEGIN EXCLUSIVE")
+    with pytest.raises(StoreError, match="is in use by another process"):
+        map_items(square, [{"n": 1}], store=store)
+    other.close()
