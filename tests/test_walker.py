@@ -268,7 +268,7 @@ def bound_kernel(p, stances):  # type: ignore[no-untyped-def]
 
 
 def keys_of(problem: Any, stance: Any) -> bytes:
-    words = np.zeros(16, np.int64)  # more than either family needs
+    words = np.zeros(problem.key_words, np.int64)
     key_kernel(problem.params.record, stance, words)
     return words.tobytes()
 

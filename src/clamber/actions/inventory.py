@@ -94,14 +94,14 @@ def most_in_reach(task: LimbedTask, limb: int) -> int:
     points = task.world.positions()
     radius = task.robot.limbs[limb].length - task.rules.reach_offset + 1e-9
     best = 1
-    for i, point in enumerate(points):
+    for point in points:
         near = points[np.hypot(*(points - point).T) <= 2.0 * radius]
         best = max(best, int(np.count_nonzero(np.hypot(*(near - point).T) <= radius)))
         offsets = near - point
         gaps = np.hypot(*offsets.T)
         keep = gaps > 0.0
         offsets, gaps = offsets[keep], gaps[keep]
-        if not len(gaps) or (len(points) > 2000 and i % 16):
+        if not len(gaps):
             continue
         rise = np.sqrt(np.maximum(0.0, radius**2 - 0.25 * gaps**2))
         normal = np.stack([-offsets[:, 1], offsets[:, 0]], axis=1) / gaps[:, None]
