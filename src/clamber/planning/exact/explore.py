@@ -83,7 +83,7 @@ def explore(
 
     Args:
         problem: The task.
-        most_stances: Memory: most stances kept (about 60 bytes and a key each).
+        most_stances: Memory: most stances kept (about 40 bytes and a key each, half as much again while memory grows).
         seconds: Most time [s].
         tell: Called now and then with stances seen and the lower bound.
 
