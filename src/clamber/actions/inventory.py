@@ -191,7 +191,8 @@ def whole_kinds(task: LimbedTask) -> tuple[int, bool]:
     """What exact search may do: which body moves, whether limbs may release and grab; and whether that is all that is allowed.
 
     Returns:
-        Bits 0 to 5 for the moves, 6 for releases, 7 for grabs of any hold; False if `rules.allowed` names some grabs or releases only.
+        Bits 0 to 5 for the moves, 6 for releases, 7 for grabs, 8 for grabs of holds that a limb holds, its own or another's (only NXX
+        does that; the filter `named_by_rank` drops it where N9k is allowed); False if `rules.allowed` names some grabs or releases only.
     """
     modules = full_inventory(task, 3)
     allowed = _allowed(task, modules)
@@ -203,4 +204,7 @@ def whole_kinds(task: LimbedTask) -> tuple[int, bool]:
             bits |= 1 << bit
         elif any(names & allowed for names in by_kind):
             whole = False
+    nearest, hold = ({m.name for m in modules if m.kind == kind} for kind in ("nearest", "hold"))
+    if hold <= allowed and not nearest & allowed:
+        bits |= 1 << 8
     return bits, whole

@@ -1,7 +1,8 @@
 """The limbed climber's `Problem`: a task turned into the arrays that the kernels read, and its start stance."""
 
+import copy
 import math
-from typing import Final
+from typing import Final, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -17,11 +18,13 @@ from .codes import NEAREST, Code, pack
 from .family import family_kernels
 from .inventory import most_in_reach, whole_kinds
 from .limbed import step
+from .limbed_freer import freer
 from .limbed_goals import FEATURES, done, measure
-from .limbed_keys import KEY_WORDS, bound, candidates, cell, key, restore
+from .limbed_keys import ANY_HOLD, KEY_WORDS, bound, candidates, cell, key, restore
 from .loops import replay
 from .params import Params
 from .problem import CompiledProblem, Records
+from .relaxed import with_bound
 from .table import ActionTable
 
 CHECKS: Final = tuple(check.name for check in LIMBED_CHECKS)
@@ -39,6 +42,7 @@ family_kernels(
     restore=restore,
     measure=measure,
     bound=bound,
+    freer=freer,
     done=done,
     cell=cell,
 )
@@ -66,6 +70,12 @@ class LimbedProblem(CompiledProblem):
         super().__init__(params, start, actions, CHECKS, FEATURE_NAMES, threads)
         self.task = task
         assert len(FEATURE_NAMES) == FEATURES
+
+    def informed(self) -> Self:
+        """The same problem whose `bound` is the fewest actions of the relaxed problem."""
+        other = copy.copy(self)
+        other.params = with_bound(self.params)
+        return other
 
     @property
     def incomplete(self) -> str | None:
@@ -205,7 +215,11 @@ def _fill_rules(
     row["centre_x"], row["centre_y"] = centre
     row["centre_angle"] = math.atan2(task.start.y - centre[1], task.start.x - centre[0])
     row["allowed"], _ = whole_kinds(task)
+    taken = [hold for hold in task.start.holds.values() if hold]
+    row["shares"] = bool(row["allowed"] & ANY_HOLD) or len(set(taken)) < len(taken)
     row["circles"] = any(goal.turns is not None for goal in task.goals)
+    ways = {math.copysign(1.0, goal.turns) for goal in task.goals if goal.turns}
+    row["turning"] = int(ways.pop()) if len(ways) == 1 else 0
     row["seed"] = task.seed
     row["n_limbs"] = len(task.robot.limbs)
     row["n_goals"] = len(task.goals)

@@ -18,7 +18,7 @@ def worker_count(asked: int | None) -> int:
 
 def announced_loop(planner: str) -> str:
     """The compiled loop that a planner's first run needs."""
-    return "expand" if planner == "exact" else "rollout"
+    return "explore_some" if planner == "exact" else "rollout"
 
 
 class SweepLine:

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import Final
 
 from .ablation import bench_ablation
+from .proofs import bench_exact
 from .races import race_rows
 from .reductions import filter_rows, macro_rows
 from .rows import Row as Row
@@ -21,6 +22,7 @@ def bench_plan(*, say: Say = keep_quiet) -> list[Row]:
 
 BENCHES: Final[dict[str, Callable[..., list[Row]]]] = {
     "plan": bench_plan,
+    "exact": bench_exact,
     "seeds": bench_seeds,
     "ablation": bench_ablation,
 }

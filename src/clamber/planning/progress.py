@@ -27,8 +27,10 @@ class Exploring:
 
     stances: int
     """Different stances seen."""
-    lower_bound: int
-    """No plan has fewer actions."""
+    lower_bound: float
+    """No plan has less of what is minimized, in the unit of its feature: actions, N m, W summed over actions."""
+    cost: str = "length"
+    """What is minimized now."""
 
 
 Listener = Callable[[Progress | Exploring], None]

@@ -25,7 +25,7 @@ NO_START: Final = "no start"
 """Status of a point whose task can't begin: its values contradict each other, or its start violates a hard check."""
 FAILED: Final = "failed"
 """Status of a point whose planner raised an error or died."""
-_FIRST_LOOP: Final = {"exact": "expand", "genetic": "rollout"}
+_FIRST_LOOP: Final = {"exact": "explore_some", "genetic": "rollout"}
 _SMALLEST: Final[dict[str, dict[str, Any]]] = {"exact": {"max_stances": 1}, "genetic": {"max_evaluations": 1}}
 
 
