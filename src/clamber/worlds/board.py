@@ -1,7 +1,9 @@
 """A board: numbered holds on a vertical wall, and regions that no part of a robot may enter."""
 
 import math
+from bisect import bisect_left
 from itertools import pairwise
+from operator import attrgetter
 from typing import Annotated, Any, Final
 
 import numpy as np
@@ -64,9 +66,9 @@ class Board:
         Raises:
             UnknownHoldError: If the board has none.
         """
-        for hold in self.holds:
-            if hold.number == number:
-                return hold
+        index = bisect_left(self.holds, number, key=attrgetter("number"))
+        if index < len(self.holds) and self.holds[index].number == number:
+            return self.holds[index]
         raise UnknownHoldError(number, self.name, tuple(hold.number for hold in self.holds))
 
     def positions(self) -> Floats:
