@@ -2,6 +2,7 @@
 
 import copy
 import math
+from functools import cached_property
 from typing import Final, Self
 
 import numpy as np
@@ -33,6 +34,8 @@ FEATURE_KINDS: Final = (0, 0, 1, 0, 1, 1, 2)
 FORCE_RULES: Final = ("thesis", "min_torque", "min_norm")
 FOOT_CHECKS: Final = ("limb_limb", "limb_body", "limb_peg")
 ANY_DIRECTION: Final = -2.0
+CROWD: Final = 2.0
+"""Holds in a cell of the grid, on the average; 1 to 4 make little difference."""
 
 family_kernels(
     PARAMS,
@@ -94,11 +97,10 @@ class LimbedProblem(CompiledProblem):
         reads_feet = fenced or any(name in self.task.rules.hard for name in FOOT_CHECKS)
         return KEY_WORDS + (3 * len(self.task.robot.limbs) if reads_feet else 0)
 
-    @property
+    @cached_property
     def branching(self) -> int:
         """Most actions from one stance: six moves, and per limb a release and every hold that can be in reach at once."""
-        limbs = range(len(self.task.robot.limbs))
-        return 6 + sum(1 + most_in_reach(self.task, limb) for limb in limbs)
+        return 6 + sum(1 + most for most in most_in_reach(self.task))
 
     @property
     def way(self) -> float:
@@ -383,9 +385,14 @@ def _turn(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float]
 def _grid(
     points: npt.NDArray[np.float64], cell: float
 ) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32], tuple[float, float, float, int, int]]:
-    """Holds sorted into square cells: indices cell by cell, where each cell starts, and the grid's place and size."""
+    """Holds sorted into square cells: indices cell by cell, where each cell starts, and the grid's place and size.
+
+    Cells hold about `CROWD` holds, so that little but what is in reach is looked at on a dense board. They are at most `cell`
+    wide, and never so small that there are many more cells than holds.
+    """
     low = points.min(axis=0) - 1e-6
     size = points.max(axis=0) - low
+    cell = min(cell, float(np.sqrt(CROWD * size[0] * size[1] / len(points))))
     cell = max(
         cell, float(np.sqrt(size[0] * size[1] / (4 * len(points) + 1024))), float(size.max()) / (len(points) + 1024)
     )

@@ -11,7 +11,7 @@ from ..actions.plan import Plan
 from ..actions.plan_families import plan_family
 from ..planning.genetic.learning import Macro
 from ..planning.learning import Lesson
-from ..planning.progress import Exploring, Progress
+from ..planning.progress import Exploring, Progress, Routing
 from ..planning.result import Furthest, PlanResult
 from ..tasks import Task
 from ..units import OZ_IN
@@ -40,7 +40,7 @@ class ProgressLine:
         if self._live is not None and not self._quiet:
             self._live.stop()
 
-    def update(self, progress: Progress | Exploring) -> None:
+    def update(self, progress: Progress | Exploring | Routing) -> None:
         """Show one moment of the search."""
         if self._quiet:
             return
@@ -51,13 +51,17 @@ class ProgressLine:
             self._console.print(progress_text(progress), soft_wrap=True)
 
 
-def _turn(progress: Progress | Exploring) -> int:
+def _turn(progress: Progress | Exploring | Routing) -> int:
     """What counts up while a search goes on."""
+    if isinstance(progress, Routing):
+        return round(100.0 * progress.share)
     return progress.generation if isinstance(progress, Progress) else int(progress.lower_bound)
 
 
-def progress_text(progress: Progress | Exploring) -> str:
+def progress_text(progress: Progress | Exploring | Routing) -> str:
     """One moment of a search in a line of at most 80 columns."""
+    if isinstance(progress, Routing):
+        return f"{progress.stances} stances, {progress.actions} actions, {100.0 * progress.share:.0f} % of the way"
     if isinstance(progress, Exploring):
         return f"{progress.stances} stances, {_bound_text(progress)}"
     best = "" if progress.best_length is None else f", found {progress.best_length} actions"

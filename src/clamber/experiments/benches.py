@@ -12,6 +12,7 @@ from .rows import Say, keep_quiet
 from .seeds import bench_seeds
 from .speed import speed_rows
 from .starts import start_rows
+from .walls import wall_rows
 
 
 def bench_plan(*, say: Say = keep_quiet) -> list[Row]:
@@ -25,6 +26,7 @@ BENCHES: Final[dict[str, Callable[..., list[Row]]]] = {
     "exact": bench_exact,
     "seeds": bench_seeds,
     "ablation": bench_ablation,
+    "walls": wall_rows,
 }
 """Name -> benchmark; the command line's choices and the tests read it. Each can be called without arguments, or with `say`."""
 

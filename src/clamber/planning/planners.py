@@ -7,9 +7,10 @@ from ..tasks import Task
 from .exact.planner import plan_exact
 from .genetic.planner import plan_genetic
 from .result import PlanResult
+from .route.planner import plan_route
 
 Planner = Callable[..., PlanResult]
-PLANNERS: Final[dict[str, Planner]] = {"genetic": plan_genetic, "exact": plan_exact}
+PLANNERS: Final[dict[str, Planner]] = {"genetic": plan_genetic, "exact": plan_exact, "route": plan_route}
 """Name -> planner; the command line's choices and the tests read it."""
 
 

@@ -33,4 +33,16 @@ class Exploring:
     """What is minimized now."""
 
 
-Listener = Callable[[Progress | Exploring], None]
+@dataclass(frozen=True, slots=True)
+class Routing:
+    """One moment of a greedy search."""
+
+    stances: int
+    """Stances seen."""
+    actions: int
+    """Actions of the stance that has the least way left."""
+    share: float
+    """Of the way that it has behind it [-]."""
+
+
+Listener = Callable[[Progress | Exploring | Routing], None]

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from dataclasses import field, replace
 from typing import Annotated, Final, Literal
 
+import numpy as np
 from pydantic import Field, StrictBool, StrictInt, StrictStr
 
 from ..errors import describe_choices
@@ -302,7 +303,7 @@ def _check_goal(goal: Goal, key: str, robot: LimbedRobot, board: Board, document
     for limb, number in goal.holds.items():
         if number not in numbers:
             raise document.problem(f"{key}.holds.{limb}", f"board '{board.name}' has no such hold; {_listed(numbers)}")
-    nearest = min(_distance(goal, hold.x, hold.y) for hold in board.holds)
+    nearest = _nearest(goal, board)
     if nearest > robot.longest_reach:
         raise document.problem(
             key,
@@ -345,14 +346,19 @@ def _listed(numbers: set[int]) -> str:
     return f"it has {len(numbers)}, from {min(numbers)} to {max(numbers)}"
 
 
-def _distance(goal: Goal, x: float, y: float) -> float:
-    """Distance of a point from the goal's box, or from the box around its region [m]."""
+def _nearest(goal: Goal, board: Board) -> float:
+    """Distance of the nearest hold from the goal's box, or from the box around its region [m]."""
     x_min, x_max, y_min, y_max = goal.box
     if goal.region is not None:
         xs, ys = zip(*goal.region, strict=True)
         x_min, x_max = max(x_min, min(xs)), min(x_max, max(xs))
         y_min, y_max = max(y_min, min(ys)), min(y_max, max(ys))
-    return math.hypot(max(x_min - x, 0.0, x - x_max), max(y_min - y, 0.0, y - y_max))
+    x, y = board.positions().T
+    away_x, away_y = (
+        np.maximum(np.maximum(x_min - x, x - x_max), 0.0),
+        np.maximum(np.maximum(y_min - y, y - y_max), 0.0),
+    )
+    return float(np.hypot(away_x, away_y).min())
 
 
 def _resolve(goal: Goal, step: Step) -> Goal:
