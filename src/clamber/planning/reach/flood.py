@@ -1,0 +1,236 @@
+"""Drive a flood over every reachable stance: layers, threads, memory that grows to a stated limit, interrupts."""
+
+import os
+import time
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from ...actions.problem import CompiledProblem, Records
+from ...actions.yardsticks import Yardsticks
+from ..exact.kernels import rehash
+from .kernels import POSE, POSES, STANCES, WEIGHED, absorb, note, note_tries, plant, spread, weigh
+
+CHILDREN: Final = 20_000
+"""Children that a piece of a layer has room for, unless one stance has more."""
+PIECES: Final = 4
+"""Pieces per thread between looks at the clock."""
+FIRST: Final = 1 << 14
+"""Stances that memory is taken for at first."""
+
+Long = npt.NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
+class Flood:
+    """What a flood saw."""
+
+    ended: str
+    """"" if every reachable stance was seen, else why not."""
+    stances: int
+    depth: int
+    """Actions of the shortest way to the last stance."""
+    judged: int
+    """Actions tried."""
+    forbidden: npt.NDArray[np.int64]
+    """How often each check forbade an action, shape (n_checks,)."""
+    poses: Long
+    """Poses of the body as steps from the start in x, y and angle; those without stances were only tried, shape (n, 3)."""
+    notes: Records
+    """Records of `kernels.POSE`, shape (n,)."""
+    used: Long
+    """Stances with each limb on each hold, shape (limbs, holds)."""
+    first_used: Long
+    """Actions of the shortest way to the first of them, -1 for none."""
+    met: Long
+    """Stances that are where each goal asks for, shape (goals,)."""
+    first_met: Long
+
+
+class _Store:
+    """Keys, their hash table and what goes with them; doubles on demand."""
+
+    def __init__(self, words: int, capacity: int, dtype: np.dtype[np.void] | None = None) -> None:
+        self.keys = np.zeros((0, words), np.int64)
+        self.rows = None if dtype is None else np.zeros(0, dtype)
+        self.grow(capacity, 0)
+
+    def grow(self, capacity: int, used: int) -> None:
+        keys = np.zeros((capacity, self.keys.shape[1]), np.int64)
+        keys[:used] = self.keys[:used]
+        self.keys = keys
+        if self.rows is not None:
+            rows = np.zeros(capacity, self.rows.dtype)
+            rows[:used] = self.rows[:used]
+            self.rows = rows
+        self.table = np.full(1 << int(np.ceil(np.log2(2 * capacity))), -1, np.int32)
+        rehash(self.keys, used, self.table)
+
+
+class _Piece:
+    """A piece of a layer: its parameters and scratch, and what came of it."""
+
+    def __init__(self, problem: CompiledProblem, most: int) -> None:
+        self.params, _ = problem.wander()
+        branching, checks = problem.branching, len(problem.checks)
+        self.codes = np.zeros(branching, np.int32)
+        self.stances = np.zeros(3, problem.start.dtype)
+        self.margins, self.spare = np.zeros(checks), np.zeros(checks)
+        self.children = np.zeros((most * branching, problem.key_words), np.int64)
+        self.tries = np.zeros((most * branching, 4 + problem.spot_words), np.int64)
+        self.tally = np.zeros(checks, np.int64)
+        self.spots = np.zeros((most, problem.spot_words), np.int64)
+        self.burdens = np.zeros((most, len(problem.burdens)))
+        self.room, self.closest = np.zeros(most), np.zeros(most, np.int32)
+        self.aimed = np.zeros((most, problem.goals), np.uint8)
+        self.first = self.end = self.born = self.tried = self.judged = 0
+
+
+class _Sea:
+    """The stances seen so far, and the map of them."""
+
+    def __init__(self, problem: CompiledProblem, yardsticks: Yardsticks, holds: int, most: int) -> None:
+        names = [check.name for check in yardsticks.checks]
+        self.hard = np.array([name in yardsticks.hard for name in names])
+        self.sizes = np.array([yardsticks.sizes.get(name, 0.0) for name in names])
+        self.most = most
+        self.state = np.zeros(3, np.int64)
+        self.stances = _Store(problem.key_words, min(most, FIRST))
+        self.poses = _Store(3, FIRST, POSE)
+        limbs = problem.spot_words - 3
+        self.used, self.first_used = np.zeros((limbs, holds), np.int64), np.full((limbs, holds), -1, np.int64)
+        self.met, self.first_met = np.zeros(problem.goals, np.int64), np.full(problem.goals, -1, np.int64)
+
+    @property
+    def seen(self) -> int:
+        return int(self.state[STANCES])
+
+    def weigh(self, piece: _Piece, first: int, end: int) -> None:
+        piece.first, piece.end = first, end
+        weigh(
+            piece.params.record, self.stances.keys, first, end, self.hard, self.sizes, piece.stances, piece.margins,
+            piece.spare, piece.spots, piece.burdens, piece.room, piece.closest, piece.aimed,
+        )  # fmt: skip
+
+    def spread(self, piece: _Piece) -> None:
+        piece.born, piece.tried, piece.judged = spread(
+            piece.params.record, self.stances.keys, self.stances.table, piece.first, piece.end, piece.codes,
+            piece.stances, piece.margins, piece.children, piece.tries, piece.tally,
+        )  # fmt: skip
+
+    def note(self, piece: _Piece, depth: int) -> None:
+        count = piece.end - piece.first
+        while self.state[POSES] + count + piece.tried > len(self.poses.keys):
+            self.poses.grow(2 * len(self.poses.keys), int(self.state[POSES]))
+        note(
+            piece.spots, piece.burdens, piece.room, piece.closest, piece.aimed, count, depth, self.poses.keys,
+            self.poses.rows, self.poses.table, self.used, self.first_used, self.met, self.first_met, self.state,
+        )  # fmt: skip
+        note_tries(piece.tries, piece.tried, self.poses.keys, self.poses.rows, self.poses.table, self.state)
+
+    def absorb(self, piece: _Piece) -> bool:
+        """Take in a piece's children; returns whether the memory sufficed."""
+        taken = 0
+        while True:
+            taken = absorb(
+                piece.children, taken, piece.born, self.stances.keys, self.stances.table, self.state
+            )  # fmt: skip
+            if taken == piece.born:
+                return True
+            if len(self.stances.keys) >= self.most:
+                return False
+            self.stances.grow(min(self.most, 2 * len(self.stances.keys)), self.seen)
+
+
+def flood(
+    problem: CompiledProblem,
+    yardsticks: Yardsticks,
+    *,
+    holds: int,
+    most_stances: int,
+    seconds: float | None = None,
+    threads: int | None = None,
+    tell: Callable[[int, int, int], None] | None = None,
+) -> Flood:
+    """See every stance that can be reached from the start, whatever the goals, and note what it costs to be there.
+
+    Breadth first: a layer holds the stances that take equally many actions. Its pieces are expanded in threads, which only read; what
+    they find is taken in in the order of the layer, so the answer doesn't depend on the number of threads.
+
+    Args:
+        problem: The task.
+        yardsticks: What its margins are measured against.
+        holds: Number of the board's holds; 0 where there are none.
+        most_stances: Memory: most stances kept, a key and 8 to 16 bytes each, half as much again while memory grows.
+        seconds: Most time [s].
+        threads: Threads; None for one a core.
+        tell: Called now and then with stances, poses and depth.
+
+    Returns:
+        The flood; memory, time and Ctrl-C end it, and then it tells what was seen so far.
+    """
+    started = time.monotonic()
+    threads = max(1, threads if threads is not None else (os.cpu_count() or 1))
+    size = max(1, CHILDREN // problem.branching)
+    pieces = [_Piece(problem, size) for _ in range(PIECES * threads if threads > 1 else 1)]
+    sea = _Sea(problem, yardsticks, holds, most_stances)
+    plant(pieces[0].params.record, problem.wander()[1], pieces[0].children)
+    pieces[0].born = 1
+    sea.absorb(pieces[0])
+    pool = ThreadPoolExecutor(threads, thread_name_prefix="clamber") if threads > 1 else None
+    depth, done, layer_end, judged, ended = 0, 0, 1, 0, ""
+
+    def work(piece: _Piece, first: int) -> None:
+        sea.weigh(piece, first, min(first + size, layer_end))
+        sea.spread(piece)
+
+    try:
+        while done < sea.seen and not ended:
+            if done == layer_end:
+                depth, layer_end = depth + 1, sea.seen
+            batch = list(zip(pieces, range(done, layer_end, size), strict=False))
+            for _ in map(work, *zip(*batch, strict=True)) if pool is None else pool.map(work, *zip(*batch, strict=True)):
+                pass
+            for piece, _ in batch:
+                sea.note(piece, depth)
+                judged += piece.judged
+                if not sea.absorb(piece):
+                    ended = "memory"
+                    break
+                done = piece.end
+            if tell is not None:
+                tell(sea.seen, int(sea.state[POSES]), depth)
+            if seconds is not None and time.monotonic() - started >= seconds and done < sea.seen:
+                ended = ended or "time"
+    except KeyboardInterrupt:
+        ended = "interrupt"
+    if pool is not None:
+        pool.shutdown(cancel_futures=True)
+    for end, late in ((layer_end, depth), (sea.seen, depth + 1)):  # what was seen, but not reached by the search itself
+        for first in range(int(sea.state[WEIGHED]), end, size):
+            sea.weigh(pieces[0], first, min(first + size, end))
+            pieces[0].tried = 0
+            sea.note(pieces[0], late)
+    count = int(sea.state[POSES])
+    assert sea.poses.rows is not None
+    return Flood(
+        ended=ended,
+        stances=sea.seen,
+        depth=depth if sea.seen == layer_end else depth + 1,
+        judged=judged,
+        forbidden=_total(piece.tally for piece in pieces),
+        poses=sea.poses.keys[:count],
+        notes=sea.poses.rows[:count],
+        used=sea.used,
+        first_used=sea.first_used,
+        met=sea.met,
+        first_met=sea.first_met,
+    )
+
+
+def _total(tallies: Iterable[Long]) -> Long:
+    return np.sum(list(tallies), axis=0)  # type: ignore[no-any-return]
