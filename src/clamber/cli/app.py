@@ -17,6 +17,7 @@ from .inventory import inventory
 from .learn import learn
 from .list import list_names
 from .plan import plan
+from .reach import reach
 from .show import show
 from .study import study
 from .sweep import sweep
@@ -36,6 +37,7 @@ app.command("check")(check)
 app.command("show")(show)
 app.command("bench")(bench)
 app.command("sweep")(sweep)
+app.command("reach")(reach)
 app.command("study")(study)
 
 

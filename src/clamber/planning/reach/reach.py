@@ -186,7 +186,7 @@ def find_reach(
     start = (task.start.x, task.start.y, task.start.theta)
     poses = pose_table(seen, problem.burdens, problem.checks, start, (task.step.length, task.step.angle))
     places = place_table(poses)
-    rim = rim_of(seen, places, len(problem.checks))
+    rim = rim_of(seen, places, problem.checks)
     why = f"{_ENDS[seen.ended]}: {seen.stances} stances, {len(poses)} poses, {len(places)} places"
     return Reach(
         task=task,

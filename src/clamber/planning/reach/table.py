@@ -112,16 +112,18 @@ class Rim:
 
     lattice: Ints
     """Steps from the start in x and y, shape (n, 2)."""
+    checks: tuple[str, ...]
+    """Names of the checks."""
     forbidden: Ints
     """Body moves there that each check forbids, shape (n, n_checks)."""
 
 
-def rim_of(seen: Flood, places: Table, n_checks: int) -> Rim:
+def rim_of(seen: Flood, places: Table, checks: tuple[str, ...]) -> Rim:
     """The rim of the places."""
     tried = np.flatnonzero(seen.notes["stances"] == 0)
     spots, where = np.unique(seen.poses[tried, :2], axis=0, return_inverse=True)
-    forbidden = np.zeros((len(spots), n_checks), np.int32)
-    np.add.at(forbidden, where.ravel(), seen.notes["forbidden"][tried, :n_checks])
+    forbidden = np.zeros((len(spots), len(checks)), np.int32)
+    np.add.at(forbidden, where.ravel(), seen.notes["forbidden"][tried, : len(checks)])
     known = set(map(tuple, places.lattice.tolist()))
     outside = np.array([tuple(spot) not in known for spot in spots.tolist()], bool)
-    return Rim(lattice=spots[outside].astype(np.int32), forbidden=forbidden[outside])
+    return Rim(lattice=spots[outside].astype(np.int32), checks=checks, forbidden=forbidden[outside])
