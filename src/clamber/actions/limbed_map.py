@@ -11,8 +11,8 @@ from .limbed_goals import fits
 
 BURDENS = ("torque_Nm", "torque_share", "payload_N", "power_W")
 """Largest joint torque, the largest share of a joint's limit, the extra weight that the stance still carries, power."""
-HALVINGS = 30
-"""Steps of the bisection where the payload has no closed form."""
+PRECISION = 1.0e-3
+"""Of a factor on the weight that is found by bisection, as a share of it [-]."""
 HEAVIEST = 1.0e4
 """Weights beyond so many times the robot's are not tried."""
 
@@ -61,7 +61,9 @@ def burden(p, s, spare, margins, row):
     for i in range(p.n_limbs):
         if s.carriers & (1 << i):
             carriers += 1
-            share = max(share, max(abs(s.torques[i, 0]) / limbs(p)[i].limit1, abs(s.torques[i, 1]) / limbs(p)[i].limit2))
+            share = max(
+                share, max(abs(s.torques[i, 0]) / limbs(p)[i].limit1, abs(s.torques[i, 1]) / limbs(p)[i].limit2)
+            )
             strong = strong and holds(p)[s.hold[i]].strength == math.inf
     factor = 1.0 / share if share > 0.0 else math.inf
     if p.hard & (1 << POWER) and s.power > 0.0:
@@ -77,16 +79,14 @@ def burden(p, s, spare, margins, row):
 
 @kernel
 def bisected(p, s, spare, margins, most):
-    """The factor on the weight, from 1 to `most`, at which the judge first says no; `most` if it never does."""
+    """A factor on the weight, from 1 to `most`, that the judge allows, though not one a thousandth larger; `most` if it allows that."""
     weight = p.weight
     low = 1.0
     high = min(most, HEAVIEST)
     if bears(p, s, spare, margins, weight * high):
         p.weight = weight
         return most
-    for _ in range(HALVINGS):
-        if high - low <= 1e-9 * high:
-            break
+    while high - low > PRECISION * low:
         middle = 0.5 * (low + high)
         if bears(p, s, spare, margins, weight * middle):
             low = middle

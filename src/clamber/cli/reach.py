@@ -36,12 +36,13 @@ def reach(
     from ..tasks import load_task
 
     loaded = load_task(task, overrides or ())
-    announce_compilation("spread", quiet=quiet)
     from ..planning.reach.layers import choose_layer
+
+    shown = choose_layer(loaded, layer)
+    announce_compilation("spread", quiet=quiet)
     from ..planning.reach.reach import find_reach
     from .reach_text import FloodLine, print_reach
 
-    shown = choose_layer(loaded, layer)
     with FloodLine(stderr(), quiet=quiet) as line:
         result = find_reach(
             loaded, hangs=hangs, max_stances=stances, seconds=seconds, threads=threads, progress=line.update

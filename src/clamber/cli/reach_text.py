@@ -1,5 +1,6 @@
 """A reachable space as people read it: a line on the way, and what was seen."""
 
+import time
 from pathlib import Path
 from types import TracebackType
 
@@ -14,15 +15,15 @@ from ..planning.reach.reach import Reach
 from ..units import OZ_IN
 from .output import plain_table
 
-STEADY = 25
-"""Where stderr is no terminal, every so many actions from the start get a line."""
+STEADY = 10.0
+"""Where stderr is no terminal, so often there is a line [s]."""
 
 
 class FloodLine:
     """A line on stderr that follows a flood: rewritten on a terminal, a line now and then elsewhere."""
 
     def __init__(self, console: Console, *, quiet: bool) -> None:
-        self._console, self._quiet, self._told = console, quiet, 0
+        self._console, self._quiet, self._told = console, quiet, time.monotonic()
         self._live = Live(console=console, refresh_per_second=8, transient=True) if console.is_terminal else None
 
     def __enter__(self) -> "FloodLine":
@@ -43,8 +44,8 @@ class FloodLine:
             return
         if self._live is not None:
             self._live.update(Text(words, no_wrap=True, overflow="ellipsis"))
-        elif depth >= self._told + STEADY:
-            self._told = depth
+        elif time.monotonic() >= self._told + STEADY:
+            self._told = time.monotonic()
             self._console.print(words, soft_wrap=True)
 
 
@@ -58,9 +59,9 @@ def print_reach(console: Console, reach: Reach, layer: str, output: Path | None)
         where = far if goal.first_step is None else f"{goal.stances} stances, the first after {goal.first_step} actions"
         console.print(f"{word}: {where}")
     if reach.holds:
-        used = len(reach.holds) - len(reach.never_used)
+        used = sum(bool(hold.limbs) for hold in reach.holds)
         never = f"; never used: {', '.join(map(str, reach.never_used))}" if reach.never_used else ""
-        console.print(f"holds: {used} of {len(reach.holds)} are used{never}")
+        console.print(f"holds: {used} of {len(reach.holds)} are used{never if complete else ' so far'}")
     console.print(_layer_table(reach, layer))
     if reach.closed_by:
         closed = ", ".join(f"{name} {n}" for name, n in reach.closed_by.items())

@@ -33,10 +33,10 @@ from .words import length_unit
 
 WIDEST, HIGHEST, NARROWEST = 7.4, 6.4, 4.9
 """Room for the world, and least width of the texts [in]."""
-LEFT, RIGHT, HEAD, FOOT = 0.55, 1.15, 0.88, 1.12
+LEFT, RIGHT, HEAD, FOOT = 0.55, 1.15, 0.88, 1.02
 """Room around it for its axis, the colour bar, the title, legend and caption [in]."""
 TAIL: Final = 98.0
-"""Values beyond this percentile share a colour where more is better: a stretched limb carries almost anything [%]."""
+"""Where the largest value is over twice this percentile, all beyond it share a colour: a stretched limb carries almost anything [%]."""
 CLOSERS: Final = ("#D55E00", "#CC79A7", "#8C564B", "#6B6B6B", "#C1272D", "#E69F00", "#56B4E9", "#B5A900")
 """Colours of the edge by the check that closes it, in the order of the family's checks, over and over."""
 
@@ -102,11 +102,18 @@ def reach_figure(reach: Reach, layer: str) -> Figure:
     handles = [*_edge(axes, reach), *_marks(axes, reach)]
     _colour_bar(figure, figure.add_axes(place(LEFT + wide + 0.16, FOOT, 0.16, high)), shown, reach, layer)
     figure.text(*place(LEFT, size[1] - 0.12, 0, 0)[:2], _title(layer), fontsize=11, weight="bold", va="top")
-    figure.text(*place(LEFT, size[1] - 0.36, 0, 0)[:2], _subtitle(reach), fontsize=8.5, va="top", color=style.QUIET, linespacing=1.35)
+    figure.text(
+        *place(LEFT, size[1] - 0.36, 0, 0)[:2],
+        _subtitle(reach),
+        fontsize=8.5,
+        va="top",
+        color=style.QUIET,
+        linespacing=1.35,
+    )
     room = size[0] - LEFT - 0.2
     figure.legend(
         handles=handles, loc="upper left", bbox_to_anchor=place(LEFT - 0.06, FOOT - 0.38, 0, 0)[:2], fontsize=7.5,
-        ncols=max(2, int(room / 1.45)), borderaxespad=0.0, handlelength=1.6, columnspacing=1.3, handletextpad=0.5,
+        ncols=max(2, int(room / 1.6)), borderaxespad=0.0, handlelength=1.6, columnspacing=1.3, handletextpad=0.5,
     )  # fmt: skip
     caption = textwrap.fill(f"Holds for: {reach.model}.", int(room * 19))
     figure.text(*place(LEFT, 0.1, 0, 0)[:2], caption, fontsize=6.5, va="bottom", color=style.QUIET)
@@ -148,7 +155,8 @@ def _field(axes: Axes, reach: Reach, layer: str) -> AxesImage:
     finite = values[np.isfinite(values)]
     if len(finite) == 0:
         finite = np.zeros(1)
-    top = float(np.percentile(finite, TAIL)) if LAYERS[layer].good else float(finite.max())
+    tail, top = float(np.percentile(finite, TAIL)), float(finite.max())
+    top = tail if top > 2.0 * tail > 0.0 else top
     bottom = float(finite.min())
     edges = (low[0] - 0.5, high[0] + 0.5, low[1] - 0.5, high[1] + 0.5)
     origin = (start.x, start.x, start.y, start.y)
@@ -167,12 +175,11 @@ def _field(axes: Axes, reach: Reach, layer: str) -> AxesImage:
 
 
 def _edge(axes: Axes, reach: Reach) -> list[Artist]:
-    """Outline the places, each side in the colour of the check that forbids most body moves across it."""
+    """Outline the places; where all were seen, each side in the colour of the check that forbids most body moves across it."""
     cell, start = reach.task.step.length, reach.task.start
     inside = set(map(tuple, reach.places.lattice.tolist()))
-    closers = {
-        (int(x), int(y)): int(np.argmax(row)) for (x, y), row in zip(reach.rim.lattice, reach.rim.forbidden, strict=True)
-    }
+    rim = zip(reach.rim.lattice.tolist(), reach.rim.forbidden, strict=True) if reach.status == "complete" else ()
+    closers = {(x, y): int(np.argmax(row)) for (x, y), row in rim}
     sides: dict[int, list[Floats]] = {}
     for x, y in sorted(inside):
         for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
@@ -189,7 +196,9 @@ def _edge(axes: Axes, reach: Reach) -> list[Artist]:
         axes.add_collection(
             LineCollection(sides[check], colors=colour, linewidths=2.0, zorder=1.2, capstyle="projecting")
         )
-        words = f"edge: {reach.rim.checks[check].replace('_', '-')}" if check >= 0 else "edge: not tried"
+        words = "no move leads on" if reach.status == "complete" else "seen so far"
+        if check >= 0:
+            words = f"closed by {reach.rim.checks[check].replace('_', '-')}"
         handles.append(Line2D([], [], color=colour, lw=2.0, label=words))
     return handles
 
@@ -216,7 +225,7 @@ def _marks(axes: Axes, reach: Reach) -> list[Artist]:
 def _colour_bar(figure: Figure, axes: Axes, shown: AxesImage, reach: Reach, layer: str) -> None:
     """A bar in the layer's unit; torques also as a share of the limit, where all joints have the same."""
     values, unit, words = _shown(reach, layer)
-    beyond = bool(np.any(values > shown.norm.vmax))
+    beyond = bool(np.any(values > float(shown.norm.vmax) * (1.0 + 1e-12)))
     bar = figure.colorbar(shown, cax=axes, extend="max" if beyond else "neither")
     bar.outline.set_visible(False)
     bar.set_label(words, fontsize=8)

@@ -193,7 +193,9 @@ def flood(
             if done == layer_end:
                 depth, layer_end = depth + 1, sea.seen
             batch = list(zip(pieces, range(done, layer_end, size), strict=False))
-            for _ in map(work, *zip(*batch, strict=True)) if pool is None else pool.map(work, *zip(*batch, strict=True)):
+            for _ in (
+                map(work, *zip(*batch, strict=True)) if pool is None else pool.map(work, *zip(*batch, strict=True))
+            ):
                 pass
             for piece, _ in batch:
                 sea.note(piece, depth)

@@ -168,7 +168,9 @@ def pose_of(words, pose_keys, poses, table, state):
 
 
 @kernel
-def note(spots, burdens, room, closest, aimed, n, depth, pose_keys, poses, table, used, first_used, met, first_met, state):
+def note(
+    spots, burdens, room, closest, aimed, n, depth, pose_keys, poses, table, used, first_used, met, first_met, state
+):
     """Note n weighed stances on the map: what is least and most at each pose, who uses which hold, which goals are met.
 
     Args:

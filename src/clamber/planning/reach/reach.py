@@ -73,6 +73,7 @@ class Reach:
     poses: Table
     places: Table
     rim: Rim
+    """Places that could be tried and were not reached; while incomplete, not reached so far."""
     holds: tuple[HoldUse, ...]
     goals: tuple[GoalReach, ...]
     """Sub-goals in order, then the goal."""
@@ -81,7 +82,7 @@ class Reach:
     forbidden: dict[str, int]
     """Check -> actions that it forbade."""
     closed_by: dict[str, int]
-    """Check -> forbidden body moves to places that nobody reaches: what closes the edge of the map."""
+    """Check -> forbidden body moves to places that nobody reaches: what closes the edge of the map; empty while incomplete."""
     seconds: float
     model: str
     """The rules that the answer holds for."""
@@ -90,8 +91,8 @@ class Reach:
 
     @property
     def never_used(self) -> tuple[int, ...]:
-        """Numbers of the holds that no limb can ever hold."""
-        return tuple(hold.number for hold in self.holds if not hold.limbs)
+        """Numbers of the holds that no limb can ever hold; none is known before everything was seen."""
+        return tuple(hold.number for hold in self.holds if self.status == "complete" and not hold.limbs)
 
     @property
     def goal_reached(self) -> bool:
@@ -201,7 +202,7 @@ def find_reach(
         goals=_goals(task, seen),
         checks=seen.judged,
         forbidden=_ranked(problem.checks, seen.forbidden.tolist()),
-        closed_by=_ranked(problem.checks, rim.forbidden.sum(axis=0).tolist()),
+        closed_by={} if seen.ended else _ranked(problem.checks, rim.forbidden.sum(axis=0).tolist()),
         seconds=time.monotonic() - started,
         model=plan_family(posed).model(posed),
         without_hangs=changed,

@@ -54,7 +54,11 @@ def _plain(value: object) -> object:
 
 
 def pose_table(
-    seen: Flood, burdens: tuple[str, ...], checks: tuple[str, ...], start: tuple[float, float, float], step: tuple[float, float]
+    seen: Flood,
+    burdens: tuple[str, ...],
+    checks: tuple[str, ...],
+    start: tuple[float, float, float],
+    step: tuple[float, float],
 ) -> Table:
     """The poses that the body can reach.
 
