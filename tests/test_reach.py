@@ -267,7 +267,7 @@ def test_a_walker_has_a_map_of_margins_and_steps_alone() -> None:
 def test_every_family_has_layers_a_world_and_a_way_without_hangs() -> None:
     assert set(FAMILY_LAYERS) == set(WORLDS) == set(WITHOUT_HANGS) == set(YARDSTICKS)
     assert all(set(names) <= set(LAYERS) for names in FAMILY_LAYERS.values())
-    with pytest.raises(UnknownNameError, match="no layer is called 'forc'.*did you mean 'force'"):
+    with pytest.raises(UnknownNameError, match=r"no layer is called 'forc'.*did you mean 'force'"):
         choose_layer(load_task("ladder"), "forc")
     with pytest.raises(PlannerError, match=r"rules\.allowed"):
         find_reach(load_task("ladder", ('rules.allowed=["3","191"]',)))

@@ -1,6 +1,5 @@
 """`clamber reach`: everything that a robot can ever reach."""
 
-from pathlib import Path
 from typing import Annotated
 
 import typer

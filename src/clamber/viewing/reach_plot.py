@@ -225,7 +225,7 @@ def _marks(axes: Axes, reach: Reach) -> list[Artist]:
 def _colour_bar(figure: Figure, axes: Axes, shown: AxesImage, reach: Reach, layer: str) -> None:
     """A bar in the layer's unit; torques also as a share of the limit, where all joints have the same."""
     values, unit, words = _shown(reach, layer)
-    beyond = bool(np.any(values > float(shown.norm.vmax) * (1.0 + 1e-12)))
+    beyond = bool(np.any(values > shown.get_clim()[1] * (1.0 + 1e-12)))
     bar = figure.colorbar(shown, cax=axes, extend="max" if beyond else "neither")
     bar.outline.set_visible(False)
     bar.set_label(words, fontsize=8)
