@@ -2,27 +2,22 @@
 
 import os
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
 from ...actions.problem import CompiledProblem, Records
 from ...actions.yardsticks import Yardsticks
-from ..exact.kernels import rehash
-from .kernels import POSE, POSES, STANCES, WEIGHED, absorb, note, note_tries, plant, spread, weigh
+from .kernels import POSES, WEIGHED, plant
+from .sea import Long, Piece, Sea
 
-CHILDREN: Final = 20_000
+CHILDREN: Final = 10_000
 """Children that a piece of a layer has room for, unless one stance has more."""
-PIECES: Final = 4
+PIECES: Final = 2
 """Pieces per thread between looks at the clock."""
-FIRST: Final = 1 << 14
-"""Stances that memory is taken for at first."""
-
-Long = npt.NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +31,7 @@ class Flood:
     """Actions of the shortest way to the last stance."""
     judged: int
     """Actions tried."""
-    forbidden: npt.NDArray[np.int64]
+    forbidden: Long
     """How often each check forbade an action, shape (n_checks,)."""
     poses: Long
     """Poses of the body as steps from the start in x, y and angle; those without stances were only tried, shape (n, 3)."""
@@ -49,101 +44,6 @@ class Flood:
     met: Long
     """Stances that are where each goal asks for, shape (goals,)."""
     first_met: Long
-
-
-class _Store:
-    """Keys, their hash table and what goes with them; doubles on demand."""
-
-    def __init__(self, words: int, capacity: int, dtype: np.dtype[np.void] | None = None) -> None:
-        self.keys = np.zeros((0, words), np.int64)
-        self.rows = None if dtype is None else np.zeros(0, dtype)
-        self.grow(capacity, 0)
-
-    def grow(self, capacity: int, used: int) -> None:
-        keys = np.zeros((capacity, self.keys.shape[1]), np.int64)
-        keys[:used] = self.keys[:used]
-        self.keys = keys
-        if self.rows is not None:
-            rows = np.zeros(capacity, self.rows.dtype)
-            rows[:used] = self.rows[:used]
-            self.rows = rows
-        self.table = np.full(1 << int(np.ceil(np.log2(2 * capacity))), -1, np.int32)
-        rehash(self.keys, used, self.table)
-
-
-class _Piece:
-    """A piece of a layer: its parameters and scratch, and what came of it."""
-
-    def __init__(self, problem: CompiledProblem, most: int) -> None:
-        self.params, _ = problem.wander()
-        branching, checks = problem.branching, len(problem.checks)
-        self.codes = np.zeros(branching, np.int32)
-        self.stances = np.zeros(3, problem.start.dtype)
-        self.margins, self.spare = np.zeros(checks), np.zeros(checks)
-        self.children = np.zeros((most * branching, problem.key_words), np.int64)
-        self.tries = np.zeros((most * branching, 4 + problem.spot_words), np.int64)
-        self.tally = np.zeros(checks, np.int64)
-        self.spots = np.zeros((most, problem.spot_words), np.int64)
-        self.burdens = np.zeros((most, len(problem.burdens)))
-        self.room, self.closest = np.zeros(most), np.zeros(most, np.int32)
-        self.aimed = np.zeros((most, problem.goals), np.uint8)
-        self.first = self.end = self.born = self.tried = self.judged = 0
-
-
-class _Sea:
-    """The stances seen so far, and the map of them."""
-
-    def __init__(self, problem: CompiledProblem, yardsticks: Yardsticks, holds: int, most: int) -> None:
-        names = [check.name for check in yardsticks.checks]
-        self.hard = np.array([name in yardsticks.hard for name in names])
-        self.sizes = np.array([yardsticks.sizes.get(name, 0.0) for name in names])
-        self.most = most
-        self.state = np.zeros(3, np.int64)
-        self.stances = _Store(problem.key_words, min(most, FIRST))
-        self.poses = _Store(3, FIRST, POSE)
-        limbs = problem.spot_words - 3
-        self.used, self.first_used = np.zeros((limbs, holds), np.int64), np.full((limbs, holds), -1, np.int64)
-        self.met, self.first_met = np.zeros(problem.goals, np.int64), np.full(problem.goals, -1, np.int64)
-
-    @property
-    def seen(self) -> int:
-        return int(self.state[STANCES])
-
-    def weigh(self, piece: _Piece, first: int, end: int) -> None:
-        piece.first, piece.end = first, end
-        weigh(
-            piece.params.record, self.stances.keys, first, end, self.hard, self.sizes, piece.stances, piece.margins,
-            piece.spare, piece.spots, piece.burdens, piece.room, piece.closest, piece.aimed,
-        )  # fmt: skip
-
-    def spread(self, piece: _Piece) -> None:
-        piece.born, piece.tried, piece.judged = spread(
-            piece.params.record, self.stances.keys, self.stances.table, piece.first, piece.end, piece.codes,
-            piece.stances, piece.margins, piece.children, piece.tries, piece.tally,
-        )  # fmt: skip
-
-    def note(self, piece: _Piece, depth: int) -> None:
-        count = piece.end - piece.first
-        while self.state[POSES] + count + piece.tried > len(self.poses.keys):
-            self.poses.grow(2 * len(self.poses.keys), int(self.state[POSES]))
-        note(
-            piece.spots, piece.burdens, piece.room, piece.closest, piece.aimed, count, depth, self.poses.keys,
-            self.poses.rows, self.poses.table, self.used, self.first_used, self.met, self.first_met, self.state,
-        )  # fmt: skip
-        note_tries(piece.tries, piece.tried, self.poses.keys, self.poses.rows, self.poses.table, self.state)
-
-    def absorb(self, piece: _Piece) -> bool:
-        """Take in a piece's children; returns whether the memory sufficed."""
-        taken = 0
-        while True:
-            taken = absorb(
-                piece.children, taken, piece.born, self.stances.keys, self.stances.table, self.state
-            )  # fmt: skip
-            if taken == piece.born:
-                return True
-            if len(self.stances.keys) >= self.most:
-                return False
-            self.stances.grow(min(self.most, 2 * len(self.stances.keys)), self.seen)
 
 
 def flood(
@@ -171,35 +71,27 @@ def flood(
         tell: Called now and then with stances, poses and depth.
 
     Returns:
-        The flood; memory, time and Ctrl-C end it, and then it tells what was seen so far.
+        The flood; memory, time and Ctrl-C end it, and then it judges and tells what was seen so far, which takes a while longer.
     """
     started = time.monotonic()
     threads = max(1, threads if threads is not None else (os.cpu_count() or 1))
     size = max(1, CHILDREN // problem.branching)
-    pieces = [_Piece(problem, size) for _ in range(PIECES * threads if threads > 1 else 1)]
-    sea = _Sea(problem, yardsticks, holds, most_stances)
+    pieces = [Piece(problem, size) for _ in range(PIECES * threads if threads > 1 else 1)]
+    sea = Sea(problem, yardsticks, holds, most_stances)
     plant(pieces[0].params.record, problem.wander()[1], pieces[0].children)
     pieces[0].born = 1
     sea.absorb(pieces[0])
-    pool = ThreadPoolExecutor(threads, thread_name_prefix="clamber") if threads > 1 else None
     depth, done, layer_end, judged, ended = 0, 0, 1, 0, ""
-
-    def work(piece: _Piece, first: int) -> None:
-        sea.weigh(piece, first, min(first + size, layer_end))
-        sea.spread(piece)
-
+    forbidden = np.zeros(len(problem.checks), np.int64)
+    pool = _pool(threads)
     try:
         while done < sea.seen and not ended:
             if done == layer_end:
                 depth, layer_end = depth + 1, sea.seen
-            batch = list(zip(pieces, range(done, layer_end, size), strict=False))
-            for _ in (
-                map(work, *zip(*batch, strict=True)) if pool is None else pool.map(work, *zip(*batch, strict=True))
-            ):
-                pass
-            for piece, _ in batch:
+            for piece in _share(pool, pieces, sea.visit, range(done, layer_end, size), layer_end):
                 sea.note(piece, depth)
                 judged += piece.judged
+                forbidden += piece.tally
                 if not sea.absorb(piece):
                     ended = "memory"
                     break
@@ -211,12 +103,14 @@ def flood(
     except KeyboardInterrupt:
         ended = "interrupt"
     if pool is not None:
-        pool.shutdown(cancel_futures=True)
-    for end, late in ((layer_end, depth), (sea.seen, depth + 1)):  # what was seen, but not reached by the search itself
-        for first in range(int(sea.state[WEIGHED]), end, size):
-            sea.weigh(pieces[0], first, min(first + size, end))
-            pieces[0].tried = 0
-            sea.note(pieces[0], late)
+        pool.shutdown(cancel_futures=True)  # waits, so that nobody writes into the pieces any more
+    pool = _pool(threads)
+    for end, late in ((layer_end, depth), (sea.seen, depth + 1)):  # what was seen, but is not on the map yet
+        while (first := int(sea.state[WEIGHED])) < end:
+            for piece in _share(pool, pieces, sea.weigh, range(first, end, size), end):
+                sea.note(piece, late)
+    if pool is not None:
+        pool.shutdown()
     count = int(sea.state[POSES])
     assert sea.poses.rows is not None
     return Flood(
@@ -224,7 +118,7 @@ def flood(
         stances=sea.seen,
         depth=depth if sea.seen == layer_end else depth + 1,
         judged=judged,
-        forbidden=_total(piece.tally for piece in pieces),
+        forbidden=forbidden,
         poses=sea.poses.keys[:count],
         notes=sea.poses.rows[:count],
         used=sea.used,
@@ -234,5 +128,22 @@ def flood(
     )
 
 
-def _total(tallies: Iterable[Long]) -> Long:
-    return np.sum(list(tallies), axis=0)  # type: ignore[no-any-return]
+def _pool(threads: int) -> ThreadPoolExecutor | None:
+    return ThreadPoolExecutor(threads, thread_name_prefix="clamber") if threads > 1 else None
+
+
+def _share(
+    pool: ThreadPoolExecutor | None,
+    pieces: list[Piece],
+    work: Callable[[Piece], None],
+    firsts: range,
+    end: int,
+) -> list[Piece]:
+    """Let each piece work on its share of some stances, as many as there are pieces; returns those that did."""
+    busy = pieces[: len(firsts)]
+    for piece, first in zip(busy, firsts, strict=False):
+        piece.first, piece.end = first, min(first + firsts.step, end)
+        piece.tried = piece.born = 0
+    for _ in map(work, busy) if pool is None else pool.map(work, busy):
+        pass
+    return busy
