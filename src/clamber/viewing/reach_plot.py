@@ -33,7 +33,7 @@ from .words import length_unit
 
 WIDEST, HIGHEST, NARROWEST = 7.4, 6.4, 4.9
 """Room for the world, and least width of the texts [in]."""
-LEFT, RIGHT, HEAD, FOOT = 0.55, 1.15, 0.88, 1.02
+LEFT, RIGHT, HEAD, FOOT = 0.55, 1.15, 0.88, 1.12
 """Room around it for its axis, the colour bar, the title, legend and caption [in]."""
 TAIL: Final = 98.0
 """Where the largest value is over twice this percentile, all beyond it share a colour: a stretched limb carries almost anything [%]."""
@@ -113,9 +113,10 @@ def reach_figure(reach: Reach, layer: str) -> Figure:
     room = size[0] - LEFT - 0.2
     figure.legend(
         handles=handles, loc="upper left", bbox_to_anchor=place(LEFT - 0.06, FOOT - 0.38, 0, 0)[:2], fontsize=7.5,
-        ncols=max(2, int(room / 1.6)), borderaxespad=0.0, handlelength=1.6, columnspacing=1.3, handletextpad=0.5,
+        ncols=max(2, int(room / 1.42)), borderaxespad=0.0, handlelength=1.6, columnspacing=1.3, handletextpad=0.5,
     )  # fmt: skip
-    caption = textwrap.fill(f"Holds for: {reach.model}.", int(room * 19))
+    left_out = " Hangs, which the task allows, are left out." if reach.without_hangs else ""
+    caption = textwrap.fill(f"Holds for: {reach.model}.{left_out}", int(room * 19))
     figure.text(*place(LEFT, 0.1, 0, 0)[:2], caption, fontsize=6.5, va="bottom", color=style.QUIET)
     return figure
 
@@ -127,7 +128,10 @@ def _title(layer: str) -> str:
 
 def _subtitle(reach: Reach) -> str:
     counts = f"{reach.stances} stances, {len(reach.poses)} poses at {len(reach.places)} places"
-    seen = "all that can be reached" if reach.status == "complete" else f"incomplete: {reach.reason.split(':')[0]}"
+    goal = "" if reach.goal_reached else ", the goal is not among them"
+    seen = (
+        f"all that can be reached{goal}" if reach.status == "complete" else f"incomplete, {reach.reason.split(':')[0]}"
+    )
     return f"{reach.task.title or reach.task.name}\n{counts}: {seen}"
 
 
@@ -204,7 +208,7 @@ def _edge(axes: Axes, reach: Reach) -> list[Artist]:
 
 
 def _marks(axes: Axes, reach: Reach) -> list[Artist]:
-    """Mark the start and the holds that nobody can ever use; the goal's name says whether it can be reached."""
+    """Mark the start, and the holds that nobody can ever use."""
     task: Any = reach.task
     handles: list[Artist] = []
     (mark,) = axes.plot(
@@ -223,16 +227,16 @@ def _marks(axes: Axes, reach: Reach) -> list[Artist]:
 
 
 def _colour_bar(figure: Figure, axes: Axes, shown: AxesImage, reach: Reach, layer: str) -> None:
-    """A bar in the layer's unit; torques also as a share of the limit, where all joints have the same."""
+    """A bar in the layer's unit; torques with their limit, where all joints have the same."""
     values, unit, words = _shown(reach, layer)
     beyond = bool(np.any(values > shown.get_clim()[1] * (1.0 + 1e-12)))
     bar = figure.colorbar(shown, cax=axes, extend="max" if beyond else "neither")
     bar.outline.set_visible(False)
     bar.set_label(words, fontsize=8)
-    bar.locator = MaxNLocator(nbins=8)
+    bar.locator = MaxNLocator(nbins=8, integer=layer == "steps")
     bar.update_ticks()
     if layer == "force" and isinstance(reach.task, LimbedTask):
         limits = torque_limits(reach.task)
         if np.ptp(limits) == 0.0:
-            full = float(limits.flat[0]) / (OZ_IN if unit == "oz-in" else 1.0) / 100.0
-            bar.set_label(f"{words[:-1]}; limit {100 * full:.0f}]", fontsize=8)
+            limit = float(limits.flat[0]) / (OZ_IN if unit == "oz-in" else 1.0)
+            bar.set_label(f"{words[:-1]}; limit {limit:.4g}]", fontsize=8)
