@@ -22,6 +22,7 @@ from .limbed import step
 from .limbed_freer import freer
 from .limbed_goals import FEATURES, done, measure
 from .limbed_keys import ANY_HOLD, KEY_WORDS, bound, candidates, cell, key, restore
+from .limbed_map import BURDENS, aims, burden, spot
 from .loops import replay
 from .params import Params
 from .problem import CompiledProblem, Records
@@ -48,6 +49,9 @@ family_kernels(
     freer=freer,
     done=done,
     cell=cell,
+    spot=spot,
+    aims=aims,
+    burden=burden,
 )
 
 
@@ -111,6 +115,23 @@ class LimbedProblem(CompiledProblem):
     def is_done(self, stance: Records) -> bool:
         """Whether a stance has met every goal."""
         return bool(stance["stage"][0] >= len(self.task.goals))
+
+    def wander(self) -> tuple[Params, Records]:
+        """As in every family; laps aren't counted, or a ring would have no last stance."""
+        params, start = super().wander()
+        params.record["circles"] = 0
+        start["laps"], start["bearing"] = 0, 0.0
+        return params, start
+
+    @property
+    def burdens(self) -> tuple[str, ...]:
+        """What being in a stance costs: see `limbed_map.burden`."""
+        return BURDENS
+
+    @property
+    def spot_words(self) -> int:
+        """The body's pose and a hold for each limb."""
+        return 3 + len(self.task.robot.limbs)
 
     def resolve(self, codes: npt.NDArray[np.int32], stances: Records) -> npt.NDArray[np.int32]:
         """Codes with "nearest" and "random" replaced by the hold that each took."""

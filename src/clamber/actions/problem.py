@@ -270,3 +270,19 @@ class CompiledProblem:
     def is_done(self, stance: Records) -> bool:
         """Whether a stance (array of one record) has met every goal."""
         raise NotImplementedError
+
+    def wander(self) -> tuple[Params, Records]:
+        """Parameters and start of a robot that has every goal behind it: stances differ by where they are alone."""
+        start = self.start.copy()
+        start["stage"] = self.goals
+        return self.params.for_thread(), start
+
+    @property
+    def burdens(self) -> tuple[str, ...]:
+        """Names of what the family's kernel `burden` writes, each with its unit at the end."""
+        return ()
+
+    @property
+    def spot_words(self) -> int:
+        """Integers that the family's kernel `spot` writes."""
+        return 3

@@ -224,6 +224,24 @@ def bound(p, s):
     return moves + follow + swaps
 
 
+@inlined
+def spot(p, s, words):
+    """Where a stance is: the Delta-frame's pose in ticks."""
+    for i in range(3):
+        words[i] = s.ticks[DELTA, i]
+
+
+@inlined
+def aims(p, s, k):
+    """Whether a stance is where goal k asks for."""
+    return meets(s, walker_goals(p)[k])
+
+
+@inlined
+def burden(p, s, spare, margins, row):
+    """Nothing: the model has no forces."""
+
+
 family_kernels(
     WALKER_PARAMS,
     step=step,
@@ -235,4 +253,7 @@ family_kernels(
     freer=freer,
     done=done,
     cell=cell,
+    spot=spot,
+    aims=aims,
+    burden=burden,
 )
