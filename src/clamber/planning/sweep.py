@@ -13,7 +13,7 @@ from .. import __version__
 from ..compiled import is_compiled
 from ..errors import ClamberError, SpecError, StartError, UnknownNameError
 from ..files import write_atomically
-from ..jobs import Outcome, map_items
+from ..jobs import Executor, Outcome, map_items
 from ..tasks import Task, load_task, task_from_document
 from ..types import Json
 from ..units import OZ_IN
@@ -109,6 +109,7 @@ def run_sweep(
     planner: str = "exact",
     options: Json | None = None,
     workers: int = 1,
+    executor: Executor | None = None,
     store: Path | None = None,
     resume: bool = False,
     progress: Callable[[int, int, Outcome], None] | None = None,
@@ -122,6 +123,7 @@ def run_sweep(
         planner: Name of the planner; each point is planned on one thread.
         options: Plain options of the planner, such as `seed`.
         workers: Processes; the table doesn't depend on it, but for the seconds.
+        executor: Who plans the points, in place of local processes, such as a cluster.
         store: SQLite file that keeps each point as it ends.
         resume: Whether to go on with that file.
         progress: Told of each end.
@@ -131,6 +133,7 @@ def run_sweep(
         UnknownNameError: If there is no such task or planner.
         SpecError: If no point of the sweep is a task; the first point's error.
         StoreError: If the file can't be the store of this sweep.
+        ClusterError: If there is no cluster to run on, or it is lost.
     """
     check_axes(axes)
     if planner not in PLANNERS:
@@ -145,12 +148,14 @@ def run_sweep(
     items: list[Json] = [
         {"document": task.document, "planner": planner, "options": settings, "version": __version__} for task in tasks
     ]
-    _compile(tasks, planner)
+    if executor is None:
+        _compile(tasks, planner)
     outcomes = iter(
         map_items(
             plan_point,
             items,
             workers=workers,
+            executor=executor,
             store=store,
             about={"axes": [axis.to_json() for axis in axes], "items": items},
             title=f"the sweep of '{name}' over {' and '.join(axis.key for axis in axes)}",
