@@ -102,7 +102,7 @@ def test_a_thousand_points_are_the_same_on_one_two_and_four_workers_and_on_two_n
     there, kill = nodes
     axes = [range_axis("motor.torque_limit=2Nm..9Nm:40"), range_axis("board.ladder.spacing=5in..7in:25")]
     settings: dict[str, Any] = {
-        "overrides": ("rules.max_hangs=0", "goal.y_min=9in"),
+        "overrides": ("rules.max_hangs=0", "goal.y_min=9in", "board.ladder.rungs=5"),
         "options": {"max_stances": 5_000},
     }
     tables = [numbers(run_sweep("ladder", axes, workers=workers, **settings)) for workers in (1, 2, 4)]
