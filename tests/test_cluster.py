@@ -163,9 +163,8 @@ def test_what_goes_wrong_behind_an_open_port_is_told(
     )
     monkeypatch.setenv("PYTHONPATH", os.pathsep.join((str(tmp_path), FOLDERS)))
     monkeypatch.setattr(cluster, "ANSWER", 1.0 if "sleep" in body else 20.0)
-    with socket.create_server(("127.0.0.1", 0)) as listener:
-        with pytest.raises(ClusterError, match=message) as caught:
-            RayCluster(f"127.0.0.1:{listener.getsockname()[1]}").check()
+    with socket.create_server(("127.0.0.1", 0)) as listener, pytest.raises(ClusterError, match=message) as caught:
+        RayCluster(f"127.0.0.1:{listener.getsockname()[1]}").check()
     assert "\n" not in str(caught.value)
 
 

@@ -1,37 +1,17 @@
 """A sweep as people read it."""
 
-import os
 from pathlib import Path
 
 from rich.console import Console
 
-from ..jobs import Outcome
 from ..planning.sweep import Sweep
 from ..units import OZ_IN, split_quantity
 from .output import plain_table
 
 
-def worker_count(asked: int | None) -> int:
-    """Worker processes: as asked, else one a core."""
-    return asked or os.cpu_count() or 1
-
-
 def announced_loop(planner: str) -> str:
     """The compiled loop that a planner's first run needs."""
     return "expand" if planner == "exact" else "rollout"
-
-
-class SweepLine:
-    """Tells of points as they end, each tenth of the sweep."""
-
-    def __init__(self, console: Console, *, quiet: bool) -> None:
-        self._console = console
-        self._quiet = quiet
-
-    def update(self, ended: int, total: int, outcome: Outcome) -> None:
-        """Take note of one end."""
-        if not self._quiet and (ended == total or ended * 10 // total > (ended - 1) * 10 // total):
-            self._console.print(f"{ended} of {total} points", style="dim")
 
 
 def print_sweep(console: Console, sweep: Sweep, output: Path | None) -> None:

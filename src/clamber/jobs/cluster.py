@@ -52,6 +52,11 @@ class RayCluster:
     workers: int | None = None
     """Items at work at once; None: as many as the cluster has cores."""
 
+    @property
+    def here(self) -> bool:
+        """False."""
+        return False
+
     def check(self) -> None:
         """Makes sure that a cluster answers there, within seconds.
 

@@ -26,6 +26,10 @@ class End:
 class Executor(Protocol):
     """Runs the items of a batch."""
 
+    @property
+    def here(self) -> bool:
+        """Whether on this machine, where its caller can prepare it."""
+
     def check(self) -> None:
         """Makes sure that work can start.
 

@@ -36,6 +36,11 @@ class LocalProcesses:
 
     workers: int = 1
 
+    @property
+    def here(self) -> bool:
+        """True."""
+        return True
+
     def check(self) -> None:
         """Local processes can always start."""
 

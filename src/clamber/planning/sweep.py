@@ -148,7 +148,7 @@ def run_sweep(
     items: list[Json] = [
         {"document": task.document, "planner": planner, "options": settings, "version": __version__} for task in tasks
     ]
-    if executor is None:
+    if executor is None or executor.here:
         _compile(tasks, planner)
     outcomes = iter(
         map_items(
