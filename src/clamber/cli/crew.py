@@ -2,15 +2,19 @@
 
 import os
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import typer
 from rich.console import Console
 
-from ..jobs import Executor, LocalProcesses, Outcome, RayCluster
+if TYPE_CHECKING:  # loads NumPy, which `--help` does without
+    from ..jobs import Executor, Outcome
 
 
-def executor_of(ray: str | None, workers: int | None) -> Executor:
+def executor_of(ray: str | None, workers: int | None) -> "Executor":
     """The cluster if one is named, else local processes: as many as asked, or one a core."""
+    from ..jobs import LocalProcesses, RayCluster
+
     if ray is not None:
         return RayCluster(ray, workers)
     return LocalProcesses(workers or os.cpu_count() or 1)
@@ -34,7 +38,7 @@ class EndsLine:
         self._what = what
         self._quiet = quiet
 
-    def update(self, ended: int, total: int, outcome: Outcome) -> None:
+    def update(self, ended: int, total: int, outcome: "Outcome") -> None:
         """Take note of one end."""
         if not self._quiet and (ended == total or ended * 10 // total > (ended - 1) * 10 // total):
             self._console.print(f"{ended} of {total} {self._what}", style="dim")

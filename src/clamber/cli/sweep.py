@@ -18,6 +18,10 @@ def sweep(
     values: Annotated[
         list[str] | None, typer.Option(metavar="KEY=A,B,C", help="A key and its values, such as board=ladder,h.")
     ] = None,
+    mark: Annotated[
+        list[str] | None,
+        typer.Option(metavar="KEY=VALUE", help="Mark a value of a varied key, or low..high, in table and picture."),
+    ] = None,
     planner: Annotated[str, typer.Option(help="How to search (`clamber list planners`).")] = "exact",
     overrides: Overrides = None,
     seed: Annotated[int, typer.Option(min=0, help="Of the genetic planner.")] = 0,
@@ -39,10 +43,11 @@ def sweep(
         from ..viewing.output import CANVASES, check_suffix
 
         check_suffix(output, (".csv", *CANVASES))
-    from ..planning.axes import check_axes, range_axis, values_axis
+    from ..planning.axes import check_axes, range_axis, read_mark, values_axis
 
     axes = [*map(range_axis, vary or ()), *map(values_axis, values or ())]
     check_axes(axes)
+    marks = [read_mark(text, axes) for text in mark or ()]
     from .sweep_text import announced_loop, print_sweep
 
     if ray is None:
@@ -57,6 +62,7 @@ def sweep(
         planner=planner,
         options=limits,
         executor=executor_of(ray, workers),
+        marks=marks,
         store=store,
         resume=resume,
         progress=EndsLine(stderr(), "points", quiet=quiet).update,
