@@ -17,7 +17,7 @@ from .relaxed_places import SECTORS, UNREACHED, find_grips, number_states
 from .relaxed_sweep import find_beside, mark_goals, sort_sources, sweep_back
 
 MOST_BYTES: Final = 192 << 20
-"""Of the table. Where it would be larger it costs more than it saves: rotation is free in it then; if that is too large too, there is none."""
+"""Of the table; a larger one costs more than it saves: then rotation is free in it, and if that is too large too, there is none."""
 MOST_PLACES: Final = 4_000_000
 FIRST_ROOM: Final = 1 << 16
 """Grips that there is room for at first."""

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import Final
 
 from .ablation import bench_ablation
+from .batches import batch_rows
 from .proofs import bench_exact
 from .races import race_rows
 from .reductions import filter_rows, macro_rows
@@ -27,6 +28,7 @@ BENCHES: Final[dict[str, Callable[..., list[Row]]]] = {
     "seeds": bench_seeds,
     "ablation": bench_ablation,
     "walls": wall_rows,
+    "jobs": batch_rows,
 }
 """Name -> benchmark; the command line's choices and the tests read it. Each can be called without arguments, or with `say`."""
 

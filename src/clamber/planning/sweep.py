@@ -13,11 +13,11 @@ from .. import __version__
 from ..compiled import is_compiled
 from ..errors import ClamberError, SpecError, StartError, UnknownNameError
 from ..files import write_atomically
-from ..jobs import Outcome, map_items
+from ..jobs import Executor, Outcome, map_items
 from ..tasks import Task, load_task, task_from_document
 from ..types import Json
 from ..units import OZ_IN
-from .axes import Axis, check_axes
+from .axes import Axis, Mark, check_axes
 from .planners import PLANNERS
 
 SUCCESS: Final = ("optimal", "found")
@@ -73,6 +73,17 @@ class Sweep:
     planner: str
     axes: tuple[Axis, ...]
     points: tuple[Point, ...]
+    marks: tuple[Mark, ...] = ()
+
+    def marked(self, index: int) -> bool:
+        """Whether a point lies in the marks of every axis that has some."""
+        place = index
+        for axis in reversed(self.axes):
+            place, k = divmod(place, len(axis.values))
+            mine = [mark for mark in self.marks if mark.key == axis.key]
+            if mine and (axis.numbers is None or not any(mark.holds(axis.numbers[k]) for mark in mine)):
+                return False
+        return bool(self.marks)
 
     @property
     def found(self) -> int:
@@ -86,17 +97,18 @@ class Sweep:
             "planner": self.planner,
             "axes": [axis.to_json() for axis in self.axes],
             "found": self.found,
-            "points": [point.to_json() for point in self.points],
+            "marks": [mark.to_json() for mark in self.marks],
+            "points": [point.to_json() | {"marked": self.marked(k)} for k, point in enumerate(self.points)],
         }
 
     def save_table(self, path: Path) -> None:
         """Write the points as CSV, whole or not at all."""
         text = io.StringIO()
         table = csv.writer(text, lineterminator="\n")
-        columns = [column for column in self.points[0].to_json() if column != "values"]
+        rows = self.to_json()["points"]
+        columns = [column for column in rows[0] if column != "values" and (self.marks or column != "marked")]
         table.writerow([*(axis.key for axis in self.axes), *columns])
-        for point in self.points:
-            told = point.to_json()
+        for point, told in zip(self.points, rows, strict=True):
             table.writerow([*point.values, *("" if told[column] is None else told[column] for column in columns)])
         write_atomically(path, text.getvalue())
 
@@ -109,6 +121,8 @@ def run_sweep(
     planner: str = "exact",
     options: Json | None = None,
     workers: int = 1,
+    executor: Executor | None = None,
+    marks: Sequence[Mark] = (),
     store: Path | None = None,
     resume: bool = False,
     progress: Callable[[int, int, Outcome], None] | None = None,
@@ -122,6 +136,8 @@ def run_sweep(
         planner: Name of the planner; each point is planned on one thread.
         options: Plain options of the planner, such as `seed`.
         workers: Processes; the table doesn't depend on it, but for the seconds.
+        executor: Who plans the points, in place of local processes, such as a cluster.
+        marks: References on the axes, for table and picture.
         store: SQLite file that keeps each point as it ends.
         resume: Whether to go on with that file.
         progress: Told of each end.
@@ -131,6 +147,7 @@ def run_sweep(
         UnknownNameError: If there is no such task or planner.
         SpecError: If no point of the sweep is a task; the first point's error.
         StoreError: If the file can't be the store of this sweep.
+        ClusterError: If there is no cluster to run on, or it is lost.
     """
     check_axes(axes)
     if planner not in PLANNERS:
@@ -145,12 +162,14 @@ def run_sweep(
     items: list[Json] = [
         {"document": task.document, "planner": planner, "options": settings, "version": __version__} for task in tasks
     ]
-    _compile(tasks, planner)
+    if executor is None or executor.here:
+        _compile(tasks, planner)
     outcomes = iter(
         map_items(
             plan_point,
             items,
             workers=workers,
+            executor=executor,
             store=store,
             about={"axes": [axis.to_json() for axis in axes], "items": items},
             title=f"the sweep of '{name}' over {' and '.join(axis.key for axis in axes)}",
@@ -164,7 +183,7 @@ def run_sweep(
         else _point(values, next(outcomes))
         for values, task in zip(places, loaded, strict=True)
     )
-    return Sweep(task=name, planner=planner, axes=tuple(axes), points=points)
+    return Sweep(task=name, planner=planner, axes=tuple(axes), points=points, marks=tuple(marks))
 
 
 def plan_point(item: Json) -> Json:

@@ -65,6 +65,8 @@ class Start:
     """The limb that moved last; None: the last limb of the robot that holds."""
     feet: dict[str, Point] = field(default_factory=dict)
     """Limb name -> place of a free limb's tip in the body frame [m]."""
+    between: tuple[StrictInt, ...] = ()
+    """Holds whose mean place is the body's origin, for `x` and `y` that are not given."""
 
 
 @spec
@@ -204,7 +206,7 @@ def build_limbed_task(document: Document) -> LimbedTask:
     robot_document = document.section("robot", _label(document, "robot"))
     board_document = document.section("board", _label(document, "board"))
     robot, board = build_limbed(robot_document), build_board(board_document)
-    stated = build_spec(TaskSpec, document, without=("schema", "robot", "board", "labels"))
+    stated = build_spec(TaskSpec, _with_place(document, board), without=("schema", "robot", "board", "labels"))
     _check_step(stated.step, document)
     _check_start(stated.start, robot, board, document)
     _check_rules(stated.rules, robot, document)
@@ -231,6 +233,22 @@ def build_limbed_task(document: Document) -> LimbedTask:
             "task": content_hash(rest),
         },
     )
+
+
+def _with_place(document: Document, board: Board) -> Document:
+    """The document with the start's `x` and `y`, where they are missing, from the holds that it is between."""
+    start = document.data.get("start")
+    between = start.get("between") if isinstance(start, dict) else None
+    if not isinstance(start, dict) or not isinstance(between, list) or not between:
+        return document
+    places = {hold.number: (hold.x, hold.y) for hold in board.holds}
+    for number in between:
+        if number not in places:
+            allowed = f"board '{board.name}' has no hold {number!r}; {_listed(set(places))}"
+            raise document.problem("start.between", allowed)
+    means = [math.fsum(places[number][axis] for number in between) / len(between) for axis in (0, 1)]
+    place = {name: f"{mean!r} m" for name, mean in zip("xy", means, strict=True)}
+    return Document(document.label, document.data | {"start": place | start}, document.overrides, document.folder)
 
 
 def _label(document: Document, section: str) -> str:

@@ -29,6 +29,10 @@ from .scatter import DEFAULT_GAP, MOST_PACKED, GapError, scatter
 SCHEMA: Final = "clamber-board-1"
 
 
+SHORT_KEYS: Final = {"spacing": "ladder.width", "rung": "ladder.spacing", "rungs": "ladder.rungs"}
+"""How the climbing literature calls the distances of a ladder: holds apart across, and up -> keys of its board."""
+
+
 @spec
 class Hold:
     """One hold. World frame: x to the right, y up, on a vertical wall."""
