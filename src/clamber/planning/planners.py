@@ -7,9 +7,18 @@ from ..tasks import Task
 from .exact.planner import plan_exact
 from .genetic.planner import plan_genetic
 from .result import PlanResult
+from .rivals.greedy import plan_greedy
+from .rivals.mcts import plan_mcts
+from .rivals.random import plan_random
 
 Planner = Callable[..., PlanResult]
-PLANNERS: Final[dict[str, Planner]] = {"genetic": plan_genetic, "exact": plan_exact}
+PLANNERS: Final[dict[str, Planner]] = {
+    "genetic": plan_genetic,
+    "exact": plan_exact,
+    "greedy": plan_greedy,
+    "random": plan_random,
+    "mcts": plan_mcts,
+}
 """Name -> planner; the command line's choices and the tests read it."""
 
 

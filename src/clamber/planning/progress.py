@@ -31,4 +31,16 @@ class Exploring:
     """No plan has fewer actions."""
 
 
-Listener = Callable[[Progress | Exploring], None]
+@dataclass(frozen=True, slots=True)
+class Trying:
+    """One moment of a search that tries actions one by one and proves nothing."""
+
+    checks: int
+    """Actions judged."""
+    value: float
+    """What the best stance is worth."""
+    best_length: int | None
+    """Actions of the best plan that reaches the goal."""
+
+
+Listener = Callable[[Progress | Exploring | Trying], None]
