@@ -16,6 +16,7 @@ from .check import check
 from .inventory import inventory
 from .learn import learn
 from .list import list_names
+from .new import new
 from .plan import plan
 from .show import show
 from .study import study
@@ -36,6 +37,7 @@ app.command("check")(check)
 app.command("show")(show)
 app.command("bench")(bench)
 app.command("sweep")(sweep)
+app.add_typer(new, name="new")
 app.command("study")(study)
 
 
