@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import Final
 
 from .ablation import bench_ablation
+from .boards.bench import bench_boards
 from .races import race_rows
 from .reductions import filter_rows, macro_rows
 from .rows import Row as Row
@@ -23,6 +24,7 @@ BENCHES: Final[dict[str, Callable[..., list[Row]]]] = {
     "plan": bench_plan,
     "seeds": bench_seeds,
     "ablation": bench_ablation,
+    "boards": bench_boards,
 }
 """Name -> benchmark; the command line's choices and the tests read it. Each can be called without arguments, or with `say`."""
 

@@ -1,9 +1,10 @@
-"""One budget for every planner: single actions judged where a planner counts them so, else seconds."""
+"""Who takes part in a comparison of planners, and one allowance for all of them."""
 
 import inspect
-from dataclasses import dataclass
-from typing import Any, Final
+from dataclasses import dataclass, field
+from typing import Final
 
+from ..types import Json
 from .genetic.profile import profile_names
 from .planners import PLANNERS
 
@@ -17,9 +18,11 @@ class Allowance:
     """What one search may spend."""
 
     checks: int
-    """Single actions judged, for planners that can stop there: the same on any machine."""
+    """Single actions judged: the same on any machine."""
     seconds: float
-    """For the others, and for no search more than this [s]."""
+    """In their place, for a planner that can't stop at a number of checks [s]."""
+    patience: float
+    """No search takes longer than this [s]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -29,41 +32,44 @@ class Contender:
     name: str
     """Such as "exact" or "genetic/thesis"."""
     planner: str
-    options: dict[str, Any]
+    options: Json = field(default_factory=dict)
 
     @property
     def draws(self) -> bool:
-        """Whether another seed gives another answer."""
+        """Whether another seed may give another answer."""
         return self.planner not in SEEDLESS
+
+    @property
+    def counts(self) -> bool:
+        """Whether its searches end, or can be cut in hindsight, at a number of checks.
+
+        An exact search does the same whatever its limits, so what it judged tells whether an allowance would have sufficed.
+        """
+        return accepts(self.planner, "max_checks") or self.planner == "exact"
+
+    def limits(self, allowance: Allowance) -> Json:
+        """An allowance in the planner's own options; limits of its own in other units are lifted."""
+        counted = accepts(self.planner, "max_checks")
+        options: Json = {"seconds": allowance.patience if self.counts else allowance.seconds}
+        if counted:
+            options["max_checks"] = allowance.checks
+        if counted and accepts(self.planner, "max_evaluations"):
+            options["max_evaluations"] = UNBOUNDED
+        return options
 
 
 def contenders() -> tuple[Contender, ...]:
     """Every planner, the genetic one with each of its profiles."""
-    found = []
+    found: list[Contender] = []
     for planner in PLANNERS:
         if planner == "genetic":
-            found += [
-                Contender(name=f"genetic/{profile}", planner=planner, options={"profile": profile})
-                for profile in profile_names()
-            ]
+            profiles = profile_names()
+            found += [Contender(name=f"{planner}/{p}", planner=planner, options={"profile": p}) for p in profiles]
         else:
-            found.append(Contender(name=planner, planner=planner, options={}))
+            found.append(Contender(name=planner, planner=planner))
     return tuple(found)
 
 
 def accepts(planner: str, option: str) -> bool:
     """Whether a planner has an option."""
     return option in inspect.signature(PLANNERS[planner]).parameters
-
-
-def limits(planner: str, allowance: Allowance) -> dict[str, Any]:
-    """An allowance in a planner's own options: its other limits are lifted, so that none is stopped by what others don't have.
-
-    Exact search is limited by its memory and the seconds; what it judged is counted, so its answers within the allowance can be told.
-    """
-    options: dict[str, Any] = {"seconds": allowance.seconds}
-    if accepts(planner, "max_checks"):
-        options["max_checks"] = allowance.checks
-        if accepts(planner, "max_evaluations"):
-            options["max_evaluations"] = UNBOUNDED
-    return options

@@ -49,6 +49,8 @@ class Hunt:
         self.problem = pose_problem(self.task, threads=1).problem
         if self.problem.incomplete is not None:
             raise PlannerError(self.planner, self.task.name, self.problem.incomplete)
+        if self.problem.is_done(self.problem.start):
+            self.take(self.codes, 0.0, found=True)
 
     @property
     def is_over(self) -> bool:
@@ -65,7 +67,9 @@ class Hunt:
         """Keep a plan if it is better than what there is: it reaches the goal, with fewer actions, or leads further."""
         if found and self.first_length is None:
             self.first_length, self.first_checks = len(codes), self.checks
-        better = len(codes) < len(self.codes) if found and self.found else found or (not self.found and value > self.value)
+        better = (
+            len(codes) < len(self.codes) if found and self.found else found or (not self.found and value > self.value)
+        )
         if better:
             self.codes, self.value, self.found = codes.copy(), value, found
 

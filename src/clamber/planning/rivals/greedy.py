@@ -63,7 +63,7 @@ def plan_greedy(
     state[NODES] = state[OPEN] = 1
     parent[0] = state[GOAL] = -1
     plant_root(params, problem.start, weights, keys, value, table, row)
-    status = FOUND if problem.is_done(problem.start) else RUNNING
+    status = FOUND if hunt.found else RUNNING
     try:
         while status == RUNNING and not hunt.is_over:
             status = greedy(

@@ -11,7 +11,7 @@ from ..progress import Listener
 from ..result import PlanResult
 from .answer import LONGEST, MAX_CHECKS, Hunt
 from .guidance import guidance
-from .mcts_kernels import CHECKS, DEAD, EDGES, NODES, NUMBER, TABU, enter, simulate
+from .mcts_kernels import CHECKS, DEAD, EDGES, NODES, TABU, enter, simulate
 
 MAX_STANCES: Final = 500_000
 """Nodes kept unless told otherwise: about 150 bytes each for the climber, edges included. A full tree is dropped but for its root."""
@@ -25,9 +25,12 @@ class Settings:
     """Exploration constant of UCB1, for values scaled to 0..1 by the range seen from the present root [-]."""
     boldness: float = 0.5
     """Weight of a node's best value against its mean: a plan is wanted, not a good average (Schadd et al. 2008) [-]."""
-    visits: int = 200
-    """Of the root, before the search commits to an action; those from before it was the root count."""
-    horizon: int = 20
+    visits: int = 100
+    """Of the root, before the search commits to an action; those from before it was the root count. Every descent takes
+    them times the next number of Luby's sequence: where quick descents end in a pocket, a careful one comes in time."""
+    patience: int = 30
+    """Commitments in a row after which no simulation saw anything better, before the search starts again from the start."""
+    horizon: int = 2
     """Most actions of a simulation's random walk."""
     again: float = 0.5
     """Probability of a walk to do the same as before, where it can."""
@@ -76,12 +79,19 @@ def plan_mcts(
     return hunt.result()
 
 
+def luby(k: int) -> int:
+    """The k-th number (from 1) of 1 1 2 1 1 2 4 1 1 2 ...: the best schedule of restarts for one who knows nothing (Luby et al. 1993)."""
+    size = k.bit_length()
+    return 1 << (size - 1) if k == (1 << size) - 1 else luby(k - (1 << (size - 1)) + 1)
+
+
 class _Tree:
     """The arrays of a search, and one descent through them."""
 
     def __init__(self, hunt: Hunt, most: int, settings: Settings) -> None:
         problem = hunt.problem
         self.hunt, self.settings = hunt, settings
+        self.descents = 0
         self.weights = guidance(problem)
         capacity, edges = most + 2 * problem.branching, 4 * most + 2 * problem.branching
         words = problem.key_words
@@ -102,11 +112,13 @@ class _Tree:
     def descend(self) -> None:
         """From the start, action by action, until a plan is found, nothing new is left to do, or the budget ends."""
         hunt, state = self.hunt, self.state
+        self.descents += 1
         here = hunt.problem.start
         way: list[int] = []
         passed = [here]
         root = self._grow_anew(passed)
-        while not hunt.is_over and len(way) < hunt.longest:
+        furthest, stale = -np.inf, 0
+        while not hunt.is_over and len(way) < hunt.longest and stale < self.settings.patience:
             self.scale[:] = np.inf, -np.inf
             length = self._simulate(root, len(way))
             hunt.checks = int(state[CHECKS])
@@ -128,15 +140,18 @@ class _Tree:
             hunt.take(np.array(way, np.int32), hunt.problem.progress(here), found=hunt.problem.is_done(here))
             if hunt.problem.is_done(here):
                 break
+            stale = 0 if self.scale[1] > furthest else stale + 1
+            furthest = max(furthest, self.scale[1])
 
     def _simulate(self, root: int, depth: int) -> int:
         set_up = self.settings
+        wanted = set_up.visits * luby(self.descents)
         return int(
             simulate(
                 self.hunt.problem.params.record, self.weights, self.keys, self.visits, self.total, self.top, self.first,
                 self.count, self.child_of, self.code_of, self.table, self.mark, self.path, self.codes, self.tried,
                 self.stances, self.margins, self.row, self.words, self.state, self.scale, root, depth, set_up.explore,
-                set_up.boldness, set_up.again, set_up.horizon, self.hunt.longest, set_up.visits, self.hunt.max_checks,
+                set_up.boldness, set_up.again, set_up.horizon, self.hunt.longest, wanted, self.hunt.max_checks,
                 self.hunt.seed, self.trail, self.plan,
             )
         )  # fmt: skip

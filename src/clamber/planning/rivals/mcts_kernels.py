@@ -2,7 +2,7 @@
 
 import math
 
-from ...actions.family import candidates, done, key, restore, step
+from ...actions.family import candidates, key, restore, step
 from ...actions.randoms import below, draw
 from ...compiled import inlined, kernel
 from ..exact.kernels import slot_of
@@ -111,7 +111,20 @@ def simulate(
         while first[node] >= 0 and depth + steps < longest:
             bits = draw(seed, number, steps, 0)
             edge = choose(
-                node, visits, total, top, first, count, child_of, mark, number, scale[0], scale[1], explore, boldness, bits
+                node,
+                visits,
+                total,
+                top,
+                first,
+                count,
+                child_of,
+                mark,
+                number,
+                scale[0],
+                scale[1],
+                explore,
+                boldness,
+                bits,
             )
             if edge < 0:
                 break

@@ -13,7 +13,7 @@ from .random_kernels import burst
 
 WALKS: Final = 50
 """Walks of a burst."""
-LENGTH: Final = 12
+LENGTH: Final = 6
 """Most actions of a walk; twice as many after a burst that came no further."""
 PATIENCE: Final = 5
 """Bursts that come no further, before the search starts again from the start."""
