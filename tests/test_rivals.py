@@ -19,7 +19,10 @@ from clamber.tasks import load_task
 RIVALS = ("greedy", "random", "mcts")
 NO_HANGS = "rules.max_hangs=0"
 SHORT = ("ladder", (NO_HANGS, "goal.y_min=24in"))
-UNCLIMBABLE = ("modified-ladder", (NO_HANGS, "step.length=3in", 'rules.allowed=["+y","-y","grab","release"]', "goal.y_min=60in"))  # fmt: skip
+UNCLIMBABLE = (
+    "modified-ladder",
+    (NO_HANGS, "step.length=3in", 'rules.allowed=["+y","-y","grab","release"]', "goal.y_min=60in"),
+)
 
 
 def run(rival: str, name: str, overrides: tuple[str, ...], **options: Any) -> PlanResult:

@@ -18,6 +18,9 @@ def plan(
     seed: Annotated[int, typer.Option(min=0, help="Same seed, same plan, on any number of threads.")] = 0,
     threads: Annotated[int | None, typer.Option(min=1, help="Threads; one a core unless given.")] = None,
     evaluations: Annotated[int, typer.Option(min=1, help="Most whole plans to try.")] = 50_000,
+    checks: Annotated[
+        int | None, typer.Option(min=1, help="Most single actions to judge, for planners that count them.")
+    ] = None,
     seconds: Annotated[float | None, typer.Option(min=0.0, help="Most time to take.")] = None,
     checkpoint: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Write the state of the search here, and go on from it.")
@@ -40,6 +43,7 @@ def plan(
 
     problem = load_task(task, overrides or ())
     announce_compilation("rollout", quiet=quiet)
+    from ..planning.budgets import accepts
     from ..planning.learning import load_macros
     from ..planning.planners import PLANNERS
     from .plan_text import ProgressLine, print_result
@@ -54,6 +58,10 @@ def plan(
         raise typer.BadParameter(
             "only the genetic planner takes --checkpoint, --macros and --history", param_hint="--planner"
         )
+    if checks is not None:
+        if not accepts(planner, "max_checks"):
+            raise typer.BadParameter(f"the {planner} planner has no limit in single actions", param_hint="--checks")
+        options["max_checks"] = checks
     with ProgressLine(stderr(), quiet=quiet) as line:
         result = PLANNERS[planner](problem, progress=line.update, **options)
     if output is not None:

@@ -48,9 +48,11 @@ def sweep(
     from .sweep_text import SweepLine, announced_loop, print_sweep, worker_count
 
     announce_compilation(announced_loop(planner), quiet=quiet)
+    from ..planning.budgets import accepts
     from ..planning.sweep import run_sweep
 
-    limits = {"seed": seed} | ({"max_evaluations": evaluations} if planner == "genetic" else {"max_stances": stances})
+    stated = {"max_evaluations": evaluations, "max_stances": stances}
+    limits = {"seed": seed} | {option: most for option, most in stated.items() if accepts(planner, option)}
     result = run_sweep(
         task,
         axes,

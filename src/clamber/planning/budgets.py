@@ -71,5 +71,5 @@ def contenders() -> tuple[Contender, ...]:
 
 
 def accepts(planner: str, option: str) -> bool:
-    """Whether a planner has an option."""
-    return option in inspect.signature(PLANNERS[planner]).parameters
+    """Whether there is such a planner, with such an option."""
+    return planner in PLANNERS and option in inspect.signature(PLANNERS[planner]).parameters

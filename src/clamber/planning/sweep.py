@@ -25,8 +25,20 @@ NO_START: Final = "no start"
 """Status of a point whose task can't begin: its values contradict each other, or its start violates a hard check."""
 FAILED: Final = "failed"
 """Status of a point whose planner raised an error or died."""
-_FIRST_LOOP: Final = {"exact": "expand", "genetic": "rollout"}
-_SMALLEST: Final[dict[str, dict[str, Any]]] = {"exact": {"max_stances": 1}, "genetic": {"max_evaluations": 1}}
+_FIRST_LOOP: Final = {
+    "exact": "expand",
+    "genetic": "rollout",
+    "greedy": "greedy",
+    "random": "burst",
+    "mcts": "simulate",
+}
+_SMALLEST: Final[dict[str, dict[str, Any]]] = {
+    "exact": {"max_stances": 1},
+    "genetic": {"max_evaluations": 1},
+    "greedy": {"max_checks": 1},
+    "random": {"max_checks": 1},
+    "mcts": {"max_checks": 1},
+}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
