@@ -1,7 +1,7 @@
 """How each planner did: shares, medians and gaps over any part of the contest, and whether anything contradicts a proof."""
 
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Collection
 from dataclasses import dataclass
 from statistics import median
 
@@ -107,7 +107,7 @@ def ranking(contest: Contest, truths: dict[str, Truth]) -> list[Standing]:
     return sorted(told, key=_order)
 
 
-def _order(one: Standing) -> Sequence[float]:
+def _order(one: Standing) -> tuple[float, float, float]:
     share = one.solved / one.trials if one.trials else 0.0
     return (-share, _last(one.gap), _last(one.cost))
 

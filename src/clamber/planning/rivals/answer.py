@@ -54,9 +54,9 @@ class Hunt:
 
     @property
     def is_over(self) -> bool:
-        """Whether the budget is spent."""
+        """Whether the budget is spent, or no shorter plan can be."""
         late = self.seconds is not None and time.monotonic() - self.started >= self.seconds
-        return late or self.checks >= self.max_checks
+        return late or self.checks >= self.max_checks or self.longest <= 0
 
     @property
     def longest(self) -> int:

@@ -13,7 +13,7 @@ from .greedy_kernels import BEST, CHECKS, EXHAUSTED, FOUND, FULL, GOAL, NODES, O
 from .guidance import guidance
 
 MAX_STANCES: Final = 2_000_000
-"""Stances kept unless told otherwise: about 130 bytes each for the climber."""
+"""Stances kept unless told otherwise: about 115 bytes each for the climber."""
 QUOTA: Final = 5000
 """Stances expanded between looks at the clock."""
 

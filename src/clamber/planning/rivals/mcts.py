@@ -14,7 +14,8 @@ from .guidance import guidance
 from .mcts_kernels import CHECKS, DEAD, EDGES, NODES, TABU, enter, simulate
 
 MAX_STANCES: Final = 500_000
-"""Nodes kept unless told otherwise: about 150 bytes each for the climber, edges included. A full tree is dropped but for its root."""
+"""Nodes kept unless told otherwise: about 160 bytes each for the climber, edges included. A full tree is dropped, and a new
+one grows from the action that it favours."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +60,7 @@ def plan_mcts(
         threads: The search runs on one.
         max_checks: Most actions to judge.
         max_stances: Memory: most nodes of the tree.
-        progress: Called after every commitment.
+        progress: Called after every descent.
         settings: How the tree is searched.
 
     Returns:
@@ -71,7 +72,9 @@ def plan_mcts(
     hunt = Hunt("mcts", task, seed, max_checks, seconds, progress)
     tree = _Tree(hunt, min(max_stances, max_checks + 1), settings or Settings())
     try:
-        while not hunt.is_over and hunt.longest >= 0:
+        before = -1
+        while not hunt.is_over and hunt.checks > before:
+            before = hunt.checks
             tree.descend()
             hunt.tell()
     except KeyboardInterrupt:
@@ -93,7 +96,8 @@ class _Tree:
         self.hunt, self.settings = hunt, settings
         self.descents = 0
         self.weights = guidance(problem)
-        capacity, edges = most + 2 * problem.branching, 4 * most + 2 * problem.branching
+        capacity = max(most, LONGEST) + 2 * problem.branching  # the way to the root always has room
+        edges = 4 * capacity
         words = problem.key_words
         self.keys = np.zeros((capacity, words), np.int64)
         self.visits, self.first, self.count = (np.zeros(capacity, np.int32) for _ in range(3))
@@ -126,9 +130,6 @@ class _Tree:
                 codes = np.concatenate([way, self.plan[:length]]).astype(np.int32)
                 hunt.take(codes, np.inf, found=True)
                 continue
-            if state[NODES] + len(self.codes) > len(self.keys) or state[EDGES] + len(self.codes) > len(self.child_of):
-                root = self._grow_anew(passed)
-                continue
             edge = self._most_visited(root)
             if edge < 0:
                 break
@@ -140,6 +141,8 @@ class _Tree:
             hunt.take(np.array(way, np.int32), hunt.problem.progress(here), found=hunt.problem.is_done(here))
             if hunt.problem.is_done(here):
                 break
+            if state[NODES] + len(self.codes) > len(self.keys) or state[EDGES] + len(self.codes) > len(self.child_of):
+                root = self._grow_anew(passed)
             stale = 0 if self.scale[1] > furthest else stale + 1
             furthest = max(furthest, self.scale[1])
 

@@ -60,7 +60,9 @@ def plan_random(
     trail, best = (np.zeros(max(1, hunt.longest), np.int32) for _ in range(2))
     number = 0
     try:
-        while not hunt.is_over and hunt.longest >= 0:
+        before = -1
+        while not hunt.is_over and hunt.checks > before:
+            before = hunt.checks
             here[:] = problem.start[0]
             way, value, stale, reached = np.zeros(0, np.int32), -np.inf, 0, False
             while not reached and stale < patience and not hunt.is_over:
