@@ -12,7 +12,20 @@ import numpy as np
 from numba import from_dtype, types
 from numba.extending import overload
 
-SCALARS = ("step", "candidates", "key", "restore", "measure", "bound", "freer", "done", "cell", "spot", "aims", "burden")
+SCALARS = (
+    "step",
+    "candidates",
+    "key",
+    "restore",
+    "measure",
+    "bound",
+    "freer",
+    "done",
+    "cell",
+    "spot",
+    "aims",
+    "burden",
+)
 FAMILIES: dict[types.Type, dict[str, Any]] = {}
 
 

@@ -18,6 +18,9 @@ def plan(
     seed: Annotated[int, typer.Option(min=0, help="Same seed, same plan, on any number of threads.")] = 0,
     threads: Annotated[int | None, typer.Option(min=1, help="Threads; one a core unless given.")] = None,
     evaluations: Annotated[int, typer.Option(min=1, help="Most whole plans to try.")] = 50_000,
+    checks: Annotated[
+        int | None, typer.Option(min=1, help="Most single actions to judge, for planners that count them.")
+    ] = None,
     seconds: Annotated[float | None, typer.Option(min=0.0, help="Most time to take.")] = None,
     checkpoint: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Write the state of the search here, and go on from it.")
@@ -48,15 +51,14 @@ def plan(
     from ..tasks import load_task
 
     problem = load_task(task, overrides or ())
-    from .sweep_text import announced_loop
-
-    announce_compilation(announced_loop("exact" if pareto is not None else planner), quiet=quiet)
+    from ..planning.budgets import accepts
     from ..planning.learning import load_macros
-    from ..planning.planners import PLANNERS
+    from ..planning.planners import FIRST_LOOPS, PLANNERS
     from .plan_text import ProgressLine, print_result
 
     if planner not in PLANNERS:
         raise UnknownNameError("planner", planner, tuple(PLANNERS))
+    announce_compilation(FIRST_LOOPS["exact" if pareto is not None else planner], quiet=quiet)
     if pareto is not None:
         from .front import front
 
@@ -76,6 +78,10 @@ def plan(
         raise typer.BadParameter(
             "only the genetic planner takes --checkpoint, --macros and --history", param_hint="--planner"
         )
+    if checks is not None:
+        if not accepts(planner, "max_checks"):
+            raise typer.BadParameter(f"the {planner} planner has no limit in single actions", param_hint="--checks")
+        options["max_checks"] = checks
     with ProgressLine(stderr(), quiet=quiet) as line:
         result = PLANNERS[planner](problem, progress=line.update, **options)
     if output is not None:

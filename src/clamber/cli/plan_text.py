@@ -11,13 +11,15 @@ from ..actions.plan import Plan
 from ..actions.plan_families import plan_family
 from ..planning.genetic.learning import Macro
 from ..planning.learning import Lesson
-from ..planning.progress import Exploring, Progress, Routing
+from ..planning.progress import Exploring, Moment, Progress, Routing, Trying
 from ..planning.result import Furthest, PlanResult
 from ..tasks import Task
 from ..units import OZ_IN
 
 STEADY = 20
 """Where stderr is no terminal, every so many generations get a line."""
+CHECKS_TOLD = 500_000
+"""The same for searches that count single actions."""
 
 
 class ProgressLine:
@@ -40,7 +42,7 @@ class ProgressLine:
         if self._live is not None and not self._quiet:
             self._live.stop()
 
-    def update(self, progress: Progress | Exploring | Routing) -> None:
+    def update(self, progress: Moment) -> None:
         """Show one moment of the search."""
         if self._quiet:
             return
@@ -51,20 +53,24 @@ class ProgressLine:
             self._console.print(progress_text(progress), soft_wrap=True)
 
 
-def _turn(progress: Progress | Exploring | Routing) -> int:
+def _turn(progress: Moment) -> int:
     """What counts up while a search goes on."""
     if isinstance(progress, Routing):
         return round(100.0 * progress.share)
+    if isinstance(progress, Trying):
+        return progress.checks // CHECKS_TOLD * STEADY
     return progress.generation if isinstance(progress, Progress) else int(progress.lower_bound)
 
 
-def progress_text(progress: Progress | Exploring | Routing) -> str:
+def progress_text(progress: Moment) -> str:
     """One moment of a search in a line of at most 80 columns."""
     if isinstance(progress, Routing):
         return f"{progress.stances} stances, {progress.actions} actions, {100.0 * progress.share:.0f} % of the way"
     if isinstance(progress, Exploring):
         return f"{progress.stances} stances, {_bound_text(progress)}"
     best = "" if progress.best_length is None else f", found {progress.best_length} actions"
+    if isinstance(progress, Trying):
+        return f"{progress.checks} actions judged, progress {progress.value:.2f}{best}"
     return (
         f"generation {progress.generation}, {progress.evaluations} plans, fitness {progress.best_fitness:.2f}, "
         f"{progress.furthest} steps, goal {progress.stage}/{progress.stages}{best}"

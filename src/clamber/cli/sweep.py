@@ -48,13 +48,16 @@ def sweep(
     axes = [*map(range_axis, vary or ()), *map(values_axis, values or ())]
     check_axes(axes)
     marks = [read_mark(text, axes) for text in mark or ()]
-    from .sweep_text import announced_loop, print_sweep
+    from ..planning.budgets import accepts
+    from ..planning.planners import FIRST_LOOPS
+    from .sweep_text import print_sweep
 
     if ray is None:
-        announce_compilation(announced_loop(planner), quiet=quiet)
+        announce_compilation(FIRST_LOOPS.get(planner, "rollout"), quiet=quiet)
     from ..planning.sweep import run_sweep
 
-    limits = {"seed": seed} | ({"max_evaluations": evaluations} if planner == "genetic" else {"max_stances": stances})
+    stated = {"max_evaluations": evaluations, "max_stances": stances}
+    limits = {"seed": seed} | {option: most for option, most in stated.items() if accepts(planner, option)}
     result = run_sweep(
         task,
         axes,

@@ -10,11 +10,6 @@ from ..units import OZ_IN, split_quantity
 from .output import plain_table
 
 
-def announced_loop(planner: str) -> str:
-    """The compiled loop that a planner's first run needs."""
-    return "explore_some" if planner == "exact" else "rollout"
-
-
 def print_sweep(console: Console, sweep: Sweep, output: Path | None) -> None:
     """Print the points as a table, and the reasons of those without a plan, once each."""
     numbers = ("actions", "least", "largest", "s")

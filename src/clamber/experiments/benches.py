@@ -5,6 +5,7 @@ from typing import Final
 
 from .ablation import bench_ablation
 from .batches import batch_rows
+from .boards.bench import bench_boards
 from .proofs import bench_exact
 from .races import race_rows
 from .reductions import filter_rows, macro_rows
@@ -29,6 +30,7 @@ BENCHES: Final[dict[str, Callable[..., list[Row]]]] = {
     "ablation": bench_ablation,
     "walls": wall_rows,
     "jobs": batch_rows,
+    "boards": bench_boards,
 }
 """Name -> benchmark; the command line's choices and the tests read it. Each can be called without arguments, or with `say`."""
 

@@ -45,4 +45,17 @@ class Routing:
     """Of the way that it has behind it [-]."""
 
 
-Listener = Callable[[Progress | Exploring | Routing], None]
+@dataclass(frozen=True, slots=True)
+class Trying:
+    """One moment of a search that tries actions one by one and proves nothing."""
+
+    checks: int
+    """Actions judged."""
+    value: float
+    """What the best stance is worth."""
+    best_length: int | None
+    """Actions of the best plan that reaches the goal."""
+
+
+Moment = Progress | Exploring | Routing | Trying
+Listener = Callable[[Moment], None]

@@ -77,6 +77,8 @@ class PlanResult:
     first_length: int | None = None
     """Actions of the first plan found, before it was polished."""
     first_evaluations: int | None = None
+    first_checks: int | None = None
+    """Actions judged up to the first plan."""
     history: tuple[Generation, ...] = ()
     macros: tuple[Macro, ...] = field(default=())
 
@@ -112,6 +114,7 @@ class PlanResult:
             "model": self.model,
             "first_length": self.first_length,
             "first_evaluations": self.first_evaluations,
+            "first_checks": self.first_checks,
             "furthest": None if self.furthest is None else self.furthest.to_json(),
             "macros": [
                 {"name": macro.name, "length": len(macro.codes), "gain_m": macro.gain, "starts": macro.starts}

@@ -7,7 +7,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 from .. import __version__
 from ..compiled import is_compiled
@@ -18,15 +18,16 @@ from ..tasks import Task, load_task, task_from_document
 from ..types import Json
 from ..units import OZ_IN
 from .axes import Axis, Mark, check_axes
-from .planners import PLANNERS
+from .budgets import accepts
+from .planners import FIRST_LOOPS, PLANNERS
 
 SUCCESS: Final = ("optimal", "found")
 NO_START: Final = "no start"
 """Status of a point whose task can't begin: its values contradict each other, or its start violates a hard check."""
 FAILED: Final = "failed"
 """Status of a point whose planner raised an error or died."""
-_FIRST_LOOP: Final = {"exact": "explore_some", "genetic": "rollout"}
-_SMALLEST: Final[dict[str, dict[str, Any]]] = {"exact": {"max_stances": 1}, "genetic": {"max_evaluations": 1}}
+_SMALLEST: Final = ("max_checks", "max_evaluations", "max_stances")
+"""Options that make a search as small as can be."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -226,9 +227,10 @@ def _load(name: str, overrides: Sequence[str]) -> Task | SpecError:
 
 def _compile(tasks: Sequence[Task], planner: str) -> None:
     """Compile the kernels here, once, and not in every worker at the same time."""
-    if is_compiled(_FIRST_LOOP[planner]) and is_compiled("replay"):
+    if is_compiled(FIRST_LOOPS[planner]) and is_compiled("replay"):
         return
+    least = {option: 1 for option in _SMALLEST if accepts(planner, option)}
     for task in tasks:
         with suppress(ClamberError):
-            PLANNERS[planner](task, threads=1, **_SMALLEST[planner]).check()
+            PLANNERS[planner](task, threads=1, **least).check()
             return
