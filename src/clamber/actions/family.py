@@ -12,7 +12,7 @@ import numpy as np
 from numba import from_dtype, types
 from numba.extending import overload
 
-SCALARS = ("step", "candidates", "key", "restore", "measure", "bound", "done", "cell")
+SCALARS = ("step", "candidates", "key", "restore", "measure", "bound", "done", "cell", "toward")
 FAMILIES: dict[types.Type, dict[str, Any]] = {}
 
 
@@ -68,6 +68,11 @@ def cell(p, s):  # type: ignore[no-untyped-def]
     raise TypeError("called from kernels only")
 
 
+def toward(p, s, t):  # type: ignore[no-untyped-def]
+    """An admissible, consistent number of actions from the stance `s` to the key of the stance `t`."""
+    raise TypeError("called from kernels only")
+
+
 overload(step)(lambda p, before, code, after, margins: _chosen("step", p))
 overload(candidates)(lambda p, s, codes: _chosen("candidates", p))
 overload(key)(lambda p, s, words: _chosen("key", p))
@@ -76,3 +81,4 @@ overload(measure)(lambda p, s, row: _chosen("measure", p))
 overload(bound)(lambda p, s: _chosen("bound", p))
 overload(done)(lambda p, s: _chosen("done", p))
 overload(cell)(lambda p, s: _chosen("cell", p))
+overload(toward)(lambda p, s, t: _chosen("toward", p))

@@ -1,7 +1,7 @@
 """The limbed climber's `Problem`: a task turned into the arrays that the kernels read, and its start stance."""
 
 import math
-from typing import Final
+from typing import Final, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -19,6 +19,7 @@ from .inventory import most_in_reach, whole_kinds
 from .limbed import step
 from .limbed_goals import FEATURES, done, measure
 from .limbed_keys import KEY_WORDS, bound, candidates, cell, key, restore
+from .limbed_toward import toward
 from .loops import replay
 from .params import Params
 from .problem import CompiledProblem, Records
@@ -41,6 +42,7 @@ family_kernels(
     bound=bound,
     done=done,
     cell=cell,
+    toward=toward,
 )
 
 
@@ -95,6 +97,12 @@ class LimbedProblem(CompiledProblem):
         """The feature `body` of a stance that has met every goal [m]."""
         last = self.params.array("goals")[-1]
         return float(last["before"] + last["way"])
+
+    def without_more_hangs(self, stance: Records) -> Self:
+        """The same problem where no way may hang more often than the way to `stance` did, so that bodies stay on its lattice."""
+        if "hangs" not in self.task.rules.hard:
+            return self
+        return self.with_rules(max_hangs=int(stance["hangs"][0]))
 
     def is_done(self, stance: Records) -> bool:
         """Whether a stance has met every goal."""

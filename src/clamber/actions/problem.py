@@ -215,6 +215,18 @@ class CompiledProblem:
             other.start = start
         return other
 
+    def with_rules(self, **fields: int) -> Self:
+        """The same problem with some fields of its parameters changed; it works on one thread."""
+        other = copy.copy(self)
+        other.params = self.params.with_fields(**fields)
+        other.threads, other._pool, other._kept = 1, None, []
+        other._scratch = [other._make_scratch()]
+        return other
+
+    def without_more_hangs(self, stance: Records) -> Self:
+        """The same problem without the actions that `toward` can't bound, for ways that start at `stance`; most families have none."""
+        return self
+
     def resolve(self, codes: npt.NDArray[np.int32], stances: Records) -> npt.NDArray[np.int32]:
         """Codes with every choice that the world made for them written down; `stances` are those of the plan's replay."""
         return codes
