@@ -19,6 +19,7 @@ SCALARS = (
     "restore",
     "measure",
     "bound",
+    "toward",
     "freer",
     "done",
     "cell",
@@ -86,6 +87,11 @@ def cell(p, s):  # type: ignore[no-untyped-def]
     raise TypeError("called from kernels only")
 
 
+def toward(p, s, t):  # type: ignore[no-untyped-def]
+    """An admissible, consistent number of actions from the stance `s` to the key of the stance `t`."""
+    raise TypeError("called from kernels only")
+
+
 def spot(p, s, words):  # type: ignore[no-untyped-def]
     """Write where a stance is: x, y, angle of the body in ticks, then the hold of each limb, -1 where it is free."""
     raise TypeError("called from kernels only")
@@ -113,3 +119,4 @@ overload(cell)(lambda p, s: _chosen("cell", p))
 overload(spot)(lambda p, s, words: _chosen("spot", p))
 overload(aims)(lambda p, s, k: _chosen("aims", p))
 overload(burden)(lambda p, s, spare, margins, row: _chosen("burden", p))
+overload(toward)(lambda p, s, t: _chosen("toward", p))

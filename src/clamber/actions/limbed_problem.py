@@ -23,6 +23,7 @@ from .limbed_freer import freer
 from .limbed_goals import FEATURES, done, measure
 from .limbed_keys import ANY_HOLD, KEY_WORDS, bound, candidates, cell, key, restore
 from .limbed_map import BURDENS, aims, burden, spot
+from .limbed_toward import toward
 from .loops import replay
 from .params import Params
 from .problem import CompiledProblem, Records
@@ -52,6 +53,7 @@ family_kernels(
     spot=spot,
     aims=aims,
     burden=burden,
+    toward=toward,
 )
 
 
@@ -111,6 +113,12 @@ class LimbedProblem(CompiledProblem):
         """The feature `body` of a stance that has met every goal [m]."""
         last = self.params.array("goals")[-1]
         return float(last["before"] + last["way"])
+
+    def without_more_hangs(self, stance: Records) -> Self:
+        """The same problem where no way may hang more often than the way to `stance` did, so that bodies stay on its lattice."""
+        if "hangs" not in self.task.rules.hard:
+            return self
+        return self.with_rules(max_hangs=int(stance["hangs"][0]))
 
     def is_done(self, stance: Records) -> bool:
         """Whether a stance has met every goal."""

@@ -46,3 +46,10 @@ class Params:
         """The same parameters with scratch of their own."""
         own = {"work": np.zeros_like(self._arrays["work"])} if "work" in self._arrays else {}
         return Params(self._record.copy(), **{**self._arrays, **own})
+
+    def with_fields(self, **fields: int) -> "Params":
+        """The same parameters with some fields of the record changed, and scratch of their own."""
+        other = self.for_thread()
+        for name, value in fields.items():
+            other.record[name] = value
+        return other

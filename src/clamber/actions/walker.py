@@ -242,6 +242,23 @@ def burden(p, s, spare, margins, row):
     """Nothing: the model has no forces."""
 
 
+@kernel
+def toward(p, s, t):
+    """An admissible, consistent number of actions from a stance to another's key.
+
+    A move takes the lifted frame one step or turn; only a swap changes which frame that is. A frame that stands now and at the end, and
+    has to move in between, takes two swaps.
+    """
+    moves = 0.0
+    for f in range(2):
+        turn = (t.ticks[f, 2] - s.ticks[f, 2]) % p.turn_ticks
+        ticks = abs(t.ticks[f, 0] - s.ticks[f, 0]) + abs(t.ticks[f, 1] - s.ticks[f, 1]) + min(turn, p.turn_ticks - turn)
+        moves += math.ceil(ticks / TICKS)
+        if f == s.stands and s.stands == t.stands and ticks > 0:
+            moves += 2.0
+    return moves + (1.0 if s.stands != t.stands else 0.0)
+
+
 family_kernels(
     WALKER_PARAMS,
     step=step,
@@ -256,4 +273,5 @@ family_kernels(
     spot=spot,
     aims=aims,
     burden=burden,
+    toward=toward,
 )
