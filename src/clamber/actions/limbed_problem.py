@@ -23,6 +23,8 @@ from .limbed_freer import freer
 from .limbed_goals import FEATURES, done, measure
 from .limbed_keys import ANY_HOLD, KEY_WORDS, bound, candidates, cell, key, restore
 from .limbed_map import BURDENS, aims, burden, spot
+from .limbed_mirror import reflect
+from .limbed_symmetry import mirrored_code, with_mirror
 from .limbed_toward import toward
 from .loops import replay
 from .params import Params
@@ -48,6 +50,7 @@ family_kernels(
     measure=measure,
     bound=bound,
     freer=freer,
+    reflect=reflect,
     done=done,
     cell=cell,
     spot=spot,
@@ -81,10 +84,14 @@ class LimbedProblem(CompiledProblem):
         assert len(FEATURE_NAMES) == FEATURES
 
     def informed(self) -> Self:
-        """The same problem whose `bound` is the fewest actions of the relaxed problem."""
+        """The same problem whose `bound` is the fewest actions of the relaxed problem, and which knows its own symmetry."""
         other = copy.copy(self)
-        other.params = with_bound(self.params)
+        other.params = with_bound(with_mirror(self.params))
         return other
+
+    def mirrored(self, code: int) -> int:
+        """The mirror image of an action, in a problem that is its own mirror image."""
+        return mirrored_code(self.params, code)
 
     @property
     def incomplete(self) -> str | None:

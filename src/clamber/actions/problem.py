@@ -305,8 +305,12 @@ class CompiledProblem:
         return self.way - self.progress(stance)
 
     def informed(self) -> Self:
-        """The same problem with the best `bound` that its family knows, for exact search; the answer is the same with or without."""
+        """The same problem with all that its family knows of bounds and symmetry, for exact search; the answer is the same with or without."""
         return self
+
+    def mirrored(self, code: int) -> int:
+        """The mirror image of an action, in a problem that is its own mirror image."""
+        raise NotImplementedError
 
     @property
     def incomplete(self) -> str | None:
