@@ -98,4 +98,4 @@ def _value(value: float, column: str) -> str:
         return "no limit" if value > 0 else "-"
     if column.endswith("_Nm"):
         return f"{value:.2f} N m ({value / OZ_IN:.0f} oz-in)"
-    return f"{value:.3g} {column.rpartition('_')[2]}"
+    return f"{value:.4g} {column.rpartition('_')[2]}"
