@@ -45,6 +45,7 @@ UNITS: Final[dict[str, dict[str, float]]] = {
     "power": {"W": 1.0, "mW": 1e-3},
     "time": {"s": 1.0, "ms": 1e-3, "min": 60.0},
     "frequency": {"Hz": 1.0, "kHz": 1e3},
+    "number per area": {"1/m^2": 1.0, "1/ft^2": 1.0 / (12 * INCH) ** 2},
     "ratio": {"1": 1.0, "%": 0.01},
 }
 """Dimension -> unit -> its size in the SI unit, which stands first."""
@@ -54,6 +55,7 @@ _NAMES: Final = {
     "degree": "deg", "degrees": "deg", "°": "deg", "radian": "rad", "radians": "rad", "turns": "turn",
     "ozfin": "ozin", "ozfin/A": "ozin/A", "lbin": "lbfin", "lbft": "lbfft",
     "kgm²": "kgm2", "kgcm²": "kgcm2", "gcm²": "gcm2",
+    "/m2": "1/m2", "holds/m2": "1/m2", "/m²": "1/m2", "holds/m²": "1/m2", "1/m²": "1/m2", "/ft2": "1/ft2", "holds/ft2": "1/ft2",
     "newton": "N", "newtons": "N", "watt": "W", "Ohm": "ohm", "Ω": "ohm", "sec": "s",
 }  # fmt: skip
 _NUMBER: Final = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*\Z", re.DOTALL)
@@ -228,6 +230,8 @@ PositiveAmplifierGain = Annotated[float, Quantity("amplifier gain", above=0.0)]
 PositiveAngularSpeed = Annotated[float, Quantity("angular speed", above=0.0)]
 PositivePower = Annotated[float, Quantity("power", above=0.0)]
 PositiveTime = Annotated[float, Quantity("time", above=0.0)]
+PositiveDensity = Annotated[float, Quantity("number per area", above=0.0)]
+"""Things per area [1/m^2]."""
 PositiveFrequency = Annotated[float, Quantity("frequency", above=0.0)]
 Ratio = Annotated[float, Quantity("ratio")]
 PositiveRatio = Annotated[float, Quantity("ratio", above=0.0)]

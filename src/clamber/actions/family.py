@@ -12,7 +12,20 @@ import numpy as np
 from numba import from_dtype, types
 from numba.extending import overload
 
-SCALARS = ("step", "candidates", "key", "restore", "measure", "bound", "done", "cell", "spot", "aims", "burden")
+SCALARS = (
+    "step",
+    "candidates",
+    "key",
+    "restore",
+    "measure",
+    "bound",
+    "freer",
+    "done",
+    "cell",
+    "spot",
+    "aims",
+    "burden",
+)
 FAMILIES: dict[types.Type, dict[str, Any]] = {}
 
 
@@ -58,6 +71,11 @@ def bound(p, s):  # type: ignore[no-untyped-def]
     raise TypeError("called from kernels only")
 
 
+def freer(p, s, which, t):  # type: ignore[no-untyped-def]
+    """Write the stance number `which` that can do all that a stance can, and maybe more; False if there is none of that number."""
+    raise TypeError("called from kernels only")
+
+
 def done(p, s):  # type: ignore[no-untyped-def]
     """Whether a stance has met every goal."""
     raise TypeError("called from kernels only")
@@ -89,6 +107,7 @@ overload(key)(lambda p, s, words: _chosen("key", p))
 overload(restore)(lambda p, words, s: _chosen("restore", p))
 overload(measure)(lambda p, s, row: _chosen("measure", p))
 overload(bound)(lambda p, s: _chosen("bound", p))
+overload(freer)(lambda p, s, which, t: _chosen("freer", p))
 overload(done)(lambda p, s: _chosen("done", p))
 overload(cell)(lambda p, s: _chosen("cell", p))
 overload(spot)(lambda p, s, words: _chosen("spot", p))

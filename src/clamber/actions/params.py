@@ -1,5 +1,7 @@
 """A family's parameters for its kernels: one record that holds the addresses of arrays, and the arrays kept alive."""
 
+from collections.abc import Mapping
+
 import numpy as np
 import numpy.typing as npt
 
@@ -32,6 +34,13 @@ class Params:
     def array(self, name: str) -> AnyArray:
         """One of the arrays."""
         return self._arrays[name]
+
+    def extended(self, fields: Mapping[str, float], **arrays: AnyArray) -> "Params":
+        """The same parameters with some fields of the record set, and further arrays."""
+        record = self._record.copy()
+        for name, value in fields.items():
+            record[name] = value
+        return Params(record, **{**self._arrays, **arrays})
 
     def for_thread(self) -> "Params":
         """The same parameters with scratch of their own."""

@@ -226,15 +226,24 @@ class CompiledProblem:
         """Codes that say what to do from where the robot is, rather than name places; `stances` are those of the plan's replay."""
         return codes
 
+    def measured(self, stances: Records) -> npt.NDArray[np.float64]:
+        """Features of stances as actions led to them, shape (n, n_features)."""
+        rows = np.zeros((len(stances), len(self.features)))
+        for i, row in enumerate(rows):
+            features_of(self.params.record, stances[i : i + 1], row)
+        return rows
+
     def progress(self, stance: Records) -> float:
         """The feature `body` of a stance (array of one record): how far along the goals the body is [m]."""
-        row = np.zeros(len(self.features))
-        features_of(self.params.record, stance, row)
-        return float(row[self.features.index("body")])
+        return float(self.measured(stance)[0, self.features.index("body")])
 
     def way_left(self, stance: Records) -> float:
         """How far the body still has to go along the goals from a stance (array of one record) [m]."""
         return self.way - self.progress(stance)
+
+    def informed(self) -> Self:
+        """The same problem with the best `bound` that its family knows, for exact search; the answer is the same with or without."""
+        return self
 
     @property
     def incomplete(self) -> str | None:

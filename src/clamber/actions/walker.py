@@ -177,6 +177,19 @@ def restore(p, words, s):
 
 
 @kernel
+def freer(p, s, which, t):
+    """Write the stance number `which` that has met more goals; False if there is none of that number.
+
+    The goals that it still needs are the last of those that `s` needs, and every action is judged alike there.
+    """
+    if which >= p.n_goals - 1 - s.stage:
+        return False
+    copy_stance(s, t)
+    t.stage = s.stage + 1 + which
+    return True
+
+
+@kernel
 def candidates(p, s, codes):
     """Every different action from a stance; returns their number, which is seven."""
     for axis in range(SLIDES_AND_TURNS):
@@ -237,6 +250,7 @@ family_kernels(
     restore=restore,
     measure=measure,
     bound=bound,
+    freer=freer,
     done=done,
     cell=cell,
     spot=spot,

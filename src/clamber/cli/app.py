@@ -16,6 +16,7 @@ from .check import check
 from .inventory import inventory
 from .learn import learn
 from .list import list_names
+from .new import new
 from .plan import plan
 from .reach import reach
 from .show import show
@@ -37,6 +38,7 @@ app.command("check")(check)
 app.command("show")(show)
 app.command("bench")(bench)
 app.command("sweep")(sweep)
+app.add_typer(new, name="new")
 app.command("reach")(reach)
 app.command("study")(study)
 

@@ -27,8 +27,35 @@ class Exploring:
 
     stances: int
     """Different stances seen."""
-    lower_bound: int
-    """No plan has fewer actions."""
+    lower_bound: float
+    """No plan has less of what is minimized, in the unit of its feature: actions, N m, W summed over actions."""
+    cost: str = "length"
+    """What is minimized now."""
 
 
-Listener = Callable[[Progress | Exploring], None]
+@dataclass(frozen=True, slots=True)
+class Routing:
+    """One moment of a greedy search."""
+
+    stances: int
+    """Stances seen."""
+    actions: int
+    """Actions of the stance that has the least way left."""
+    share: float
+    """Of the way that it has behind it [-]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Trying:
+    """One moment of a search that tries actions one by one and proves nothing."""
+
+    checks: int
+    """Actions judged."""
+    value: float
+    """What the best stance is worth."""
+    best_length: int | None
+    """Actions of the best plan that reaches the goal."""
+
+
+Moment = Progress | Exploring | Routing | Trying
+Listener = Callable[[Moment], None]

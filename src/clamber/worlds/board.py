@@ -1,7 +1,9 @@
 """A board: numbered holds on a vertical wall, and regions that no part of a robot may enter."""
 
 import math
+from bisect import bisect_left
 from itertools import pairwise
+from operator import attrgetter
 from typing import Annotated, Any, Final
 
 import numpy as np
@@ -17,12 +19,18 @@ from ..units import (
     Length,
     NonNegativeLength,
     Polygon,
+    PositiveDensity,
     PositiveForce,
     PositiveLength,
     Ratio,
 )
+from .scatter import DEFAULT_GAP, MOST_PACKED, GapError, scatter
 
 SCHEMA: Final = "clamber-board-1"
+
+
+SHORT_KEYS: Final = {"spacing": "ladder.width", "rung": "ladder.spacing", "rungs": "ladder.rungs"}
+"""How the climbing literature calls the distances of a ladder: holds apart across, and up -> keys of its board."""
 
 
 @spec
@@ -62,9 +70,9 @@ class Board:
         Raises:
             UnknownHoldError: If the board has none.
         """
-        for hold in self.holds:
-            if hold.number == number:
-                return hold
+        index = bisect_left(self.holds, number, key=attrgetter("number"))
+        if index < len(self.holds) and self.holds[index].number == number:
+            return self.holds[index]
         raise UnknownHoldError(number, self.name, tuple(hold.number for hold in self.holds))
 
     def positions(self) -> Floats:
@@ -142,6 +150,43 @@ class GridSpec:
 
 
 @spec
+class RandomSpec:
+    """Scatters holds at random over a rectangle whose lower left corner is the origin; its height follows from the density."""
+
+    holds: Annotated[int, Field(strict=True, ge=1, le=100_000)]
+    density: PositiveDensity
+    """Holds per area [1/m^2]."""
+    width: PositiveLength | None = None
+    """Of the wall [m]; None: as wide as high."""
+    least_gap: NonNegativeLength | None = None
+    """No two centres are closer [m]; None: half of the mean distance, 1 / sqrt(density)."""
+    seed: Annotated[int, Field(strict=True, ge=0, lt=2**63)] = 0
+    """The same seed gives the same board, on any machine."""
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height of the wall [m]."""
+        area = self.holds / self.density
+        width = math.sqrt(area) if self.width is None else self.width
+        return width, area / width
+
+    @property
+    def gap(self) -> float:
+        """The least distance of two centres [m]."""
+        return DEFAULT_GAP / math.sqrt(self.density) if self.least_gap is None else self.least_gap
+
+    def places(self) -> Floats:
+        """Centres of the holds [m], from the bottom to the top in bands as high as the mean distance, left to right in each.
+
+        Raises:
+            GapError: If so many holds don't find room that far apart.
+        """
+        places = scatter(self.holds, *self.size, self.gap, self.seed)
+        band = np.floor(places[:, 1] * math.sqrt(self.density))
+        return places[np.lexsort((places[:, 1], places[:, 0], band))]
+
+
+@spec
 class BoardSpec:
     """What a board file says: holds one by one, or one generator."""
 
@@ -156,6 +201,7 @@ class BoardSpec:
     holds: tuple[Hold, ...] | None = None
     ladder: LadderSpec | None = None
     grid: GridSpec | None = None
+    random: RandomSpec | None = None
     keep_out: tuple[Polygon, ...] = ()
     """Corners of regions that neither body nor links may enter [m]."""
 
@@ -168,16 +214,22 @@ def build_board(document: Document) -> Board:
     """
     check_schema(document, SCHEMA)
     stated = build_spec(BoardSpec, _with_radius(document), without=("schema",))
-    given = [key for key in ("holds", "ladder", "grid") if getattr(stated, key) is not None]
+    given = [key for key in ("holds", "ladder", "grid", "random") if getattr(stated, key) is not None]
     if len(given) != 1:
         said = " and ".join(given) or "none"
-        raise document.problem("holds", f"a board states exactly one of 'holds', [ladder], [grid]; here: {said}")
-    generator = stated.ladder or stated.grid
+        allowed = f"a board states exactly one of 'holds', [ladder], [grid], [random]; here: {said}"
+        raise document.problem("holds", allowed)
+    generator = stated.ladder or stated.grid or stated.random
     if generator is not None and stated.hold_radius is None:
         raise document.problem("hold_radius", "must be given beside a generator, such as '5 mm'")
     if stated.ladder is not None:
         _check_removed(stated.ladder, document)
-    holds = stated.holds if generator is None else generator.holds(stated.hold_radius or 0.0)
+    radius = stated.hold_radius or 0.0
+    if stated.random is not None:
+        holds: tuple[Hold, ...] | None = _random_holds(stated.random, radius, document)
+    else:
+        grown = stated.ladder or stated.grid
+        holds = stated.holds if grown is None else grown.holds(radius)
     holds = tuple(sorted(holds or (), key=lambda hold: hold.number))
     board = Board(name=stated.name, title=stated.title, holds=holds, keep_out=stated.keep_out)
     _check_holds(board, document, given[0])
@@ -199,6 +251,34 @@ def _check_removed(ladder: LadderSpec, document: Document) -> None:
     for number in ladder.removed:
         if not 1 <= number <= 2 * ladder.rungs:
             raise document.problem("ladder.removed", f"must be numbers from 1 to {2 * ladder.rungs}; {number} is not")
+
+
+def _random_holds(random: RandomSpec, radius: float, document: Document) -> tuple[Hold, ...]:
+    """The holds of a random board, by number.
+
+    Raises:
+        SpecError: If they don't find room.
+    """
+    key = "random.density" if random.least_gap is None else "random.least_gap"
+    most = math.sqrt(4.0 * MOST_PACKED / (math.pi * random.density))
+    if random.gap > most:
+        sparser = 4.0 * MOST_PACKED / (math.pi * random.gap**2)
+        allowed = (
+            f"{random.density:.4g} holds/m^2 leave room for gaps of at most {most:.4g} m, not {random.gap:.4g} m; "
+            f"with such gaps the density must be at most {sparser:.4g} holds/m^2"
+        )
+        raise document.problem(key, allowed)
+    if random.gap < 2.0 * radius:
+        allowed = f"the gap is {random.gap:.4g} m, but holds of radius {radius:.4g} m overlap if closer than {2.0 * radius:.4g} m"
+        raise document.problem(key, f"{allowed}; take a larger gap, a lower density or a smaller 'hold_radius'")
+    try:
+        places = random.places()
+    except GapError as error:
+        allowed = (
+            f"only {error.placed} of {random.holds} holds found room {random.gap:.4g} m apart; make the gap smaller"
+        )
+        raise document.problem("random.least_gap", allowed) from None
+    return tuple(Hold(number=number, x=x, y=y, radius=radius) for number, (x, y) in enumerate(places.tolist(), start=1))
 
 
 def _check_holds(board: Board, document: Document, key: str) -> None:

@@ -21,6 +21,7 @@ def plan_genetic(
     seed: int = 0,
     profile: str | Profile = "default",
     max_evaluations: int = 50_000,
+    max_checks: int | None = None,
     seconds: float | None = None,
     threads: int | None = None,
     filters: bool = True,
@@ -35,6 +36,7 @@ def plan_genetic(
         seed: Same seed, same plan, on any number of threads.
         profile: Name or file of a profile, or a profile.
         max_evaluations: Most plans to evaluate, polishing included.
+        max_checks: Most single actions to judge, polishing included; a generation that has begun is finished.
         seconds: Most wall-clock time [s].
         threads: Threads; None for one a core.
         filters: Whether the inventory's filters are applied.
@@ -56,7 +58,7 @@ def plan_genetic(
         problem,
         settings,
         seed=seed,
-        budget=Budget(max_evaluations, seconds),
+        budget=Budget(max_evaluations, seconds, max_checks),
         stages=problem.goals,
         listener=progress,
         checkpoint=checkpoint,
@@ -81,6 +83,7 @@ def plan_genetic(
         furthest=None if outcome.found else furthest_of(task, problem, outcome.codes),
         first_length=outcome.first_length,
         first_evaluations=outcome.first_evaluations,
+        first_checks=outcome.first_checks,
         history=outcome.history,
         macros=outcome.macros,
     )

@@ -41,6 +41,13 @@ class Budget:
     """Most plans to evaluate, polishing included; the first generation is always evaluated."""
     seconds: float | None = None
     """Most wall-clock time [s]; a search that it ends is not repeatable."""
+    checks: int | None = None
+    """Most single actions to judge; a generation that has begun is finished."""
+
+    def allows(self, state: Evolution, more: int, started: float) -> bool:
+        """Whether so many more plans may be evaluated in a search that began at `started` (monotonic clock)."""
+        judged = self.checks is not None and state.checks >= self.checks
+        return state.evaluations + more <= self.evaluations and not judged and not out_of_time(started, self.seconds)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +61,8 @@ class Outcome:
     """Actions of the first plan that reached the goal, before polishing."""
     first_evaluations: int | None
     """Plans evaluated up to it."""
+    first_checks: int | None
+    """Single actions judged up to it."""
     evaluations: int
     checks: int
     history: tuple[Generation, ...]
@@ -73,6 +82,7 @@ class _Run:
     polished: Genes | None = None
     first_length: int | None = None
     first_evaluations: int | None = None
+    first_checks: int | None = None
 
 
 def search(
@@ -116,11 +126,7 @@ def search(
         problem = _with_macros(base, run.macros)
     try:
         tell(listener, problem, run.state, stages)
-        while (
-            not run.state.found
-            and run.state.evaluations + profile.search.population <= budget.evaluations
-            and not out_of_time(started, budget.seconds)
-        ):
+        while not run.state.found and budget.allows(run.state, profile.search.population, started):
             if (
                 profile.search.learned_macros
                 and run.state.generation % LEARN_EVERY == LEARN_EVERY - 1
@@ -146,6 +152,7 @@ def search(
 def _note_success(run: _Run) -> None:
     if run.state.found and run.first_length is None:
         run.first_length, run.first_evaluations = run.state.best_actions, run.state.evaluations
+        run.first_checks = run.state.checks
 
 
 def _polish(
@@ -166,7 +173,7 @@ def _polish(
     most = min(budget.evaluations, run.first_evaluations + profile.search.polish if run.first_evaluations else 0)
     named, start = explicit_problem(problem, state.best)
     genes = start if run.polished is None else _entries(named, run.polished)
-    while state.evaluations + BATCH <= most and run.stale < PATIENCE and not out_of_time(started, budget.seconds):
+    while state.evaluations + BATCH <= most and run.stale < PATIENCE and budget.allows(state, BATCH, started):
         genes, shorter = polish(named, profile, state, genes, seed, run.turn)
         run.polished = named.actions.spell(genes)
         run.turn += 1
@@ -197,8 +204,8 @@ def _outcome(problem: CompiledProblem, run: _Run, interrupted: bool) -> Outcome:
             for _ in range(problem.actions.offsets[g + 1] - problem.actions.offsets[g])
         )[: len(codes)]
     return Outcome(
-        codes, state.found, interrupted, run.first_length, run.first_evaluations, state.evaluations, state.checks,
-        tuple(state.history), tuple(run.macros), names,
+        codes, state.found, interrupted, run.first_length, run.first_evaluations, run.first_checks,
+        state.evaluations, state.checks, tuple(state.history), tuple(run.macros), names,
     )  # fmt: skip
 
 
@@ -239,7 +246,7 @@ class _Keeper:
             "turn": run.turn,
             "stale": run.stale,
             "polished": None if run.polished is None else run.polished.tolist(),
-            "first": [run.first_length, run.first_evaluations],
+            "first": [run.first_length, run.first_evaluations, run.first_checks],
         }
         write_atomically(self.path, json.dumps(data))
 
@@ -289,4 +296,5 @@ def _run_from_json(data: dict[str, Any], problem: CompiledProblem) -> _Run:
     )
     polished = None if data["polished"] is None else np.array(data["polished"], np.int32)
     run = _Run(state, macros, data["turn"], data["stale"], polished)
-    return replace(run, first_length=data["first"][0], first_evaluations=data["first"][1])
+    first_length, first_evaluations, first_checks = data["first"]
+    return replace(run, first_length=first_length, first_evaluations=first_evaluations, first_checks=first_checks)
