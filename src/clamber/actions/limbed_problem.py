@@ -63,6 +63,8 @@ family_kernels(
 class LimbedProblem(CompiledProblem):
     """A limbed climber's task, ready for planners."""
 
+    burdens = BURDENS
+
     def __init__(
         self, task: LimbedTask, actions: ActionTable, *, every_check: bool = False, threads: int | None = None
     ) -> None:
@@ -137,11 +139,6 @@ class LimbedProblem(CompiledProblem):
         params.record["circles"] = 0
         start["laps"], start["bearing"] = 0, 0.0
         return params, start
-
-    @property
-    def burdens(self) -> tuple[str, ...]:
-        """What being in a stance costs: see `limbed_map.burden`."""
-        return BURDENS
 
     @property
     def spot_words(self) -> int:

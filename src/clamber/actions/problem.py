@@ -5,7 +5,7 @@ import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Any, Protocol, Self
+from typing import Any, ClassVar, Protocol, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -113,6 +113,9 @@ class CompiledProblem:
 
     The answer does not depend on the number of threads: every plan is carried out alone.
     """
+
+    burdens: ClassVar[tuple[str, ...]] = ()
+    """Names of what the family's kernel `burden` writes, each with its unit at the end."""
 
     def __init__(
         self,
@@ -346,11 +349,6 @@ class CompiledProblem:
         start = self.start.copy()
         start["stage"] = self.goals
         return self.params.for_thread(), start
-
-    @property
-    def burdens(self) -> tuple[str, ...]:
-        """Names of what the family's kernel `burden` writes, each with its unit at the end."""
-        return ()
 
     @property
     def spot_words(self) -> int:
