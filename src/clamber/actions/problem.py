@@ -308,7 +308,7 @@ class CompiledProblem:
         return self.way - self.progress(stance)
 
     def informed(self) -> Self:
-        """The same problem with all that its family knows of bounds and symmetry, for exact search; the answer is the same with or without."""
+        """The same problem with all that its family knows of bounds and symmetry, for exact search; no answer depends on it."""
         return self
 
     def mirrored(self, code: int) -> int:
