@@ -85,7 +85,7 @@ def set_axes(axes: Axes, task: Task, bounds: Bounds) -> None:
     axes.set_aspect("equal")
     axes.set_facecolor(style.WALL)
     span = max(bounds[1] - bounds[0], bounds[3] - bounds[2]) / size
-    every = next(step for step in (3, 6, 12, 24, 48, 96, 1e9) if span / step <= 8) if unit == "in" else _round(span / 8)
+    every = 3.0 * 2.0 ** max(0, math.ceil(math.log2(span / 24))) if unit == "in" else _round(span / 8)
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_locator(MultipleLocator(every * size))
         axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value / size + 0.0:.0f}"))
