@@ -18,11 +18,11 @@ from clamber.actions.limbed import find_hold
 from clamber.actions.limbed_problem import LimbedProblem
 from clamber.actions.problems import pose_problem
 from clamber.actions.random_task import random_task
+from clamber.actions.ways import way_fields
 from clamber.cli.app import main
 from clamber.errors import PlannerError, SpecError
 from clamber.experiments.rows import Row
 from clamber.experiments.walls import sampled_stances, wall_rows
-from clamber.planning.route.fields import way_fields
 from clamber.planning.route.planner import plan_route
 from clamber.statics.records import STANCE
 from clamber.tasks import load_task
