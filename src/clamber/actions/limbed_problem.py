@@ -31,6 +31,7 @@ from .params import Params
 from .problem import CompiledProblem, Records
 from .relaxed import with_bound
 from .table import ActionTable
+from .ways import WayFields, way_fields
 
 CHECKS: Final = tuple(check.name for check in LIMBED_CHECKS)
 FEATURE_NAMES: Final = ("body", "limbs", "effort", "stages", "length", "unstable", "peak")
@@ -104,6 +105,10 @@ class LimbedProblem(CompiledProblem):
             if whole
             else "rules.allowed names single grabs or releases; exact search takes them as kinds: grab, release"
         )
+
+    def ways(self) -> WayFields:
+        """The map of the wall."""
+        return way_fields(self.task)
 
     @property
     def key_words(self) -> int:

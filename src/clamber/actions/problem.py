@@ -13,6 +13,7 @@ import numpy.typing as npt
 from .loops import expand, features_of, follow, possible, replay, rollout, sprout
 from .params import Params
 from .table import ActionTable
+from .ways import WayFields
 
 MAX_FEATURES = 8
 PIECES = 8
@@ -318,6 +319,10 @@ class CompiledProblem:
     @property
     def incomplete(self) -> str | None:
         """Why `expand` and exact search can't list all that the task allows, or None: they can."""
+        return None
+
+    def ways(self) -> WayFields | None:
+        """About how far it is from every place of the world to each goal; None: the family has no such map."""
         return None
 
     @property
