@@ -1,5 +1,6 @@
 """How well a batch of items uses the cores: efficiency, cost of an item, rows of the store, and the law that follows."""
 
+import json
 import os
 import tempfile
 import time
@@ -36,6 +37,8 @@ class Batch:
     """Until the workers were ready, mean of all [s]."""
     work: float
     """Of the items themselves, all together [s]."""
+    cpu: float
+    """Processor time of the same [s]."""
     held: float
     """From ready to the end of the batch, all workers together [s]."""
 
@@ -47,7 +50,8 @@ def points(n: int) -> list[Json]:
         limits = ("rules.max_hangs=0", "goal.y_min=9in", f"motor.torque_limit={6.0 + 3.0 * k / n} Nm")
         document = load_task("ladder", limits).document
         made.append({"document": document, "planner": "exact", "options": {"max_stances": 5000}})
-    return [{"n": k, "point": point, "warm": made[0]} for k, point in enumerate(made)]
+    warm = json.dumps(made[0])
+    return [{"point": point, "warm": warm} for point in made]
 
 
 def run_batch(items: Sequence[Json], executor: Executor, store: Path) -> Batch:
@@ -60,7 +64,8 @@ def run_batch(items: Sequence[Json], executor: Executor, store: Path) -> Batch:
     ended = time.monotonic()
     ready = {one["process"]: one["ready"] for one in told}
     held = sum(ended - moment for moment in ready.values())
-    return Batch(fmean(ready.values()) - called, sum(one["seconds"] for one in told), held)
+    work, cpu = (sum(one[clock] for one in told) for clock in ("seconds", "cpu"))
+    return Batch(fmean(ready.values()) - called, work, cpu, held)
 
 
 def item_cost(executor: Executor, n: int, store: Path | None) -> float:
@@ -111,9 +116,8 @@ def batch_rows(
             aim = ">= 0.85" if n <= (os.cpu_count() or 1) else None
             rows += [
                 Row(f"efficiency, {items} points on {n} workers, start apart", one.work / batch.held, "share", aim),
-                Row(
-                    f"of that, the points themselves slower than on one worker: on {n}", one.work / batch.work, "share"
-                ),
+                Row(f"time of {n} ready workers that the points took", batch.work / batch.held, "share"),
+                Row(f"processor time of the points, one worker to {n}", one.cpu / batch.cpu, "ratio"),
                 Row(f"start of {n} workers, kernels loaded", batch.start, "s"),
             ]
         say("items that take no time")
@@ -136,6 +140,7 @@ def batch_rows(
                 Row("start of the cluster's workers, kernels loaded", there.start, "s"),
                 Row("an item that takes no time, cluster, stored", driver * 1e6, "us"),
             ]
+    rows.append(Row("load of the machine at that time, this work included", os.getloadavg()[0], "processes"))
     for name, law in laws.items():
         rows += prediction_rows(name, law)
     return rows
