@@ -2,7 +2,9 @@
 
 import math
 import random
+from collections.abc import Generator, Mapping
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,7 +17,9 @@ from clamber.experiments.ablation import TASKS, VARIANTS, bench_ablation, varied
 from clamber.experiments.plain_problem import PlainProblem, plain_module
 from clamber.experiments.rows import NOTHING, Row, median_or_nothing
 from clamber.experiments.scaling import ScalingLaw
-from clamber.experiments.trials import run_trials
+from clamber.experiments.trials import Crew, run_cases, run_trials
+from clamber.jobs import LocalProcesses
+from clamber.jobs.executor import End
 from clamber.planning.genetic.evolve import weights_for
 from clamber.planning.genetic.planner import plan_genetic
 from clamber.planning.genetic.profile import load_profile
@@ -152,3 +156,21 @@ def test_a_small_batch_gives_every_row_of_the_jobs_benchmark() -> None:
     made = {row.name: row.value for row in batches.batch_rows(items=6, workers=(1, 2))}
     assert all(value > 0.0 for value in made.values())
     assert made["time of 2 ready workers that the points took"] <= 1.0
+
+
+def test_cases_on_workers_are_the_trials_in_this_process_and_a_store_keeps_them(tmp_path: Path) -> None:
+    task, profile = load_task("ladder", NEAR), load_profile("default")
+    crew = Crew(executor=LocalProcesses(2), store=tmp_path / "store.db")
+    cases = {"near": (task, profile), "no polishing": (task, varied(profile, {"polish": 0}))}
+    done = run_cases(cases, range(3), crew)
+    assert done["near"] == run_trials(task, profile, range(3))
+    assert done["no polishing"] == run_trials(task, cases["no polishing"][1], range(3))
+    assert run_cases(cases, range(3), replace(crew, executor=Nobody(), resume=True)) == done
+
+
+class Nobody(LocalProcesses):
+    """Runs nothing."""
+
+    def run(self, name: str, items: Mapping[str, str]) -> Generator[End]:
+        assert not items
+        yield from ()

@@ -18,6 +18,7 @@ from ..types import Json
 from .jobs_work import nothing, timed_point
 from .rows import Row, Say, keep_quiet
 from .scaling import GOOD, ScalingLaw
+from .trials import Crew
 
 ITEMS: Final = 1000
 WORKERS: Final = (1, 2, 4)
@@ -92,14 +93,14 @@ def store_rate(n: int, store: Path) -> float:
 
 
 def batch_rows(
-    *, items: int = ITEMS, workers: Sequence[int] = WORKERS, executor: Executor | None = None, say: Say = keep_quiet
+    *, items: int = ITEMS, workers: Sequence[int] = WORKERS, crew: Crew | None = None, say: Say = keep_quiet
 ) -> list[Row]:
     """Efficiency on 1, 2 and 4 local workers, what an item and a stored row cost, and the law's predictions.
 
     Args:
         items: Points of the batch.
         workers: Numbers of local workers.
-        executor: A cluster on this machine whose cost of an item is measured, too, and predicted with.
+        crew: Its executor is a cluster on this machine, measured and predicted with, too; local processes are anyway.
         say: Told on the way.
     """
     rows: list[Row] = []
@@ -130,8 +131,9 @@ def batch_rows(
             Row("rows that the store takes", store_rate(5 * items, Path(folder) / "rows.db"), "rows/s"),
         ]
         laws = {"processes": ScalingLaw(one.start, driver, max(0.0, (one.held - one.work) / items))}
-        if executor is not None:
+        if crew is not None and not crew.executor.here:
             say("the cluster")
+            executor = crew.executor
             there = run_batch(made, executor, Path(folder) / "cluster.db")
             driver = item_cost(executor, items, Path(folder) / "cluster-nothing.db")
             laws["cluster"] = ScalingLaw(there.start, driver, max(0.0, (one.held - one.work) / items))
