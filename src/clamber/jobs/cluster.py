@@ -139,7 +139,7 @@ class RayCluster:
         room, counted = 0, -RECOUNT
         while queue or pending:
             if time.monotonic() - counted > RECOUNT:
-                cores = int(ray.cluster_resources().get("CPU", 0.0))  # type: ignore[no-untyped-call]
+                cores = int(ray.cluster_resources().get("CPU", 0.0))
                 room, counted = self.workers or max(1, AHEAD * cores), time.monotonic()
             while queue and len(pending) < room:
                 key = queue.popleft()
