@@ -18,7 +18,8 @@ from clamber.experiments.boards.contest import Contest, Trial, Truth, run_contes
 from clamber.experiments.boards.standing import contradictions, groups, ranking, standing, within
 from clamber.experiments.boards.tables import rows_of, save_markdown, save_trials, tables
 from clamber.experiments.boards.trial import REFUSED, run_trial
-from clamber.jobs import StoreError
+from clamber.experiments.trials import Crew
+from clamber.jobs import LocalProcesses, StoreError
 from clamber.planning.budgets import Allowance, Contender, accepts, contenders
 from clamber.planning.exact.explore import explore
 from clamber.planning.planners import PLANNERS
@@ -145,8 +146,8 @@ def test_a_contest_resumes_and_tells_the_same_on_two_workers(tmp_path: Path) -> 
     setting = {"cases": [random_case(10, 1), random_case(10, 7)], "entrants": some, "seeds": (0,), "allowance": FEW}
     store = tmp_path / "boards.sqlite"
     alone = run_contest(**setting)  # type: ignore[arg-type]
-    first = run_contest(**setting, workers=2, store=store)  # type: ignore[arg-type]
-    again = run_contest(**setting, store=store, resume=True)  # type: ignore[arg-type]
+    first = run_contest(**setting, crew=Crew(LocalProcesses(2), store))  # type: ignore[arg-type]
+    again = run_contest(**setting, crew=Crew(LocalProcesses(1), store, resume=True))  # type: ignore[arg-type]
     assert again == first
 
     def timeless(trials: tuple[Trial, ...]) -> list[Trial]:
@@ -154,7 +155,7 @@ def test_a_contest_resumes_and_tells_the_same_on_two_workers(tmp_path: Path) -> 
 
     assert timeless(alone.trials) == timeless(first.trials)
     with pytest.raises(StoreError, match="other data"):
-        run_contest(**{**setting, "seeds": (1,)}, store=store, resume=True)  # type: ignore[arg-type]
+        run_contest(**{**setting, "seeds": (1,)}, crew=Crew(LocalProcesses(1), store, resume=True))  # type: ignore[arg-type]
 
 
 def test_a_planner_that_cannot_take_a_task_is_refused_and_not_failed() -> None:
