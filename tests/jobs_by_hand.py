@@ -14,7 +14,7 @@ def square(item: dict[str, Any]) -> dict[str, Any]:
     """Writes that it ran into `item["log"]`; dies at its first try, always, or raises, as the item asks."""
     if "log" in item:
         with Path(item["log"]).open("a") as log:
-            log.write(f"{item['n']}\n")
+            log.write(f"{item['n']} {os.getpid()}\n")
     if "die_once" in item and not Path(item["die_once"]).exists():
         Path(item["die_once"]).touch()
         os.kill(os.getpid(), signal.SIGKILL)
@@ -26,12 +26,13 @@ def square(item: dict[str, Any]) -> dict[str, Any]:
     return {"square": item["n"] ** 2, "blas": os.environ["OPENBLAS_NUM_THREADS"]}
 
 
-def batch(folder: Path) -> list[dict[str, Any]]:
-    return [{"n": n, "log": str(folder / "log"), "sleep": 0.04} for n in range(16)]
+def batch(folder: Path, n: int = 16, sleep: float = 0.04) -> list[dict[str, Any]]:
+    return [{"n": k, "log": str(folder / "log"), "sleep": sleep} for k in range(n)]
 
 
 if __name__ == "__main__":
     from jobs_by_hand import square as importable
 
     place = Path(sys.argv[1])
-    map_items(importable, batch(place), workers=2, store=place / "store.db", resume=True)
+    size = (int(sys.argv[2]), float(sys.argv[3])) if len(sys.argv) > 2 else ()
+    map_items(importable, batch(place, *size), workers=2, store=place / "store.db", resume=True)

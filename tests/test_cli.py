@@ -2,6 +2,7 @@
 
 import json
 import os
+import sqlite3
 import subprocess
 import sys
 from pathlib import Path
@@ -11,6 +12,7 @@ import pytest
 
 import clamber
 from clamber.cli import main
+from clamber.jobs.store import Store
 
 PRINTED = Path(clamber.__file__).parent / "studies" / "bevly_1997" / "plans"
 H_GA = str(PRINTED / "plan_h_ga.toml")
@@ -230,3 +232,36 @@ def test_an_interrupt_leaves_with_130_without_a_traceback(run: Any, monkeypatch:
     monkeypatch.setattr("clamber.actions.plan_source.open_plan", interrupt)
     answer = run("check", LADDER)
     assert answer.code == 130 and "Traceback" not in answer.err
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("--vary", "motor.torque=8Nm..9Nm"), "motor.torque = '8 Nm': unknown key"),
+        (("--vary", "engine.torque_limit=8Nm..9Nm"), "unknown key; a key starts with"),
+        (("--vary", "motor.torque_limit=9Nm..8Nm"), "the range is empty; the first end must be less than the second"),
+        (("--vary", "motor.torque_limit=8Nm..9Nm:2", "--ray", "127.0.0.1:1"), "--ray 127.0.0.1:1: nothing answers there"),
+        (("--vary", "motor.torque_limit=8Nm..9Nm:2", "--store", "other.db"), "holds the results of the sweep of 'h' over"),
+        (("--vary", "motor.torque_limit=8Nm..9Nm:2", "--store", "plain.txt"), "is no store of results"),
+        (("--vary", "motor.torque_limit=8Nm..9Nm:2", "--store", "old.db"), "has the schema 'clamber-jobs-0', not 'clamber-jobs-1'"),
+    ],
+)  # fmt: skip
+def test_a_sweep_that_cannot_be_is_told_before_work_starts(
+    words: tuple[str, ...], message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:  # fmt: skip
+    if "--ray" in words:
+        pytest.importorskip("ray")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("clamber.jobs.local.LocalProcesses.run", lambda *_: pytest.fail("work started"))
+    (tmp_path / "plain.txt").write_text("no database, but longer than the header of one, which has one hundred bytes\n" * 3)
+    other = "the sweep of 'h' over motor.torque_limit"
+    for name, title, schema in (("other", other, "clamber-jobs-1"), ("old", other, "clamber-jobs-0")):
+        Store(tmp_path / f"{name}.db", "another", title, resume=False).__exit__(None, None, None)
+        with sqlite3.connect(tmp_path / f"{name}.db") as file:
+            file.execute("UPDATE about SET value = ? WHERE key = 'schema'", (schema,))
+        file.close()
+    with pytest.raises(SystemExit) as left:
+        main(["sweep", "ladder", *words])
+    assert left.value.code == 2
+    told = " ".join(capsys.readouterr().err.split())
+    assert message in told and "Traceback" not in told

@@ -1,12 +1,15 @@
 """Batches over worker processes: order, deaths of workers and of the whole, stores that refuse what isn't theirs."""
 
+import json
 import os
+import random
 import signal
 import sqlite3
 import subprocess
 import sys
 import time
 from collections import Counter
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -17,7 +20,8 @@ from jobs_by_hand import batch, square
 
 
 def ran(log: Path) -> Counter[int]:
-    return Counter(int(line) for line in log.read_text().split()) if log.exists() else Counter()
+    """How often each item was run."""
+    return Counter(int(line.split()[0]) for line in log.read_text().splitlines()) if log.exists() else Counter()
 
 
 def finished(store: Path) -> int:
@@ -61,10 +65,8 @@ def test_a_batch_stopped_at_several_moments_ends_with_the_same_results_and_runs_
     tmp_path: Path, stop: signal.Signals
 ) -> None:
     store, log = tmp_path / "store.db", tmp_path / "log"
-    path = os.pathsep.join((str(Path(clamber.__file__).parents[1]), str(Path(__file__).parent)))
-    command = [sys.executable, str(Path(__file__).parent / "jobs_by_hand.py"), str(tmp_path)]
     for enough in (1, 4, 9):
-        process = subprocess.Popen(command, env=os.environ | {"PYTHONPATH": path}, stderr=subprocess.DEVNULL)
+        process = start_batch(tmp_path)
         while process.poll() is None and sum(ran(log).values()) < enough:
             time.sleep(0.005)
         process.send_signal(stop)
@@ -80,6 +82,72 @@ def test_a_batch_stopped_at_several_moments_ends_with_the_same_results_and_runs_
     assert [one.stored for one in told].count(True) == kept
     assert all(ran(log)[name] == before[name] for name in names), "a finished item was run again"
     assert finished(store) == 16
+
+
+def start_batch(folder: Path, *size: object) -> "subprocess.Popen[bytes]":
+    path = os.pathsep.join((str(Path(clamber.__file__).parents[1]), str(Path(__file__).parent)))
+    command = [sys.executable, str(Path(__file__).parent / "jobs_by_hand.py"), str(folder), *map(str, size)]
+    return subprocess.Popen(command, env=os.environ | {"PYTHONPATH": path}, stderr=subprocess.DEVNULL)
+
+
+MOMENTS = [3, pytest.param(20, marks=pytest.mark.slow)]
+
+
+@pytest.mark.parametrize("kills", MOMENTS)
+def test_a_whole_batch_killed_at_random_moments_loses_and_repeats_no_finished_item(tmp_path: Path, kills: int) -> None:
+    n, sleep = 12 * kills, 0.02
+    store, log, chance = tmp_path / "store.db", tmp_path / "log", random.Random(kills)
+    kept: set[int] = set()
+    before: Counter[int] = Counter()
+    for _ in range(kills):
+        process = start_batch(tmp_path, n, sleep)
+        least = sum(ran(log).values())
+        while process.poll() is None and sum(ran(log).values()) == least:
+            time.sleep(0.002)  # it has begun
+        time.sleep(chance.uniform(0.0, 10.0 * sleep))
+        process.kill()
+        process.wait(30)
+        time.sleep(0.1)  # its workers leave with it
+        now = ran(log)
+        assert all(now[k] == before[k] for k in kept), "a finished item was run again"
+        rows = rows_of(store)
+        assert kept <= set(rows), "a finished item was lost"
+        kept, before = set(rows), now
+    assert len(kept) > 0
+    told = map_items(square, batch(tmp_path, n, sleep), workers=2, store=store, resume=True)
+    assert all(ran(log)[k] == before[k] for k in kept)
+    assert [one.stored for one in told] == [k in kept for k in range(n)]
+    assert [one.result for one in told] == [one.result for one in map_items(square, [{"n": k} for k in range(n)])]
+
+
+@pytest.mark.parametrize("kills", MOMENTS)
+def test_workers_killed_at_random_moments_lose_and_repeat_no_finished_item(tmp_path: Path, kills: int) -> None:
+    n, sleep = 12 * kills, 0.02
+    store, log, chance = tmp_path / "store.db", tmp_path / "log", random.Random(kills)
+    process = start_batch(tmp_path, n, sleep)
+    before: list[tuple[set[int], Counter[int]]] = []
+    for moment in sorted(chance.sample(range(2, 10 * kills), kills)):
+        while sum(ran(log).values()) < moment:
+            time.sleep(0.002)
+        time.sleep(chance.uniform(0.0, sleep))
+        before.append((set(rows_of(store)), ran(log)))
+        with suppress(ProcessLookupError):
+            os.kill(int(log.read_text().splitlines()[-1].split()[1]), signal.SIGKILL)
+    assert process.wait(60) == 0
+    for kept, counts in before:
+        assert all(ran(log)[k] == counts[k] for k in kept), "a finished item was run again"
+    rows = rows_of(store)
+    assert {k: json.loads(text)["square"] for k, text in rows.items()} == {k: k**2 for k in range(n)}
+    assert sum(ran(log).values()) <= n + kills, "a killed worker takes one item with it"
+
+
+def rows_of(store: Path) -> dict[int, str]:
+    """Item -> result, of what a store has finished."""
+    file = sqlite3.connect(store, timeout=5.0)
+    query = "SELECT json_extract(item, '$.n'), result FROM items WHERE error IS NULL"
+    rows: dict[int, str] = dict(file.execute(query)) if store.exists() and store.stat().st_size else {}
+    file.close()
+    return rows
 
 
 def test_a_store_refuses_what_is_not_its_own(tmp_path: Path) -> None:

@@ -9,8 +9,10 @@ import pytest
 from clamber.cli import main
 from clamber.errors import SpecError, UnknownNameError
 from clamber.jobs import StoreError
-from clamber.planning.axes import Axis, SweepError, check_axes, range_axis, values_axis
+from clamber.planning.axes import Axis, SweepError, check_axes, range_axis, read_mark, values_axis
 from clamber.planning.sweep import Sweep, run_sweep
+from clamber.tasks import load_task
+from clamber.units import INCH
 
 SMALL = ("rules.max_hangs=0", "goal.y_min=15in")
 SETTINGS: dict[str, Any] = {"overrides": SMALL, "options": {"max_stances": 20_000}}
@@ -108,3 +110,27 @@ def test_the_command_prints_json_and_writes_a_file(
     assert left.value.code == 0 and told["found"] == 2 and len(told["points"]) == 2
     content = (tmp_path / name).read_bytes()
     assert content.startswith(b"\x89PNG" if name.endswith("png") else b"motor.torque_limit,status,length,least")
+
+
+def test_a_mark_is_a_value_or_a_range_of_an_axis_in_its_unit() -> None:
+    axes = [range_axis("board.spacing=18in..20in:3"), values_axis("board.rung=6in,7in")]
+    marks = [read_mark("board.spacing=18in..19in", axes), read_mark("board.rung=6in", axes)]
+    sweep = run_sweep("ladder", axes, marks=marks, **SETTINGS)
+    assert [sweep.marked(k) for k in range(6)] == [True, False, True, False, False, False]
+    for text, message in (
+        ("board.rungs=6", "'board.rungs' does not vary; mark board.spacing or board.rung"),
+        ("board.rung=15cm", "is in 'cm'; state the unit of the axis, 'in'"),
+        ("board.rung=x", "'x' is no number and no range"),
+        ("board.rung=7in..6in", "the range is empty"),
+    ):
+        with pytest.raises(SweepError, match=message):
+            read_mark(text, axes)
+
+
+def test_the_start_between_holds_follows_them() -> None:
+    task = load_task("ladder", ("board.spacing=20in", "board.rung=5in"))
+    assert (task.start.x, task.start.y) == pytest.approx((10 * INCH, 5 * INCH))
+    assert load_task("ladder").start.x == pytest.approx(9 * INCH)
+    assert load_task("ladder", ("start.x=8in",)).start.x == pytest.approx(8 * INCH)
+    with pytest.raises(SpecError, match=r"start\.between.*has no hold 99"):
+        load_task("ladder", ("start.between=[3,99]",))

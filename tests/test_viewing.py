@@ -17,6 +17,7 @@ from clamber.actions.limbed_problem import LimbedProblem
 from clamber.actions.problem import Replay
 from clamber.actions.table import ActionTable
 from clamber.actions.walker_problem import WalkerProblem, outline, walker_table
+from clamber.actions.yardsticks import climber_yardsticks, walker_yardsticks
 from clamber.errors import ClamberError, FileError
 from clamber.robots.limbed import Limb
 from clamber.tasks import load_task
@@ -28,7 +29,7 @@ from clamber.viewing.climber import arrow_ends
 from clamber.viewing.frames import make_frames
 from clamber.viewing.geometry import body_outline, joint_angles, limb_chain, postures, stance_posture
 from clamber.viewing.gif import write_gif
-from clamber.viewing.margins import all_limiting, climber_yardsticks, grade, walker_yardsticks
+from clamber.viewing.margins import all_limiting, grade
 from clamber.viewing.motion import Transition, swung_foot
 from clamber.viewing.output import MissingExtraError, StepError, SuffixError
 from clamber.viewing.pictures import animate, draw_route, draw_stance

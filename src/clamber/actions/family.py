@@ -12,7 +12,21 @@ import numpy as np
 from numba import from_dtype, types
 from numba.extending import overload
 
-SCALARS = ("step", "candidates", "key", "restore", "measure", "bound", "done", "cell")
+SCALARS = (
+    "step",
+    "candidates",
+    "key",
+    "restore",
+    "measure",
+    "bound",
+    "toward",
+    "freer",
+    "done",
+    "cell",
+    "spot",
+    "aims",
+    "burden",
+)
 FAMILIES: dict[types.Type, dict[str, Any]] = {}
 
 
@@ -58,6 +72,11 @@ def bound(p, s):  # type: ignore[no-untyped-def]
     raise TypeError("called from kernels only")
 
 
+def freer(p, s, which, t):  # type: ignore[no-untyped-def]
+    """Write the stance number `which` that can do all that a stance can, and maybe more; False if there is none of that number."""
+    raise TypeError("called from kernels only")
+
+
 def done(p, s):  # type: ignore[no-untyped-def]
     """Whether a stance has met every goal."""
     raise TypeError("called from kernels only")
@@ -68,11 +87,36 @@ def cell(p, s):  # type: ignore[no-untyped-def]
     raise TypeError("called from kernels only")
 
 
+def toward(p, s, t):  # type: ignore[no-untyped-def]
+    """An admissible, consistent number of actions from the stance `s` to the key of the stance `t`."""
+    raise TypeError("called from kernels only")
+
+
+def spot(p, s, words):  # type: ignore[no-untyped-def]
+    """Write where a stance is: x, y, angle of the body in ticks, then the hold of each limb, -1 where it is free."""
+    raise TypeError("called from kernels only")
+
+
+def aims(p, s, k):  # type: ignore[no-untyped-def]
+    """Whether a stance is where goal k asks for, whatever came before."""
+    raise TypeError("called from kernels only")
+
+
+def burden(p, s, spare, margins, row):  # type: ignore[no-untyped-def]
+    """Write what it costs to be in a judged stance: the problem's `burdens`; the rest is scratch."""
+    raise TypeError("called from kernels only")
+
+
 overload(step)(lambda p, before, code, after, margins: _chosen("step", p))
 overload(candidates)(lambda p, s, codes: _chosen("candidates", p))
 overload(key)(lambda p, s, words: _chosen("key", p))
 overload(restore)(lambda p, words, s: _chosen("restore", p))
 overload(measure)(lambda p, s, row: _chosen("measure", p))
 overload(bound)(lambda p, s: _chosen("bound", p))
+overload(freer)(lambda p, s, which, t: _chosen("freer", p))
 overload(done)(lambda p, s: _chosen("done", p))
 overload(cell)(lambda p, s: _chosen("cell", p))
+overload(spot)(lambda p, s, words: _chosen("spot", p))
+overload(aims)(lambda p, s, k: _chosen("aims", p))
+overload(burden)(lambda p, s, spare, margins, row: _chosen("burden", p))
+overload(toward)(lambda p, s, t: _chosen("toward", p))

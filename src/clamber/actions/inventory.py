@@ -8,6 +8,7 @@ import numpy as np
 from ..errors import SpecError
 from ..tasks.limbed import LimbedTask
 from .codes import HOLD, MOVE, NEAREST, NONE, RANDOM, RELEASE, Code, pack
+from .crowding import most_covered
 from .table import ActionTable
 
 DIRECTIONS: Final = ("+x", "-x", "+y", "-y", "+theta", "-theta")
@@ -86,30 +87,13 @@ def full_inventory(task: LimbedTask, ranks: int) -> tuple[Module, ...]:
     return tuple(Module(module_name(task, code), (code,)) for code in codes)
 
 
-def most_in_reach(task: LimbedTask, limb: int) -> int:
-    """Most holds that one limb can have within reach at once, wherever its port is (an upper bound: exact for isolated limbs).
-
-    A disc that covers a largest set of points can be moved until two of them lie on its edge, or one is its centre.
-    """
+def most_in_reach(task: LimbedTask) -> tuple[int, ...]:
+    """Most holds that each limb can have within reach at once, wherever its port is (upper bounds: exact for isolated limbs)."""
     points = task.world.positions()
-    radius = task.robot.limbs[limb].length - task.rules.reach_offset + 1e-9
-    best = 1
-    for point in points:
-        near = points[np.hypot(*(points - point).T) <= 2.0 * radius]
-        best = max(best, int(np.count_nonzero(np.hypot(*(near - point).T) <= radius)))
-        offsets = near - point
-        gaps = np.hypot(*offsets.T)
-        keep = gaps > 0.0
-        offsets, gaps = offsets[keep], gaps[keep]
-        if not len(gaps):
-            continue
-        rise = np.sqrt(np.maximum(0.0, radius**2 - 0.25 * gaps**2))
-        normal = np.stack([-offsets[:, 1], offsets[:, 0]], axis=1) / gaps[:, None]
-        for sign in (1.0, -1.0):
-            centres = point + 0.5 * offsets + sign * rise[:, None] * normal
-            distances = np.hypot(near[None, :, 0] - centres[:, None, 0], near[None, :, 1] - centres[:, None, 1])
-            best = max(best, int(np.count_nonzero(distances <= radius + 1e-9, axis=1).max()))
-    return best
+    x, y = np.ascontiguousarray(points[np.argsort(points[:, 1], kind="stable")].T)
+    reaches = [limb.length - task.rules.reach_offset + 1e-9 for limb in task.robot.limbs]
+    most = {reach: int(most_covered(x, y, reach)) for reach in set(reaches)}
+    return tuple(most[reach] for reach in reaches)
 
 
 def make_inventory(task: LimbedTask, *, filters: bool = True) -> Inventory:
@@ -122,7 +106,7 @@ def make_inventory(task: LimbedTask, *, filters: bool = True) -> Inventory:
     Raises:
         SpecError: If `rules.allowed` names something that is no action.
     """
-    ranks = [most_in_reach(task, limb) for limb in range(len(task.robot.limbs))]
+    ranks = most_in_reach(task)
     most = max(3, *ranks)
     modules = full_inventory(task, most)
     full_size = len(modules)
@@ -191,8 +175,11 @@ def whole_kinds(task: LimbedTask) -> tuple[int, bool]:
     """What exact search may do: which body moves, whether limbs may release and grab; and whether that is all that is allowed.
 
     Returns:
-        Bits 0 to 5 for the moves, 6 for releases, 7 for grabs of any hold; False if `rules.allowed` names some grabs or releases only.
+        Bits 0 to 5 for the moves, 6 for releases, 7 for grabs, 8 for grabs of holds that a limb holds, its own or another's (only NXX
+        does that; the filter `named_by_rank` drops it where N9k is allowed); False if `rules.allowed` names some grabs or releases only.
     """
+    if task.rules.allowed is None:
+        return (1 << 8) - 1, True
     modules = full_inventory(task, 3)
     allowed = _allowed(task, modules)
     bits = sum(1 << axis for axis in range(6) if str(1 + axis) in allowed)
@@ -203,4 +190,7 @@ def whole_kinds(task: LimbedTask) -> tuple[int, bool]:
             bits |= 1 << bit
         elif any(names & allowed for names in by_kind):
             whole = False
+    nearest, hold = ({m.name for m in modules if m.kind == kind} for kind in ("nearest", "hold"))
+    if hold <= allowed and not nearest & allowed:
+        bits |= 1 << 8
     return bits, whole

@@ -68,6 +68,27 @@ def let_go(p, s, i):
 
 
 @kernel
+def nearest_free(p, s, i, own, px, py):
+    """Distance of the nearest hold, at any distance, that no limb holds and that limb i may use [m]; infinity if there is none."""
+    best = math.inf
+    radius = p.grid_cell
+    for _ in range(64):
+        x0, x1, y0, y1 = cells_about(p, px, py, radius)
+        for row in range(y0, y1 + 1):
+            first, end = cells_in_row(p, row, x0, x1)
+            for at in range(first, end):
+                h = cells(p)[at]
+                hold = holds(p)[h]
+                if (hold.limbs >> i) & 1 and h != own and not held(p, s, h):
+                    best = min(best, (hold.x - px) ** 2 + (hold.y - py) ** 2)
+        whole = x0 == 0 and y0 == 0 and x1 == p.grid_nx - 1 and y1 == p.grid_ny - 1
+        if whole or best <= radius * radius:
+            break
+        radius *= 2.0
+    return math.sqrt(best)
+
+
+@kernel
 def find_hold(p, s, i, rank, own):
     """The hold of a given rank (1 is nearest) among limb i's candidates; `own`, the one it came from, is none of them.
 
@@ -82,7 +103,6 @@ def find_hold(p, s, i, rank, own):
     floor_rank = -1
     floor_number = -1
     n = 0
-    nearest = math.inf
     x0, x1, y0, y1 = cells_about(p, px, py, max(limit, 0.0) + 1e-9)
     for turn in range(max(rank, 1)):
         best_rank = 1 << 62
@@ -114,12 +134,9 @@ def find_hold(p, s, i, rank, own):
         floor_rank = best_rank
         floor_number = best_number
     if found < 0:
-        for h in range(p.n_holds):  # only on failure: how far the nearest one is
-            hold = holds(p)[h]
-            if (hold.limbs >> i) & 1 and h != own and not held(p, s, h):
-                nearest = min(nearest, (hold.x - px) ** 2 + (hold.y - py) ** 2)
+        nearest = nearest_free(p, s, i, own, px, py)  # only on failure: how far the nearest one is
         if nearest < math.inf:
-            return -1, 0, limit - math.sqrt(nearest)
+            return -1, 0, limit - nearest
         return -1, 0, -UNLIMITED
     return found, n, 0.0
 

@@ -39,11 +39,17 @@ def edge_distance(x, y, polygon):
 @inlined
 def meets(p, s, goal):
     """Whether a stance meets one goal."""
+    if goal.turns != 0.0 and swept(p, s) * math.copysign(1.0, goal.turns) < abs(goal.turns) - 1e-9:
+        return False
+    return fits(p, s, goal)
+
+
+@inlined
+def fits(p, s, goal):
+    """Whether a stance is where a goal asks for: all but the turns."""
     if s.x < goal.x_min - 1e-9 or s.x > goal.x_max + 1e-9 or s.y < goal.y_min - 1e-9 or s.y > goal.y_max + 1e-9:
         return False
     if goal.a_half < math.pi and abs(wrap(s.angle - goal.a_mid)) > goal.a_half + 1e-9:
-        return False
-    if goal.turns != 0.0 and swept(p, s) * math.copysign(1.0, goal.turns) < abs(goal.turns) - 1e-9:
         return False
     for i in range(p.n_limbs):
         if goal.hold[i] >= 0 and s.hold[i] != goal.hold[i]:

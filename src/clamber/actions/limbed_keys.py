@@ -9,11 +9,12 @@ from ..statics.near import cells_about, cells_in_row
 from ..statics.pose import count_holders, held, place, port_of, solve
 from ..statics.records import TICKS, TOLERANCE, cells, goals, holds, limbs
 from .codes import HOLD, MOVE, RELEASE, pack_code
+from .relaxed_places import actions_left
 
 KEY_WORDS = 10
 """Integers of a key; three more per limb where checks of interference are hard."""
-RELEASES, GRABS = 1 << 6, 1 << 7
-"""Bits of `allowed`."""
+RELEASES, GRABS, ANY_HOLD = 1 << 6, 1 << 7, 1 << 8
+"""Bits of `allowed`: beside the six moves, releases, grabs of holds that no limb holds, grabs of those that one holds."""
 FOOT_SCALE = float(1 << 40)
 """Free feet are kept in a key to 2^-40 m."""
 
@@ -113,7 +114,7 @@ def candidates(p, s, codes):
             for at in range(first, end):
                 h = cells(p)[at]
                 hold = holds(p)[h]
-                if n < codes.shape[0] and (hold.limbs >> i) & 1 and not held(p, s, h):
+                if n < codes.shape[0] and (hold.limbs >> i) & 1 and (p.allowed & ANY_HOLD or not held(p, s, h)):
                     if limit - math.hypot(hold.x - px, hold.y - py) >= -TOLERANCE:
                         codes[n] = pack_code(HOLD, i, h)
                         n += 1
@@ -122,12 +123,25 @@ def candidates(p, s, codes):
 
 @kernel
 def bound(p, s):
-    """An admissible, consistent number of actions still needed: body steps along x and y from goal to goal; 0 if hangs are allowed.
+    """An admissible, consistent number of actions still needed; infinity where the goal can't be reached; 0 if hangs are left.
 
-    A body move changes x or y by one step; only a hang could do more. Boxes that no goal asks for are infinitely wide.
+    The fewest actions in the relaxed problem, where the problem has one (`actions.relaxed`) and the pose is on its lattice; else body
+    steps along x and y from goal to goal. A hang may carry the body anywhere: while one is left, or one limb alone holds, nothing is known.
     """
-    if s.stage >= p.n_goals or p.max_hangs != 0:
+    if s.stage >= p.n_goals or p.max_hangs < 0 or s.hangs < p.max_hangs:
         return 0.0
+    holders, _ = count_holders(p, s)
+    if holders < 2:
+        return 0.0
+    if p.n_left:
+        column = s.ix // TICKS - p.places_x
+        row = s.iy // TICKS - p.places_y
+        if s.ix % TICKS == 0 and s.iy % TICKS == 0 and s.ia % TICKS == 0:
+            if column < 0 or row < 0 or column >= p.places_nx or row >= p.places_ny:
+                return math.inf
+            lap = min(max(s.laps - p.laps_least, 0), p.laps_most - 1)
+            angle = s.ia // TICKS if p.angles_kept > 1 else 0
+            return actions_left(p, s, row * p.places_nx + column, angle, lap)
     goal = goals(p)[s.stage]
     stride = p.tick * TICKS
     dx = max(0.0, max(goal.x_min - s.x, s.x - goal.x_max))

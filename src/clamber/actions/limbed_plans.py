@@ -1,5 +1,7 @@
 """Plans of limbed climbers: packed codes as named actions and back, and the thesis's numbers for them."""
 
+from bisect import bisect_left
+from operator import attrgetter
 from typing import Final
 
 import numpy as np
@@ -156,11 +158,12 @@ def hold_code(task: LimbedTask, limb: int, number: int) -> int:
     Raises:
         ActionError: If the board has no such hold.
     """
-    numbers = [hold.number for hold in task.world.holds]
-    if number not in numbers:
-        listed = f"it has {len(numbers)}, from {numbers[0]} to {numbers[-1]}"
+    holds = task.world.holds
+    index = bisect_left(holds, number, key=attrgetter("number"))
+    if index == len(holds) or holds[index].number != number:
+        listed = f"it has {len(holds)}, from {holds[0].number} to {holds[-1].number}"
         raise ActionError("hold", f"board '{task.world.name}' has no hold {number}; {listed}")
-    return pack(HOLD, limb, numbers.index(number))
+    return pack(HOLD, limb, index)
 
 
 def _axis(task: LimbedTask, delta: tuple[float, float, float] | None) -> int:

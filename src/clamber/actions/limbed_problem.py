@@ -1,7 +1,9 @@
 """The limbed climber's `Problem`: a task turned into the arrays that the kernels read, and its start stance."""
 
+import copy
 import math
-from typing import Final
+from functools import cached_property
+from typing import Final, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -17,11 +19,15 @@ from .codes import NEAREST, Code, pack
 from .family import family_kernels
 from .inventory import most_in_reach, whole_kinds
 from .limbed import step
+from .limbed_freer import freer
 from .limbed_goals import FEATURES, done, measure
-from .limbed_keys import KEY_WORDS, bound, candidates, cell, key, restore
+from .limbed_keys import ANY_HOLD, KEY_WORDS, bound, candidates, cell, key, restore
+from .limbed_map import BURDENS, aims, burden, spot
+from .limbed_toward import toward
 from .loops import replay
 from .params import Params
 from .problem import CompiledProblem, Records
+from .relaxed import with_bound
 from .table import ActionTable
 
 CHECKS: Final = tuple(check.name for check in LIMBED_CHECKS)
@@ -30,6 +36,8 @@ FEATURE_KINDS: Final = (0, 0, 1, 0, 1, 1, 2)
 FORCE_RULES: Final = ("thesis", "min_torque", "min_norm")
 FOOT_CHECKS: Final = ("limb_limb", "limb_body", "limb_peg")
 ANY_DIRECTION: Final = -2.0
+CROWD: Final = 2.0
+"""Holds in a cell of the grid, on the average; 1 to 4 make little difference."""
 
 family_kernels(
     PARAMS,
@@ -39,8 +47,13 @@ family_kernels(
     restore=restore,
     measure=measure,
     bound=bound,
+    freer=freer,
     done=done,
     cell=cell,
+    spot=spot,
+    aims=aims,
+    burden=burden,
+    toward=toward,
 )
 
 
@@ -67,6 +80,12 @@ class LimbedProblem(CompiledProblem):
         self.task = task
         assert len(FEATURE_NAMES) == FEATURES
 
+    def informed(self) -> Self:
+        """The same problem whose `bound` is the fewest actions of the relaxed problem."""
+        other = copy.copy(self)
+        other.params = with_bound(self.params)
+        return other
+
     @property
     def incomplete(self) -> str | None:
         """`rules.allowed` may name single grabs; exact search knows grabs as a whole only."""
@@ -84,11 +103,10 @@ class LimbedProblem(CompiledProblem):
         reads_feet = fenced or any(name in self.task.rules.hard for name in FOOT_CHECKS)
         return KEY_WORDS + (3 * len(self.task.robot.limbs) if reads_feet else 0)
 
-    @property
+    @cached_property
     def branching(self) -> int:
         """Most actions from one stance: six moves, and per limb a release and every hold that can be in reach at once."""
-        limbs = range(len(self.task.robot.limbs))
-        return 6 + sum(1 + most_in_reach(self.task, limb) for limb in limbs)
+        return 6 + sum(1 + most for most in most_in_reach(self.task))
 
     @property
     def way(self) -> float:
@@ -96,9 +114,32 @@ class LimbedProblem(CompiledProblem):
         last = self.params.array("goals")[-1]
         return float(last["before"] + last["way"])
 
+    def without_more_hangs(self, stance: Records) -> Self:
+        """The same problem where no way may hang more often than the way to `stance` did, so that bodies stay on its lattice."""
+        if "hangs" not in self.task.rules.hard:
+            return self
+        return self.with_rules(max_hangs=int(stance["hangs"][0]))
+
     def is_done(self, stance: Records) -> bool:
         """Whether a stance has met every goal."""
         return bool(stance["stage"][0] >= len(self.task.goals))
+
+    def wander(self) -> tuple[Params, Records]:
+        """As in every family; laps aren't counted, or a ring would have no last stance."""
+        params, start = super().wander()
+        params.record["circles"] = 0
+        start["laps"], start["bearing"] = 0, 0.0
+        return params, start
+
+    @property
+    def burdens(self) -> tuple[str, ...]:
+        """What being in a stance costs: see `limbed_map.burden`."""
+        return BURDENS
+
+    @property
+    def spot_words(self) -> int:
+        """The body's pose and a hold for each limb."""
+        return 3 + len(self.task.robot.limbs)
 
     def resolve(self, codes: npt.NDArray[np.int32], stances: Records) -> npt.NDArray[np.int32]:
         """Codes with "nearest" and "random" replaced by the hold that each took."""
@@ -205,7 +246,11 @@ def _fill_rules(
     row["centre_x"], row["centre_y"] = centre
     row["centre_angle"] = math.atan2(task.start.y - centre[1], task.start.x - centre[0])
     row["allowed"], _ = whole_kinds(task)
+    taken = [hold for hold in task.start.holds.values() if hold]
+    row["shares"] = bool(row["allowed"] & ANY_HOLD) or len(set(taken)) < len(taken)
     row["circles"] = any(goal.turns is not None for goal in task.goals)
+    ways = {math.copysign(1.0, goal.turns) for goal in task.goals if goal.turns}
+    row["turning"] = int(ways.pop()) if len(ways) == 1 else 0
     row["seed"] = task.seed
     row["n_limbs"] = len(task.robot.limbs)
     row["n_goals"] = len(task.goals)
@@ -369,9 +414,14 @@ def _turn(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float]
 def _grid(
     points: npt.NDArray[np.float64], cell: float
 ) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32], tuple[float, float, float, int, int]]:
-    """Holds sorted into square cells: indices cell by cell, where each cell starts, and the grid's place and size."""
+    """Holds sorted into square cells: indices cell by cell, where each cell starts, and the grid's place and size.
+
+    Cells hold about `CROWD` holds, so that little but what is in reach is looked at on a dense board. They are at most `cell`
+    wide, and never so small that there are many more cells than holds.
+    """
     low = points.min(axis=0) - 1e-6
     size = points.max(axis=0) - low
+    cell = min(cell, float(np.sqrt(CROWD * size[0] * size[1] / len(points))))
     cell = max(
         cell, float(np.sqrt(size[0] * size[1] / (4 * len(points) + 1024))), float(size.max()) / (len(points) + 1024)
     )

@@ -1,7 +1,7 @@
 """The loops over a family's `step`, written once for all families: rollout of many plans, replay of one, expansion of many stances."""
 
 from ..compiled import kernel
-from .family import candidates, cell, done, measure, step
+from .family import bound, candidates, cell, done, key, measure, step
 
 SUM, LARGEST = 1, 2
 
@@ -137,6 +137,46 @@ def expand(p, parents, first, end, codes, margins, children, parent_of, code_of)
                 code_of[n] = codes[c]
                 n += 1
     return n, end
+
+
+@kernel
+def sprout(p, parents, first, end, weights, toll, margins, row, child, codes, count, code, score, niche, met, keys):
+    """Every valid child of the stances `first` to `end`, each in a slot of its parent's own, so that threads never meet.
+
+    Args:
+        p: A family's parameters.
+        parents: Stances.
+        first, end: Which of them.
+        weights: Weights of the features in a child's score.
+        toll: What the score loses per action that `bound` says is left.
+        margins, row, child, codes: Scratch: checks, features, one stance, candidates.
+        count: Output: children of each parent.
+        code, score, niche, met: Output per parent and slot: action, score, cell, whether every goal is met.
+        keys: Output: key of each child, shape (n, slots, words).
+    """
+    for i in range(first, end):
+        n = 0
+        for c in range(candidates(p, parents[i], codes)):
+            if step(p, parents[i], codes[c], child[0], margins) >= 0:
+                continue
+            measure(p, child[0], row)
+            value = -toll * bound(p, child[0])
+            for f in range(weights.shape[0]):
+                value += weights[f] * row[f]
+            code[i, n] = codes[c]
+            score[i, n] = value
+            niche[i, n] = cell(p, child[0])
+            met[i, n] = 1 if done(p, child[0]) else 0
+            key(p, child[0], keys[i, n])
+            n += 1
+        count[i] = n
+
+
+@kernel
+def follow(p, parents, parent_of, codes, first, end, margins, children):
+    """Carry out one valid action from each of many stances."""
+    for i in range(first, end):
+        step(p, parents[parent_of[i]], codes[i], children[i], margins)
 
 
 @kernel

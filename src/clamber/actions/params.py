@@ -1,5 +1,7 @@
 """A family's parameters for its kernels: one record that holds the addresses of arrays, and the arrays kept alive."""
 
+from collections.abc import Mapping
+
 import numpy as np
 import numpy.typing as npt
 
@@ -33,7 +35,21 @@ class Params:
         """One of the arrays."""
         return self._arrays[name]
 
+    def extended(self, fields: Mapping[str, float], **arrays: AnyArray) -> "Params":
+        """The same parameters with some fields of the record set, and further arrays."""
+        record = self._record.copy()
+        for name, value in fields.items():
+            record[name] = value
+        return Params(record, **{**self._arrays, **arrays})
+
     def for_thread(self) -> "Params":
         """The same parameters with scratch of their own."""
         own = {"work": np.zeros_like(self._arrays["work"])} if "work" in self._arrays else {}
         return Params(self._record.copy(), **{**self._arrays, **own})
+
+    def with_fields(self, **fields: int) -> "Params":
+        """The same parameters with some fields of the record changed, and scratch of their own."""
+        other = self.for_thread()
+        for name, value in fields.items():
+            other.record[name] = value
+        return other

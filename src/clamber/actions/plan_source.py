@@ -105,4 +105,4 @@ def _changed(task: Task, overrides: Sequence[str], label: str) -> Task:
     document = Document(f"{label}: document", task.document)
     family = TASK_FAMILIES[family_of(document.section("robot", f"{label}: document.robot"))]
     keys = (*family.task_keys, "robot", family.world_key)
-    return family.build(apply_overrides(document, overrides, keys, family.robot_keys))
+    return family.build(apply_overrides(document, overrides, keys, family.robot_keys, family.short_keys))

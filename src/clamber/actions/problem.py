@@ -10,7 +10,7 @@ from typing import Any, Protocol, Self
 import numpy as np
 import numpy.typing as npt
 
-from .loops import expand, features_of, possible, replay, rollout
+from .loops import expand, features_of, follow, possible, replay, rollout, sprout
 from .params import Params
 from .table import ActionTable
 
@@ -58,6 +58,24 @@ class Children:
     parent: npt.NDArray[np.int32]
     code: npt.NDArray[np.int32]
     stance: Records
+
+
+@dataclass(frozen=True, slots=True)
+class Sprouts:
+    """Every valid child of a batch of stances, in slots by parent: the first `count` of each row are filled."""
+
+    count: npt.NDArray[np.int32]
+    """Children of each parent, shape (n,)."""
+    code: npt.NDArray[np.int32]
+    """Actions, shape (n, slots)."""
+    score: npt.NDArray[np.float64]
+    """Weighted features less the toll, shape (n, slots)."""
+    cell: npt.NDArray[np.int64]
+    """Niches, shape (n, slots)."""
+    done: npt.NDArray[np.uint8]
+    """Whether every goal is met, shape (n, slots)."""
+    keys: npt.NDArray[np.int64]
+    """Shape (n, slots, words)."""
 
 
 class Problem(Protocol):
@@ -198,6 +216,42 @@ class CompiledProblem:
             np.concatenate([part.stance for part in parts]),
         )
 
+    def sprouts(self, n: int) -> Sprouts:
+        """Memory for the children of up to n stances."""
+        slots = self.branching
+        return Sprouts(
+            np.zeros(n, np.int32),
+            np.zeros((n, slots), np.int32),
+            np.zeros((n, slots)),
+            np.zeros((n, slots), np.int64),
+            np.zeros((n, slots), np.uint8),
+            np.zeros((n, slots, self.key_words), np.int64),
+        )
+
+    def sprout(self, stances: Records, weights: npt.NDArray[np.float64], toll: float, out: Sprouts) -> None:
+        """Write every valid child of every stance, scored: weights times features, less `toll` times the bound on what is left."""
+
+        def part(worker: int, first: int, end: int) -> None:
+            params, child, margins, row = self._scratch[worker]
+            codes = np.zeros(self.branching, np.int32)
+            sprout(
+                params, stances, first, end, weights, toll, margins, row[0], child, codes,
+                out.count, out.code, out.score, out.cell, out.done, out.keys,
+            )  # fmt: skip
+
+        self._spread(len(stances), part)
+
+    def follow(self, stances: Records, parent: npt.NDArray[np.int32], code: npt.NDArray[np.int32]) -> Records:
+        """The stances that valid actions lead to, one for each index of a parent and code."""
+        children = np.zeros(len(parent), self.start.dtype)
+
+        def part(worker: int, first: int, end: int) -> None:
+            params, _, margins, _ = self._scratch[worker]
+            follow(params, stances, parent, code, first, end, margins, children)
+
+        self._spread(len(parent), part)
+        return children
+
     def possible(self, genes: npt.NDArray[np.int32]) -> npt.NDArray[np.uint8]:
         """Which table entries hold after a plan that holds (the configuration filter), one byte per entry."""
         params, stances, margins, _ = self._scratch[0]
@@ -215,6 +269,18 @@ class CompiledProblem:
             other.start = start
         return other
 
+    def with_rules(self, **fields: int) -> Self:
+        """The same problem with some fields of its parameters changed; it works on one thread."""
+        other = copy.copy(self)
+        other.params = self.params.with_fields(**fields)
+        other.threads, other._pool, other._kept = 1, None, []
+        other._scratch = [other._make_scratch()]
+        return other
+
+    def without_more_hangs(self, stance: Records) -> Self:
+        """The same problem without the actions that `toward` can't bound, for ways that start at `stance`; most families have none."""
+        return self
+
     def resolve(self, codes: npt.NDArray[np.int32], stances: Records) -> npt.NDArray[np.int32]:
         """Codes with every choice that the world made for them written down; `stances` are those of the plan's replay."""
         return codes
@@ -223,15 +289,24 @@ class CompiledProblem:
         """Codes that say what to do from where the robot is, rather than name places; `stances` are those of the plan's replay."""
         return codes
 
+    def measured(self, stances: Records) -> npt.NDArray[np.float64]:
+        """Features of stances as actions led to them, shape (n, n_features)."""
+        rows = np.zeros((len(stances), len(self.features)))
+        for i, row in enumerate(rows):
+            features_of(self.params.record, stances[i : i + 1], row)
+        return rows
+
     def progress(self, stance: Records) -> float:
         """The feature `body` of a stance (array of one record): how far along the goals the body is [m]."""
-        row = np.zeros(len(self.features))
-        features_of(self.params.record, stance, row)
-        return float(row[self.features.index("body")])
+        return float(self.measured(stance)[0, self.features.index("body")])
 
     def way_left(self, stance: Records) -> float:
         """How far the body still has to go along the goals from a stance (array of one record) [m]."""
         return self.way - self.progress(stance)
+
+    def informed(self) -> Self:
+        """The same problem with the best `bound` that its family knows, for exact search; the answer is the same with or without."""
+        return self
 
     @property
     def incomplete(self) -> str | None:
@@ -261,3 +336,19 @@ class CompiledProblem:
     def is_done(self, stance: Records) -> bool:
         """Whether a stance (array of one record) has met every goal."""
         raise NotImplementedError
+
+    def wander(self) -> tuple[Params, Records]:
+        """Parameters and start of a robot that has every goal behind it: stances differ by where they are alone."""
+        start = self.start.copy()
+        start["stage"] = self.goals
+        return self.params.for_thread(), start
+
+    @property
+    def burdens(self) -> tuple[str, ...]:
+        """Names of what the family's kernel `burden` writes, each with its unit at the end."""
+        return ()
+
+    @property
+    def spot_words(self) -> int:
+        """Integers that the family's kernel `spot` writes."""
+        return 3

@@ -62,7 +62,7 @@ def climb_data(
         "rules": {"clearance": "0 cm", "hard": list(HARD)},
     }
     keys = (*TASK_FAMILIES["limbed"].task_keys, "robot")
-    data = apply_overrides(Document(name, data), rest, keys, ()).data
+    data = apply_overrides(Document(name, data), rest, keys, (), {}).data
     found = first_stance(_built(data, board, board_label, robot_document))
     if found is None:
         allowed = f"robot '{climber.name}' has no stance on two holds that the hard checks allow; take a denser board"

@@ -177,6 +177,19 @@ def restore(p, words, s):
 
 
 @kernel
+def freer(p, s, which, t):
+    """Write the stance number `which` that has met more goals; False if there is none of that number.
+
+    The goals that it still needs are the last of those that `s` needs, and every action is judged alike there.
+    """
+    if which >= p.n_goals - 1 - s.stage:
+        return False
+    copy_stance(s, t)
+    t.stage = s.stage + 1 + which
+    return True
+
+
+@kernel
 def candidates(p, s, codes):
     """Every different action from a stance; returns their number, which is seven."""
     for axis in range(SLIDES_AND_TURNS):
@@ -211,6 +224,41 @@ def bound(p, s):
     return moves + follow + swaps
 
 
+@inlined
+def spot(p, s, words):
+    """Where a stance is: the Delta-frame's pose in ticks."""
+    for i in range(3):
+        words[i] = s.ticks[DELTA, i]
+
+
+@inlined
+def aims(p, s, k):
+    """Whether a stance is where goal k asks for."""
+    return meets(s, walker_goals(p)[k])
+
+
+@inlined
+def burden(p, s, spare, margins, row):
+    """Nothing: the model has no forces."""
+
+
+@kernel
+def toward(p, s, t):
+    """An admissible, consistent number of actions from a stance to another's key.
+
+    A move takes the lifted frame one step or turn; only a swap changes which frame that is. A frame that stands now and at the end, and
+    has to move in between, takes two swaps.
+    """
+    moves = 0.0
+    for f in range(2):
+        turn = (t.ticks[f, 2] - s.ticks[f, 2]) % p.turn_ticks
+        ticks = abs(t.ticks[f, 0] - s.ticks[f, 0]) + abs(t.ticks[f, 1] - s.ticks[f, 1]) + min(turn, p.turn_ticks - turn)
+        moves += math.ceil(ticks / TICKS)
+        if f == s.stands and s.stands == t.stands and ticks > 0:
+            moves += 2.0
+    return moves + (1.0 if s.stands != t.stands else 0.0)
+
+
 family_kernels(
     WALKER_PARAMS,
     step=step,
@@ -219,6 +267,11 @@ family_kernels(
     restore=restore,
     measure=measure,
     bound=bound,
+    freer=freer,
     done=done,
     cell=cell,
+    spot=spot,
+    aims=aims,
+    burden=burden,
+    toward=toward,
 )

@@ -18,6 +18,7 @@ from .learn import learn
 from .list import list_names
 from .new import new
 from .plan import plan
+from .reach import reach
 from .show import show
 from .study import study
 from .sweep import sweep
@@ -38,6 +39,7 @@ app.command("show")(show)
 app.command("bench")(bench)
 app.command("sweep")(sweep)
 app.add_typer(new, name="new")
+app.command("reach")(reach)
 app.command("study")(study)
 
 

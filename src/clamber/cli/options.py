@@ -12,3 +12,13 @@ Overrides: TypeAlias = Annotated[
 AsJson: TypeAlias = Annotated[bool, typer.Option("--json", help="Print one JSON value and nothing else.")]
 Quiet: TypeAlias = Annotated[bool, typer.Option("--quiet", "-q", help="Tell nothing on the way.")]
 Output: TypeAlias = Annotated[Path | None, typer.Option("--output", "-o", metavar="FILE", help="File to write.")]
+Workers: TypeAlias = Annotated[
+    int | None, typer.Option(min=1, help="Processes; one a core unless given. With --ray: most points at work at once.")
+]
+Ray: TypeAlias = Annotated[
+    str | None, typer.Option(metavar="HOST:PORT", help="Work on this running Ray cluster (docs/scaling.md).")
+]
+Store: TypeAlias = Annotated[
+    Path | None, typer.Option(metavar="FILE", help="Keep each result as it ends (SQLite), to resume from.")
+]
+Resume: TypeAlias = Annotated[bool, typer.Option("--resume", help="Go on with --store: what is finished stays.")]

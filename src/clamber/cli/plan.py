@@ -28,6 +28,15 @@ def plan(
     macros: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Learned modules to add (`clamber learn -o`).")
     ] = None,
+    minimize: Annotated[
+        str, typer.Option(metavar="COSTS", help="Of the exact planner: length, energy, torque, the first one first.")
+    ] = "length",
+    pareto: Annotated[
+        str | None, typer.Option(metavar="COST,COST", help="Every plan that no other beats in both of two costs.")
+    ] = None,
+    stances: Annotated[
+        int | None, typer.Option(min=1, help="Most stances that the exact planner keeps (8 million: 2 GB).")
+    ] = None,
     history: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Draw how the fitness grew (png, svg, pdf).")
     ] = None,
@@ -42,19 +51,30 @@ def plan(
     from ..tasks import load_task
 
     problem = load_task(task, overrides or ())
-    announce_compilation("rollout", quiet=quiet)
     from ..planning.budgets import accepts
     from ..planning.learning import load_macros
-    from ..planning.planners import PLANNERS
+    from ..planning.planners import FIRST_LOOPS, PLANNERS
     from .plan_text import ProgressLine, print_result
 
     if planner not in PLANNERS:
         raise UnknownNameError("planner", planner, tuple(PLANNERS))
+    announce_compilation(FIRST_LOOPS["exact" if pareto is not None else planner], quiet=quiet)
+    if pareto is not None:
+        from .front import front
+
+        raise typer.Exit(front(problem, pareto, seconds, threads, stances, output, as_json=as_json, quiet=quiet))
     options: dict[str, Any] = {"seed": seed, "seconds": seconds, "threads": threads}
     if planner == "genetic":
         learned = () if macros is None else load_macros(macros)
         options |= {"profile": profile, "max_evaluations": evaluations, "macros": learned, "checkpoint": checkpoint}
-    elif checkpoint is not None or macros is not None or history is not None:
+    if planner == "exact":
+        from ..planning.exact.costs import read_costs
+
+        options |= {"minimize": read_costs("--minimize", minimize)}
+        options |= {} if stances is None else {"max_stances": stances}
+    elif minimize != "length" or stances is not None:
+        raise typer.BadParameter("only the exact planner takes --minimize and --stances", param_hint="--planner")
+    if planner != "genetic" and (checkpoint is not None or macros is not None or history is not None):
         raise typer.BadParameter(
             "only the genetic planner takes --checkpoint, --macros and --history", param_hint="--planner"
         )

@@ -11,7 +11,7 @@ from ..actions.plan import Plan
 from ..actions.plan_families import plan_family
 from ..planning.genetic.learning import Macro
 from ..planning.learning import Lesson
-from ..planning.progress import Exploring, Progress, Trying
+from ..planning.progress import Exploring, Moment, Progress, Routing, Trying
 from ..planning.result import Furthest, PlanResult
 from ..tasks import Task
 from ..units import OZ_IN
@@ -42,7 +42,7 @@ class ProgressLine:
         if self._live is not None and not self._quiet:
             self._live.stop()
 
-    def update(self, progress: Progress | Exploring | Trying) -> None:
+    def update(self, progress: Moment) -> None:
         """Show one moment of the search."""
         if self._quiet:
             return
@@ -53,17 +53,21 @@ class ProgressLine:
             self._console.print(progress_text(progress), soft_wrap=True)
 
 
-def _turn(progress: Progress | Exploring | Trying) -> int:
+def _turn(progress: Moment) -> int:
     """What counts up while a search goes on."""
+    if isinstance(progress, Routing):
+        return round(100.0 * progress.share)
     if isinstance(progress, Trying):
         return progress.checks // CHECKS_TOLD * STEADY
-    return progress.generation if isinstance(progress, Progress) else progress.lower_bound
+    return progress.generation if isinstance(progress, Progress) else int(progress.lower_bound)
 
 
-def progress_text(progress: Progress | Exploring | Trying) -> str:
+def progress_text(progress: Moment) -> str:
     """One moment of a search in a line of at most 80 columns."""
+    if isinstance(progress, Routing):
+        return f"{progress.stances} stances, {progress.actions} actions, {100.0 * progress.share:.0f} % of the way"
     if isinstance(progress, Exploring):
-        return f"{progress.stances} stances, no plan has fewer than {progress.lower_bound} actions"
+        return f"{progress.stances} stances, {_bound_text(progress)}"
     best = "" if progress.best_length is None else f", found {progress.best_length} actions"
     if isinstance(progress, Trying):
         return f"{progress.checks} actions judged, progress {progress.value:.2f}{best}"
@@ -73,12 +77,20 @@ def progress_text(progress: Progress | Exploring | Trying) -> str:
     )
 
 
+def _bound_text(progress: Exploring) -> str:
+    if progress.cost == "length":
+        return f"no plan has fewer than {progress.lower_bound:.0f} actions"
+    if progress.cost == "torque":
+        return f"no plan has less than {progress.lower_bound / OZ_IN:.0f} oz-in"
+    return f"no plan's powers add up to less than {progress.lower_bound:.1f} W"
+
+
 def print_result(console: Console, result: PlanResult, output: Path | None) -> None:
     """Print what a search found, or how far it came and what stopped it."""
     found = result.status in ("found", "optimal")
     if found:
         console.print(f"{result.status}: {result.length} actions for '{result.plan.task}'", style="bold green")
-        console.print(f"largest torque {result.max_torque / OZ_IN:.0f} oz-in")
+        console.print(_costs_text(result))
     else:
         console.print(f"{result.status}: no plan for '{result.plan.task}'", style="bold red")
         console.print(result.reason)
@@ -114,6 +126,13 @@ def print_lesson(console: Console, task: Task, lesson: Lesson, output: Path | No
 def macro_text(task: Task, macro: Macro) -> str:
     """A macro's actions by name."""
     return " ".join(plan_family(task).module(task, code) for code in macro.codes)
+
+
+def _costs_text(result: PlanResult) -> str:
+    if not result.costs:
+        return f"largest torque {result.max_torque / OZ_IN:.0f} oz-in"
+    torque, energy = result.costs["torque"], result.costs["energy"]
+    return f"largest torque {torque / OZ_IN:.1f} oz-in (start included), holding energy {energy:.1f} J"
 
 
 def _print_furthest(console: Console, furthest: Furthest) -> None:

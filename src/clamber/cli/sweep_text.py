@@ -1,48 +1,25 @@
 """A sweep as people read it."""
 
-import os
+import re
 from pathlib import Path
 
 from rich.console import Console
 
-from ..jobs import Outcome
 from ..planning.sweep import Sweep
 from ..units import OZ_IN, split_quantity
 from .output import plain_table
-
-
-def worker_count(asked: int | None) -> int:
-    """Worker processes: as asked, else one a core."""
-    return asked or os.cpu_count() or 1
-
-
-def announced_loop(planner: str) -> str:
-    """The compiled loop that a planner's first run needs."""
-    return "expand" if planner == "exact" else "rollout"
-
-
-class SweepLine:
-    """Tells of points as they end, each tenth of the sweep."""
-
-    def __init__(self, console: Console, *, quiet: bool) -> None:
-        self._console = console
-        self._quiet = quiet
-
-    def update(self, ended: int, total: int, outcome: Outcome) -> None:
-        """Take note of one end."""
-        if not self._quiet and (ended == total or ended * 10 // total > (ended - 1) * 10 // total):
-            self._console.print(f"{ended} of {total} points", style="dim")
 
 
 def print_sweep(console: Console, sweep: Sweep, output: Path | None) -> None:
     """Print the points as a table, and the reasons of those without a plan, once each."""
     numbers = ("actions", "least", "largest", "s")
     keys = [axis.key for axis in sweep.axes]
-    table = plain_table(*keys, "status", *numbers, right=numbers)
-    for point in sweep.points:
+    table = plain_table(*keys, *(("",) if sweep.marks else ()), "status", *numbers, right=(*keys, *numbers))
+    for k, point in enumerate(sweep.points):
         torques = (point.least_torque, point.largest_torque)
         table.add_row(
             *(_short(value) for value in point.values),
+            *(("*" if sweep.marked(k) else "",) if sweep.marks else ()),
             point.status,
             "-" if point.length is None else str(point.length),
             *("-" if torque is None else f"{torque / OZ_IN:.0f}" for torque in torques),
@@ -50,14 +27,18 @@ def print_sweep(console: Console, sweep: Sweep, output: Path | None) -> None:
         )
     console.print(table)
     console.print("least, largest: joint torque of the plan's easiest and hardest step [oz-in]")
+    if sweep.marks:
+        console.print(f"* marked: {' and '.join(f'{mark.key} = {mark.text}' for mark in sweep.marks)}")
     console.print(f"{sweep.found} of {len(sweep.points)} points of '{sweep.task}' have a plan ({sweep.planner})")
-    reasons: dict[tuple[str, str], str] = {}
+    reasons: dict[tuple[str, str], list[str]] = {}
     for point in sweep.points:
         if point.status in ("no start", "failed"):
-            at = ", ".join(f"{key} = {value}" for key, value in zip(keys, point.values, strict=True))
-            reasons.setdefault((point.status, point.reason), at)
-    for (status, reason), at in reasons.items():
-        console.print(f"{status} at {at}: {reason}")
+            at = ", ".join(f"{key} = {_short(value)}" for key, value in zip(keys, point.values, strict=True))
+            alike = re.sub(r"\d[\d.e+-]*", "0", point.reason)  # the same, but for its numbers
+            reasons.setdefault((point.status, alike), []).append(f"{at}: {point.reason}")
+    for (status, _), told in reasons.items():
+        more = f" (and {len(told) - 1} points like it)" if len(told) > 1 else ""
+        console.print(f"{status} at {told[0]}{more}")
     if output is not None:
         console.print(f"written to {output}", soft_wrap=True)
 

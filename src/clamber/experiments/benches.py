@@ -4,7 +4,9 @@ from collections.abc import Callable
 from typing import Final
 
 from .ablation import bench_ablation
+from .batches import batch_rows
 from .boards.bench import bench_boards
+from .proofs import bench_exact
 from .races import race_rows
 from .reductions import filter_rows, macro_rows
 from .rows import Row as Row
@@ -12,6 +14,7 @@ from .rows import Say, keep_quiet
 from .seeds import bench_seeds
 from .speed import speed_rows
 from .starts import start_rows
+from .walls import wall_rows
 
 
 def bench_plan(*, say: Say = keep_quiet) -> list[Row]:
@@ -22,8 +25,11 @@ def bench_plan(*, say: Say = keep_quiet) -> list[Row]:
 
 BENCHES: Final[dict[str, Callable[..., list[Row]]]] = {
     "plan": bench_plan,
+    "exact": bench_exact,
     "seeds": bench_seeds,
     "ablation": bench_ablation,
+    "walls": wall_rows,
+    "jobs": batch_rows,
     "boards": bench_boards,
 }
 """Name -> benchmark; the command line's choices and the tests read it. Each can be called without arguments, or with `say`."""

@@ -1,5 +1,9 @@
-"""Many independent items of work over local processes; it knows no robots."""
+"""Many independent items of work over local processes or a cluster; it knows no robots."""
 
-from .pool import Outcome as Outcome
-from .pool import map_items as map_items
+from .batch import Outcome as Outcome
+from .batch import map_items as map_items
+from .cluster import ClusterError as ClusterError
+from .cluster import RayCluster as RayCluster
+from .executor import Executor as Executor
+from .local import LocalProcesses as LocalProcesses
 from .store import StoreError as StoreError

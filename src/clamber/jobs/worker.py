@@ -1,4 +1,4 @@
-"""What runs in a worker process: items come in as JSON text, results go out as JSON text, one at a time."""
+"""What a worker does: an item comes in as JSON text, its end goes out as JSON text."""
 
 import importlib
 import json
@@ -21,28 +21,32 @@ def find_function(name: str) -> Callable[[Json], Json]:
     return function
 
 
+def run_item(function: Callable[[Json], Json], item: str) -> Json:
+    """The end of one item: `{"result", "seconds", "error"}`; the result is JSON text."""
+    started = time.monotonic()
+    try:
+        result, error = json.dumps(function(json.loads(item)), sort_keys=True, allow_nan=False), None
+    except Exception as problem:  # one bad item must not take the others with it; its text is the item's end
+        result, error = None, f"{type(problem).__name__}: {problem}"
+    return {"result": result, "seconds": time.monotonic() - started, "error": error}
+
+
 def serve(name: str, line: "Connection[Any, Any]") -> None:
     """Work until the line is closed.
 
     Args:
         name: The function, as "module:name".
-        line: Gives items and takes ends `{"result", "seconds", "error"}`.
+        line: Gives items and takes their ends.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches the whole group; the parent alone decides
     threading.Thread(target=_leave_with_parent, daemon=True).start()
     function = find_function(name)
     while True:
         try:
-            item = json.loads(line.recv_bytes())
+            item = line.recv_bytes().decode()
         except EOFError:
             return
-        started = time.monotonic()
-        try:
-            result, error = json.dumps(function(item), sort_keys=True, allow_nan=False), None
-        except Exception as problem:  # one bad item must not take the others with it; its text is the item's end
-            result, error = None, f"{type(problem).__name__}: {problem}"
-        end = {"result": result, "seconds": time.monotonic() - started, "error": error}
-        line.send_bytes(json.dumps(end).encode())
+        line.send_bytes(json.dumps(run_item(function, item)).encode())
 
 
 def _leave_with_parent() -> None:

@@ -120,6 +120,56 @@ def values_axis(text: str) -> Axis:
     return Axis(key=key, values=values)
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Mark:
+    """A reference on an axis, such as what a paper recommends: a value, or a range of them."""
+
+    key: str
+    """Of its axis."""
+    low: float
+    """In the unit of its axis."""
+    high: float
+    """The same as `low` for a single value."""
+    text: str
+    """As the user wrote it."""
+
+    def holds(self, number: float) -> bool:
+        """Whether a value of the axis is the mark, or lies in it, give or take rounding."""
+        slack = 1e-9 * max(abs(self.low), abs(self.high))
+        return self.low - slack <= number <= self.high + slack
+
+    def to_json(self) -> Json:
+        """Plain data."""
+        return {"key": self.key, "low": self.low, "high": self.high, "text": self.text}
+
+
+def read_mark(text: str, axes: Sequence[Axis]) -> Mark:
+    """The mark of "key=value" or "key=low..high", such as "board.spacing=18in..20in".
+
+    Raises:
+        SweepError: If it is no such text, its key does not vary, or its unit is not that of the axis.
+    """
+    option = f"--mark {text}"
+    key, _ = split_override(text)
+    written = text.partition("=")[2].strip()
+    axis = next((axis for axis in axes if axis.key == key), None)
+    if axis is None:
+        raise SweepError(option, f"'{key}' does not vary", f"mark {' or '.join(axis.key for axis in axes)}")
+    if axis.numbers is None:
+        raise SweepError(option, f"the values of '{key}' are names", "mark numbers")
+    ends = [split_quantity(end.strip()) for end in written.split("..")]
+    known = [end for end in ends if end is not None]
+    if len(known) < len(ends) or len(ends) > 2:
+        raise SweepError(option, f"'{written}' is no number and no range", "write key=value or key=low..high")
+    for _, unit in known:
+        if unit != axis.unit:
+            raise SweepError(option, f"is in '{unit}'", f"state the unit of the axis, '{axis.unit}'")
+    low, high = known[0][0], known[-1][0]
+    if low > high:
+        raise SweepError(option, "the range is empty", "the first end must be less than the second")
+    return Mark(key=key, low=low, high=high, text=written)
+
+
 def check_axes(axes: Sequence[Axis]) -> None:
     """Makes sure that a sweep has one or two axes of different keys.
 

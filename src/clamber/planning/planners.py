@@ -10,16 +10,29 @@ from .result import PlanResult
 from .rivals.greedy import plan_greedy
 from .rivals.mcts import plan_mcts
 from .rivals.random import plan_random
+from .route.planner import plan_route
 
 Planner = Callable[..., PlanResult]
 PLANNERS: Final[dict[str, Planner]] = {
     "genetic": plan_genetic,
     "exact": plan_exact,
+    "route": plan_route,
     "greedy": plan_greedy,
     "random": plan_random,
     "mcts": plan_mcts,
 }
 """Name -> planner; the command line's choices and the tests read it."""
+
+
+FIRST_LOOPS: Final = {
+    "genetic": "rollout",
+    "exact": "explore_some",
+    "route": "search",
+    "greedy": "greedy",
+    "random": "burst",
+    "mcts": "simulate",
+}
+"""Name -> the compiled loop that a planner's first run needs."""
 
 
 def plan_task(task: Task, planner: str = "genetic", **options: Any) -> PlanResult:

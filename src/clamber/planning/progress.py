@@ -27,8 +27,22 @@ class Exploring:
 
     stances: int
     """Different stances seen."""
-    lower_bound: int
-    """No plan has fewer actions."""
+    lower_bound: float
+    """No plan has less of what is minimized, in the unit of its feature: actions, N m, W summed over actions."""
+    cost: str = "length"
+    """What is minimized now."""
+
+
+@dataclass(frozen=True, slots=True)
+class Routing:
+    """One moment of a greedy search."""
+
+    stances: int
+    """Stances seen."""
+    actions: int
+    """Actions of the stance that has the least way left."""
+    share: float
+    """Of the way that it has behind it [-]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,4 +57,5 @@ class Trying:
     """Actions of the best plan that reaches the goal."""
 
 
-Listener = Callable[[Progress | Exploring | Trying], None]
+Moment = Progress | Exploring | Routing | Trying
+Listener = Callable[[Moment], None]

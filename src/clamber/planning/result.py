@@ -46,8 +46,9 @@ class PlanResult:
     """A planner's answer. It proves itself: `check` replays the plan without the planner."""
 
     status: Status
-    """optimal: proved to be the shortest plan; found: a plan; infeasible: proved that there is none; bounded: no plan
-    yet, and none has fewer than `lower_bound` actions; stopped: none yet, and nothing proved."""
+    """optimal: proved to be the best plan by what was `minimized`; found: a plan; infeasible: proved that there is none;
+    bounded: none has fewer than `lower_bound` actions, and either there is no plan yet or one that isn't proved best;
+    stopped: none yet, and nothing proved."""
     plan: Plan
     """The plan; without success, the actions that lead furthest."""
     task: Task
@@ -65,6 +66,10 @@ class PlanResult:
     furthest: Furthest | None = None
     lower_bound: int | None = None
     """Proved: no plan has fewer actions."""
+    minimized: tuple[str, ...] = ()
+    """What a proof is about: costs in lexicographic order."""
+    costs: dict[str, float] = field(default_factory=dict)
+    """Of the plan: length (actions), energy [J], torque (largest, the start stance included) [N m]; empty unless minimized."""
     stances: int | None = None
     """Different stances that an exact search saw."""
     model: str = ""
@@ -103,6 +108,8 @@ class PlanResult:
             "seed": self.seed,
             "planner": self.planner,
             "lower_bound": self.lower_bound,
+            "minimized": list(self.minimized),
+            "costs": dict(self.costs),
             "stances": self.stances,
             "model": self.model,
             "first_length": self.first_length,

@@ -7,38 +7,27 @@ from contextlib import suppress
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 from .. import __version__
 from ..compiled import is_compiled
 from ..errors import ClamberError, SpecError, StartError, UnknownNameError
 from ..files import write_atomically
-from ..jobs import Outcome, map_items
+from ..jobs import Executor, Outcome, map_items
 from ..tasks import Task, load_task, task_from_document
 from ..types import Json
 from ..units import OZ_IN
-from .axes import Axis, check_axes
-from .planners import PLANNERS
+from .axes import Axis, Mark, check_axes
+from .budgets import accepts
+from .planners import FIRST_LOOPS, PLANNERS
 
 SUCCESS: Final = ("optimal", "found")
 NO_START: Final = "no start"
 """Status of a point whose task can't begin: its values contradict each other, or its start violates a hard check."""
 FAILED: Final = "failed"
 """Status of a point whose planner raised an error or died."""
-_FIRST_LOOP: Final = {
-    "exact": "expand",
-    "genetic": "rollout",
-    "greedy": "greedy",
-    "random": "burst",
-    "mcts": "simulate",
-}
-_SMALLEST: Final[dict[str, dict[str, Any]]] = {
-    "exact": {"max_stances": 1},
-    "genetic": {"max_evaluations": 1},
-    "greedy": {"max_checks": 1},
-    "random": {"max_checks": 1},
-    "mcts": {"max_checks": 1},
-}
+_SMALLEST: Final = ("max_checks", "max_evaluations", "max_stances")
+"""Options that make a search as small as can be."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -85,6 +74,17 @@ class Sweep:
     planner: str
     axes: tuple[Axis, ...]
     points: tuple[Point, ...]
+    marks: tuple[Mark, ...] = ()
+
+    def marked(self, index: int) -> bool:
+        """Whether a point lies in the marks of every axis that has some."""
+        place = index
+        for axis in reversed(self.axes):
+            place, k = divmod(place, len(axis.values))
+            mine = [mark for mark in self.marks if mark.key == axis.key]
+            if mine and (axis.numbers is None or not any(mark.holds(axis.numbers[k]) for mark in mine)):
+                return False
+        return bool(self.marks)
 
     @property
     def found(self) -> int:
@@ -98,17 +98,18 @@ class Sweep:
             "planner": self.planner,
             "axes": [axis.to_json() for axis in self.axes],
             "found": self.found,
-            "points": [point.to_json() for point in self.points],
+            "marks": [mark.to_json() for mark in self.marks],
+            "points": [point.to_json() | {"marked": self.marked(k)} for k, point in enumerate(self.points)],
         }
 
     def save_table(self, path: Path) -> None:
         """Write the points as CSV, whole or not at all."""
         text = io.StringIO()
         table = csv.writer(text, lineterminator="\n")
-        columns = [column for column in self.points[0].to_json() if column != "values"]
+        rows = self.to_json()["points"]
+        columns = [column for column in rows[0] if column != "values" and (self.marks or column != "marked")]
         table.writerow([*(axis.key for axis in self.axes), *columns])
-        for point in self.points:
-            told = point.to_json()
+        for point, told in zip(self.points, rows, strict=True):
             table.writerow([*point.values, *("" if told[column] is None else told[column] for column in columns)])
         write_atomically(path, text.getvalue())
 
@@ -121,6 +122,8 @@ def run_sweep(
     planner: str = "exact",
     options: Json | None = None,
     workers: int = 1,
+    executor: Executor | None = None,
+    marks: Sequence[Mark] = (),
     store: Path | None = None,
     resume: bool = False,
     progress: Callable[[int, int, Outcome], None] | None = None,
@@ -134,6 +137,8 @@ def run_sweep(
         planner: Name of the planner; each point is planned on one thread.
         options: Plain options of the planner, such as `seed`.
         workers: Processes; the table doesn't depend on it, but for the seconds.
+        executor: Who plans the points, in place of local processes, such as a cluster.
+        marks: References on the axes, for table and picture.
         store: SQLite file that keeps each point as it ends.
         resume: Whether to go on with that file.
         progress: Told of each end.
@@ -143,6 +148,7 @@ def run_sweep(
         UnknownNameError: If there is no such task or planner.
         SpecError: If no point of the sweep is a task; the first point's error.
         StoreError: If the file can't be the store of this sweep.
+        ClusterError: If there is no cluster to run on, or it is lost.
     """
     check_axes(axes)
     if planner not in PLANNERS:
@@ -157,12 +163,14 @@ def run_sweep(
     items: list[Json] = [
         {"document": task.document, "planner": planner, "options": settings, "version": __version__} for task in tasks
     ]
-    _compile(tasks, planner)
+    if executor is None or executor.here:
+        _compile(tasks, planner)
     outcomes = iter(
         map_items(
             plan_point,
             items,
             workers=workers,
+            executor=executor,
             store=store,
             about={"axes": [axis.to_json() for axis in axes], "items": items},
             title=f"the sweep of '{name}' over {' and '.join(axis.key for axis in axes)}",
@@ -176,7 +184,7 @@ def run_sweep(
         else _point(values, next(outcomes))
         for values, task in zip(places, loaded, strict=True)
     )
-    return Sweep(task=name, planner=planner, axes=tuple(axes), points=points)
+    return Sweep(task=name, planner=planner, axes=tuple(axes), points=points, marks=tuple(marks))
 
 
 def plan_point(item: Json) -> Json:
@@ -219,9 +227,10 @@ def _load(name: str, overrides: Sequence[str]) -> Task | SpecError:
 
 def _compile(tasks: Sequence[Task], planner: str) -> None:
     """Compile the kernels here, once, and not in every worker at the same time."""
-    if is_compiled(_FIRST_LOOP[planner]) and is_compiled("replay"):
+    if is_compiled(FIRST_LOOPS[planner]) and is_compiled("replay"):
         return
+    least = {option: 1 for option in _SMALLEST if accepts(planner, option)}
     for task in tasks:
         with suppress(ClamberError):
-            PLANNERS[planner](task, threads=1, **_SMALLEST[planner]).check()
+            PLANNERS[planner](task, threads=1, **least).check()
             return

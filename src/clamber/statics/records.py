@@ -76,9 +76,20 @@ PARAMS = np.dtype(
         ("replace", "i4"),
         ("kept", "i4"),
         ("circles", "i4"),  # some goal asks for turns about the centre
+        ("turning", "i4"),  # 1 or -1 where all that ask for turns ask for them that way round, else 0
         ("allowed", "i4"),  # bits 0 to 5: body moves, 6: releases, 7: grabs; what `candidates` lists
         ("hard", "i4"),
         ("seen", "i4"),
+        ("shares", "i4"),  # two limbs may be on one hold
+        # The relaxed problem (`actions.relaxed`), where one was made
+        ("angles", "i4"),  # angles of a turn
+        ("angles_kept", "i4"),  # entries per state: one per angle, or 1 where rotation is free
+        ("laps_least", "i4"),
+        ("laps_most", "i4"),  # number of laps told apart
+        ("places_x", "i8"),  # first place, in steps from the start
+        ("places_y", "i8"),
+        ("places_nx", "i8"),
+        ("places_ny", "i8"),
         ("opposed", "i4", (LIMBS,)),  # bit j of entry i: limbs i and j count as one on each side
         ("kinds", "i4", (LIMBS,)),  # how each feature adds up over a plan: 0 the last, 1 the sum, 2 the largest
         # Addresses and lengths of the arrays: a kernel is handed one pointer, not the ninety words of a tuple of arrays
@@ -91,6 +102,13 @@ PARAMS = np.dtype(
         ("keep_out_at", "i8"),
         ("hull_at", "i8"),
         ("work_at", "i8"),
+        ("grip_starts_at", "i8"),
+        ("grip_holds_at", "i8"),
+        ("state_base_at", "i8"),
+        ("left_at", "i8"),
+        ("n_grip_holds", "i8"),
+        ("n_state_base", "i8"),
+        ("n_left", "i8"),
         ("n_holds", "i8"),
         ("n_vertices", "i8"),
         ("fences", "i8"),  # number of keep-out polygons

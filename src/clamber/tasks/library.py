@@ -1,7 +1,7 @@
 """Tasks by name or path: a task file names its robot and its board, and the robot's family builds the whole."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final, TypeAlias
 
@@ -11,6 +11,7 @@ from ..robots.limbed import LimbedRobot
 from ..robots.walker import WalkerRobot
 from ..specs import field_names
 from ..types import Json
+from ..worlds.board import SHORT_KEYS
 from ..worlds.library import read_board, read_field
 from .limbed import LimbedTask, TaskSpec, build_limbed_task
 from .overrides import apply_overrides, split_override
@@ -35,6 +36,8 @@ class TaskFamily:
     """Keys of a task file beside robot and world."""
     robot_keys: tuple[str, ...]
     """Keys of a robot file; an override may start with them."""
+    short_keys: Mapping[str, str] = field(default_factory=dict)
+    """Other words for keys of the world, for overrides."""
 
 
 TASK_FAMILIES: Final[dict[str, TaskFamily]] = {
@@ -44,6 +47,7 @@ TASK_FAMILIES: Final[dict[str, TaskFamily]] = {
         build=build_limbed_task,
         task_keys=field_names(TaskSpec),
         robot_keys=tuple(name for name in field_names(LimbedRobot) if name != "sources"),
+        short_keys={f"board.{short}": f"board.{key}" for short, key in SHORT_KEYS.items()},
     ),
     "walker": TaskFamily(
         world_key="field",
@@ -87,7 +91,7 @@ def load_task(name_or_path: str, overrides: Sequence[str] = ()) -> Task:
     label = merged.data["labels"]["robot"]
     family = TASK_FAMILIES[family_of(merged.section("robot", label))]
     task_keys = (*family.task_keys, "robot", family.world_key)
-    whole = apply_overrides(merged, rest, task_keys, family.robot_keys)
+    whole = apply_overrides(merged, rest, task_keys, family.robot_keys, family.short_keys)
     return TASK_FAMILIES[family_of(whole.section("robot", label))].build(whole)
 
 

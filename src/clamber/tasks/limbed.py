@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from dataclasses import field, replace
 from typing import Annotated, Final, Literal
 
+import numpy as np
 from pydantic import Field, StrictBool, StrictInt, StrictStr
 
 from ..errors import describe_choices
@@ -64,6 +65,8 @@ class Start:
     """The limb that moved last; None: the last limb of the robot that holds."""
     feet: dict[str, Point] = field(default_factory=dict)
     """Limb name -> place of a free limb's tip in the body frame [m]."""
+    between: tuple[StrictInt, ...] = ()
+    """Holds whose mean place is the body's origin, for `x` and `y` that are not given."""
 
 
 @spec
@@ -203,7 +206,7 @@ def build_limbed_task(document: Document) -> LimbedTask:
     robot_document = document.section("robot", _label(document, "robot"))
     board_document = document.section("board", _label(document, "board"))
     robot, board = build_limbed(robot_document), build_board(board_document)
-    stated = build_spec(TaskSpec, document, without=("schema", "robot", "board", "labels"))
+    stated = build_spec(TaskSpec, _with_place(document, board), without=("schema", "robot", "board", "labels"))
     _check_step(stated.step, document)
     _check_start(stated.start, robot, board, document)
     _check_rules(stated.rules, robot, document)
@@ -230,6 +233,22 @@ def build_limbed_task(document: Document) -> LimbedTask:
             "task": content_hash(rest),
         },
     )
+
+
+def _with_place(document: Document, board: Board) -> Document:
+    """The document with the start's `x` and `y`, where they are missing, from the holds that it is between."""
+    start = document.data.get("start")
+    between = start.get("between") if isinstance(start, dict) else None
+    if not isinstance(start, dict) or not isinstance(between, list) or not between:
+        return document
+    places = {hold.number: (hold.x, hold.y) for hold in board.holds}
+    for number in between:
+        if number not in places:
+            allowed = f"board '{board.name}' has no hold {number!r}; {_listed(set(places))}"
+            raise document.problem("start.between", allowed)
+    means = [math.fsum(places[number][axis] for number in between) / len(between) for axis in (0, 1)]
+    place = {name: f"{mean!r} m" for name, mean in zip("xy", means, strict=True)}
+    return Document(document.label, document.data | {"start": place | start}, document.overrides, document.folder)
 
 
 def _label(document: Document, section: str) -> str:
@@ -302,7 +321,7 @@ def _check_goal(goal: Goal, key: str, robot: LimbedRobot, board: Board, document
     for limb, number in goal.holds.items():
         if number not in numbers:
             raise document.problem(f"{key}.holds.{limb}", f"board '{board.name}' has no such hold; {_listed(numbers)}")
-    nearest = min(_distance(goal, hold.x, hold.y) for hold in board.holds)
+    nearest = _nearest(goal, board)
     if nearest > robot.longest_reach:
         raise document.problem(
             key,
@@ -345,14 +364,19 @@ def _listed(numbers: set[int]) -> str:
     return f"it has {len(numbers)}, from {min(numbers)} to {max(numbers)}"
 
 
-def _distance(goal: Goal, x: float, y: float) -> float:
-    """Distance of a point from the goal's box, or from the box around its region [m]."""
+def _nearest(goal: Goal, board: Board) -> float:
+    """Distance of the nearest hold from the goal's box, or from the box around its region [m]."""
     x_min, x_max, y_min, y_max = goal.box
     if goal.region is not None:
         xs, ys = zip(*goal.region, strict=True)
         x_min, x_max = max(x_min, min(xs)), min(x_max, max(xs))
         y_min, y_max = max(y_min, min(ys)), min(y_max, max(ys))
-    return math.hypot(max(x_min - x, 0.0, x - x_max), max(y_min - y, 0.0, y - y_max))
+    x, y = board.positions().T
+    away_x, away_y = (
+        np.maximum(np.maximum(x_min - x, x - x_max), 0.0),
+        np.maximum(np.maximum(y_min - y, y - y_max), 0.0),
+    )
+    return float(np.hypot(away_x, away_y).min())
 
 
 def _resolve(goal: Goal, step: Step) -> Goal:

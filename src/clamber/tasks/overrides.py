@@ -3,7 +3,7 @@
 import copy
 import json
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..errors import MISSING, SpecError, describe_choices
@@ -37,7 +37,11 @@ def _parse(text: str) -> Any:
 
 
 def apply_overrides(
-    document: Document, overrides: Sequence[str], task_keys: Sequence[str], robot_keys: Sequence[str]
+    document: Document,
+    overrides: Sequence[str],
+    task_keys: Sequence[str],
+    robot_keys: Sequence[str],
+    short_keys: Mapping[str, str],
 ) -> Document:
     """A copy of a merged document with the overrides set, in order.
 
@@ -48,6 +52,7 @@ def apply_overrides(
         overrides: Texts "key=value".
         task_keys: Keys of the task itself, "robot" and the world's key included.
         robot_keys: Keys of the robot, which may stand first without "robot.".
+        short_keys: Other words for whole keys.
 
     Raises:
         SpecError: If a key leads nowhere; unknown keys inside a table are found when the task is built.
@@ -56,7 +61,7 @@ def apply_overrides(
     made: list[tuple[str, str]] = list(document.overrides)
     for text in overrides:
         key, value = split_override(text)
-        words = key.split(".")
+        words = short_keys.get(key, key).split(".")
         if words[0] not in task_keys:
             if words[0] not in robot_keys:
                 known = (*task_keys, *(name for name in robot_keys if name not in task_keys))

@@ -8,12 +8,12 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ..actions.problem import Replay
+from ..actions.yardsticks import climber_yardsticks
 from ..tasks.limbed import LimbedTask
 from ..types import Floats
 from . import style
 from .climber import ClimberArtists, Snapshot
 from .geometry import Posture, postures
-from .margins import climber_yardsticks
 from .motion import Transition
 from .route import FACTS, ROW, draw_way, label_ghost, pick_ghosts, write_facts
 from .scene import Bounds

@@ -4,12 +4,12 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..actions.problem import Replay
+from ..actions.yardsticks import climber_yardsticks
 from ..tasks.limbed import LimbedTask
 from ..types import Floats, Json
 from .climb_player import SCRIPT, climb_world, spread_snapshot
 from .climber import ClimberArtists, Snapshot, arrow_ends
 from .geometry import Posture, postures, stance_posture
-from .margins import climber_yardsticks
 from .motion import Phase, Transition
 from .torques import draw_force_key, torque_gauges
 from .view import Part, Spread, View

@@ -8,9 +8,10 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 
 from ..actions.problem import Replay
+from ..actions.yardsticks import Yardsticks
 from ..types import Floats
 from . import style
-from .margins import Yardsticks, all_limiting, grade
+from .margins import all_limiting, grade
 from .panel import Place, StepStrip
 from .scene import halo
 from .view import PANEL_WIDTH

@@ -11,9 +11,10 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from ..actions.problem import Replay
+from ..actions.yardsticks import Yardsticks
 from ..types import Floats, Json
 from . import style
-from .margins import Limiting, Yardsticks, all_limiting, grade
+from .margins import Limiting, all_limiting, grade
 from .panel import LINE, GaugeBars, Gauges, Place, StepStrip
 from .scene import Bounds
 

@@ -8,9 +8,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ..actions.problem import Replay
+from ..actions.yardsticks import walker_yardsticks
 from ..tasks.walker import WalkerTask
 from . import style
-from .margins import walker_yardsticks
 from .route import FACTS, draw_way, label_ghost, pick_ghosts, write_facts
 from .scene import Bounds
 from .view import Layout

@@ -6,12 +6,12 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..actions.problem import Replay
+from ..actions.yardsticks import walker_yardsticks
 from ..statics.walker import WALKER_CHECKS
 from ..tasks.walker import WalkerTask
 from ..types import Floats, Json
 from ..units import DEGREE
 from . import style
-from .margins import walker_yardsticks
 from .panel import Gauges
 from .view import Part, Spread, View
 from .walker_artists import COLOURS, NAMES, WalkerArtists, draw_ground, draw_key, walker_bounds

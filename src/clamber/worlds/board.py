@@ -1,7 +1,9 @@
 """A board: numbered holds on a vertical wall, and regions that no part of a robot may enter."""
 
 import math
+from bisect import bisect_left
 from itertools import pairwise
+from operator import attrgetter
 from typing import Annotated, Any, Final
 
 import numpy as np
@@ -25,6 +27,10 @@ from ..units import (
 from .scatter import DEFAULT_GAP, MOST_PACKED, GapError, scatter
 
 SCHEMA: Final = "clamber-board-1"
+
+
+SHORT_KEYS: Final = {"spacing": "ladder.width", "rung": "ladder.spacing", "rungs": "ladder.rungs"}
+"""How the climbing literature calls the distances of a ladder: holds apart across, and up -> keys of its board."""
 
 
 @spec
@@ -64,9 +70,9 @@ class Board:
         Raises:
             UnknownHoldError: If the board has none.
         """
-        for hold in self.holds:
-            if hold.number == number:
-                return hold
+        index = bisect_left(self.holds, number, key=attrgetter("number"))
+        if index < len(self.holds) and self.holds[index].number == number:
+            return self.holds[index]
         raise UnknownHoldError(number, self.name, tuple(hold.number for hold in self.holds))
 
     def positions(self) -> Floats:

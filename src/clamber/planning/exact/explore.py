@@ -1,22 +1,35 @@
-"""Drive the exact search: memory that grows to a stated limit, time, interrupts, and what came of it."""
+"""Drive one exact search: memory that grows to a stated limit, time, interrupts, and what came of it."""
 
+import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
 from ...actions.problem import CompiledProblem
-from .kernels import EXHAUSTED, FOUND, FULL, RUNNING, furthest, plant, rehash, search
+from ...types import Ints
+from .costs import COSTS, Aim
+from .kernels import EXHAUSTED, FOUND, FULL, NEAREST, NEWEST, RUNNING, SEARCH, SHORTEST, explore_some, furthest, plant
+from .memory import BUCKETS, Memory
 
 QUOTA: Final = 20_000
 """Stances expanded between looks at the clock."""
-BUCKETS: Final = 1 << 16
-"""Largest cost plus bound [actions]."""
-FIRST: Final = 1 << 14
-"""Nodes that memory is taken for at first."""
+FINENESS: Final = {"energy": 64, "torque": BUCKETS / 16}
+"""Buckets per start stance's cost, where costs aren't whole."""
+LEAST_ACTIONS: Final = Aim()
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """A plan that an exact search found."""
+
+    codes: Ints
+    first: float
+    """Its first cost, in the unit of its feature."""
+    second: float
+    """Its second cost; 0 without one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,49 +37,27 @@ class Exploration:
     """What an exact search found, or how the space ended."""
 
     found: bool
+    """The plan is proved to be the best; in a front, all of it is there."""
     exhausted: bool
-    """The whole reachable space was seen: there is no plan."""
+    """The whole reachable space was seen: there is no plan (within `at_most`)."""
     interrupted: bool
-    codes: npt.NDArray[np.int32]
-    """The shortest plan; without one, the way to the furthest stance."""
+    codes: Ints
+    """The best plan known; without one, the way to the furthest stance."""
+    ways: tuple[Way, ...]
+    """Plans found, the shortest first; one, unless a front was asked for."""
     stances: int
     """Different stances seen."""
     expanded: int
     checks: int
     """Actions judged."""
-    lower_bound: int
-    """No plan has fewer actions."""
+    dead: int
+    """Stances from which the relaxed problem rules out every goal."""
+    dominated: int
+    """Stances dropped because a freer one was reached at no more cost."""
+    lower_bound: float
+    """No plan has less of the first cost."""
     forbidden: dict[str, int]
     """Check -> actions that it forbade."""
-
-
-class _Memory:
-    """The arrays of a search; they double until `most` nodes."""
-
-    def __init__(self, problem: CompiledProblem, most: int) -> None:
-        self.most = most
-        self.words = problem.key_words
-        self.capacity = 0
-        self.heads = np.full(BUCKETS, -1, np.int64)
-        self.keys = np.zeros((0, self.words), np.int64)
-        self.g = np.zeros(0, np.int32)
-        self.closed = np.zeros(0, np.uint8)
-        self.parent = np.zeros(0, np.int32)
-        self.code = np.zeros(0, np.int32)
-        self.entries = np.zeros(0, np.int32)
-        self.following = np.zeros(0, np.int64)
-        self.table = np.zeros(0, np.int32)
-        self.grow(min(most, max(FIRST, 2 * problem.branching)), 0)
-
-    def grow(self, capacity: int, used: int) -> None:
-        for name in ("keys", "g", "closed", "parent", "code", "entries", "following"):
-            old = getattr(self, name)
-            new = np.zeros((capacity, *old.shape[1:]), old.dtype)
-            new[: len(old)] = old
-            setattr(self, name, new)
-        self.capacity = capacity
-        self.table = np.full(1 << int(np.ceil(np.log2(2 * capacity))), -1, np.int32)
-        rehash(self.keys, used, self.table)
 
 
 def explore(
@@ -74,73 +65,105 @@ def explore(
     *,
     most_stances: int,
     seconds: float | None = None,
-    tell: Callable[[int, int], None] | None = None,
+    tell: Callable[[int, float], None] | None = None,
+    aim: Aim = LEAST_ACTIONS,
+    dominance: bool = True,
 ) -> Exploration:
-    """Find a plan with the fewest actions, or see the whole reachable space.
+    """Find the best plan, or see the whole reachable space.
 
-    A* with unit costs and the family's consistent bound; a stance is expanded once, so the first goal stance taken from the open list
-    ends a shortest plan.
+    A* with the family's consistent bound where the first cost is the length; other costs are searched without a bound.
 
     Args:
-        problem: The task.
-        most_stances: Memory: most stances kept (about 40 bytes and a key each, half as much again while memory grows).
+        problem: The task; `problem.informed()` has the better bound.
+        most_stances: Memory: most stances kept (about 150 bytes and a key each, half as much again while memory grows).
         seconds: Most time [s].
         tell: Called now and then with stances seen and the lower bound.
+        aim: What is minimized.
+        dominance: Drop stances for freer ones (more goals met, fewer hangs used) reached at no more cost.
 
     Returns:
         The exploration; Ctrl-C, time and memory end it with a lower bound.
     """
     started = time.monotonic()
-    memory = _Memory(problem, most_stances)
-    params = problem.params.record
-    state = np.zeros(6, np.int64)
-    state[0] = state[5] = 1
-    state[4] = -1
+    memory = Memory(problem, most_stances)
+    params, state = problem.params.record, memory.state
     codes = np.zeros(problem.branching, np.int32)
-    stances = np.zeros(2, problem.start.dtype)
+    stances = np.zeros(3, problem.start.dtype)
     margins = np.zeros(len(problem.checks))
-    words = np.zeros(memory.words, np.int64)
+    words = np.zeros((2, problem.key_words), np.int64)
+    row = np.zeros(len(problem.features))
     tally = np.zeros(len(problem.checks), np.int64)
-    state[1] = plant(
-        params, problem.start, memory.keys, memory.g, memory.parent, memory.code, memory.entries, memory.following,
-        memory.heads, memory.table,
+    search = search_record(problem, aim, dominance=dominance)
+    planted = plant(
+        params, search, state[0], problem.start, memory.nodes, memory.labels, memory.keys, memory.heads, memory.steps, memory.table, row
     )  # fmt: skip
-    status, interrupted = RUNNING, False
+    status, interrupted = RUNNING if planted else EXHAUSTED, False
     try:
         while status in (RUNNING, FULL) and (seconds is None or time.monotonic() - started < seconds):
-            if status == FULL:
-                if memory.capacity >= most_stances:
-                    break
-                memory.grow(min(most_stances, 2 * memory.capacity), int(state[0]))
-            status = search(
-                params, memory.keys, memory.g, memory.closed, memory.parent, memory.code, memory.entries,
-                memory.following, memory.heads, memory.table, state, codes, stances, margins, words, tally, QUOTA,
+            if status == FULL and not memory.grow(len(codes)):
+                break
+            status = explore_some(
+                params, search, state[0], memory.nodes, memory.labels, memory.keys, memory.heads, memory.steps, memory.table, codes,
+                stances, margins, words, row, tally, QUOTA,
             )  # fmt: skip
             if tell is not None:
-                tell(int(state[0]), int(state[1]))
+                tell(int(state["nodes"][0]), _reached(state, search))
     except KeyboardInterrupt:
         interrupted = True
-    goal = int(state[4])
-    if goal < 0:
-        row = np.zeros(len(problem.features))
-        goal = furthest(params, memory.keys, int(state[0]), stances, row, problem.features.index("body"))
+    ways = _ways(memory)
+    if ways:
+        best = ways[0].codes
+    else:
+        n = int(state["nodes"][0])
+        node = furthest(params, memory.keys, n, stances, row, problem.features.index("body"))
+        best = memory.trace(memory.label_of(node)) if planted else np.zeros(0, np.int32)
     return Exploration(
         found=status == FOUND,
         exhausted=status == EXHAUSTED,
         interrupted=interrupted,
-        codes=_trace(memory, goal),
-        stances=int(state[0]),
-        expanded=int(state[2]),
-        checks=int(state[3]),
-        lower_bound=min(int(state[1]), BUCKETS),
+        codes=best,
+        ways=ways,
+        stances=int(state["nodes"][0]),
+        expanded=int(state["expanded"][0]),
+        checks=int(state["checks"][0]),
+        dead=int(state["dead"][0]),
+        dominated=int(state["dominated"][0]),
+        lower_bound=ways[0].first if status == FOUND else _reached(state, search),
         forbidden={name: int(n) for name, n in zip(problem.checks, tally, strict=True) if n},
     )
 
 
-def _trace(memory: _Memory, node: int) -> npt.NDArray[np.int32]:
-    """Actions from the start to a node."""
-    codes = []
-    while memory.parent[node] >= 0:
-        codes.append(int(memory.code[node]))
-        node = int(memory.parent[node])
-    return np.array(codes[::-1], np.int32)
+def search_record(problem: CompiledProblem, aim: Aim, *, dominance: bool) -> np.void:
+    """An aim as the record that the kernel reads."""
+    assert not aim.front or aim.first == "length", "a front is searched in order of length"
+    search = np.zeros(1, SEARCH)
+    row: np.void = search[0]
+    row["first"] = problem.features.index(COSTS[aim.first])
+    row["second"] = -1 if aim.second is None else problem.features.index(COSTS[aim.second])
+    row["capped"] = -1 if aim.most_torque is None else problem.features.index("peak")
+    row["cap"] = math.inf if aim.most_torque is None else aim.most_torque
+    row["front"], row["informed"], row["dominance"] = aim.front, aim.first == "length", dominance
+    row["order"] = NEAREST if aim.first == "torque" else NEWEST if aim.second is None else SHORTEST
+    row["at_most"] = math.inf if aim.at_most is None else aim.at_most
+    row["width"] = 1.0
+    if aim.first != "length":  # any width gives the same answer; this one keeps buckets small and few
+        row["width"] = (problem.measured(problem.start)[0, row["first"]] or 1.0) / FINENESS[aim.first]
+    return row
+
+
+def _reached(state: np.ndarray, search: np.void) -> int | float:
+    """The lower bound on the first cost that the search has proved."""
+    lowest = int(state["lowest"][0]) * float(search["width"])
+    return int(lowest) if search["informed"] else lowest
+
+
+def _ways(memory: Memory) -> tuple[Way, ...]:
+    """The plans found, the shortest first; of equals in the first cost the last found, which has less of the second."""
+    ways: list[Way] = []
+    label = int(memory.state["goal"][0])
+    while label >= 0:
+        made = memory.labels[label]
+        if not ways or made["first"] < ways[-1].first:
+            ways.append(Way(memory.trace(label), float(made["first"]), float(made["second"])))
+        label = int(made["next"])
+    return tuple(ways[::-1])

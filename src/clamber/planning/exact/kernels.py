@@ -1,15 +1,70 @@
-"""Best-first search over stances as one kernel: keys in a hash table, open nodes in buckets, children by the family's `step`."""
+"""Best-first search over stances as one kernel: keys in a hash table, open labels in buckets, children by the family's `step`."""
 
 import math
 
 import numpy as np
 
-from ...actions.family import bound, candidates, done, key, measure, restore, step
+from ...actions.family import bound, candidates, done, freer, key, measure, restore, step
+from ...actions.loops import LARGEST
 from ...actions.randoms import scramble
 from ...compiled import inlined, kernel
 
 RUNNING, FOUND, EXHAUSTED, FULL = 0, 1, 2, 3
 NONE = -1
+NEWEST, SHORTEST, NEAREST = 0, 1, 2
+"""Which label of a bucket goes first: the newest (straight to the goal), the one of the fewest actions (so that the second cost is least
+when a stance's turn comes), or the one nearest to the goal."""
+EQUAL = 1e-12
+"""Costs that differ by less than this part of them are the same: sums of one plan's costs in another order."""
+
+NODE = np.dtype([("first", "f8"), ("second", "f8"), ("closed", "f8"), ("closed_first", "f8")], align=True)
+"""Of a stance: the costs of its best label (in a front, of its newest); of those taken the least second cost, and the first with it."""
+LABEL = np.dtype(
+    [
+        ("first", "f8"),
+        ("second", "f8"),
+        ("ahead", "f8"),  # bound on the actions still needed
+        ("node", "i4"),
+        ("parent", "i4"),
+        ("code", "i4"),
+        ("next", "i4"),  # in its bucket, or of a goal the goal before
+    ],
+    align=True,
+)
+"""A way to a stance: its two costs, the label that it goes on from, and the action."""
+STATE = np.dtype(
+    [
+        ("nodes", "i8"),
+        ("labels", "i8"),
+        ("lowest", "i8"),  # bucket being emptied
+        ("level", "i8"),  # lowest level of it that may hold a label
+        ("levels", "i8"),  # levels that may hold one
+        ("expanded", "i8"),
+        ("checks", "i8"),
+        ("goal", "i8"),  # best goal label; in a front the last one, `next` leads to those before
+        ("dead", "i8"),  # stances from which the bound rules out every goal
+        ("dominated", "i8"),  # stances dropped for a freer one at no more cost
+        ("goal_first", "f8"),
+        ("goal_second", "f8"),
+    ],
+    align=True,
+)
+SEARCH = np.dtype(
+    [
+        ("first", "i4"),  # feature that is the first cost
+        ("second", "i4"),  # feature that is the second; -1: none
+        ("capped", "i4"),  # feature that no action may have more of than `cap`; -1: none
+        ("front", "i4"),  # keep every way that is better in either cost
+        ("informed", "i4"),  # the first cost is the number of actions: the family's bound counts
+        ("dominance", "i4"),  # drop stances for freer ones
+        ("order", "i4"),  # within a bucket: NEWEST, SHORTEST or NEAREST first
+        ("cap", "f8"),
+        ("width", "f8"),  # of a bucket, in the first cost
+        ("at_most", "f8"),  # of the first cost
+    ],
+    align=True,
+)
+"""What a search minimizes."""
 
 
 @inlined
@@ -39,94 +94,239 @@ def rehash(keys, n, table):
         table[slot_of(keys[node], table, keys)] = node
 
 
+@inlined
+def less(first, second, other_first, other_second):
+    """Whether one pair of costs is less than another in lexicographic order, by more than rounding."""
+    gap = EQUAL * abs(first)
+    if first < other_first - gap:
+        return True
+    if first > other_first + gap:
+        return False
+    return second < other_second - EQUAL * abs(second)
+
+
+@inlined
+def grown(p, column, cost, row):
+    """A cost after one more action: summed, or the largest, as the family says of the feature."""
+    if column < 0:
+        return 0.0
+    return max(cost, row[column]) if p.kinds[column] == LARGEST else cost + row[column]
+
+
+@inlined
+def lay(search, state, labels, steps, at, ahead):
+    """Put a label into the bucket being emptied, at its level."""
+    level = 0
+    if search.order == SHORTEST:
+        level = min(np.int64(labels[at].first), steps.shape[0] - 1)
+    elif search.order == NEAREST:
+        level = min(np.int64(ahead), steps.shape[0] - 1)
+    labels[at].next = steps[level]
+    steps[level] = at
+    state.level = min(state.level, level)
+    state.levels = max(state.levels, level + 1)
+
+
+@inlined
+def add_label(search, state, labels, heads, steps, node, first, second, ahead, parent, code):
+    """Put a way to a stance into the open list; `ahead` is the bound on its actions."""
+    at = state.labels
+    state.labels += 1
+    label = labels[at]
+    label.first = first
+    label.second = second
+    label.ahead = ahead
+    label.node = node
+    label.parent = parent
+    label.code = code
+    f = first + ahead if search.informed else first
+    bucket = min(np.int64(f / search.width + EQUAL), heads.shape[0] - 1)
+    if bucket <= state.lowest:
+        lay(search, state, labels, steps, at, ahead)
+    else:
+        label.next = heads[bucket]
+        heads[bucket] = at
+
+
+@inlined
+def take_label(search, state, labels, heads, steps):
+    """The next label, or -1: there is none in this bucket, and the next one that holds some is laid out."""
+    while state.level < state.levels and steps[state.level] < 0:
+        state.level += 1
+    if state.level < state.levels:
+        taken = steps[state.level]
+        steps[state.level] = labels[taken].next
+        return taken
+    state.lowest += 1
+    while state.lowest < heads.shape[0] and heads[state.lowest] < 0:
+        state.lowest += 1
+    state.level = steps.shape[0]
+    state.levels = 0
+    if state.lowest < heads.shape[0]:
+        at = heads[state.lowest]
+        heads[state.lowest] = NONE
+        while at >= 0:
+            following = labels[at].next
+            lay(search, state, labels, steps, at, labels[at].ahead)
+            at = following
+    return NONE
+
+
+@inlined
+def passed_over(p, search, s, first, second, nodes, keys, table, words, freed):
+    """Whether a freer stance was reached at no more cost: whatever can be done from here can be done from there."""
+    which = 0
+    while freer(p, s, which, freed):
+        key(p, freed, words)
+        other = table[slot_of(words, table, keys)]
+        if other >= 0:
+            if search.front:
+                if nodes[other].closed <= second and nodes[other].closed_first <= first:
+                    return True
+            elif not less(first, second, nodes[other].first, nodes[other].second):
+                return True
+        which += 1
+    return False
+
+
 @kernel
-def plant(p, start, keys, g, parent, code, entries, following, heads, table):
-    """Put the start stance into an empty search; returns its bucket."""
+def plant(p, search, state, start, nodes, labels, keys, heads, steps, table, row):
+    """Put the start stance into an empty search; False if the bound rules out every goal."""
+    ahead = bound(p, start[0])
     key(p, start[0], keys[0])
-    g[0] = 0
-    parent[0] = NONE
-    code[0] = 0
-    f = np.int64(math.ceil(bound(p, start[0])))
-    entries[0] = 0
-    following[0] = NONE
-    heads[f] = 0
+    state.nodes = 1
     table[slot_of(keys[0], table, keys)] = 0
-    return f
+    measure(p, start[0], row)
+    first = row[search.first] if p.kinds[search.first] == LARGEST else 0.0
+    second = 0.0
+    if search.second >= 0 and p.kinds[search.second] == LARGEST:
+        second = row[search.second]
+    nodes[0].first = first
+    nodes[0].second = second
+    nodes[0].closed = math.inf
+    state.goal = NONE
+    state.goal_first = math.inf
+    state.goal_second = math.inf
+    if ahead == math.inf or (search.capped >= 0 and row[search.capped] > search.cap):
+        return False
+    state.lowest = NONE
+    add_label(search, state, labels, heads, steps, 0, first, second, ahead, NONE, 0)
+    return True
 
 
 @kernel
-def search(
-    p, keys, g, closed, parent, code, entries, following, heads, table, state, codes, stances, margins, words, tally, quota
+def explore_some(
+    p, search, state, nodes, labels, keys, heads, steps, table, codes, stances, margins, words, row, tally, quota
 ):  # fmt: skip
-    """Expand stances in order of g + bound until the goal, the end of the space, the end of the arrays, or a quota.
+    """Take labels in order of first cost + bound until the goal, the end of the space, the end of the arrays, or a quota.
 
-    Cost is the number of actions; a consistent bound means that a stance is expanded once. Among equals the deeper goes first, because
-    the newest does. `state` is (nodes, lowest bucket, expanded, actions judged, goal node, entries); it is updated in place.
+    A stance is reached again where that is better by the lexicographic order of the two costs, so a label's costs are least as soon as
+    its bucket is empty; the first goal that survives its bucket is the optimum. With `front`, labels are kept that are better in the
+    second cost than every one taken before at their stance: with a consistent bound the first costs taken never fall, so what is dropped
+    is no better in either (bi-objective A*, Hernandez Ulloa and others, 2020).
 
     Args:
         p: A family's parameters.
-        keys: Key of every node, shape (capacity, words).
-        g, closed, parent, code: Cost, whether expanded, parent, action of every node.
-        entries, following, heads: The open list: node of each entry, next entry in its bucket, first entry of each bucket. A node that is
-            reached more cheaply gets a second entry; the dearer one is passed over when its turn comes.
-        table: Hash table of the nodes; its size is a power of two.
-        state: See above, int64, shape (6,).
+        search: What is minimized, record of `SEARCH`.
+        state: Where the search is, record of `STATE`; updated in place.
+        nodes, keys: `NODE` and key of every stance seen, shapes (room,), (room, words).
+        labels, heads: `LABEL`s and the first of each bucket.
+        steps: The first label of each level of the bucket being emptied.
+        table: Hash table of the stances; its size is a power of two.
         codes: Scratch for candidates.
-        stances: Scratch, two records.
+        stances: Scratch, three records.
         margins: Scratch of the family's checks.
-        words: Scratch for a key.
+        words: Scratch, two keys.
+        row: Scratch for features.
         tally: How often each check forbade an action.
-        quota: Most stances to expand in this call.
+        quota: Most labels to take in this call.
 
     Returns:
         FOUND, EXHAUSTED, FULL or RUNNING.
     """
+    simple = search.second < 0 and search.informed
     for _ in range(quota):
-        while state[1] < heads.shape[0] and heads[state[1]] < 0:
-            state[1] += 1
-        if state[1] >= heads.shape[0]:
-            return EXHAUSTED
-        if max(state[0], state[5]) + codes.shape[0] > keys.shape[0]:
+        if max(state.nodes + codes.shape[0] > keys.shape[0], state.labels + codes.shape[0] > labels.shape[0]):
             return FULL
-        node = entries[heads[state[1]]]
-        heads[state[1]] = following[heads[state[1]]]
-        if closed[node]:
+        taken = take_label(search, state, labels, heads, steps)
+        if taken < 0:
+            if state.goal >= 0 and not search.front:
+                return FOUND
+            if state.lowest >= heads.shape[0]:
+                return FOUND if state.goal >= 0 else EXHAUSTED
             continue
-        closed[node] = 1
+        node = labels[taken].node
+        first = labels[taken].first
+        second = labels[taken].second
+        if search.front:
+            if second >= nodes[node].closed or second >= state.goal_second:
+                continue
+            if first == nodes[node].first and second > nodes[node].second:
+                continue  # a way of as many actions and less of the second cost waits
+        elif (
+            first != nodes[node].first
+            or second != nodes[node].second
+            or not less(first, second, state.goal_first, state.goal_second)
+        ):
+            continue
+        nodes[node].closed = second
+        nodes[node].closed_first = first
         restore(p, keys[node], stances[0])
         if done(p, stances[0]):
-            state[4] = node
-            return FOUND
-        state[2] += 1
+            labels[taken].next = state.goal  # the goals before, for a front
+            state.goal = taken
+            state.goal_first = first
+            state.goal_second = second
+            if simple:
+                return FOUND
+            continue
+        state.expanded += 1
         for c in range(candidates(p, stances[0], codes)):
-            state[3] += 1
+            state.checks += 1
             reason = step(p, stances[0], codes[c], stances[1], margins)
             if reason >= 0:
                 tally[reason] += 1
                 continue
-            key(p, stances[1], words)
-            slot = slot_of(words, table, keys)
+            measure(p, stances[1], row)
+            if search.capped >= 0 and row[search.capped] > search.cap:
+                continue
+            new_first = grown(p, search.first, first, row)
+            new_second = grown(p, search.second, second, row)
+            if search.front and new_second >= state.goal_second:
+                continue
+            key(p, stances[1], words[0])
+            slot = slot_of(words[0], table, keys)
             child = table[slot]
-            cost = g[node] + 1
-            if child >= 0 and (closed[child] or g[child] <= cost):
+            if child >= 0:
+                if search.front:
+                    if new_second >= nodes[child].closed:
+                        continue
+                    if new_first == nodes[child].first and new_second >= nodes[child].second:
+                        continue
+                elif not less(new_first, new_second, nodes[child].first, nodes[child].second):
+                    continue
+            ahead = bound(p, stances[1])
+            if ahead == math.inf:
+                state.dead += 1
+                continue
+            if new_first + (ahead if search.informed else 0.0) > search.at_most:
+                continue
+            if search.dominance and passed_over(
+                p, search, stances[1], new_first, new_second, nodes, keys, table, words[1], stances[2]
+            ):
+                state.dominated += 1
                 continue
             if child < 0:
-                child = state[0]
-                state[0] += 1
+                child = state.nodes
+                state.nodes += 1
                 table[slot] = child
-                closed[child] = 0
-                for i in range(words.shape[0]):
-                    keys[child, i] = words[i]
-            g[child] = cost
-            parent[child] = node
-            code[child] = codes[c]
-            f = cost + np.int64(math.ceil(bound(p, stances[1])))
-            if f < state[1]:
-                state[1] = f
-            entries[state[5]] = child
-            following[state[5]] = heads[f]
-            heads[f] = state[5]
-            state[5] += 1
+                nodes[child].first = math.inf
+                nodes[child].closed = math.inf
+                for i in range(words.shape[1]):
+                    keys[child, i] = words[0, i]
+            nodes[child].first = new_first
+            nodes[child].second = new_second
+            add_label(search, state, labels, heads, steps, child, new_first, new_second, ahead, taken, codes[c])
     return RUNNING
 
 

@@ -1,20 +1,34 @@
-"""The exact planner as a whole: the shortest plan, or the proof that there is none, within a stated model and memory."""
+"""The exact planner as a whole: the best plan, or the proof that there is none, within a stated model and memory."""
 
 import time
-
-import numpy as np
+from collections.abc import Sequence
 
 from ...actions.plan import Plan
 from ...actions.plan_families import plan_family
+from ...actions.problem import CompiledProblem
 from ...actions.problems import pose_problem
 from ...errors import PlannerError
 from ...tasks import Task
 from ..progress import Exploring, Listener
 from ..result import PlanResult, Status, furthest_of
-from .explore import Exploration, explore
+from .costs import COSTS, describe_order
+from .explore import Exploration
+from .minimize import Minimizer
 
 MOST_STANCES = 8_000_000
-"""Stances kept unless told otherwise: about 1 GB for the climber, at 120 bytes each; half as much again while it grows."""
+"""Stances kept unless told otherwise: about 2 GB for the climber, at 250 bytes each; half as much again while it grows."""
+
+
+def exact_problem(task: Task, *, threads: int | None = None) -> CompiledProblem:
+    """A task as a problem that can be searched whole.
+
+    Raises:
+        PlannerError: If the task allows actions that can't be listed one by one.
+    """
+    problem = pose_problem(task, threads=threads).problem
+    if problem.incomplete is not None:
+        raise PlannerError("exact", task.name, problem.incomplete)
+    return problem
 
 
 def plan_exact(
@@ -24,9 +38,10 @@ def plan_exact(
     seconds: float | None = None,
     threads: int | None = None,
     max_stances: int = MOST_STANCES,
+    minimize: Sequence[str] = ("length",),
     progress: Listener | None = None,
 ) -> PlanResult:
-    """Find a plan with the fewest actions, or prove that there is none.
+    """Find the best plan, or prove that there is none.
 
     Args:
         task: What to plan.
@@ -34,51 +49,77 @@ def plan_exact(
         seconds: Most wall-clock time [s].
         threads: The search itself runs on one; replays take as many as given.
         max_stances: Memory: most stances kept. Running out is a result ("bounded").
+        minimize: Costs in lexicographic order: of "length", "energy", "torque".
         progress: Called now and then.
 
     Returns:
-        "optimal", "infeasible", or "bounded" with the proved lower bound on the number of actions.
+        "optimal", "infeasible" (every reachable stance was seen), or "bounded" with the proved lower bound and the best plan known.
 
     Raises:
         PlannerError: If the task allows actions that exact search can't list one by one.
     """
     started = time.monotonic()
-    posed = pose_problem(task, threads=threads)
-    problem = posed.problem
-    if problem.incomplete is not None:
-        raise PlannerError("exact", task.name, problem.incomplete)
+    plain = exact_problem(task, threads=threads)
 
-    def tell(stances: int, bound: int) -> None:
+    def tell(stances: int, bound: float, cost: str) -> None:
         if progress is not None:
-            progress(Exploring(stances, bound))
+            progress(Exploring(stances, bound, cost))
 
-    seen = explore(problem, most_stances=max_stances, seconds=seconds, tell=tell)
+    def left() -> float | None:
+        return None if seconds is None else max(0.0, seconds - (time.monotonic() - started))
+
+    searches = Minimizer(plain.informed(), most_stances=max_stances, seconds=seconds, tell=tell)
+    seen = searches.least(minimize)
+    proved = seen
+    if seen.exhausted:
+        # The bound may have ruled the goal out at once. The proof stands, but what can be reached, and what stops it, is still to be seen.
+        searches = Minimizer(plain, most_stances=max_stances, seconds=left(), tell=tell)
+        seen = searches.least(("length",))
     family = plan_family(task)
-    replayed = problem.replay(seen.codes)
-    status: Status = "optimal" if seen.found else "infeasible" if seen.exhausted else "bounded"
+    status: Status = "optimal" if proved.found else "infeasible" if proved.exhausted else "bounded"
+    stances = plain.replay(seen.codes).stances
+    features = plain.measured(stances)
+    torque = features[:, plain.features.index("peak")]
+    energy = float(features[1:, plain.features.index("effort")].sum()) * family.duration(task)
     return PlanResult(
         status=status,
         plan=Plan.of_codes(task, seen.codes, seed=seed, planner="exact"),
         task=task,
-        reason=_reason(seen),
+        reason=_reason(proved, seen, minimize, status),
         evaluations=0,
-        checks=seen.checks,
+        checks=searches.checks,
         seconds=time.monotonic() - started,
         seed=seed,
         planner="exact",
-        max_torque=float(np.max([family.torque(stance) for stance in replayed.stances[1:]], initial=0.0)),
-        furthest=None if seen.found else furthest_of(task, problem, seen.codes),
-        lower_bound=None if seen.exhausted else seen.lower_bound,
-        stances=seen.stances,
+        max_torque=float(torque[1:].max(initial=0.0)),
+        furthest=None if seen.ways else furthest_of(task, plain, seen.codes),
+        lower_bound=int(proved.lower_bound) if minimize[0] == "length" and not proved.exhausted else None,
+        minimized=tuple(minimize),
+        costs={"length": len(seen.codes), "energy": energy, "torque": float(torque.max())} if seen.ways else {},
+        stances=searches.stances,
         model=family.model(task),
     )
 
 
-def _reason(seen: Exploration) -> str:
-    closed = ", ".join(f"{name} {n}" for name, n in sorted(seen.forbidden.items(), key=lambda item: -item[1]))
-    if seen.found:
-        return f"no plan has fewer than {len(seen.codes)} actions ({seen.stances} stances seen)"
-    if seen.exhausted:
-        return f"all {seen.stances} reachable stances were seen and none meets the goal; actions forbidden: {closed}"
+def _reason(proved: Exploration, seen: Exploration, minimize: Sequence[str], status: Status) -> str:
+    unit = "actions" if minimize[0] == "length" else f"{minimize[0]} ({COSTS[minimize[0]]})"
+    if status == "optimal":
+        what = (
+            f"no plan has fewer than {len(seen.codes)} actions" if minimize == ("length",) else describe_order(minimize)
+        )
+        return f"{what} ({seen.stances} stances seen)"
+    if status == "infeasible":
+        closed = ", ".join(f"{name} {n}" for name, n in sorted(seen.forbidden.items(), key=lambda item: -item[1]))
+        if seen.exhausted:
+            return (
+                f"all {seen.stances} reachable stances were seen and none meets the goal; actions forbidden: {closed}"
+            )
+        return (
+            f"no stance meets the goal even without forces, from reach and joint limits alone; {seen.stances} of the "
+            f"reachable stances were seen; actions forbidden: {closed}"
+        )
     why = "interrupted" if seen.interrupted else "out of time or memory"
-    return f"{why} after {seen.stances} stances: a plan has at least {seen.lower_bound} actions, if there is one"
+    bound = f"{seen.lower_bound:.4g} {unit}"
+    if seen.ways:
+        return f"{why} after {seen.stances} stances: the plan is not proved best; no plan has less than {bound}"
+    return f"{why} after {seen.stances} stances: a plan has at least {bound}, if there is one"

@@ -1,0 +1,58 @@
+"""What a plan may be asked to have little of, and orders of such wishes."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from ...errors import ClamberError, describe_choices
+
+COSTS: Final = {"length": "length", "energy": "effort", "torque": "peak"}
+"""Cost -> the feature that counts it: actions, power summed over actions, largest joint torque."""
+
+
+class CostError(ClamberError):
+    """Costs are asked for that can't be minimized together."""
+
+    def __init__(self, option: str, problem: str, allowed: str) -> None:
+        super().__init__(option, problem, allowed)
+        self.option, self.problem, self.allowed = option, problem, allowed
+
+    def __str__(self) -> str:
+        return f"{self.option}: {self.problem}; {self.allowed}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Aim:
+    """What one exact search minimizes: a cost, a second one among its equals, and a limit on the largest torque."""
+
+    first: str = "length"
+    second: str | None = None
+    most_torque: float | None = None
+    """No action may have more [N m]."""
+    at_most: float | None = None
+    """No plan with more of the first cost is of interest."""
+    front: bool = False
+    """Keep every plan that no other beats in both costs; the first cost must be the length."""
+
+
+def read_costs(option: str, text: str, *, least: int = 1, most: int = 3) -> tuple[str, ...]:
+    """Costs from "length,torque".
+
+    Raises:
+        CostError: If one is unknown or named twice, or their number doesn't fit.
+    """
+    names = tuple(name.strip() for name in text.split(","))
+    for name in names:
+        if name not in COSTS:
+            raise CostError(option, f"'{name}' is no cost", describe_choices(name, tuple(COSTS)))
+    if len(set(names)) < len(names):
+        raise CostError(option, f"'{text}' names a cost twice", "name each once")
+    if not least <= len(names) <= most:
+        wanted = f"{least}" if least == most else f"{least} to {most}"
+        raise CostError(option, f"{len(names)} costs are named", f"name {wanted} of {', '.join(COSTS)}")
+    return names
+
+
+def describe_order(order: Sequence[str]) -> str:
+    """An order in words: least length, then least torque."""
+    return ", then ".join(f"least {name}" for name in order)

@@ -1,0 +1,162 @@
+"""Every plan that no other beats in both of two costs."""
+
+import json
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from ...actions.plan import Plan
+from ...actions.plan_families import plan_family
+from ...files import write_atomically
+from ...tasks import Task
+from ...types import Json
+from ...units import OZ_IN
+from ..progress import Exploring, Listener
+from .costs import Aim
+from .explore import Exploration, Way
+from .minimize import UNDER, Minimizer
+from .planner import MOST_STANCES, exact_problem
+
+
+@dataclass(frozen=True, slots=True)
+class Trade:
+    """One plan of a front."""
+
+    plan: Plan
+    length: int
+    energy: float
+    """[J]"""
+    torque: float
+    """Largest joint torque, the start stance included [N m]."""
+
+    def to_json(self) -> Json:
+        """Plain data."""
+        return {
+            "length": self.length,
+            "energy_J": self.energy,
+            "torque_Nm": self.torque,
+            "torque_oz_in": self.torque / OZ_IN,
+            "codes": self.plan.numbers(),
+            "actions": [action.to_json() for action in self.plan.actions],
+        }
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Front:
+    """The plans that no other beats in both costs, from the least of the first to the least of the second."""
+
+    task: Task
+    costs: tuple[str, str]
+    trades: tuple[Trade, ...]
+    complete: bool
+    """Proved: there are no others."""
+    infeasible: bool
+    """Proved: there is no plan at all."""
+    reason: str
+    stances: int
+    checks: int
+    seconds: float
+    model: str
+
+    def to_json(self) -> Json:
+        """Plain data: what `clamber plan --pareto ... --json` prints."""
+        return {
+            "task": self.task.name,
+            "costs": list(self.costs),
+            "status": "infeasible" if self.infeasible else "optimal" if self.complete else "bounded",
+            "trades": [trade.to_json() for trade in self.trades],
+            "reason": self.reason,
+            "stances": self.stances,
+            "checks": self.checks,
+            "seconds": self.seconds,
+            "model": self.model,
+        }
+
+    def save(self, path: Path) -> None:
+        """Write the front with its plans as JSON, whole or not at all."""
+        write_atomically(path, json.dumps(self.to_json(), indent=2, allow_nan=False) + "\n")
+
+
+def plan_front(
+    task: Task,
+    costs: tuple[str, str],
+    *,
+    seconds: float | None = None,
+    threads: int | None = None,
+    max_stances: int = MOST_STANCES,
+    progress: Listener | None = None,
+) -> Front:
+    """Find every plan that no other beats in both costs (one plan for each pair of values).
+
+    Args:
+        task: What to plan.
+        costs: Two of "length", "energy", "torque".
+        seconds: Most wall-clock time [s].
+        threads: As for `plan_exact`.
+        max_stances: Memory; running out leaves the front incomplete, and says so.
+        progress: Called now and then.
+
+    Raises:
+        PlannerError: If the task allows actions that exact search can't list one by one.
+    """
+    started = time.monotonic()
+    problem = exact_problem(task, threads=threads).informed()
+
+    def tell(stances: int, bound: float, cost: str) -> None:
+        if progress is not None:
+            progress(Exploring(stances, bound, cost))
+
+    searches = Minimizer(problem, most_stances=max_stances, seconds=seconds, tell=tell)
+    names = set(costs)
+    if "length" in names:
+        (other,) = names - {"length"}
+        seen = searches.run(Aim(second=other, front=True))
+        ways, complete, infeasible = list(seen.ways), seen.found or seen.exhausted, seen.exhausted
+    else:
+        ways, complete, infeasible = _by_falling_limit(searches)
+    family = plan_family(task)
+    trades = []
+    for way in ways:
+        stances = problem.replay(way.codes).stances
+        features = problem.measured(stances)
+        trades.append(
+            Trade(
+                Plan.of_codes(task, way.codes, planner="exact"),
+                len(way.codes),
+                float(features[1:, problem.features.index("effort")].sum()) * family.duration(task),
+                float(features[:, problem.features.index("peak")].max()),
+            )
+        )
+    trades.sort(key=lambda trade: getattr(trade, costs[0]))
+    return Front(
+        task=task,
+        costs=costs,
+        trades=tuple(trades),
+        complete=complete,
+        infeasible=infeasible,
+        reason=_reason(len(trades), complete, infeasible, searches.stances),
+        stances=searches.stances,
+        checks=searches.checks,
+        seconds=time.monotonic() - started,
+        model=family.model(task),
+    )
+
+
+def _by_falling_limit(searches: Minimizer) -> tuple[list[Way], bool, bool]:
+    """The front of energy and torque: least energy under a limit of the torque that falls until no plan is left."""
+    ways: list[Way] = []
+    limit: float | None = None
+    while True:
+        seen: Exploration = searches.run(Aim(first="energy", second="torque", most_torque=limit))
+        if not seen.found:
+            return ways, seen.exhausted, seen.exhausted and not ways
+        ways.append(seen.ways[0])
+        limit = seen.ways[0].second * UNDER
+
+
+def _reason(trades: int, complete: bool, infeasible: bool, stances: int) -> str:
+    if infeasible:
+        return f"there is no plan ({stances} stances seen)"
+    if complete:
+        return f"no plan beats one of these {trades} in both costs ({stances} stances seen)"
+    return f"out of time or memory after {stances} stances: these {trades} are on the front, more may be"

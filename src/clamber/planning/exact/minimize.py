@@ -1,0 +1,95 @@
+"""Exact searches in a row: the best plan in a lexicographic order of up to three costs."""
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from ...actions.problem import CompiledProblem
+from .costs import Aim
+from .explore import Exploration, explore
+
+Tell = Callable[[int, float, str], None]
+UNDER = 1.0 - 1e-9
+"""A torque limit that a plan just misses is this part of its largest torque."""
+
+
+class Minimizer:
+    """Runs searches that share a problem, memory and time; adds up what they cost."""
+
+    def __init__(
+        self, problem: CompiledProblem, *, most_stances: int, seconds: float | None = None, tell: Tell | None = None
+    ) -> None:
+        self.problem = problem
+        self.most_stances = most_stances
+        self.tell = tell
+        self.checks = 0
+        self.stances = 0
+        """Of the largest search."""
+        self._ends = None if seconds is None else time.monotonic() + seconds
+
+    def run(self, aim: Aim) -> Exploration:
+        """One search."""
+        left = None if self._ends is None else max(0.0, self._ends - time.monotonic())
+
+        def tell(stances: int, bound: float) -> None:
+            if self.tell is not None:
+                self.tell(stances, bound, aim.first)
+
+        seen = explore(self.problem, most_stances=self.most_stances, seconds=left, tell=tell, aim=aim)
+        self.checks += seen.checks
+        self.stances = max(self.stances, seen.stances)
+        return seen
+
+    def least(self, order: Sequence[str], *, most_torque: float | None = None) -> Exploration:
+        """The best plan by an order of costs.
+
+        A largest torque doesn't add up, so what is best after it can't be found by going on from what is best so far: where it comes
+        first, its least value becomes a limit for the costs behind it. Where it comes third, its limit falls until the first two grow.
+
+        Args:
+            order: One to three different costs of `COSTS`.
+            most_torque: No action may have more [N m].
+
+        Returns:
+            The search that settled it; one that ended early leaves the best plan known and the bound on the first cost.
+        """
+        first, *rest = order
+        if first == "torque":
+            easiest = self.run(Aim(first="torque", most_torque=most_torque))
+            if not easiest.found or not rest:
+                return easiest
+            limit = easiest.ways[0].first * (1.0 + 1e-12)
+            settled = self.least(rest, most_torque=limit)
+            return (
+                easiest if not settled.ways else replace(settled, lower_bound=easiest.lower_bound, found=settled.found)
+            )
+        if not rest:
+            return self.run(Aim(first=first, most_torque=most_torque))
+        both = self.run(Aim(first=first, second=rest[0], most_torque=most_torque))
+        if not both.found or len(rest) == 1:
+            return both
+        if rest[0] == "torque":
+            limit = both.ways[0].second * (1.0 + 1e-12)
+            settled = self.run(Aim(first=first, second=rest[1], most_torque=limit))
+            return settled if settled.found else replace(both, found=False)
+        return self._easiest_of_equals(both, first, rest[0], most_torque)
+
+    def _easiest_of_equals(self, both: Exploration, first: str, second: str, most_torque: float | None) -> Exploration:
+        """Of the plans that two added-up costs don't tell apart, the one of least torque."""
+        best = both
+        while True:
+            peak = self.peak(best)
+            lower = peak * UNDER if most_torque is None else min(most_torque, peak * UNDER)
+            tried = self.run(
+                Aim(first=first, second=second, most_torque=lower, at_most=both.ways[0].first * (1.0 + 1e-9))
+            )
+            if not tried.found and not tried.exhausted:
+                return replace(best, found=False)
+            if not tried.found or tried.ways[0].second > both.ways[0].second * (1.0 + 1e-9):
+                return best
+            best = tried
+
+    def peak(self, seen: Exploration) -> float:
+        """Largest joint torque of the best plan, the start stance included [N m]."""
+        stances = self.problem.replay(seen.codes).stances
+        return float(self.problem.measured(stances)[:, self.problem.features.index("peak")].max())

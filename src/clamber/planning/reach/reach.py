@@ -1,0 +1,236 @@
+"""What a robot can ever reach: poses of its body, holds, goals, and what each place costs."""
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, Final, Literal
+
+from ...actions.plan_families import plan_family
+from ...actions.problems import pose_problem
+from ...actions.yardsticks import yardsticks_of
+from ...errors import PlannerError
+from ...files import write_atomically
+from ...tasks import Task
+from ...types import Json
+from .flood import Flood, flood
+from .table import Rim, Table, place_table, pose_table, rim_of
+
+MOST_STANCES: Final = 8_000_000
+"""Stances kept unless told otherwise: under 1 GB for the climber, half as much again while it grows."""
+Status = Literal["complete", "incomplete"]
+_ENDS: Final = {
+    "": "every reachable stance was seen",
+    "memory": "out of memory for stances",
+    "time": "out of time",
+    "interrupt": "interrupted",
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HoldUse:
+    """One hold, and who can ever use it."""
+
+    number: int
+    limbs: dict[str, int]
+    """Limb -> actions of the shortest way to holding it; limbs that never hold it are left out."""
+    stances: int
+    """Reachable stances with a limb on it."""
+
+    def to_json(self) -> Json:
+        """Plain data."""
+        first = min(self.limbs.values(), default=None)
+        return {"number": self.number, "first_step": first, "limbs": self.limbs, "stances": self.stances}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GoalReach:
+    """One goal, and whether any reachable stance is where it asks for; goals before it and turns are not asked."""
+
+    name: str
+    stances: int
+    first_step: int | None
+    """Actions of the shortest way there; None: nobody gets there."""
+
+    def to_json(self) -> Json:
+        """Plain data."""
+        return {"name": self.name, "stances": self.stances, "first_step": self.first_step}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Reach:
+    """The reachable space of a task, as far as it was seen."""
+
+    task: Task
+    status: Status
+    """complete: every stance that can be reached was seen; incomplete: memory, time or Ctrl-C came first."""
+    reason: str
+    """In a sentence."""
+    stances: int
+    """Different stances."""
+    steps: int
+    """Actions of the shortest way to the stance that is farthest in actions."""
+    poses: Table
+    places: Table
+    rim: Rim
+    """Places that could be tried and were not reached; while incomplete, not reached so far."""
+    holds: tuple[HoldUse, ...]
+    goals: tuple[GoalReach, ...]
+    """Sub-goals in order, then the goal."""
+    checks: int
+    """Actions judged."""
+    forbidden: dict[str, int]
+    """Check -> actions that it forbade."""
+    closed_by: dict[str, int]
+    """Check -> forbidden body moves to places that nobody reaches: what closes the edge of the map; empty while incomplete."""
+    seconds: float
+    model: str
+    """The rules that the answer holds for."""
+    without_hangs: bool
+    """Whether hangs were left out though the task allows them."""
+
+    @property
+    def never_used(self) -> tuple[int, ...]:
+        """Numbers of the holds that no limb can ever hold; none is known before everything was seen."""
+        return tuple(hold.number for hold in self.holds if self.status == "complete" and not hold.limbs)
+
+    @property
+    def goal_reached(self) -> bool:
+        """Whether some reachable stance is where the last goal asks for."""
+        return self.goals[-1].stances > 0
+
+    def to_json(self) -> Json:
+        """Plain data: what `clamber reach --json` prints."""
+        return {
+            "status": self.status,
+            "task": self.task.name,
+            "reason": self.reason,
+            "model": self.model,
+            "without_hangs": self.without_hangs,
+            "stances": self.stances,
+            "poses": len(self.poses),
+            "steps": self.steps,
+            "checks": self.checks,
+            "seconds": self.seconds,
+            "goal_reached": self.goal_reached,
+            "goals": [goal.to_json() for goal in self.goals],
+            "holds": [hold.to_json() for hold in self.holds],
+            "never_used": list(self.never_used),
+            "forbidden": self.forbidden,
+            "closed_by": self.closed_by,
+            "places": self.places.to_json(),
+        }
+
+    def save_table(self, path: Path) -> None:
+        """Write the poses as CSV, whole or not at all.
+
+        Raises:
+            FileError: If the file can't be written.
+        """
+        write_atomically(path, self.poses.to_csv())
+
+
+def _no_hangs(task: Any) -> tuple[Task, bool]:
+    bare: Task = replace(task, rules=replace(task.rules, max_hangs=0))
+    return bare, task.rules.max_hangs != 0
+
+
+WITHOUT_HANGS: Final[dict[str, Callable[[Any], tuple[Task, bool]]]] = {
+    "limbed": _no_hangs,
+    "walker": lambda task: (task, False),
+}
+"""Family of the robot -> a task of it with no hangs, and whether that changes anything."""
+
+
+def find_reach(
+    task: Task,
+    *,
+    hangs: bool = False,
+    max_stances: int = MOST_STANCES,
+    seconds: float | None = None,
+    threads: int | None = None,
+    progress: Callable[[int, int, int], None] | None = None,
+) -> Reach:
+    """See every stance that a robot can reach from its start, whatever its goals, and what it costs to be there.
+
+    Args:
+        task: The task; its goals stop nothing.
+        hangs: Whether hangs count as the task's rules have them. They take the body off the lattice of steps, so that with any number
+            of them the space has no end; without this they are left out.
+        max_stances: Memory: most stances kept. Running out is a result ("incomplete").
+        seconds: Most wall-clock time [s].
+        threads: The answer doesn't depend on them; None for one a core.
+        progress: Called now and then with stances, poses tried and actions from the start.
+
+    Returns:
+        The reachable space.
+
+    Raises:
+        PlannerError: If the task allows actions that can't be listed one by one.
+        StartError: If the start stance violates a hard check.
+    """
+    started = time.monotonic()
+    posed, changed = (task, False) if hangs else WITHOUT_HANGS[task.document["robot"]["family"]](task)
+    problem = pose_problem(posed, threads=1).problem
+    if problem.incomplete is not None:
+        raise PlannerError("reach", task.name, problem.incomplete)
+    holds: tuple[Any, ...] = getattr(task.world, "holds", ())
+    seen = flood(
+        problem,
+        yardsticks_of(posed),
+        holds=len(holds),
+        most_stances=max_stances,
+        seconds=seconds,
+        threads=threads,
+        tell=progress,
+    )
+    start = (task.start.x, task.start.y, task.start.theta)
+    poses = pose_table(seen, problem.burdens, problem.checks, start, (task.step.length, task.step.angle))
+    places = place_table(poses)
+    rim = rim_of(seen, places, problem.checks)
+    why = f"{_ENDS[seen.ended]}: {seen.stances} stances, {len(poses)} poses, {len(places)} places"
+    return Reach(
+        task=task,
+        status="incomplete" if seen.ended else "complete",
+        reason=why,
+        stances=seen.stances,
+        steps=seen.depth,
+        poses=poses,
+        places=places,
+        rim=rim,
+        holds=_holds(task, holds, seen),
+        goals=_goals(task, seen),
+        checks=seen.judged,
+        forbidden=_ranked(problem.checks, seen.forbidden.tolist()),
+        closed_by={} if seen.ended else _ranked(problem.checks, rim.forbidden.sum(axis=0).tolist()),
+        seconds=time.monotonic() - started,
+        model=plan_family(posed).model(posed),
+        without_hangs=changed,
+    )
+
+
+def _ranked(names: tuple[str, ...], counts: list[int]) -> dict[str, int]:
+    """The checks that count, the most frequent first."""
+    return dict(sorted(((name, n) for name, n in zip(names, counts, strict=True) if n), key=lambda item: -item[1]))
+
+
+def _holds(task: Any, holds: tuple[Any, ...], seen: Flood) -> tuple[HoldUse, ...]:
+    return tuple(
+        HoldUse(
+            number=hold.number,
+            limbs={
+                name: int(seen.first_used[i, h])
+                for i, name in enumerate(task.robot.limb_names)
+                if seen.first_used[i, h] >= 0
+            },
+            stances=int(seen.used[:, h].sum()),
+        )
+        for h, hold in enumerate(holds)
+    )
+
+
+def _goals(task: Any, seen: Flood) -> tuple[GoalReach, ...]:
+    return tuple(
+        GoalReach(name=goal.name, stances=int(n), first_step=int(first) if n else None)
+        for goal, n, first in zip(task.goals, seen.met, seen.first_met, strict=True)
+    )
