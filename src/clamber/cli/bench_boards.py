@@ -1,22 +1,24 @@
 """`clamber bench boards`: every planner on the benchmark set."""
 
-import os
-from functools import partial
 from pathlib import Path
 from typing import Any
 
 from rich.console import Console
 
-from .output import check_writable, plain_table, print_json, stderr, stdout
+from .crew import EndsLine, executor_of
+from .output import announce_compilation, check_writable, plain_table, print_json, stderr, stdout
 
 TABLES = (".md", ".csv")
 
 
-def bench_boards(*, workers: int | None, store: Path | None, resume: bool, output: Path | None, as_json: bool) -> None:
+def bench_boards(
+    workers: int | None, ray: str | None, *, store: Path | None, resume: bool, output: Path | None, as_json: bool
+) -> None:
     """Run the contest and print its tables.
 
     Args:
         workers: Processes; None for one a core.
+        ray: Address of a Ray cluster to run it on instead.
         store: SQLite file that keeps each trial as it ends.
         resume: Whether to go on with it.
         output: Picture, table (.md) or trials (.csv) to write.
@@ -27,12 +29,17 @@ def bench_boards(*, workers: int | None, store: Path | None, resume: bool, outpu
         from ..viewing.output import CANVASES, check_suffix
 
         check_suffix(output, (*CANVASES, *TABLES))
-    from ..experiments.boards.bench import tell_tenths
+    if ray is None:
+        announce_compilation("simulate")
     from ..experiments.boards.contest import run_contest
     from ..experiments.boards.tables import rows_of, save_markdown, save_trials
 
-    say = partial(stderr().print, style="dim")
-    contest = run_contest(workers=workers or os.cpu_count() or 1, store=store, resume=resume, progress=tell_tenths(say))
+    contest = run_contest(
+        executor=executor_of(ray, workers),
+        store=store,
+        resume=resume,
+        progress=EndsLine(stderr(), "trials", quiet=False).update,
+    )
     if output is not None and output.suffix.lower() not in TABLES:
         from ..viewing.boards_plot import draw_boards
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from ... import __version__
-from ...jobs import Outcome, map_items
+from ...jobs import Executor, Outcome, map_items
 from ...planning.budgets import Allowance, Contender, contenders
 from ...types import Json
 from .cases import Case, all_cases
@@ -88,6 +88,7 @@ def run_contest(
     seeds: Sequence[int] = SEEDS,
     allowance: Allowance = ALLOWANCE,
     workers: int = 1,
+    executor: Executor | None = None,
     store: Path | None = None,
     resume: bool = False,
     progress: Callable[[int, int, Outcome], None] | None = None,
@@ -99,13 +100,15 @@ def run_contest(
         entrants: The planners; None takes all.
         seeds: For planners that draw at random; the others run once.
         allowance: What a trial may spend.
-        workers: Processes; the answers don't depend on it, but for the seconds.
+        workers: Local processes; the answers don't depend on it, but for the seconds.
+        executor: Who runs the trials, in place of local processes, such as a cluster.
         store: SQLite file that keeps each trial as it ends.
         resume: Whether to go on with that file.
         progress: Told of each end.
 
     Raises:
         StoreError: If the file can't be the store of this contest.
+        ClusterError: If there is no cluster to run on, or it is lost.
     """
     boards = tuple(all_cases() if cases is None else cases)
     field = tuple(contenders() if entrants is None else entrants)
@@ -124,12 +127,14 @@ def run_contest(
         }
         for case, contender, seed in plays
     ]
-    for planner in {contender.planner for contender in field}:
-        load_machine_code(planner)  # compiles here, once, and not in every worker at the same time
+    if executor is None or executor.here:
+        for planner in {contender.planner for contender in field}:
+            load_machine_code(planner)  # compiles here, once, and not in every worker at the same time
     outcomes = map_items(
         run_trial,
         items,
         workers=workers,
+        executor=executor,
         store=store,
         about={"items": items},
         title="the benchmark 'boards'",
