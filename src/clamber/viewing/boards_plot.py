@@ -71,7 +71,7 @@ def _solved(axes: Axes, contest: Contest, truths: dict[str, Truth], order: Seque
     axes.set_xlim(100.0, 1.3 * most)
     axes.set_ylim(0.0, 104.0)
     axes.set_xlabel("actions judged up to the first plan")
-    axes.set_ylabel("boards solved [%]")
+    axes.set_ylabel("trials that found a plan [%]")
     boards = sum(truth.feasible is True for truth in truths.values())
     axes.set_title(f"Solved, of {boards} boards that have a plan")
     style.bare(axes)
