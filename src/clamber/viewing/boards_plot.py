@@ -46,7 +46,7 @@ def draw_boards(contest: Contest, path: str | Path) -> None:
         left, right = figure.subplots(1, 2, width_ratios=(1.25, 1.0))
         _solved(left, contest, truths, order, looks)
         _gaps(right, order, looks)
-        figure.legend(loc="outside lower center", ncols=min(6, len(order)), fontsize=8)
+        figure.legend(loc="outside lower center", ncols=min(7, len(order)), fontsize=8)
         save_figure(figure, path)
 
 
@@ -64,8 +64,8 @@ def _solved(axes: Axes, contest: Contest, truths: dict[str, Truth], order: Seque
         )  # fmt: skip
     axes.axvline(contest.allowance.checks, color=style.QUIET, lw=0.8, ls=(0, (4, 3)))
     axes.annotate(
-        "allowance", (contest.allowance.checks, 1.0), xytext=(3, 3), textcoords="offset points", ha="left",
-        fontsize=8, color=style.QUIET,
+        "allowance", (contest.allowance.checks, 1.0), xycoords=("data", "axes fraction"), xytext=(0, 3),
+        textcoords="offset points", ha="center", fontsize=8, color=style.QUIET,
     )  # fmt: skip
     axes.set_xscale("log")
     axes.set_xlim(100.0, 1.3 * most)
