@@ -5,7 +5,7 @@ import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Any, Protocol, Self
+from typing import Any, ClassVar, Protocol, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +13,7 @@ import numpy.typing as npt
 from .loops import expand, features_of, follow, possible, replay, rollout, sprout
 from .params import Params
 from .table import ActionTable
+from .ways import WayFields
 
 MAX_FEATURES = 8
 PIECES = 8
@@ -113,6 +114,9 @@ class CompiledProblem:
 
     The answer does not depend on the number of threads: every plan is carried out alone.
     """
+
+    burdens: ClassVar[tuple[str, ...]] = ()
+    """Names of what the family's kernel `burden` writes, each with its unit at the end."""
 
     def __init__(
         self,
@@ -305,12 +309,20 @@ class CompiledProblem:
         return self.way - self.progress(stance)
 
     def informed(self) -> Self:
-        """The same problem with the best `bound` that its family knows, for exact search; the answer is the same with or without."""
+        """The same problem with all that its family knows of bounds and symmetry, for exact search; no answer depends on it."""
         return self
+
+    def mirrored(self, code: int) -> int:
+        """The mirror image of an action, in a problem that is its own mirror image."""
+        raise NotImplementedError
 
     @property
     def incomplete(self) -> str | None:
         """Why `expand` and exact search can't list all that the task allows, or None: they can."""
+        return None
+
+    def ways(self) -> WayFields | None:
+        """About how far it is from every place of the world to each goal; None: the family has no such map."""
         return None
 
     @property
@@ -342,11 +354,6 @@ class CompiledProblem:
         start = self.start.copy()
         start["stage"] = self.goals
         return self.params.for_thread(), start
-
-    @property
-    def burdens(self) -> tuple[str, ...]:
-        """Names of what the family's kernel `burden` writes, each with its unit at the end."""
-        return ()
 
     @property
     def spot_words(self) -> int:

@@ -53,6 +53,24 @@ PROBLEMS: Final[dict[str, Callable[[Any, int | None, bool], Posed]]] = {"limbed"
 """Family of the robot -> how its tasks become problems."""
 
 
+BURDENS: Final[dict[str, tuple[str, ...]]] = {"limbed": LimbedProblem.burdens, "walker": WalkerProblem.burdens}
+"""Family of the robot -> what can be told of being in a stance, each with its unit at the end."""
+
+
+def _hangless(task: Any) -> Task:
+    bare: Task = replace(task, rules=replace(task.rules, max_hangs=0))
+    return bare
+
+
+WITHOUT_HANGS: Final[dict[str, Callable[[Any], Task]]] = {"limbed": _hangless, "walker": lambda task: task}
+"""Family of the robot -> a task of it with no hangs."""
+
+
+def without_hangs(task: Task) -> Task:
+    """The same task with no hangs allowed."""
+    return WITHOUT_HANGS[task.document["robot"]["family"]](task)
+
+
 def last_goal_only(task: Task) -> Task:
     """The same task without its sub-goals."""
     bare: Any = task  # each family's task has goals of its own type
