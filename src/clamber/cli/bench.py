@@ -40,7 +40,8 @@ def bench(
     crew = Crew(executor=executor_of(ray, workers), store=store, resume=resume, progress=line.update)
     if ray is not None:
         crew.executor.check()
-    announce_compilation("rollout")
+    if ray is None:
+        announce_compilation("simulate" if name == "boards" else "rollout")
     if name == "boards":
         from .bench_boards import bench_boards
 

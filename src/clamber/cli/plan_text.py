@@ -70,7 +70,8 @@ def progress_text(progress: Moment) -> str:
         return f"{progress.stances} stances, {_bound_text(progress)}"
     best = "" if progress.best_length is None else f", found {progress.best_length} actions"
     if isinstance(progress, Trying):
-        return f"{progress.checks} actions judged, progress {progress.value:.2f}{best}"
+        how = best or f", progress {progress.value:.2f}"
+        return f"{progress.checks} actions judged{how}"
     return (
         f"generation {progress.generation}, {progress.evaluations} plans, fitness {progress.best_fitness:.2f}, "
         f"{progress.furthest} steps, goal {progress.stage}/{progress.stages}{best}"
@@ -98,8 +99,9 @@ def print_result(console: Console, result: PlanResult, output: Path | None) -> N
             _print_furthest(console, result.furthest)
     if result.model:
         console.print(f"proved for: {result.model}; {result.reason}" if found else f"proved for: {result.model}")
-    effort = f"{result.evaluations} plans" if result.stances is None else f"{result.stances} stances"
-    console.print(f"{effort}, {result.checks} actions judged, {result.seconds:.1f} s, seed {result.seed}")
+    effort = f"{result.evaluations} plans, " if result.evaluations else ""
+    effort = effort if result.stances is None else f"{result.stances} stances, "
+    console.print(f"{effort}{result.checks} actions judged, {result.seconds:.1f} s, seed {result.seed}")
     if found:
         console.print(_spelled(result.plan))
     if output is not None:

@@ -120,9 +120,10 @@ def run_contest(
         }
         for case, contender, seed in plays
     ]
-    for planner in {contender.planner for contender in field}:
-        load_machine_code(planner)  # compiles here, once, and not in every worker at the same time
     crew = crew or Crew(executor=LocalProcesses(os.cpu_count() or 1))
+    if crew.executor.here:
+        for planner in {contender.planner for contender in field}:
+            load_machine_code(planner)  # compiles here, once, and not in every worker at the same time
     outcomes = map_items(
         run_trial,
         items,

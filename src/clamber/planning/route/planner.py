@@ -73,7 +73,7 @@ def plan_route(
         if progress is not None:
             progress(Routing(stances, actions, 1.0 - left / whole if whole > 0.0 else 1.0))
 
-    best, checks, stances, first_length = None, 0, 0, None
+    best, checks, stances, first_length, first_checks = None, 0, 0, None, None
     for weight in weights:
         left = None if seconds is None else max(0.0, seconds - (time.monotonic() - started))
         most = max_stances if best is None else min(max_stances, EFFORT * best.stances)
@@ -83,7 +83,8 @@ def plan_route(
         checks, stances = checks + seen.checks, stances + seen.stances
         if best is None or (seen.found and len(seen.codes) < len(best.codes)):
             best = seen
-        first_length = len(seen.codes) if seen.found and first_length is None else first_length
+        if seen.found and first_length is None:
+            first_length, first_checks = len(seen.codes), checks
         if not best.found or seen.interrupted or (left is not None and time.monotonic() - started >= (seconds or 0.0)):
             break
     assert best is not None
@@ -103,6 +104,7 @@ def plan_route(
         furthest=None if best.found else furthest_of(task, problem, best.codes),
         stances=stances,
         first_length=first_length,
+        first_checks=first_checks,
     )
 
 
