@@ -145,8 +145,8 @@ def test_a_contest_resumes_and_tells_the_same_on_two_workers(tmp_path: Path) -> 
     setting = {"cases": [random_case(10, 1), random_case(10, 7)], "entrants": some, "seeds": (0,), "allowance": FEW}
     store = tmp_path / "boards.sqlite"
     alone = run_contest(**setting)  # type: ignore[arg-type]
-    first = run_contest(**setting, crew=Crew(LocalProcesses(2), store))  # type: ignore[arg-type]
-    again = run_contest(**setting, crew=Crew(LocalProcesses(1), store, resume=True))  # type: ignore[arg-type]
+    first = run_contest(**setting, crew=Crew(executor=LocalProcesses(2), store=store))  # type: ignore[arg-type]
+    again = run_contest(**setting, crew=Crew(executor=LocalProcesses(1), store=store, resume=True))  # type: ignore[arg-type]
     assert again == first
 
     def timeless(trials: tuple[Trial, ...]) -> list[Trial]:
@@ -154,7 +154,7 @@ def test_a_contest_resumes_and_tells_the_same_on_two_workers(tmp_path: Path) -> 
 
     assert timeless(alone.trials) == timeless(first.trials)
     with pytest.raises(StoreError, match="other data"):
-        run_contest(**{**setting, "seeds": (1,)}, crew=Crew(LocalProcesses(1), store, resume=True))  # type: ignore[arg-type]
+        run_contest(**{**setting, "seeds": (1,)}, crew=Crew(executor=LocalProcesses(1), store=store, resume=True))  # type: ignore[arg-type]
 
 
 def test_a_planner_that_cannot_take_a_task_is_refused_and_not_failed() -> None:
