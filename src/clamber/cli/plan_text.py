@@ -11,7 +11,7 @@ from ..actions.plan import Plan
 from ..actions.plan_families import plan_family
 from ..planning.genetic.learning import Macro
 from ..planning.learning import Lesson
-from ..planning.progress import Exploring, Progress
+from ..planning.progress import Exploring, Layers, Moment, Progress, Shortening
 from ..planning.result import Furthest, PlanResult
 from ..tasks import Task
 from ..units import OZ_IN
@@ -40,7 +40,7 @@ class ProgressLine:
         if self._live is not None and not self._quiet:
             self._live.stop()
 
-    def update(self, progress: Progress | Exploring) -> None:
+    def update(self, progress: Moment) -> None:
         """Show one moment of the search."""
         if self._quiet:
             return
@@ -51,15 +51,23 @@ class ProgressLine:
             self._console.print(progress_text(progress), soft_wrap=True)
 
 
-def _turn(progress: Progress | Exploring) -> int:
+def _turn(progress: Moment) -> int:
     """What counts up while a search goes on."""
-    return progress.generation if isinstance(progress, Progress) else progress.lower_bound
+    if isinstance(progress, Exploring):
+        return progress.lower_bound
+    if isinstance(progress, Shortening):
+        return -progress.length
+    return progress.generation if isinstance(progress, Progress) else progress.layer
 
 
-def progress_text(progress: Progress | Exploring) -> str:
+def progress_text(progress: Moment) -> str:
     """One moment of a search in a line of at most 80 columns."""
     if isinstance(progress, Exploring):
         return f"{progress.stances} stances, no plan has fewer than {progress.lower_bound} actions"
+    if isinstance(progress, Layers):
+        return f"layer {progress.layer}, {progress.stances} stances, best score {progress.best_score:.2f}"
+    if isinstance(progress, Shortening):
+        return f"a plan of {progress.length} actions"
     best = "" if progress.best_length is None else f", found {progress.best_length} actions"
     return (
         f"generation {progress.generation}, {progress.evaluations} plans, fitness {progress.best_fitness:.2f}, "
@@ -69,9 +77,10 @@ def progress_text(progress: Progress | Exploring) -> str:
 
 def print_result(console: Console, result: PlanResult, output: Path | None) -> None:
     """Print what a search found, or how far it came and what stopped it."""
-    found = result.status in ("found", "optimal")
+    found = result.has_plan
     if found:
-        console.print(f"{result.status}: {result.length} actions for '{result.plan.task}'", style="bold green")
+        gap = "" if not result.gap else f", at most {result.gap} more than the shortest plan"
+        console.print(f"{result.status}: {result.length} actions for '{result.plan.task}'{gap}", style="bold green")
         console.print(f"largest torque {result.max_torque / OZ_IN:.0f} oz-in")
     else:
         console.print(f"{result.status}: no plan for '{result.plan.task}'", style="bold red")
@@ -80,6 +89,8 @@ def print_result(console: Console, result: PlanResult, output: Path | None) -> N
             _print_furthest(console, result.furthest)
     if result.model:
         console.print(f"proved for: {result.model}; {result.reason}" if found else f"proved for: {result.model}")
+    elif found:
+        console.print(result.reason)
     effort = f"{result.evaluations} plans" if result.stances is None else f"{result.stances} stances"
     console.print(f"{effort}, {result.checks} actions judged, {result.seconds:.1f} s, seed {result.seed}")
     if found:

@@ -31,4 +31,24 @@ class Exploring:
     """No plan has fewer actions."""
 
 
-Listener = Callable[[Progress | Exploring], None]
+@dataclass(frozen=True, slots=True)
+class Layers:
+    """One moment of a beam search."""
+
+    layer: int
+    """Actions of every plan kept now."""
+    stances: int
+    """Stances kept in all layers."""
+    best_score: float
+
+
+@dataclass(frozen=True, slots=True)
+class Shortening:
+    """One moment of making a plan shorter."""
+
+    length: int
+    """Actions of the plan."""
+
+
+Moment = Progress | Exploring | Layers | Shortening
+Listener = Callable[[Moment], None]

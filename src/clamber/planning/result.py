@@ -46,8 +46,8 @@ class PlanResult:
     """A planner's answer. It proves itself: `check` replays the plan without the planner."""
 
     status: Status
-    """optimal: proved to be the shortest plan; found: a plan; infeasible: proved that there is none; bounded: no plan
-    yet, and none has fewer than `lower_bound` actions; stopped: none yet, and nothing proved."""
+    """optimal: proved to be the shortest plan; found: a plan; infeasible: proved that there is none; bounded: none has
+    fewer than `lower_bound` actions, and the plan, if there is one (`has_plan`), is `gap` above that; stopped: none yet, and nothing proved."""
     plan: Plan
     """The plan; without success, the actions that lead furthest."""
     task: Task
@@ -80,6 +80,16 @@ class PlanResult:
         """Actions of the plan."""
         return len(self.plan.actions)
 
+    @property
+    def has_plan(self) -> bool:
+        """Whether the plan reaches the goal."""
+        return self.status in ("optimal", "found") or (self.status == "bounded" and self.furthest is None)
+
+    @property
+    def gap(self) -> int | None:
+        """Actions that the plan may have too many, at most; None without a plan, or without a bound below it."""
+        return self.length - self.lower_bound if self.has_plan and self.lower_bound is not None else None
+
     def check(self) -> Verdict:
         """Replay the plan and recompute every margin."""
         return check_plan(self.task, self.plan)
@@ -101,6 +111,7 @@ class PlanResult:
             "seed": self.seed,
             "planner": self.planner,
             "lower_bound": self.lower_bound,
+            "gap": self.gap,
             "stances": self.stances,
             "model": self.model,
             "first_length": self.first_length,
