@@ -17,6 +17,7 @@ from .inventory import inventory
 from .learn import learn
 from .list import list_names
 from .plan import plan
+from .polish import polish
 from .show import show
 from .study import study
 from .sweep import sweep
@@ -30,6 +31,7 @@ app = typer.Typer(
 )
 app.command("list")(list_names)
 app.command("plan")(plan)
+app.command("polish")(polish)
 app.command("learn")(learn)
 app.command("inventory")(inventory)
 app.command("check")(check)

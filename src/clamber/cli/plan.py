@@ -25,6 +25,8 @@ def plan(
     macros: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Learned modules to add (`clamber learn -o`).")
     ] = None,
+    width: Annotated[int | None, typer.Option(min=1, help="Stances that a beam keeps of each layer.")] = None,
+    max_stances: Annotated[int | None, typer.Option(min=1, help="Memory of the hybrid's exact search.")] = None,
     history: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Draw how the fitness grew (png, svg, pdf).")
     ] = None,
@@ -54,6 +56,16 @@ def plan(
         raise typer.BadParameter(
             "only the genetic planner takes --checkpoint, --macros and --history", param_hint="--planner"
         )
+    if width is not None:
+        if planner != "beam":
+            raise typer.BadParameter("only the beam planner takes --width", param_hint="--planner")
+        options["width"] = width
+    if planner == "hybrid":
+        options |= {"profile": profile, "max_evaluations": evaluations}
+    if max_stances is not None:
+        if planner != "hybrid":
+            raise typer.BadParameter("only the hybrid planner takes --max-stances", param_hint="--planner")
+        options["max_stances"] = max_stances
     with ProgressLine(stderr(), quiet=quiet) as line:
         result = PLANNERS[planner](problem, progress=line.update, **options)
     if output is not None:
@@ -66,4 +78,4 @@ def plan(
         print_json(result.to_json())
     else:
         print_result(stdout(), result, output)
-    raise typer.Exit(0 if result.status in ("found", "optimal") else 1)
+    raise typer.Exit(0 if result.has_plan else 1)

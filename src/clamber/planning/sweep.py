@@ -25,8 +25,20 @@ NO_START: Final = "no start"
 """Status of a point whose task can't begin: its values contradict each other, or its start violates a hard check."""
 FAILED: Final = "failed"
 """Status of a point whose planner raised an error or died."""
-_FIRST_LOOP: Final = {"exact": "expand", "genetic": "rollout"}
-_SMALLEST: Final[dict[str, dict[str, Any]]] = {"exact": {"max_stances": 1}, "genetic": {"max_evaluations": 1}}
+_FIRST_LOOP: Final = {
+    "exact": "expand",
+    "genetic": "rollout",
+    "beam": "sprout",
+    "hybrid": "rollout",
+    "auto": "sprout",
+}
+_SMALLEST: Final[dict[str, dict[str, Any]]] = {
+    "exact": {"max_stances": 1},
+    "genetic": {"max_evaluations": 1},
+    "beam": {"width": 1, "longest": 1},
+    "hybrid": {"max_evaluations": 1, "max_stances": 1},
+    "auto": {},
+}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

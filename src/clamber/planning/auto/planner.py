@@ -11,8 +11,8 @@ from ...tasks import Task
 from ..progress import Listener
 from ..result import PlanResult
 
-SMALL: Final = 1.0e9
-"""Estimated stances up to which exact search is tried first: the five boards without hangs have 1e7 to 3e8 (docs/planning.md)."""
+SMALL: Final = 1.0e8
+"""Estimated stances up to which exact search is tried first: the five boards without hangs have up to 1.2e7 (docs/planning.md)."""
 MEMORY: Final = 2_000_000
 """Stances that exact search may keep before the next planner has its turn."""
 MANY: Final = 1000
