@@ -23,7 +23,9 @@ from clamber.planning.shorten import shorten
 from clamber.tasks import load_task
 
 NO_HANGS = "rules.max_hangs=0"
-TASKS = [(name, rules) for name in ("ladder", "modified-ladder", "h", "across", "circle") for rules in ((), (NO_HANGS,))]
+TASKS = [
+    (name, rules) for name in ("ladder", "modified-ladder", "h", "across", "circle") for rules in ((), (NO_HANGS,))
+]
 OPTIMA = {"ladder": 64, "modified-ladder": 67, "h": 92, "across": 110, "circle": 122}
 WALKS = {
     "limbed": ("ladder", (NO_HANGS,)),

@@ -86,7 +86,7 @@ class LimbedProblem(CompiledProblem):
 
     @property
     def estimated_stances(self) -> float:
-        """Lattice places about the holds, times angles, times what the limbs may hold there on average; infinite where hangs are allowed."""
+        """Lattice places about the holds, times angles, times what the limbs may hold there on average; infinite with hangs."""
         rules, step = self.task.rules, self.task.step
         if rules.max_hangs != 0 or "hangs" not in rules.hard:
             return math.inf

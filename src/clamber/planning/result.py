@@ -47,7 +47,8 @@ class PlanResult:
 
     status: Status
     """optimal: proved to be the shortest plan; found: a plan; infeasible: proved that there is none; bounded: none has
-    fewer than `lower_bound` actions, and the plan, if there is one (`has_plan`), is `gap` above that; stopped: none yet, and nothing proved."""
+    fewer than `lower_bound` actions, and the plan, if there is one (`has_plan`), is `gap` above that; stopped: none yet,
+    and nothing proved."""
     plan: Plan
     """The plan; without success, the actions that lead furthest."""
     task: Task

@@ -13,7 +13,6 @@ from ..exact.kernels import rehash
 from ..exact.windows import table_size
 from .kernels import choose
 
-
 WIDTH: Final = 500
 NICHE: Final = 20
 LONGEST: Final = 400

@@ -59,7 +59,9 @@ class WindowSearch:
         self.complete = True
 
     def shorten(self, problem: CompiledProblem, codes: Codes, first: int, last: int) -> Codes:
-        """The plan with a shorter way from its stance `first` on, or as it is; a window that ends where the plan does may end in any goal stance.
+        """The plan with a shorter way from its stance `first` on, or as it is.
+
+        A window that ends where the plan does may end in any goal stance.
 
         Args:
             problem: The task.

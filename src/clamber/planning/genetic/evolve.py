@@ -64,9 +64,7 @@ def weights_for(problem: CompiledProblem, profile: Profile) -> npt.NDArray[np.fl
     return np.array([profile.weights.get(name, 0.0) for name in problem.features])
 
 
-def first_generation(
-    problem: CompiledProblem, profile: Profile, seed: int, seeds: Sequence[Genes] = ()
-) -> Evolution:
+def first_generation(problem: CompiledProblem, profile: Profile, seed: int, seeds: Sequence[Genes] = ()) -> Evolution:
     """Random plans, evaluated; the first of them are those that are given."""
     state = Evolution(_random_population(problem, profile, seed, 0, seeds))
     _count(state, state.population.records)
