@@ -111,6 +111,25 @@ class LimbedProblem(CompiledProblem):
         return way_fields(self.task)
 
     @property
+    def landmarks(self) -> int:
+        """Holds of the board."""
+        return len(self.task.world.holds)
+
+    @property
+    def estimated_stances(self) -> float:
+        """Lattice places about the holds, times angles, times what the limbs may hold there on average; infinite with hangs."""
+        rules, step = self.task.rules, self.task.step
+        if rules.max_hangs != 0 or "hangs" not in rules.hard:
+            return math.inf
+        points = self.task.world.positions()
+        reach = max(limb.length for limb in self.task.robot.limbs)
+        width, height = np.ptp(points, axis=0) + reach
+        stances = width * height / step.length**2 * round(math.tau / step.angle)
+        for limb in self.task.robot.limbs:
+            stances *= 1.0 + min(len(points), len(points) * math.pi * limb.length**2 / (width * height))
+        return float(stances)
+
+    @property
     def key_words(self) -> int:
         """Integers of a stance's key: more where checks that read free feet are hard."""
         fenced = "keep_out" in self.task.rules.hard and bool(self.task.world.keep_out)

@@ -1,6 +1,7 @@
 """A family bound to a task, as planners see it: batches of arrays in, batches of arrays out."""
 
 import copy
+import math
 import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -324,6 +325,16 @@ class CompiledProblem:
     def ways(self) -> WayFields | None:
         """About how far it is from every place of the world to each goal; None: the family has no such map."""
         return None
+
+    @property
+    def landmarks(self) -> int:
+        """How many things the world has that limbs hold or must miss: holds, or patches."""
+        raise NotImplementedError
+
+    @property
+    def estimated_stances(self) -> float:
+        """A rough upper estimate of the stances there are, for choosing a planner; infinite where poses leave the lattice."""
+        return math.inf
 
     @property
     def key_words(self) -> int:

@@ -78,6 +78,13 @@ def last_goal_only(task: Task) -> Task:
     return last
 
 
+def first_goal_only(task: Task) -> Task:
+    """The same task up to its first goal."""
+    near: Any = task  # each family's task has goals of its own type
+    first: Task = replace(near, goals=near.goals[:1])
+    return first
+
+
 def pose_problem(task: Task, *, threads: int | None = None, filters: bool = True) -> Posed:
     """A task as a problem with the hard checks alone, for planners.
 

@@ -29,6 +29,8 @@ VARIANTS: Final[dict[str, dict[str, Any]]] = {
     "no configuration filter": {"configuration_filter": False},
     "learned macros": {"learned_macros": True},
     "no polishing": {"polish": 0},
+    "no exact windows": {"windows": 0},
+    "no beam about the plan": {"beam": 0},
     "no sub-goals": {"subgoals": False},
     "one-point crossover": {"crossover": "one_point"},
     "two-point crossover": {"crossover": "two_point"},

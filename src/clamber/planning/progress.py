@@ -57,5 +57,24 @@ class Trying:
     """Actions of the best plan that reaches the goal."""
 
 
-Moment = Progress | Exploring | Routing | Trying
+@dataclass(frozen=True, slots=True)
+class Layers:
+    """One moment of a beam search."""
+
+    layer: int
+    """Actions of every plan kept now."""
+    stances: int
+    """Stances kept in all layers."""
+    best_score: float
+
+
+@dataclass(frozen=True, slots=True)
+class Shortening:
+    """One moment of making a plan shorter."""
+
+    length: int
+    """Actions of the plan."""
+
+
+Moment = Progress | Exploring | Routing | Trying | Layers | Shortening
 Listener = Callable[[Moment], None]
