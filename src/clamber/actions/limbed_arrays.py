@@ -189,6 +189,8 @@ def _goals(task: LimbedTask, polygons: list[tuple[tuple[float, float], ...]], n_
         at = there
     for i in range(len(out) - 2, -1, -1):
         out["after"][i] = out["after"][i + 1] + _steps_between(out[i], out[i + 1], task.step.length)
+        rise = max(0.0, float(out["y_min"][i + 1] - out["y_max"][i]))
+        out["rise_after"][i] = out["rise_after"][i + 1] + math.ceil(rise / task.step.length - 1e-6)
     return out
 
 
