@@ -57,5 +57,17 @@ class Trying:
     """Actions of the best plan that reaches the goal."""
 
 
-Moment = Progress | Exploring | Routing | Trying
+@dataclass(frozen=True, slots=True)
+class Relaxing:
+    """One moment of the search for changes that make an infeasible task feasible."""
+
+    searches: int
+    """Exact searches begun."""
+    opened: int
+    """Changes found so far."""
+    key: str
+    """What is changed now."""
+
+
+Moment = Progress | Exploring | Routing | Trying | Relaxing
 Listener = Callable[[Moment], None]
