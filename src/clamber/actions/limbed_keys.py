@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from ..compiled import kernel
+from ..statics.limbed import HANGS
 from ..statics.near import cells_about, cells_in_row
 from ..statics.pose import count_holders, held, place, port_of, solve
 from ..statics.records import TICKS, TOLERANCE, cells, goals, holds, limbs
@@ -128,7 +129,8 @@ def bound(p, s):
     The fewest actions in the relaxed problem, where the problem has one (`actions.relaxed`) and the pose is on its lattice; else body
     steps along x and y from goal to goal. A hang may carry the body anywhere: while one is left, or one limb alone holds, nothing is known.
     """
-    if s.stage >= p.n_goals or p.max_hangs < 0 or s.hangs < p.max_hangs:
+    limited = p.max_hangs >= 0 and p.hard & (1 << HANGS)
+    if s.stage >= p.n_goals or not limited or s.hangs < p.max_hangs:
         return 0.0
     holders, _ = count_holders(p, s)
     if holders < 2:

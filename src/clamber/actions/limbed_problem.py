@@ -23,12 +23,15 @@ from .limbed_freer import freer
 from .limbed_goals import FEATURES, done, measure
 from .limbed_keys import ANY_HOLD, KEY_WORDS, bound, candidates, cell, key, restore
 from .limbed_map import BURDENS, aims, burden, spot
+from .limbed_mirror import reflect
+from .limbed_symmetry import mirrored_code, with_mirror
 from .limbed_toward import toward
 from .loops import replay
 from .params import Params
 from .problem import CompiledProblem, Records
 from .relaxed import with_bound
 from .table import ActionTable
+from .ways import WayFields, way_fields
 
 CHECKS: Final = tuple(check.name for check in LIMBED_CHECKS)
 FEATURE_NAMES: Final = ("body", "limbs", "effort", "stages", "length", "unstable", "peak")
@@ -48,6 +51,7 @@ family_kernels(
     measure=measure,
     bound=bound,
     freer=freer,
+    reflect=reflect,
     done=done,
     cell=cell,
     spot=spot,
@@ -59,6 +63,8 @@ family_kernels(
 
 class LimbedProblem(CompiledProblem):
     """A limbed climber's task, ready for planners."""
+
+    burdens = BURDENS
 
     def __init__(
         self, task: LimbedTask, actions: ActionTable, *, every_check: bool = False, threads: int | None = None
@@ -81,10 +87,14 @@ class LimbedProblem(CompiledProblem):
         assert len(FEATURE_NAMES) == FEATURES
 
     def informed(self) -> Self:
-        """The same problem whose `bound` is the fewest actions of the relaxed problem."""
+        """The same problem whose `bound` is the fewest actions of the relaxed problem, and which knows its own symmetry."""
         other = copy.copy(self)
-        other.params = with_bound(self.params)
+        other.params = with_bound(with_mirror(self.params))
         return other
+
+    def mirrored(self, code: int) -> int:
+        """The mirror image of an action, in a problem that is its own mirror image."""
+        return mirrored_code(self.params, code)
 
     @property
     def incomplete(self) -> str | None:
@@ -95,6 +105,29 @@ class LimbedProblem(CompiledProblem):
             if whole
             else "rules.allowed names single grabs or releases; exact search takes them as kinds: grab, release"
         )
+
+    def ways(self) -> WayFields:
+        """The map of the wall."""
+        return way_fields(self.task)
+
+    @property
+    def landmarks(self) -> int:
+        """Holds of the board."""
+        return len(self.task.world.holds)
+
+    @property
+    def estimated_stances(self) -> float:
+        """Lattice places about the holds, times angles, times what the limbs may hold there on average; infinite with hangs."""
+        rules, step = self.task.rules, self.task.step
+        if rules.max_hangs != 0 or "hangs" not in rules.hard:
+            return math.inf
+        points = self.task.world.positions()
+        reach = max(limb.length for limb in self.task.robot.limbs)
+        width, height = np.ptp(points, axis=0) + reach
+        stances = width * height / step.length**2 * round(math.tau / step.angle)
+        for limb in self.task.robot.limbs:
+            stances *= 1.0 + min(len(points), len(points) * math.pi * limb.length**2 / (width * height))
+        return float(stances)
 
     @property
     def key_words(self) -> int:
@@ -130,11 +163,6 @@ class LimbedProblem(CompiledProblem):
         params.record["circles"] = 0
         start["laps"], start["bearing"] = 0, 0.0
         return params, start
-
-    @property
-    def burdens(self) -> tuple[str, ...]:
-        """What being in a stance costs: see `limbed_map.burden`."""
-        return BURDENS
 
     @property
     def spot_words(self) -> int:

@@ -14,6 +14,7 @@ from .rows import Say, keep_quiet
 from .seeds import bench_seeds
 from .speed import speed_rows
 from .starts import start_rows
+from .trials import Crew
 from .walls import wall_rows
 
 
@@ -35,6 +36,10 @@ BENCHES: Final[dict[str, Callable[..., list[Row]]]] = {
 """Name -> benchmark; the command line's choices and the tests read it. Each can be called without arguments, or with `say`."""
 
 
-def run_bench(name: str, say: Say = keep_quiet) -> list[Row]:
-    """Run a benchmark by name."""
-    return BENCHES[name](say=say)
+BATCHED: Final = ("seeds", "ablation", "jobs", "boards")
+"""Those that are batches of items and take a `crew`; the others measure speed, alone."""
+
+
+def run_bench(name: str, say: Say = keep_quiet, crew: Crew | None = None) -> list[Row]:
+    """Run a benchmark by name; `crew` is for those of `BATCHED`."""
+    return BENCHES[name](say=say, **({"crew": crew} if name in BATCHED else {}))

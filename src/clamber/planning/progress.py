@@ -69,5 +69,24 @@ class Relaxing:
     """What is changed now."""
 
 
-Moment = Progress | Exploring | Routing | Trying | Relaxing
+@dataclass(frozen=True, slots=True)
+class Layers:
+    """One moment of a beam search."""
+
+    layer: int
+    """Actions of every plan kept now."""
+    stances: int
+    """Stances kept in all layers."""
+    best_score: float
+
+
+@dataclass(frozen=True, slots=True)
+class Shortening:
+    """One moment of making a plan shorter."""
+
+    length: int
+    """Actions of the plan."""
+
+
+Moment = Progress | Exploring | Routing | Trying | Layers | Shortening | Relaxing
 Listener = Callable[[Moment], None]

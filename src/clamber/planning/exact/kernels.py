@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from ...actions.family import bound, candidates, done, freer, key, measure, restore, step
+from ...actions.family import bound, candidates, done, freer, key, measure, reflect, restore, step
 from ...actions.loops import LARGEST
 from ...actions.randoms import scramble
 from ...compiled import inlined, kernel
@@ -27,6 +27,7 @@ LABEL = np.dtype(
         ("node", "i4"),
         ("parent", "i4"),
         ("code", "i4"),
+        ("flipped", "i4"),  # the stance kept is the mirror image of the one that the action led to
         ("next", "i4"),  # in its bucket, or of a goal the goal before
     ],
     align=True,
@@ -95,6 +96,22 @@ def rehash(keys, n, table):
 
 
 @inlined
+def keep(p, stances, at, words):
+    """Key of stance `at`, or of its mirror image (written behind it) if that key comes first: `words[0]`; returns which was kept."""
+    key(p, stances[at], words[0])
+    if reflect(p, stances[at], stances[at + 1]):
+        key(p, stances[at + 1], words[1])
+        for i in range(words.shape[1]):
+            if words[1, i] != words[0, i]:
+                if words[1, i] > words[0, i]:
+                    break
+                for j in range(words.shape[1]):
+                    words[0, j] = words[1, j]
+                return at + 1
+    return at
+
+
+@inlined
 def less(first, second, other_first, other_second):
     """Whether one pair of costs is less than another in lexicographic order, by more than rounding."""
     gap = EQUAL * abs(first)
@@ -128,7 +145,7 @@ def lay(search, state, labels, steps, at, ahead):
 
 
 @inlined
-def add_label(search, state, labels, heads, steps, node, first, second, ahead, parent, code):
+def add_label(search, state, labels, heads, steps, node, first, second, ahead, parent, code, flipped):
     """Put a way to a stance into the open list; `ahead` is the bound on its actions."""
     at = state.labels
     state.labels += 1
@@ -139,6 +156,7 @@ def add_label(search, state, labels, heads, steps, node, first, second, ahead, p
     label.node = node
     label.parent = parent
     label.code = code
+    label.flipped = flipped
     f = first + ahead if search.informed else first
     bucket = min(np.int64(f / search.width + EQUAL), heads.shape[0] - 1)
     if bucket <= state.lowest:
@@ -190,10 +208,13 @@ def passed_over(p, search, s, first, second, nodes, keys, table, words, freed):
 
 
 @kernel
-def plant(p, search, state, start, nodes, labels, keys, heads, steps, table, row):
+def plant(p, search, state, start, nodes, labels, keys, heads, steps, table, stances, words, row):
     """Put the start stance into an empty search; False if the bound rules out every goal."""
     ahead = bound(p, start[0])
-    key(p, start[0], keys[0])
+    stances[1] = start[0]
+    flipped = keep(p, stances, 1, words) - 1
+    for i in range(words.shape[1]):
+        keys[0, i] = words[0, i]
     state.nodes = 1
     table[slot_of(keys[0], table, keys)] = 0
     measure(p, start[0], row)
@@ -210,7 +231,7 @@ def plant(p, search, state, start, nodes, labels, keys, heads, steps, table, row
     if ahead == math.inf or (search.capped >= 0 and row[search.capped] > search.cap):
         return False
     state.lowest = NONE
-    add_label(search, state, labels, heads, steps, 0, first, second, ahead, NONE, 0)
+    add_label(search, state, labels, heads, steps, 0, first, second, ahead, NONE, 0, flipped)
     return True
 
 
@@ -234,7 +255,7 @@ def explore_some(
         steps: The first label of each level of the bucket being emptied.
         table: Hash table of the stances; its size is a power of two.
         codes: Scratch for candidates.
-        stances: Scratch, three records.
+        stances: Scratch, four records.
         margins: Scratch of the family's checks.
         words: Scratch, two keys.
         row: Scratch for features.
@@ -294,7 +315,7 @@ def explore_some(
             new_second = grown(p, search.second, second, row)
             if search.front and new_second >= state.goal_second:
                 continue
-            key(p, stances[1], words[0])
+            kept = keep(p, stances, 1, words)
             slot = slot_of(words[0], table, keys)
             child = table[slot]
             if child >= 0:
@@ -305,14 +326,14 @@ def explore_some(
                         continue
                 elif not less(new_first, new_second, nodes[child].first, nodes[child].second):
                     continue
-            ahead = bound(p, stances[1])
+            ahead = bound(p, stances[kept])
             if ahead == math.inf:
                 state.dead += 1
                 continue
             if new_first + (ahead if search.informed else 0.0) > search.at_most:
                 continue
             if search.dominance and passed_over(
-                p, search, stances[1], new_first, new_second, nodes, keys, table, words[1], stances[2]
+                p, search, stances[kept], new_first, new_second, nodes, keys, table, words[1], stances[3]
             ):
                 state.dominated += 1
                 continue
@@ -326,7 +347,9 @@ def explore_some(
                     keys[child, i] = words[0, i]
             nodes[child].first = new_first
             nodes[child].second = new_second
-            add_label(search, state, labels, heads, steps, child, new_first, new_second, ahead, taken, codes[c])
+            add_label(
+                search, state, labels, heads, steps, child, new_first, new_second, ahead, taken, codes[c], kept - 1
+            )
     return RUNNING
 
 
