@@ -31,7 +31,12 @@ class Seeker:
             if (found := self._find()) is not None:
                 if self._as_json:
                     print_json(
-                        {"status": "no start", "task": self._task.name, "reason": str(error), "openings": found.to_json()}
+                        {
+                            "status": "no start",
+                            "task": self._task.name,
+                            "reason": str(error),
+                            "openings": found.to_json(),
+                        }
                     )
                 else:
                     print_openings(stdout(), found)

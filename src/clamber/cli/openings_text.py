@@ -2,7 +2,7 @@
 
 from rich.console import Console
 
-from ..planning.openings.result import Opening, Openings, Places, shown
+from ..planning.openings.result import Openings, Places, shown
 from .output import plain_table
 
 WHY = {"interrupted": "interrupted", "time": "out of time (--openings-seconds)"}
@@ -14,17 +14,18 @@ def print_openings(console: Console, found: Openings) -> None:
     best = () if found.places is None else found.places.openings[:1]
     rows = (*found.openings, *best)
     if rows:
-        console.print("any one of these changes makes it feasible (each plan is proved to be the shortest there):")
-        table = plain_table("change", "from", "to", "actions", right=("actions",))
+        console.print("any one of these changes makes it feasible:", style="bold green")
+        right = ("actions",)
+        table = plain_table("change", "from", "to", "not yet at", *right, right=right)
         for opening in rows:
-            table.add_row(opening.key, shown(opening.before, opening.unit), *_last(opening))
+            ends = (shown(value, opening.unit) for value in (opening.before, opening.after, opening.shut_at))
+            length = f"{opening.length}" if opening.shortest else f"at most {opening.length}"
+            table.add_row(opening.key, *ends, length if opening.least else f"{length} *")
         console.print(table)
     else:
         console.print("no single change that was tried makes it feasible", style="bold red")
-    if any(opening.unit and opening.least for opening in rows):
-        console.print("numbers are the least that do: one digit less, and it is proved infeasible")
     if any(not opening.least for opening in rows):
-        console.print("*: one digit less was proved infeasible or not settled; smaller values were not all tried")
+        console.print("*: values in between were not all settled, so less may be enough")
     if found.places is not None:
         _print_places(console, found.places)
     for proved, words in ((True, "proved infeasible even with"), (False, "not settled in the time")):
@@ -33,11 +34,6 @@ def print_openings(console: Console, found: Openings) -> None:
             console.print(f"{words}: {', '.join(texts)}")
     ended = f"; {WHY[found.ended]}" if found.ended else ""
     console.print(f"{found.searches} exact searches, {found.seconds:.1f} s{ended}")
-
-
-def _last(opening: Opening) -> tuple[str, str]:
-    to = shown(opening.after, opening.unit) + ("" if opening.least else " *")
-    return to, f"{opening.length}" if opening.shortest else f"at most {opening.length}"
 
 
 def _print_places(console: Console, places: Places) -> None:

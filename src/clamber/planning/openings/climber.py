@@ -213,9 +213,7 @@ def _boxes(task: LimbedTask) -> Iterator[Relaxation]:
 
 def _one_split(task: LimbedTask) -> bool:
     """Whether how limbs share the weight follows from where they hold alone: two carriers at most, and the thesis's rule."""
-    return (
-        task.rules.force_rule == "thesis" and task.rules.limb_in_use == "idle" and len(task.robot.limbs) <= 3
-    )
+    return task.rules.force_rule == "thesis" and task.rules.limb_in_use == "idle" and len(task.robot.limbs) <= 3
 
 
 def _reads_side(task: LimbedTask) -> bool:

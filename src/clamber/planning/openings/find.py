@@ -88,6 +88,8 @@ def find_openings(
             crew = max(1, threads if threads is not None else (os.cpu_count() or 1))
             places, interrupted = PLACES[family](trial, near, spacing=spacing, threads=crew)
             ended = "interrupted" if interrupted else ""
+            if places is None:
+                shut.append(Shut(key=key, tried="where the robot can get to was not seen whole", proved=False))
     except KeyboardInterrupt:
         ended = "interrupted"
     if not ended and trial.left() == 0.0:

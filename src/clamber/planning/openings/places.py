@@ -8,12 +8,14 @@ import math
 from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Final
 
 import numpy as np
 
 from ...actions.problems import pose_problem
 from ...actions.yardsticks import yardsticks_of
+from ...compiled import is_compiled
 from ...tasks.limbed import LimbedTask
 from ...toml_text import toml_value
 from ...types import Floats
@@ -74,21 +76,20 @@ def find_places(
 def _reached(task: LimbedTask, trial: Trial, threads: int) -> Floats | None:
     """Poses of the body that can be reached: x, y [m], angle [rad], shape (n, 3); None if they were not all seen."""
     problem = pose_problem(task, threads=1).problem
-    seen = flood(
-        problem,
-        yardsticks_of(task),
-        holds=len(task.world.holds),
-        most_stances=trial.max_stances,
-        seconds=trial.granted(),
-        threads=threads,
-    )
+    see = partial(flood, problem, yardsticks_of(task), holds=len(task.world.holds), threads=threads)
+    if not is_compiled("spread"):  # compiling is not to count
+        see(most_stances=2 * problem.branching)
+        trial.grant(SHARE)
+    seen = see(most_stances=trial.max_stances, seconds=trial.granted())
     if seen.ended == "interrupt":
         trial.stopped.set()
     if seen.ended:
         return None
     steps = seen.poses[seen.notes["stances"] > 0]
     size = (task.step.length, task.step.length, task.step.angle)
-    return np.array((task.start.x, task.start.y, task.start.theta)) + steps * np.array(size)
+    start = (task.start.x, task.start.y, task.start.theta)
+    poses: Floats = np.array(start) + steps * np.array(size)
+    return poses
 
 
 def _sites(task: LimbedTask, poses: Floats, wide: float) -> Iterator[_Site]:

@@ -42,7 +42,7 @@ class Switch:
         """The switch, if it makes the task feasible."""
         answer = trial.settle(self.overrides)
         if answer.status != "open":
-            return Shut(key=self.key, tried=self.after, proved=answer.status == "shut")
+            return Shut(key=self.key, tried=f"{self.before} -> {self.after}", proved=answer.status == "shut")
         return Opening(
             key=self.key,
             before=self.before,
@@ -121,6 +121,7 @@ class Dial:
             key=self.key,
             before=round(self.present, 9),
             after=self.value(high),
+            shut_at=self.value(low) if low else round(self.present, 9),
             unit=self.unit,
             overrides=self.overrides(self.value(high)),
             length=len(best.codes),

@@ -16,8 +16,10 @@ class Opening:
     before: Value
     """The value that the task has, in `unit`; None where there is none."""
     after: Value
+    shut_at: float | None = None
+    """The value one step before `after`, at which the task is proved infeasible, in `unit`; None where the values are names."""
     unit: str
-    """Empty where the values are names."""
+    """Empty where the values are names or have none."""
     overrides: tuple[str, ...]
     """The change as texts "key=value", for `--set`."""
     length: int
@@ -25,7 +27,8 @@ class Opening:
     shortest: bool
     """Whether that plan is proved to be the shortest."""
     least: bool
-    """Whether it is proved that no smaller change of this kind does; False where both sides were tried, but values in between were not."""
+    """Whether it is proved that no smaller change of this kind does; False where values before `shut_at` were not all tried, or where
+    time ran out, so that `shut_at` is farther away than a step."""
 
     @property
     def text(self) -> str:
@@ -38,6 +41,7 @@ class Opening:
             "key": self.key,
             "from": self.before,
             "to": self.after,
+            "infeasible_at": self.shut_at,
             "unit": self.unit,
             "overrides": list(self.overrides),
             "length": self.length,
@@ -105,7 +109,7 @@ class Openings:
     shut: tuple[Shut, ...]
     """The kinds of which none was found."""
     places: Places | None
-    """One hold more; None where the family has no holds, or it was not come to."""
+    """One hold more; None where the family has no holds, or the places were not settled one by one."""
     searches: int
     """Exact searches made."""
     seconds: float
