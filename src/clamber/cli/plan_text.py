@@ -20,6 +20,8 @@ STEADY = 20
 """Where stderr is no terminal, every so many generations get a line."""
 CHECKS_TOLD = 500_000
 """The same for searches that count single actions."""
+SEARCHES_TOLD = 100
+"""The same for rows of exact searches."""
 
 
 class ProgressLine:
@@ -64,7 +66,7 @@ def _turn(progress: Moment) -> int:
     if isinstance(progress, Layers):
         return progress.layer
     if isinstance(progress, Relaxing):
-        return progress.searches
+        return progress.searches // SEARCHES_TOLD * STEADY
     return progress.generation if isinstance(progress, Progress) else int(progress.lower_bound)
 
 
@@ -79,7 +81,7 @@ def progress_text(progress: Moment) -> str:
     if isinstance(progress, Shortening):
         return f"a plan of {progress.length} actions"
     if isinstance(progress, Relaxing):
-        return f"what would open it: {progress.searches} searches, {progress.opened} changes; {progress.key}"
+        return f"what would open it: {progress.searches} searches, now {progress.key}"
     best = "" if progress.best_length is None else f", found {progress.best_length} actions"
     if isinstance(progress, Trying):
         how = best or f", progress {progress.value:.2f}"

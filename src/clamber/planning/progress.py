@@ -63,8 +63,6 @@ class Relaxing:
 
     searches: int
     """Exact searches begun."""
-    opened: int
-    """Changes found so far."""
     key: str
     """What is changed now."""
 

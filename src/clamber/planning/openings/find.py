@@ -68,7 +68,7 @@ def find_openings(
 
     def tell(searches: int) -> None:
         if progress is not None:
-            progress(Relaxing(searches, len(opened), key))
+            progress(Relaxing(searches, key))
 
     trial = Trial(task, max_stances=max_stances, seconds=seconds, tell=tell)
     key = "as it is"
