@@ -135,3 +135,26 @@ class Dial:
             return []
         step = self.step_of(guess)
         return [step, step - 1, step + 1]
+
+
+def key_dial(
+    key: str,
+    present: float,
+    *,
+    most: float,
+    unit: str,
+    per_unit: int,
+    nested: bool,
+    guess: Callable[[Trial, Answer], float | None] | None = None,
+) -> Dial:
+    """A dial of a single key of the task; see `Dial`."""
+    return Dial(
+        key=key,
+        present=present,
+        most=most,
+        unit=unit,
+        per_unit=per_unit,
+        overrides=lambda value: (f"{key}={value:.10g} {unit}".rstrip(),),
+        nested=nested,
+        guess=guess,
+    )
