@@ -22,6 +22,8 @@ MOST_STANCES: Final = 2_000_000
 """Stances that the searches keep at once, unless told otherwise: about half a GB for the climber."""
 PLACES_WEIGH: Final = 4
 """The search for a place of one hold more gets as much of the time as so many other kinds of changes."""
+FIRST_SHARE: Final = 0.1
+"""Of the time, what the task as it is may take: it is known to be infeasible, only its furthest stance is asked for [-]."""
 RELAXATIONS: Final[dict[str, Callable[[Any], Iterator[Relaxation]]]] = {
     "limbed": climber_relaxations,
     "walker": walker_relaxations,
@@ -73,6 +75,7 @@ def find_openings(
     trial = Trial(task, max_stances=max_stances, seconds=seconds, tell=tell)
     key = "as it is"
     try:
+        trial.grant(FIRST_SHARE)
         near = _furthest(trial)
         kinds = list(RELAXATIONS[family](task))
         more = PLACES_WEIGH if near is not None and family in PLACES else 0
@@ -105,7 +108,7 @@ def find_openings(
 
 
 def _furthest(trial: Trial) -> tuple[float, float] | None:
-    """Where the body is in the furthest stance that can be reached [m]; None if not even the start is allowed."""
+    """Where the body is in the furthest stance seen [m]; None if not even the start is allowed."""
     answer = trial.settle(())
     if answer.status == "open":
         raise PlannerError("openings", trial.task.name, "it has a plan, so nothing needs to be opened")
