@@ -184,6 +184,8 @@ WALKS = {
     "held again": ("ladder", (NO_HANGS, 'rules.allowed=["+x","+y","-y","+theta","hold","release"]')),
     "four limbs": ("gecko-climb", (NO_HANGS, "step.length=60mm", "step.angle=45deg")),
     "one hang": ("ladder", ("rules.max_hangs=1",)),
+    "any number of hangs": ("h", ()),
+    "two hangs on a ring": ("circle", ("rules.max_hangs=2",)),
     "walker": ("patch-walk", ()),
 }  # fmt: skip
 

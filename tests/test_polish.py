@@ -133,7 +133,7 @@ def test_auto_says_why_and_finds_a_plan(name: str, rules: tuple[str, ...]) -> No
 
 
 def test_a_hybrid_out_of_memory_has_a_plan_with_a_gap(tmp_path: Path) -> None:
-    result = plan_hybrid(load_task("h", (NO_HANGS,)), max_stances=20_000, max_evaluations=30_000)
+    result = plan_hybrid(load_task("h", ("rules.max_hangs=1",)), max_stances=20_000, max_evaluations=30_000)
     assert result.status == "bounded" and result.check().reached
     assert result.gap is not None and 0 <= result.gap < result.length
 

@@ -6,6 +6,7 @@ from typing import Final
 from .ablation import bench_ablation
 from .batches import batch_rows
 from .boards.bench import bench_boards
+from .gaps import bench_gaps
 from .proofs import bench_exact
 from .races import race_rows
 from .reductions import filter_rows, macro_rows
@@ -27,6 +28,7 @@ def bench_plan(*, say: Say = keep_quiet) -> list[Row]:
 BENCHES: Final[dict[str, Callable[..., list[Row]]]] = {
     "plan": bench_plan,
     "exact": bench_exact,
+    "gaps": bench_gaps,
     "seeds": bench_seeds,
     "ablation": bench_ablation,
     "walls": wall_rows,
@@ -36,7 +38,7 @@ BENCHES: Final[dict[str, Callable[..., list[Row]]]] = {
 """Name -> benchmark; the command line's choices and the tests read it. Each can be called without arguments, or with `say`."""
 
 
-BATCHED: Final = ("seeds", "ablation", "jobs", "boards")
+BATCHED: Final = ("seeds", "ablation", "jobs", "boards", "gaps")
 """Those that are batches of items and take a `crew`; the others measure speed, alone."""
 
 

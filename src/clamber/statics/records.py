@@ -153,6 +153,7 @@ GOAL = np.dtype(
         ("before", "f8"),  # way from the start to the goal before this one, along the goals [m]
         ("way", "f8"),  # way from the goal before to this one [m]
         ("after", "f8"),  # fewest body steps from this goal's box through those of the later goals
+        ("rise_after", "f8"),  # of them, fewest steps up
         ("vertex", "i8"),
         ("n_vertices", "i8"),
         ("hold", "i4", (LIMBS,)),  # index of the hold that limb must hold; -1: any

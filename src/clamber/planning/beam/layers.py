@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ...actions.problem import CompiledProblem, Records
-from ..exact.kernels import rehash
 from ..exact.windows import table_size
+from ..stance_table import rehash
 from .kernels import choose
 
 WIDTH: Final = 500

@@ -11,8 +11,9 @@ import numpy as np
 from ...actions.problem import CompiledProblem
 from ...types import Ints
 from .costs import COSTS, Aim
-from .kernels import EXHAUSTED, FOUND, FULL, NEAREST, NEWEST, RUNNING, SEARCH, SHORTEST, explore_some, furthest, plant
+from .kernels import explore_some, furthest, plant
 from .memory import BUCKETS, Memory
+from .records import EXHAUSTED, FOUND, FULL, NEAREST, NEWEST, RUNNING, SEARCH, SHORTEST
 
 QUOTA: Final = 20_000
 """Stances expanded between looks at the clock."""

@@ -6,7 +6,8 @@ import numpy as np
 
 from ...actions.problem import CompiledProblem
 from ...types import Ints
-from .kernels import LABEL, NODE, STATE, rehash
+from ..stance_table import rehash
+from .records import LABEL, NODE, STATE
 
 BUCKETS: Final = 1 << 16
 FIRST: Final = 1 << 14

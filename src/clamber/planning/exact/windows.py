@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...actions.problem import CompiledProblem
-from .kernels import rehash
+from ..stance_table import rehash
 from .window_kernels import search_window, stance_keys
 
 Codes = npt.NDArray[np.int32]

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from ...actions.problem import CompiledProblem
 from ...actions.ways import WayFields
-from .kernels import BEST, EXHAUSTED, FOUND, FULL, GOAL, JUDGED, LOWEST, NODES, RUNNING, plant, rehash, search
+from .kernels import BEST, EXHAUSTED, FOUND, FULL, GOAL, JUDGED, LOWEST, NODES, RUNNING, plant, rehash_rough, search
 
 QUOTA: Final = 5000
 """Stances expanded between looks at the clock."""
@@ -64,7 +64,7 @@ class _Nodes:
             setattr(self, name, new)
         self.capacity = capacity
         self.table = np.full(1 << int(np.ceil(np.log2(2 * capacity))), -1, np.int32)
-        rehash(self.keys, used, self.table)
+        rehash_rough(self.keys, used, self.table)
 
 
 def climb(

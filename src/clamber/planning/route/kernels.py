@@ -25,7 +25,7 @@ def rough(words, i):
 
 
 @inlined
-def slot_of(words, table, keys):
+def rough_slot(words, table, keys):
     """Where a stance is in the hash table, or the empty slot where it belongs; keys are compared whole, but for the grain of poses."""
     value = np.uint64(0)
     for i in range(words.shape[0]):
@@ -45,10 +45,10 @@ def slot_of(words, table, keys):
 
 
 @kernel
-def rehash(keys, n, table):
+def rehash_rough(keys, n, table):
     """Fill an empty hash table with the first n keys."""
     for node in range(n):
-        table[slot_of(keys[node], table, keys)] = node
+        table[rough_slot(keys[node], table, keys)] = node
 
 
 @inlined
@@ -100,7 +100,7 @@ def plant(
     following[0] = NONE
     f = bucket_of(0, way[0], weight, heads.shape[0])
     heads[f] = 0
-    table[slot_of(keys[0], table, keys)] = 0
+    table[rough_slot(keys[0], table, keys)] = 0
     return f
 
 
@@ -160,7 +160,7 @@ def search(
                 tally[reason] += 1
                 continue
             key(p, stances[1], words)
-            slot = slot_of(words, table, keys)
+            slot = rough_slot(words, table, keys)
             if table[slot] >= 0:
                 continue
             child = state[NODES]
