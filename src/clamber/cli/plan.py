@@ -42,6 +42,10 @@ def plan(
     history: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Draw how the fitness grew (png, svg, pdf).")
     ] = None,
+    openings: Annotated[
+        bool, typer.Option(help="Where no plan is proved: look for the smallest changes of the task that open it.")
+    ] = True,
+    openings_seconds: Annotated[float, typer.Option(min=0.0, help="Most time for that.")] = 60.0,
     output: Output = None,
     as_json: AsJson = False,
     quiet: Quiet = False,
@@ -55,7 +59,8 @@ def plan(
     problem = load_task(task, overrides or ())
     from ..planning.budgets import accepts
     from ..planning.learning import load_macros
-    from ..planning.planners import FIRST_LOOPS, PLANNERS
+    from ..planning.planners import FIRST_LOOPS, PLANNERS, PROVERS
+    from .openings import Seeker
     from .plan_text import ProgressLine, print_result
 
     if planner not in PLANNERS:
@@ -83,7 +88,8 @@ def plan(
         options |= {} if value is None else {name: value}
     if history is not None and planner != "genetic":
         raise typer.BadParameter("only the genetic planner has one", param_hint="--history")
-    with ProgressLine(stderr(), quiet=quiet) as line:
+    seeker = Seeker(problem, openings_seconds if openings and planner in PROVERS else None, threads, as_json, quiet)
+    with seeker.told_of_start(), ProgressLine(stderr(), quiet=quiet) as line:
         result = PLANNERS[planner](problem, progress=line.update, **options)
     if output is not None:
         result.plan.save(output)
@@ -92,7 +98,8 @@ def plan(
 
         draw_history(result.history, history, goals=[goal.name for goal in problem.goals])
     if as_json:
-        print_json(result.to_json())
+        print_json(result.to_json() | seeker.to_json(result))
     else:
         print_result(stdout(), result, output)
+        seeker.print(result)
     raise typer.Exit(0 if result.has_plan else 1)

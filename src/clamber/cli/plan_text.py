@@ -11,7 +11,7 @@ from ..actions.plan import Plan
 from ..actions.plan_families import plan_family
 from ..planning.genetic.learning import Macro
 from ..planning.learning import Lesson
-from ..planning.progress import Exploring, Layers, Moment, Progress, Routing, Shortening, Trying
+from ..planning.progress import Exploring, Layers, Moment, Progress, Relaxing, Routing, Shortening, Trying
 from ..planning.result import Furthest, PlanResult
 from ..tasks import Task
 from ..units import OZ_IN
@@ -20,6 +20,8 @@ STEADY = 20
 """Where stderr is no terminal, every so many generations get a line."""
 CHECKS_TOLD = 500_000
 """The same for searches that count single actions."""
+SEARCHES_TOLD = 100
+"""The same for rows of exact searches."""
 
 
 class ProgressLine:
@@ -63,6 +65,8 @@ def _turn(progress: Moment) -> int:
         return -progress.length
     if isinstance(progress, Layers):
         return progress.layer
+    if isinstance(progress, Relaxing):
+        return progress.searches // SEARCHES_TOLD * STEADY
     return progress.generation if isinstance(progress, Progress) else int(progress.lower_bound)
 
 
@@ -76,6 +80,8 @@ def progress_text(progress: Moment) -> str:
         return f"layer {progress.layer}, {progress.stances} stances, best score {progress.best_score:.2f}"
     if isinstance(progress, Shortening):
         return f"a plan of {progress.length} actions"
+    if isinstance(progress, Relaxing):
+        return f"what would open it: {progress.searches} searches, now {progress.key}"
     best = "" if progress.best_length is None else f", found {progress.best_length} actions"
     if isinstance(progress, Trying):
         how = best or f", progress {progress.value:.2f}"

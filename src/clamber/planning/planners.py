@@ -29,6 +29,8 @@ PLANNERS: Final[dict[str, Planner]] = {
 }
 """Name -> planner; the command line's choices and the tests read it."""
 
+PROVERS: Final = ("exact", "auto")
+"""Planners that can prove that there is no plan."""
 
 FIRST_LOOPS: Final = {
     "genetic": "rollout",

@@ -58,6 +58,16 @@ class Trying:
 
 
 @dataclass(frozen=True, slots=True)
+class Relaxing:
+    """One moment of the search for changes that make an infeasible task feasible."""
+
+    searches: int
+    """Exact searches begun."""
+    key: str
+    """What is changed now."""
+
+
+@dataclass(frozen=True, slots=True)
 class Layers:
     """One moment of a beam search."""
 
@@ -76,5 +86,5 @@ class Shortening:
     """Actions of the plan."""
 
 
-Moment = Progress | Exploring | Routing | Trying | Layers | Shortening
+Moment = Progress | Exploring | Routing | Trying | Layers | Shortening | Relaxing
 Listener = Callable[[Moment], None]
