@@ -11,7 +11,7 @@ import pytest
 import clamber
 from clamber.actions.codes import pack
 from clamber.actions.family import key
-from clamber.actions.limbed_problem import limbed_params
+from clamber.actions.limbed_arrays import limbed_params
 from clamber.actions.loops import replay
 from clamber.actions.plan_families import plan_family
 from clamber.actions.plan_source import open_replay

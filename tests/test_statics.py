@@ -12,7 +12,8 @@ from scipy.optimize import linprog
 from clamber.actions import codes
 from clamber.actions.codes import pack
 from clamber.actions.limbed import find_hold
-from clamber.actions.limbed_problem import CHECKS, FORCE_RULES, LimbedProblem
+from clamber.actions.limbed_arrays import CHECKS, FORCE_RULES
+from clamber.actions.limbed_problem import LimbedProblem
 from clamber.actions.loops import replay
 from clamber.actions.table import ActionTable
 from clamber.errors import StartError

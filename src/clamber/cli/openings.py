@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from ..errors import SpecError, StartError
-from ..planning.openings.find import find_openings
-from ..planning.openings.result import Openings
+from ..openings.find import find_openings
+from ..openings.result import Openings
 from ..planning.result import PlanResult
 from ..tasks import Task
 from ..types import Json

@@ -2,7 +2,7 @@
 
 from rich.console import Console
 
-from ..planning.openings.result import Openings, Places, shown
+from ..openings.result import Openings, Places, shown
 from .output import plain_table
 
 WHY = {"interrupted": "interrupted", "time": "out of time (--openings-seconds)"}

@@ -3,11 +3,11 @@
 from collections.abc import Iterator
 from typing import Final
 
-from ...actions.inventory import DIRECTIONS, whole_kinds
-from ...files import Document
-from ...tasks.limbed import LimbedTask
-from ...toml_text import toml_value
-from ...units import DEGREE
+from ..actions.inventory import DIRECTIONS, whole_kinds
+from ..files import Document
+from ..tasks.limbed import LimbedTask
+from ..toml_text import toml_value
+from ..units import DEGREE
 from .climber_limits import joint_dials, motor_dials, one_split
 from .relaxations import Relaxation, Switch, key_dial
 

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from typing import Final
 
-from ...tasks.walker import WalkerTask
-from ...toml_text import toml_value
+from ..tasks.walker import WalkerTask
+from ..toml_text import toml_value
 from .relaxations import Relaxation, Switch, key_dial
 
 MM: Final = 1e-3

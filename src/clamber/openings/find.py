@@ -5,10 +5,10 @@ import time
 from collections.abc import Callable, Iterator
 from typing import Any, Final
 
-from ...actions.plan_families import plan_family
-from ...errors import PlannerError
-from ...tasks import Task
-from ..progress import Listener, Relaxing
+from ..actions.plan_families import plan_family
+from ..errors import PlannerError
+from ..planning.progress import Listener, Relaxing
+from ..tasks import Task
 from .climber import climber_relaxations
 from .places import find_places
 from .relaxations import Relaxation

@@ -13,14 +13,14 @@ from typing import Any, Final
 
 import numpy as np
 
-from ...actions.problems import pose_problem
-from ...actions.yardsticks import yardsticks_of
-from ...compiled import is_compiled
-from ...tasks.limbed import LimbedTask
-from ...toml_text import toml_value
-from ...types import Floats
-from ...units import UNITS, split_quantity
-from ..reach.flood import flood
+from ..actions.problems import pose_problem
+from ..actions.yardsticks import yardsticks_of
+from ..compiled import is_compiled
+from ..planning.reach.flood import flood
+from ..tasks.limbed import LimbedTask
+from ..toml_text import toml_value
+from ..types import Floats
+from ..units import UNITS, split_quantity
 from .result import Opening, Places
 from .trial import Answer, Trial
 

@@ -11,11 +11,11 @@ from collections.abc import Iterator
 from functools import partial
 from typing import Final
 
-from ...actions.plan_families import plan_family
-from ...files import Document
-from ...tasks.limbed import LimbedTask
-from ...units import DEGREE, OZ_IN
-from ..exact.costs import Aim
+from ..actions.plan_families import plan_family
+from ..files import Document
+from ..planning.exact.costs import Aim
+from ..tasks.limbed import LimbedTask
+from ..units import DEGREE, OZ_IN
 from .relaxations import Dial, key_dial
 from .trial import Answer, Trial
 

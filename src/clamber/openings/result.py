@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from ...types import Json
+from ..types import Json
 
 Value = float | str | None
 

@@ -8,14 +8,14 @@ from typing import Literal
 
 import numpy as np
 
-from ...actions.problem import CompiledProblem
-from ...actions.problems import pose_problem
-from ...errors import SpecError, StartError
-from ...tasks import Task
-from ...tasks.library import change_task
-from ...types import Ints
-from ..exact.costs import Aim
-from ..exact.explore import Exploration, explore
+from ..actions.problem import CompiledProblem
+from ..actions.problems import pose_problem
+from ..errors import SpecError, StartError
+from ..planning.exact.costs import Aim
+from ..planning.exact.explore import Exploration, explore
+from ..tasks import Task
+from ..tasks.library import change_task
+from ..types import Ints
 
 SMALL = 4_000
 """Stances up to which a search without a table of the relaxed problem is tried first: it is done before the table is."""
