@@ -105,6 +105,6 @@ def _tried(overrides: tuple[str, ...], seeds: range, beams: tuple[Beam, ...]) ->
     for beam in beams:
         reached = search_layers(problem, beam)
         tried.append((reached.found, reached.codes))
-    lengths = [len(codes) for found, codes in tried if found]
-    tops = [float(problem.replay(np.asarray(codes)).stances["y"].max()) / INCH for _, codes in tried]
-    return min(lengths, default=None), max(tops)
+    replays = [problem.replay(np.asarray(codes)) for _, codes in tried]
+    lengths = [len(codes) for (found, codes), replay in zip(tried, replays, strict=True) if found and replay.ok]
+    return min(lengths, default=None), max(float(replay.stances["y"].max()) / INCH for replay in replays)
