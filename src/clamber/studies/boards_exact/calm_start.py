@@ -27,6 +27,8 @@ class Calm:
     proof: Proof
     start_torque: float
     """Largest joint torque of that start stance itself [N m]."""
+    calmest: float
+    """The least that any of the start stances has [N m], whatever it leads to."""
     places: int
     """Start stances that were compared."""
     searches: int
@@ -45,7 +47,7 @@ def calmest(board: str) -> Calm:
     searches = 0
     while left:
         place = min(left, key=lambda key: (left[key], key))
-        proof = prove(board, (*MODEL, *start_at(board, place)), minimize=("torque", "length"))
+        proof = prove(board, (*MODEL, *start_at(board, place)), minimize=("torque",))
         searches += 1
         assert proof.feasible and proof.torque is not None, f"{board}: {proof.reason}"
         group = joined(place, left)
@@ -54,7 +56,8 @@ def calmest(board: str) -> Calm:
         under = best[0].torque or 0.0
         left = {key: load for key, load in left.items() if key not in group and load < under * (1.0 - 1e-9)}
     assert best is not None, f"{board}: its own start is a place"
-    return Calm(best[0], loads[best[1]], len(loads), searches)
+    shortest = prove(board, best[0].overrides, minimize=("torque", "length"))
+    return Calm(shortest, loads[best[1]], min(loads.values()), len(loads), searches)
 
 
 def places_on_start_holds(board: str) -> dict[Place, float]:

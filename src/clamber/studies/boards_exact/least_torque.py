@@ -44,15 +44,17 @@ def find_least_torques_of(boards: tuple[str, ...]) -> StudyResult:
             *TOLD,
             NEVER_HANGS,
             "A best start is one on the holds of the task's start that body moves lead to from it, in steps of 1 in and 15 deg, "
-            "whichever limb moved last; starts that moves join under a limit are searched once, all others each.",
-            "Above and below: the limit a millionth of itself higher leaves a plan, the same lower leaves none from that start. "
-            "Where the best start's own torque is the least, 'below' fails at the start: no stance on those holds can be held with less.",
+            "whichever limb moved last. Starts that body moves join under a limit can do the same under it, so one of each such group "
+            "is searched whole, until no group is left whose stances need less than the best known.",
+            "Above and below: a limit a millionth higher leaves a plan, the same lower leaves none from that start. Where the best "
+            "start's own torque is the largest, 'below' fails at the start; calmer stances on those holds, as the table has them, "
+            "lead on only by way of ones that need as much.",
         ),
         table=Table(
             (
                 "board", "the start itself [oz-in]", "least from it [oz-in]", "actions",
                 "least from the best start [oz-in]",
-                "that start itself [oz-in]", "it stands at [in, in, deg]",
+                "that start itself [oz-in]", "calmest stance on its holds [oz-in]", "it stands at [in, in, deg]",
                 "actions from it", "largest at steps", "starts compared", "above", "below",
             ),
             tuple(rows),
@@ -70,6 +72,7 @@ def _row(board: str, fixed: Proof, calm: Calm, above: Proof, below: Proof) -> tu
         fixed.length,
         (calm.proof.torque or 0.0) / OZ_IN,
         calm.start_torque / OZ_IN,
+        calm.calmest / OZ_IN,
         f"{start.x / INCH:.0f}, {start.y / INCH:.0f}, {degrees:.0f}; {start.in_use} moved last",
         calm.proof.length,
         _steps(calm.proof),

@@ -5,6 +5,7 @@ from typing import Final
 
 from ...actions.verdict import check_plan
 from ...planning.exact.front import plan_front
+from ...tasks.limbed import LimbedTask
 from ...units import OZ_IN
 from ..bevly_1997.replayed import limbed_task
 from ..result import Compared, Figure, StudyResult, Table, Value
@@ -58,6 +59,7 @@ def trade_length_for_torque() -> StudyResult:
             Compared("least torque of all plans [oz-in]", rows[-1][1]),
             Compared("shortest plan of least torque [actions]", rows[-1][0]),
             Compared("torque of the start stance itself [oz-in]", start_torque(BOARD) / OZ_IN),
+            Compared("half the weight times the way from a port to its peg at the start [oz-in]", _level(task) / OZ_IN),
             Compared("limit one part in a million above the least", above.told),
             Compared("limit one part in a million below the least", below.told),
         ),
@@ -65,8 +67,16 @@ def trade_length_for_torque() -> StudyResult:
             *TOLD,
             NEVER_HANGS,
             "The least torque is that of the start stance, which counts: under a lower limit the robot can't even stand at its start, "
-            "and that is the whole proof from below. The result least-torque frees the start: on H the climb itself needs no less.",
+            "and that is the whole proof from below. It is half the weight on the horizontal way from port to peg, as whenever the body is "
+            "level in the middle of two columns. The result least-torque frees the start: on H the climb itself needs no less.",
         ),
         table=Table(("length [actions]", "largest torque [oz-in]", "energy [J]", "replay"), rows),
         figures=(Figure("front", "The complete front of H: what more actions give in torque.", curve),),
     )
+
+
+def _level(task: LimbedTask) -> float:
+    """Shoulder torque of the first limb at the start if it carries half the weight, straight down [N m]."""
+    limb = task.robot.limbs[0]
+    peg = task.world.by_number(task.start.holds[limb.name])
+    return task.robot.weight / 2.0 * abs(peg.x - task.start.x - limb.port_x)
