@@ -55,6 +55,7 @@ def draw_cones(lengths: Mapping[str, Mapping[float, int | None]], path: str | Pa
             )  # fmt: skip
         axes.grid(axis="y", color=style.FAINT, lw=0.6)
         axes.set_axisbelow(True)
+        axes.margins(y=0.08)
         axes.set_xlim(0.0, 90.0)
         axes.set_xticks(range(0, 91, 15))
         axes.yaxis.set_major_locator(MaxNLocator(integer=True))

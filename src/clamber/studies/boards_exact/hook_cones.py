@@ -136,7 +136,7 @@ def narrow_cones_of(boards: tuple[str, ...], shown: tuple[float, ...]) -> StudyR
         table=Table(
             (
                 "board", "narrowest cone [deg]", "shortest plan there [actions]", "stances seen", "replayed there and at 90 deg",
-                "none at [deg]", "why", "it forbids (actions)",
+                "none at [deg]", "why", "it forbids (actions)", "cone [deg]: shortest plan [actions]",
             ),
             tuple(rows),
         ),
@@ -159,6 +159,7 @@ def _row(board: str, proofs: dict[float, Proof]) -> tuple[Value, ...]:
         below,
         none.told,
         forbids or none.reason,
+        curve,
     )
 
 
