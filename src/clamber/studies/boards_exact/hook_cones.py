@@ -150,6 +150,7 @@ def _row(board: str, proofs: dict[float, Proof]) -> tuple[Value, ...]:
     plan, none = proofs[least], proofs[below]
     valid = plan.valid and holds_at(plan, CONES[0])
     forbids = none.reason.partition("forbidden: ")[2]
+    lengths = ", ".join(f"{at:g}: {proof.length or 'none'}" for at, proof in sorted(proofs.items(), reverse=True))
     return (
         board,
         least,
@@ -159,7 +160,7 @@ def _row(board: str, proofs: dict[float, Proof]) -> tuple[Value, ...]:
         below,
         none.told,
         forbids or none.reason,
-        curve,
+        lengths,
     )
 
 

@@ -82,8 +82,8 @@ def vary_spacing_over(across: str, up: str) -> StudyResult:
             *TOLD,
             NEVER_HANGS,
             "The start is between pegs 3 and 4, body level, and moves with them; where that stance is not allowed, the start is also tried "
-            "2, 4 and 6 in higher and lower on the same pegs, and the shortest plan from any of these heights counts. A higher start spares "
-            "actions, so those lengths tell that a ladder can be climbed, not how it compares.",
+            "2, 4 and 6 in higher and lower on the same pegs, and the shortest plan from any of these heights counts. A higher "
+            "start spares actions, so those lengths tell that a ladder can be climbed, not how it compares.",
             "A ring says that none of the starts tried is allowed: nothing is proved of that ladder.",
             "The ladders have 25 rungs instead of eleven, so that all reach above the goal at 60 in; "
             "the verdict is for the words 'must be': it differs if a ladder with 6 in rungs and another width can be climbed.",
@@ -91,7 +91,7 @@ def vary_spacing_over(across: str, up: str) -> StudyResult:
         table=_table(swept, lifted),
         figures=(
             Figure("field", "Actions of the shortest plan by distance of the pegs across and up; dashed: what the thesis states.", field),
-            Figure("heights", "The same with starts up to 6 in higher or lower where the level one is not allowed (rings: none of them is).", field_of_heights),
+            Figure("heights", "The same with higher and lower starts where the level one is not allowed (rings: none is).", field_of_heights),
         ),
     )  # fmt: skip
 
