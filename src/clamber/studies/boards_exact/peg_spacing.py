@@ -91,7 +91,8 @@ def vary_spacing_over(across: str, up: str) -> StudyResult:
         table=_table(swept, lifted),
         figures=(
             Figure("field", "Actions of the shortest plan by distance of the pegs across and up; dashed: what the thesis states.", field),
-            Figure("heights", "The same with higher and lower starts where the level one is not allowed (rings: none is).", field_of_heights),
+            Figure("heights", "The same with higher and lower starts "
+                   "where the level one is not allowed (rings: none is).", field_of_heights),
         ),
     )  # fmt: skip
 
