@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 from typing import Any
 
-from clamber.jobs import map_items
+from clamber.jobs import LocalProcesses, RayCluster, map_items
 
 
 def square(item: dict[str, Any]) -> dict[str, Any]:
@@ -35,4 +35,5 @@ if __name__ == "__main__":
 
     place = Path(sys.argv[1])
     size = (int(sys.argv[2]), float(sys.argv[3])) if len(sys.argv) > 2 else ()
-    map_items(importable, batch(place, *size), workers=2, store=place / "store.db", resume=True)
+    executor = RayCluster(sys.argv[4]) if len(sys.argv) > 4 else LocalProcesses(2)
+    map_items(importable, batch(place, *size), executor=executor, store=place / "store.db", resume=True)

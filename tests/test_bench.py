@@ -2,7 +2,9 @@
 
 import math
 import random
+from collections.abc import Generator, Mapping
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,11 +12,14 @@ import pytest
 
 from clamber.actions.problem import CompiledProblem
 from clamber.actions.problems import pose_problem
-from clamber.experiments import benches, peers, races, rows, speed, starts, workload
+from clamber.experiments import batches, benches, peers, races, rows, speed, starts, workload
 from clamber.experiments.ablation import TASKS, VARIANTS, bench_ablation, varied
 from clamber.experiments.plain_problem import PlainProblem, plain_module
 from clamber.experiments.rows import NOTHING, Row, median_or_nothing
-from clamber.experiments.trials import run_trials
+from clamber.experiments.scaling import ScalingLaw
+from clamber.experiments.trials import Crew, run_cases, run_trials
+from clamber.jobs import LocalProcesses
+from clamber.jobs.executor import End
 from clamber.planning.genetic.evolve import weights_for
 from clamber.planning.genetic.planner import plan_genetic
 from clamber.planning.genetic.profile import load_profile
@@ -41,7 +46,7 @@ def test_a_failure_counts_as_slower_than_anything_in_a_median() -> None:
 
 
 def test_every_benchmark_of_the_issue_is_there() -> None:
-    assert {"plan", "seeds", "ablation"} <= set(benches.BENCHES)
+    assert {"plan", "seeds", "ablation", "jobs"} <= set(benches.BENCHES)
 
 
 @pytest.mark.parametrize("variant", VARIANTS)
@@ -133,3 +138,39 @@ def test_the_ablation_runs_on_every_task() -> None:
     told = bench_ablation(seeds=range(1), variants=("default",))
     assert {row.name.split(", default")[0] for row in told} == set(TASKS)
     assert all(isinstance(row, rows.Row) for row in told)
+
+
+def test_the_scaling_law_keeps_its_limits() -> None:
+    law = ScalingLaw(start=2.0, driver=1e-4, overhead=1e-3)
+    assert law.seconds(0.1, 1000, 1) == pytest.approx(2.0 + 1000 * 0.101)
+    assert law.seconds(1e-6, 10_000, 1000) == pytest.approx(2.0 + 10_000 * 1e-4, rel=1e-3), "the driver is the limit"
+    for cores in (1, 10, 100, 1000):
+        shares = [law.efficiency(item, 100 * cores, cores) for item in (1e-4, 1e-2, 1.0, 100.0)]
+        assert shares == sorted(shares) and shares[0] > 0.0 and shares[-1] < 1.0
+        least = law.shortest_item(100 * cores, cores)
+        assert law.efficiency(least, 100 * cores, cores) == pytest.approx(0.8, rel=1e-2)
+    assert law.shortest_item(1, 10) == math.inf, "one item keeps nine cores idle"
+
+
+def test_a_small_batch_gives_every_row_of_the_jobs_benchmark() -> None:
+    made = {row.name: row.value for row in batches.batch_rows(items=6, workers=(1, 2))}
+    assert all(value > 0.0 for value in made.values())
+    assert made["time of 2 ready workers that the points took"] <= 1.0
+
+
+def test_cases_on_workers_are_the_trials_in_this_process_and_a_store_keeps_them(tmp_path: Path) -> None:
+    task, profile = load_task("ladder", NEAR), load_profile("default")
+    crew = Crew(executor=LocalProcesses(2), store=tmp_path / "store.db")
+    cases = {"near": (task, profile), "no polishing": (task, varied(profile, {"polish": 0}))}
+    done = run_cases(cases, range(3), crew)
+    assert done["near"] == run_trials(task, profile, range(3))
+    assert done["no polishing"] == run_trials(task, cases["no polishing"][1], range(3))
+    assert run_cases(cases, range(3), replace(crew, executor=Nobody(), resume=True)) == done
+
+
+class Nobody(LocalProcesses):
+    """Runs nothing."""
+
+    def run(self, name: str, items: Mapping[str, str]) -> Generator[End]:
+        assert not items
+        yield from ()

@@ -18,7 +18,8 @@ from clamber.experiments.boards.contest import Contest, Trial, Truth, run_contes
 from clamber.experiments.boards.standing import contradictions, groups, ranking, standing, within
 from clamber.experiments.boards.tables import rows_of, save_markdown, save_trials, tables
 from clamber.experiments.boards.trial import REFUSED, run_trial
-from clamber.jobs import StoreError
+from clamber.experiments.trials import Crew
+from clamber.jobs import LocalProcesses, StoreError
 from clamber.planning.budgets import Allowance, Contender, accepts, contenders
 from clamber.planning.exact.explore import explore
 from clamber.planning.planners import PLANNERS
@@ -26,16 +27,14 @@ from clamber.tasks import load_task, task_from_document
 from clamber.viewing.boards_plot import draw_boards
 from test_exact import breadth_first
 
-FEW = Allowance(checks=150_000, seconds=0.3, patience=60.0)
+FEW = Allowance(checks=100_000, seconds=0.3, patience=60.0)
 NO_HANGS = ("rules.max_hangs=0",)
 
 
 @pytest.fixture(scope="module")
 def contest() -> Contest:
     """A solvable board, one without a way, and the ladder."""
-    return run_contest(
-        cases=[thesis_case("ladder"), random_case(10, 1), random_case(10, 0)], seeds=(0, 1), allowance=FEW
-    )
+    return run_contest(cases=[thesis_case("ladder"), random_case(10, 1), random_case(10, 0)], seeds=(0,), allowance=FEW)
 
 
 def test_the_set_is_five_boards_and_forty_random_ones_and_the_same_every_time() -> None:
@@ -44,7 +43,8 @@ def test_the_set_is_five_boards_and_forty_random_ones_and_the_same_every_time() 
     assert [case.name for case in made[:5]] == list(THESIS)
     assert {case.size for case in made[5:]} == {str(size) for size in SIZES}
     assert {case.density for case in made[5:]} == {f"{density:g}" for density in DENSITIES}
-    assert [case.document for case in made] == [case.document for case in all_cases()]
+    for case in made[5::9]:
+        assert case == random_case(int(case.size), int(case.name.rpartition("-")[2]))
     for case in made:
         task = task_from_document(case.document)
         assert task.rules.max_hangs == 0 and pose_problem(task).problem.incomplete is None
@@ -145,8 +145,8 @@ def test_a_contest_resumes_and_tells_the_same_on_two_workers(tmp_path: Path) -> 
     setting = {"cases": [random_case(10, 1), random_case(10, 7)], "entrants": some, "seeds": (0,), "allowance": FEW}
     store = tmp_path / "boards.sqlite"
     alone = run_contest(**setting)  # type: ignore[arg-type]
-    first = run_contest(**setting, workers=2, store=store)  # type: ignore[arg-type]
-    again = run_contest(**setting, store=store, resume=True)  # type: ignore[arg-type]
+    first = run_contest(**setting, crew=Crew(executor=LocalProcesses(2), store=store))  # type: ignore[arg-type]
+    again = run_contest(**setting, crew=Crew(executor=LocalProcesses(1), store=store, resume=True))  # type: ignore[arg-type]
     assert again == first
 
     def timeless(trials: tuple[Trial, ...]) -> list[Trial]:
@@ -154,7 +154,7 @@ def test_a_contest_resumes_and_tells_the_same_on_two_workers(tmp_path: Path) -> 
 
     assert timeless(alone.trials) == timeless(first.trials)
     with pytest.raises(StoreError, match="other data"):
-        run_contest(**{**setting, "seeds": (1,)}, store=store, resume=True)  # type: ignore[arg-type]
+        run_contest(**{**setting, "seeds": (1,)}, crew=Crew(executor=LocalProcesses(1), store=store, resume=True))  # type: ignore[arg-type]
 
 
 def test_a_planner_that_cannot_take_a_task_is_refused_and_not_failed() -> None:
@@ -175,7 +175,7 @@ def test_a_planner_that_only_knows_time_is_limited_by_it(monkeypatch: pytest.Mon
         (("boards", "--resume"), "--store"),
         (("boards", "-o", "boards.txt"), "boards.txt"),
         (("boards", "-o", "no/such/folder/boards.png"), "no/such/folder"),
-        (("seeds", "--workers", "2"), "bench boards"),
+        (("plan", "--workers", "2"), "are for one of seeds"),
         (("bords",), "no benchmark is called 'bords'"),
     ],
 )
@@ -220,7 +220,7 @@ def small_boards(count: int) -> list[tuple[int, float, int, tuple[str, ...]]]:
     chosen = []
     for seed in range(count):
         holds = int(rng.integers(5, 11))
-        density = float(rng.choice([6.0, 7.0, 8.0, 10.0, 12.0]))
+        density = float(rng.choice([7.0, 9.0, 12.0, 16.0, 20.0]))
         step = str(rng.choice(["4in", "6in"]))
         chosen.append((holds, density, seed, (*NO_HANGS, f"step.length={step}", "step.angle=30deg")))
     return chosen

@@ -253,7 +253,9 @@ def test_a_sweep_that_cannot_be_is_told_before_work_starts(
         pytest.importorskip("ray")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("clamber.jobs.local.LocalProcesses.run", lambda *_: pytest.fail("work started"))
-    (tmp_path / "plain.txt").write_text("no database, but longer than the header of one, which has one hundred bytes\n" * 3)
+    (tmp_path / "plain.txt").write_text(
+        "no database, but longer than the header of one, which has one hundred bytes\n" * 3
+    )
     other = "the sweep of 'h' over motor.torque_limit"
     for name, title, schema in (("other", other, "clamber-jobs-1"), ("old", other, "clamber-jobs-0")):
         Store(tmp_path / f"{name}.db", "another", title, resume=False).__exit__(None, None, None)

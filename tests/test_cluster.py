@@ -4,6 +4,7 @@ import importlib.util
 import json
 import os
 import secrets
+import signal
 import socket
 import subprocess
 import sys
@@ -19,8 +20,8 @@ import clamber
 from clamber.jobs import ClusterError, Outcome, RayCluster, cluster, map_items
 from clamber.planning.axes import range_axis
 from clamber.planning.sweep import run_sweep
-from jobs_by_hand import square
-from test_jobs import ran
+from jobs_by_hand import batch, square
+from test_jobs import ran, rows_of, start_batch
 from test_sweep import numbers
 
 needs_ray = pytest.mark.skipif(importlib.util.find_spec("ray") is None, reason="Ray is optional")
@@ -83,6 +84,22 @@ def test_a_cluster_runs_batches_as_local_workers_do(
     again = sum(ran(log).values()) - 40
     assert 0 <= again <= 2 * 2, "only what was in flight on the lost node may run twice"
     assert all(one.stored for one in map_items(square, slow, executor=there, store=store, resume=True))
+
+    for stop in (signal.SIGINT, signal.SIGKILL):
+        folder = tmp_path / stop.name
+        folder.mkdir()
+        process = start_batch(folder, 24, 0.1, there.address)
+        while process.poll() is None and sum(ran(folder / "log").values()) < 8:
+            time.sleep(0.005)
+        process.send_signal(stop)
+        process.communicate(timeout=60)
+        assert process.returncode != 0, "stopped in the middle"
+        time.sleep(0.5)  # its workers leave with it
+        kept, before = rows_of(folder / "store.db"), ran(folder / "log")
+        assert 0 < len(kept) < 24
+        told = map_items(square, batch(folder, 24, 0.1), executor=there, store=folder / "store.db", resume=True)
+        assert [one.result["square"] for one in told if one.result] == [n**2 for n in range(24)]
+        assert all(ran(folder / "log")[n] == before[n] for n in kept), "a finished item was run again"
 
     with monkeypatch.context() as changed:
         changed.setattr(cluster, "release", lambda: {"clamber": "0.0", "kernels": "none"})

@@ -10,10 +10,12 @@ from clamber.actions.problem import CompiledProblem
 from clamber.actions.problems import pose_problem
 from clamber.compiled import kernel
 from clamber.errors import PlannerError
+from clamber.experiments.boards.cases import random_case
+from clamber.planning.budgets import accepts
 from clamber.planning.exact.explore import explore
 from clamber.planning.exact.planner import plan_exact
-from clamber.planning.genetic.planner import plan_genetic
-from clamber.tasks import load_task
+from clamber.planning.planners import PLANNERS
+from clamber.tasks import load_task, task_from_document
 
 NO_HANGS = "rules.max_hangs=0"
 UNCLIMBABLE = (NO_HANGS, "step.length=3in", 'rules.allowed=["+y","-y","grab","release"]', "goal.y_min=60in")
@@ -134,9 +136,28 @@ def test_the_ladder_needs_thirty_actions_and_h_forty_one() -> None:
     assert plan_exact(h).length == 41
 
 
-def test_no_genetic_plan_beats_the_optimum() -> None:
-    task = load_task("ladder", (NO_HANGS,))
-    assert all(plan_genetic(task, seed=seed).length >= 30 for seed in range(5))
+SMALL_BUDGETS = {"max_checks": 60_000, "max_evaluations": 3_000, "max_stances": 40_000}
+
+
+@pytest.mark.parametrize("planner", PLANNERS)
+@pytest.mark.parametrize("board", ["ladder", "random-20-1", "random-20-2", "random-40-4"])
+def test_no_planner_beats_the_optimum(planner: str, board: str) -> None:
+    if board == "ladder":
+        task = load_task("ladder", (NO_HANGS,))
+    else:
+        holds, seed = (int(word) for word in board.split("-")[1:])
+        task = task_from_document(random_case(holds, seed).document)
+    proof = plan_exact(task)
+    assert proof.status in ("optimal", "infeasible")
+    options = {name: most for name, most in SMALL_BUDGETS.items() if accepts(planner, name)}
+    result = PLANNERS[planner](task, seed=1, threads=2, **options)
+    if proof.status == "infeasible":
+        assert not result.has_plan and result.status != "optimal"
+    elif result.has_plan:
+        assert result.check().reached and result.length >= proof.length
+        assert result.status != "optimal" or result.length == proof.length
+    if result.lower_bound is not None and proof.status == "optimal":
+        assert result.lower_bound <= proof.length
 
 
 def test_an_unclimbable_board_is_proved_so_and_the_proof_says_for_which_rules() -> None:

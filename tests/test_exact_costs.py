@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+from clamber.actions.family import reflect
 from clamber.actions.problem import CompiledProblem
 from clamber.actions.problems import pose_problem
 from clamber.cli.app import app
+from clamber.compiled import kernel
 from clamber.experiments.breadth import breadth_first
 from clamber.planning.exact.costs import Aim, CostError, read_costs
 from clamber.planning.exact.explore import explore
@@ -19,10 +21,11 @@ from clamber.planning.exact.front import plan_front
 from clamber.planning.exact.minimize import Minimizer
 from clamber.planning.exact.planner import plan_exact
 from clamber.tasks import load_task
-from test_exact import NO_HANGS, SMALL, keys_of
+from test_exact import NO_HANGS, SMALL, keys_of, restored
 
 BOARD = ("modified-ladder", (NO_HANGS, "step.length=3in", "step.angle=45deg", "goal.y_min=24in"))
 ROOM = 400_000
+HARD_FEET = 'rules.hard=["reach","joint","support","hangs","torque","clearance","limb_peg"]'
 
 
 @dataclass
@@ -181,6 +184,8 @@ WALKS = {
     "held again": ("ladder", (NO_HANGS, 'rules.allowed=["+x","+y","-y","+theta","hold","release"]')),
     "four limbs": ("gecko-climb", (NO_HANGS, "step.length=60mm", "step.angle=45deg")),
     "one hang": ("ladder", ("rules.max_hangs=1",)),
+    "any number of hangs": ("h", ()),
+    "two hangs on a ring": ("circle", ("rules.max_hangs=2",)),
     "walker": ("patch-walk", ()),
 }  # fmt: skip
 
@@ -223,6 +228,55 @@ def test_the_relaxed_bound_is_below_what_is_left_of_an_optimal_plan(name: str) -
     assert np.all(bounds <= np.arange(len(seen.codes), -1, -1))
     assert all(later >= sooner - 1.0 for sooner, later in pairwise(bounds))
     assert seen.expanded >= len(seen.codes)
+
+
+@kernel
+def image_of(p, stance, image):
+    return reflect(p, stance[0], image[0])
+
+
+@pytest.mark.parametrize(("task", "overrides"), [("ladder", ()), ("ladder", ('rules.branch="kept"', HARD_FEET))])
+def test_the_mirror_image_of_a_stance_has_the_mirror_images_of_its_futures(
+    task: str, overrides: tuple[str, ...]
+) -> None:
+    problem = pose_problem(load_task(task, (NO_HANGS, *overrides))).problem.informed()
+    rng = np.random.default_rng(5)
+    here = problem.start
+    for _ in range(40):
+        image = here.copy()
+        assert image_of(problem.params.record, here, image)
+        words, _ = keys_of(problem, image)
+        again = np.zeros(1, here.dtype)
+        restored(problem.params.record, words, again)
+        children, mirrored = problem.expand(here), problem.expand(again)
+        assert sorted(problem.mirrored(int(code)) for code in children.code) == sorted(
+            int(code) for code in mirrored.code
+        )
+        for child, code in zip(children.stance, children.code, strict=True):
+            other = mirrored.stance[list(mirrored.code).index(problem.mirrored(int(code)))][None]
+            reflected = child[None].copy()
+            image_of(problem.params.record, child[None], reflected)
+            assert np.array_equal(keys_of(problem, reflected)[0], keys_of(problem, other)[0])
+            assert child["torque"] == pytest.approx(other["torque"][0], abs=1e-9)
+        here = children.stance[rng.integers(len(children.stance))][None].copy()
+
+
+@pytest.mark.parametrize("aim", [Aim(), Aim(first="energy"), Aim(second="torque", front=True)])
+def test_a_search_through_half_of_a_symmetric_space_answers_the_same(aim: Aim) -> None:
+    problem = pose_problem(load_task("ladder", (NO_HANGS, "goal.y_min=36in", "step.angle=45deg"))).problem
+    whole, half = (explore(one, most_stances=ROOM, aim=aim) for one in (problem, problem.informed()))
+    assert [way.first for way in half.ways] == pytest.approx([way.first for way in whole.ways], rel=1e-9)
+    assert [way.second for way in half.ways] == pytest.approx([way.second for way in whole.ways], rel=1e-9)
+    assert half.stances < 0.6 * whole.stances
+    for way in half.ways:
+        replayed = problem.replay(way.codes)
+        assert replayed.ok and problem.is_done(replayed.stances[-1:])
+
+
+@pytest.mark.parametrize("override", ["start.x=9.2in", 'rules.allowed=["+x","+y","grab","release"]', "goal.x_min=0in"])
+def test_what_breaks_the_symmetry_is_seen(override: str) -> None:
+    problem = pose_problem(load_task("ladder", (NO_HANGS, override))).problem.informed()
+    assert not image_of(problem.params.record, problem.start, problem.start.copy())
 
 
 def test_a_front_tells_whether_it_is_complete() -> None:

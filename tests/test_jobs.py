@@ -87,7 +87,7 @@ def test_a_batch_stopped_at_several_moments_ends_with_the_same_results_and_runs_
 def start_batch(folder: Path, *size: object) -> "subprocess.Popen[bytes]":
     path = os.pathsep.join((str(Path(clamber.__file__).parents[1]), str(Path(__file__).parent)))
     command = [sys.executable, str(Path(__file__).parent / "jobs_by_hand.py"), str(folder), *map(str, size)]
-    return subprocess.Popen(command, env=os.environ | {"PYTHONPATH": path}, stderr=subprocess.DEVNULL)
+    return subprocess.Popen(command, env=os.environ | {"PYTHONPATH": path}, stderr=subprocess.PIPE)
 
 
 MOMENTS = [3, pytest.param(20, marks=pytest.mark.slow)]

@@ -16,14 +16,14 @@ from clamber.actions.loops import replay
 from clamber.actions.plan_families import plan_family
 from clamber.actions.plan_source import open_replay
 from clamber.actions.problem import CompiledProblem
-from clamber.actions.problems import pose_problem
+from clamber.actions.problems import BURDENS, PROBLEMS, WITHOUT_HANGS, pose_problem
 from clamber.actions.yardsticks import YARDSTICKS
 from clamber.cli import main
 from clamber.compiled import kernel
 from clamber.errors import PlannerError, UnknownNameError
 from clamber.planning.exact.explore import explore
-from clamber.planning.reach.layers import FAMILY_LAYERS, LAYERS, LayerError, choose_layer
-from clamber.planning.reach.reach import WITHOUT_HANGS, Reach, find_reach
+from clamber.planning.reach.layers import LAYERS, LayerError, choose_layer, layers_of
+from clamber.planning.reach.reach import Reach, find_reach
 from clamber.statics.records import TICKS
 from clamber.tasks import Task, load_task
 from clamber.viewing.margins import all_limiting
@@ -266,8 +266,8 @@ def test_a_walker_has_a_map_of_margins_and_steps_alone() -> None:
 
 
 def test_every_family_has_layers_a_world_and_a_way_without_hangs() -> None:
-    assert set(FAMILY_LAYERS) == set(WORLDS) == set(WITHOUT_HANGS) == set(YARDSTICKS)
-    assert all(set(names) <= set(LAYERS) for names in FAMILY_LAYERS.values())
+    assert set(PROBLEMS) == set(BURDENS) == set(WORLDS) == set(WITHOUT_HANGS) == set(YARDSTICKS)
+    assert layers_of(load_task("ladder")) == tuple(LAYERS) and layers_of(load_task("patch-walk")) == ("margin", "steps")
     with pytest.raises(UnknownNameError, match=r"no layer is called 'forc'.*did you mean 'force'"):
         choose_layer(load_task("ladder"), "forc")
     with pytest.raises(PlannerError, match=r"rules\.allowed"):

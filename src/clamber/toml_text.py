@@ -17,6 +17,11 @@ def toml_text(data: Mapping[str, Any], comment: str = "") -> str:
     return "\n".join(lines) + "\n"
 
 
+def toml_value(value: Any) -> str:
+    """Plain data as a value on one line, such as an override needs it."""
+    return _value(value, in_line=True)
+
+
 def _table(lines: list[str], path: tuple[str, ...], table: Mapping[str, Any]) -> None:
     stated = {key: value for key, value in table.items() if value is not None}
     lines += [f"{_key(key)} = {_value(value)}" for key, value in stated.items() if not _stands_alone(value)]
@@ -41,13 +46,13 @@ def _is_deep(table: Mapping[str, Any]) -> bool:
     return len(table) > 4 or any(isinstance(value, Mapping | list | tuple) for value in table.values())
 
 
-def _value(value: Any) -> str:
+def _value(value: Any, *, in_line: bool = False) -> str:
     if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{_key(key)} = {_value(item)}" for key, item in value.items()) + " }"
+        return "{ " + ", ".join(f"{_key(key)} = {_value(item, in_line=in_line)}" for key, item in value.items()) + " }"
     if isinstance(value, Sequence) and not isinstance(value, str):
-        if value and all(isinstance(item, Mapping) for item in value):
+        if value and all(isinstance(item, Mapping) for item in value) and not in_line:
             return "[\n" + "".join(f"    {_value(item)},\n" for item in value) + "]"
-        return "[" + ", ".join(_value(item) for item in value) + "]"
+        return "[" + ", ".join(_value(item, in_line=in_line) for item in value) + "]"
     return json.dumps(value, ensure_ascii=False)  # TOML's basic strings, numbers and truth values are written as JSON's
 
 

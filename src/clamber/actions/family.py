@@ -21,6 +21,7 @@ SCALARS = (
     "bound",
     "toward",
     "freer",
+    "reflect",
     "done",
     "cell",
     "spot",
@@ -77,6 +78,11 @@ def freer(p, s, which, t):  # type: ignore[no-untyped-def]
     raise TypeError("called from kernels only")
 
 
+def reflect(p, s, t):  # type: ignore[no-untyped-def]
+    """Write the mirror image of a stance, as far as keys and bounds read it; False if the problem is not its own mirror image."""
+    raise TypeError("called from kernels only")
+
+
 def done(p, s):  # type: ignore[no-untyped-def]
     """Whether a stance has met every goal."""
     raise TypeError("called from kernels only")
@@ -114,6 +120,7 @@ overload(restore)(lambda p, words, s: _chosen("restore", p))
 overload(measure)(lambda p, s, row: _chosen("measure", p))
 overload(bound)(lambda p, s: _chosen("bound", p))
 overload(freer)(lambda p, s, which, t: _chosen("freer", p))
+overload(reflect)(lambda p, s, t: _chosen("reflect", p))
 overload(done)(lambda p, s: _chosen("done", p))
 overload(cell)(lambda p, s: _chosen("cell", p))
 overload(spot)(lambda p, s, words: _chosen("spot", p))

@@ -12,7 +12,7 @@ from ..statics.records import STANCE, TICKS
 from ..tasks.limbed import LimbedTask
 from ..types import Json
 from .codes import pack
-from .limbed_problem import CHECKS, limbed_params
+from .limbed_arrays import CHECKS, limbed_params
 from .loops import replay
 from .problem import Records
 

@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from ..compiled import kernel
+from ..statics.limbed import HANGS
 from ..statics.near import cells_about, cells_in_row
 from ..statics.pose import count_holders, held, place, port_of, solve
 from ..statics.records import TICKS, TOLERANCE, cells, goals, holds, limbs
@@ -123,16 +124,19 @@ def candidates(p, s, codes):
 
 @kernel
 def bound(p, s):
-    """An admissible, consistent number of actions still needed; infinity where the goal can't be reached; 0 if hangs are left.
+    """An admissible, consistent number of actions still needed; infinity where the goal can't be reached.
 
     The fewest actions in the relaxed problem, where the problem has one (`actions.relaxed`) and the pose is on its lattice; else body
-    steps along x and y from goal to goal. A hang may carry the body anywhere: while one is left, or one limb alone holds, nothing is known.
+    steps along x and y from goal to goal. While a hang is left, or one limb alone holds, only the steps up count: a hang turns the body
+    about a hold to straight below it, so it never comes to lie higher than before, and no other action lifts it by more than a step.
     """
-    if s.stage >= p.n_goals or p.max_hangs < 0 or s.hangs < p.max_hangs:
+    if s.stage >= p.n_goals:
         return 0.0
+    limited = p.max_hangs >= 0 and p.hard & (1 << HANGS)
     holders, _ = count_holders(p, s)
-    if holders < 2:
-        return 0.0
+    if not limited or s.hangs < p.max_hangs or holders < 2:
+        rise = goals(p)[s.stage].y_min - s.y
+        return math.ceil(max(0.0, rise) / (p.tick * TICKS) - 1e-6) + goals(p)[s.stage].rise_after
     if p.n_left:
         column = s.ix // TICKS - p.places_x
         row = s.iy // TICKS - p.places_y

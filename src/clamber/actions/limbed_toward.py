@@ -20,9 +20,9 @@ def toward(p, s, t):
         if s.hold[i] != t.hold[i]:
             limbs += 1
     there, _ = count_holders(p, t)
-    if limbs == 0 and p.idle and there >= 3 and s.in_use != t.in_use:
-        if (t.in_use >= 0 and t.hold[t.in_use] >= 0) or (s.in_use >= 0 and s.hold[s.in_use] >= 0):
-            limbs = 1  # the key tells which limb carries nothing
+    idles = (t.in_use >= 0 and t.hold[t.in_use] >= 0) or (s.in_use >= 0 and s.hold[s.in_use] >= 0)
+    if limbs == 0 and idles and p.idle and there >= 3 and s.in_use != t.in_use:
+        limbs = 1  # the key tells which limb carries nothing
     holders, _ = count_holders(p, s)
     if holders <= 1 or not (p.hard >> HANGS) & 1 or p.max_hangs < 0 or s.hangs < p.max_hangs:
         return float(limbs)

@@ -103,7 +103,12 @@ class Plan:
         Raises:
             SpecError: If the document builds no task, or is no longer the one that was planned for.
         """
-        task = task_from_document(self.document, f"{label}: document")
+        try:
+            task = task_from_document(self.document, f"{label}: document")
+        except SpecError as error:  # a robot's or a board's own label alone would not say which plan it is in
+            if error.file.startswith(label):
+                raise
+            raise SpecError(f"{label}: {error.file}", error.key, error.value, error.allowed, error.others) from None
         for part, known in task.hashes.items():
             if self.hashes.get(part) != known:
                 allowed = f"must be {known[:12]}..., the hash of '{part}' in 'document'; plan again if that has changed"

@@ -1,11 +1,12 @@
 """A family bound to a task, as planners see it: batches of arrays in, batches of arrays out."""
 
 import copy
+import math
 import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Any, Protocol, Self
+from typing import Any, ClassVar, Protocol, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +14,7 @@ import numpy.typing as npt
 from .loops import expand, features_of, follow, possible, replay, rollout, sprout
 from .params import Params
 from .table import ActionTable
+from .ways import WayFields
 
 MAX_FEATURES = 8
 PIECES = 8
@@ -113,6 +115,9 @@ class CompiledProblem:
 
     The answer does not depend on the number of threads: every plan is carried out alone.
     """
+
+    burdens: ClassVar[tuple[str, ...]] = ()
+    """Names of what the family's kernel `burden` writes, each with its unit at the end."""
 
     def __init__(
         self,
@@ -305,13 +310,31 @@ class CompiledProblem:
         return self.way - self.progress(stance)
 
     def informed(self) -> Self:
-        """The same problem with the best `bound` that its family knows, for exact search; the answer is the same with or without."""
+        """The same problem with all that its family knows of bounds and symmetry, for exact search; no answer depends on it."""
         return self
+
+    def mirrored(self, code: int) -> int:
+        """The mirror image of an action, in a problem that is its own mirror image."""
+        raise NotImplementedError
 
     @property
     def incomplete(self) -> str | None:
         """Why `expand` and exact search can't list all that the task allows, or None: they can."""
         return None
+
+    def ways(self) -> WayFields | None:
+        """About how far it is from every place of the world to each goal; None: the family has no such map."""
+        return None
+
+    @property
+    def landmarks(self) -> int:
+        """How many things the world has that limbs hold or must miss: holds, or patches."""
+        raise NotImplementedError
+
+    @property
+    def estimated_stances(self) -> float:
+        """A rough upper estimate of the stances there are, for choosing a planner; infinite where poses leave the lattice."""
+        return math.inf
 
     @property
     def key_words(self) -> int:
@@ -342,11 +365,6 @@ class CompiledProblem:
         start = self.start.copy()
         start["stage"] = self.goals
         return self.params.for_thread(), start
-
-    @property
-    def burdens(self) -> tuple[str, ...]:
-        """Names of what the family's kernel `burden` writes, each with its unit at the end."""
-        return ()
 
     @property
     def spot_words(self) -> int:

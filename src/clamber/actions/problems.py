@@ -53,11 +53,36 @@ PROBLEMS: Final[dict[str, Callable[[Any, int | None, bool], Posed]]] = {"limbed"
 """Family of the robot -> how its tasks become problems."""
 
 
+BURDENS: Final[dict[str, tuple[str, ...]]] = {"limbed": LimbedProblem.burdens, "walker": WalkerProblem.burdens}
+"""Family of the robot -> what can be told of being in a stance, each with its unit at the end."""
+
+
+def _hangless(task: Any) -> Task:
+    bare: Task = replace(task, rules=replace(task.rules, max_hangs=0))
+    return bare
+
+
+WITHOUT_HANGS: Final[dict[str, Callable[[Any], Task]]] = {"limbed": _hangless, "walker": lambda task: task}
+"""Family of the robot -> a task of it with no hangs."""
+
+
+def without_hangs(task: Task) -> Task:
+    """The same task with no hangs allowed."""
+    return WITHOUT_HANGS[task.document["robot"]["family"]](task)
+
+
 def last_goal_only(task: Task) -> Task:
     """The same task without its sub-goals."""
     bare: Any = task  # each family's task has goals of its own type
     last: Task = replace(bare, goals=bare.goals[-1:])
     return last
+
+
+def first_goal_only(task: Task) -> Task:
+    """The same task up to its first goal."""
+    near: Any = task  # each family's task has goals of its own type
+    first: Task = replace(near, goals=near.goals[:1])
+    return first
 
 
 def pose_problem(task: Task, *, threads: int | None = None, filters: bool = True) -> Posed:

@@ -10,11 +10,12 @@ from typing import Any, Final
 
 import numpy as np
 
-from ..statics.limbed import REACH
+from ..statics.limbed import HANGS, REACH
 from ..statics.records import STANCE, TICKS
 from .params import AnyArray, Params
+from .relaxed_goals import mark_goals, sort_sources
 from .relaxed_places import SECTORS, UNREACHED, find_grips, number_states
-from .relaxed_sweep import find_beside, mark_goals, sort_sources, sweep_back
+from .relaxed_sweep import find_beside, sweep_back
 
 MOST_BYTES: Final = 192 << 20
 """Of the table; a larger one costs more than it saves: then rotation is free in it, and if that is too large too, there is none."""
@@ -26,10 +27,11 @@ FIRST_ROOM: Final = 1 << 16
 def with_bound(params: Params) -> Params:
     """The parameters with a table that makes `bound` the fewest actions of the relaxed problem.
 
-    The same parameters where it says nothing (hangs without end, `reach` not hard, a robot of one limb) or doesn't fit.
+    The same parameters where it says nothing (hangs without end, `reach` or `hangs` not hard, a robot of one limb) or doesn't fit.
     """
     record: Any = params.record
-    if record["max_hangs"] < 0 or not record["hard"] & (1 << REACH) or record["n_limbs"] < 2:
+    needed = 1 << REACH | 1 << HANGS
+    if record["max_hangs"] < 0 or record["hard"] & needed != needed or record["n_limbs"] < 2:
         return params
     fields = _frame(params)
     places = fields["places_nx"] * fields["places_ny"]

@@ -17,6 +17,7 @@ from ..statics.records import TICKS, TOLERANCE, cells, holds, limbs
 
 SECTORS = 64
 """Angles are told apart as bits of one word; of finer angles several share a bit, and then rotation is free."""
+ALL_ANGLES = np.uint64(0xFFFFFFFFFFFFFFFF)
 UNREACHED = 65535
 """Entry of `left` from which no goal can be reached."""
 
@@ -93,6 +94,40 @@ def pair_state(p, where, i, u, j, v):
 def triple_state(p, where, u, v, w):
     """Number of the triple of a three-limbed robot's grips."""
     return block_base(p, where, 3) + (u * grips(p, where, 1) + v) * grips(p, where, 2) + w
+
+
+@inlined
+def grip_at(p, where, i, u):
+    """Place of a grip in the arrays."""
+    return grip_starts(p)[where * p.n_limbs + i] + u
+
+
+@inlined
+def open_state(p, where, state, members):
+    """The limbs and grips of a state of a place: `members` gets (limb, grip) in the order of the limbs; returns their number."""
+    block = 0
+    for i in range(p.n_limbs):
+        for j in range(i + 1, p.n_limbs):
+            block += 1
+            if state < block_base(p, where, block):
+                local = state - block_base(p, where, block - 1)
+                members[0, 0] = i
+                members[0, 1] = local // grips(p, where, j)
+                members[1, 0] = j
+                members[1, 1] = local % grips(p, where, j)
+                return 2
+    local = state - block_base(p, where, block)
+    for i in range(2, -1, -1):
+        members[i, 0] = i
+        members[i, 1] = local % grips(p, where, i)
+        local //= grips(p, where, i)
+    return 3
+
+
+@inlined
+def on_one_hold(p, where, i, u, j, v):
+    """Whether two grips that may not be used together are of one hold."""
+    return not p.shares and grip_holds(p)[grip_at(p, where, i, u)] == grip_holds(p)[grip_at(p, where, j, v)]
 
 
 @kernel

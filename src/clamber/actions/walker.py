@@ -189,6 +189,12 @@ def freer(p, s, which, t):
     return True
 
 
+@inlined
+def reflect(p, s, t):
+    """No symmetry of the walker is used."""
+    return False
+
+
 @kernel
 def candidates(p, s, codes):
     """Every different action from a stance; returns their number, which is seven."""
@@ -268,6 +274,7 @@ family_kernels(
     measure=measure,
     bound=bound,
     freer=freer,
+    reflect=reflect,
     done=done,
     cell=cell,
     spot=spot,

@@ -60,6 +60,11 @@ class WalkerProblem(CompiledProblem):
         assert len(FEATURE_NAMES) == FEATURES
 
     @property
+    def landmarks(self) -> int:
+        """Patches of the field."""
+        return len(self.task.world.patches)
+
+    @property
     def key_words(self) -> int:
         """Integers of a stance's key."""
         return KEY_WORDS

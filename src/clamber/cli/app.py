@@ -18,6 +18,7 @@ from .learn import learn
 from .list import list_names
 from .new import new
 from .plan import plan
+from .polish import polish
 from .reach import reach
 from .show import show
 from .study import study
@@ -32,6 +33,7 @@ app = typer.Typer(
 )
 app.command("list")(list_names)
 app.command("plan")(plan)
+app.command("polish")(polish)
 app.command("learn")(learn)
 app.command("inventory")(inventory)
 app.command("check")(check)

@@ -1,24 +1,23 @@
 """`clamber bench boards`: every planner on the benchmark set."""
 
-import os
-from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 
-from .output import check_writable, plain_table, print_json, stderr, stdout
+from .output import check_writable, plain_table, print_json, stdout
+
+if TYPE_CHECKING:
+    from ..experiments.trials import Crew
 
 TABLES = (".md", ".csv")
 
 
-def bench_boards(*, workers: int | None, store: Path | None, resume: bool, output: Path | None, as_json: bool) -> None:
+def bench_boards(crew: "Crew", *, output: Path | None, as_json: bool) -> None:
     """Run the contest and print its tables.
 
     Args:
-        workers: Processes; None for one a core.
-        store: SQLite file that keeps each trial as it ends.
-        resume: Whether to go on with it.
+        crew: Who runs the trials, and where they are kept.
         output: Picture, table (.md) or trials (.csv) to write.
         as_json: Print the rows as JSON.
     """
@@ -27,12 +26,10 @@ def bench_boards(*, workers: int | None, store: Path | None, resume: bool, outpu
         from ..viewing.output import CANVASES, check_suffix
 
         check_suffix(output, (*CANVASES, *TABLES))
-    from ..experiments.boards.bench import tell_tenths
     from ..experiments.boards.contest import run_contest
     from ..experiments.boards.tables import rows_of, save_markdown, save_trials
 
-    say = partial(stderr().print, style="dim")
-    contest = run_contest(workers=workers or os.cpu_count() or 1, store=store, resume=resume, progress=tell_tenths(say))
+    contest = run_contest(crew=crew)
     if output is not None and output.suffix.lower() not in TABLES:
         from ..viewing.boards_plot import draw_boards
 

@@ -78,4 +78,4 @@ def board(
     for kind, path in written.items():
         console.print(f"{kind} written to {path}", soft_wrap=True)
     if task:
-        console.print(f"next: clamber show {output}; clamber plan {output}", soft_wrap=True)
+        console.print(f"next: clamber show {output}; clamber plan {output} --planner auto", soft_wrap=True)

@@ -29,17 +29,23 @@ def plan(
         Path | None, typer.Option(metavar="FILE", help="Learned modules to add (`clamber learn -o`).")
     ] = None,
     minimize: Annotated[
-        str, typer.Option(metavar="COSTS", help="Of the exact planner: length, energy, torque, the first one first.")
-    ] = "length",
+        str | None,
+        typer.Option(metavar="COSTS", help="Of the exact planner: length, energy, torque, the first one first."),
+    ] = None,
     pareto: Annotated[
         str | None, typer.Option(metavar="COST,COST", help="Every plan that no other beats in both of two costs.")
     ] = None,
     stances: Annotated[
-        int | None, typer.Option(min=1, help="Most stances that the exact planner keeps (8 million: 2 GB).")
+        int | None, typer.Option(min=1, help="Most stances that exact searches keep (8 million: 2 GB).")
     ] = None,
+    width: Annotated[int | None, typer.Option(min=1, help="Stances that a beam keeps of each layer.")] = None,
     history: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Draw how the fitness grew (png, svg, pdf).")
     ] = None,
+    openings: Annotated[
+        bool, typer.Option(help="Where no plan is proved: look for the smallest changes of the task that open it.")
+    ] = True,
+    openings_seconds: Annotated[float, typer.Option(min=0.0, help="Most time for that.")] = 60.0,
     output: Output = None,
     as_json: AsJson = False,
     quiet: Quiet = False,
@@ -53,7 +59,8 @@ def plan(
     problem = load_task(task, overrides or ())
     from ..planning.budgets import accepts
     from ..planning.learning import load_macros
-    from ..planning.planners import FIRST_LOOPS, PLANNERS
+    from ..planning.planners import FIRST_LOOPS, PLANNERS, PROVERS
+    from .openings import Seeker
     from .plan_text import ProgressLine, print_result
 
     if planner not in PLANNERS:
@@ -63,26 +70,26 @@ def plan(
         from .front import front
 
         raise typer.Exit(front(problem, pareto, seconds, threads, stances, output, as_json=as_json, quiet=quiet))
-    options: dict[str, Any] = {"seed": seed, "seconds": seconds, "threads": threads}
-    if planner == "genetic":
-        learned = () if macros is None else load_macros(macros)
-        options |= {"profile": profile, "max_evaluations": evaluations, "macros": learned, "checkpoint": checkpoint}
-    if planner == "exact":
-        from ..planning.exact.costs import read_costs
+    from ..planning.exact.costs import read_costs
 
-        options |= {"minimize": read_costs("--minimize", minimize)}
-        options |= {} if stances is None else {"max_stances": stances}
-    elif minimize != "length" or stances is not None:
-        raise typer.BadParameter("only the exact planner takes --minimize and --stances", param_hint="--planner")
-    if planner != "genetic" and (checkpoint is not None or macros is not None or history is not None):
-        raise typer.BadParameter(
-            "only the genetic planner takes --checkpoint, --macros and --history", param_hint="--planner"
-        )
-    if checks is not None:
-        if not accepts(planner, "max_checks"):
-            raise typer.BadParameter(f"the {planner} planner has no limit in single actions", param_hint="--checks")
-        options["max_checks"] = checks
-    with ProgressLine(stderr(), quiet=quiet) as line:
+    stated = {
+        "--checks": ("max_checks", checks),
+        "--checkpoint": ("checkpoint", checkpoint),
+        "--macros": ("macros", None if macros is None else load_macros(macros)),
+        "--minimize": ("minimize", None if minimize is None else read_costs("--minimize", minimize)),
+        "--stances": ("max_stances", stances),
+        "--width": ("width", width),
+    }
+    usual = {"seed": seed, "seconds": seconds, "threads": threads, "profile": profile, "max_evaluations": evaluations}
+    options: dict[str, Any] = {name: value for name, value in usual.items() if accepts(planner, name)}
+    for flag, (name, value) in stated.items():
+        if value is not None and not accepts(planner, name):
+            raise typer.BadParameter(f"the {planner} planner does not take it", param_hint=flag)
+        options |= {} if value is None else {name: value}
+    if history is not None and planner != "genetic":
+        raise typer.BadParameter("only the genetic planner has one", param_hint="--history")
+    seeker = Seeker(problem, openings_seconds if openings and planner in PROVERS else None, threads, as_json, quiet)
+    with seeker.told_of_start(), ProgressLine(stderr(), quiet=quiet) as line:
         result = PLANNERS[planner](problem, progress=line.update, **options)
     if output is not None:
         result.plan.save(output)
@@ -91,7 +98,8 @@ def plan(
 
         draw_history(result.history, history, goals=[goal.name for goal in problem.goals])
     if as_json:
-        print_json(result.to_json())
+        print_json(result.to_json() | seeker.to_json(result))
     else:
         print_result(stdout(), result, output)
-    raise typer.Exit(0 if result.status in ("found", "optimal") else 1)
+        seeker.print(result)
+    raise typer.Exit(0 if result.has_plan else 1)

@@ -11,7 +11,7 @@ from ..actions.plan import Plan
 from ..actions.plan_families import plan_family
 from ..planning.genetic.learning import Macro
 from ..planning.learning import Lesson
-from ..planning.progress import Exploring, Moment, Progress, Routing, Trying
+from ..planning.progress import Exploring, Layers, Moment, Progress, Relaxing, Routing, Shortening, Trying
 from ..planning.result import Furthest, PlanResult
 from ..tasks import Task
 from ..units import OZ_IN
@@ -20,6 +20,8 @@ STEADY = 20
 """Where stderr is no terminal, every so many generations get a line."""
 CHECKS_TOLD = 500_000
 """The same for searches that count single actions."""
+SEARCHES_TOLD = 100
+"""The same for rows of exact searches."""
 
 
 class ProgressLine:
@@ -59,6 +61,12 @@ def _turn(progress: Moment) -> int:
         return round(100.0 * progress.share)
     if isinstance(progress, Trying):
         return progress.checks // CHECKS_TOLD * STEADY
+    if isinstance(progress, Shortening):
+        return -progress.length
+    if isinstance(progress, Layers):
+        return progress.layer
+    if isinstance(progress, Relaxing):
+        return progress.searches // SEARCHES_TOLD * STEADY
     return progress.generation if isinstance(progress, Progress) else int(progress.lower_bound)
 
 
@@ -68,9 +76,16 @@ def progress_text(progress: Moment) -> str:
         return f"{progress.stances} stances, {progress.actions} actions, {100.0 * progress.share:.0f} % of the way"
     if isinstance(progress, Exploring):
         return f"{progress.stances} stances, {_bound_text(progress)}"
+    if isinstance(progress, Layers):
+        return f"layer {progress.layer}, {progress.stances} stances, best score {progress.best_score:.2f}"
+    if isinstance(progress, Shortening):
+        return f"a plan of {progress.length} actions"
+    if isinstance(progress, Relaxing):
+        return f"what would open it: {progress.searches} searches, now {progress.key}"
     best = "" if progress.best_length is None else f", found {progress.best_length} actions"
     if isinstance(progress, Trying):
-        return f"{progress.checks} actions judged, progress {progress.value:.2f}{best}"
+        how = best or f", progress {progress.value:.2f}"
+        return f"{progress.checks} actions judged{how}"
     return (
         f"generation {progress.generation}, {progress.evaluations} plans, fitness {progress.best_fitness:.2f}, "
         f"{progress.furthest} steps, goal {progress.stage}/{progress.stages}{best}"
@@ -87,9 +102,10 @@ def _bound_text(progress: Exploring) -> str:
 
 def print_result(console: Console, result: PlanResult, output: Path | None) -> None:
     """Print what a search found, or how far it came and what stopped it."""
-    found = result.status in ("found", "optimal")
+    found = result.has_plan
     if found:
-        console.print(f"{result.status}: {result.length} actions for '{result.plan.task}'", style="bold green")
+        gap = "" if not result.gap else f", at most {result.gap} more than the shortest plan"
+        console.print(f"{result.status}: {result.length} actions for '{result.plan.task}'{gap}", style="bold green")
         console.print(_costs_text(result))
     else:
         console.print(f"{result.status}: no plan for '{result.plan.task}'", style="bold red")
@@ -98,8 +114,11 @@ def print_result(console: Console, result: PlanResult, output: Path | None) -> N
             _print_furthest(console, result.furthest)
     if result.model:
         console.print(f"proved for: {result.model}; {result.reason}" if found else f"proved for: {result.model}")
-    effort = f"{result.evaluations} plans" if result.stances is None else f"{result.stances} stances"
-    console.print(f"{effort}, {result.checks} actions judged, {result.seconds:.1f} s, seed {result.seed}")
+    elif found:
+        console.print(result.reason)
+    effort = f"{result.evaluations} plans, " if result.evaluations else ""
+    effort = effort if result.stances is None else f"{result.stances} stances, "
+    console.print(f"{effort}{result.checks} actions judged, {result.seconds:.1f} s, seed {result.seed}")
     if found:
         console.print(_spelled(result.plan))
     if output is not None:

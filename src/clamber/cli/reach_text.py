@@ -78,8 +78,11 @@ def _layer_table(reach: Reach, layer: str) -> Table:
     shown = LAYERS[layer]
     values = reach.places.floats(shown.column)
     order = np.argsort(values if shown.good else -values, kind="stable")
+    order = order[~np.isnan(values[order])]
     table = plain_table(shown.title, "", "x [m]", "y [m]", right=("", "x [m]", "y [m]"))
-    for words, at in (("hardest place", order[0]), ("middle", order[len(order) // 2]), ("easiest place", order[-1])):
+    rows = (("hardest place", 0), ("middle", len(order) // 2), ("easiest place", -1)) if len(order) else ()
+    for words, rank in rows:
+        at = order[rank]
         place = [f"{reach.places.floats(name)[at]:.3f}" for name in ("x_m", "y_m")]
         table.add_row(words, _value(float(values[at]), shown.column), *(place if words != "middle" else ("", "")))
     return table
@@ -95,4 +98,4 @@ def _value(value: float, column: str) -> str:
         return "no limit" if value > 0 else "-"
     if column.endswith("_Nm"):
         return f"{value:.2f} N m ({value / OZ_IN:.0f} oz-in)"
-    return f"{value:.3g} {column.rpartition('_')[2]}"
+    return f"{value:.4g} {column.rpartition('_')[2]}"

@@ -7,7 +7,7 @@ from typing import Any, Final
 from ..planning.genetic.profile import Profile, load_profile
 from ..tasks import load_task
 from .rows import Row, Say, keep_quiet
-from .trials import run_trials
+from .trials import Crew, run_cases
 
 SEEDS: Final = range(20)
 TASKS: Final[dict[str, tuple[str, tuple[str, ...]]]] = {
@@ -29,6 +29,8 @@ VARIANTS: Final[dict[str, dict[str, Any]]] = {
     "no configuration filter": {"configuration_filter": False},
     "learned macros": {"learned_macros": True},
     "no polishing": {"polish": 0},
+    "no exact windows": {"windows": 0},
+    "no beam about the plan": {"beam": 0},
     "no sub-goals": {"subgoals": False},
     "one-point crossover": {"crossover": "one_point"},
     "two-point crossover": {"crossover": "two_point"},
@@ -42,14 +44,20 @@ def varied(profile: Profile, changes: Mapping[str, Any]) -> Profile:
 
 
 def bench_ablation(
-    *, seeds: Iterable[int] = SEEDS, variants: Iterable[str] = tuple(VARIANTS), say: Say = keep_quiet
+    *,
+    seeds: Iterable[int] = SEEDS,
+    variants: Iterable[str] = tuple(VARIANTS),
+    crew: Crew | None = None,
+    say: Say = keep_quiet,
 ) -> list[Row]:
     """Success, evaluations and lengths of every variant on every task, with the same seeds."""
     default = load_profile("default")
     tasks = {label: load_task(name, overrides) for label, (name, overrides) in TASKS.items()}
-    rows = []
-    for variant in variants:
-        for label, task in tasks.items():
-            say(f"{variant} on {label}")
-            rows += run_trials(task, varied(default, VARIANTS[variant]), tuple(seeds)).rows(f"{label}, {variant}")
-    return rows
+    cases = {
+        f"{label}, {variant}": (task, varied(default, VARIANTS[variant]))
+        for variant in variants
+        for label, task in tasks.items()
+    }
+    chosen = tuple(seeds)
+    say(f"{len(cases)} cases with {len(chosen)} seeds each")
+    return [row for label, trials in run_cases(cases, chosen, crew).items() for row in trials.rows(label)]

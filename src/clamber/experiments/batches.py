@@ -1,5 +1,6 @@
 """How well a batch of items uses the cores: efficiency, cost of an item, rows of the store, and the law that follows."""
 
+import json
 import os
 import tempfile
 import time
@@ -17,6 +18,7 @@ from ..types import Json
 from .jobs_work import nothing, timed_point
 from .rows import Row, Say, keep_quiet
 from .scaling import GOOD, ScalingLaw
+from .trials import Crew
 
 ITEMS: Final = 1000
 WORKERS: Final = (1, 2, 4)
@@ -36,6 +38,8 @@ class Batch:
     """Until the workers were ready, mean of all [s]."""
     work: float
     """Of the items themselves, all together [s]."""
+    cpu: float
+    """Processor time of the same [s]."""
     held: float
     """From ready to the end of the batch, all workers together [s]."""
 
@@ -47,7 +51,8 @@ def points(n: int) -> list[Json]:
         limits = ("rules.max_hangs=0", "goal.y_min=9in", f"motor.torque_limit={6.0 + 3.0 * k / n} Nm")
         document = load_task("ladder", limits).document
         made.append({"document": document, "planner": "exact", "options": {"max_stances": 5000}})
-    return [{"n": k, "point": point, "warm": made[0]} for k, point in enumerate(made)]
+    warm = json.dumps(made[0])
+    return [{"point": point, "warm": warm} for point in made]
 
 
 def run_batch(items: Sequence[Json], executor: Executor, store: Path) -> Batch:
@@ -60,7 +65,8 @@ def run_batch(items: Sequence[Json], executor: Executor, store: Path) -> Batch:
     ended = time.monotonic()
     ready = {one["process"]: one["ready"] for one in told}
     held = sum(ended - moment for moment in ready.values())
-    return Batch(fmean(ready.values()) - called, sum(one["seconds"] for one in told), held)
+    work, cpu = (sum(one[clock] for one in told) for clock in ("seconds", "cpu"))
+    return Batch(fmean(ready.values()) - called, work, cpu, held)
 
 
 def item_cost(executor: Executor, n: int, store: Path | None) -> float:
@@ -87,14 +93,14 @@ def store_rate(n: int, store: Path) -> float:
 
 
 def batch_rows(
-    *, items: int = ITEMS, workers: Sequence[int] = WORKERS, executor: Executor | None = None, say: Say = keep_quiet
+    *, items: int = ITEMS, workers: Sequence[int] = WORKERS, crew: Crew | None = None, say: Say = keep_quiet
 ) -> list[Row]:
     """Efficiency on 1, 2 and 4 local workers, what an item and a stored row cost, and the law's predictions.
 
     Args:
         items: Points of the batch.
         workers: Numbers of local workers.
-        executor: A cluster on this machine whose cost of an item is measured, too, and predicted with.
+        crew: Its executor is a cluster on this machine, measured and predicted with, too; local processes are anyway.
         say: Told on the way.
     """
     rows: list[Row] = []
@@ -111,9 +117,8 @@ def batch_rows(
             aim = ">= 0.85" if n <= (os.cpu_count() or 1) else None
             rows += [
                 Row(f"efficiency, {items} points on {n} workers, start apart", one.work / batch.held, "share", aim),
-                Row(
-                    f"of that, the points themselves slower than on one worker: on {n}", one.work / batch.work, "share"
-                ),
+                Row(f"time of {n} ready workers that the points took", batch.work / batch.held, "share"),
+                Row(f"processor time of the points, one worker to {n}", one.cpu / batch.cpu, "ratio"),
                 Row(f"start of {n} workers, kernels loaded", batch.start, "s"),
             ]
         say("items that take no time")
@@ -126,8 +131,9 @@ def batch_rows(
             Row("rows that the store takes", store_rate(5 * items, Path(folder) / "rows.db"), "rows/s"),
         ]
         laws = {"processes": ScalingLaw(one.start, driver, max(0.0, (one.held - one.work) / items))}
-        if executor is not None:
+        if crew is not None and not crew.executor.here:
             say("the cluster")
+            executor = crew.executor
             there = run_batch(made, executor, Path(folder) / "cluster.db")
             driver = item_cost(executor, items, Path(folder) / "cluster-nothing.db")
             laws["cluster"] = ScalingLaw(there.start, driver, max(0.0, (one.held - one.work) / items))
@@ -136,6 +142,7 @@ def batch_rows(
                 Row("start of the cluster's workers, kernels loaded", there.start, "s"),
                 Row("an item that takes no time, cluster, stored", driver * 1e6, "us"),
             ]
+    rows.append(Row("load of the machine at that time, this work included", os.getloadavg()[0], "processes"))
     for name, law in laws.items():
         rows += prediction_rows(name, law)
     return rows

@@ -6,6 +6,7 @@ from typing import Final
 from .ablation import bench_ablation
 from .batches import batch_rows
 from .boards.bench import bench_boards
+from .gaps import bench_gaps
 from .proofs import bench_exact
 from .races import race_rows
 from .reductions import filter_rows, macro_rows
@@ -14,6 +15,7 @@ from .rows import Say, keep_quiet
 from .seeds import bench_seeds
 from .speed import speed_rows
 from .starts import start_rows
+from .trials import Crew
 from .walls import wall_rows
 
 
@@ -26,6 +28,7 @@ def bench_plan(*, say: Say = keep_quiet) -> list[Row]:
 BENCHES: Final[dict[str, Callable[..., list[Row]]]] = {
     "plan": bench_plan,
     "exact": bench_exact,
+    "gaps": bench_gaps,
     "seeds": bench_seeds,
     "ablation": bench_ablation,
     "walls": wall_rows,
@@ -35,6 +38,10 @@ BENCHES: Final[dict[str, Callable[..., list[Row]]]] = {
 """Name -> benchmark; the command line's choices and the tests read it. Each can be called without arguments, or with `say`."""
 
 
-def run_bench(name: str, say: Say = keep_quiet) -> list[Row]:
-    """Run a benchmark by name."""
-    return BENCHES[name](say=say)
+BATCHED: Final = ("seeds", "ablation", "jobs", "boards", "gaps")
+"""Those that are batches of items and take a `crew`; the others measure speed, alone."""
+
+
+def run_bench(name: str, say: Say = keep_quiet, crew: Crew | None = None) -> list[Row]:
+    """Run a benchmark by name; `crew` is for those of `BATCHED`."""
+    return BENCHES[name](say=say, **({"crew": crew} if name in BATCHED else {}))

@@ -7,7 +7,7 @@ import numpy as np
 from ..actions.family import candidates, done, key, restore, step
 from ..actions.problem import CompiledProblem
 from ..compiled import kernel
-from ..planning.exact.kernels import slot_of
+from ..planning.stance_table import slot_of
 
 FOUND, EXHAUSTED, FULL = 0, 1, 2
 

@@ -6,7 +6,7 @@ from typing import Final
 from ..planning.genetic.profile import load_profile
 from ..tasks import load_task
 from .rows import Row, Say, keep_quiet
-from .trials import run_trials
+from .trials import Crew, run_cases
 
 SEEDS: Final = range(20)
 TASKS: Final[dict[str, tuple[str, tuple[str, ...]]]] = {
@@ -23,16 +23,20 @@ HANGS: Final[dict[str, tuple[str, ...]]] = {"hangs allowed": (), "no hangs": ("r
 
 
 def bench_seeds(
-    *, seeds: Iterable[int] = SEEDS, tasks: Iterable[str] = tuple(TASKS), say: Say = keep_quiet
+    *,
+    seeds: Iterable[int] = SEEDS,
+    tasks: Iterable[str] = tuple(TASKS),
+    crew: Crew | None = None,
+    say: Say = keep_quiet,
 ) -> list[Row]:
     """Success, evaluations and lengths of the default profile on every task."""
     profile = load_profile("default")
     chosen = tuple(seeds)
-    rows = []
-    for label in tasks:
-        name, overrides = TASKS[label]
-        for hangs, rule in HANGS.items():
-            say(f"{label}, {hangs}")
-            trials = run_trials(load_task(name, (*overrides, *rule)), profile, chosen)
-            rows += trials.rows(f"{label}, {hangs}", aim=f"{len(chosen)}")
-    return rows
+    cases = {
+        f"{label}, {hangs}": (load_task(TASKS[label][0], (*TASKS[label][1], *rule)), profile)
+        for label in tasks
+        for hangs, rule in HANGS.items()
+    }
+    say(f"{len(cases)} cases with {len(chosen)} seeds each")
+    done = run_cases(cases, chosen, crew)
+    return [row for label, trials in done.items() for row in trials.rows(label, aim=f"{len(chosen)}")]

@@ -10,7 +10,8 @@ import subprocess
 import sys
 import time
 from collections import Counter, deque
-from collections.abc import Generator, Mapping
+from collections.abc import Generator, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -111,12 +112,13 @@ class RayCluster:
         import ray
 
         try:
-            ray.init(
-                address=self.address,
-                log_to_driver=False,
-                logging_level=logging.CRITICAL,
-                runtime_env={"env_vars": {"OPENBLAS_NUM_THREADS": "1"}},  # as local workers have it
-            )
+            with _silent_stderr():
+                ray.init(
+                    address=self.address,
+                    log_to_driver=False,
+                    logging_level=logging.CRITICAL,
+                    runtime_env={"env_vars": {"OPENBLAS_NUM_THREADS": "1"}},  # as local workers have it
+                )
         except Exception as error:
             raise ClusterError(self.address, " ".join(str(error).split()), "see docs/scaling.md") from None
         try:
@@ -137,7 +139,7 @@ class RayCluster:
         room, counted = 0, -RECOUNT
         while queue or pending:
             if time.monotonic() - counted > RECOUNT:
-                cores = int(ray.cluster_resources().get("CPU", 0.0))  # type: ignore[no-untyped-call]
+                cores = int(ray.cluster_resources().get("CPU", 0.0))
                 room, counted = self.workers or max(1, AHEAD * cores), time.monotonic()
             while queue and len(pending) < room:
                 key = queue.popleft()
@@ -176,3 +178,17 @@ def run_there(name: str, item: str, asked: str) -> str:
     if json.dumps(here := release()) != asked:
         return json.dumps({"release": here, "host": socket.gethostname()})
     return json.dumps(run_item(find_function(name), item))
+
+
+@contextmanager
+def _silent_stderr() -> Iterator[None]:
+    """Ray's native code announces itself on the process's stderr, whatever its settings."""
+    sys.stderr.flush()
+    kept, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 2)
+    try:
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
+        os.close(nowhere)

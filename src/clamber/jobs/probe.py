@@ -16,7 +16,7 @@ def probe(address: str) -> Json:
         import ray
 
         ray.init(address=address, log_to_driver=False, logging_level=logging.CRITICAL)
-        cores = ray.cluster_resources().get("CPU", 0.0)  # type: ignore[no-untyped-call]
+        cores = ray.cluster_resources().get("CPU", 0.0)
         ray.shutdown()
     except (Exception, SystemExit) as problem:  # whatever Ray raises, its words are the answer
         return {"problem": " ".join(str(problem).split()) or type(problem).__name__}

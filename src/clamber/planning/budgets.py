@@ -9,7 +9,7 @@ from .genetic.profile import profile_names
 from .planners import PLANNERS
 
 UNBOUNDED: Final = 1_000_000_000
-SEEDLESS: Final = ("exact", "greedy")
+SEEDLESS: Final = ("exact", "greedy", "route")
 """Planners that draw nothing at random: one seed tells all."""
 
 

@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any, Final
 
@@ -72,6 +72,8 @@ def learn_macros(
         The lesson; without macros if nothing repeats.
     """
     settings = load_profile(profile) if isinstance(profile, str) else profile
+    # The shortest plans differ from one cycle of the gait to the next: what repeats is learned before plans are made so short.
+    settings = replace(settings, search=replace(settings.search, beam=0, windows=0))
     problem = pose_problem(task, threads=threads).problem
     macros: dict[tuple[int, ...], Macro] = {}
     plans = 0

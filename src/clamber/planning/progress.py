@@ -57,5 +57,34 @@ class Trying:
     """Actions of the best plan that reaches the goal."""
 
 
-Moment = Progress | Exploring | Routing | Trying
+@dataclass(frozen=True, slots=True)
+class Relaxing:
+    """One moment of the search for changes that make an infeasible task feasible."""
+
+    searches: int
+    """Exact searches begun."""
+    key: str
+    """What is changed now."""
+
+
+@dataclass(frozen=True, slots=True)
+class Layers:
+    """One moment of a beam search."""
+
+    layer: int
+    """Actions of every plan kept now."""
+    stances: int
+    """Stances kept in all layers."""
+    best_score: float
+
+
+@dataclass(frozen=True, slots=True)
+class Shortening:
+    """One moment of making a plan shorter."""
+
+    length: int
+    """Actions of the plan."""
+
+
+Moment = Progress | Exploring | Routing | Trying | Layers | Shortening | Relaxing
 Listener = Callable[[Moment], None]

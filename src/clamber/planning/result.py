@@ -47,7 +47,7 @@ class PlanResult:
 
     status: Status
     """optimal: proved to be the best plan by what was `minimized`; found: a plan; infeasible: proved that there is none;
-    bounded: none has fewer than `lower_bound` actions, and either there is no plan yet or one that isn't proved best;
+    bounded: none has fewer than `lower_bound` actions, and the plan, if there is one (`has_plan`), is `gap` above that;
     stopped: none yet, and nothing proved."""
     plan: Plan
     """The plan; without success, the actions that lead furthest."""
@@ -87,6 +87,16 @@ class PlanResult:
         """Actions of the plan."""
         return len(self.plan.actions)
 
+    @property
+    def has_plan(self) -> bool:
+        """Whether the plan reaches the goal."""
+        return self.status in ("optimal", "found") or (self.status == "bounded" and self.furthest is None)
+
+    @property
+    def gap(self) -> int | None:
+        """Actions that the plan may have too many, at most; None without a plan, or without a bound below it."""
+        return self.length - self.lower_bound if self.has_plan and self.lower_bound is not None else None
+
     def check(self) -> Verdict:
         """Replay the plan and recompute every margin."""
         return check_plan(self.task, self.plan)
@@ -110,6 +120,7 @@ class PlanResult:
             "lower_bound": self.lower_bound,
             "minimized": list(self.minimized),
             "costs": dict(self.costs),
+            "gap": self.gap,
             "stances": self.stances,
             "model": self.model,
             "first_length": self.first_length,

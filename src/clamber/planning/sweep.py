@@ -26,7 +26,7 @@ NO_START: Final = "no start"
 """Status of a point whose task can't begin: its values contradict each other, or its start violates a hard check."""
 FAILED: Final = "failed"
 """Status of a point whose planner raised an error or died."""
-_SMALLEST: Final = ("max_checks", "max_evaluations", "max_stances")
+_SMALLEST: Final = ("longest", "max_checks", "max_evaluations", "max_stances", "width")
 """Options that make a search as small as can be."""
 
 

@@ -81,6 +81,9 @@ PARAMS = np.dtype(
         ("hard", "i4"),
         ("seen", "i4"),
         ("shares", "i4"),  # two limbs may be on one hold
+        ("mirrored", "i4"),  # the task is its own mirror image (`actions.limbed_symmetry`)
+        ("mirror_x", "i8"),  # ticks of a place and of its image add up to this
+        ("mirror_angle", "i8"),
         # The relaxed problem (`actions.relaxed`), where one was made
         ("angles", "i4"),  # angles of a turn
         ("angles_kept", "i4"),  # entries per state: one per angle, or 1 where rotation is free
@@ -102,6 +105,8 @@ PARAMS = np.dtype(
         ("keep_out_at", "i8"),
         ("hull_at", "i8"),
         ("work_at", "i8"),
+        ("limb_image_at", "i8"),
+        ("hold_image_at", "i8"),
         ("grip_starts_at", "i8"),
         ("grip_holds_at", "i8"),
         ("state_base_at", "i8"),
@@ -148,6 +153,7 @@ GOAL = np.dtype(
         ("before", "f8"),  # way from the start to the goal before this one, along the goals [m]
         ("way", "f8"),  # way from the goal before to this one [m]
         ("after", "f8"),  # fewest body steps from this goal's box through those of the later goals
+        ("rise_after", "f8"),  # of them, fewest steps up
         ("vertex", "i8"),
         ("n_vertices", "i8"),
         ("hold", "i4", (LIMBS,)),  # index of the hold that limb must hold; -1: any

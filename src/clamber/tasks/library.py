@@ -88,10 +88,23 @@ def load_task(name_or_path: str, overrides: Sequence[str] = ()) -> Task:
     path, label = find_data("task", name_or_path, DATA)
     document = read_toml(path, label)
     merged, rest = _merge(document, overrides)
-    label = merged.data["labels"]["robot"]
+    return _overridden(merged, rest, merged.data["labels"]["robot"])
+
+
+def change_task(task: Task, overrides: Sequence[str]) -> Task:
+    """A task with values of it, its robot or its world overridden, such as "rules.reach_offset=1cm".
+
+    Raises:
+        SpecError: If an override says something that cannot be used.
+    """
+    return _overridden(Document(f"task '{task.name}'", task.document), overrides, f"robot of task '{task.name}'")
+
+
+def _overridden(merged: Document, overrides: Sequence[str], label: str) -> Task:
+    """The task of a merged document with overrides; `label` is what errors call the robot."""
     family = TASK_FAMILIES[family_of(merged.section("robot", label))]
     task_keys = (*family.task_keys, "robot", family.world_key)
-    whole = apply_overrides(merged, rest, task_keys, family.robot_keys, family.short_keys)
+    whole = apply_overrides(merged, overrides, task_keys, family.robot_keys, family.short_keys)
     return TASK_FAMILIES[family_of(whole.section("robot", label))].build(whole)
 
 

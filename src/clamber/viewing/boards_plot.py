@@ -46,7 +46,7 @@ def draw_boards(contest: Contest, path: str | Path) -> None:
         left, right = figure.subplots(1, 2, width_ratios=(1.25, 1.0))
         _solved(left, contest, truths, order, looks)
         _gaps(right, order, looks)
-        figure.legend(loc="outside lower center", ncols=min(6, len(order)), fontsize=8)
+        figure.legend(loc="outside lower center", ncols=min(7, len(order)), fontsize=8)
         save_figure(figure, path)
 
 
@@ -59,19 +59,19 @@ def _solved(axes: Axes, contest: Contest, truths: dict[str, Truth], order: Seque
         most = max(most, int(costs.max(initial=0)))
         share = 100.0 * np.arange(len(costs) + 1) / max(1, len(trials))
         axes.step(
-            [*costs[:1], *costs, FAR], [*share[:1], *share] if len(costs) else [0.0],
+            [*costs[:1], *costs, FAR], [*share, share[-1]] if len(costs) else [0.0],
             where="post", lw=1.8, label=one.contender, **looks[one.contender],
         )  # fmt: skip
     axes.axvline(contest.allowance.checks, color=style.QUIET, lw=0.8, ls=(0, (4, 3)))
     axes.annotate(
-        "allowance", (contest.allowance.checks, 1.0), xytext=(-3, 3), textcoords="offset points", ha="right",
-        fontsize=8, color=style.QUIET,
+        "allowance", (contest.allowance.checks, 1.0), xycoords=("data", "axes fraction"), xytext=(0, 3),
+        textcoords="offset points", ha="center", fontsize=8, color=style.QUIET,
     )  # fmt: skip
     axes.set_xscale("log")
     axes.set_xlim(100.0, 1.3 * most)
     axes.set_ylim(0.0, 104.0)
     axes.set_xlabel("actions judged up to the first plan")
-    axes.set_ylabel("boards solved [%]")
+    axes.set_ylabel("trials that found a plan [%]")
     boards = sum(truth.feasible is True for truth in truths.values())
     axes.set_title(f"Solved, of {boards} boards that have a plan")
     style.bare(axes)

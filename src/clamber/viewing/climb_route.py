@@ -22,6 +22,8 @@ from .view import PANEL_WIDTH, Layout, is_wide
 from .wall import draw_scene, find_bounds
 from .words import length_unit
 
+MOST_ROWS: Final = 9
+"""Rows of holds that are listed for one limb."""
 ARC: Final = 12
 """Points of the body's way within one swing."""
 
@@ -31,7 +33,7 @@ def climb_route(task: LimbedTask, replay: Replay) -> Figure:
     shown = postures(task.robot, task.world, replay.stances)
     bounds = find_bounds(task, shown)
     uses = [
-        wrap_words(f"{name}:  " + " › ".join(map(str, numbers)))
+        shorten(wrap_words(f"{name}:  " + " › ".join(map(str, numbers))))
         for name, numbers in zip(task.robot.limb_names, holds_used(task, replay), strict=True)
     ]
     words = 0.4 + sum(ROW * len(rows) + 0.05 for rows in uses)
@@ -99,6 +101,13 @@ def body_way(task: LimbedTask, replay: Replay) -> Floats:
                 at = phase.at(float(share))
                 points.append((at.x, at.y))
     return np.array(points)
+
+
+def shorten(rows: list[str], most: int = MOST_ROWS) -> list[str]:
+    """The first rows and the last two, where there are more than `most`."""
+    if len(rows) <= most:
+        return rows
+    return [*rows[: most - 3], f"   ... {len(rows) - most + 1} rows left out ...", *rows[-2:]]
 
 
 def wrap_words(line: str, most: int = 60) -> list[str]:

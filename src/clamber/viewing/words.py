@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from ..actions.limbed_problem import CHECKS
+from ..actions.limbed_arrays import CHECKS
 from ..tasks import Task
 from ..tasks.limbed import LimbedTask
 from ..units import DEGREE, INCH

@@ -2,6 +2,7 @@
 
 import math
 from bisect import bisect_left
+from collections.abc import Container
 from itertools import pairwise
 from operator import attrgetter
 from typing import Annotated, Any, Final
@@ -202,6 +203,8 @@ class BoardSpec:
     ladder: LadderSpec | None = None
     grid: GridSpec | None = None
     random: RandomSpec | None = None
+    added: tuple[Hold, ...] = ()
+    """Holds besides those that are listed or generated."""
     keep_out: tuple[Polygon, ...] = ()
     """Corners of regions that neither body nor links may enter [m]."""
 
@@ -230,9 +233,9 @@ def build_board(document: Document) -> Board:
     else:
         grown = stated.ladder or stated.grid
         holds = stated.holds if grown is None else grown.holds(radius)
-    holds = tuple(sorted(holds or (), key=lambda hold: hold.number))
+    holds = tuple(sorted((*(holds or ()), *stated.added), key=lambda hold: hold.number))
     board = Board(name=stated.name, title=stated.title, holds=holds, keep_out=stated.keep_out)
-    _check_holds(board, document, given[0])
+    _check_holds(board, document, given[0], {hold.number for hold in stated.added})
     for index, polygon in enumerate(board.keep_out):
         check_polygon(polygon, document, f"keep_out.{index}")
     return board
@@ -240,11 +243,15 @@ def build_board(document: Document) -> Board:
 
 def _with_radius(document: Document) -> Document:
     """The document with `hold_radius` filled in wherever a hold states none."""
-    holds, radius = document.data.get("holds"), document.data.get("hold_radius")
-    if not isinstance(holds, list) or radius is None:
+    radius = document.data.get("hold_radius")
+    lists = {key: document.data[key] for key in ("holds", "added") if isinstance(document.data.get(key), list)}
+    if not lists or radius is None:
         return document
-    filled: list[Any] = [{"radius": radius} | hold if isinstance(hold, dict) else hold for hold in holds]
-    return Document(document.label, document.data | {"holds": filled}, document.overrides, document.folder)
+    filled: dict[str, list[Any]] = {
+        key: [{"radius": radius} | hold if isinstance(hold, dict) else hold for hold in holds]
+        for key, holds in lists.items()
+    }
+    return Document(document.label, document.data | filled, document.overrides, document.folder)
 
 
 def _check_removed(ladder: LadderSpec, document: Document) -> None:
@@ -281,15 +288,22 @@ def _random_holds(random: RandomSpec, radius: float, document: Document) -> tupl
     return tuple(Hold(number=number, x=x, y=y, radius=radius) for number, (x, y) in enumerate(places.tolist(), start=1))
 
 
-def _check_holds(board: Board, document: Document, key: str) -> None:
+def _check_holds(board: Board, document: Document, listed: str, added: Container[int]) -> None:
     holds = board.holds
+
+    def key_of(first: int, second: int) -> str:
+        own = [number for number in (first, second) if number in added]
+        return f"added.{own[-1]}" if own else f"holds.{second}" if listed == "holds" else listed
+
     if not holds:
-        raise document.problem(key, "the board has no holds; it needs at least one")
+        raise document.problem(listed, "the board has no holds; it needs at least one")
     for before, after in pairwise(holds):
         if before.number == after.number:
+            key = "added" if after.number in added else listed
             raise document.problem(key, f"hold numbers must differ; {after.number} is there twice")
     for hold in holds:
         if (hold.direction is None) != (hold.cone is None):
+            key = "added" if hold.number in added else listed
             raise document.problem(f"{key}.{hold.number}", "states 'direction' and 'cone' both or neither")
     widest = 2.0 * max(hold.radius for hold in holds)
     across = sorted(holds, key=lambda hold: hold.x)
@@ -300,9 +314,8 @@ def _check_holds(board: Board, document: Document, key: str) -> None:
             distance = math.hypot(b.x - a.x, b.y - a.y)
             if distance < a.radius + b.radius:
                 first, second = sorted((a.number, b.number))
-                place = f"{key}.{second}" if key == "holds" else key
                 sizes = f"{distance:.4g} m apart, radii {a.radius:.4g} and {b.radius:.4g} m"
-                raise document.problem(place, f"holds {first} and {second} overlap: {sizes}")
+                raise document.problem(key_of(first, second), f"holds {first} and {second} overlap: {sizes}")
 
 
 def check_polygon(polygon: Polygon, document: Document, key: str) -> None:

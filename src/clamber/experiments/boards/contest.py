@@ -1,14 +1,15 @@
 """Every planner on every board: the trials, over worker processes, and what is true of each board."""
 
-from collections.abc import Callable, Sequence
+import os
+from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, Final
 
 from ... import __version__
-from ...jobs import Outcome, map_items
+from ...jobs import LocalProcesses, Outcome, map_items
 from ...planning.budgets import Allowance, Contender, contenders
 from ...types import Json
+from ..trials import Crew
 from .cases import Case, all_cases
 from .trial import load_machine_code, run_trial
 
@@ -87,10 +88,7 @@ def run_contest(
     entrants: Sequence[Contender] | None = None,
     seeds: Sequence[int] = SEEDS,
     allowance: Allowance = ALLOWANCE,
-    workers: int = 1,
-    store: Path | None = None,
-    resume: bool = False,
-    progress: Callable[[int, int, Outcome], None] | None = None,
+    crew: Crew | None = None,
 ) -> Contest:
     """Let every planner try every board, each trial on one thread.
 
@@ -99,13 +97,11 @@ def run_contest(
         entrants: The planners; None takes all.
         seeds: For planners that draw at random; the others run once.
         allowance: What a trial may spend.
-        workers: Processes; the answers don't depend on it, but for the seconds.
-        store: SQLite file that keeps each trial as it ends.
-        resume: Whether to go on with that file.
-        progress: Told of each end.
+        crew: Who runs the trials, and where they are kept; None: local processes, one a core. Only the seconds depend on it.
 
     Raises:
-        StoreError: If the file can't be the store of this contest.
+        StoreError: If the crew's file can't be the store of this contest.
+        ClusterError: If there is no cluster to run on, or it is lost.
     """
     boards = tuple(all_cases() if cases is None else cases)
     field = tuple(contenders() if entrants is None else entrants)
@@ -124,17 +120,19 @@ def run_contest(
         }
         for case, contender, seed in plays
     ]
-    for planner in {contender.planner for contender in field}:
-        load_machine_code(planner)  # compiles here, once, and not in every worker at the same time
+    crew = crew or Crew(executor=LocalProcesses(os.cpu_count() or 1))
+    if crew.executor.here:
+        for planner in {contender.planner for contender in field}:
+            load_machine_code(planner)  # compiles here, once, and not in every worker at the same time
     outcomes = map_items(
         run_trial,
         items,
-        workers=workers,
-        store=store,
+        executor=crew.executor,
+        store=crew.store,
         about={"items": items},
         title="the benchmark 'boards'",
-        resume=resume,
-        progress=progress,
+        resume=crew.resume,
+        progress=crew.progress,
     )
     trials = tuple(
         _trial(case.name, contender.name, seed, outcome)

@@ -4,7 +4,7 @@ import numpy as np
 
 from ...actions.randoms import scramble
 from ...compiled import kernel
-from ..exact.kernels import slot_of
+from ..stance_table import slot_of
 
 
 @kernel

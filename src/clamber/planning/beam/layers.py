@@ -3,30 +3,52 @@
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 import numpy.typing as npt
 
-from ...actions.problem import CompiledProblem
-from ..exact.kernels import rehash
+from ...actions.problem import CompiledProblem, Records
 from ..exact.windows import table_size
+from ..stance_table import rehash
 from .kernels import choose
+
+WIDTH: Final = 500
+NICHE: Final = 20
+LONGEST: Final = 400
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Beam:
     """The settings of a beam search; lengths in actions."""
 
-    width: int = 500
+    width: int = WIDTH
     """Stances kept of each layer."""
-    niche: int = 20
+    niche: int = NICHE
     """Most of one niche in a layer: same goals met, same contacts, nearby."""
-    longest: int = 400
+    longest: int = LONGEST
     """Layers, so actions of a plan."""
     toll: float = 0.0
     """What a stance's score loses per action that the family's bound says is left."""
     weights: tuple[tuple[str, float], ...] = (("body", 1.0), ("limbs", 0.1), ("stages", 0.5))
     """Feature -> weight in the score."""
+
+
+@dataclass(frozen=True, slots=True)
+class Corridor:
+    """Where the body may be."""
+
+    places: npt.NDArray[np.float64]
+    """World frame [m], shape (n, 2)."""
+    radius: float
+    """Farthest from the nearest of them [m]."""
+
+    def holds(self, stances: Records) -> npt.NDArray[np.bool_]:
+        """Which stances lie in it."""
+        x, y = self.places.T
+        squares = (stances["x"][:, None] - x) ** 2 + (stances["y"][:, None] - y) ** 2
+        inside: npt.NDArray[np.bool_] = squares.min(axis=1) <= self.radius**2
+        return inside
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +93,7 @@ def search_layers(
     problem: CompiledProblem,
     beam: Beam,
     *,
+    corridor: Corridor | None = None,
     seconds: float | None = None,
     tell: Callable[[int, int, float], None] | None = None,
 ) -> Reached:
@@ -79,6 +102,7 @@ def search_layers(
     Args:
         problem: The task.
         beam: Settings.
+        corridor: Where the body may be; None for anywhere.
         seconds: Most time [s].
         tell: Called after every layer with its number, the stances kept so far, and the best score.
 
@@ -93,7 +117,7 @@ def search_layers(
     kept.make_room(1 + beam.width)
     kept.parent[0] = -1
     kept.n = 1  # the start; its key is written when a child comes back to it
-    layer, base, depth = problem.start, 0, 0
+    layer, nodes, depth = problem.start, np.zeros(1, np.int64), 0
     best, best_score, checks = 0, -np.inf, 0
     goal, interrupted = 0 if problem.is_done(problem.start) else -1, False
     niches = np.zeros(table_size(beam.width), np.int64)
@@ -117,13 +141,16 @@ def search_layers(
             )  # fmt: skip
             parent, slot = (chosen[:n] // slots).astype(np.int32), chosen[:n] % slots
             code = out.code[parent, slot]
-            kept.parent[kept.n : kept.n + n] = base + parent
+            kept.parent[kept.n : kept.n + n] = nodes[parent]
             kept.code[kept.n : kept.n + n] = code
             if n and (top := float(out.score[parent[0], slot[0]])) > best_score:
                 best, best_score = kept.n, top
             if len(ended) and n:
                 goal = kept.n
-            layer, base = problem.follow(layer, parent, code), kept.n
+            layer, nodes = problem.follow(layer, parent, code), np.arange(kept.n, kept.n + n)
+            if corridor is not None and n:
+                near = corridor.holds(layer)
+                layer, nodes = layer[near], nodes[near]
             kept.n += n
             depth += 1
             if tell is not None:

@@ -45,18 +45,21 @@ def shorten_in_corridor(
     """
     started = time.monotonic()
     size, seen, checks, complete = min(FIRST, most), 0, 0, False
-    while not complete and seen < effort and (seconds is None or time.monotonic() - started < seconds):
-        shorter, nodes, judged, complete = _through(problem, codes, size)
-        seen += nodes
-        checks += judged
-        if tell is not None:
-            tell(len(shorter))
-        if len(shorter) < len(codes):
-            codes, complete = shorter, False
-        elif size >= most:
-            break
-        else:
+    try:
+        while not complete and seen < effort and (seconds is None or time.monotonic() - started < seconds):
+            before = len(codes)
+            codes, nodes, judged, complete = _through(problem, codes, size)
+            seen += nodes
+            checks += judged
+            if tell is not None:
+                tell(len(codes))
+            if len(codes) < before:
+                continue
+            if size >= most:
+                break
             size = min(most, GROWTH * size)
+    except KeyboardInterrupt:
+        return Shortened(codes, seen, checks, complete=False, interrupted=True)
     return Shortened(codes, seen, checks, complete)
 
 

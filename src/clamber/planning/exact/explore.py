@@ -11,8 +11,9 @@ import numpy as np
 from ...actions.problem import CompiledProblem
 from ...types import Ints
 from .costs import COSTS, Aim
-from .kernels import EXHAUSTED, FOUND, FULL, NEAREST, NEWEST, RUNNING, SEARCH, SHORTEST, explore_some, furthest, plant
+from .kernels import explore_some, furthest, plant
 from .memory import BUCKETS, Memory
+from .records import EXHAUSTED, FOUND, FULL, NEAREST, NEWEST, RUNNING, SEARCH, SHORTEST
 
 QUOTA: Final = 20_000
 """Stances expanded between looks at the clock."""
@@ -88,14 +89,15 @@ def explore(
     memory = Memory(problem, most_stances)
     params, state = problem.params.record, memory.state
     codes = np.zeros(problem.branching, np.int32)
-    stances = np.zeros(3, problem.start.dtype)
+    stances = np.zeros(4, problem.start.dtype)
     margins = np.zeros(len(problem.checks))
     words = np.zeros((2, problem.key_words), np.int64)
     row = np.zeros(len(problem.features))
     tally = np.zeros(len(problem.checks), np.int64)
     search = search_record(problem, aim, dominance=dominance)
     planted = plant(
-        params, search, state[0], problem.start, memory.nodes, memory.labels, memory.keys, memory.heads, memory.steps, memory.table, row
+        params, search, state[0], problem.start, memory.nodes, memory.labels, memory.keys, memory.heads, memory.steps, memory.table,
+        stances, words, row,
     )  # fmt: skip
     status, interrupted = RUNNING if planted else EXHAUSTED, False
     try:
@@ -110,13 +112,13 @@ def explore(
                 tell(int(state["nodes"][0]), _reached(state, search))
     except KeyboardInterrupt:
         interrupted = True
-    ways = _ways(memory)
+    ways = _ways(problem, memory)
     if ways:
         best = ways[0].codes
     else:
         n = int(state["nodes"][0])
         node = furthest(params, memory.keys, n, stances, row, problem.features.index("body"))
-        best = memory.trace(memory.label_of(node)) if planted else np.zeros(0, np.int32)
+        best = memory.trace(problem, memory.label_of(node)) if planted else np.zeros(0, np.int32)
     return Exploration(
         found=status == FOUND,
         exhausted=status == EXHAUSTED,
@@ -157,13 +159,13 @@ def _reached(state: np.ndarray, search: np.void) -> int | float:
     return int(lowest) if search["informed"] else lowest
 
 
-def _ways(memory: Memory) -> tuple[Way, ...]:
+def _ways(problem: CompiledProblem, memory: Memory) -> tuple[Way, ...]:
     """The plans found, the shortest first; of equals in the first cost the last found, which has less of the second."""
     ways: list[Way] = []
     label = int(memory.state["goal"][0])
     while label >= 0:
         made = memory.labels[label]
         if not ways or made["first"] < ways[-1].first:
-            ways.append(Way(memory.trace(label), float(made["first"]), float(made["second"])))
+            ways.append(Way(memory.trace(problem, label), float(made["first"]), float(made["second"])))
         label = int(made["next"])
     return tuple(ways[::-1])

@@ -1,97 +1,29 @@
-"""Best-first search over stances as one kernel: keys in a hash table, open labels in buckets, children by the family's `step`."""
+"""Best-first search over stances as one kernel: children by the family's `step`, two costs, a bound, dominance, symmetry."""
 
 import math
 
-import numpy as np
-
-from ...actions.family import bound, candidates, done, freer, key, measure, restore, step
+from ...actions.family import bound, candidates, done, freer, key, measure, reflect, restore, step
 from ...actions.loops import LARGEST
-from ...actions.randoms import scramble
 from ...compiled import inlined, kernel
-
-RUNNING, FOUND, EXHAUSTED, FULL = 0, 1, 2, 3
-NONE = -1
-NEWEST, SHORTEST, NEAREST = 0, 1, 2
-"""Which label of a bucket goes first: the newest (straight to the goal), the one of the fewest actions (so that the second cost is least
-when a stance's turn comes), or the one nearest to the goal."""
-EQUAL = 1e-12
-"""Costs that differ by less than this part of them are the same: sums of one plan's costs in another order."""
-
-NODE = np.dtype([("first", "f8"), ("second", "f8"), ("closed", "f8"), ("closed_first", "f8")], align=True)
-"""Of a stance: the costs of its best label (in a front, of its newest); of those taken the least second cost, and the first with it."""
-LABEL = np.dtype(
-    [
-        ("first", "f8"),
-        ("second", "f8"),
-        ("ahead", "f8"),  # bound on the actions still needed
-        ("node", "i4"),
-        ("parent", "i4"),
-        ("code", "i4"),
-        ("next", "i4"),  # in its bucket, or of a goal the goal before
-    ],
-    align=True,
-)
-"""A way to a stance: its two costs, the label that it goes on from, and the action."""
-STATE = np.dtype(
-    [
-        ("nodes", "i8"),
-        ("labels", "i8"),
-        ("lowest", "i8"),  # bucket being emptied
-        ("level", "i8"),  # lowest level of it that may hold a label
-        ("levels", "i8"),  # levels that may hold one
-        ("expanded", "i8"),
-        ("checks", "i8"),
-        ("goal", "i8"),  # best goal label; in a front the last one, `next` leads to those before
-        ("dead", "i8"),  # stances from which the bound rules out every goal
-        ("dominated", "i8"),  # stances dropped for a freer one at no more cost
-        ("goal_first", "f8"),
-        ("goal_second", "f8"),
-    ],
-    align=True,
-)
-SEARCH = np.dtype(
-    [
-        ("first", "i4"),  # feature that is the first cost
-        ("second", "i4"),  # feature that is the second; -1: none
-        ("capped", "i4"),  # feature that no action may have more of than `cap`; -1: none
-        ("front", "i4"),  # keep every way that is better in either cost
-        ("informed", "i4"),  # the first cost is the number of actions: the family's bound counts
-        ("dominance", "i4"),  # drop stances for freer ones
-        ("order", "i4"),  # within a bucket: NEWEST, SHORTEST or NEAREST first
-        ("cap", "f8"),
-        ("width", "f8"),  # of a bucket, in the first cost
-        ("at_most", "f8"),  # of the first cost
-    ],
-    align=True,
-)
-"""What a search minimizes."""
+from ..stance_table import slot_of
+from .open_list import add_label, take_label
+from .records import EQUAL, EXHAUSTED, FOUND, FULL, NONE, RUNNING
 
 
 @inlined
-def slot_of(words, table, keys):
-    """Where a key is in the hash table, or the empty slot where it belongs (whole keys are compared, never hashes alone)."""
-    value = np.uint64(0)
-    for i in range(words.shape[0]):
-        value = scramble(value ^ np.uint64(words[i]))
-    slot = np.int64(value & np.uint64(table.shape[0] - 1))
-    while table[slot] >= 0:
-        node = table[slot]
-        same = True
-        for i in range(words.shape[0]):
-            if keys[node, i] != words[i]:
-                same = False
-                break
-        if same:
-            return slot
-        slot = (slot + 1) & (table.shape[0] - 1)
-    return slot
-
-
-@kernel
-def rehash(keys, n, table):
-    """Fill an empty hash table with the first n keys."""
-    for node in range(n):
-        table[slot_of(keys[node], table, keys)] = node
+def keep(p, stances, at, words):
+    """Key of stance `at`, or of its mirror image (written behind it) if that key comes first: `words[0]`; returns which was kept."""
+    key(p, stances[at], words[0])
+    if reflect(p, stances[at], stances[at + 1]):
+        key(p, stances[at + 1], words[1])
+        for i in range(words.shape[1]):
+            if words[1, i] != words[0, i]:
+                if words[1, i] > words[0, i]:
+                    break
+                for j in range(words.shape[1]):
+                    words[0, j] = words[1, j]
+                return at + 1
+    return at
 
 
 @inlined
@@ -114,65 +46,6 @@ def grown(p, column, cost, row):
 
 
 @inlined
-def lay(search, state, labels, steps, at, ahead):
-    """Put a label into the bucket being emptied, at its level."""
-    level = 0
-    if search.order == SHORTEST:
-        level = min(np.int64(labels[at].first), steps.shape[0] - 1)
-    elif search.order == NEAREST:
-        level = min(np.int64(ahead), steps.shape[0] - 1)
-    labels[at].next = steps[level]
-    steps[level] = at
-    state.level = min(state.level, level)
-    state.levels = max(state.levels, level + 1)
-
-
-@inlined
-def add_label(search, state, labels, heads, steps, node, first, second, ahead, parent, code):
-    """Put a way to a stance into the open list; `ahead` is the bound on its actions."""
-    at = state.labels
-    state.labels += 1
-    label = labels[at]
-    label.first = first
-    label.second = second
-    label.ahead = ahead
-    label.node = node
-    label.parent = parent
-    label.code = code
-    f = first + ahead if search.informed else first
-    bucket = min(np.int64(f / search.width + EQUAL), heads.shape[0] - 1)
-    if bucket <= state.lowest:
-        lay(search, state, labels, steps, at, ahead)
-    else:
-        label.next = heads[bucket]
-        heads[bucket] = at
-
-
-@inlined
-def take_label(search, state, labels, heads, steps):
-    """The next label, or -1: there is none in this bucket, and the next one that holds some is laid out."""
-    while state.level < state.levels and steps[state.level] < 0:
-        state.level += 1
-    if state.level < state.levels:
-        taken = steps[state.level]
-        steps[state.level] = labels[taken].next
-        return taken
-    state.lowest += 1
-    while state.lowest < heads.shape[0] and heads[state.lowest] < 0:
-        state.lowest += 1
-    state.level = steps.shape[0]
-    state.levels = 0
-    if state.lowest < heads.shape[0]:
-        at = heads[state.lowest]
-        heads[state.lowest] = NONE
-        while at >= 0:
-            following = labels[at].next
-            lay(search, state, labels, steps, at, labels[at].ahead)
-            at = following
-    return NONE
-
-
-@inlined
 def passed_over(p, search, s, first, second, nodes, keys, table, words, freed):
     """Whether a freer stance was reached at no more cost: whatever can be done from here can be done from there."""
     which = 0
@@ -190,10 +63,13 @@ def passed_over(p, search, s, first, second, nodes, keys, table, words, freed):
 
 
 @kernel
-def plant(p, search, state, start, nodes, labels, keys, heads, steps, table, row):
+def plant(p, search, state, start, nodes, labels, keys, heads, steps, table, stances, words, row):
     """Put the start stance into an empty search; False if the bound rules out every goal."""
     ahead = bound(p, start[0])
-    key(p, start[0], keys[0])
+    stances[1] = start[0]
+    flipped = keep(p, stances, 1, words) - 1
+    for i in range(words.shape[1]):
+        keys[0, i] = words[0, i]
     state.nodes = 1
     table[slot_of(keys[0], table, keys)] = 0
     measure(p, start[0], row)
@@ -210,7 +86,7 @@ def plant(p, search, state, start, nodes, labels, keys, heads, steps, table, row
     if ahead == math.inf or (search.capped >= 0 and row[search.capped] > search.cap):
         return False
     state.lowest = NONE
-    add_label(search, state, labels, heads, steps, 0, first, second, ahead, NONE, 0)
+    add_label(search, state, labels, heads, steps, 0, first, second, ahead, NONE, 0, flipped)
     return True
 
 
@@ -234,7 +110,7 @@ def explore_some(
         steps: The first label of each level of the bucket being emptied.
         table: Hash table of the stances; its size is a power of two.
         codes: Scratch for candidates.
-        stances: Scratch, three records.
+        stances: Scratch, four records.
         margins: Scratch of the family's checks.
         words: Scratch, two keys.
         row: Scratch for features.
@@ -294,7 +170,7 @@ def explore_some(
             new_second = grown(p, search.second, second, row)
             if search.front and new_second >= state.goal_second:
                 continue
-            key(p, stances[1], words[0])
+            kept = keep(p, stances, 1, words)
             slot = slot_of(words[0], table, keys)
             child = table[slot]
             if child >= 0:
@@ -305,14 +181,14 @@ def explore_some(
                         continue
                 elif not less(new_first, new_second, nodes[child].first, nodes[child].second):
                     continue
-            ahead = bound(p, stances[1])
+            ahead = bound(p, stances[kept])
             if ahead == math.inf:
                 state.dead += 1
                 continue
             if new_first + (ahead if search.informed else 0.0) > search.at_most:
                 continue
             if search.dominance and passed_over(
-                p, search, stances[1], new_first, new_second, nodes, keys, table, words[1], stances[2]
+                p, search, stances[kept], new_first, new_second, nodes, keys, table, words[1], stances[3]
             ):
                 state.dominated += 1
                 continue
@@ -326,7 +202,9 @@ def explore_some(
                     keys[child, i] = words[0, i]
             nodes[child].first = new_first
             nodes[child].second = new_second
-            add_label(search, state, labels, heads, steps, child, new_first, new_second, ahead, taken, codes[c])
+            add_label(
+                search, state, labels, heads, steps, child, new_first, new_second, ahead, taken, codes[c], kept - 1
+            )
     return RUNNING
 
 

@@ -6,7 +6,8 @@ import numpy as np
 
 from ...actions.problem import CompiledProblem
 from ...types import Ints
-from .kernels import LABEL, NODE, STATE, rehash
+from ..stance_table import rehash
+from .records import LABEL, NODE, STATE
 
 BUCKETS: Final = 1 << 16
 FIRST: Final = 1 << 14
@@ -49,13 +50,19 @@ class Memory:
             done = True
         return done
 
-    def trace(self, label: int) -> Ints:
-        """Actions from the start along a label."""
-        codes = []
-        while self.labels["parent"][label] >= 0:
-            codes.append(int(self.labels["code"][label]))
+    def trace(self, problem: CompiledProblem, label: int) -> Ints:
+        """Actions from the start along a label; those between a stance that was kept and the mirror image that is meant are mirrored."""
+        line = []
+        while label >= 0:
+            line.append(label)
             label = int(self.labels["parent"][label])
-        return np.array(codes[::-1], np.int32)
+        codes = []
+        flipped = bool(self.labels["flipped"][line[-1]])
+        for at in line[-2::-1]:
+            code = int(self.labels["code"][at])
+            codes.append(problem.mirrored(code) if flipped else code)
+            flipped ^= bool(self.labels["flipped"][at])
+        return np.array(codes, np.int32)
 
     def label_of(self, node: int) -> int:
         """A label of a stance: the first one made, which is no worse a way to be there than any other for who only looks."""

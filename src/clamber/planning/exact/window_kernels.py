@@ -4,7 +4,8 @@ import math
 
 from ...actions.family import bound, candidates, done, key, restore, step, toward
 from ...compiled import inlined, kernel
-from .kernels import NONE, slot_of
+from ..stance_table import slot_of
+from .records import NONE
 
 
 @kernel

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...actions.problem import CompiledProblem
-from .kernels import rehash
+from ..stance_table import rehash
 from .window_kernels import search_window, stance_keys
 
 Codes = npt.NDArray[np.int32]
@@ -31,6 +31,8 @@ class Shortened:
     """Actions judged."""
     complete: bool
     """Whether every search ended by itself, rather than by its limit."""
+    interrupted: bool = False
+    """Whether Ctrl-C ended it; the plan is the shortest up to then."""
 
 
 class WindowSearch:
@@ -57,7 +59,9 @@ class WindowSearch:
         self.complete = True
 
     def shorten(self, problem: CompiledProblem, codes: Codes, first: int, last: int) -> Codes:
-        """The plan with a shorter way from its stance `first` on, or as it is; a window that ends where the plan does may end in any goal stance.
+        """The plan with a shorter way from its stance `first` on, or as it is.
+
+        A window that ends where the plan does may end in any goal stance.
 
         Args:
             problem: The task.
@@ -117,25 +121,27 @@ def shorten_by_windows(
     """
     started = time.monotonic()
     search = WindowSearch(problem, most)
-    length = SHORTEST
-    first = 0
-    while len(codes) > 1:
-        length = min(length, len(codes))
-        shorter = search.shorten(problem, codes, first, min(len(codes), first + length))
-        if tell is not None:
-            tell(len(shorter))
-        if search.seen >= effort or (seconds is not None and time.monotonic() - started >= seconds):
-            search.complete = False
-            codes = shorter
-            break
-        if len(shorter) < len(codes):
-            codes, first = shorter, max(0, first - length // 2)
-        elif first + length >= len(codes):
-            if length >= len(codes):
+    length, first = SHORTEST, 0
+    try:
+        while len(codes) > 1:
+            if search.seen >= effort or (seconds is not None and time.monotonic() - started >= seconds):
+                search.complete = False
                 break
-            length, first = max(length + 1, int(GROWTH * length)), 0
-        else:
-            first += max(1, length // 3)
+            length = min(length, len(codes))
+            before = len(codes)
+            codes = search.shorten(problem, codes, first, min(before, first + length))
+            if tell is not None:
+                tell(len(codes))
+            if len(codes) < before:
+                first = max(0, first - length // 2)
+            elif first + length < before:
+                first += max(1, length // 3)
+            elif length < before:
+                length, first = int(GROWTH * length), 0
+            else:
+                break
+    except KeyboardInterrupt:
+        return Shortened(codes, search.seen, search.checks, complete=False, interrupted=True)
     return Shortened(codes, search.seen, search.checks, search.complete)
 
 

@@ -1,6 +1,7 @@
 """The genetic search over any `Problem`: generations of plans until one reaches the goal (thesis 2.2.3, and what makes it strong)."""
 
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -63,15 +64,17 @@ def weights_for(problem: CompiledProblem, profile: Profile) -> npt.NDArray[np.fl
     return np.array([profile.weights.get(name, 0.0) for name in problem.features])
 
 
-def first_generation(problem: CompiledProblem, profile: Profile, seed: int) -> Evolution:
-    """Random plans, evaluated."""
-    state = Evolution(_random_population(problem, profile, seed, 0))
+def first_generation(problem: CompiledProblem, profile: Profile, seed: int, seeds: Sequence[Genes] = ()) -> Evolution:
+    """Random plans, evaluated; the first of them are those that are given."""
+    state = Evolution(_random_population(problem, profile, seed, 0, seeds))
     _count(state, state.population.records)
     _look(problem, state)
     return state
 
 
-def _random_population(problem: CompiledProblem, profile: Profile, seed: int, generation: int) -> Population:
+def _random_population(
+    problem: CompiledProblem, profile: Profile, seed: int, generation: int, seeds: Sequence[Genes] = ()
+) -> Population:
     search = profile.search
     n, longest, entries = search.population, search.longest, len(problem.actions)
     genes = np.zeros((n, longest), np.int32)
@@ -80,6 +83,9 @@ def _random_population(problem: CompiledProblem, profile: Profile, seed: int, ge
         random_genes(
             genes[i], 0, lengths[i], entries, problem.actions.runs, search.run_length, seed, generation, i
         )  # fmt: skip
+    for i, given in enumerate(seeds[:n]):
+        lengths[i] = min(len(given), longest)
+        genes[i, : lengths[i]] = given[:longest]
     records = problem.rollout(genes, lengths, weights_for(problem, profile), longest)
     return Population(genes, lengths, records, np.full((n, 1 + entries), -1, np.int32))
 

@@ -4,15 +4,20 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
+import numpy as np
+
 from ...actions.plan import Plan
 from ...actions.plan_families import plan_family
 from ...actions.problems import last_goal_only, pose_problem
 from ...tasks import Task
+from ..exact.windows import Shortened
 from ..progress import Listener
 from ..result import PlanResult, furthest_of
+from ..shorten import shorten
 from .learning import Macro
 from .profile import Profile, load_profile
 from .search import Budget, Outcome, search
+from .seeding import with_seeds
 
 
 def plan_genetic(
@@ -28,6 +33,7 @@ def plan_genetic(
     macros: Sequence[Macro] = (),
     progress: Listener | None = None,
     checkpoint: Path | None = None,
+    seeds: Sequence[Plan] = (),
 ) -> PlanResult:
     """Plan by genetic search (thesis 2.2.3; page "The model", section 10).
 
@@ -43,6 +49,7 @@ def plan_genetic(
         macros: Learned modules to add to the inventory.
         progress: Called after every generation.
         checkpoint: File to save the search to, and to resume it from.
+        seeds: Plans, or beginnings of plans, of this robot on this world, that the first generation holds.
 
     Returns:
         The plan ("found"), or the furthest stance and what stopped it ("stopped").
@@ -52,8 +59,11 @@ def plan_genetic(
     aim = task if settings.search.subgoals else last_goal_only(task)
     posed = pose_problem(aim, threads=threads, filters=filters)
     table = posed.problem.actions.extended([(macro.name, macro.codes, False) for macro in macros])
+    table, beginnings = with_seeds(table, [seeded.codes(task) for seeded in seeds])
     problem = posed.problem.rebind(table)
     identity = f"genetic/{dict(task.hashes)}/{table.names}"
+    if seeds:
+        identity += f"/{[genes.tolist() for genes in beginnings]}"
     outcome = search(
         problem,
         settings,
@@ -63,19 +73,26 @@ def plan_genetic(
         listener=progress,
         checkpoint=checkpoint,
         identity=identity,
+        seeds=beginnings,
     )
-    replayed = problem.replay(outcome.codes)
+    shortened = Shortened(outcome.codes, 0, 0, complete=False)
+    if outcome.found and not outcome.interrupted and (settings.search.beam or settings.search.windows):
+        left = None if seconds is None else max(0.0, seconds - (time.monotonic() - started))
+        shortened = shorten(
+            problem, outcome.codes, width=settings.search.beam, effort=settings.search.windows, seconds=left
+        )
+    codes = shortened.codes
+    names = outcome.names if len(codes) == len(outcome.codes) and np.array_equal(codes, outcome.codes) else ()
+    replayed = problem.replay(codes)
     family = plan_family(task)
-    plan = Plan.of_codes(
-        task, outcome.codes, seed=seed, planner=f"genetic/{settings.name}", genes=outcome.names or None
-    )
+    plan = Plan.of_codes(task, codes, seed=seed, planner=f"genetic/{settings.name}", genes=names or None)
     return PlanResult(
         status="found" if outcome.found else "stopped",
         plan=plan,
         task=task,
-        reason=_reason(outcome),
+        reason=_reason(outcome, shortened),
         evaluations=outcome.evaluations,
-        checks=outcome.checks,
+        checks=outcome.checks + shortened.checks,
         seconds=time.monotonic() - started,
         seed=seed,
         planner=f"genetic/{settings.name}",
@@ -89,12 +106,14 @@ def plan_genetic(
     )
 
 
-def _reason(outcome: Outcome) -> str:
+def _reason(outcome: Outcome, shortened: Shortened) -> str:
     if outcome.found and not len(outcome.codes):
         return "the start meets every goal already"
-    if outcome.found and outcome.interrupted:
-        return f"interrupted while polishing; the plan of {len(outcome.codes)} actions works"
+    if outcome.found and (outcome.interrupted or shortened.interrupted):
+        return f"interrupted while polishing; the plan of {len(shortened.codes)} actions works"
     if outcome.found:
-        return f"reached every goal after {outcome.first_evaluations} evaluations"
+        cut = len(outcome.codes) - len(shortened.codes)
+        then = f"; a search about the plan made it {cut} shorter" if cut else ""
+        return f"reached every goal after {outcome.first_evaluations} evaluations{then}"
     how = "interrupted" if outcome.interrupted else "the budget ran out"
     return f"{how} after {outcome.evaluations} evaluations without reaching the goal; this search proves nothing"

@@ -52,6 +52,10 @@ class Search:
     """Whether a repeated sequence of a plan that works becomes a module of its own."""
     polish: Annotated[int, Field(strict=True, ge=0)]
     """Most evaluations spent on shortening the plan after success."""
+    beam: Annotated[int, Field(strict=True, ge=0, le=100_000)] = 0
+    """Stances kept of each layer of a beam search about the polished plan; 0 for none."""
+    windows: Annotated[int, Field(strict=True, ge=0)] = 0
+    """Most stances that exact search between and about the stances of the polished plan may see; 0 for none."""
 
 
 @spec

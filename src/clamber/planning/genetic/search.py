@@ -2,6 +2,7 @@
 
 import json
 import time
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any, Final
@@ -95,6 +96,7 @@ def search(
     listener: Listener | None = None,
     checkpoint: Path | None = None,
     identity: str = "",
+    seeds: Sequence[Genes] = (),
 ) -> Outcome:
     """Search for a plan, then make it shorter.
 
@@ -106,7 +108,8 @@ def search(
         stages: Goals of the task, for the listener.
         listener: Called after every generation.
         checkpoint: File that the search is saved to, and resumed from if it is there.
-        identity: Names task, profile and inventory; a checkpoint of another one is refused.
+        identity: Names task, profile, inventory and seeds; a checkpoint of another one is refused.
+        seeds: Genes of plans, or beginnings of plans, that the first generation holds.
 
     Returns:
         The outcome; Ctrl-C ends the search with the best so far.
@@ -121,7 +124,7 @@ def search(
     run = keeper.load(problem)
     base = problem
     if run is None:
-        run = _Run(first_generation(problem, profile, seed), [])
+        run = _Run(first_generation(problem, profile, seed, seeds), [])
     else:
         problem = _with_macros(base, run.macros)
     try:

@@ -9,7 +9,7 @@ from ...actions.family import aims, burden, candidates, key, restore, spot, step
 from ...actions.yardsticks import NOTHING_LIMITS
 from ...compiled import inlined, kernel
 from ...statics.records import TICKS
-from ..exact.kernels import slot_of
+from ..stance_table import slot_of
 
 STANCES, WEIGHED, POSES = 0, 1, 2
 """Places in the state of a flood: stances seen, stances noted on the map, poses on it."""

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import Final
 
+from ...actions.problems import BURDENS
 from ...errors import ClamberError, UnknownNameError, describe_choices
 from ...tasks import Task
 
@@ -26,7 +27,7 @@ class Layer:
     """One thing that a map can show of every place."""
 
     column: str
-    """Of the map's table."""
+    """Of the map's table; "least_" or "most_" and a burden of the family, or one that every map has."""
     title: str
     """What the number is, for a reader of the picture."""
     good: bool
@@ -41,8 +42,16 @@ LAYERS: Final[dict[str, Layer]] = {
     "steps": Layer("first_step", "actions of the shortest way there", False),
 }
 """Name -> layer."""
-FAMILY_LAYERS: Final[dict[str, tuple[str, ...]]] = {"limbed": tuple(LAYERS), "walker": ("margin", "steps")}
-"""Family of the robot -> the layers of its maps; the first is shown unless another is asked for."""
+COMMON: Final = ("margin", "first_step")
+"""Columns that the maps of every family have."""
+
+
+def layers_of(task: Task) -> tuple[str, ...]:
+    """Names of the layers that a task's map has; the first is shown unless another is asked for."""
+    burdens = BURDENS[task.document["robot"]["family"]]
+    return tuple(
+        name for name, layer in LAYERS.items() if layer.column in COMMON or layer.column.partition("_")[2] in burdens
+    )
 
 
 def choose_layer(task: Task, name: str | None) -> str:
@@ -52,12 +61,11 @@ def choose_layer(task: Task, name: str | None) -> str:
         UnknownNameError: If there is no such layer.
         LayerError: If the family hasn't got it.
     """
-    family = task.document["robot"]["family"]
-    allowed = FAMILY_LAYERS[family]
+    allowed = layers_of(task)
     if name is None:
         return allowed[0]
     if name not in LAYERS:
         raise UnknownNameError("layer", name, allowed)
     if name not in allowed:
-        raise LayerError(name, family, allowed)
+        raise LayerError(name, task.document["robot"]["family"], allowed)
     return name

@@ -2,12 +2,12 @@
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final, Literal
 
 from ...actions.plan_families import plan_family
-from ...actions.problems import pose_problem
+from ...actions.problems import pose_problem, without_hangs
 from ...actions.yardsticks import yardsticks_of
 from ...errors import PlannerError
 from ...files import write_atomically
@@ -130,18 +130,6 @@ class Reach:
         write_atomically(path, self.poses.to_csv())
 
 
-def _no_hangs(task: Any) -> tuple[Task, bool]:
-    bare: Task = replace(task, rules=replace(task.rules, max_hangs=0))
-    return bare, task.rules.max_hangs != 0
-
-
-WITHOUT_HANGS: Final[dict[str, Callable[[Any], tuple[Task, bool]]]] = {
-    "limbed": _no_hangs,
-    "walker": lambda task: (task, False),
-}
-"""Family of the robot -> a task of it with no hangs, and whether that changes anything."""
-
-
 def find_reach(
     task: Task,
     *,
@@ -170,7 +158,7 @@ def find_reach(
         StartError: If the start stance violates a hard check.
     """
     started = time.monotonic()
-    posed, changed = (task, False) if hangs else WITHOUT_HANGS[task.document["robot"]["family"]](task)
+    posed = task if hangs else without_hangs(task)
     problem = pose_problem(posed, threads=1).problem
     if problem.incomplete is not None:
         raise PlannerError("reach", task.name, problem.incomplete)
@@ -205,7 +193,7 @@ def find_reach(
         closed_by={} if seen.ended else _ranked(problem.checks, rim.forbidden.sum(axis=0).tolist()),
         seconds=time.monotonic() - started,
         model=plan_family(posed).model(posed),
-        without_hangs=changed,
+        without_hangs=posed != task,
     )
 
 

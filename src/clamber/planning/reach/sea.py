@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from ...actions.problem import CompiledProblem
 from ...actions.yardsticks import Yardsticks
-from ..exact.kernels import rehash
+from ..stance_table import rehash
 from .kernels import POSE, POSES, STANCES, absorb, note, note_tries, spread, weigh
 
 FIRST: Final = 1 << 14

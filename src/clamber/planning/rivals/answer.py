@@ -16,7 +16,7 @@ from ...types import Ints
 from ..progress import Listener, Trying
 from ..result import PlanResult, Status, furthest_of
 
-MAX_CHECKS: Final = 5_000_000
+MAX_CHECKS: Final = 2_000_000
 """Actions judged unless told otherwise: a second or two."""
 LONGEST: Final = 400
 """Most actions of a plan, as in the genetic planner's profiles."""

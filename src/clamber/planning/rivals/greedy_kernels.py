@@ -2,7 +2,7 @@
 
 from ...actions.family import candidates, done, key, restore, step
 from ...compiled import kernel
-from ..exact.kernels import slot_of
+from ..stance_table import slot_of
 from .heap import pop, push
 from .walks import worth
 

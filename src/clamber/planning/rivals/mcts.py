@@ -20,19 +20,24 @@ one grows from the action that it favours."""
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """How the tree is searched."""
+    """How the tree is searched.
+
+    Every descent from the start has a care, the next number of Luby's sequence: where quick descents end in a pocket, a
+    careful one, that looks further and explores more before each action, comes in time.
+    """
 
     explore: float = 0.5
     """Exploration constant of UCB1, for values scaled to 0..1 by the range seen from the present root [-]."""
+    wariness: float = 0.5
+    """What a doubled care adds to the exploration constant, as a share of it [-]."""
     boldness: float = 0.5
     """Weight of a node's best value against its mean: a plan is wanted, not a good average (Schadd et al. 2008) [-]."""
     visits: int = 100
-    """Of the root, before the search commits to an action; those from before it was the root count. Every descent takes
-    them times the next number of Luby's sequence: where quick descents end in a pocket, a careful one comes in time."""
+    """Of the root, before the search commits to an action; those from before it was the root count. Times the care."""
     patience: int = 30
     """Commitments in a row after which no simulation saw anything better, before the search starts again from the start."""
     horizon: int = 2
-    """Most actions of a simulation's random walk."""
+    """Most actions of a simulation's random walk. Times the care."""
     again: float = 0.5
     """Probability of a walk to do the same as before, where it can."""
 
@@ -147,14 +152,15 @@ class _Tree:
             furthest = max(furthest, self.scale[1])
 
     def _simulate(self, root: int, depth: int) -> int:
-        set_up = self.settings
-        wanted = set_up.visits * luby(self.descents)
+        set_up, care = self.settings, luby(self.descents)
+        explore = set_up.explore * (1.0 + set_up.wariness * np.log2(care))
+        horizon, visits = min(LONGEST, set_up.horizon * care), set_up.visits * care
         return int(
             simulate(
                 self.hunt.problem.params.record, self.weights, self.keys, self.visits, self.total, self.top, self.first,
                 self.count, self.child_of, self.code_of, self.table, self.mark, self.path, self.codes, self.tried,
-                self.stances, self.margins, self.row, self.words, self.state, self.scale, root, depth, set_up.explore,
-                set_up.boldness, set_up.again, set_up.horizon, self.hunt.longest, wanted, self.hunt.max_checks,
+                self.stances, self.margins, self.row, self.words, self.state, self.scale, root, depth, explore,
+                set_up.boldness, set_up.again, horizon, self.hunt.longest, visits, self.hunt.max_checks,
                 self.hunt.seed, self.trail, self.plan,
             )
         )  # fmt: skip

@@ -5,7 +5,7 @@ import math
 from ...actions.family import candidates, key, restore, step
 from ...actions.randoms import below, draw
 from ...compiled import inlined, kernel
-from ..exact.kernels import slot_of
+from ..stance_table import slot_of
 from .walks import wander
 
 NODES, EDGES, CHECKS, NUMBER = 0, 1, 2, 3

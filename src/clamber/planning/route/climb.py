@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ...actions.problem import CompiledProblem
-from .fields import WayFields
-from .kernels import BEST, EXHAUSTED, FOUND, FULL, GOAL, JUDGED, LOWEST, NODES, RUNNING, plant, rehash, search
+from ...actions.ways import WayFields
+from .kernels import BEST, EXHAUSTED, FOUND, FULL, GOAL, JUDGED, LOWEST, NODES, RUNNING, plant, rehash_rough, search
 
 QUOTA: Final = 5000
 """Stances expanded between looks at the clock."""
@@ -64,7 +64,7 @@ class _Nodes:
             setattr(self, name, new)
         self.capacity = capacity
         self.table = np.full(1 << int(np.ceil(np.log2(2 * capacity))), -1, np.int32)
-        rehash(self.keys, used, self.table)
+        rehash_rough(self.keys, used, self.table)
 
 
 def climb(
@@ -73,6 +73,7 @@ def climb(
     *,
     weight: float,
     share: float,
+    crowding: float,
     most_stances: int,
     seconds: float | None = None,
     tell: Callable[[int, int, float, float], None] | None = None,
@@ -84,6 +85,7 @@ def climb(
         fields: The map of ways.
         weight: How much a step of way left counts beside an action made: large is fast, small makes shorter plans.
         share: Weight of the limbs' way beside the body's.
+        crowding: By how much a stance expanded at a place makes the way left from there longer [steps].
         most_stances: Memory: most stances kept.
         seconds: Most time [s].
         tell: Called now and then with stances seen, actions of the best stance, its way left and that of the start [steps].
@@ -100,6 +102,7 @@ def climb(
     stances = np.zeros(2, problem.start.dtype)
     margins, tally = np.zeros(len(problem.checks)), np.zeros(len(problem.checks), np.int64)
     words = np.zeros(problem.key_words, np.int64)
+    visits = np.zeros(fields.fields.shape[1:], np.int32)
     guide = (fields.fields, fields.frame, fields.hold_fields, fields.after, share, weight)
     state[LOWEST] = plant(
         params, problem.start, nodes.keys, nodes.g, nodes.way, nodes.parent, nodes.code, nodes.following, nodes.heads,
@@ -116,7 +119,7 @@ def climb(
                 nodes.grow(min(most_stances, 2 * nodes.capacity), int(state[NODES]))
             status = search(
                 params, nodes.keys, nodes.g, nodes.way, nodes.parent, nodes.code, nodes.following, nodes.heads,
-                nodes.table, state, codes, stances, margins, words, tally, *guide, QUOTA,
+                nodes.table, state, codes, stances, margins, words, tally, *guide, visits, crowding, QUOTA,
             )  # fmt: skip
             if tell is not None:
                 best = int(state[BEST])

@@ -25,7 +25,7 @@ def rough(words, i):
 
 
 @inlined
-def slot_of(words, table, keys):
+def rough_slot(words, table, keys):
     """Where a stance is in the hash table, or the empty slot where it belongs; keys are compared whole, but for the grain of poses."""
     value = np.uint64(0)
     for i in range(words.shape[0]):
@@ -45,10 +45,18 @@ def slot_of(words, table, keys):
 
 
 @kernel
-def rehash(keys, n, table):
+def rehash_rough(keys, n, table):
     """Fill an empty hash table with the first n keys."""
     for node in range(n):
-        table[slot_of(keys[node], table, keys)] = node
+        table[rough_slot(keys[node], table, keys)] = node
+
+
+@inlined
+def place_of(s, fields, frame):
+    """Row and column of the map's place that the body is at."""
+    column = min(max(int(math.floor((s.x - frame[0]) / frame[2] + 0.5)), 0), fields.shape[2] - 1)
+    row = min(max(int(math.floor((s.y - frame[1]) / frame[2] + 0.5)), 0), fields.shape[1] - 1)
+    return row, column
 
 
 @inlined
@@ -65,8 +73,7 @@ def way_left(p, s, fields, frame, hold_fields, after, share):
     """
     if s.stage >= fields.shape[0]:
         return 0.0
-    column = min(max(int(math.floor((s.x - frame[0]) / frame[2] + 0.5)), 0), fields.shape[2] - 1)
-    row = min(max(int(math.floor((s.y - frame[1]) / frame[2] + 0.5)), 0), fields.shape[1] - 1)
+    row, column = place_of(s, fields, frame)
     body = fields[s.stage, row, column]
     tips = 0.0
     for i in range(p.n_limbs):
@@ -93,16 +100,19 @@ def plant(
     following[0] = NONE
     f = bucket_of(0, way[0], weight, heads.shape[0])
     heads[f] = 0
-    table[slot_of(keys[0], table, keys)] = 0
+    table[rough_slot(keys[0], table, keys)] = 0
     return f
 
 
 @kernel
 def search(
     p, keys, g, way, parent, code, following, heads, table, state, codes, stances, margins, words, tally,
-    fields, frame, hold_fields, after, share, weight, quota,
+    fields, frame, hold_fields, after, share, weight, visits, crowding, quota,
 ):  # fmt: skip
     """Expand stances in order of cost + weight * way left until a goal, the end of the open list or of the arrays, or a quota.
+
+    The way left from a place grows with every stance that was expanded there, so that a dead end fills up and the search leaves it (as in
+    Korf's learning real-time A*, 1990); a stance whose turn comes with a way that has grown since goes back into the open list.
 
     A stance counts as it is first reached, and is expanded once: the way left misleads anyhow, and the plan is checked, not proved.
     Among equals the newest goes first.
@@ -118,6 +128,8 @@ def search(
         tally: How often each check forbade an action.
         fields, frame, hold_fields, after, share: See `way_left`.
         weight: How much a step of way left counts beside an action made.
+        visits: Stances expanded at every place, shape (rows, columns); updated in place.
+        crowding: By how much each of them makes the way left longer [steps].
         quota: Most stances to expand in this call.
 
     Returns:
@@ -133,6 +145,13 @@ def search(
         node = heads[state[LOWEST]]
         heads[state[LOWEST]] = following[node]
         restore(p, keys[node], stances[0])
+        row, column = place_of(stances[0], fields, frame)
+        f = bucket_of(g[node], way[node] + crowding * visits[row, column], weight, heads.shape[0])
+        if f > state[LOWEST]:
+            following[node] = heads[f]
+            heads[f] = node
+            continue
+        visits[row, column] += 1
         state[EXPANDED] += 1
         for c in range(candidates(p, stances[0], codes)):
             state[JUDGED] += 1
@@ -141,7 +160,7 @@ def search(
                 tally[reason] += 1
                 continue
             key(p, stances[1], words)
-            slot = slot_of(words, table, keys)
+            slot = rough_slot(words, table, keys)
             if table[slot] >= 0:
                 continue
             child = state[NODES]
@@ -158,7 +177,8 @@ def search(
             if done(p, stances[1]):
                 state[GOAL] = child
                 return FOUND
-            f = bucket_of(g[child], way[child], weight, heads.shape[0])
+            row, column = place_of(stances[1], fields, frame)
+            f = bucket_of(g[child], way[child] + crowding * visits[row, column], weight, heads.shape[0])
             state[LOWEST] = min(state[LOWEST], f)
             following[child] = heads[f]
             heads[f] = child

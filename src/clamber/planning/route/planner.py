@@ -10,16 +10,16 @@ from ...actions.plan_families import plan_family
 from ...actions.problems import pose_problem
 from ...errors import PlannerError
 from ...tasks import Task
-from ...tasks.limbed import LimbedTask
 from ..progress import Listener, Routing
 from ..result import PlanResult, furthest_of
 from .climb import Climb, climb
-from .fields import way_fields
 
 WEIGHTS: Final = (8.0, 3.0, 1.5)
 """How much the way left counts, search by search: the first finds a plan, the others look for shorter ones."""
 SHARE: Final = 0.2
 """Weight of the limbs' way beside the body's [-]."""
+CROWDING: Final = 0.2
+"""By how much a stance expanded at a place makes the way left from there longer [steps]: dead ends fill up and are left."""
 MOST_STANCES: Final = 4_000_000
 """Stances kept unless told otherwise: about half a GB; half as much again while it grows."""
 EFFORT: Final = 5
@@ -35,13 +35,14 @@ def plan_route(
     max_stances: int = MOST_STANCES,
     weights: tuple[float, ...] = WEIGHTS,
     share: float = SHARE,
+    crowding: float = CROWDING,
     progress: Listener | None = None,
 ) -> PlanResult:
     """Find a plan over a board of any size; choose it where the way is long.
 
     A map of the wall says how far each place is from each goal, over places with holds in reach. Stances are then expanded in the order of
-    actions made plus the weighted way left: where the way is blocked, the search turns back to the next best place by itself. Its time
-    grows with the length of the way and with the dead ends on it, not with the board.
+    actions made plus the weighted way left; the more stances of a place have been expanded, the longer its way counts, so that the search
+    leaves dead ends. Its time grows with the length of the way and with the dead ends on it, not with the board.
 
     Args:
         task: What to plan.
@@ -51,6 +52,7 @@ def plan_route(
         max_stances: Memory: most stances kept. Running out is a result ("stopped").
         weights: Of the way left, search by search; the first plan found gets shorter with the smaller weights behind.
         share: Weight of the limbs' way beside the body's.
+        crowding: By how much a stance expanded at a place makes the way left from there longer [steps].
         progress: Called now and then.
 
     Returns:
@@ -60,26 +62,29 @@ def plan_route(
         PlannerError: If the task has no board of holds, or allows actions that can't be listed one by one.
     """
     started = time.monotonic()
-    if not isinstance(task, LimbedTask):
-        raise PlannerError("route", task.name, "its world has no holds; take the genetic or the exact planner")
     problem = pose_problem(task, threads=threads).problem
     if problem.incomplete is not None:
         raise PlannerError("route", task.name, problem.incomplete)
-    fields = way_fields(task)
+    fields = problem.ways()
+    if fields is None:
+        raise PlannerError("route", task.name, "its world has no holds; take the genetic or the exact planner")
 
     def tell(stances: int, actions: int, left: float, whole: float) -> None:
         if progress is not None:
             progress(Routing(stances, actions, 1.0 - left / whole if whole > 0.0 else 1.0))
 
-    best, checks, stances, first_length = None, 0, 0, None
+    best, checks, stances, first_length, first_checks = None, 0, 0, None, None
     for weight in weights:
         left = None if seconds is None else max(0.0, seconds - (time.monotonic() - started))
         most = max_stances if best is None else min(max_stances, EFFORT * best.stances)
-        seen = climb(problem, fields, weight=weight, share=share, most_stances=most, seconds=left, tell=tell)
+        seen = climb(
+            problem, fields, weight=weight, share=share, crowding=crowding, most_stances=most, seconds=left, tell=tell
+        )
         checks, stances = checks + seen.checks, stances + seen.stances
         if best is None or (seen.found and len(seen.codes) < len(best.codes)):
             best = seen
-        first_length = len(seen.codes) if seen.found and first_length is None else first_length
+        if seen.found and first_length is None:
+            first_length, first_checks = len(seen.codes), checks
         if not best.found or seen.interrupted or (left is not None and time.monotonic() - started >= (seconds or 0.0)):
             break
     assert best is not None
@@ -99,6 +104,7 @@ def plan_route(
         furthest=None if best.found else furthest_of(task, problem, best.codes),
         stances=stances,
         first_length=first_length,
+        first_checks=first_checks,
     )
 
 

@@ -6,8 +6,8 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from ...tasks.limbed import Goal, LimbedTask
-from ...types import Floats
+from ..tasks.limbed import Goal, LimbedTask
+from ..types import Floats
 
 MOST_PLACES: Final = 400_000
 """Most places of a map; larger walls get a coarser one."""

@@ -1,0 +1,33 @@
+"""A hash table of stances by their keys, for every search that must know where it has been."""
+
+import numpy as np
+
+from ..actions.randoms import scramble
+from ..compiled import inlined, kernel
+
+
+@inlined
+def slot_of(words, table, keys):
+    """Where a key is in the hash table, or the empty slot where it belongs (whole keys are compared, never hashes alone)."""
+    value = np.uint64(0)
+    for i in range(words.shape[0]):
+        value = scramble(value ^ np.uint64(words[i]))
+    slot = np.int64(value & np.uint64(table.shape[0] - 1))
+    while table[slot] >= 0:
+        node = table[slot]
+        same = True
+        for i in range(words.shape[0]):
+            if keys[node, i] != words[i]:
+                same = False
+                break
+        if same:
+            return slot
+        slot = (slot + 1) & (table.shape[0] - 1)
+    return slot
+
+
+@kernel
+def rehash(keys, n, table):
+    """Fill an empty hash table with the first n keys."""
+    for node in range(n):
+        table[slot_of(keys[node], table, keys)] = node
