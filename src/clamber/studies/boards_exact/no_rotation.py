@@ -71,16 +71,17 @@ def forbid_rotation_with(most: int, seeds: range, beams: tuple[Beam, ...]) -> St
             Compared("the same: a plan has at least [actions]", held.at_least),
             Compared("the same: shortest plan found by genetic and beam search [actions]", known if known is not None else "none found"),
             Compared("the same: highest body that any of them reached [in]", top),
+            Compared("free, one hang: exact search", loose.status),
             Compared("free, one hang: a plan has at least [actions]", loose.at_least),
             Compared("free, one hang: shortest plan found [actions]", shorter if shorter is not None else "none found"),
         ),
         deviations=(
             *TOLD,
             "A hang turns the body for nothing, so one hang is rotation by another door: it puts the robot off the lattice of poses, and "
-            "while it hangs every body move swings it to a new place. The stances it can reach are too many to see them all; "
-            "so with one hang nothing is proved here but the least number of actions.",
+            "while it hangs every body move swings it to a new place. The stances it can reach are too many to see them all, so a reading "
+            "without a plan can't be proved to have none; what is proved is the least number of actions.",
             f"There exact search keeps {most} stances, genetic search tries {len(seeds)} seeds, beam search widths of "
-            f"{' and '.join(str(beam.width) for beam in beams)}; that none finds a plan is no proof that there is none.",
+            f"{' and '.join(str(beam.width) for beam in beams)}; where none finds a plan, that is no proof that there is none.",
         ),
         table=Table(
             ("reading", "hangs", "exact search", "shortest plan known", "stances seen", "proved at least", "highest body [in]"),
