@@ -10,7 +10,7 @@ from .output import announce_compilation, print_json, stderr, stdout
 
 
 def study(
-    paper: Annotated[str, typer.Argument(help="A paper (`clamber list studies`).")],
+    paper: Annotated[str, typer.Argument(help="A paper or subject (`clamber list studies`).")],
     result: Annotated[str | None, typer.Argument(help="One of its results; all unless given.")] = None,
     as_json: AsJson = False,
     report: Annotated[Path | None, typer.Option(metavar="DIR", help="Write tables and pictures there.")] = None,

@@ -1,4 +1,4 @@
-"""The studies by name: paper, then published result, to the function that repeats it."""
+"""The studies by name: paper or subject, then result, to the function that repeats it."""
 
 from collections.abc import Callable
 from functools import partial
@@ -14,6 +14,13 @@ from .bevly_1997.nominal_gait import climb_with_gait
 from .bevly_1997.planner_success import count_successes
 from .bevly_1997.printed_plans import PRINTED, repeat_plan
 from .bevly_1997.step_size import vary_step_size
+from .boards_exact import STUDY as BOARDS_EXACT
+from .boards_exact.hook_cones import compare_hooks, narrow_cones
+from .boards_exact.least_torque import find_least_torques
+from .boards_exact.no_rotation import forbid_rotation
+from .boards_exact.optima import prove_optima
+from .boards_exact.peg_spacing import vary_spacing
+from .boards_exact.torque_front import trade_length_for_torque
 from .result import StudyResult
 
 Repeat: TypeAlias = Callable[[], StudyResult]
@@ -31,5 +38,14 @@ STUDIES: Final[dict[str, dict[str, Repeat]]] = {
         "h-evolution": follow_h,
         "planner-success": count_successes,
     },
+    BOARDS_EXACT: {
+        "optima": prove_optima,
+        "h-torque-front": trade_length_for_torque,
+        "least-torque": find_least_torques,
+        "no-rotation": forbid_rotation,
+        "hook-cost": compare_hooks,
+        "narrowest-cone": narrow_cones,
+        "peg-spacing": vary_spacing,
+    },
 }
-"""Paper -> result -> what repeats it; the command line, the pages and the tests read it."""
+"""Paper or subject -> result -> what repeats it; the command line, the pages and the tests read it."""
