@@ -88,9 +88,9 @@ def forbid_rotation_with(most: int, seeds: range, beams: tuple[Beam, ...]) -> St
             "A hang turns the body for nothing, so one hang is rotation by another door: it puts the robot off the lattice of poses, and "
             "while it hangs every body move swings it to a new place. The stances it can reach are too many to see them all, so a reading "
             "without a plan can't be proved to have none; what is proved is the least number of actions.",
-            "The kept plan (`plans/one_hang.json`) was found by hanging at random from the stances that can be reached, up to 25 moves in the "
-            "hang, and exact search without hangs from there: one of some five thousand such tries led to the goal. So one hang opens the "
-            "board in this reading; whether a shorter plan does is open.",
+            "The kept plan (`plans/one_hang.json`) was found by hanging at random from the stances that can be reached, up to 25 "
+            "moves in the hang, and exact search without hangs from there: one of some five thousand such tries led to the goal. So "
+            "one hang opens the board in this reading; whether a shorter plan does is open.",
             f"There exact search keeps {most} stances, genetic search tries {len(seeds)} seeds, beam search widths of "
             f"{' and '.join(str(beam.width) for beam in beams)}; where none finds a plan, that is no proof that there is none.",
         ),
