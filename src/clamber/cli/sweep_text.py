@@ -12,11 +12,11 @@ from .output import plain_table
 
 def print_sweep(console: Console, sweep: Sweep, output: Path | None) -> None:
     """Print the points as a table, and the reasons of those without a plan, once each."""
-    numbers = ("actions", "least", "largest", "s")
+    numbers = ("actions", "torque", "least", "s")
     keys = [axis.key for axis in sweep.axes]
     table = plain_table(*keys, *(("",) if sweep.marks else ()), "status", *numbers, right=(*keys, *numbers))
     for k, point in enumerate(sweep.points):
-        torques = (point.least_torque, point.largest_torque)
+        torques = (point.largest_torque, point.least_torque)
         table.add_row(
             *(_short(value) for value in point.values),
             *(("*" if sweep.marked(k) else "",) if sweep.marks else ()),
@@ -26,7 +26,7 @@ def print_sweep(console: Console, sweep: Sweep, output: Path | None) -> None:
             f"{point.seconds:.1f}",
         )
     console.print(table)
-    console.print("least, largest: joint torque of the plan's easiest and hardest step [oz-in]")
+    console.print("torque: largest of the plan's joints [oz-in]; least: the least that it can be in any plan, proved")
     if sweep.marks:
         console.print(f"* marked: {' and '.join(f'{mark.key} = {mark.text}' for mark in sweep.marks)}")
     console.print(f"{sweep.found} of {len(sweep.points)} points of '{sweep.task}' have a plan ({sweep.planner})")

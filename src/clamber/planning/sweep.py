@@ -43,9 +43,10 @@ class Point:
     length: int | None = None
     """Actions of the plan; None without one."""
     least_torque: float | None = None
-    """Largest joint torque of the plan's easiest step [N m]; None without a plan, or where joints are not modelled."""
+    """The least that the largest joint torque of any plan can be, the start included: proved [N m]. None without a proof, or where
+    joints are not modelled."""
     largest_torque: float | None = None
-    """Largest joint torque of the plan [N m]."""
+    """Largest joint torque of the plan [N m]; the exact planner takes the easiest of the shortest plans."""
     lower_bound: int | None = None
     """Proved: no plan has fewer actions."""
     seconds: float = 0.0
@@ -197,18 +198,20 @@ def plan_point(item: Json) -> Json:
         The fields of `Point` beside `values` and `seconds`.
     """
     task = task_from_document(item["document"])
+    planner = PLANNERS[item["planner"]]
+    proves = accepts(item["planner"], "minimize")
+    order: Json = {"minimize": ("length", "torque")} if proves else {}
     try:
-        result = PLANNERS[item["planner"]](task, threads=1, **item["options"])
+        result = planner(task, threads=1, **item["options"], **order)
     except StartError as error:
         return {"status": NO_START, "reason": str(error)}
     point: Json = {"status": result.status, "reason": result.reason, "lower_bound": result.lower_bound}
     if result.status in SUCCESS:
         torques = [row.max_torque for row in result.check().per_step if row.max_torque is not None]
-        point |= {
-            "length": result.length,
-            "least_torque": min(torques, default=None),
-            "largest_torque": max(torques, default=None),
-        }
+        point |= {"length": result.length, "largest_torque": max(torques, default=None)}
+        if proves and torques:
+            easiest = planner(task, threads=1, **item["options"], minimize=("torque",))
+            point["least_torque"] = easiest.costs["torque"] if easiest.status == "optimal" else None
     return point
 
 

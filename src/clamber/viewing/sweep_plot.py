@@ -83,11 +83,12 @@ def _curves(sweep: Sweep) -> Figure:
     upper.set_ylabel("actions of the shortest plan" if sweep.planner == "exact" else "actions of the plan")
     upper.yaxis.set_major_locator(MaxNLocator(integer=True, nbins=6))
     for name, values, colour in (
-        ("largest", _numbers([point.largest_torque for point in points]), style.PARTS[1]),
-        ("least", _numbers([point.least_torque for point in points]), style.PARTS[2]),
+        ("of that plan", _numbers([point.largest_torque for point in points]), style.PARTS[1]),
+        ("least of any plan", _numbers([point.least_torque for point in points]), style.PARTS[2]),
     ):
-        lower.plot(at, values / OZ_IN, color=colour, lw=1.8, ls=line, marker="o", ms=4.5, label=f"{name} of any step")
-    lower.set_ylabel("joint torque [oz-in]")
+        if not np.all(np.isnan(values)):
+            lower.plot(at, values / OZ_IN, color=colour, lw=1.8, ls=line, marker="o", ms=4.5, label=name)
+    lower.set_ylabel("largest joint torque [oz-in]")
     lower.set_ylim(bottom=0.0)
     lower.set_xlabel(_title(axis))
     without = np.array([point.status not in SUCCESS for point in points])
