@@ -12,10 +12,12 @@ from clamber.actions.limbed_problem import LimbedProblem
 from clamber.actions.problems import pose_problem
 from clamber.actions.table import ActionTable
 from clamber.errors import ClamberError, FileError
+from clamber.jobs import LocalProcesses
 from clamber.planning.genetic.learning import learn
 from clamber.planning.genetic.planner import plan_genetic
 from clamber.planning.genetic.profile import load_profile, profile_names
 from clamber.planning.genetic.search import Budget, search
+from clamber.planning.islands import plan_islands
 from clamber.planning.learning import learn_macros, load_macros
 from clamber.planning.planners import PLANNERS
 from clamber.planning.progress import Progress
@@ -258,3 +260,21 @@ def test_the_default_profile_solves_every_board_in_twenty_of_twenty_seeds(
 def test_every_task_can_be_posed() -> None:
     for name in task_names():
         assert len(pose_problem(load_task(name)).problem.actions) > 5
+
+
+def test_islands_find_the_same_plan_on_any_number_of_workers() -> None:
+    task = load_task("ladder", ("rules.max_hangs=0",))
+    plans = [
+        plan_islands(task, islands=3, executor=LocalProcesses(workers), max_evaluations=8_000) for workers in (1, 2)
+    ]
+    assert plans[0].status == "found" and plans[0].check().reached
+    assert plans[0].plan == plans[1].plan and plans[0].evaluations == plans[1].evaluations
+    alone = [plan_genetic(task, seed=seed, max_evaluations=8_000, threads=1) for seed in range(3)]
+    assert plans[0].length == min(one.length for one in alone if one.has_plan)
+
+
+def test_islands_that_find_nothing_go_on_from_where_they_came_furthest() -> None:
+    task = load_task("across", ("rules.max_hangs=0",))
+    result = plan_islands(task, islands=2, executor=LocalProcesses(2), max_evaluations=600)
+    assert result.status == "stopped" and result.furthest is not None and result.furthest.actions == result.length
+    assert result.evaluations > 3 * 400, "both rounds ran"

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 import typer
 
 from ..errors import UnknownNameError
-from .options import AsJson, Output, Overrides, Quiet
+from .options import AsJson, Output, Overrides, Quiet, Ray, Workers
 from .output import announce_compilation, check_writable, print_json, stderr, stdout
 
 
@@ -39,6 +39,11 @@ def plan(
         int | None, typer.Option(min=1, help="Most stances that exact searches keep (8 million: 2 GB).")
     ] = None,
     width: Annotated[int | None, typer.Option(min=1, help="Stances that a beam keeps of each layer.")] = None,
+    islands: Annotated[
+        int | None, typer.Option(min=1, help="Genetic populations at once, each in a worker; the shortest plan wins.")
+    ] = None,
+    workers: Workers = None,
+    ray: Ray = None,
     history: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Draw how the fitness grew (png, svg, pdf).")
     ] = None,
@@ -89,8 +94,15 @@ def plan(
     if history is not None and planner != "genetic":
         raise typer.BadParameter("only the genetic planner has one", param_hint="--history")
     seeker = Seeker(problem, openings_seconds if openings and planner in PROVERS else None, threads, as_json, quiet)
-    with seeker.told_of_start(), ProgressLine(stderr(), quiet=quiet) as line:
-        result = PLANNERS[planner](problem, progress=line.update, **options)
+    if islands is None and (workers or ray):
+        raise typer.BadParameter("are for --islands", param_hint="--workers, --ray")
+    if islands is not None:
+        from .islands import islands_result
+
+        result = islands_result(problem, planner, options, islands, workers, ray, quiet=quiet)
+    else:
+        with seeker.told_of_start(), ProgressLine(stderr(), quiet=quiet) as line:
+            result = PLANNERS[planner](problem, progress=line.update, **options)
     if output is not None:
         result.plan.save(output)
     if history is not None:
