@@ -1,73 +1,26 @@
 """A search as people read it: a live line on the way, and the plan or why there is none."""
 
 from pathlib import Path
-from types import TracebackType
 
 from rich.console import Console
-from rich.live import Live
-from rich.text import Text
 
 from ..actions.plan import Plan
 from ..actions.plan_families import plan_family
 from ..planning.genetic.learning import Macro
 from ..planning.learning import Lesson
-from ..planning.progress import Exploring, Layers, Moment, Progress, Relaxing, Routing, Shortening, Trying
+from ..planning.progress import Exploring, Layers, Moment, Relaxing, Routing, Shortening, Trying
 from ..planning.result import Furthest, PlanResult
 from ..tasks import Task
 from ..units import OZ_IN
-
-STEADY = 20
-"""Where stderr is no terminal, every so many generations get a line."""
-CHECKS_TOLD = 500_000
-"""The same for searches that count single actions."""
-SEARCHES_TOLD = 100
-"""The same for rows of exact searches."""
+from .live_line import LiveLine
 
 
-class ProgressLine:
-    """A line on stderr that follows a search: rewritten on a terminal, a line now and then elsewhere."""
-
-    def __init__(self, console: Console, *, quiet: bool) -> None:
-        self._console = console
-        self._quiet = quiet
-        self._told = -1
-        self._live = Live(console=console, refresh_per_second=8, transient=True) if console.is_terminal else None
-
-    def __enter__(self) -> "ProgressLine":
-        if self._live is not None and not self._quiet:
-            self._live.start()
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        if self._live is not None and not self._quiet:
-            self._live.stop()
+class ProgressLine(LiveLine):
+    """Follows a search."""
 
     def update(self, progress: Moment) -> None:
         """Show one moment of the search."""
-        if self._quiet:
-            return
-        if self._live is not None:
-            self._live.update(Text(progress_text(progress), no_wrap=True, overflow="ellipsis"))
-        elif (turn := _turn(progress)) % STEADY == 0 and turn != self._told:
-            self._told = turn
-            self._console.print(progress_text(progress), soft_wrap=True)
-
-
-def _turn(progress: Moment) -> int:
-    """What counts up while a search goes on."""
-    if isinstance(progress, Routing):
-        return round(100.0 * progress.share)
-    if isinstance(progress, Trying):
-        return progress.checks // CHECKS_TOLD * STEADY
-    if isinstance(progress, Shortening):
-        return -progress.length
-    if isinstance(progress, Layers):
-        return progress.layer
-    if isinstance(progress, Relaxing):
-        return progress.searches // SEARCHES_TOLD * STEADY
-    return progress.generation if isinstance(progress, Progress) else int(progress.lower_bound)
+        self.show(progress_text(progress))
 
 
 def progress_text(progress: Moment) -> str:

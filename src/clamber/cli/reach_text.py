@@ -1,52 +1,24 @@
 """A reachable space as people read it: a line on the way, and what was seen."""
 
-import time
 from pathlib import Path
-from types import TracebackType
 
 import numpy as np
 from rich.console import Console
-from rich.live import Live
 from rich.table import Table
-from rich.text import Text
 
 from ..planning.reach.layers import LAYERS
 from ..planning.reach.reach import Reach
 from ..units import OZ_IN
+from .live_line import LiveLine
 from .output import plain_table
 
-STEADY = 10.0
-"""Where stderr is no terminal, so often there is a line [s]."""
 
-
-class FloodLine:
-    """A line on stderr that follows a flood: rewritten on a terminal, a line now and then elsewhere."""
-
-    def __init__(self, console: Console, *, quiet: bool) -> None:
-        self._console, self._quiet, self._told = console, quiet, time.monotonic()
-        self._live = Live(console=console, refresh_per_second=8, transient=True) if console.is_terminal else None
-
-    def __enter__(self) -> "FloodLine":
-        if self._live is not None and not self._quiet:
-            self._live.start()
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        if self._live is not None and not self._quiet:
-            self._live.stop()
+class FloodLine(LiveLine):
+    """Follows a flood."""
 
     def update(self, stances: int, poses: int, depth: int) -> None:
         """Show one moment of the flood."""
-        words = f"{stances} stances, {poses} poses tried, {depth} actions from the start"
-        if self._quiet:
-            return
-        if self._live is not None:
-            self._live.update(Text(words, no_wrap=True, overflow="ellipsis"))
-        elif time.monotonic() >= self._told + STEADY:
-            self._told = time.monotonic()
-            self._console.print(words, soft_wrap=True)
+        self.show(f"{stances} stances, {poses} poses tried, {depth} actions from the start")
 
 
 def print_reach(console: Console, reach: Reach, layer: str, output: Path | None) -> None:
