@@ -2,7 +2,7 @@
 
 import json
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -16,7 +16,7 @@ from clamber.cli.app import app
 from clamber.compiled import kernel
 from clamber.experiments.breadth import breadth_first
 from clamber.planning.exact.costs import Aim, CostError, read_costs
-from clamber.planning.exact.explore import explore
+from clamber.planning.exact.explore import Exploration, explore
 from clamber.planning.exact.front import plan_front
 from clamber.planning.exact.minimize import Minimizer
 from clamber.planning.exact.planner import plan_exact
@@ -310,3 +310,16 @@ def test_the_command_line_draws_a_front(tmp_path) -> None:  # type: ignore[no-un
     assert run.exit_code == 0 and picture.exists()
     told = json.loads(run.stdout)
     assert told["status"] == "optimal" and len(told["trades"]) > 1
+
+
+def test_an_order_whose_second_search_runs_out_is_not_called_optimal(small: tuple[CompiledProblem, Graph]) -> None:
+    problem, _ = small
+
+    class Interrupted(Minimizer):
+        def run(self, aim: Aim) -> Exploration:
+            if aim.first == "torque":
+                return super().run(aim)
+            return replace(super().run(aim), found=False, ways=())
+
+    least = Interrupted(problem.informed(), most_stances=ROOM).least(("torque", "length"))
+    assert not least.found and least.ways and least.lower_bound == pytest.approx(least.ways[0].first)

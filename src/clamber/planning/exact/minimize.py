@@ -60,9 +60,8 @@ class Minimizer:
                 return easiest
             limit = easiest.ways[0].first * (1.0 + 1e-12)
             settled = self.least(rest, most_torque=limit)
-            return (
-                easiest if not settled.ways else replace(settled, lower_bound=easiest.lower_bound, found=settled.found)
-            )
+            best = settled if settled.ways else easiest  # out of time: only the torque is proved
+            return replace(best, lower_bound=easiest.lower_bound, found=settled.found)
         if not rest:
             return self.run(Aim(first=first, most_torque=most_torque))
         both = self.run(Aim(first=first, second=rest[0], most_torque=most_torque))
