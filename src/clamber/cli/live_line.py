@@ -1,5 +1,6 @@
-"""A line on stderr that follows something long: rewritten on a terminal, a line every ten seconds elsewhere."""
+"""A line on stderr that follows something long: rewritten on a terminal, a line at once and every ten seconds elsewhere."""
 
+import math
 import time
 from types import TracebackType
 from typing import Self
@@ -16,7 +17,7 @@ class LiveLine:
     """A `with` block in which `show` tells how far things are."""
 
     def __init__(self, console: Console, *, quiet: bool) -> None:
-        self._console, self._quiet, self._told = console, quiet, time.monotonic()
+        self._console, self._quiet, self._told = console, quiet, -math.inf
         self._live = Live(console=console, refresh_per_second=8, transient=True) if console.is_terminal else None
 
     def __enter__(self) -> Self:
