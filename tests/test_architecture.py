@@ -16,7 +16,7 @@ PACKAGE = ROOT / "src" / "clamber"
 PAGE = ROOT / "docs" / "architecture.md"
 BASE = "base"
 # Slow to import, or optional. `pyproject.toml` bans the same at module level (TID253).
-HEAVY = {"matplotlib", "mujoco", "ray", "deap", "pymoo", "pygad", "imageio_ffmpeg"}
+HEAVY = {"matplotlib", "mujoco", "ray", "deap", "pymoo", "pygad", "imageio_ffmpeg", "mcap", "mink", "pink", "pinocchio"}
 MAY_LOAD_HEAVY = {"viewing": {"matplotlib"}, "sim": {"mujoco"}}
 COMPILERS = {"njit", "jit", "vectorize", "guvectorize", "cfunc", "stencil", "generated_jit"}
 CHOOSERS = {PACKAGE / "actions" / "family.py"}  # hold no kernel, but choose one while compiling

@@ -11,5 +11,8 @@ Floats: TypeAlias = npt.NDArray[np.float64]
 Ints: TypeAlias = npt.NDArray[np.int32]
 """Any array of int32."""
 
+Records: TypeAlias = npt.NDArray[np.void]
+"""Any array of structured records; which fields they have stands where they are used."""
+
 Json: TypeAlias = dict[str, Any]
 """A table of plain data as TOML or JSON holds it: strings, numbers, booleans, lists and tables."""

@@ -1,0 +1,229 @@
+"""A serial chain as laws and plants read it: any number of joints from base to tip, with their motors, planar or spatial."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Final, Literal, TypeAlias
+
+import numpy as np
+
+from ..errors import ClamberError
+from ..robots.limbed import Joint, Limb, LimbedRobot
+from ..types import Floats, Records
+from ..units import GRAVITY
+from .kinematics import CENTRE, FRAME, accelerate, fill_inertia, fill_jacobian, place_chain
+from .records import AXES, JOINT, ROOT
+
+ShareBasis: TypeAlias = Literal["inertia", "damping", "back-emf"]
+"""What K' is made of (Bevly 1997, 3.3.2)."""
+SMALLEST_SHARE: Final = 1e-6
+"""A joint may not count for less than this of the largest."""
+
+
+class ChainError(ClamberError):
+    """A chain that cannot be: names the joint, the field, the value and what is allowed."""
+
+    def __init__(self, chain: str, key: str, value: object, allowed: str) -> None:
+        super().__init__(chain, key, value, allowed)
+        self.chain, self.key, self.value, self.allowed = chain, key, value, allowed
+
+    def __str__(self) -> str:
+        return f"{self.chain}: {self.key} = {self.value}: {self.allowed}"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Chain:
+    """A serial chain: `joints`, records of `JOINT`, shape (n,), and `root`, one record of `ROOT`.
+
+    The arrays are this chain's own; nobody else writes them.
+    """
+
+    name: str
+    joint_names: tuple[str, ...]
+    joints: Records
+    root: Records
+    plane: bool = False
+    """Whether all joints turn about z, so that the tip stays in a plane and the task is x and y."""
+
+    def __post_init__(self) -> None:
+        for j, name in enumerate(self.joint_names):
+            record = self.joints[j]
+            for key, least in (("mass", 0.0), ("rotor", 0.0), ("damping", 0.0), ("friction", 0.0)):
+                if not record[key] >= least:
+                    raise ChainError(self.name, f"{name}.{key}", float(record[key]), f"must be {least:g} or more")
+            for key in ("limit", "speed", "share"):
+                if not record[key] > 0.0:
+                    raise ChainError(self.name, f"{name}.{key}", float(record[key]), "must be more than 0")
+            if not abs(np.linalg.norm(record["axis"]) - 1.0) < 1e-9:
+                raise ChainError(self.name, f"{name}.axis", list(record["axis"]), "must be a unit vector")
+
+    @property
+    def n(self) -> int:
+        """Number of joints."""
+        return int(self.joints.size)
+
+    @property
+    def largest_inertia(self) -> float:
+        """Largest reflected inertia of a motor and gear [kg m^2]: what K' is normalised by."""
+        return float(self.joints["rotor"].max())
+
+    def with_gravity(self, acceleration: Sequence[float]) -> "Chain":
+        """This chain under another gravity, an acceleration in the base frame [m/s^2]."""
+        root = self.root.copy()
+        root["gravity"][0] = acceleration
+        return replace(self, root=root)
+
+    def with_payload(self, mass: float) -> "Chain":
+        """This chain with a point mass at its tip [kg], carried by the last link."""
+        if not mass >= 0.0:
+            raise ChainError(self.name, "payload", mass, "must be 0 kg or more")
+        joints = self.joints.copy()
+        last = joints[-1:]
+        before, at = float(last["mass"][0]), self.root["tip"][0]
+        total = before + mass
+        if total > 0.0:
+            old = last["centre"][0].copy()
+            new = (before * old + mass * at) / total
+            inertia = last["inertia"][0].copy()
+            for part, place in ((before, old), (mass, at)):
+                arm = place - new
+                inertia += part * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+            last["mass"], last["centre"], last["inertia"] = total, new, inertia
+        return replace(self, joints=joints)
+
+    def with_shares(self, basis: ShareBasis) -> "Chain":
+        """This chain with K' made of its joints' inertia, damping, or back-EMF.
+
+        Back-EMF: the torque that a motor on a voltage amplifier loses with speed, limit over no-load speed [N m s/rad].
+
+        Raises:
+            ChainError: If a joint's value is 0, so that K' would have no inverse.
+        """
+        values = {
+            "inertia": self.joints["rotor"],
+            "damping": self.joints["damping"],
+            "back-emf": self.joints["limit"] / self.joints["speed"],
+        }[basis]
+        largest = float(values.max())
+        for name, value in zip(self.joint_names, values, strict=True):
+            if not value > SMALLEST_SHARE * largest:
+                raise ChainError(self.name, f"{name}'s share by {basis}", float(value), "must be more than 0 for K'")
+        joints = self.joints.copy()
+        joints["share"] = values / largest
+        return replace(self, joints=joints)
+
+    # What follows serves set-up, tests and plots; a law works the same things out by the same kernels.
+
+    def place(self, q: Sequence[float] | Floats) -> Floats:
+        """Tip in the base frame at the joint angles `q` [m], shape (3,)."""
+        return self._placed(q)[1][:3].copy()
+
+    def last_centre(self, q: Sequence[float] | Floats) -> Floats:
+        """Centre of mass of the last link in the base frame at the joint angles `q` [m], shape (3,)."""
+        return self._placed(q)[0][-1, CENTRE : CENTRE + 3].copy()
+
+    def jacobian(self, q: Sequence[float] | Floats) -> Floats:
+        """Jacobian of the tip's twist, base frame, shape (6, n)."""
+        frames, tip = self._placed(q)
+        out = np.zeros((AXES, self.n))
+        fill_jacobian(self.joints, frames, tip, out)
+        return out
+
+    def inertia(self, q: Sequence[float] | Floats) -> Floats:
+        """Inertia matrix, motors and gears included, shape (n, n) [kg m^2]."""
+        frames, _ = self._placed(q)
+        out = np.zeros((self.n, self.n))
+        fill_inertia(self.joints, frames, out)
+        return out
+
+    def bias(self, q: Sequence[float] | Floats, qd: Sequence[float] | Floats) -> Floats:
+        """Torques h + g that hold the joints' speeds against Coriolis, centrifugal and weight, shape (n,) [N m]."""
+        return self._accelerated(q, qd)[0]
+
+    def drift(self, q: Sequence[float] | Floats, qd: Sequence[float] | Floats) -> Floats:
+        """Jdot qd: the tip's acceleration at steady joint speeds, base frame, shape (6,)."""
+        return self._accelerated(q, qd)[1]
+
+    def _placed(self, q: Sequence[float] | Floats) -> tuple[Floats, Floats]:
+        frames, tip = np.zeros((self.n, FRAME)), np.zeros(12)
+        place_chain(self.joints, self.root, np.ascontiguousarray(q, dtype=np.float64), frames, tip)
+        return frames, tip
+
+    def _accelerated(self, q: Sequence[float] | Floats, qd: Sequence[float] | Floats) -> tuple[Floats, Floats]:
+        frames, tip = self._placed(q)
+        torques, drift = np.zeros(self.n), np.zeros(AXES)
+        speeds = np.ascontiguousarray(qd, dtype=np.float64)
+        accelerate(self.joints, self.root, frames, tip, speeds, np.zeros(self.n), True, drift, torques)
+        return torques, drift
+
+
+def empty_chain(n: int) -> tuple[Records, Records]:
+    """Records of `n` joints and of a root, massless, turning about z, unlimited: to be filled in."""
+    joints, root = np.zeros(n, JOINT), np.zeros(1, ROOT)
+    joints["turn"] = np.eye(3)
+    joints["axis"] = (0.0, 0.0, 1.0)
+    joints["share"], joints["limit"], joints["speed"] = 1.0, np.inf, np.inf
+    joints["lower"], joints["upper"] = -np.pi, np.pi
+    root["tip_turn"] = np.eye(3)
+    return joints, root
+
+
+def chain_of_limb(robot: LimbedRobot, name: str, *, basis: ShareBasis = "inertia", upright: bool = False) -> Chain:
+    """One limb of a climber as a chain in its port frame: x along the stretched limb, y to its left, z out of the wall.
+
+    Links are thin rods with their mass spread evenly, as the robot file states no more; the hook's offset belongs to the second.
+
+    Args:
+        robot: The climber.
+        name: Of the limb.
+        basis: What K' is made of.
+        upright: Whether weight acts, down the wall with the body level; else the limb lies in a horizontal plane (Bevly 1997, 3.4.1).
+    """
+    limb = robot.limbs[robot.limb_index(name)]
+    joints, root = empty_chain(2)
+    joints["place"][1] = (limb.l1, 0.0, 0.0)
+    for j, (joint, length, mass) in enumerate(
+        zip((limb.shoulder, limb.elbow), (limb.l1, limb.l2), limb.link_masses, strict=True)
+    ):
+        _fill_joint(joints[j : j + 1], joint, robot)
+        joints["mass"][j] = mass
+        joints["centre"][j] = (length / 2, 0.0, 0.0)
+        across = mass * length**2 / 12
+        joints["inertia"][j] = np.diag((0.0, across, across))
+    root["tip"][0] = (limb.second_link.real, limb.second_link.imag, 0.0)
+    root["tip_turn"][0] = _about_z(limb.end.angle)
+    if upright:
+        root["gravity"][0] = _about_z(-limb.port_angle) @ (0.0, -GRAVITY, 0.0)
+    chain = Chain(f"{robot.name}'s {name} limb", (f"{name} shoulder", f"{name} elbow"), joints, root, plane=True)
+    return chain.with_shares(basis)
+
+
+def _fill_joint(record: Records, joint: Joint, robot: LimbedRobot) -> None:
+    record["rotor"], record["damping"], record["friction"] = joint.inertia, joint.damping, joint.friction
+    record["limit"] = joint.torque_limit or robot.motor.torque_limit
+    record["speed"] = joint.no_load_speed or robot.motor.no_load_speed
+    record["lower"], record["upper"] = joint.lower, joint.upper
+    record["rest"] = (joint.lower + joint.upper) / 2
+
+
+def _about_z(angle: float) -> Floats:
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def closed_branches(limb: Limb, x: float, y: float) -> tuple[tuple[float, float], ...]:
+    """Joint angles that put a limb's tip at (x, y) of its port frame [m], elbow angle positive first; none out of reach [rad]."""
+    l1, l2, beta = limb.l1, limb.l2_effective, limb.hook_beta
+    cosine = (x * x + y * y - l1 * l1 - l2 * l2) / (2 * l1 * l2)
+    if not abs(cosine) <= 1.0:
+        return ()
+    bend = float(np.arccos(cosine))
+    out = []
+    for inner in (bend, -bend):
+        theta2 = inner - beta
+        theta1 = np.arctan2(y, x) - np.arctan2(l2 * np.sin(inner), l1 + l2 * np.cos(inner))
+        out.append((float(_wrapped(theta1)), float(_wrapped(theta2))))
+    return tuple(out)
+
+
+def _wrapped(angle: float) -> float:
+    return float(angle - 2 * np.pi * np.ceil((angle - np.pi) / (2 * np.pi)))

@@ -1,0 +1,231 @@
+"""One tick of any law for a batch of limbs, as one kernel: moment, law, feed-forwards, motor limits. Only here laws are numbers."""
+
+import math
+
+from ..compiled import inlined, kernel
+from .admittance import admittance
+from .hybrid import hybrid
+from .implicit_admittance import implicit_admittance
+from .implicit_force import implicit_force
+from .inverse_motion import invert_motion
+from .jacobian_transpose import jacobian_transpose
+from .joint_pd import joint_pd
+from .kinematics import accelerate
+from .moment import (
+    BIAS,
+    DRIFT,
+    ERROR,
+    REST,
+    SHARE,
+    SPARE,
+    SQUARE,
+    TASK,
+    TIP,
+    TORQUE,
+    WANTED_ACCELERATION,
+    WANTED_FORCE,
+    WANTED_RATE,
+    fill_moment,
+    pull_back,
+)
+from .operational_space import operational_space
+from .resolved_rate import resolved_rate, resolved_rate_plain
+from .scct import scct
+
+JACOBIAN_TRANSPOSE = 1
+OPERATIONAL_SPACE = 2
+RESOLVED_RATE = 3
+RESOLVED_RATE_PLAIN = 4
+ADMITTANCE = 5
+JOINT_PD = 6
+SCCT = 7
+IMPLICIT_ADMITTANCE = 8
+HYBRID = 9
+IMPLICIT_FORCE = 10
+
+FROM_AIM = 0
+"""Friction is fed forward by the speed that the aim asks for."""
+FROM_MEASURED = 1
+"""By the measured speed."""
+FROM_TORQUE = 2
+"""By the direction in which the law pulls."""
+
+
+@inlined
+def _follow(law, joints, root, settings, aim, q, qd, memory, frames, lines, squares, report):
+    if law == SCCT:
+        scct(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report)
+    elif law == JACOBIAN_TRANSPOSE:
+        jacobian_transpose(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report)
+    elif law == OPERATIONAL_SPACE:
+        operational_space(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report)
+    elif law == RESOLVED_RATE:
+        resolved_rate(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report)
+    elif law == RESOLVED_RATE_PLAIN:
+        resolved_rate_plain(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report)
+    elif law == ADMITTANCE:
+        admittance(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report)
+    elif law == JOINT_PD:
+        joint_pd(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report)
+    elif law == IMPLICIT_ADMITTANCE:
+        implicit_admittance(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report)
+    elif law == HYBRID:
+        hybrid(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report)
+    else:
+        implicit_force(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report)
+
+
+@kernel
+def drive(joints, root, settings, aims, states, wrenches, memory, frames, lines, squares, torques, reports):
+    """Torques of a batch of limbs of one chain, one tick.
+
+    Args:
+        joints: Records of `JOINT`, shape (n,): the chain as the laws believe it.
+        root: One record of `ROOT`, shape (1,).
+        settings: Records of `SETTINGS`, shape (1,) for all or (batch,).
+        aims: Records of `AIM`, shape (1,) or (batch,).
+        states: Sensed joint angles [rad] and speeds [rad/s], shape (batch, 2, n).
+        wrenches: Sensed wrench of each limb on what it touches, base frame [N], [N m], shape (batch, 6).
+        memory: What the laws remember, zero at the start, shape (batch, `memory_length`).
+        frames: Scratch, shape (2 n, FRAME).
+        lines, squares: Scratch, see `moment`.
+        torques: Filled with joint torques within the motors' limits, shape (batch, n) [N m].
+        reports: Filled, records of `REPORT`, shape (batch,).
+
+    Returns:
+        Index of the first limb with a measurement that is not finite, -1 where there is none. Its torques are 0, its memory is left alone.
+    """
+    n = joints.size
+    bad = -1
+    for b in range(states.shape[0]):
+        chosen = settings[b if settings.size > 1 else 0]
+        aim = aims[b if aims.size > 1 else 0]
+        q = states[b, 0]
+        qd = states[b, 1]
+        total = 0.0
+        for j in range(n):
+            total += abs(q[j]) + abs(qd[j])
+        for i in range(6):
+            total += abs(wrenches[b, i])
+        report = reports[b]
+        report.saturated = 0
+        if not math.isfinite(total):
+            for j in range(n):
+                torques[b, j] = 0.0
+            if bad < 0:
+                bad = b
+            continue
+        fill_moment(joints, root, chosen, aim, q, qd, wrenches[b], frames, lines, squares)
+        for k in range(3):
+            report.place[k] = lines[TIP, k]
+        for i in range(chosen.n_rows):
+            report.error[i] = lines[ERROR, i]
+        if chosen.feed_bias or chosen.feed_gravity:
+            speeds = qd if chosen.feed_bias else lines[REST]
+            accelerate(
+                joints,
+                root,
+                frames,
+                lines[TIP],
+                speeds,
+                lines[REST],
+                chosen.feed_gravity != 0,
+                lines[DRIFT],
+                lines[BIAS],
+            )
+        else:
+            for j in range(n):
+                lines[BIAS, j] = 0.0
+            for i in range(6):
+                lines[DRIFT, i] = 0.0
+        _follow(chosen.law, joints, root, chosen, aim, q, qd, memory[b], frames, lines, squares, report)
+        _feed_forward(joints, chosen, q, qd, lines, squares, report)
+        report.saturated = _limit(joints, chosen, qd, lines[TORQUE], torques[b])
+    return bad
+
+
+@inlined
+def _feed_forward(joints, settings, q, qd, lines, squares, report):
+    """Add what is known beforehand: bias, a wanted force, inertia, friction; and the posture of a redundant limb."""
+    n = joints.size
+    rows = settings.n_rows
+    task = squares[TASK]
+    torque = lines[TORQUE]
+    held = lines[SPARE + 2]
+    motion = lines[SPARE + 1]
+    for j in range(n):
+        torque[j] += lines[BIAS, j]
+    if settings.feed_force:
+        force = lines[SPARE]
+        for i in range(rows):
+            force[i] = 0.0 if settings.forced[i] else lines[WANTED_FORCE, i]
+        pull_back(task, rows, n, force, torque)
+    if settings.feed_acceleration and settings.law != OPERATIONAL_SPACE:
+        invert_motion(
+            task, rows, n, lines[SHARE], report.lambda2, lines[WANTED_ACCELERATION], squares[SQUARE], held, motion
+        )
+        for j in range(n):
+            torque[j] += joints[j].rotor * motion[j]
+    if settings.feed_friction > 0.0:
+        if settings.friction_from == FROM_AIM:
+            invert_motion(
+                task, rows, n, lines[SHARE], report.lambda2, lines[WANTED_RATE], squares[SQUARE], held, motion
+            )
+        for j in range(n):
+            joint = joints[j]
+            if settings.friction_from == FROM_AIM:
+                speed = motion[j]
+            elif settings.friction_from == FROM_MEASURED:
+                speed = qd[j]
+            else:
+                speed = 0.0
+            if settings.friction_from == FROM_TORQUE:
+                # pulls against stiction fade out within a tenth of it
+                part = math.tanh(torque[j] / (0.1 * joint.friction)) if joint.friction > 0.0 else 0.0
+            else:
+                part = math.tanh(speed / settings.friction_speed)
+            torque[j] += settings.feed_friction * (joint.damping * speed + joint.friction * part)
+    if rows < n:
+        _lean(joints, settings, q, qd, lines, squares, report)
+
+
+@inlined
+def _lean(joints, settings, q, qd, lines, squares, report):
+    """Pull a redundant limb towards its rest posture, by what moves no row of the task."""
+    n = joints.size
+    rows = settings.n_rows
+    task = squares[TASK]
+    pull = lines[SPARE]
+    motion = lines[SPARE + 1]
+    through = lines[SPARE + 3]
+    for j in range(n):
+        pull[j] = settings.posture_kp * (joints[j].rest - q[j]) - settings.posture_kd * qd[j]
+    for i in range(rows):
+        through[i] = 0.0
+        for j in range(n):
+            through[i] += task[i, j] * pull[j]
+    invert_motion(task, rows, n, lines[SHARE], report.lambda2, through, squares[SQUARE], lines[SPARE + 2], motion)
+    for j in range(n):
+        lines[TORQUE, j] += lines[SHARE, j] * (pull[j] - motion[j])
+
+
+@inlined
+def _limit(joints, settings, qd, wanted, out):
+    """Torques within the motors' limits and torque-speed lines; returns how many joints were limited."""
+    n = joints.size
+    count = 0
+    part = 1.0
+    for j in range(n):
+        joint = joints[j]
+        high = min(joint.limit, joint.limit * (1.0 - qd[j] / joint.speed))
+        low = max(-joint.limit, -joint.limit * (1.0 + qd[j] / joint.speed))
+        value = wanted[j]
+        out[j] = min(max(value, low), high)
+        if out[j] != value:
+            count += 1
+            if value != 0.0:
+                part = min(part, max(0.0, out[j] / value))
+    if count and settings.scaled:
+        for j in range(n):
+            out[j] = part * wanted[j]
+    return count

@@ -1,0 +1,51 @@
+r"""Hybrid position and force control (Raibert and Craig 1981; Bevly 1997, 3.5): SCCT along the rows of motion, J^T along the rows of force.
+
+.. math:: \tau = K' J^{-1} S (K_p e + K_d \dot e) + J^T (E - S) (f_{des} + f_I - d\,\dot x)
+
+The task frame is turned so that its rows lie along and across the surface; S keeps the rows of motion. With a sensed force, f_I sums the
+error of force, k_i times its integral, to at most `force_limit`: joint friction stays inside that loop (3.3.3). J^T must not act along a
+direction that is free to move: the damping d bounds how fast the limb approaches a surface that is not there.
+"""
+
+from ..compiled import kernel
+from .inverse_motion import damping_of, invert_motion
+from .moment import (
+    ERROR,
+    FELT,
+    GRAM,
+    RATE,
+    SHARE,
+    SPARE,
+    SQUARE,
+    TASK,
+    TORQUE,
+    WANTED_FORCE,
+    WANTED_RATE,
+    pull_back,
+)
+
+
+@kernel
+def hybrid(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report):
+    """Torques of hybrid control into `lines[TORQUE]`; arguments as in `drive`. Memory: by row the integral of the error of force."""
+    n = joints.size
+    rows = settings.n_rows
+    task = squares[TASK]
+    lambda2 = damping_of(settings, task, rows, n, squares[GRAM], report)
+    pull = lines[SPARE]
+    force = lines[SPARE + 3]
+    for i in range(rows):
+        if settings.forced[i]:
+            pull[i] = 0.0
+            memory[i] += settings.force_gain * settings.period * (lines[WANTED_FORCE, i] - lines[FELT, i])
+            memory[i] = min(max(memory[i], -settings.force_limit), settings.force_limit)
+            force[i] = lines[WANTED_FORCE, i] + memory[i] - settings.force_damping * lines[RATE, i]
+        else:
+            force[i] = 0.0
+            wanted = lines[WANTED_RATE, i] if settings.feed_velocity else 0.0
+            pull[i] = settings.kp[i] * lines[ERROR, i] + settings.kd[i] * (wanted - lines[RATE, i])
+    motion = lines[SPARE + 1]
+    invert_motion(task, rows, n, lines[SHARE], lambda2, pull, squares[SQUARE], lines[SPARE + 2], motion)
+    for j in range(n):
+        lines[TORQUE, j] = lines[SHARE, j] * motion[j]
+    pull_back(task, rows, n, force, lines[TORQUE])

@@ -1,0 +1,78 @@
+r"""Joint PD control: the tip's aim becomes joint angles by inverse kinematics, and each joint is held there by itself.
+
+.. math:: \tau = W (k_p (\theta_{des} - \theta) + k_d (\dot\theta_{des} - \dot\theta))
+
+W = E or K'. The inverse kinematics go on from the angles of the last tick by damped Gauss-Newton steps, so the limb keeps its branch and
+serves any chain; an aim out of reach is approached as far as the steps get. Stiffness cannot be chosen by direction.
+"""
+
+from ..compiled import kernel
+from .inverse_motion import damping_of, invert_motion
+from .kinematics import fill_jacobian, place_chain
+from .moment import GRAM, JACOBIAN, OTHER, SHARE, SPARE, SQUARE, TASK, TORQUE, WANTED_RATE, fill_error, fill_task
+
+STEPS = 6
+"""Gauss-Newton steps a tick, at most."""
+LONGEST = 0.5
+"""Longest step of a joint [rad]."""
+NEAR = 1e-9
+"""An error below this needs no further step [m]."""
+LEAST = 1e-12
+"""Damping of a step, smallest [m^2]."""
+CARE = 1e-2
+"""Damping of a step per error [m]."""
+
+
+@kernel
+def joint_pd(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report):
+    """Torques of joint PD control into `lines[TORQUE]`; arguments as in `drive`.
+
+    Memory: started, then the joint angles of the aim. Uses the second half of `frames`.
+    """
+    n = joints.size
+    rows = settings.n_rows
+    task = squares[TASK]
+    lambda2 = damping_of(settings, task, rows, n, squares[GRAM], report)
+    angles = memory[1 : 1 + n]
+    if memory[0] == 0.0:
+        memory[0] = 1.0
+        for j in range(n):
+            angles[j] = q[j]
+    _approach(joints, root, settings, aim, angles, frames[n:], lines, squares)
+    motion = lines[SPARE + 1]
+    invert_motion(task, rows, n, lines[SHARE], lambda2, lines[WANTED_RATE], squares[SQUARE], lines[SPARE + 2], motion)
+    for j in range(n):
+        speed = motion[j] if settings.feed_velocity else 0.0
+        pull = settings.joint_kp * (angles[j] - q[j]) + settings.joint_kd * (speed - qd[j])
+        lines[TORQUE, j] = lines[SHARE, j] * pull
+
+
+@kernel
+def _approach(joints, root, settings, aim, angles, frames, lines, squares):
+    """Gauss-Newton steps of `angles` towards the aim."""
+    n = joints.size
+    rows = settings.n_rows
+    task = squares[OTHER]
+    error = lines[SPARE]
+    motion = lines[SPARE + 1]
+    tip = lines[SPARE + 4]
+    for _ in range(STEPS):
+        place_chain(joints, root, angles, frames, tip)
+        fill_jacobian(joints, frames, tip, squares[JACOBIAN])
+        fill_task(settings, squares[JACOBIAN], n, task)
+        fill_error(settings, aim, tip, lines[SPARE + 3], error)
+        largest = 0.0
+        for i in range(rows):
+            largest = max(largest, abs(error[i]))
+        if not largest > NEAR:
+            break
+        # damped in proportion to the error (Chan and Lawrence): far or out of reach it is careful, near it is Newton's
+        invert_motion(
+            task, rows, n, lines[SHARE], LEAST + CARE * largest, error, squares[SQUARE], lines[SPARE + 2], motion
+        )
+        longest = 0.0
+        for j in range(n):
+            longest = max(longest, abs(motion[j]))
+        scale = LONGEST / longest if longest > LONGEST else 1.0
+        for j in range(n):
+            angles[j] += scale * motion[j]

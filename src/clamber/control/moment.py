@@ -1,0 +1,162 @@
+"""What a law knows at one tick, in scratch arrays that the loop fills: the task Jacobian, errors and rates by row, and room to work.
+
+`lines` holds vectors, one name a row; `squares` holds matrices. A law reads the filled ones, may use the scratch ones, and leaves its
+torques in `lines[TORQUE]`.
+"""
+
+import math
+
+from ..compiled import inlined, kernel
+from .kinematics import fill_jacobian, place_chain
+from .records import AXES
+
+ERROR = 0
+"""By row: wanted less actual place, task frame [m], [rad]."""
+RATE = 1
+"""By row: actual speed T qd."""
+WANTED_RATE = 2
+WANTED_ACCELERATION = 3
+WANTED_FORCE = 4
+"""By row: wrench of the limb on what it touches."""
+FELT = 5
+"""By row: that wrench as sensed."""
+TORQUE = 6
+SHARE = 7
+"""By joint: K', or ones."""
+TIP = 8
+"""Place and turn, twelve numbers."""
+DRIFT = 9
+"""Tip acceleration at resting joint accelerations, Jdot qd, base frame."""
+BIAS = 10
+"""By joint: bias torques h, and gravity if it is fed forward."""
+REST = 11
+"""By joint: zeros."""
+ACTUAL = 12
+"""By row: place of the tip, task frame [m]; 0 in rows of rotation."""
+SPARE = 13
+"""First of the scratch lines."""
+LINES = 20
+
+JACOBIAN = 0
+TASK = 1
+INERTIA = 2
+SQUARE = 3
+GRAM = 4
+OTHER = 5
+SQUARES = 6
+
+
+@inlined
+def into_task(settings, twist, out):
+    """Rows of the task from a twist or wrench in the base frame."""
+    for i in range(settings.n_rows):
+        row = settings.rows[i]
+        start = 0 if row < 3 else 3
+        column = row - start
+        total = 0.0
+        for k in range(3):
+            total += settings.frame[k, column] * twist[start + k]
+        out[i] = total
+
+
+@kernel
+def turn_error(wanted, tip, out):
+    """Rotation vector from the tip's turn to the wanted one, base frame [rad], into out[3:6]."""
+    e = 0.0
+    x = 0.0
+    y = 0.0
+    z = 0.0
+    # R_wanted R_tip^T: its trace and its skew part
+    for k in range(3):
+        e += wanted[0, k] * tip[3 + k] + wanted[1, k] * tip[6 + k] + wanted[2, k] * tip[9 + k]
+        x += wanted[2, k] * tip[6 + k] - wanted[1, k] * tip[9 + k]
+        y += wanted[0, k] * tip[9 + k] - wanted[2, k] * tip[3 + k]
+        z += wanted[1, k] * tip[3 + k] - wanted[0, k] * tip[6 + k]
+    sine = 0.5 * math.sqrt(x * x + y * y + z * z)
+    angle = math.atan2(sine, 0.5 * (e - 1.0))
+    scale = 0.5 * angle / sine if sine > 1e-12 else 0.5
+    out[3] = scale * x
+    out[4] = scale * y
+    out[5] = scale * z
+
+
+@inlined
+def fill_error(settings, aim, tip, difference, out):
+    """By row: wanted less actual place of the tip."""
+    for k in range(3):
+        difference[k] = aim.place[k] - tip[k]
+        difference[3 + k] = 0.0
+    for i in range(settings.n_rows):
+        if settings.rows[i] >= 3:
+            turn_error(aim.turn, tip, difference)
+            break
+    into_task(settings, difference, out)
+
+
+@inlined
+def fill_task(settings, jacobian, n, task):
+    """Task Jacobian T: the rows that the task controls, in its own frame."""
+    for i in range(settings.n_rows):
+        row = settings.rows[i]
+        start = 0 if row < 3 else 3
+        column = row - start
+        for j in range(n):
+            task[i, j] = (
+                settings.frame[0, column] * jacobian[start, j]
+                + settings.frame[1, column] * jacobian[start + 1, j]
+                + settings.frame[2, column] * jacobian[start + 2, j]
+            )
+
+
+@kernel
+def fill_moment(joints, root, settings, aim, q, qd, felt, frames, lines, squares):
+    """Fill what every law reads.
+
+    Args:
+        joints: Records of `JOINT`, shape (n,).
+        root: One record of `ROOT`, shape (1,).
+        settings: A record of `SETTINGS`.
+        aim: A record of `AIM`.
+        q, qd: Joint angles and speeds, shape (n,).
+        felt: Sensed wrench of the limb on what it touches, base frame, shape (6,).
+        frames: Scratch, shape (at least n, FRAME).
+        lines, squares: Filled, see above.
+    """
+    n = joints.size
+    tip = lines[TIP]
+    place_chain(joints, root, q, frames, tip)
+    fill_jacobian(joints, frames, tip, squares[JACOBIAN])
+    task = squares[TASK]
+    fill_task(settings, squares[JACOBIAN], n, task)
+    difference = lines[SPARE]
+    fill_error(settings, aim, tip, difference, lines[ERROR])
+    for k in range(3):
+        difference[k] = tip[k]
+        difference[3 + k] = 0.0
+    into_task(settings, difference, lines[ACTUAL])
+    into_task(settings, aim.twist, lines[WANTED_RATE])
+    into_task(settings, aim.acceleration, lines[WANTED_ACCELERATION])
+    into_task(settings, aim.wrench, lines[WANTED_FORCE])
+    into_task(settings, felt, lines[FELT])
+    for i in range(settings.n_rows):
+        total = 0.0
+        for j in range(n):
+            total += task[i, j] * qd[j]
+        lines[RATE, i] = total
+    for j in range(n):
+        lines[SHARE, j] = joints[j].share if settings.weighted else 1.0
+
+
+@inlined
+def pull_back(task, n_rows, n, force, out):
+    """Out += T^T force: joint torques of a force on the task's rows."""
+    for j in range(n):
+        total = 0.0
+        for i in range(n_rows):
+            total += task[i, j] * force[i]
+        out[j] += total
+
+
+def line_length(n: int) -> int:
+    """Length of a line of scratch for a chain of `n` joints: the tip's twelve numbers, or the joints."""
+    return max(n, 12, AXES)

@@ -1,0 +1,85 @@
+r"""Operational space control, or resolved acceleration (Khatib 1985; Luh 1980; Bevly 1997, Eq. 3.13).
+
+.. math:: \tau = H J^{-1} (K_p e + K_d \dot e - \dot J \dot\theta) + h + g
+
+H, h and g are those of the model, in full; the loop adds h and g (`feed_bias`, `feed_gravity`). Its gains are accelerations per metre
+[1/s^2]. It is as good as the model is: friction that the model leaves out is an error of the model.
+"""
+
+from ..compiled import kernel
+from .inverse_motion import damping_of
+from .kinematics import fill_inertia
+from .matrices import back_substitute, factor, solve_square
+from .moment import (
+    DRIFT,
+    ERROR,
+    GRAM,
+    INERTIA,
+    OTHER,
+    RATE,
+    SPARE,
+    SQUARE,
+    TASK,
+    TORQUE,
+    WANTED_ACCELERATION,
+    WANTED_RATE,
+    into_task,
+)
+
+
+@kernel
+def operational_space(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report):
+    """Torques of operational space control, without h and g, into `lines[TORQUE]`; arguments as in `drive`."""
+    n = joints.size
+    rows = settings.n_rows
+    task = squares[TASK]
+    lambda2 = damping_of(settings, task, rows, n, squares[GRAM], report)
+    drift = lines[SPARE + 1]
+    into_task(settings, lines[DRIFT], drift)
+    wanted = lines[SPARE]
+    for i in range(rows):
+        rate = lines[WANTED_RATE, i] if settings.feed_velocity else 0.0
+        wanted[i] = settings.kp[i] * lines[ERROR, i] + settings.kd[i] * (rate - lines[RATE, i]) - drift[i]
+        if settings.feed_acceleration:
+            wanted[i] += lines[WANTED_ACCELERATION, i]
+    inertia = squares[INERTIA]
+    fill_inertia(joints, frames, inertia)
+    torque = lines[TORQUE]
+    square = squares[SQUARE]
+    if rows == n and lambda2 == 0.0:
+        for i in range(n):
+            for j in range(n):
+                square[i, j] = task[i, j]
+        solve_square(square, n, wanted)
+        for i in range(n):
+            torque[i] = 0.0
+            for j in range(n):
+                torque[i] += inertia[i, j] * wanted[j]
+        return
+    # T^T (T M^-1 T^T + lambda^2)^-1 a, the damping in units of the largest inertia
+    largest = 0.0
+    for i in range(n):
+        largest = max(largest, inertia[i, i])
+    factor(inertia, n)
+    through = squares[OTHER]
+    held = lines[SPARE + 2]
+    for i in range(rows):
+        for j in range(n):
+            held[j] = task[i, j]
+        back_substitute(inertia, n, held)
+        for j in range(n):
+            through[i, j] = held[j]
+    for i in range(rows):
+        for k in range(i + 1):
+            total = lambda2 / largest if i == k else 0.0
+            for j in range(n):
+                total += task[k, j] * through[i, j]
+            square[i, k] = total
+    found = factor(square, rows)
+    if found:
+        back_substitute(square, rows, wanted)
+    for j in range(n):
+        torque[j] = 0.0
+        if found:
+            for i in range(rows):
+                torque[j] += task[i, j] * wanted[i]

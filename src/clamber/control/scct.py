@@ -1,0 +1,28 @@
+r"""SCCT, the simplified Cartesian computed torque of Bevly (1997), Eq. 3.16.
+
+.. math:: \tau = K' J^{-1} (K_p e + K_d \dot e) + J^T F_{ext}
+
+K' = diag(share): each joint's inertia (or damping, or back-EMF: section 3.3.2) over the largest. Stops holding where the links' own
+inertia is not small beside that of the geared motors.
+"""
+
+from ..compiled import kernel
+from .inverse_motion import damping_of, invert_motion
+from .moment import ERROR, GRAM, RATE, SHARE, SPARE, SQUARE, TASK, TORQUE, WANTED_RATE
+
+
+@kernel
+def scct(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report):
+    """Torques of SCCT into `lines[TORQUE]`; arguments as in `drive`."""
+    n = joints.size
+    rows = settings.n_rows
+    task = squares[TASK]
+    lambda2 = damping_of(settings, task, rows, n, squares[GRAM], report)
+    pull = lines[SPARE]
+    for i in range(rows):
+        wanted = lines[WANTED_RATE, i] if settings.feed_velocity else 0.0
+        pull[i] = settings.kp[i] * lines[ERROR, i] + settings.kd[i] * (wanted - lines[RATE, i])
+    motion = lines[SPARE + 1]
+    invert_motion(task, rows, n, lines[SHARE], lambda2, pull, squares[SQUARE], lines[SPARE + 2], motion)
+    for j in range(n):
+        lines[TORQUE, j] = lines[SHARE, j] * motion[j]

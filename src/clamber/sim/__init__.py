@@ -1,0 +1,1 @@
+"""Plants: robots and limbs in simulation. The only folder that imports MuJoCo."""
