@@ -34,7 +34,8 @@ def tip_stiffness(chain: Chain, settings: LawSettings, q: Floats) -> Floats:
         states[0, 0] = q
         controller.command(aim, states)
         states[0, 0] = angles
-        return controller.command(aim, states)[0].copy()
+        out: Floats = controller.command(aim, states)[0].copy()
+        return out
 
     joint = np.empty((chain.n, chain.n))
     for j, nudge in enumerate(NUDGE * np.eye(chain.n)):
