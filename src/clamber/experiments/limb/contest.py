@@ -8,7 +8,7 @@ from ...control.law_settings import LawSettings
 from ...execution.closed_loop import close_loop
 from ...execution.trace import LimbTrace
 from ...sim.limb_flaws import LimbFlaws
-from ...sim.mujoco_limb import MujocoLimb
+from ...sim.plants import plant_maker
 from .bench_limb import BenchLimb
 from .scenario import Scenario
 
@@ -29,17 +29,21 @@ class Run:
     trace: LimbTrace
 
 
-def run_contest(limb: BenchLimb, scenario: Scenario, entries: Sequence[Entry], flaws: LimbFlaws) -> list[Run]:
-    """Run every entry alone, from rest at the limb's start.
+def run_contest(
+    limb: BenchLimb, scenario: Scenario, entries: Sequence[Entry], flaws: LimbFlaws, plant: str = "mujoco"
+) -> list[Run]:
+    """Run every entry alone, from rest at the limb's start, on the plant of that name.
 
     Raises:
+        UnknownNameError: If there is no such plant.
+        PlantError: If the plant does not have one of the flaws.
         LawError: If settings do not fit the limb.
         MeasurementError: If the simulation leaves the finite numbers.
     """
-    plant = MujocoLimb(limb.chain, scenario.on(flaws), gears=limb.gears)
+    stage = plant_maker(plant)(limb.chain, scenario.on(flaws), gears=limb.gears)
     out = []
     for entry in entries:
         controller = Controller(limb.chain, entry.settings, period=flaws.period)
-        plant.reset(limb.q0)
-        out.append(Run(entry, close_loop(plant, controller, scenario.aims)))
+        stage.reset(limb.q0)
+        out.append(Run(entry, close_loop(stage, controller, scenario.aims)))
     return out
