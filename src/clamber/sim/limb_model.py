@@ -36,6 +36,7 @@ def limb_spec(chain: Chain, flaws: LimbFlaws) -> Any:
         raise PlantError("upright", True, "needs a chain under gravity, made with upright=True")
     carried = chain.with_payload(flaws.payload)
     spec = mujoco.MjSpec()
+    spec.compiler.degree = False  # else MuJoCo reads our ranges, the play's too, as degrees
     spec.option.timestep = 1.0 / flaws.physics_rate
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
