@@ -12,6 +12,7 @@ from ..types import Floats
 from .limb_electronics import LimbElectronics
 from .limb_flaws import LimbFlaws
 from .limb_model import limb_spec
+from .output_side import look_behind_gears
 from .tip_push import push_tips
 
 
@@ -53,16 +54,16 @@ class MujocoLimb:
             pushed = self._pool.bind("xfrc_applied")
         stride = 2 if flaws.backlash > 0.0 else 1
         self._motors = slice(0, stride * n, stride)
-        self._play = slice(1, stride * n, stride) if stride == 2 else None
+        self._stride = stride
         self._angles, self._speeds = self._qpos[:, self._motors], self._qvel[:, self._motors]
         self._electronics = LimbElectronics(chain, flaws, gears, batch)
-        self._wanted = np.zeros((batch, n))
         self._sensed = Sensed(self._electronics.states, np.zeros((batch, AXES)))
         self._truth = Truth(np.zeros((batch, 2, n)), np.zeros((batch, n)), np.zeros((batch, AXES)))
         # The centre of mass is that of what really moves, payload included
         carried = chain.with_payload(flaws.payload).joints
         last = self.model.body(chain.joint_names[-1]).id
-        self._push_arrays = (np.zeros((n, FRAME)), np.zeros(12), pushed[:, last], self._truth.wrenches)
+        self._pushed_rows = pushed[:, last]
+        self._push_arrays = (np.zeros((n, FRAME)), np.zeros(12), self._pushed_rows, self._truth.wrenches)
         self._push_chain = (carried, chain.root, self._truth.states)
         self.tick = 0
 
@@ -76,7 +77,6 @@ class MujocoLimb:
             self._pool.reset()
         self._qpos[:, self._motors] = q
         self._qvel[:] = 0.0
-        self._wanted[:] = 0.0
         self._truth.torques[:] = 0.0
         self._truth.wrenches[:] = 0.0
         self._electronics.reset()
@@ -90,7 +90,7 @@ class MujocoLimb:
 
     def actuate(self, torques: Floats) -> None:
         """See `Plant`."""
-        self._wanted[:] = torques
+        self._electronics.ask(torques)
 
     def step(self) -> None:
         """See `Plant`. Where a motor's torque depends on its speed, it follows that at every physics step."""
@@ -98,8 +98,7 @@ class MujocoLimb:
             push_tips(*self._push_chain, *self.flaws.push.at((self.tick + 0.5) * self.period), *self._push_arrays)
         left = self.flaws.steps
         while left:
-            steady = self._electronics.limit(self._wanted, self._speeds, left * self._step_time, self._truth.torques)
-            self._ctrl[:] = self._truth.torques
+            steady = self._electronics.limit(self._speeds, left * self._step_time, self._truth.torques, self._ctrl)
             steps = left if steady else 1
             self._advance(steps)
             left -= steps
@@ -117,9 +116,4 @@ class MujocoLimb:
             self._pool.step(nstep=steps)
 
     def _look(self) -> None:
-        states = self._truth.states
-        states[:, 0] = self._angles
-        states[:, 1] = self._speeds
-        if self._play is not None:
-            states[:, 0] += self._qpos[:, self._play]
-            states[:, 1] += self._qvel[:, self._play]
+        look_behind_gears(self._qpos, self._qvel, self._stride, self._truth.states)

@@ -39,7 +39,6 @@ class OdeLimb:
         self._joints["damping"] *= flaws.damping
         self._joints["friction"] *= flaws.friction
         self._electronics = LimbElectronics(chain, flaws, gears, batch)
-        self._wanted = np.zeros((batch, n))
         self._force = np.zeros(2)
         self._scratch = (np.zeros((n, FRAME)), np.zeros((AXES, n)), np.zeros((3, max(n, 12))))
         self._sensed = Sensed(self._electronics.states, np.zeros((batch, AXES)))
@@ -52,7 +51,6 @@ class OdeLimb:
         self._truth.states[:, 1] = 0.0
         self._truth.torques[:] = 0.0
         self._truth.wrenches[:] = 0.0
-        self._wanted[:] = 0.0
         self._electronics.reset()
         self.tick = 0
 
@@ -64,7 +62,7 @@ class OdeLimb:
 
     def actuate(self, torques: Floats) -> None:
         """See `Plant`."""
-        self._wanted[:] = torques
+        self._electronics.ask(torques)
 
     def step(self) -> None:
         """See `Plant`. The motors' limits follow the speed at every physics step."""
@@ -74,7 +72,7 @@ class OdeLimb:
         step_limbs(
             self._joints,
             self.chain.root,
-            self._wanted,
+            self._electronics.wanted,
             self._electronics.limits,
             self._electronics.no_load,
             self._force,
