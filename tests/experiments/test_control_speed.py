@@ -78,8 +78,11 @@ def test_a_loop_has_its_ratio_and_its_steps() -> None:
     assert all(row.value > 0.0 for row in rows)
 
 
-def test_times_are_medians_of_works_that_take_turns() -> None:
+def test_works_take_turns_in_rounds_after_a_first_that_is_not_timed() -> None:
     said: list[str] = []
-    times = control_speed.median_times([lambda: said.append("a"), lambda: said.append("b")], 3)
-    assert said == ["a", "b"] * 4, "the first round is not timed"
-    assert times.shape == (2,) and np.all(times >= 0.0)
+    ticks = iter(range(100))
+    times = control_speed.round_times(
+        [lambda: said.append("a"), lambda: said.append("b")], 3, clock=lambda: float(next(ticks))
+    )
+    assert said == ["a", "b"] * 4
+    assert times.tolist() == [[1.0, 1.0]] * 3

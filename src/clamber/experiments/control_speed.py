@@ -4,7 +4,8 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, Final
+from statistics import median
+from typing import Any, Final, TypeAlias
 
 import numpy as np
 
@@ -21,8 +22,9 @@ from .limb.bench_limb import BenchLimb, bench_limb
 from .limb.scenario import step_scenario
 from .rows import NOTHING, Row, Say, keep_quiet
 
+Clock: TypeAlias = Callable[[], float]
 ROUNDS: Final = 15
-"""How often each piece of work is timed; the pieces take turns, and the median counts."""
+"""How often each piece of work is timed; the median counts, of a ratio that of the ratios of each round."""
 STATES: Final = 64
 """Poses and speeds that a controller is timed on, one after the other."""
 TICKS: Final = 2000
@@ -48,18 +50,20 @@ def laws_timed() -> dict[str, LawSettings]:
     return {**{law: law_named(law) for law in LAWS}, "scct with every feed-forward": whole}
 
 
-def median_times(works: Sequence[Callable[[], Any]], rounds: int) -> Floats:
-    """Median wall time of each piece of work [s]; they take turns, so that a busy machine hits all of them alike."""
+def round_times(works: Sequence[Callable[[], Any]], rounds: int, clock: Clock = time.thread_time) -> Floats:
+    """Time of each piece of work in each round [s], shape (rounds, works); they take turns, so that a busy machine hits all alike.
+
+    The clock is this thread's share of a core, which does not run while others have the core; work on many threads needs another.
+    """
     times = np.empty((rounds, len(works)))
     for work in works:
         work()
     for row in times:
         for i, work in enumerate(works):
-            start = time.perf_counter()
+            start = clock()
             work()
-            row[i] = time.perf_counter() - start
-    medians: Floats = np.median(times, axis=0)
-    return medians
+            row[i] = clock() - start
+    return times
 
 
 def random_states(limb: BenchLimb, shape: tuple[int, ...]) -> Floats:
@@ -92,7 +96,7 @@ def tick_rows(*, rounds: int = ROUNDS, ticks: int = TICKS, batch: int = BATCH, s
             partial(_tick_often, Controller(limb.chain, law, period=0.005, batch=size), aims, states, felt, count)
             for law in laws.values()
         ]
-        times = median_times(works, rounds) / (count * size)
+        times = np.median(round_times(works, rounds), axis=0) / (count * size)
         rows += [Row(f"tick of {name}, {label}", 1e6 * t, "us", aim) for name, t in zip(laws, times, strict=True)]
     return rows
 
@@ -115,11 +119,12 @@ def peer_rows(*, rounds: int = ROUNDS, ticks: int = PEER_TICKS, say: Say = keep_
         controller = Controller(limb.chain, law_named("resolved-rate"), period=0.005)
         ours = partial(_tick_often, controller, still_aim(place), states, np.zeros((1, 6)), 20 * ticks)
         whole, alone = (partial(_solve_often, tick, states, place, ticks) for tick in make(limb.chain))
-        own, with_update, solve = median_times((ours, whole, alone), rounds) / (20 * ticks, ticks, ticks)
+        own, with_update, solve = round_times((ours, whole, alone), rounds).T / ticks
+        own /= 20
         rows += [
-            Row(f"{name}: update and solve_ik, no limits, daqp", 1e6 * with_update, "us"),
-            Row(f"{name}: the same over our tick of resolved-rate", with_update / own, "ratio"),
-            Row(f"{name}: solve_ik alone over our tick", solve / own, "ratio"),
+            Row(f"{name}: update and solve_ik, no limits, daqp", 1e6 * median(with_update), "us"),
+            Row(f"{name}: the same over our tick of resolved-rate", median(with_update / own), "ratio"),
+            Row(f"{name}: solve_ik alone over our tick", median(solve / own), "ratio"),
         ]
     return rows
 
@@ -171,10 +176,11 @@ def loop_rows(
             return close_loop(plant, controller, aims)
 
         raw = RawSteps(plant.model, flaws.steps, closed().applied, limb.q0)
-        whole, bare = median_times((closed, raw.run), rounds)
+        clock = time.thread_time if loop.batch == 1 else time.perf_counter
+        whole, bare = round_times((closed, raw.run), rounds, clock).T
         steps = len(aims) * flaws.steps * loop.batch
-        rows.append(Row(f"loop over raw mj_step: {loop.label}", whole / bare, "ratio", "<= 1.5"))
-        rows.append(Row(f"raw mj_step, a step: {loop.label}", 1e6 * bare / steps, "us"))
+        rows.append(Row(f"loop over raw mj_step: {loop.label}", median(whole / bare), "ratio", "<= 1.5"))
+        rows.append(Row(f"raw mj_step, a step: {loop.label}", 1e6 * median(bare) / steps, "us"))
     return [*rows, ode_row(rounds=rounds, seconds=seconds)]
 
 
@@ -188,8 +194,8 @@ def ode_row(*, rounds: int = ROUNDS, seconds: float = SECONDS) -> Row:
         plant.reset(limb.q0)
         close_loop(plant, controller, aims)
 
-    (whole,) = median_times((closed,), rounds)
-    return Row("loop on the ODE plant, 2 kHz, per tick", 1e6 * whole / len(aims), "us")
+    per_tick = median(round_times((closed,), rounds)[:, 0]) / len(aims)
+    return Row("loop on the ODE plant, 2 kHz, per tick", 1e6 * per_tick, "us")
 
 
 def control_rows(*, say: Say = keep_quiet) -> list[Row]:
