@@ -111,7 +111,7 @@ def _print_table(console: Console, result: LimbResult, keys: Sequence[str]) -> N
     for row in result.rows:
         if row.unstable == result.trials:
             when = min(each.unstable_at for each in row.measures if each.unstable_at is not None)
-            table.add_row(row.entry.label, f"unstable at {when:.2f} s")
+            table.add_row(row.entry.label, "unstable", f"from {when:.1f} s")
             continue
         told = row.entry.label + (f" ({row.unstable} of {result.trials} unstable)" if row.unstable else "")
         table.add_row(told, *_cells(row, columns, "true", _mean))
