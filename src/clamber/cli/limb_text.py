@@ -83,6 +83,8 @@ def print_limb_result(console: Console, result: LimbResult, *, everything: bool,
     _print_lines(console, result)
     for label in result.mismatches():
         console.print(f"{label}: one gain for all directions, so '{result.match}' does not hold for it")
+    for name, excess in result.beyond_limits().items():
+        console.print(f"the {name} turned {math.degrees(excess):.1f} deg beyond its limit; the plant has no stops")
     if output is not None:
         console.print(f"written to {output}", soft_wrap=True)
 

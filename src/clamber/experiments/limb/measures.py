@@ -20,7 +20,9 @@ CYCLE_FROM: Final = 5.0
 BEYOND: Final = math.radians(20.0)
 """A joint this far beyond its limits has run away: a real one would have hit its stop [rad]."""
 WINDOWS: Final = 8
-"""Parts of a run in which its swing is looked at; each should hold a swing."""
+"""Parts of a run in which its swing is looked at, at most."""
+SWING: Final = 0.5
+"""Shortest such part [s]: it has to hold a swing of the limb."""
 NEVER: Final = math.inf
 """In place of a time that never came."""
 
@@ -227,11 +229,12 @@ def instability(trace: LimbTrace, scenario: Scenario, index: int = 0) -> float |
     size = scenario_size(trace, scenario)
     if scenario.push is not None:
         size = max(size, float(distance[trace.time <= scenario.push.end].max()))
-    windows = [np.ptp(part, axis=0).max() > size for part in np.array_split(error, WINDOWS)]
-    if not all(windows[-WINDOWS // 4 :]):
+    count = min(WINDOWS, max(2, int(len(trace.time) * trace.time[1] / SWING)))
+    wild = [np.ptp(part, axis=0).max() > size for part in np.array_split(error, count)]
+    if not all(wild[-max(1, count // 4) :]):
         return None
-    calm = max((k for k in range(WINDOWS) if not windows[k]), default=-1)
-    return float(trace.time[round((calm + 1) * len(trace.time) / WINDOWS)])
+    calm = max((k for k in range(count) if not wild[k]), default=-1)
+    return float(trace.time[round((calm + 1) * len(trace.time) / count)])
 
 
 def _work(trace: LimbTrace, index: int) -> float:

@@ -6,7 +6,6 @@ from typing import Final, Literal
 
 import numpy as np
 
-from ...control.chain import closed_branches
 from ...control.controller import still_aim
 from ...errors import ClamberError
 from ...sim.limb_flaws import LimbFlaws, Push, Wall
@@ -64,15 +63,11 @@ def _ticks(kind: str, seconds: float, rate: float) -> int:
 
 
 def _within_reach(kind: str, limb: BenchLimb, x: float, y: float) -> None:
+    """By length alone: the thesis's own circle about (0.22, 0) asks for 5.6 deg more of the elbow than its printed limit."""
     least, most = abs(limb.spec.l1 - limb.spec.l2_effective), limb.spec.length
     target = f"({x:.6g}, {y:.6g}) m"
     if not least <= math.hypot(x, y) <= most:
         raise ScenarioError(kind, "target", target, f"must be {least:.3g} to {most:.3g} m from the limb's port")
-    joints = limb.chain.joints
-    for q in closed_branches(limb.spec, x, y):
-        if (q >= joints["lower"]).all() and (q <= joints["upper"]).all():
-            return
-    raise ScenarioError(kind, "target", target, "needs joint angles beyond the joints' limits")
 
 
 def step_scenario(
