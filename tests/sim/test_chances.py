@@ -10,6 +10,7 @@ from clamber.experiments.limb.contest import MISBELIEVED, believed_chain
 from clamber.sim.chances import Chances
 from clamber.sim.limb_flaws import LimbFlaws, PlantError
 from clamber.sim.mujoco_limb import MujocoLimb
+from clamber.sim.plants import PLANTS, plant_maker
 
 LIMB = bench_limb()
 COUNTS = np.array((100.0, 0.0))
@@ -30,24 +31,22 @@ def test_joints_start_at_an_end_of_their_play_and_encoders_within_a_count() -> N
 
 
 def test_noise_has_the_deviation_that_was_asked_for_and_starts_again() -> None:
-    chances = Chances(LimbFlaws(seed=5, speed_noise=0.1, wrench_noise=2.0), 1, 2, COUNTS)
+    chances = Chances(LimbFlaws(seed=5, speed_noise=0.1), 1, 2, COUNTS)
 
-    def draw(ticks: int) -> tuple[list[np.ndarray], list[np.ndarray]]:
-        speeds, forces = [], []
+    def draw(ticks: int) -> list[np.ndarray]:
+        speeds = []
         for _ in range(ticks):
-            states, wrenches = np.zeros((1, 2, 2)), np.zeros((1, 6))
-            chances.disturb(states, wrenches)
-            assert not states[:, 0].any() and not wrenches[:, 3:].any()
+            states = np.zeros((1, 2, 2))
+            chances.disturb(states)
+            assert not states[:, 0].any()
             speeds.append(states[0, 1].copy())
-            forces.append(wrenches[0, :3].copy())
-        return speeds, forces
+        return speeds
 
     chances.restart()
     first = draw(4000)
-    assert np.std(first[0]) == pytest.approx(0.1, rel=0.05)
-    assert np.std(first[1]) == pytest.approx(2.0, rel=0.05)
+    assert np.std(first) == pytest.approx(0.1, rel=0.05)
     chances.restart()
-    np.testing.assert_array_equal(draw(4000)[0], first[0])
+    np.testing.assert_array_equal(draw(4000), first)
 
 
 def test_a_plant_without_a_seed_starts_in_the_middle_of_its_play_and_a_seeded_one_at_an_end() -> None:
@@ -61,10 +60,11 @@ def test_a_plant_without_a_seed_starts_in_the_middle_of_its_play_and_a_seeded_on
             plant.step()
 
 
-def test_a_seeded_encoder_is_off_by_less_than_a_count() -> None:
+@pytest.mark.parametrize("name", PLANTS)
+def test_a_seeded_encoder_is_off_by_less_than_a_count(name: str) -> None:
     turns = []
     for seed in range(8):
-        plant = MujocoLimb(LIMB.chain, LimbFlaws(encoder_counts=400, seed=seed), gears=LIMB.gears)
+        plant = plant_maker(name)(LIMB.chain, LimbFlaws(encoder_counts=400, seed=seed), gears=LIMB.gears)
         plant.reset(LIMB.q0)
         count = 2 * math.pi / (400 * LIMB.gears)
         error = (plant.sense().states[0, 0] - LIMB.q0) / count

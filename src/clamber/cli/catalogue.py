@@ -28,7 +28,7 @@ def _controllers() -> list[tuple[str, str]]:
 
 
 def _plants() -> list[tuple[str, str]]:
-    from ..sim.limb_plants import PLANTS
+    from ..sim.plants import PLANTS
 
     return [(name, _first_line(plant)) for name, plant in PLANTS.items()]
 

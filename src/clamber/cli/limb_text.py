@@ -83,8 +83,9 @@ def print_limb_result(console: Console, result: LimbResult, *, everything: bool,
     _print_lines(console, result)
     for label in result.mismatches():
         console.print(f"{label}: one gain for all directions, so '{result.match}' does not hold for it")
+    stops = "has" if result.flaws.joint_limits else "has no"
     for name, excess in result.beyond_limits().items():
-        console.print(f"the {name} turned {math.degrees(excess):.1f} deg beyond its limit; the plant has no stops")
+        console.print(f"the {name} turned {math.degrees(excess):.1f} deg beyond its limit; the plant {stops} stops")
     if output is not None:
         console.print(f"written to {output}", soft_wrap=True)
 

@@ -35,9 +35,7 @@ class Chances:
         np.divide(parts, self._counts, out=self.phase, where=np.broadcast_to(self._counts > 0.0, self._shape))
         self._noise = np.random.default_rng(noise)
 
-    def disturb(self, states: Floats, wrenches: Floats) -> None:
-        """Add the noise of one tick to what was sensed, shapes (batch, 2, n) and (batch, 6)."""
+    def disturb(self, states: Floats) -> None:
+        """Add the noise of one tick to what the encoders tell, shape (batch, 2, n)."""
         if self._flaws.speed_noise > 0.0:
             states[:, 1] += self._flaws.speed_noise * self._noise.standard_normal(self._shape)
-        if self._flaws.wrench_noise > 0.0:
-            wrenches[:, :3] += self._flaws.wrench_noise * self._noise.standard_normal((self._shape[0], 3))

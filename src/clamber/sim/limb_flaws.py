@@ -100,9 +100,12 @@ class LimbFlaws:
     speed_noise: float = 0.0
     """Standard deviation of the noise on sensed joint speeds [rad/s]."""
     wrench_noise: float = 0.0
-    """Standard deviation of the noise on sensed forces [N]."""
+    """Standard deviation of the noise on sensed forces, where the limb has a force sensor of no other noise [N]."""
     model_error: float = 0.0
     """Largest relative error of what the controller believes of each joint's inertia, damping, friction and mass [-]."""
+    joint_limits: bool = False
+    """Whether hard stops at the robot's joint limits hold the motors' side. Off by default: the published circle of 5 cm about (0.22, 0)
+    asks for an elbow of 115.6 deg, or -111.9 deg on the other branch, beyond the printed 110 deg."""
     push: Push | None = None
     wall: Wall | None = None
 

@@ -5,13 +5,15 @@ from typing import Any
 import numpy as np
 
 from ..control.chain import Chain
+from ..control.kinematics import FRAME
 from ..control.records import AXES
 from ..execution.plant import Sensed, Truth
 from ..types import Floats
 from .chances import Chances
-from .electronics import limit_torques, read_encoders
+from .limb_electronics import LimbElectronics
 from .limb_flaws import LimbFlaws
 from .limb_model import limb_spec
+from .tip_push import push_tips
 
 
 class MujocoLimb:
@@ -32,6 +34,7 @@ class MujocoLimb:
 
         self.chain, self.flaws, self.batch = chain, flaws, batch
         self.period = flaws.period
+        self._step_time = 1.0 / flaws.physics_rate
         self.model: Any = limb_spec(chain, flaws).compile()
         self._step = mujoco.mj_step
         self._data: Any = None
@@ -42,29 +45,27 @@ class MujocoLimb:
             self._qpos, self._qvel, self._ctrl = (
                 a[None, :] for a in (self._data.qpos, self._data.qvel, self._data.ctrl)
             )
-            self._pushed = self._data.xfrc_applied[None]
+            pushed = self._data.xfrc_applied[None]
         else:
             from mujoco.batch import Batch
 
             self._pool = Batch(self.model, batch, threads)
             self._qpos, self._qvel, self._ctrl = (self._pool.bind(name) for name in ("qpos", "qvel", "ctrl"))
-            self._pushed = self._pool.bind("xfrc_applied")
+            pushed = self._pool.bind("xfrc_applied")
         stride = 2 if flaws.backlash > 0.0 else 1
         self._motors = slice(0, stride * n, stride)
         self._play = slice(1, stride * n, stride) if stride == 2 else None
         self._angles, self._speeds = self._qpos[:, self._motors], self._qvel[:, self._motors]
-        turns = np.ones(n) if gears is None else np.asarray(gears, dtype=np.float64)
-        self._counts = flaws.encoder_counts * turns / (2.0 * np.pi)
-        unlimited = np.full(n, np.inf)
-        self._limits = chain.joints["limit"].copy() if flaws.motor_limits else unlimited
-        self._no_load = chain.joints["speed"].copy() if flaws.motor_limits else unlimited
-        self._chances = None if flaws.seed is None else Chances(flaws, batch, n, self._counts)
-        self._ring = np.zeros((flaws.delay + 1, batch, 2, n))
-        self._before = np.zeros((batch, n))
+        self._electronics = LimbElectronics(chain, flaws, gears, batch)
+        self._chances = None if flaws.seed is None else Chances(flaws, batch, n, self._electronics.counts)
         self._wanted = np.zeros((batch, n))
-        self._sensed = Sensed(np.zeros((batch, 2, n)), np.zeros((batch, AXES)))
+        self._sensed = Sensed(self._electronics.states, np.zeros((batch, AXES)))
         self._truth = Truth(np.zeros((batch, 2, n)), np.zeros((batch, n)), np.zeros((batch, AXES)))
-        self._last_body = self.model.body(chain.joint_names[-1]).id
+        # The centre of mass is that of what really moves, payload included
+        carried = chain.with_payload(flaws.payload).joints
+        last = self.model.body(chain.joint_names[-1]).id
+        self._push_arrays = (np.zeros((n, FRAME)), np.zeros(12), pushed[:, last], self._truth.wrenches)
+        self._push_chain = (carried, chain.root, self._truth.states)
         self.tick = 0
 
     def reset(self, q: Floats) -> None:
@@ -82,26 +83,18 @@ class MujocoLimb:
             if self._play is not None:
                 self._qpos[:, self._play] = self._chances.play
         self._wanted[:] = 0.0
-        self._ring[:] = 0.0
+        self._truth.torques[:] = 0.0
+        self._truth.wrenches[:] = 0.0
+        self._electronics.reset()
         self.tick = 0
         self._look()
 
     def sense(self) -> Sensed:
         """See `Plant`."""
         chances = self._chances
-        read_encoders(
-            self._angles if chances is None else self._angles + chances.phase,
-            self._speeds,
-            self._counts,
-            self.period,
-            self.tick,
-            self._ring,
-            self._before,
-            self._sensed.states,
-        )
+        self._electronics.read(self._angles if chances is None else self._angles + chances.phase, self._speeds)
         if chances is not None:
-            self._sensed.wrenches[:] = 0.0  # no sensor of force; only noise would be felt
-            chances.disturb(self._sensed.states, self._sensed.wrenches)
+            chances.disturb(self._sensed.states)
         return self._sensed
 
     def actuate(self, torques: Floats) -> None:
@@ -109,20 +102,16 @@ class MujocoLimb:
         self._wanted[:] = torques
 
     def step(self) -> None:
-        """See `Plant`. Where a motor's limit is near, the torque follows the speed at every physics step."""
-        steps = self.flaws.steps
+        """See `Plant`. Where a motor's torque depends on its speed, it follows that at every physics step."""
         if self.flaws.push is not None:
-            self._push()
-        near = limit_torques(self._wanted, self._speeds, self._limits, self._no_load, self._truth.torques)
-        self._ctrl[:] = self._truth.torques
-        if near:
-            for k in range(steps):
-                if k:
-                    limit_torques(self._wanted, self._speeds, self._limits, self._no_load, self._truth.torques)
-                    self._ctrl[:] = self._truth.torques
-                self._advance(1)
-        else:
+            push_tips(*self._push_chain, *self.flaws.push.at((self.tick + 0.5) * self.period), *self._push_arrays)
+        left = self.flaws.steps
+        while left:
+            steady = self._electronics.limit(self._wanted, self._speeds, left * self._step_time, self._truth.torques)
+            self._ctrl[:] = self._truth.torques
+            steps = left if steady else 1
             self._advance(steps)
+            left -= steps
         self.tick += 1
         self._look()
 
@@ -143,16 +132,3 @@ class MujocoLimb:
         if self._play is not None:
             states[:, 0] += self._qpos[:, self._play]
             states[:, 1] += self._qvel[:, self._play]
-
-    def _push(self) -> None:
-        """Put the push of this tick on the tip, as a force and its moment about the last link's centre of mass."""
-        push = self.flaws.push
-        assert push is not None
-        fx, fy = push.at((self.tick + 0.5) * self.period)
-        for b in range(self.batch):
-            arm = self.chain.place(self._truth.states[b, 0]) - self._centre(b)
-            self._pushed[b, self._last_body] = (fx, fy, 0.0, 0.0, 0.0, arm[0] * fy - arm[1] * fx)
-            self._truth.wrenches[b, :2] = -fx, -fy
-
-    def _centre(self, b: int) -> Floats:
-        return self.chain.last_centre(self._truth.states[b, 0])

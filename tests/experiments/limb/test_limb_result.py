@@ -20,7 +20,7 @@ from clamber.experiments.limb.error_lines import error_line
 from clamber.experiments.limb.result import LimbResult, run_trials
 from clamber.experiments.limb.scenario import ScenarioError, circle_scenario, push_scenario, step_scenario
 from clamber.sim.limb_flaws import LimbFlaws
-from clamber.sim.limb_plants import PLANTS
+from clamber.sim.plants import PLANTS
 
 LIMB = bench_limb()
 REFERENCE = LawSettings(law="scct", kp=100.0, kd=10.0)

@@ -10,11 +10,10 @@ import numpy as np
 from ...control.chain import Chain
 from ...control.controller import Controller
 from ...control.law_settings import LawSettings
-from ...errors import UnknownNameError
 from ...execution.closed_loop import close_loop
 from ...execution.trace import LimbTrace
 from ...sim.limb_flaws import LimbFlaws
-from ...sim.limb_plants import PLANTS
+from ...sim.plants import plant_maker
 from .bench_limb import BenchLimb
 from .scenario import Scenario
 
@@ -62,12 +61,11 @@ def run_contest(
     """Run every entry alone, from rest at the limb's start; a run that leaves the finite numbers ends in NaN.
 
     Raises:
-        LawError: If settings do not fit the limb.
         UnknownNameError: If there is no such plant.
+        PlantError: If the plant does not have one of the flaws.
+        LawError: If settings do not fit the limb.
     """
-    if plant not in PLANTS:
-        raise UnknownNameError("plant", plant, tuple(PLANTS))
-    moved = PLANTS[plant](limb.chain, scenario.on(flaws), gears=limb.gears)
+    moved = plant_maker(plant)(limb.chain, scenario.on(flaws), gears=limb.gears)
     believed = believed_chain(limb.chain, flaws)
     out = []
     for entry in entries:

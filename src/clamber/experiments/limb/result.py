@@ -112,6 +112,7 @@ class LimbResult:
         told += [f"{key} x {getattr(flaws, key):g}" for key in ("friction", "damping") if getattr(flaws, key) != 1.0]
         told += ["upright"] if flaws.upright else []
         told += [] if flaws.motor_limits else ["motors without limits"]
+        told += ["joint stops"] if flaws.joint_limits else []
         return ", ".join([*told, *([] if flaws.seed is None else [f"seed {self.seed}"])])
 
     def match_words(self) -> str:
