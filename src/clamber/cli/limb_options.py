@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import typer
 
-from .output import announce_compilation, check_writable, print_json, stdout
+from .crew import EndsLine
+from .output import announce_compilation, check_writable, print_json, stderr, stdout
 
 if TYPE_CHECKING:
     from ..control.law_settings import LawSettings
@@ -140,9 +141,10 @@ def run_bench(words: BenchWords, limb: "BenchLimb", scenario: "Scenario", flaws:
     at = match_pose(limb, scenario)
     entries, reference = words.build_laws(limb, at)
     announce_compilation("drive", quiet=telling.quiet)
+    line = EndsLine(stderr(), "trials", quiet=telling.quiet or words.trials == 1)
     result = run_trials(
         limb, scenario, entries, flaws, plant=words.plant, seed=words.seed or 0, trials=words.trials,
-        match=words.match.value, reference=reference, match_at=at,
+        match=words.match.value, reference=reference, match_at=at, progress=line.update,
     )  # fmt: skip
     if telling.output is not None:
         write_limb_result(result, telling.output)

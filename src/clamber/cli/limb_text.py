@@ -148,7 +148,7 @@ def _cells(row: Row, columns: Sequence[Column], side: str, how: Callable[[Sequen
 def _number(value: float, column: Column) -> str:
     if math.isinf(value):
         return "never"
-    return f"{value * column.scale + 0.0:.{column.digits}f}"
+    return f"{round(value * column.scale, column.digits) + 0.0:.{column.digits}f}"
 
 
 def _print_gains(console: Console, result: LimbResult) -> None:
@@ -160,7 +160,7 @@ def _print_gains(console: Console, result: LimbResult) -> None:
             row.entry.label,
             *(_per_axis(getattr(settings, key)) for key in ("kp", "kd")),
             gain_unit(settings.law, "kp"),
-            *(f"{value + 0.0:.2f}" for value in (k[0, 0], k[0, 1], k[1, 1])),
+            *(f"{round(value, 2) + 0.0:.2f}" for value in (k[0, 0], k[0, 1], k[1, 1])),
             "own" if row.entry.own_gains else result.match,
         )
     console.print(table)
