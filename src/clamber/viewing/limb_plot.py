@@ -57,6 +57,8 @@ def _head(figure: Figure, result: LimbResult) -> None:
     title = f"{result.title()}, {result.limb.robot.name}'s {result.limb.name} limb"
     figure.text(0.012, 0.985, title[0].upper() + title[1:], va="top", fontsize=11, fontweight="bold")
     under = f"gains {result.match_words()}\nplant: {result.plant_words()}"
+    if result.trials > 1:
+        under += f"; first of {result.trials} trials"
     if result.imperfect:
         under += "; thin: as the encoders tell"
     figure.text(0.012, 0.95, under, va="top", fontsize=8, color=style.QUIET, linespacing=1.4)

@@ -71,7 +71,7 @@ class Measures:
     encoder: TipMeasures
     """By what the encoders told, delay included."""
     work: float
-    """Sum of what each motor gives or brakes, |torque x turn|, the turn being that of the gear's output, rattle in the play included [J]."""
+    """Sum of what each motor gives or brakes, |torque x turn|, turned at the gear's output, rattle in the play included [J]."""
     heat: float
     """Lost in the windings, (torque / (N k_t))^2 R [J]; no other loss is known."""
     saturated: float

@@ -22,6 +22,8 @@ from .measures import Measures, measure, scenario_size
 from .scenario import Scenario
 
 SCHEMA: Final = "clamber-limb-1"
+LEAST_BEYOND: Final = 1e-3
+"""Less is the give of a stop [rad]."""
 MISMATCH: Final = 0.01
 """A matched stiffness that is off by more than this part is told."""
 
@@ -85,7 +87,7 @@ class LimbResult:
         """What was asked for, in a few words."""
         scenario = self.scenario
         if scenario.kind == "step":
-            return f"step of {1e3 * scenario_size(self.rows[0].run.trace, scenario):g} mm"
+            return f"step of {1e3 * scenario_size(self.rows[0].run.trace, scenario):.4g} mm"
         if scenario.kind == "circle":
             assert scenario.radius is not None and scenario.lap is not None
             return f"circle of radius {1e3 * scenario.radius:g} mm in {scenario.lap:g} s"
@@ -156,7 +158,7 @@ class LimbResult:
             angles = row.run.trace.true[:, 0, 0]
             over = np.maximum(angles - joints["upper"], joints["lower"] - angles).max(axis=0)
             for name, most in zip(self.limb.chain.joint_names, over, strict=True):
-                if most > 0.0:
+                if most > LEAST_BEYOND:
                     out[name] = max(out.get(name, 0.0), float(most))
         return out
 
