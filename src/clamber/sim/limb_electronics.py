@@ -36,7 +36,8 @@ class LimbElectronics:
         # The motor's own acceleration, and as much again from outside
         with np.errstate(divide="ignore", invalid="ignore"):
             self._agility = 2.0 * self.limits / chain.joints["rotor"]
-        self._counts = flaws.encoder_counts * turns / (2.0 * np.pi)
+        self.counts: Final[Floats] = flaws.encoder_counts * turns / (2.0 * np.pi)
+        """Of each encoder per radian of its joint, shape (n,); 0 for a perfect one."""
         self._period = flaws.period
         self._ring = np.zeros((flaws.delay + 1, batch, 2, n))
         self._before = np.zeros((batch, n))
@@ -50,7 +51,7 @@ class LimbElectronics:
 
     def read(self, angles: Floats, speeds: Floats) -> None:
         """Read the encoders into `states`, once a tick; true motor-side angles and speeds, shape (batch, n)."""
-        read_encoders(angles, speeds, self._counts, self._period, self._readings, self._ring, self._before, self.states)
+        read_encoders(angles, speeds, self.counts, self._period, self._readings, self._ring, self._before, self.states)
         self._readings += 1
 
     def ask(self, torques: Floats) -> None:

@@ -17,8 +17,8 @@ PLAY_INERTIA: Final = 1e-4
 PLAY_DAMPING: Final = 0.005
 """Of the play [N m s/rad], our choice: grease and bearings, a hundredth of a joint's own. Without it a link that nothing weighs down
 floats from end to end of its play for ever; from 0.003 on its size does not show."""
-STOP_SOLREF: Final = (0.002, 1.0)
-"""Of the play's ends and of the joints' stops: as stiff as two physics steps allow."""
+STOP_SOLREF: Final = (0.001, 1.0)
+"""Of the play's ends and of the joints' stops: as stiff as two physics steps of 0.5 ms allow; MuJoCo softens it for longer ones."""
 STOP_SOLIMP: Final = (0.95, 0.99, 0.0005, 0.5, 2.0)
 TIP_RADIUS: Final = 0.005
 """Of the ball that touches a wall [m]."""

@@ -9,6 +9,7 @@ from ..control.kinematics import FRAME
 from ..control.records import AXES
 from ..execution.plant import Sensed, Truth
 from ..types import Floats
+from .chances import Chances
 from .limb_electronics import LimbElectronics
 from .limb_flaws import LimbFlaws
 from .limb_model import limb_spec
@@ -57,6 +58,7 @@ class MujocoLimb:
         self._stride = stride
         self._angles, self._speeds = self._qpos[:, self._motors], self._qvel[:, self._motors]
         self._electronics = LimbElectronics(chain, flaws, gears, batch)
+        self._chances = None if flaws.seed is None else Chances(flaws, batch, n, self._electronics.counts)
         self._sensed = Sensed(self._electronics.states, np.zeros((batch, AXES)))
         self._truth = Truth(np.zeros((batch, 2, n)), np.zeros((batch, n)), np.zeros((batch, AXES)))
         self._given = np.zeros((batch, n))
@@ -78,6 +80,10 @@ class MujocoLimb:
             self._pool.reset()
         self._qpos[:, self._motors] = q
         self._qvel[:] = 0.0
+        if self._chances is not None:
+            self._chances.restart()
+            if self._stride == 2:
+                self._qpos[:, 1 :: self._stride] = self._chances.play
         self._truth.torques[:] = 0.0
         self._truth.wrenches[:] = 0.0
         self._electronics.reset()
@@ -86,7 +92,10 @@ class MujocoLimb:
 
     def sense(self) -> Sensed:
         """See `Plant`."""
-        self._electronics.read(self._angles, self._speeds)
+        chances = self._chances
+        self._electronics.read(self._angles if chances is None else self._angles + chances.phase, self._speeds)
+        if chances is not None:
+            chances.disturb(self._sensed.states)
         return self._sensed
 
     def actuate(self, torques: Floats) -> None:

@@ -7,6 +7,7 @@ from ..control.kinematics import FRAME
 from ..control.records import AXES
 from ..execution.plant import Sensed, Truth
 from ..types import Floats
+from .chances import Chances
 from .limb_electronics import LimbElectronics
 from .limb_flaws import LimbFlaws, PlantError
 from .ode_steps import step_limbs
@@ -39,6 +40,7 @@ class OdeLimb:
         self._joints["damping"] *= flaws.damping
         self._joints["friction"] *= flaws.friction
         self._electronics = LimbElectronics(chain, flaws, gears, batch)
+        self._chances = None if flaws.seed is None else Chances(flaws, batch, n, self._electronics.counts)
         self._force = np.zeros(2)
         self._scratch = (np.zeros((n, FRAME)), np.zeros((AXES, n)), np.zeros((4, max(n, 12))))
         self._sensed = Sensed(self._electronics.states, np.zeros((batch, AXES)))
@@ -51,13 +53,17 @@ class OdeLimb:
         self._truth.states[:, 1] = 0.0
         self._truth.torques[:] = 0.0
         self._truth.wrenches[:] = 0.0
+        if self._chances is not None:
+            self._chances.restart()
         self._electronics.reset()
         self.tick = 0
 
     def sense(self) -> Sensed:
         """See `Plant`."""
-        states = self._truth.states
-        self._electronics.read(states[:, 0], states[:, 1])
+        states, chances = self._truth.states, self._chances
+        self._electronics.read(states[:, 0] if chances is None else states[:, 0] + chances.phase, states[:, 1])
+        if chances is not None:
+            chances.disturb(self._sensed.states)
         return self._sensed
 
     def actuate(self, torques: Floats) -> None:
