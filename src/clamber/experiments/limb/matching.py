@@ -23,7 +23,8 @@ NUDGE: Final = 1e-6
 
 def tip_stiffness(chain: Chain, settings: LawSettings, q: Floats) -> Floats:
     """Stiffness of a law at the tip in x and y, at rest on its aim, from its own torques, shape (2, 2) [N/m]."""
-    bare = settings.with_changes(feed_gravity=False, feed_friction=0.0)
+    # at rest a derivative term has died away; in the tick after a nudge it has not
+    bare = settings.with_changes(feed_gravity=False, feed_friction=0.0, derivative=0.0)
     controller = Controller(chain, bare, period=0.005)
     aim = still_aim(chain.place(q))
     states = np.zeros((1, 2, chain.n))
