@@ -12,8 +12,7 @@ from random_chains import PERIOD, limb, planar_chain, quarter, random_aim, rando
 
 from clamber.control.chain import Chain
 from clamber.control.controller import AimError, Controller, MeasurementError, ShapeError, still_aim
-from clamber.control.law_settings import LawError, LawSettings
-from clamber.control.laws import LAWS
+from clamber.control.law_settings import LAWS, LawError, LawSettings
 from clamber.control.records import AIM
 from clamber.types import Floats, Records
 

@@ -8,8 +8,7 @@ from random_chains import PERIOD, limb, motors_only, quarter, random_aim, random
 
 from clamber.control.chain import Chain
 from clamber.control.controller import Controller, still_aim
-from clamber.control.law_settings import LawSettings
-from clamber.control.laws import LAWS
+from clamber.control.law_settings import LAWS, LawSettings
 from clamber.types import Floats
 
 SEEDS = st.integers(0, 10_000)

@@ -9,8 +9,7 @@ import pytest
 from random_chains import PERIOD, limb, planar_chain, random_chain
 
 from clamber.control.chain import Chain, empty_chain
-from clamber.control.law_settings import LawError, LawSettings
-from clamber.control.laws import LAWS
+from clamber.control.law_settings import LAWS, LawError, LawSettings
 from clamber.errors import UnknownNameError
 
 NEVER_NEGATIVE = (

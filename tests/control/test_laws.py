@@ -22,8 +22,8 @@ from scipy.spatial.transform import Rotation
 
 from clamber.control.chain import Chain, closed_branches
 from clamber.control.controller import Controller, still_aim
-from clamber.control.law_settings import AXIS_NAMES, LawSettings
-from clamber.control.laws import LAW_TITLES, LAWS
+from clamber.control.law_settings import AXIS_NAMES, LAWS, LawSettings
+from clamber.control.law_titles import LAW_TITLES
 from clamber.types import Floats
 
 CHAINS = {

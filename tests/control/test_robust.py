@@ -11,8 +11,7 @@ from random_chains import PERIOD, limb, planar_chain, quarter, random_chain, ran
 
 from clamber.control.chain import Chain
 from clamber.control.controller import ClamberError, Controller, still_aim
-from clamber.control.law_settings import LawSettings
-from clamber.control.laws import LAWS
+from clamber.control.law_settings import LAWS, LawSettings
 from clamber.types import Floats
 
 CHAINS = {

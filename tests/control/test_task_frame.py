@@ -8,8 +8,7 @@ from random_chains import PERIOD, limb, quarter, random_aim, random_chain, rando
 from scipy.spatial.transform import Rotation
 
 from clamber.control.controller import Controller, still_aim
-from clamber.control.law_settings import LawSettings
-from clamber.control.laws import LAWS
+from clamber.control.law_settings import LAWS, LawSettings
 
 SEEDS = st.integers(0, 10_000)
 

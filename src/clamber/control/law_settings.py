@@ -11,11 +11,40 @@ import numpy as np
 from ..errors import ClamberError, UnknownNameError, describe_choices
 from ..types import Floats, Records
 from .chain import Chain, rotation
-from .drive import FROM_AIM, FROM_MEASURED, FROM_TORQUE
-from .laws import FORCING, WEIGHTED
-from .laws import LAWS as LAWS
+from .drive import (
+    ADMITTANCE,
+    FROM_AIM,
+    FROM_MEASURED,
+    FROM_TORQUE,
+    HYBRID,
+    IMPLICIT_ADMITTANCE,
+    IMPLICIT_FORCE,
+    JACOBIAN_TRANSPOSE,
+    JOINT_PD,
+    OPERATIONAL_SPACE,
+    RESOLVED_RATE,
+    RESOLVED_RATE_PLAIN,
+    SCCT,
+)
 from .records import AXES, SETTINGS
 
+LAWS: Final[dict[str, int]] = {
+    "jacobian-transpose": JACOBIAN_TRANSPOSE,
+    "operational-space": OPERATIONAL_SPACE,
+    "resolved-rate": RESOLVED_RATE,
+    "resolved-rate-plain": RESOLVED_RATE_PLAIN,
+    "admittance": ADMITTANCE,
+    "joint-pd": JOINT_PD,
+    "scct": SCCT,
+    "implicit-admittance": IMPLICIT_ADMITTANCE,
+    "hybrid": HYBRID,
+    "implicit-force": IMPLICIT_FORCE,
+}
+"""Name -> number in `drive`; the command line, the bench and the tests read it."""
+WEIGHTED: Final = frozenset({"scct", "implicit-admittance", "hybrid", "implicit-force", "admittance"})
+"""Laws that weigh their joints by K' unless told otherwise."""
+FORCING: Final = frozenset({"hybrid", "implicit-force"})
+"""Laws that take rows of force."""
 AXIS_NAMES: Final = ("x", "y", "z", "rx", "ry", "rz")
 FRICTION_SOURCES: Final[dict[str, int]] = {"aim": FROM_AIM, "measured": FROM_MEASURED, "torque": FROM_TORQUE}
 WORDS: Final[dict[str, tuple[str, ...]]] = {
