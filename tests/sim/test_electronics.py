@@ -126,11 +126,13 @@ def test_a_held_torque_never_leaves_the_motors_line(name: str, rate: float, leg:
         slow.actuate(torque)
         slow.step()
         fast.actuate(torque)
+        given = []
         for _ in range(slow.flaws.steps):  # type: ignore[attr-defined]
             speed = fast.truth().states[0, 1].copy()
             fast.step()
             line = joints["limit"] * (1.0 - np.abs(speed) / joints["speed"])
-            given_torque = fast.truth().torques[0]
+            given_torque = fast.truth().torques[0].copy()
+            given.append(given_torque)
             driving = given_torque * speed > 0.0
             assert np.all(np.abs(given_torque) <= joints["limit"])
             assert np.all(np.abs(given_torque[driving]) <= np.maximum(line[driving], 0.0) + 1e-9)
@@ -138,6 +140,7 @@ def test_a_held_torque_never_leaves_the_motors_line(name: str, rate: float, leg:
                 np.any(np.abs(given_torque) < np.minimum(np.abs(torque[0]), joints["limit"]) - 1e-9)
             )
         assert np.array_equal(slow.truth().states, fast.truth().states)
+        np.testing.assert_allclose(slow.truth().torques[0], np.mean(given, axis=0), rtol=1e-12)
     assert limited, "the line was never reached: nothing was tried"
 
 

@@ -171,6 +171,16 @@ def test_the_play_is_as_wide_as_stated(leg: BenchLimb) -> None:
     np.testing.assert_allclose(np.abs(ends[0] - ends[1]), PLAY, rtol=0.01)
 
 
+def test_a_link_that_nothing_weighs_down_comes_to_rest_in_its_play(leg: BenchLimb) -> None:
+    push = Push(x=0.05, y=0.05, start=0.0, end=0.05)
+    plant = MujocoLimb(leg.chain, LimbFlaws(backlash=PLAY, push=push))
+    plant.reset(leg.q0)
+    fast = np.abs(hold(plant, np.zeros(2), 20)[1]).max()
+    slow = np.abs(hold(plant, np.zeros(2), 3980)[1]).max()
+    assert fast > 1e-2
+    assert slow < 1e-2 * fast
+
+
 def test_the_encoders_sit_before_the_play(leg: BenchLimb) -> None:
     """What the encoders make of the tip is off by J times half the play of each joint, to the side to which the load pulls."""
     upright = bench_limb(upright=True)

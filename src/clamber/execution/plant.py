@@ -23,7 +23,7 @@ class Truth:
     states: Floats
     """True joint angles and speeds at the output of the gears, shape (batch, 2, n)."""
     torques: Floats
-    """Torques that the motors gave over the last tick, shape (batch, n) [N m]."""
+    """Mean torques that the motors gave over the last tick, shape (batch, n) [N m]."""
     wrenches: Floats
     """True wrench of each limb on what it touches or is pushed by, base frame, shape (batch, 6)."""
 

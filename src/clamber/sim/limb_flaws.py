@@ -56,6 +56,9 @@ class Push:
     rise: float = 0.05
 
     def __post_init__(self) -> None:
+        for key in ("x", "y", "start", "end", "rise"):
+            if not math.isfinite(getattr(self, key)):
+                raise PlantError(f"push.{key}", getattr(self, key), "must be a finite number")
         if not self.start >= 0.0 or not self.end >= self.start:
             raise PlantError("push", (self.start, self.end), "must start at 0 s or later and end after its start")
         if not self.rise >= 0.0:
@@ -105,9 +108,9 @@ class LimbFlaws:
         for key in ("backlash", "friction", "damping", "payload"):
             if not 0.0 <= getattr(self, key) < math.inf:
                 raise PlantError(key, getattr(self, key), "must be 0 or more, and finite")
-        if self.encoder_counts < 0 or self.delay < 0:
-            key = "delay" if self.delay < 0 else "encoder_counts"
-            raise PlantError(key, getattr(self, key), "must be a whole number, 0 or more")
+        for key in ("encoder_counts", "delay"):
+            if not isinstance(getattr(self, key), int) or getattr(self, key) < 0:
+                raise PlantError(key, getattr(self, key), "must be a whole number, 0 or more")
         for key in ("control_rate", "physics_rate"):
             if not 0.0 < getattr(self, key) < math.inf:
                 raise PlantError(key, getattr(self, key), "must be more than 0 Hz, and finite")

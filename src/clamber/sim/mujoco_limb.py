@@ -59,6 +59,7 @@ class MujocoLimb:
         self._electronics = LimbElectronics(chain, flaws, gears, batch)
         self._sensed = Sensed(self._electronics.states, np.zeros((batch, AXES)))
         self._truth = Truth(np.zeros((batch, 2, n)), np.zeros((batch, n)), np.zeros((batch, AXES)))
+        self._given = np.zeros((batch, n))
         # The centre of mass is that of what really moves, payload included
         carried = chain.with_payload(flaws.payload).joints
         last = self.model.body(chain.joint_names[-1]).id
@@ -96,12 +97,16 @@ class MujocoLimb:
         """See `Plant`. Where a motor's torque depends on its speed, it follows that at every physics step."""
         if self.flaws.push is not None:
             push_tips(*self._push_chain, *self.flaws.push.at((self.tick + 0.5) * self.period), *self._push_arrays)
-        left = self.flaws.steps
-        while left:
-            steady = self._electronics.limit(self._speeds, left * self._step_time, self._truth.torques, self._ctrl)
-            steps = left if steady else 1
-            self._advance(steps)
-            left -= steps
+        steps, done, mean = self.flaws.steps, 0, self._truth.torques
+        given = mean
+        while done < steps:
+            steady = self._electronics.limit(self._speeds, (steps - done) * self._step_time, given, self._ctrl)
+            now = steps - done if steady else 1
+            self._advance(now)
+            done += now
+            if done > now:
+                mean += (given - mean) * (now / done)
+            given = self._given
         self.tick += 1
         self._look()
 

@@ -40,7 +40,7 @@ class OdeLimb:
         self._joints["friction"] *= flaws.friction
         self._electronics = LimbElectronics(chain, flaws, gears, batch)
         self._force = np.zeros(2)
-        self._scratch = (np.zeros((n, FRAME)), np.zeros((AXES, n)), np.zeros((3, max(n, 12))))
+        self._scratch = (np.zeros((n, FRAME)), np.zeros((AXES, n)), np.zeros((4, max(n, 12))))
         self._sensed = Sensed(self._electronics.states, np.zeros((batch, AXES)))
         self._truth = Truth(np.zeros((batch, 2, n)), np.zeros((batch, n)), np.zeros((batch, AXES)))
         self.tick = 0
