@@ -3,11 +3,14 @@
 import numpy as np
 import pytest
 
+from clamber.control.chain import chain_of_limb
 from clamber.control.law_settings import LawSettings
 from clamber.errors import UnknownNameError
 from clamber.experiments.limb.bench_limb import BenchLimb, bench_limb
 from clamber.experiments.limb.contest import Entry, run_contest
 from clamber.experiments.limb.scenario import step_scenario
+from clamber.robots.library import load_robot, robot_names
+from clamber.robots.limbed import LimbedRobot
 from clamber.sim.limb_flaws import LimbFlaws, PlantError, Push
 from clamber.sim.plants import PLANTS
 
@@ -52,6 +55,31 @@ def test_a_contest_takes_place_on_the_plant_that_is_named(name: str, leg: BenchL
     (run,) = run_contest(leg, scenario, [Entry("scct", LawSettings(law="scct", kp=100.0))], LimbFlaws(), plant=name)
     end = run.trace.true_places()[-1, 0]
     np.testing.assert_allclose(end[:2], (0.22, -0.02), atol=2e-3)  # as far as friction lets it come
+
+
+LIMBS = [
+    (robot, limb)
+    for robot in map(load_robot, robot_names())
+    if isinstance(robot, LimbedRobot)
+    for limb in robot.limb_names
+]
+
+
+@pytest.mark.parametrize("name", PLANTS)
+@pytest.mark.parametrize(("robot", "limb"), LIMBS, ids=[f"{robot.name}-{limb}" for robot, limb in LIMBS])
+def test_every_limb_of_every_robot_moves_on_every_plant(name: str, robot: LimbedRobot, limb: str) -> None:
+    chain = chain_of_limb(robot, limb)
+    plant = PLANTS[name](chain, LimbFlaws(encoder_counts=robot.motor.encoder_counts), batch=2)
+    start = (chain.joints["lower"] + chain.joints["upper"]) / 2
+    plant.reset(start)
+    for torque in np.random.default_rng(6).uniform(-1.0, 1.0, (200, 2, 2)) * chain.joints["limit"]:
+        plant.sense()
+        plant.actuate(torque)
+        plant.step()
+    states = plant.truth().states
+    assert np.all(np.isfinite(states))
+    assert np.all(np.abs(states[:, 0] - start) > 1e-3)
+    assert np.all(np.abs(states[:, 1]) < 3.0 * chain.joints["speed"])
 
 
 def test_an_unknown_plant_is_named_with_those_that_there_are(leg: BenchLimb) -> None:

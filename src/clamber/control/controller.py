@@ -1,14 +1,14 @@
 """The controller: a law with its parameters, its own copy of the chain, its memory and scratch, and a check of what comes in."""
 
 from collections.abc import Sequence
-from typing import Final
+from typing import Final, NoReturn
 
 import numpy as np
 
 from ..errors import ClamberError
 from ..types import Floats, Records
 from .chain import Chain
-from .drive import drive
+from .desk import ARRAYS, DESK, JOINTS, LAWS, LENGTH, MEMORY, SIDE, drive_at
 from .kinematics import FRAME
 from .law_settings import LawError, LawSettings
 from .moment import LINES, SQUARES, line_length
@@ -68,12 +68,11 @@ class Controller:
         self._memory = np.zeros((batch, memory_length(n)))
         length = line_length(n)
         size = max(n, AXES)
-        self._fixed = (
-            self.chain.joints,
-            self.chain.root,
-            np.concatenate([law.record(self.chain, period) for law in laws]),
-        )
-        self._scratch = (
+        record = np.concatenate([law.record(self.chain, period) for law in laws])
+        self._arrays = (
+            np.ascontiguousarray(self.chain.joints),
+            np.ascontiguousarray(self.chain.root),
+            record,
             self._memory,
             np.zeros((2 * n, FRAME)),
             np.zeros((LINES, length)),
@@ -81,7 +80,13 @@ class Controller:
             self.torques,
             self.reports,
         )
+        self._desk = np.zeros(DESK, np.int64)
+        self._desk[:ARRAYS] = [array.ctypes.data for array in self._arrays]
+        self._desk[[JOINTS, LAWS, MEMORY, LENGTH, SIDE]] = n, len(laws), self._memory.shape[1], length, size
         self._nothing_felt = np.zeros((batch, AXES))
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a controller stays where it was made: copy its chain and settings instead")
 
     def reset(self) -> None:
         """Forget what the laws remember."""
@@ -102,7 +107,8 @@ class Controller:
             MeasurementError: If a measurement is not finite; the other limbs of the batch have their torques.
         """
         felt = self._nothing_felt if wrenches is None else wrenches
-        bad = drive(*self._fixed, aims, states, felt, *self._scratch)
+        assert len(states) == self.batch == len(felt)
+        bad = drive_at(self._desk, aims, states, felt)
         if bad >= 0:
             self._complain(bad, states, felt)
         return self.torques

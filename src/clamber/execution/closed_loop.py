@@ -6,6 +6,7 @@ from ..control.controller import Controller, MeasurementError
 from ..control.records import AXES
 from ..types import Records
 from .plant import Plant
+from .recorder import Recorder
 from .trace import LimbTrace
 
 
@@ -34,21 +35,27 @@ def close_loop(plant: Plant, controller: Controller, aims: Records, *, keep: boo
         reports=np.zeros((ticks, batch), controller.reports.dtype),
     )
     controller.reset()
-    truth = plant.truth()
+    truth, sensed = plant.truth(), plant.sense()
+    before = Recorder(
+        (
+            (trace.sensed, sensed.states),
+            (trace.true, truth.states),
+            (trace.commanded, controller.torques),
+            (trace.reports, controller.reports),
+        )
+    )
+    after = Recorder(((trace.applied, truth.torques), (trace.wrenches, truth.wrenches)))
     for k in range(ticks):
-        sensed = plant.sense()
+        if k:
+            plant.sense()
         try:
             torques = controller.command(aims[k], sensed.states, sensed.wrenches)
         except MeasurementError:
             if keep:
                 return trace
             raise
-        trace.sensed[k] = sensed.states
-        trace.true[k] = truth.states
-        trace.commanded[k] = torques
-        trace.reports[k] = controller.reports
         plant.actuate(torques)
+        before.note(k)
         plant.step()
-        trace.applied[k] = truth.torques
-        trace.wrenches[k] = truth.wrenches
+        after.note(k)
     return trace

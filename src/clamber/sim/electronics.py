@@ -49,7 +49,19 @@ def limited(wanted, speed, limit, no_load):
 
 
 @kernel
-def limit_torques(wanted, speeds, limits, no_load, agility, time, out):
+def take_torques(asked, wanted):
+    """Copy the torques `asked` into `wanted`, both of shape (batch, n); the first limb with one that is not finite, or -1."""
+    bad = -1
+    for b in range(asked.shape[0]):
+        for j in range(asked.shape[1]):
+            wanted[b, j] = asked[b, j]
+            if bad < 0 and not math.isfinite(asked[b, j]):
+                bad = b
+    return bad
+
+
+@kernel
+def limit_torques(wanted, speeds, limits, no_load, agility, time, out, also):
     """What the motors give at these speeds.
 
     Args:
@@ -59,7 +71,7 @@ def limit_torques(wanted, speeds, limits, no_load, agility, time, out):
         no_load: Speed of each joint without load, shape (n,) [rad/s]; inf for none.
         agility: More than any joint accelerates, shape (n,) [rad/s^2].
         time: For which the torques might be held [s].
-        out: Filled, shape (batch, n).
+        out, also: Both filled, shape (batch, n).
 
     Returns:
         Whether they may be held: no motor would give another torque at any speed that it can reach within that time.
@@ -69,6 +81,7 @@ def limit_torques(wanted, speeds, limits, no_load, agility, time, out):
         for j in range(wanted.shape[1]):
             value = limited(wanted[b, j], speeds[b, j], limits[j], no_load[j])
             out[b, j] = value
+            also[b, j] = value
             if limits[j] < math.inf and no_load[j] < math.inf:
                 change = agility[j] * time
                 slow = limited(wanted[b, j], speeds[b, j] - change, limits[j], no_load[j])

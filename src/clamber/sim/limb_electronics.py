@@ -6,8 +6,8 @@ import numpy as np
 
 from ..control.chain import Chain
 from ..types import Floats
-from .electronics import limit_torques, read_encoders
-from .limb_flaws import LimbFlaws
+from .electronics import limit_torques, read_encoders, take_torques
+from .limb_flaws import LimbFlaws, PlantError
 
 
 class LimbElectronics:
@@ -30,6 +30,9 @@ class LimbElectronics:
         """Speed of each joint without load, shape (n,) [rad/s]."""
         self.states: Final = np.zeros((batch, 2, n))
         """What the encoders say, shape (batch, 2, n)."""
+        self.wanted: Final = np.zeros((batch, n))
+        """What the motors are asked for, shape (batch, n) [N m]."""
+        self._names = chain.joint_names
         # The motor's own acceleration, and as much again from outside
         with np.errstate(divide="ignore", invalid="ignore"):
             self._agility = 2.0 * self.limits / chain.joints["rotor"]
@@ -41,7 +44,8 @@ class LimbElectronics:
         self._readings = 0
 
     def reset(self) -> None:
-        """Forget all readings."""
+        """Forget all readings and torques."""
+        self.wanted[:] = 0.0
         self._ring[:] = 0.0
         self._readings = 0
 
@@ -50,7 +54,19 @@ class LimbElectronics:
         read_encoders(angles, speeds, self.counts, self._period, self._readings, self._ring, self._before, self.states)
         self._readings += 1
 
-    def limit(self, wanted: Floats, speeds: Floats, time: float, out: Floats) -> bool:
-        """Torques that the motors give into `out`; whether they may be held for `time` [s]. See `limit_torques`."""
-        steady: bool = limit_torques(wanted, speeds, self.limits, self.no_load, self._agility, time, out)
+    def ask(self, torques: Floats) -> None:
+        """Ask the motors for torques, held until the next call, shape (batch, n) [N m].
+
+        Raises:
+            PlantError: If one is not a finite number.
+        """
+        bad = take_torques(torques, self.wanted)
+        if bad >= 0:
+            joint = int(np.argmin(np.isfinite(torques[bad])))
+            key = f"torque of the {self._names[joint]}, limb {bad} of the batch"
+            raise PlantError(key, float(torques[bad, joint]), "must be a finite number")
+
+    def limit(self, speeds: Floats, time: float, out: Floats, also: Floats) -> bool:
+        """What the motors give at these speeds into `out` and `also`; whether it may be held for `time` [s]. See `limit_torques`."""
+        steady: bool = limit_torques(self.wanted, speeds, self.limits, self.no_load, self._agility, time, out, also)
         return steady

@@ -56,6 +56,9 @@ class Push:
     rise: float = 0.05
 
     def __post_init__(self) -> None:
+        for key in ("x", "y", "start", "end", "rise"):
+            if not math.isfinite(getattr(self, key)):
+                raise PlantError(f"push.{key}", getattr(self, key), "must be a finite number")
         if not self.start >= 0.0 or not self.end >= self.start:
             raise PlantError("push", (self.start, self.end), "must start at 0 s or later and end after its start")
         if not self.rise >= 0.0:
@@ -120,9 +123,9 @@ class LimbFlaws:
         for key in ("speed_noise", "wrench_noise", "model_error"):
             if self.seed is None and getattr(self, key) > 0.0:
                 raise PlantError(key, getattr(self, key), "needs a seed")
-        if self.encoder_counts < 0 or self.delay < 0:
-            key = "delay" if self.delay < 0 else "encoder_counts"
-            raise PlantError(key, getattr(self, key), "must be a whole number, 0 or more")
+        for key in ("encoder_counts", "delay"):
+            if not isinstance(getattr(self, key), int) or getattr(self, key) < 0:
+                raise PlantError(key, getattr(self, key), "must be a whole number, 0 or more")
         for key in ("control_rate", "physics_rate"):
             if not 0.0 < getattr(self, key) < math.inf:
                 raise PlantError(key, getattr(self, key), "must be more than 0 Hz, and finite")

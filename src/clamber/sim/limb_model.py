@@ -9,10 +9,14 @@ from ..types import Floats
 from .limb_flaws import LimbFlaws, PlantError, Wall
 
 FRICTION_SOLREF: Final = (0.004, 1.0)
-"""Time constant and damping ratio of Coulomb friction: with MuJoCo's default a loaded joint creeps."""
-FRICTION_SOLIMP: Final = (0.95, 0.99, 0.001, 0.5, 2.0)
+"""Time constant and damping ratio of Coulomb friction [s], [-]: it is viscous below a speed of friction * 2 ms / inertia, 3 mrad/s."""
+FRICTION_SOLIMP: Final = (0.999, 0.9999, 0.001, 0.5, 2.0)
+"""A joint loaded to its friction creeps by (1 - 0.999) of that speed, 3 urad/s; with an impedance of 0.9, the default, by 340."""
 PLAY_INERTIA: Final = 1e-4
 """Of the play joint, so that it has a mass of its own [kg m^2]: a thousandth of a link's."""
+PLAY_DAMPING: Final = 0.005
+"""Of the play [N m s/rad], our choice: grease and bearings, a hundredth of a joint's own. Without it a link that nothing weighs down
+floats from end to end of its play for ever; from 0.003 on its size does not show."""
 STOP_SOLREF: Final = (0.002, 1.0)
 """Of the play's ends and of the joints' stops: as stiff as two physics steps allow."""
 STOP_SOLIMP: Final = (0.95, 0.99, 0.0005, 0.5, 2.0)
@@ -41,6 +45,8 @@ def limb_spec(chain: Chain, flaws: LimbFlaws) -> Any:
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     spec.option.impratio = 10.0
+    # A limb that leaves the finite numbers shows it, instead of starting over from zero angles
+    spec.option.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
     spec.option.gravity = chain.root["gravity"][0]
     parent = spec.worldbody
     for name, record in zip(chain.joint_names, carried.joints, strict=True):
@@ -73,6 +79,7 @@ def _add_link(mujoco: Any, spec: Any, parent: Any, name: str, record: Any, flaws
     if flaws.backlash > 0.0:
         play = body.add_joint(name=f"{name} play", type=kind, axis=record["axis"])
         play.armature = PLAY_INERTIA
+        play.damping[0] = PLAY_DAMPING
         _stop(play, -flaws.backlash / 2, flaws.backlash / 2)
     return body
 

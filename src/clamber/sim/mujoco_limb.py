@@ -13,6 +13,7 @@ from .chances import Chances
 from .limb_electronics import LimbElectronics
 from .limb_flaws import LimbFlaws
 from .limb_model import limb_spec
+from .output_side import look_behind_gears
 from .tip_push import push_tips
 
 
@@ -54,17 +55,18 @@ class MujocoLimb:
             pushed = self._pool.bind("xfrc_applied")
         stride = 2 if flaws.backlash > 0.0 else 1
         self._motors = slice(0, stride * n, stride)
-        self._play = slice(1, stride * n, stride) if stride == 2 else None
+        self._stride = stride
         self._angles, self._speeds = self._qpos[:, self._motors], self._qvel[:, self._motors]
         self._electronics = LimbElectronics(chain, flaws, gears, batch)
         self._chances = None if flaws.seed is None else Chances(flaws, batch, n, self._electronics.counts)
-        self._wanted = np.zeros((batch, n))
         self._sensed = Sensed(self._electronics.states, np.zeros((batch, AXES)))
         self._truth = Truth(np.zeros((batch, 2, n)), np.zeros((batch, n)), np.zeros((batch, AXES)))
+        self._given = np.zeros((batch, n))
         # The centre of mass is that of what really moves, payload included
         carried = chain.with_payload(flaws.payload).joints
         last = self.model.body(chain.joint_names[-1]).id
-        self._push_arrays = (np.zeros((n, FRAME)), np.zeros(12), pushed[:, last], self._truth.wrenches)
+        self._pushed_rows = pushed[:, last]
+        self._push_arrays = (np.zeros((n, FRAME)), np.zeros(12), self._pushed_rows, self._truth.wrenches)
         self._push_chain = (carried, chain.root, self._truth.states)
         self.tick = 0
 
@@ -80,9 +82,8 @@ class MujocoLimb:
         self._qvel[:] = 0.0
         if self._chances is not None:
             self._chances.restart()
-            if self._play is not None:
-                self._qpos[:, self._play] = self._chances.play
-        self._wanted[:] = 0.0
+            if self._stride == 2:
+                self._qpos[:, 1 : 2 * self.chain.n : 2] = self._chances.play
         self._truth.torques[:] = 0.0
         self._truth.wrenches[:] = 0.0
         self._electronics.reset()
@@ -99,19 +100,22 @@ class MujocoLimb:
 
     def actuate(self, torques: Floats) -> None:
         """See `Plant`."""
-        self._wanted[:] = torques
+        self._electronics.ask(torques)
 
     def step(self) -> None:
         """See `Plant`. Where a motor's torque depends on its speed, it follows that at every physics step."""
         if self.flaws.push is not None:
             push_tips(*self._push_chain, *self.flaws.push.at((self.tick + 0.5) * self.period), *self._push_arrays)
-        left = self.flaws.steps
-        while left:
-            steady = self._electronics.limit(self._wanted, self._speeds, left * self._step_time, self._truth.torques)
-            self._ctrl[:] = self._truth.torques
-            steps = left if steady else 1
-            self._advance(steps)
-            left -= steps
+        steps, done, mean = self.flaws.steps, 0, self._truth.torques
+        given = mean
+        while done < steps:
+            steady = self._electronics.limit(self._speeds, (steps - done) * self._step_time, given, self._ctrl)
+            now = steps - done if steady else 1
+            self._advance(now)
+            done += now
+            if done > now:
+                mean += (given - mean) * (now / done)
+            given = self._given
         self.tick += 1
         self._look()
 
@@ -126,9 +130,4 @@ class MujocoLimb:
             self._pool.step(nstep=steps)
 
     def _look(self) -> None:
-        states = self._truth.states
-        states[:, 0] = self._angles
-        states[:, 1] = self._speeds
-        if self._play is not None:
-            states[:, 0] += self._qpos[:, self._play]
-            states[:, 1] += self._qvel[:, self._play]
+        look_behind_gears(self._qpos, self._qvel, self._stride, self._truth.states)

@@ -41,9 +41,8 @@ class OdeLimb:
         self._joints["friction"] *= flaws.friction
         self._electronics = LimbElectronics(chain, flaws, gears, batch)
         self._chances = None if flaws.seed is None else Chances(flaws, batch, n, self._electronics.counts)
-        self._wanted = np.zeros((batch, n))
         self._force = np.zeros(2)
-        self._scratch = (np.zeros((n, FRAME)), np.zeros((AXES, n)), np.zeros((3, max(n, 12))))
+        self._scratch = (np.zeros((n, FRAME)), np.zeros((AXES, n)), np.zeros((4, max(n, 12))))
         self._sensed = Sensed(self._electronics.states, np.zeros((batch, AXES)))
         self._truth = Truth(np.zeros((batch, 2, n)), np.zeros((batch, n)), np.zeros((batch, AXES)))
         self.tick = 0
@@ -54,7 +53,6 @@ class OdeLimb:
         self._truth.states[:, 1] = 0.0
         self._truth.torques[:] = 0.0
         self._truth.wrenches[:] = 0.0
-        self._wanted[:] = 0.0
         if self._chances is not None:
             self._chances.restart()
         self._electronics.reset()
@@ -70,7 +68,7 @@ class OdeLimb:
 
     def actuate(self, torques: Floats) -> None:
         """See `Plant`."""
-        self._wanted[:] = torques
+        self._electronics.ask(torques)
 
     def step(self) -> None:
         """See `Plant`. The motors' limits follow the speed at every physics step."""
@@ -80,7 +78,7 @@ class OdeLimb:
         step_limbs(
             self._joints,
             self.chain.root,
-            self._wanted,
+            self._electronics.wanted,
             self._electronics.limits,
             self._electronics.no_load,
             self._force,

@@ -84,34 +84,35 @@ def step_limbs(joints, root, wanted, limits, no_load, force, steps, time, states
         steps: How many.
         time: Of one step [s].
         states: Joint angles and speeds, moved on, shape (batch, 2, n).
-        torques: Filled with what the motors gave in the last step, shape (batch, n) [N m].
+        torques: Filled with what the motors gave, the mean of all steps, shape (batch, n) [N m].
         frames: Scratch, shape (n, FRAME).
         jacobian: Scratch, shape (6, n).
-        lines: Scratch, shape (3, at least n and 12).
+        lines: Scratch, shape (4, at least n and 12).
     """
     n = joints.size
     tip = lines[0]
     pushed = lines[1]
     middle = lines[2]
+    given = lines[3]
     for b in range(states.shape[0]):
         q = states[b, 0]
         qd = states[b, 1]
-        for _ in range(steps):
+        for k in range(steps):
             for j in range(n):
-                torques[b, j] = limited(wanted[b, j], qd[j], limits[j], no_load[j])
+                given[j] = limited(wanted[b, j], qd[j], limits[j], no_load[j])
+                before = torques[b, j] if k else given[j]
+                torques[b, j] = before + (given[j] - before) / (k + 1)
             _push_joints(joints, root, q, force, frames, tip, jacobian, pushed)
             if force[0] != 0.0 or force[1] != 0.0:
                 for j in range(n):
                     joint = joints[j]
                     moved, _ = step_joint(
-                        joint.rotor, joint.damping, joint.friction, torques[b, j] + pushed[j], qd[j], time / 2.0
+                        joint.rotor, joint.damping, joint.friction, given[j] + pushed[j], qd[j], time / 2.0
                     )
                     middle[j] = q[j] + moved
                 _push_joints(joints, root, middle, force, frames, tip, jacobian, pushed)
             for j in range(n):
                 joint = joints[j]
-                moved, after = step_joint(
-                    joint.rotor, joint.damping, joint.friction, torques[b, j] + pushed[j], qd[j], time
-                )
+                moved, after = step_joint(joint.rotor, joint.damping, joint.friction, given[j] + pushed[j], qd[j], time)
                 q[j] += moved
                 qd[j] = after
