@@ -6,6 +6,7 @@ import json
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
+from operator import attrgetter
 from pathlib import Path
 from typing import Any, Final
 
@@ -248,11 +249,12 @@ def _over(row: Row, how: Callable[[list[float]], float]) -> Json:
         value = how(values) if values else math.inf
         return value if math.isfinite(value) else None
 
-    out: Json = {}
-    for side in ("true", "encoder"):
-        keys = row.measures[0].to_json()[side]
-        out[side] = {key: figure(lambda m, s=side, k=key: getattr(getattr(m, s), k)) for key in keys}  # type: ignore[misc]
-    return out | {key: figure(lambda m, k=key: getattr(m, k)) for key in ("work", "heat", "saturated", "tick")}  # type: ignore[misc]
+    tips = {"true": attrgetter("true"), "encoder": attrgetter("encoder")}
+    out: Json = {
+        side: {key: figure(attrgetter(f"{side}.{key}")) for key in tip(row.measures[0]).to_json()}
+        for side, tip in tips.items()
+    }
+    return out | {key: figure(attrgetter(key)) for key in ("work", "heat", "saturated", "tick")}
 
 
 def run_trials(
