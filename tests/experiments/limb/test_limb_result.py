@@ -126,7 +126,17 @@ def test_every_law_runs_in_every_scenario_and_tells_finite_measures(law: str) ->
         result = run_trials(limb, scenario, entries, LimbFlaws(), match="yy", reference=REFERENCE)
         text = json.dumps(result.to_json(), allow_nan=False)
         assert f'"{law}"' in text
-        assert np.isfinite(error_line(result.rows[0].run, scenario).error).all()
+        assert np.isfinite(error_line(result.rows[0].run, scenario, result.shown_until()).error).all()
+
+
+def test_a_plot_ends_a_while_after_the_last_law_settled_and_never_before_a_wild_one() -> None:
+    scenario = step_scenario(LIMB, 200.0, seconds=6.0)
+    calm = run_trials(LIMB, scenario, [Entry("scct", REFERENCE)], LimbFlaws())
+    assert calm.shown_until() == pytest.approx(1.0)
+    line = error_line(calm.rows[0].run, scenario, calm.shown_until())
+    assert len(line.error) == 200
+    wild = run_trials(LIMB, scenario, [Entry("wild", LawSettings(law="scct", kp=600.0, kd=2.0))], LimbFlaws(delay=1))
+    assert wild.shown_until() == 6.0
 
 
 def test_three_ticks_are_enough_to_be_measured() -> None:

@@ -84,6 +84,14 @@ class LimbResult:
         flaws = self.flaws
         return bool(flaws.backlash or flaws.encoder_counts or flaws.delay)
 
+    def shown_until(self) -> float:
+        """Up to when a plot over time tells most [s]: of a step a while after the last law settled, else the whole run."""
+        end = len(self.scenario.aims) * self.flaws.period
+        settled = [row.measures[0].encoder.settling for row in self.rows if row.measures[0].unstable_at is None]
+        if self.scenario.kind != "step" or any(value is None or not math.isfinite(value) for value in settled):
+            return end
+        return min(end, max(1.0, 2.0 * max((value for value in settled if value is not None), default=end)))
+
     def title(self) -> str:
         """What was asked for, in a few words."""
         scenario = self.scenario
