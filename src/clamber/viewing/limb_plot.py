@@ -28,7 +28,7 @@ def draw_limb_result(result: LimbResult, path: str | Path) -> None:
     """Draw the first trial of every law: true paths as lines, what the encoders told as thin ones where it differs.
 
     Args:
-        result: From `run_trials`.
+        result: From `compare_laws`.
         path: A file (.png, .svg, .pdf).
 
     Raises:

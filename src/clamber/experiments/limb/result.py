@@ -65,7 +65,6 @@ class LimbResult:
     """The law that gains were matched to."""
     match_at: Floats
     """Joint angles at which they were [rad]."""
-    seed: int
     rows: tuple[Row, ...]
 
     @property
@@ -124,7 +123,7 @@ class LimbResult:
         told += ["upright"] if flaws.upright else []
         told += [] if flaws.motor_limits else ["motors without limits"]
         told += ["joint stops"] if flaws.joint_limits else []
-        return ", ".join([*told, *([] if flaws.seed is None else [f"seed {self.seed}"])])
+        return ", ".join([*told, *([] if flaws.seed is None else [f"seed {flaws.seed}"])])
 
     def match_words(self) -> str:
         """What the laws' gains have in common, in one line."""
@@ -203,7 +202,7 @@ class LimbResult:
                 "not_matched": self.mismatches(),
             },
             "beyond_limits": self.beyond_limits(),
-            "seed": self.seed,
+            "seed": self.flaws.seed,
             "trials": self.trials,
             "laws": [_law(row) for row in self.rows],
         }
@@ -265,23 +264,22 @@ def _over(row: Row, how: Callable[[list[float]], float]) -> Json:
     return out | {key: figure(attrgetter(key)) for key in ("work", "heat", "saturated", "tick")}
 
 
-def run_trials(
+def compare_laws(
     limb: BenchLimb,
     scenario: Scenario,
     entries: Sequence[Entry],
     flaws: LimbFlaws,
     *,
     plant: str = "mujoco",
-    seed: int = 0,
     trials: int = 1,
     match: Match = "none",
     reference: LawSettings | None = None,
     match_at: Floats | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> LimbResult:
-    """Run every entry `trials` times, on plants drawn from `seed` and the trial's number.
+    """Run every entry `trials` times, on plants drawn from the seed of `flaws` plus the trial's number.
 
-    One trial of a plant with nothing left to chance (`flaws.seed` None) is the plant as it is.
+    Without a seed nothing is left to chance, and all trials are the same.
 
     Raises:
         LawError: If settings do not fit the limb.
@@ -289,7 +287,7 @@ def run_trials(
     told: list[list[Measures]] = [[] for _ in entries]
     first: list[Run] = []
     for trial in range(trials):
-        drawn = flaws if flaws.seed is None else flaws.with_changes(seed=seed + trial)
+        drawn = flaws if flaws.seed is None else flaws.with_changes(seed=flaws.seed + trial)
         runs = run_contest(limb, scenario, entries, drawn, plant=plant)
         first = first or runs
         for k, run in enumerate(runs):
@@ -301,4 +299,4 @@ def run_trials(
         Row(entry, tip_stiffness(limb.chain, entry.settings, at), tuple(measures), run)
         for entry, measures, run in zip(entries, told, first, strict=True)
     )
-    return LimbResult(limb, scenario, flaws, plant, match, reference or LawSettings(law="scct"), at, seed, rows)
+    return LimbResult(limb, scenario, flaws, plant, match, reference or LawSettings(law="scct"), at, rows)
