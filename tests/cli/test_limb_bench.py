@@ -53,6 +53,25 @@ def test_the_table_says_what_was_matched(run: Any, match: str) -> None:
     assert ("not matched" if match == "none" else f"matched by '{match}'") in out
 
 
+def test_trials_tell_mean_and_worst_and_how_far_they_are(run: Any) -> None:
+    words = ("limb", "step", "-c", "scct", *SHORT["step"], "--flaws", "nominal", "--trials", "3")
+    code, out, err = run(*words)
+    assert code == 0 and "3 trials, mean and worst" in " ".join(out.split()) and "  worst" in out
+    assert "3 of 3 trials" in err
+    assert run(*words, "-q")[2] == ""
+    told = json.loads(run(*words, "-q", "--json")[1])
+    assert told["trials"] == 3 and told["plant"]["seed"] == 0  # drawn though no seed was named
+
+
+def test_the_second_plant_agrees_on_where_a_step_ends(run: Any) -> None:
+    ends = []
+    for plant in ("mujoco", "ode"):
+        told = json.loads(run("limb", "step", "-c", "scct", *SHORT["step"], "--plant", plant, "--json")[1])
+        ends.append(told["laws"][0]["trials"][0]["true"])
+    assert ends[0]["across_max"] == pytest.approx(ends[1]["across_max"], abs=2e-5)
+    assert ends[0]["rest"] == pytest.approx(ends[1]["rest"], abs=1e-4)
+
+
 def test_json_is_one_value_with_its_schema(run: Any) -> None:
     code, out, _ = run("limb", "step", "-c", "scct", "-c", "joint-pd", *SHORT["step"], "--seed", "3", "--json")
     told = json.loads(out)
@@ -101,6 +120,7 @@ def test_one_comes_out_where_every_law_is_unstable(run: Any) -> None:
         (("step", "--plant", "mojuco"), "no plant is called 'mojuco'"),
         (("step", "--limb", "fourth"), "no limb of libra is called 'fourth'"),
         (("step", "--robot", "hoshino"), "hoshino: the limb bench takes robots of the family 'limbed'"),
+        (("step", "--plant", "ode", "--flaws", "nominal"), "the ODE plant has none: take the plant 'mujoco'"),
         (("step", "--elbow", "up"), "elbow = up: must be + or -"),
     ],
 )

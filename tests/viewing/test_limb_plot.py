@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from clamber.control.law_settings import LawSettings
 from clamber.experiments.limb.bench_limb import BenchLimb, bench_limb
 from clamber.experiments.limb.entries import make_entries
-from clamber.experiments.limb.result import LimbResult, run_trials
+from clamber.experiments.limb.result import LimbResult, compare_laws
 from clamber.experiments.limb.scenario import Scenario, circle_scenario, push_scenario, step_scenario
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.viewing import limb_plot
@@ -30,7 +30,7 @@ def asked(kind: str) -> tuple[BenchLimb, Scenario]:
 def compared(kind: str, *texts: str, flaws: LimbFlaws) -> LimbResult:
     limb, scenario = asked(kind)
     entries = make_entries(limb, texts or ("scct", "jacobian-transpose"), REFERENCE, "mean", limb.q0)
-    return run_trials(limb, scenario, entries, flaws, match="mean", reference=REFERENCE)
+    return compare_laws(limb, scenario, entries, flaws, match="mean", reference=REFERENCE)
 
 
 @pytest.mark.parametrize("kind", ["step", "circle", "push"])

@@ -135,15 +135,15 @@ class Telling:
 def run_bench(words: BenchWords, limb: "BenchLimb", scenario: "Scenario", flaws: "LimbFlaws", telling: Telling) -> None:
     """Run the laws, write and print what came out, and leave with the exit code."""
     from ..experiments.limb.entries import match_pose
-    from ..experiments.limb.result import run_trials
+    from ..experiments.limb.result import compare_laws
     from .limb_text import print_limb_result, write_limb_result
 
     at = match_pose(limb, scenario)
     entries, reference = words.build_laws(limb, at)
     announce_compilation("drive", quiet=telling.quiet)
     line = EndsLine(stderr(), "trials", quiet=telling.quiet or words.trials == 1)
-    result = run_trials(
-        limb, scenario, entries, flaws, plant=words.plant, seed=words.seed or 0, trials=words.trials,
+    result = compare_laws(
+        limb, scenario, entries, flaws, plant=words.plant, trials=words.trials,
         match=words.match.value, reference=reference, match_at=at, progress=line.update,
     )  # fmt: skip
     if telling.output is not None:

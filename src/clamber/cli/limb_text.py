@@ -171,13 +171,18 @@ def _per_axis(value: float | tuple[float, ...]) -> str:
     return "/".join(f"{one:.4g}" for one in (value if isinstance(value, tuple) else (value,)))
 
 
-def _print_lines(console: Console, result: LimbResult, width: int = 44) -> None:
-    """One line of blocks for each law: its error over the run, all to one scale."""
-    lines = [error_line(row.run, result.scenario) for row in result.rows]
-    top = max((float(np.nanmax(line.error)) for line in lines if np.isfinite(line.error).any()), default=0.0)
+def _print_lines(console: Console, result: LimbResult) -> None:
+    """One line of blocks for each law: its error over the run, all to the scale of the largest of a stable one."""
+    lines = [error_line(row.run, result.scenario, result.shown_until()) for row in result.rows]
+    stable = [line for row, line in zip(result.rows, lines, strict=True) if row.measures[0].unstable_at is None]
+    top = max(float(np.nanmax(line.error)) for line in stable or lines)
     console.print(f"{lines[0].what}, to {1e3 * top:.3g} mm; {lines[0].over}")
+    room = min(36, max(len(row.entry.label) for row in result.rows))
+    width = 80 - room - 9
     for row, line in zip(result.rows, lines, strict=True):
-        console.print(f"{row.entry.label[:24]:<25}{_blocks(line.error, top, width)} {1e3 * np.nanmax(line.error):7.2f}")
+        console.print(
+            f"{row.entry.label[:room]:<{room}} {_blocks(line.error, top, width)} {1e3 * np.nanmax(line.error):7.2f}"
+        )
 
 
 def _blocks(values: Floats, top: float, width: int) -> str:

@@ -83,7 +83,7 @@ class MujocoLimb:
         if self._chances is not None:
             self._chances.restart()
             if self._stride == 2:
-                self._qpos[:, 1 :: self._stride] = self._chances.play
+                self._qpos[:, 1 : 2 * self.chain.n : 2] = self._chances.play
         self._truth.torques[:] = 0.0
         self._truth.wrenches[:] = 0.0
         self._electronics.reset()

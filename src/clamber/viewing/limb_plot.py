@@ -28,7 +28,7 @@ def draw_limb_result(result: LimbResult, path: str | Path) -> None:
     """Draw the first trial of every law: true paths as lines, what the encoders told as thin ones where it differs.
 
     Args:
-        result: From `run_trials`.
+        result: From `compare_laws`.
         path: A file (.png, .svg, .pdf).
 
     Raises:
@@ -90,22 +90,13 @@ def _dress(axes: Axes, across: str, up: str) -> None:
     axes.set_ylabel(up)
 
 
-def _shown_until(result: LimbResult) -> float:
-    """The end of the interesting part of a step [s]: a while after the last law settled, all of it if one never does."""
-    settled = [each.true.settling for row in result.rows for each in row.measures[:1]]
-    end = float(result.rows[0].run.trace.time[-1])
-    if any(value is None or not math.isfinite(value) for value in settled):
-        return end
-    return min(end, max(1.0, 2.0 * max(value for value in settled if value is not None)))
-
-
 def _draw_step(figure: Figure, result: LimbResult) -> None:
     scenario = result.scenario
     grid = figure.add_gridspec(3, 2, width_ratios=(1.0, 1.15))
     plane = figure.add_subplot(grid[:, 0])
     along_axes, across_axes = (figure.add_subplot(grid[k, 1]) for k in (0, 1))
     torque_axes = figure.add_subplot(grid[2, 1], sharex=along_axes)
-    until = _shown_until(result)
+    until = result.shown_until()
     aim = result.rows[0].run.trace.wanted_places()[-1, 0, :2]
     start = np.array(scenario.start)
     length = components(aim - start, scenario.direction)[0]

@@ -158,9 +158,11 @@ def test_encoders_and_truth_differ_by_no_more_than_half_of_the_play() -> None:
     scenario = push_scenario(LIMB, flaws.control_rate, seconds=2.5)
     (run,) = run_contest(LIMB, scenario, [ENTRY], flaws)
     gap = np.abs(run.trace.true[:, 0, 0] - run.trace.sensed[:, 0, 0])
-    # the ends of the play are springs: 10 N at 22 cm press 0.1 deg into them
-    assert gap.max() < math.radians(1.15)
     assert gap[0] == pytest.approx(math.radians(1.0), rel=1e-9)
+    # the ends of the play are stiff springs: the hit of a link on them gives more, for a tick or two
+    pressed = (run.trace.time > 1.0) & (run.trace.time < 2.0)
+    assert gap[pressed].max() < math.radians(1.02)
+    assert gap[pressed, 1].min() > math.radians(0.99)  # the elbow carries the push
 
 
 def test_a_push_yields_by_the_force_over_the_stiffness_without_friction() -> None:

@@ -28,9 +28,8 @@ USUAL: Final = (
 )
 """Compared unless others are named."""
 GAINS: Final = ("kp", "kd")
-OF_MOTION: Final = {
+OTHER_GAINS: Final = {
     "jacobian-transpose": ("stiffness", "linear damping"),
-    "implicit-force": ("angular stiffness", "damping"),
     "operational-space": (None, None),
 }
 """Law -> dimensions of kp and kd, where they are not those of a joint's servo; None: a plain number, in 1/s^2 and 1/s."""
@@ -105,7 +104,7 @@ def _value(law: str, key: str, text: str) -> Any:
 
 def gain_dimension(law: str, key: str) -> str | None:
     """The dimension of a law's kp or kd; None for accelerations per metre, which have no unit of their own here."""
-    return OF_MOTION.get(law, ("angular stiffness", "damping"))[GAINS.index(key)]
+    return OTHER_GAINS.get(law, ("angular stiffness", "damping"))[GAINS.index(key)]
 
 
 def gain_unit(law: str, key: str) -> str:

@@ -6,6 +6,7 @@ import json
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
+from operator import attrgetter
 from pathlib import Path
 from typing import Any, Final
 
@@ -64,7 +65,6 @@ class LimbResult:
     """The law that gains were matched to."""
     match_at: Floats
     """Joint angles at which they were [rad]."""
-    seed: int
     rows: tuple[Row, ...]
 
     @property
@@ -82,6 +82,14 @@ class LimbResult:
         """Whether the encoders tell something else than the truth."""
         flaws = self.flaws
         return bool(flaws.backlash or flaws.encoder_counts or flaws.delay)
+
+    def shown_until(self) -> float:
+        """Up to when a plot over time tells most [s]: of a step a while after the last law settled, else the whole run."""
+        end = len(self.scenario.aims) * self.flaws.period
+        settled = [row.measures[0].encoder.settling for row in self.rows if row.measures[0].unstable_at is None]
+        if self.scenario.kind != "step" or any(value is None or not math.isfinite(value) for value in settled):
+            return end
+        return min(end, max(1.0, 2.0 * max((value for value in settled if value is not None), default=end)))
 
     def title(self) -> str:
         """What was asked for, in a few words."""
@@ -115,7 +123,7 @@ class LimbResult:
         told += ["upright"] if flaws.upright else []
         told += [] if flaws.motor_limits else ["motors without limits"]
         told += ["joint stops"] if flaws.joint_limits else []
-        return ", ".join([*told, *([] if flaws.seed is None else [f"seed {self.seed}"])])
+        return ", ".join([*told, *([] if flaws.seed is None else [f"seed {flaws.seed}"])])
 
     def match_words(self) -> str:
         """What the laws' gains have in common, in one line."""
@@ -194,7 +202,7 @@ class LimbResult:
                 "not_matched": self.mismatches(),
             },
             "beyond_limits": self.beyond_limits(),
-            "seed": self.seed,
+            "seed": self.flaws.seed,
             "trials": self.trials,
             "laws": [_law(row) for row in self.rows],
         }
@@ -248,30 +256,30 @@ def _over(row: Row, how: Callable[[list[float]], float]) -> Json:
         value = how(values) if values else math.inf
         return value if math.isfinite(value) else None
 
-    out: Json = {}
-    for side in ("true", "encoder"):
-        keys = row.measures[0].to_json()[side]
-        out[side] = {key: figure(lambda m, s=side, k=key: getattr(getattr(m, s), k)) for key in keys}  # type: ignore[misc]
-    return out | {key: figure(lambda m, k=key: getattr(m, k)) for key in ("work", "heat", "saturated", "tick")}  # type: ignore[misc]
+    tips = {"true": attrgetter("true"), "encoder": attrgetter("encoder")}
+    out: Json = {
+        side: {key: figure(attrgetter(f"{side}.{key}")) for key in tip(row.measures[0]).to_json()}
+        for side, tip in tips.items()
+    }
+    return out | {key: figure(attrgetter(key)) for key in ("work", "heat", "saturated", "tick")}
 
 
-def run_trials(
+def compare_laws(
     limb: BenchLimb,
     scenario: Scenario,
     entries: Sequence[Entry],
     flaws: LimbFlaws,
     *,
     plant: str = "mujoco",
-    seed: int = 0,
     trials: int = 1,
     match: Match = "none",
     reference: LawSettings | None = None,
     match_at: Floats | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> LimbResult:
-    """Run every entry `trials` times, on plants drawn from `seed` and the trial's number.
+    """Run every entry `trials` times, on plants drawn from the seed of `flaws` plus the trial's number.
 
-    One trial of a plant with nothing left to chance (`flaws.seed` None) is the plant as it is.
+    Without a seed nothing is left to chance, and all trials are the same.
 
     Raises:
         LawError: If settings do not fit the limb.
@@ -279,7 +287,7 @@ def run_trials(
     told: list[list[Measures]] = [[] for _ in entries]
     first: list[Run] = []
     for trial in range(trials):
-        drawn = flaws if flaws.seed is None else flaws.with_changes(seed=seed + trial)
+        drawn = flaws if flaws.seed is None else flaws.with_changes(seed=flaws.seed + trial)
         runs = run_contest(limb, scenario, entries, drawn, plant=plant)
         first = first or runs
         for k, run in enumerate(runs):
@@ -291,4 +299,4 @@ def run_trials(
         Row(entry, tip_stiffness(limb.chain, entry.settings, at), tuple(measures), run)
         for entry, measures, run in zip(entries, told, first, strict=True)
     )
-    return LimbResult(limb, scenario, flaws, plant, match, reference or LawSettings(law="scct"), at, seed, rows)
+    return LimbResult(limb, scenario, flaws, plant, match, reference or LawSettings(law="scct"), at, rows)

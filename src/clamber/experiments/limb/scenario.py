@@ -12,8 +12,8 @@ from ...sim.limb_flaws import LimbFlaws, Push, Wall
 from ...types import Records
 from .bench_limb import BenchLimb
 
-LEAST_TICKS: Final = 20
-"""Shorter runs say nothing."""
+LEAST_TICKS: Final = 2
+"""A run has to have more: else there is nothing to measure."""
 
 
 class ScenarioError(ClamberError):
