@@ -38,6 +38,8 @@ def test_the_trace_is_what_a_loop_by_hand_sees(name: str, batch: int) -> None:
         plant.step()
         assert np.array_equal(trace.applied[k], plant.truth().torques)
         assert np.array_equal(trace.wrenches[k], plant.truth().wrenches)
+        assert np.array_equal(trace.true_places()[k, 0], leg.chain.place(trace.true[k, 0, 0]))
+        assert np.array_equal(trace.sensed_places()[k, -1], leg.chain.place(trace.sensed[k, -1, 0]))
     assert trace.wrenches.any() and trace.reports["place"].any()
 
 

@@ -41,7 +41,7 @@ def bench(
     if ray is not None:
         crew.executor.check()
     if ray is None:
-        announce_compilation("simulate" if name == "boards" else "rollout")
+        announce_compilation({"boards": "simulate", "control": "drive_at"}.get(name or "", "rollout"))
     if name == "boards":
         from .bench_boards import bench_boards
 

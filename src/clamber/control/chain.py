@@ -10,7 +10,7 @@ from ..errors import ClamberError
 from ..robots.limbed import Joint, Limb, LimbedRobot
 from ..types import Floats, Records
 from ..units import GRAVITY
-from .kinematics import CENTRE, FRAME, accelerate, fill_inertia, fill_jacobian, place_chain
+from .kinematics import FRAME, accelerate, fill_inertia, fill_jacobian, place_chain, place_tips
 from .records import AXES, JOINT, ROOT
 
 ShareBasis: TypeAlias = Literal["inertia", "damping", "back-emf"]
@@ -140,9 +140,12 @@ class Chain:
         """Tip in the base frame at the joint angles `q` [m], shape (3,)."""
         return self._placed(q)[1][:3].copy()
 
-    def last_centre(self, q: Sequence[float] | Floats) -> Floats:
-        """Centre of mass of the last link in the base frame at the joint angles `q` [m], shape (3,)."""
-        return self._placed(q)[0][-1, CENTRE : CENTRE + 3].copy()
+    def places(self, q: Floats) -> Floats:
+        """Tips in the base frame at many rows of joint angles, shape (m, n) [m], shape (m, 3)."""
+        out = np.empty((len(q), 3))
+        angles = np.ascontiguousarray(q, dtype=np.float64)
+        place_tips(self.joints, self.root, angles, np.zeros((self.n, FRAME)), np.zeros(12), out)
+        return out
 
     def jacobian(self, q: Sequence[float] | Floats) -> Floats:
         """Jacobian of the tip's twist, base frame, shape (6, n)."""

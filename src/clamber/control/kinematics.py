@@ -112,6 +112,15 @@ def place_chain(joints, root, q, frames, tip):
 
 
 @kernel
+def place_tips(joints, root, angles, frames, tip, out):
+    """Places of the tip at many rows of joint angles, shape (m, n), into `out`, shape (m, 3); the rest as in `place_chain`."""
+    for k in range(angles.shape[0]):
+        place_chain(joints, root, angles[k], frames, tip)
+        for i in range(3):
+            out[k, i] = tip[i]
+
+
+@kernel
 def fill_jacobian(joints, frames, tip, jacobian):
     """Jacobian of the tip's twist in the base frame, from placed frames.
 

@@ -2,8 +2,6 @@
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from ..control.chain import Chain
 from ..types import Floats, Records
 
@@ -45,9 +43,5 @@ class LimbTrace:
         return places
 
     def _places(self, states: Floats) -> Floats:
-        ticks, batch = states.shape[:2]
-        out = np.empty((ticks, batch, 3))
-        for k in range(ticks):
-            for b in range(batch):
-                out[k, b] = self.chain.place(states[k, b, 0])
-        return out
+        ticks, batch, _, n = states.shape
+        return self.chain.places(states[:, :, 0].reshape(-1, n)).reshape(ticks, batch, 3)

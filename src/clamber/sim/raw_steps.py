@@ -22,7 +22,8 @@ class RawSteps:
 
         self._mujoco, self._model, self._steps, self._torques = mujoco, model, steps, torques
         self._start = np.zeros(model.nq)
-        self._start[:: model.nq // len(q0)] = q0
+        stride = model.nq // len(q0)
+        self._start[: stride * len(q0) : stride] = q0
         batch = torques.shape[1]
         self._data: Any = mujoco.MjData(model)
         self._pool: Any = None
