@@ -210,6 +210,28 @@ def test_joint_pd_finds_the_angles_of_the_closed_form(x: float, angle: float, fi
     np.testing.assert_allclose(torques[0], exact - start, atol=1e-8)
 
 
+@pytest.mark.parametrize(("name", "reach"), [("leg 3", 0.311), ("plane arm of 3", 0.45)])
+@pytest.mark.parametrize("aim", [(0.5, 0.3), (0.1, -0.7), (3.0, 0.1)])
+def test_joint_pd_points_at_an_aim_out_of_reach_and_comes_back(
+    name: str, reach: float, aim: tuple[float, float]
+) -> None:
+    chain = limb("bottom") if name == "leg 3" else planar_chain(3)
+    q = np.array([0.3, 0.7, 0.6][: chain.n])
+    controller = Controller(chain, LawSettings(law="joint-pd", joint_kp=1.0, joint_kd=0.0, **BARE), period=PERIOD)
+
+    def angles(place: tuple[float, float], ticks: int) -> Floats:
+        for _ in range(ticks):
+            torques = controller.command(still_aim(place), np.array([[q, np.zeros(chain.n)]]))
+        pose: Floats = torques[0] + q
+        return pose
+
+    nearest = np.array(aim) / np.hypot(*aim) * reach
+    for _ in range(2):
+        # the distance is flat about the nearest pose, so half of the digits are there
+        np.testing.assert_allclose(chain.place(angles(aim, 40))[:2], nearest, atol=1e-5)
+        np.testing.assert_allclose(chain.place(angles((0.2, 0.1), 20))[:2], (0.2, 0.1), atol=1e-8)
+
+
 def test_plain_resolved_rate_follows_joint_angles_that_integrate_the_aims_motion() -> None:
     chain, rng = random_chain(6, 6, gravity=False), np.random.default_rng(0)
     q = rng.uniform(-1.0, 1.0, 6)
