@@ -117,9 +117,11 @@ def smallest_singular(rows, n_rows, n_columns, gram):
             for j in range(i):
                 if gram[i, j] == 0.0:
                     continue
-                angle = 0.5 * math.atan2(2.0 * gram[i, j], gram[j, j] - gram[i, i])
-                c = math.cos(angle)
-                s = math.sin(angle)
+                # the tangent of the smaller of two angles that make this entry zero
+                cotangent = 0.5 * (gram[j, j] - gram[i, i]) / gram[i, j]
+                tangent = math.copysign(1.0, cotangent) / (abs(cotangent) + math.sqrt(1.0 + cotangent * cotangent))
+                c = 1.0 / math.sqrt(1.0 + tangent * tangent)
+                s = c * tangent
                 for k in range(n_rows):
                     a = gram[k, i]
                     b = gram[k, j]
