@@ -89,7 +89,7 @@ class LawSettings:
     """A law with its settings. Gains of `kp`, `kd` are those of the law's own equation: see its page for units.
 
     For laws that go through the joints' motion (scct, resolved-rate, ...) kp is in N m/rad and kd in N m s/rad; for jacobian-transpose N/m
-    and N s/m; for operational-space 1/s^2 and 1/s.
+    and N s/m, in its rows of rotation N m/rad and N m s/rad; for operational-space 1/s^2 and 1/s.
     """
 
     law: str
