@@ -210,6 +210,16 @@ def test_joint_pd_finds_the_angles_of_the_closed_form(x: float, angle: float, fi
     np.testing.assert_allclose(torques[0], exact - start, atol=1e-8)
 
 
+@quarter
+@given(x=st.floats(0.14, 0.27), angle=st.floats(-1.2, 1.2), away=st.floats(-0.005, 0.005))
+def test_joint_pd_has_the_angles_of_a_near_aim_within_one_tick(x: float, angle: float, away: float) -> None:
+    spec = libra().limbs[libra().limb_index("right")]
+    place = x * np.array([np.cos(angle), np.sin(angle)])
+    start, exact = (np.array(closed_branches(spec, *at)[0]) for at in (place, place + away))
+    aim, settings = still_aim(place + away), LawSettings(law="joint-pd", joint_kp=1.0, joint_kd=0.0, **BARE)
+    np.testing.assert_allclose(tick(limb(), settings, aim, start, np.zeros(2)), exact - start, atol=1e-7)
+
+
 @pytest.mark.parametrize(("name", "reach"), [("leg 3", 0.311), ("plane arm of 3", 0.45)])
 @pytest.mark.parametrize("aim", [(0.5, 0.3), (0.1, -0.7), (3.0, 0.1)])
 def test_joint_pd_points_at_an_aim_out_of_reach_and_comes_back(

@@ -47,14 +47,26 @@ def test_a_positive_matrix_is_factored_and_solved(seed: int, n: int) -> None:
     np.testing.assert_allclose(matrix @ vector, right, atol=1e-11)
 
 
-@given(seed=SEEDS, rows=st.integers(1, 6), more=st.integers(0, 3), small=st.sampled_from([1.0, 1e-3, 0.0]))
-def test_the_smallest_singular_value_is_numpys(seed: int, rows: int, more: int, small: float) -> None:
+@given(
+    seed=SEEDS,
+    rows=st.integers(1, 6),
+    more=st.integers(0, 3),
+    small=st.sampled_from([1.0, 1e-3, 1e-6, 1e-12, 0.0]),
+    alike=st.integers(0, 6),
+    scale=st.sampled_from([1e-3, 1.0, 1e3]),
+)
+def test_the_smallest_singular_value_is_numpys(
+    seed: int, rows: int, more: int, small: float, alike: int, scale: float
+) -> None:
     rng = np.random.default_rng(seed)
     left, values, right = np.linalg.svd(rng.normal(size=(rows, rows + more)), full_matrices=False)
-    values[-1] = min(small, values[-1])
-    matrix = left * values @ right
+    values[max(0, rows - alike) :] *= 0.0
+    values[max(0, rows - alike) :] += small  # of several that are the same, too
+    matrix = scale * (left * values @ right)
     found = smallest_singular(room(matrix), rows, rows + more, np.empty((9, 9)))
-    assert found == pytest.approx(values[-1], rel=1e-6, abs=1e-7)  # by the Gram matrix: half of the digits
+    wanted, largest = scale * values.min(), scale * values.max()
+    # by the Gram matrix, so its square has the digits; several equal values cost three of them
+    assert found**2 == pytest.approx(wanted**2, rel=0, abs=1e-12 * largest**2)
 
 
 def test_more_rows_than_joints_are_singular() -> None:
