@@ -168,6 +168,9 @@ def test_lists_other_floats_and_strided_arrays_are_taken_as_they_mean() -> None:
         np.testing.assert_array_equal(controller.command(aim, states), wanted)  # type: ignore[arg-type]
     stacked = np.stack([aim, aim])[0]  # its dtype equals AIM, but is another object
     np.testing.assert_array_equal(controller.command(stacked, np.array([[q, qd]])), wanted)
+    pair = Controller(CHAINS["leg 1"], LawSettings(law="scct"), period=PERIOD, batch=2)
+    every_other = np.concatenate([aim, still_aim((0.1, 0.1)), aim])[::2]
+    np.testing.assert_array_equal(pair.command(every_other, np.array([[q, qd], [q, qd]])), [wanted[0], wanted[0]])
 
 
 def test_a_batch_needs_one_law_or_as_many_as_limbs() -> None:

@@ -145,6 +145,7 @@ class Controller:
                 and felt.flags.c_contiguous
                 and aims.shape in self._aim_shapes
                 and aims.dtype is AIM
+                and aims.flags.c_contiguous
             )
         except AttributeError:
             ready = False

@@ -3,16 +3,19 @@ r"""Joint PD control: the tip's aim becomes joint angles by inverse kinematics, 
 .. math:: \tau = W (k_p (\theta_{des} - \theta) + k_d (\dot\theta_{des} - \dot\theta))
 
 W = E or K'. The inverse kinematics go on from the angles of the last tick by damped Gauss-Newton steps, so the limb keeps its branch and
-serves any chain; an aim out of reach is approached as far as the steps get. Stiffness cannot be chosen by direction.
+serves any chain. A step that leads away is taken back (Levenberg 1944), so an aim out of reach is met by the nearest pose, over several
+ticks. Stiffness cannot be chosen by direction.
 """
+
+import math
 
 from ..compiled import kernel
 from .inverse_motion import damping_of, invert_motion
 from .kinematics import fill_jacobian, place_chain
 from .moment import GRAM, JACOBIAN, OTHER, SHARE, SPARE, SQUARE, TASK, TORQUE, WANTED_RATE, fill_error, fill_task
 
-STEPS = 6
-"""Gauss-Newton steps a tick, at most."""
+LOOKS = 7
+"""At where the angles lead, a tick, at most; between two of them lies a step."""
 LONGEST = 0.5
 """Longest step of a joint [rad]."""
 NEAR = 1e-9
@@ -21,6 +24,8 @@ LEAST = 1e-12
 """Damping of a step, smallest [m^2]."""
 CARE = 1e-2
 """Damping of a step per error [m]."""
+MORE_CARE = 16.0
+"""Times that after a step that led away."""
 
 
 @kernel
@@ -56,23 +61,37 @@ def _approach(joints, root, settings, aim, angles, frames, lines, squares):
     error = lines[SPARE]
     motion = lines[SPARE + 1]
     tip = lines[SPARE + 4]
-    for _ in range(STEPS):
+    care = CARE
+    before = math.inf
+    for look in range(LOOKS):
         place_chain(joints, root, angles, frames, tip)
-        fill_jacobian(joints, frames, tip, squares[JACOBIAN])
-        fill_task(settings, squares[JACOBIAN], n, task)
         fill_error(settings, aim, tip, lines[SPARE + 3], error)
         largest = 0.0
+        square = 0.0
         for i in range(rows):
             largest = max(largest, abs(error[i]))
-        if not largest > NEAR:
+            square += error[i] * error[i]
+        if not square < before:
+            if before == math.inf:
+                break  # too far for a number
+            for j in range(n):
+                angles[j] -= motion[j]
+            care *= MORE_CARE
+            before = math.inf
+            continue
+        if look == LOOKS - 1 or not largest > NEAR:
             break
-        # damped in proportion to the error (Chan and Lawrence): far or out of reach it is careful, near it is Newton's
+        before = square
+        fill_jacobian(joints, frames, tip, squares[JACOBIAN])
+        fill_task(settings, squares[JACOBIAN], n, task)
+        # damped in proportion to the error (Chan and Lawrence 1988): far or out of reach it is careful, near it is Newton's
         invert_motion(
-            task, rows, n, lines[SHARE], LEAST + CARE * largest, error, squares[SQUARE], lines[SPARE + 2], motion
+            task, rows, n, lines[SHARE], LEAST + care * largest, error, squares[SQUARE], lines[SPARE + 2], motion
         )
         longest = 0.0
         for j in range(n):
             longest = max(longest, abs(motion[j]))
         scale = LONGEST / longest if longest > LONGEST else 1.0
         for j in range(n):
-            angles[j] += scale * motion[j]
+            motion[j] *= scale
+            angles[j] += motion[j]

@@ -51,7 +51,7 @@ WORDS: Final[dict[str, tuple[str, ...]]] = {
     "law": tuple(LAWS),
     "axes": AXIS_NAMES,
     "forced": AXIS_NAMES,
-    "weight": ("none", "inertia", "damping", "back-emf"),
+    "weight": ("inertia", "damping", "back-emf", "none"),
     "friction_from": tuple(FRICTION_SOURCES),
 }
 """Settings that are words -> the words that are allowed."""
@@ -89,7 +89,7 @@ class LawSettings:
     """A law with its settings. Gains of `kp`, `kd` are those of the law's own equation: see its page for units.
 
     For laws that go through the joints' motion (scct, resolved-rate, ...) kp is in N m/rad and kd in N m s/rad; for jacobian-transpose N/m
-    and N s/m; for operational-space 1/s^2 and 1/s.
+    and N s/m, in its rows of rotation N m/rad and N m s/rad; for operational-space 1/s^2 and 1/s.
     """
 
     law: str
@@ -203,7 +203,7 @@ class LawSettings:
         words = value if several and isinstance(value, tuple) else (value,)
         for word in words:
             if word not in allowed:
-                raise LawError(self.law, key, word, f"must be of {describe_choices(str(word), allowed)}")
+                raise LawError(self.law, key, word, f"must be {describe_choices(str(word), allowed)}")
         if several and not isinstance(value, tuple):
             raise LawError(self.law, key, value, f'must be a list of axes, such as ("{value}",)')
         if len(set(words)) < len(words):
