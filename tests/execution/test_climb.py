@@ -48,8 +48,8 @@ def test_a_rung_is_climbed_and_every_hook_is_seated() -> None:
     climber, plant = on_the_ladder()
     climber.wait(0.5)
     board = load_board("ladder")
-    for limb, number in ((RIGHT, 6), (BOTTOM, 1), (LEFT, 5)):
-        result = grab(climber, limb, number, elbow=(-1, 1, 0)[limb])
+    for limb, number, elbow in ((RIGHT, 6, -1), (BOTTOM, 1, 1), (LEFT, 5, 1)):
+        result = grab(climber, limb, number, elbow=elbow)
         assert result.held, (limb, number, result)
         np.testing.assert_allclose(plant.truth().tips[limb], board.positions()[number - 1], atol=2e-3)
     release(climber, BOTTOM)
