@@ -70,6 +70,7 @@ def climber_spec(
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     spec.option.impratio = 10.0
+    spec.compiler.degree = False
     spec.option.gravity = (0.0, -GRAVITY, 0.0)
     places = board.positions() if pegs is None else pegs
     for hold, (x, y) in zip(board.holds, places, strict=True):

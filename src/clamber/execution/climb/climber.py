@@ -84,6 +84,7 @@ class Climber:
         plant: What moves.
         gains: Of body and limbs.
         map_error: Largest error of a hold's place in the map, each way [m]: how far a hook may stop from it and still count as seated.
+        backlash: Whole play of a joint that is reckoned with [rad]; None: that of the robot's file.
     """
 
     def __init__(
@@ -94,9 +95,10 @@ class Climber:
         *,
         gains: BodyGains = BodyGains(),  # noqa: B008  # frozen
         map_error: float = 0.004,
+        backlash: float | None = None,
     ) -> None:
         self.robot, self.plant, self.map_error = robot, plant, map_error
-        self.body = WholeBody(robot, period=plant.period, gains=gains)
+        self.body = WholeBody(robot, period=plant.period, gains=gains, backlash=backlash)
         self.holds = {hold.number: np.array((hold.x, hold.y)) for hold in board.holds}
         self.approaches = Approaches(robot, self.body.legs, max(hold.radius for hold in board.holds))
         self.ticks = 0
@@ -129,7 +131,7 @@ class Climber:
             task.angles = q[i].copy()
             self.body.tasks[i] = task
         self.plant.reset(pose, q)
-        self.body.pose[:], self.body.aim[:] = pose, pose
+        self.body.pose[:], self.body.settled[:], self.body.aim[:] = pose, pose, pose
         self.body.aim_speed[:] = 0.0
         self.ticks = self._strained = 0
 

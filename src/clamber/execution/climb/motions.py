@@ -1,5 +1,6 @@
 """Motions: how each kind of action is carried out. Body moves on smooth ways, releases, and the grab of Bevly (1997), Fig. 4.14."""
 
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -13,6 +14,8 @@ BODY_TURN: Final = 0.4
 """[rad/s]."""
 JOINT_SPEED: Final = 1.6
 """Of a free limb's joints on their way [rad/s]."""
+BLEND: Final = 0.3
+"""Over which corners of a limb's way are rounded [s]."""
 STAND_OFF: Final = 0.028
 """Distance from a hold at which a hook turns towards it [m]."""
 WIDE_STAND_OFF: Final = 0.042
@@ -75,16 +78,19 @@ def follow(climber: Climber, i: int, way: Floats) -> None:
     lengths = np.abs(np.diff(way, axis=0)).max(axis=1)
     along = np.concatenate(([0.0], np.cumsum(lengths)))
     seconds = max(1.5 * along[-1] / JOINT_SPEED, 0.2)
-    count = round(seconds / period)
-    task.doing, task.angles = "joints", way[0].copy()
-    for k in range(1, count + 1):
-        u = k / count
-        done = u * u * (3 - 2 * u) * along[-1]
-        angles = np.array([np.interp(done, along, way[:, j]) for j in range(2)])
-        task.rates = (angles - task.angles) / period if k > 1 else np.zeros(2)
-        task.angles = angles
+    count, blend = round(seconds / period), max(2, round(BLEND / period))
+    u = np.arange(1, count + 1) / count
+    done = u * u * (3 - 2 * u) * along[-1]
+    angles = np.stack([np.interp(done, along, way[:, j]) for j in range(2)], axis=1)
+    # rounded corners: a turn on the spot throws the body about
+    window = np.hanning(blend + 2)[1:-1]
+    padded = np.concatenate((np.repeat(way[:1], blend, axis=0), angles, np.repeat(way[-1:], blend, axis=0)))
+    smooth = np.stack([np.convolve(padded[:, j], window / window.sum(), "valid") for j in range(2)], axis=1)
+    task.doing = "joints"
+    for before, after in pairwise(smooth):
+        task.angles, task.rates = after, (after - before) / period
         climber.tick()
-    task.rates = np.zeros(2)
+    task.angles, task.rates = way[-1].copy(), np.zeros(2)
 
 
 def stand_off_of(climber: Climber, i: int) -> float:
@@ -119,13 +125,17 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
         release(climber, i)
     hold = climber.holds[number]
     wished = stand_off_of(climber, i)
-    found = climber.approaches.find(i, body.q[i].copy(), body.pose, hold, climber.holds, elbow=elbow, stand_off=wished)
+    found = climber.approaches.find(
+        i, body.q[i] - body.play[i], body.settled, hold, climber.holds, elbow=elbow, stand_off=wished
+    )
     if found is None:
         return Grabbed(False, 0, 0.0, 0.0)
     if found.shift.any():
         move_body(climber, body.aim + np.array((*found.shift, 0.0)))
         found = (
-            climber.approaches.find(i, body.q[i].copy(), body.pose, hold, climber.holds, elbow=elbow, stand_off=wished)
+            climber.approaches.find(
+                i, body.q[i] - body.play[i], body.settled, hold, climber.holds, elbow=elbow, stand_off=wished
+            )
             or found
         )
     follow(climber, i, found.way)
@@ -153,7 +163,7 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
 def _push(climber: Climber, i: int, place: Floats, g: Floats) -> bool:
     """Push a hook along its grab direction until it stops, then tug; False if it slips past where a hold could be."""
     body, task, period = climber.body, climber.body.tasks[i], climber.plant.period
-    task.doing, task.damping = "pull", 25.0
+    task.doing, task.damping, task.pressed = "pull", 25.0, False
     still = 0.0
     for k in range(round(PATIENCE / period)):
         along = body.grab_direction(i)
@@ -164,6 +174,7 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats) -> bool:
             + DITHER * np.sin(2 * np.pi * DITHER_RATE * k * period) * across
             + CENTRING * float(across @ (place - body.tip(i))) * across
         )
+        task.pressed = still > STILL / 6
         climber.tick()
         still = still + period if body.tip_speed(i) @ along < STOPPED else max(0.0, still - 5 * period)
         if (body.tip(i) - place) @ g > climber.map_error + SLACK:

@@ -21,10 +21,15 @@ from ...control.controller import Controller, still_aim
 from ...control.law_settings import LawSettings
 from ...robots.limbed import LimbedRobot
 from ...types import Floats
+from ...units import GRAVITY
 
 Doing: TypeAlias = Literal["hold", "cling", "tip", "joints", "pull"]
 """A limb holds the body, clings to its hold without carrying, brings its tip or its joints somewhere, or pulls along a direction."""
 MAPPINGS: Final = {"thesis": THESIS, "kinematic": KINEMATIC}
+SURE: Final = 0.05
+"""A load well above this puts a joint at one end of its play [N m]."""
+PLAY_TIME: Final = 0.2
+"""Time in which the believed side of the play follows the load [s]."""
 LIMITS: Final = {"none": LIMIT_NONE, "thesis": LIMIT_THESIS, "counted": LIMIT_COUNTED, "shared": LIMIT_SHARED}
 
 
@@ -70,6 +75,8 @@ class LimbTask:
     """Of "pull": acceleration asked of the tip, world frame, in the units of the limb's gains."""
     damping: float = 25.0
     """Of "pull"."""
+    pressed: bool = False
+    """Of "pull": whether the tip has stopped against something, which then loads the joints."""
 
 
 class WholeBody:
@@ -79,10 +86,19 @@ class WholeBody:
         robot: The climber.
         period: Of the control [s].
         gains: Of body and limbs.
+        backlash: Whole play of a joint that is reckoned with [rad]; None: that of the robot's file.
     """
 
-    def __init__(self, robot: LimbedRobot, *, period: float, gains: BodyGains = BodyGains()) -> None:
+    def __init__(
+        self,
+        robot: LimbedRobot,
+        *,
+        period: float,
+        gains: BodyGains = BodyGains(),  # frozen
+        backlash: float | None = None,
+    ) -> None:
         self.robot, self.gains, self.period = robot, gains, period
+        self.backlash = robot.motor.backlash if backlash is None else backlash
         n = len(robot.limbs)
         self.n = n
         self.chains = [chain_of_limb(robot, limb.name) for limb in robot.limbs]
@@ -109,10 +125,15 @@ class WholeBody:
         """In the body frame, by the encoders."""
         self.q, self.qd = np.zeros((n, 2)), np.zeros((n, 2))
         self.torques = np.zeros((n, 2))
-        self.smoothed = np.zeros((n, 2))
-        """Low-passed torques: which side of its play a joint rests on follows from their sign."""
+        self.play = np.zeros((n, 2))
+        """How far each joint's output is believed to lag its encoder, the side of the play it rests on [rad]."""
+        self.settled_tips = np.zeros((n, 2))
+        """Tips in the body frame with the play counted."""
+        self.settled = np.zeros(3)
+        """The pose with the play counted: for maps and aims, never for the fast loop, which it would set swinging."""
         self._held = np.zeros(n, np.int64)
         self._holds, self._arms = np.zeros((n, 2)), np.zeros((n, 2))
+        self._unused_speeds, self._unused_twist = np.zeros((n, 2)), np.zeros(3)
         self._pulls, self._forces = np.zeros((n, 2)), np.zeros((n, 2))
         self._least = np.full(n, gains.least_pull)
 
@@ -127,12 +148,29 @@ class WholeBody:
             self.legs, self.q, self.qd, self._held, self._holds, angle, angle_speed, with_encoder,
             self.tips, self.tip_speeds, self.pose, self.twist,
         )  # fmt: skip
+        estimate_body(
+            self.legs, self.q - self.play, self.qd, self._held, self._holds, angle, angle_speed, with_encoder,
+            self.settled_tips, self._unused_speeds, self.settled, self._unused_twist,
+        )  # fmt: skip
+
+    def _follow_play(self) -> None:
+        """Which end of its play a joint rests on follows from what loads it: the fed-forward force, or a free limb's own weight."""
+        for i, (task, chain) in enumerate(zip(self.tasks, self.chains, strict=True)):
+            if task.doing == "hold":
+                load = chain.jacobian(self.q[i])[:2].T @ self._forces[i]
+            elif task.doing == "pull" and task.pressed:
+                load = self.torques[i]
+            else:
+                down = self._into_port(i, np.array((0.0, -GRAVITY)))
+                load = chain.with_gravity((down[0], down[1], 0.0)).bias(self.q[i], np.zeros(2))
+            side = np.tanh(load / SURE)
+            self.play[i] += self.period / PLAY_TIME * (self.backlash / 2 * side - self.play[i])
 
     def tip(self, i: int) -> Floats:
-        """A limb's tip in the world by encoders and estimate [m]."""
-        c, s = np.cos(self.pose[2]), np.sin(self.pose[2])
-        x, y = self.tips[i]
-        return np.array((self.pose[0] + c * x - s * y, self.pose[1] + s * x + c * y))
+        """A limb's tip in the world by encoders and estimate, the play counted [m]."""
+        c, s = np.cos(self.settled[2]), np.sin(self.settled[2])
+        x, y = self.settled_tips[i]
+        return np.array((self.settled[0] + c * x - s * y, self.settled[1] + s * x + c * y))
 
     def tip_speed(self, i: int) -> Floats:
         """Its speed in the world [m/s]."""
@@ -181,7 +219,7 @@ class WholeBody:
                 )
             if task.doing in ("tip", "pull", "cling"):
                 np.clip(self.torques[i], -gains.gentle, gains.gentle, out=self.torques[i])
-        self.smoothed += 0.1 * (self.torques - self.smoothed)
+        self._follow_play()
         return self.torques
 
     def _into_port(self, i: int, vector: Floats) -> Floats:
