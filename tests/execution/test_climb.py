@@ -13,8 +13,6 @@ from clamber.types import Floats
 from clamber.worlds.library import load_board
 
 NOMINAL = LimbFlaws(backlash=np.radians(2.0), physics_rate=1000.0, encoder_counts=400, delay=1)
-TIGHT = NOMINAL.with_changes(backlash=0.0)
-"""Without play: with it, the bottom limb does not yet find its holds."""
 ELBOWS = {"right": -1, "left": 1}
 RIGHT, LEFT, BOTTOM = 0, 1, 2
 START = np.array((0.2286, 0.1374, 0.0))  # 15 mm below the two pegs that carry
@@ -24,7 +22,7 @@ def on_the_ladder(flaws: LimbFlaws = NOMINAL, pegs: Floats | None = None) -> tup
     robot, board = load_robot("libra"), load_board("ladder")
     assert isinstance(robot, LimbedRobot)
     plant = ClimberPlant(robot, board, flaws, pegs=pegs)
-    climber = Climber(robot, board, plant, backlash=flaws.backlash)
+    climber = Climber(robot, board, plant, map_error=0.006)
     climber.start(START, {"right": 4, "left": 3, "bottom": 2}, idle="bottom", elbows=ELBOWS)
     return climber, plant
 
@@ -35,7 +33,7 @@ def test_the_robot_hangs_on_two_hooks_and_hardly_creeps() -> None:
     before = plant.truth().pose
     climber.wait(1.0)
     np.testing.assert_allclose(plant.truth().pose, before, atol=1e-3)  # within a second [m], [rad]
-    np.testing.assert_allclose(climber.body.pose[:2], plant.truth().pose[:2], atol=2e-3)
+    np.testing.assert_allclose(climber.body.settled[:2], plant.truth().pose[:2], atol=2e-3)
 
 
 def test_the_body_moves_up_on_its_hooks() -> None:
@@ -47,7 +45,7 @@ def test_the_body_moves_up_on_its_hooks() -> None:
 
 
 def test_a_rung_is_climbed_and_every_hook_is_seated() -> None:
-    climber, plant = on_the_ladder(TIGHT)
+    climber, plant = on_the_ladder()
     climber.wait(0.5)
     board = load_board("ladder")
     for limb, number, elbow in ((RIGHT, 6, -1), (BOTTOM, 1, 1), (LEFT, 5, 1)):
@@ -71,7 +69,7 @@ def test_without_its_hooks_the_robot_falls_and_says_so() -> None:
 def test_a_hook_that_slips_off_is_noticed() -> None:
     climber, plant = on_the_ladder()
     climber.wait(0.5)
-    plant.push((150.0, 100.0))
-    with pytest.raises(FallenError, match=r"come off|below its aim|turned"):
+    plant.push((0.0, 400.0))
+    with pytest.raises(FallenError, match=r"come off|off its aim"):
         climber.wait(3.0)
     assert climber.time < 2.0

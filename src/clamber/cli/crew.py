@@ -38,7 +38,7 @@ class EndsLine:
         self._what = what
         self._quiet = quiet
 
-    def update(self, ended: int, total: int, outcome: "Outcome") -> None:
+    def update(self, ended: int, total: int, outcome: "Outcome | None" = None) -> None:
         """Take note of one end."""
         if not self._quiet and (ended == total or ended * 10 // total > (ended - 1) * 10 // total):
             self._console.print(f"{ended} of {total} {self._what}", style="dim")

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Final, Literal, TypeAlias
+from typing import Any, Final, Literal, TypeAlias
 
 import numpy as np
 
@@ -42,19 +42,42 @@ class Chain:
     joints: Records
     root: Records
     plane: bool = False
-    """Whether all joints turn about z, so that the tip stays in a plane and the task is x and y."""
+    """Whether the tip stays in a plane across z, so that the task is x and y."""
 
     def __post_init__(self) -> None:
-        for j, name in enumerate(self.joint_names):
-            record = self.joints[j]
-            for key, least in (("mass", 0.0), ("rotor", 0.0), ("damping", 0.0), ("friction", 0.0)):
-                if not record[key] >= least:
-                    raise ChainError(self.name, f"{name}.{key}", float(record[key]), f"must be {least:g} or more")
-            for key in ("limit", "speed", "share"):
-                if not record[key] > 0.0:
-                    raise ChainError(self.name, f"{name}.{key}", float(record[key]), "must be more than 0")
-            if not abs(np.linalg.norm(record["axis"]) - 1.0) < 1e-9:
-                raise ChainError(self.name, f"{name}.axis", list(record["axis"]), "must be a unit vector")
+        if not self.joints.size or len(self.joint_names) != self.joints.size:
+            raise ChainError(
+                self.name, "joint_names", len(self.joint_names), f"must be one or more, {self.joints.size}"
+            )
+        for name, record in zip(self.joint_names, self.joints, strict=True):
+            self._check_joint(name, record)
+        for key in ("tip", "tip_turn", "gravity"):
+            if not np.isfinite(self.root[key]).all():
+                raise ChainError(self.name, key, self.root[key][0].tolist(), "must be finite numbers")
+        _check_turn(self.name, "tip_turn", self.root["tip_turn"][0])
+
+    def _check_joint(self, name: str, record: Any) -> None:
+        for key in ("place", "turn", "axis", "centre", "inertia", "lower", "upper", "rest"):
+            if not np.isfinite(record[key]).all():
+                raise ChainError(self.name, f"{name}.{key}", record[key].tolist(), "must be finite numbers")
+        for key in ("mass", "rotor", "damping", "friction", "back_emf"):
+            if not 0.0 <= record[key] < np.inf:
+                raise ChainError(self.name, f"{name}.{key}", float(record[key]), "must be 0 or more, and finite")
+        for key in ("limit", "speed", "share"):
+            if not record[key] > 0.0:
+                raise ChainError(self.name, f"{name}.{key}", float(record[key]), "must be more than 0")
+        if not abs(np.linalg.norm(record["axis"]) - 1.0) < 1e-9:
+            raise ChainError(self.name, f"{name}.axis", record["axis"].tolist(), "must be a unit vector")
+        if not record["lower"] <= record["upper"]:
+            raise ChainError(
+                self.name, f"{name}.lower", float(record["lower"]), f"must be at most upper, {record['upper']:g}"
+            )
+        _check_turn(self.name, f"{name}.turn", record["turn"])
+        inertia = record["inertia"]
+        if not np.allclose(inertia, inertia.T) or np.linalg.eigvalsh(inertia).min() < -1e-9 * np.abs(inertia).max():
+            raise ChainError(
+                self.name, f"{name}.inertia", inertia.tolist(), "must be symmetric, without negative eigenvalue"
+            )
 
     @property
     def n(self) -> int:
@@ -93,7 +116,7 @@ class Chain:
     def with_shares(self, basis: ShareBasis) -> "Chain":
         """This chain with K' made of its joints' inertia, damping, or back-EMF.
 
-        Back-EMF: the torque that a motor on a voltage amplifier loses with speed, limit over no-load speed [N m s/rad].
+        Back-EMF: the torque at the joint that a motor on a voltage amplifier loses with speed, N^2 k_t^2 / R [N m s/rad].
 
         Raises:
             ChainError: If a joint's value is 0, so that K' would have no inverse.
@@ -101,7 +124,7 @@ class Chain:
         values = {
             "inertia": self.joints["rotor"],
             "damping": self.joints["damping"],
-            "back-emf": self.joints["limit"] / self.joints["speed"],
+            "back-emf": self.joints["back_emf"],
         }[basis]
         largest = float(values.max())
         for name, value in zip(self.joint_names, values, strict=True):
@@ -190,9 +213,9 @@ def chain_of_limb(robot: LimbedRobot, name: str, *, basis: ShareBasis = "inertia
         across = mass * length**2 / 12
         joints["inertia"][j] = np.diag((0.0, across, across))
     root["tip"][0] = (limb.second_link.real, limb.second_link.imag, 0.0)
-    root["tip_turn"][0] = _about_z(limb.end.angle)
+    root["tip_turn"][0] = rotation((0.0, 0.0, limb.end.angle))
     if upright:
-        root["gravity"][0] = _about_z(-limb.port_angle) @ (0.0, -GRAVITY, 0.0)
+        root["gravity"][0] = rotation((0.0, 0.0, -limb.port_angle)) @ (0.0, -GRAVITY, 0.0)
     chain = Chain(f"{robot.name}'s {name} limb", (f"{name} shoulder", f"{name} elbow"), joints, root, plane=True)
     return chain.with_shares(basis)
 
@@ -201,13 +224,24 @@ def _fill_joint(record: Records, joint: Joint, robot: LimbedRobot) -> None:
     record["rotor"], record["damping"], record["friction"] = joint.inertia, joint.damping, joint.friction
     record["limit"] = joint.torque_limit or robot.motor.torque_limit
     record["speed"] = joint.no_load_speed or robot.motor.no_load_speed
+    record["back_emf"] = (joint.gear * robot.motor.torque_constant) ** 2 / robot.motor.resistance
     record["lower"], record["upper"] = joint.lower, joint.upper
     record["rest"] = (joint.lower + joint.upper) / 2
 
 
-def _about_z(angle: float) -> Floats:
-    c, s = np.cos(angle), np.sin(angle)
-    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+def rotation(vector: Sequence[float] | Floats) -> Floats:
+    """Matrix of a rotation vector [rad], shape (3, 3) (Rodrigues)."""
+    x, y, z = vector
+    angle = float(np.sqrt(x * x + y * y + z * z))
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    half = np.sinc(angle / (2 * np.pi))  # sin(angle / 2) / (angle / 2)
+    out: Floats = np.eye(3) + np.sinc(angle / np.pi) * cross + 0.5 * half**2 * cross @ cross
+    return out
+
+
+def _check_turn(chain: str, key: str, turn: Floats) -> None:
+    if not np.allclose(turn @ turn.T, np.eye(3), atol=1e-9) or np.linalg.det(turn) < 0.0:
+        raise ChainError(chain, key, turn.tolist(), "must be a rotation: orthonormal and right-handed")
 
 
 def closed_branches(limb: Limb, x: float, y: float) -> tuple[tuple[float, float], ...]:

@@ -1,18 +1,18 @@
 """The controller: a law with its parameters, its own copy of the chain, its memory and scratch, and a check of what comes in."""
 
 from collections.abc import Sequence
-from typing import Final
+from typing import Any, Final, NoReturn
 
 import numpy as np
 
 from ..errors import ClamberError
 from ..types import Floats, Records
 from .chain import Chain
-from .drive import drive
+from .desk import ARRAYS, DESK, JOINTS, LAWS, LENGTH, MEMORY, SIDE, drive_at
 from .kinematics import FRAME
 from .law_settings import LawError, LawSettings
 from .moment import LINES, SQUARES, line_length
-from .records import AIM, AXES, REPORT
+from .records import AIM, AXES, JOINT, REPORT, ROOT, SETTINGS
 
 
 class MeasurementError(ClamberError):
@@ -28,9 +28,36 @@ class MeasurementError(ClamberError):
         )
 
 
+class AimError(ClamberError):
+    """An aim that is not a finite number: names the limb of the batch, the quantity and the value."""
+
+    def __init__(self, chain: str, quantity: str, value: float, limb: int) -> None:
+        super().__init__(chain, quantity, value, limb)
+        self.chain, self.quantity, self.value, self.limb = chain, quantity, value, limb
+
+    def __str__(self) -> str:
+        return (
+            f"{self.chain}, limb {self.limb} of the batch: the aim's {self.quantity} is {self.value}; it must be finite"
+        )
+
+
+class ShapeError(ClamberError):
+    """An array of the wrong shape or kind: names the chain, the array, what it is and what is allowed."""
+
+    def __init__(self, chain: str, array: str, value: str, allowed: str) -> None:
+        super().__init__(chain, array, value, allowed)
+        self.chain, self.array, self.value, self.allowed = chain, array, value, allowed
+
+    def __str__(self) -> str:
+        return f"{self.chain}: {self.array} {self.value}: {self.allowed}"
+
+
+FLOAT: Final = np.dtype(np.float64)
+
+
 def memory_length(n: int) -> int:
     """Numbers that a law remembers for a chain of `n` joints, at most."""
-    return 1 + 2 * max(n, AXES)
+    return 1 + max(2 * max(n, AXES), n + 12)
 
 
 class Controller:
@@ -52,11 +79,9 @@ class Controller:
         laws = (settings,) if isinstance(settings, LawSettings) else tuple(settings)
         if len(laws) not in (1, batch):
             raise LawError("controller", "settings", len(laws), f"must be one law, or {batch}: one for each limb")
-        bases = {law.weight for law in laws} - {None, "none"}
-        if len(bases) > 1:
-            raise LawError("controller", "weight", sorted(map(str, bases)), "must be the same in one batch")
-        weighing = next((law for law in laws if law.weight in bases), laws[0])
-        self.chain: Final = weighing.weigh(chain)
+        if batch < 1:
+            raise LawError("controller", "batch", batch, "must be 1 or more")
+        self.chain: Final = _weighed(chain, laws)
         self.laws: Final = laws
         self.period: Final = period
         self.batch: Final = batch
@@ -68,12 +93,10 @@ class Controller:
         self._memory = np.zeros((batch, memory_length(n)))
         length = line_length(n)
         size = max(n, AXES)
-        self._fixed = (
-            self.chain.joints,
-            self.chain.root,
-            np.concatenate([law.record(self.chain, period) for law in laws]),
-        )
-        self._scratch = (
+        self._arrays = (
+            _as_records(self.chain.joints, JOINT),
+            _as_records(self.chain.root, ROOT),
+            _as_records(np.concatenate([law.record(self.chain, period) for law in laws]), SETTINGS),
             self._memory,
             np.zeros((2 * n, FRAME)),
             np.zeros((LINES, length)),
@@ -81,7 +104,15 @@ class Controller:
             self.torques,
             self.reports,
         )
+        self._desk = np.zeros(DESK, np.int64)
+        self._desk[:ARRAYS] = [array.ctypes.data for array in self._arrays]
+        self._desk[[JOINTS, LAWS, MEMORY, LENGTH, SIDE]] = n, len(laws), self._memory.shape[1], length, size
         self._nothing_felt = np.zeros((batch, AXES))
+        self._state_shape, self._felt_shape = (batch, 2, n), (batch, AXES)
+        self._aim_shapes = ((1,), (batch,))
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a controller stays where it was made: copy its chain and settings instead")
 
     def reset(self) -> None:
         """Forget what the laws remember."""
@@ -100,14 +131,62 @@ class Controller:
 
         Raises:
             MeasurementError: If a measurement is not finite; the other limbs of the batch have their torques.
+            AimError: Likewise of an aim.
+            ShapeError: If something is not an array of this shape and kind, nor numbers that make one.
         """
         felt = self._nothing_felt if wrenches is None else wrenches
-        bad = drive(*self._fixed, aims, states, felt, *self._scratch)
+        try:  # as cheap as can be: the rest is done only if something is not as it should be
+            ready = (
+                states.shape == self._state_shape
+                and states.dtype is FLOAT
+                and states.flags.c_contiguous
+                and felt.shape == self._felt_shape
+                and felt.dtype is FLOAT
+                and felt.flags.c_contiguous
+                and aims.shape in self._aim_shapes
+                and aims.dtype is AIM
+            )
+        except AttributeError:
+            ready = False
+        if not ready:
+            states = self._as_floats("states", states, self._state_shape)
+            felt = self._as_floats("wrenches", felt, self._felt_shape)
+            aims = self._as_aims(aims)
+        bad = drive_at(self._desk, aims, states, felt)
         if bad >= 0:
-            self._complain(bad, states, felt)
+            self._complain(bad, aims, states, felt)
         return self.torques
 
-    def _complain(self, bad: int, states: Floats, wrenches: Floats) -> None:
+    def explain(self, limb: int = 0) -> str:
+        """What bore on the last tick of one limb, in one line: nearness to a singular pose, damping, motors at their limits."""
+        report, law = self.reports[limb], self.laws[limb if len(self.laws) > 1 else 0]
+        damping, limited = float(np.sqrt(report["lambda2"])), int(report["saturated"])
+        damped = f"damping lambda = {damping:.3g}" if damping > 0.0 else "no damping"
+        motors = f"{limited} of {self.chain.n} motors at a limit" if limited else "no motor at a limit"
+        return (
+            f"{law.law} on {self.chain.name}: smallest singular value {report['sigma']:.3g}, {damped} "
+            f"(it starts below {law.sigma:g}); {motors}"
+        )
+
+    def _as_floats(self, name: str, values: Any, shape: tuple[int, ...]) -> Floats:
+        try:
+            out: Floats = np.ascontiguousarray(values, dtype=np.float64)
+        except (TypeError, ValueError):
+            raise ShapeError(self.chain.name, name, repr(values)[:80], f"must be numbers of shape {shape}") from None
+        if out.shape != shape:
+            raise ShapeError(self.chain.name, name, f"of shape {out.shape}", f"must be of shape {shape}")
+        return out
+
+    def _as_aims(self, aims: Any) -> Records:
+        allowed = f"must be records of AIM, of shape {' or '.join(map(str, dict.fromkeys(self._aim_shapes)))}"
+        if getattr(aims, "dtype", None) != AIM:
+            raise ShapeError(self.chain.name, "aims", getattr(aims, "dtype", type(aims).__name__), allowed)
+        if aims.shape not in self._aim_shapes:
+            raise ShapeError(self.chain.name, "aims", f"of shape {aims.shape}", allowed)
+        out: Records = np.ascontiguousarray(aims).view(AIM)
+        return out
+
+    def _complain(self, bad: int, aims: Records, states: Floats, wrenches: Floats) -> None:
         for row, quantity in enumerate(("angle", "speed")):
             for name, value in zip(self.chain.joint_names, states[bad, row], strict=True):
                 if not np.isfinite(value):
@@ -115,7 +194,36 @@ class Controller:
         for axis, value in zip(["Fx", "Fy", "Fz", "Mx", "My", "Mz"], wrenches[bad], strict=True):
             if not np.isfinite(value):
                 raise MeasurementError(self.chain.name, f"wrench {axis}", float(value), bad)
-        raise MeasurementError(self.chain.name, "state", float("inf"), bad)
+        aim = aims[bad if aims.size > 1 else 0]
+        for quantity in AIM.names or ():
+            for value in np.ravel(aim[quantity]):
+                if not np.isfinite(value):
+                    raise AimError(self.chain.name, quantity, float(value), bad)
+        raise MeasurementError(self.chain.name, "sum of angles, speeds, wrench and aim", float("inf"), bad)
+
+
+def _weighed(chain: Chain, laws: Sequence[LawSettings]) -> Chain:
+    """The chain with the K' that all laws of a batch agree on.
+
+    Raises:
+        LawError: If they do not.
+    """
+    found: dict[tuple[float, ...], tuple[str, Chain]] = {}
+    for law in {(law.law, law.weight): law for law in laws if law.weighs_joints()}.values():
+        weighed = law.weigh(chain)
+        found.setdefault(
+            tuple(weighed.joints["share"].tolist()), (f"{law.weight or 'the chain'} for {law.law}", weighed)
+        )
+    if len(found) > 1:
+        choices = ", ".join(label for label, _ in found.values())
+        raise LawError("controller", "weight", choices, "must give the same K' to all laws of one batch")
+    return next(iter(found.values()))[1] if found else chain
+
+
+def _as_records(records: Records, dtype: Any) -> Records:
+    out = np.zeros(records.shape, dtype)
+    out[:] = records
+    return out
 
 
 def still_aim(place: Sequence[float] | Floats, batch: int = 1) -> Records:

@@ -26,6 +26,7 @@ from .moment import (
     WANTED_FORCE,
     WANTED_RATE,
     fill_moment,
+    lean,
     pull_back,
 )
 from .operational_space import operational_space
@@ -93,7 +94,8 @@ def drive(joints, root, settings, aims, states, wrenches, memory, frames, lines,
         reports: Filled, records of `REPORT`, shape (batch,).
 
     Returns:
-        Index of the first limb with a measurement that is not finite, -1 where there is none. Its torques are 0, its memory is left alone.
+        Index of the first limb with a measurement or an aim that is not finite, -1 where there is none. Its torques are 0, its memory is
+        left alone.
     """
     n = joints.size
     bad = -1
@@ -107,6 +109,7 @@ def drive(joints, root, settings, aims, states, wrenches, memory, frames, lines,
             total += abs(q[j]) + abs(qd[j])
         for i in range(6):
             total += abs(wrenches[b, i])
+        total += _size_of_aim(aim)
         report = reports[b]
         report.saturated = 0
         if not math.isfinite(total):
@@ -142,6 +145,24 @@ def drive(joints, root, settings, aims, states, wrenches, memory, frames, lines,
         _feed_forward(joints, chosen, q, qd, lines, squares, report)
         report.saturated = _limit(joints, chosen, qd, lines[TORQUE], torques[b])
     return bad
+
+
+@inlined
+def _size_of_aim(aim):
+    """Something that is finite if all numbers of an aim are."""
+    total = 0.0
+    turn = 0.0
+    for i in range(3):
+        total += abs(aim.place[i])
+        for k in range(3):
+            turn += abs(aim.turn[i, k])
+    twist = 0.0
+    acceleration = 0.0
+    for i in range(6):
+        twist += abs(aim.twist[i])
+        acceleration += abs(aim.acceleration[i])
+        total += abs(aim.wrench[i])
+    return (total + turn) + (twist + acceleration)
 
 
 @inlined
@@ -185,21 +206,20 @@ def _feed_forward(joints, settings, q, qd, lines, squares, report):
             else:
                 part = math.tanh(speed / settings.friction_speed)
             torque[j] += settings.feed_friction * (joint.damping * speed + joint.friction * part)
-    if rows < n:
+    if rows < n and settings.law != OPERATIONAL_SPACE:
         _lean(joints, settings, q, qd, lines, squares, report)
 
 
 @inlined
 def _lean(joints, settings, q, qd, lines, squares, report):
-    """Pull a redundant limb towards its rest posture, by what moves no row of the task."""
+    """Pull a redundant limb towards its rest posture, by what moves no row of the task where K' tells the joints' inertia."""
     n = joints.size
     rows = settings.n_rows
     task = squares[TASK]
     pull = lines[SPARE]
     motion = lines[SPARE + 1]
     through = lines[SPARE + 3]
-    for j in range(n):
-        pull[j] = settings.posture_kp * (joints[j].rest - q[j]) - settings.posture_kd * qd[j]
+    lean(joints, settings, q, qd, pull)
     for i in range(rows):
         through[i] = 0.0
         for j in range(n):
@@ -210,22 +230,33 @@ def _lean(joints, settings, q, qd, lines, squares, report):
 
 
 @inlined
+def _least_torque(joint, speed):
+    """Least torque that a joint's motor can give at a speed; the most is less that of the opposite speed."""
+    if joint.limit == math.inf:
+        return -math.inf
+    return min(joint.limit, max(-joint.limit, -joint.limit * (1.0 + speed / joint.speed)))
+
+
+@inlined
 def _limit(joints, settings, qd, wanted, out):
-    """Torques within the motors' limits and torque-speed lines; returns how many joints were limited."""
+    """Torques within the motors' limits and torque-speed lines; returns how many joints were limited.
+
+    A torque that is too large for a number, of an absurd state or aim, becomes 0 and counts as limited.
+    """
     n = joints.size
     count = 0
     part = 1.0
     for j in range(n):
-        joint = joints[j]
-        high = min(joint.limit, joint.limit * (1.0 - qd[j] / joint.speed))
-        low = max(-joint.limit, -joint.limit * (1.0 + qd[j] / joint.speed))
         value = wanted[j]
-        out[j] = min(max(value, low), high)
+        if not math.isfinite(value):
+            wanted[j] = 0.0
+        out[j] = min(max(wanted[j], _least_torque(joints[j], qd[j])), -_least_torque(joints[j], -qd[j]))
         if out[j] != value:
             count += 1
-            if value != 0.0:
-                part = min(part, max(0.0, out[j] / value))
+            if wanted[j] != 0.0:
+                part = min(part, max(0.0, out[j] / wanted[j]))
     if count and settings.scaled:
         for j in range(n):
-            out[j] = part * wanted[j]
+            value = part * wanted[j]
+            out[j] = min(max(value, _least_torque(joints[j], qd[j])), -_least_torque(joints[j], -qd[j]))
     return count

@@ -3,13 +3,14 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
+from numbers import Real
 from typing import Any, Final
 
 import numpy as np
 
 from ..errors import ClamberError, UnknownNameError, describe_choices
-from ..types import Records
-from .chain import Chain
+from ..types import Floats, Records
+from .chain import Chain, rotation
 from .drive import (
     ADMITTANCE,
     FROM_AIM,
@@ -42,14 +43,30 @@ LAWS: Final[dict[str, int]] = {
 """Name -> number in `drive`; the command line, the bench and the tests read it."""
 WEIGHTED: Final = frozenset({"scct", "implicit-admittance", "hybrid", "implicit-force", "admittance"})
 """Laws that weigh their joints by K' unless told otherwise."""
+FORCING: Final = frozenset({"hybrid", "implicit-force"})
+"""Laws that take rows of force."""
+AXIS_NAMES: Final = ("x", "y", "z", "rx", "ry", "rz")
 FRICTION_SOURCES: Final[dict[str, int]] = {"aim": FROM_AIM, "measured": FROM_MEASURED, "torque": FROM_TORQUE}
+WORDS: Final[dict[str, tuple[str, ...]]] = {
+    "law": tuple(LAWS),
+    "axes": AXIS_NAMES,
+    "forced": AXIS_NAMES,
+    "weight": ("none", "inertia", "damping", "back-emf"),
+    "friction_from": tuple(FRICTION_SOURCES),
+}
+"""Settings that are words -> the words that are allowed."""
+SWITCHES: Final = ("feed_velocity", "feed_acceleration", "feed_gravity", "feed_bias", "feed_force", "scaled")
+PER_AXIS: Final = ("kp", "kd", "mass", "admittance_kp", "admittance_kd")
+"""Settings that may differ by row."""
+OPTIONAL: Final = ("weight", "joint_kp", "joint_kd", "feed_bias")
+SIGNED: Final = ("angle", "frame")
+POSITIVE: Final = ("friction_speed", "environment")
 PLAIN: Final = (
     *("feed_velocity", "feed_acceleration", "feed_gravity", "feed_friction", "friction_speed", "feed_force"),
     *("sigma", "scaled", "derivative", "derivative_time", "force_gain", "force_limit", "force_damping"),
     *("environment", "posture_kp", "posture_kd"),
 )
 """Settings that the kernels read as they are."""
-AXIS_NAMES: Final = ("x", "y", "z", "rx", "ry", "rz")
 
 
 class LawError(ClamberError):
@@ -79,9 +96,14 @@ class LawSettings:
     kp: PerAxis = 200.0
     kd: PerAxis = 10.0
     axes: tuple[str, ...] = ()
-    """Rows of the twist that are controlled, in the task frame; none: x and y of a plane chain, else all that the joints allow."""
+    """Rows of the twist that are controlled, in the task frame.
+
+    None: x and y of a plane chain, all six of a chain of six joints or more, else x, y, z.
+    """
     angle: float = 0.0
-    """Turn of the task frame about z of the base frame [rad]: gains are along its axes."""
+    """Turn of the task frame about its own z [rad]: gains are along its axes."""
+    frame: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Rotation vector from the base frame to the task frame, before `angle` turns it [rad]; for limbs that leave the plane."""
     weight: str | None = None
     """"inertia", "damping", "back-emf": K' of that; "none": all joints alike; None: as the law is published."""
     joint_kp: float | None = None
@@ -89,10 +111,12 @@ class LawSettings:
     joint_kd: float | None = None
     """Damping of the joint servo [N m s/rad]; None: the mean of kd."""
     feed_velocity: bool = True
+    """Whether the damping is towards the aim's speed, else towards rest as in Bevly's Eq. 3.16."""
     feed_acceleration: bool = False
+    """Whether the aim's acceleration is fed forward: through the model in operational-space, elsewhere times the motors' inertia."""
     feed_gravity: bool = True
     feed_bias: bool | None = None
-    """Coriolis and centrifugal torques; None: only in operational-space."""
+    """Coriolis and centrifugal torques, and Jdot qd in operational-space; None: only there."""
     feed_friction: float = 0.0
     """Part of the modelled friction that is fed forward [-]."""
     friction_from: str = "aim"
@@ -100,8 +124,9 @@ class LawSettings:
     friction_speed: float = 0.02
     """Joint speed below which the Coulomb friction fed forward fades out [rad/s]."""
     feed_force: bool = True
+    """Whether the aim's wrench is fed forward by J^T; rows of force have it from their own law."""
     sigma: float = 0.01
-    """Smallest singular value of the Jacobian that needs no damping [m/rad]."""
+    """Smallest singular value of the task Jacobian that needs no damping [m/rad], of rows of rotation [-]; 0: never damped."""
     damping: float = 0.02
     """Damping lambda at a singular pose [m/rad]."""
     scaled: bool = False
@@ -132,30 +157,57 @@ class LawSettings:
     """Damping of what a redundant limb does beside its task [N m s/rad]."""
 
     def __post_init__(self) -> None:
-        if self.law not in LAWS:
-            raise UnknownNameError("controller", self.law, tuple(LAWS))
+        if self.law not in tuple(LAWS):
+            raise UnknownNameError("controller", str(self.law), tuple(LAWS))
         for field in fields(self):
             value = getattr(self, field.name)
-            numbers = value if isinstance(value, tuple) else (value,)
-            for number in numbers:
-                if isinstance(number, (int, float)) and not isinstance(number, bool):
-                    self._check_number(field.name, float(number))
-        if self.weight not in (None, "none", "inertia", "damping", "back-emf"):
-            raise LawError(self.law, "weight", self.weight, "must be inertia, damping, back-emf or none")
-        if self.friction_from not in FRICTION_SOURCES:
-            raise LawError(self.law, "friction_from", self.friction_from, f"must be {', '.join(FRICTION_SOURCES)}")
-        for key in ("axes", "forced"):
-            for name in getattr(self, key):
-                if name not in AXIS_NAMES:
-                    raise LawError(self.law, key, name, f"must be of {describe_choices(name, AXIS_NAMES)}")
+            if isinstance(value, list):  # as files and command lines have it
+                value = tuple(value)
+                object.__setattr__(self, field.name, value)
+            if field.name in SWITCHES:
+                self._check_switch(field.name, value)
+            elif field.name not in WORDS:
+                self._check_numbers(field.name, value)
+        for key, allowed in WORDS.items():
+            self._check_words(key, getattr(self, key), allowed)
+        if self.forced and self.law not in FORCING:
+            raise LawError(
+                self.law, "forced", ", ".join(self.forced), f"only {' and '.join(sorted(FORCING))} take rows of force"
+            )
 
-    def _check_number(self, key: str, value: float) -> None:
-        if not math.isfinite(value):
-            raise LawError(self.law, key, value, "must be a finite number")
-        if key != "angle" and value < 0.0:
-            raise LawError(self.law, key, value, "must be 0 or more")
-        if key in ("friction_speed", "environment") and value == 0.0:
-            raise LawError(self.law, key, value, "must be more than 0")
+    def _check_switch(self, key: str, value: object) -> None:
+        if not isinstance(value, bool) and not (value is None and key in OPTIONAL):
+            raise LawError(self.law, key, value, "must be true or false")
+
+    def _check_numbers(self, key: str, value: object) -> None:
+        if value is None and key in OPTIONAL:
+            return
+        if isinstance(value, tuple) and key not in (*PER_AXIS, "frame"):
+            raise LawError(self.law, key, value, "must be one number")
+        for number in value if isinstance(value, tuple) else (value,):
+            if isinstance(number, bool) or not isinstance(number, Real):
+                raise LawError(self.law, key, value, "must be a number")
+            if not math.isfinite(number):
+                raise LawError(self.law, key, value, "must be a finite number")
+            if key not in SIGNED and number < 0.0:
+                raise LawError(self.law, key, value, "must be 0 or more")
+            if key in POSITIVE and number == 0.0:
+                raise LawError(self.law, key, value, "must be more than 0")
+        if key == "frame" and (not isinstance(value, tuple) or len(value) != 3):
+            raise LawError(self.law, key, value, "must be three numbers: a rotation vector")
+
+    def _check_words(self, key: str, value: object, allowed: tuple[str, ...]) -> None:
+        if value is None and key in OPTIONAL:
+            return
+        several = key in ("axes", "forced")
+        words = value if several and isinstance(value, tuple) else (value,)
+        for word in words:
+            if word not in allowed:
+                raise LawError(self.law, key, word, f"must be of {describe_choices(str(word), allowed)}")
+        if several and not isinstance(value, tuple):
+            raise LawError(self.law, key, value, f'must be a list of axes, such as ("{value}",)')
+        if len(set(words)) < len(words):
+            raise LawError(self.law, key, ", ".join(map(str, words)), "must name each axis once")
 
     def with_changes(self, **changes: Any) -> "LawSettings":
         """A copy with some settings changed.
@@ -173,8 +225,13 @@ class LawSettings:
 
     def rows_of(self, chain: Chain) -> tuple[int, ...]:
         """Indices of the controlled rows of the twist."""
-        names = self.axes or (("x", "y")[: chain.n] if chain.plane else AXIS_NAMES[: min(chain.n, AXES)])
+        most = 2 if chain.plane else 3 if chain.n < AXES else AXES
+        names = self.axes or AXIS_NAMES[: min(chain.n, most)]
         return tuple(AXIS_NAMES.index(name) for name in names)
+
+    def weighs_joints(self) -> bool:
+        """Whether the law weighs its joints by K'; else all count alike."""
+        return self.law in WEIGHTED if self.weight is None else self.weight != "none"
 
     def weigh(self, chain: Chain) -> Chain:
         """The chain with K' as this law weighs its joints."""
@@ -195,28 +252,25 @@ class LawSettings:
             raise LawError(
                 self.law, "axes", ", ".join(AXIS_NAMES[r] for r in rows), f"{chain.name} has {chain.n} joints only"
             )
-        if not period > 0.0:
-            raise LawError(self.law, "period", period, "must be more than 0 s")
+        if not 0.0 < period < math.inf:
+            raise LawError(self.law, "period", period, "must be more than 0 s, and finite")
+        self._check_inertia(chain)
         out = np.zeros(1, SETTINGS)
         record = out[0]
         record["law"], record["n_rows"], record["period"] = LAWS[self.law], len(rows), period
         record["rows"][: len(rows)] = rows
-        c, s = math.cos(self.angle), math.sin(self.angle)
-        record["frame"] = [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]
-        for key in ("kp", "kd", "mass", "admittance_kp", "admittance_kd"):
+        record["frame"] = self.task_frame()
+        for key in PER_AXIS:
             record[key][: len(rows)] = self._per_axis(key, len(rows))
-        record["joint_kp"] = float(np.mean(self._per_axis("kp", len(rows)))) if self.joint_kp is None else self.joint_kp
-        record["joint_kd"] = float(np.mean(self._per_axis("kd", len(rows)))) if self.joint_kd is None else self.joint_kd
-        if self.law in ("resolved-rate", "admittance") and not record["joint_kd"] > 0.0:
-            raise LawError(
-                self.law, "joint_kd", float(record["joint_kd"]), "must be more than 0: it is what the law pulls by"
-            )
+        for key, default in (("joint_kp", "kp"), ("joint_kd", "kd")):
+            given = getattr(self, key)
+            record[key] = float(np.mean(self._per_axis(default, len(rows)))) if given is None else given
+        self._check_servo(record, len(rows))
         for name in self.forced:
             if AXIS_NAMES.index(name) not in rows:
                 raise LawError(self.law, "forced", name, "must be one of the controlled axes")
             record["forced"][rows.index(AXIS_NAMES.index(name))] = 1
-        weighted = self.law in WEIGHTED if self.weight is None else self.weight != "none"
-        record["weighted"] = weighted
+        record["weighted"] = self.weighs_joints()
         bias = self.law == "operational-space" if self.feed_bias is None else self.feed_bias
         record["feed_bias"] = bias
         record["friction_from"] = FRICTION_SOURCES[self.friction_from]
@@ -224,6 +278,33 @@ class LawSettings:
         for key in PLAIN:
             record[key] = getattr(self, key)
         return out
+
+    def task_frame(self) -> Floats:
+        """The task frame in the base frame: its columns are the task's axes, shape (3, 3)."""
+        return rotation(self.frame) @ rotation((0.0, 0.0, self.angle))
+
+    def _check_inertia(self, chain: Chain) -> None:
+        if self.law != "operational-space":
+            return
+        least = float(np.linalg.eigvalsh(chain.inertia(chain.joints["rest"])).min())
+        if not least > 0.0:
+            raise LawError(
+                self.law, "inertia", least, f"{chain.name} must have an inertia about every joint: it divides by it"
+            )
+
+    def _check_servo(self, record: Any, count: int) -> None:
+        """What a law divides by."""
+        if self.law in ("resolved-rate", "admittance") and not record["joint_kd"] > 0.0:
+            raise LawError(
+                self.law, "joint_kd", float(record["joint_kd"]), "must be more than 0: it is what the law pulls by"
+            )
+        if self.law == "admittance" and not (record["mass"] + record["admittance_kd"])[:count].min() > 0.0:
+            raise LawError(
+                self.law,
+                "admittance_kd",
+                self.admittance_kd,
+                "must be more than 0 where the mass is 0: force over it is a speed",
+            )
 
     def _per_axis(self, key: str, count: int) -> Sequence[float]:
         value = getattr(self, key)

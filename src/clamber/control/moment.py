@@ -31,11 +31,9 @@ BIAS = 10
 """By joint: bias torques h, and gravity if it is fed forward."""
 REST = 11
 """By joint: zeros."""
-ACTUAL = 12
-"""By row: place of the tip, task frame [m]; 0 in rows of rotation."""
-SPARE = 13
+SPARE = 12
 """First of the scratch lines."""
-LINES = 20
+LINES = 19
 
 JACOBIAN = 0
 TASK = 1
@@ -61,20 +59,53 @@ def into_task(settings, twist, out):
 
 @kernel
 def turn_error(wanted, tip, out):
-    """Rotation vector from the tip's turn to the wanted one, base frame [rad], into out[3:6]."""
-    e = 0.0
-    x = 0.0
-    y = 0.0
-    z = 0.0
-    # R_wanted R_tip^T: its trace and its skew part
-    for k in range(3):
-        e += wanted[0, k] * tip[3 + k] + wanted[1, k] * tip[6 + k] + wanted[2, k] * tip[9 + k]
-        x += wanted[2, k] * tip[6 + k] - wanted[1, k] * tip[9 + k]
-        y += wanted[0, k] * tip[9 + k] - wanted[2, k] * tip[3 + k]
-        z += wanted[1, k] * tip[3 + k] - wanted[0, k] * tip[6 + k]
-    sine = 0.5 * math.sqrt(x * x + y * y + z * z)
-    angle = math.atan2(sine, 0.5 * (e - 1.0))
-    scale = 0.5 * angle / sine if sine > 1e-12 else 0.5
+    """Rotation vector from the tip's turn to the wanted one, base frame [rad], into out[3:6].
+
+    It is the logarithm of R_wanted R_tip^T, at most pi long, by way of the quaternion, which is exact near half a turn too; at half a turn
+    one of its two axes is taken.
+    """
+    # R_wanted R_tip^T, row by row
+    r00 = wanted[0, 0] * tip[3] + wanted[0, 1] * tip[4] + wanted[0, 2] * tip[5]
+    r01 = wanted[0, 0] * tip[6] + wanted[0, 1] * tip[7] + wanted[0, 2] * tip[8]
+    r02 = wanted[0, 0] * tip[9] + wanted[0, 1] * tip[10] + wanted[0, 2] * tip[11]
+    r10 = wanted[1, 0] * tip[3] + wanted[1, 1] * tip[4] + wanted[1, 2] * tip[5]
+    r11 = wanted[1, 0] * tip[6] + wanted[1, 1] * tip[7] + wanted[1, 2] * tip[8]
+    r12 = wanted[1, 0] * tip[9] + wanted[1, 1] * tip[10] + wanted[1, 2] * tip[11]
+    r20 = wanted[2, 0] * tip[3] + wanted[2, 1] * tip[4] + wanted[2, 2] * tip[5]
+    r21 = wanted[2, 0] * tip[6] + wanted[2, 1] * tip[7] + wanted[2, 2] * tip[8]
+    r22 = wanted[2, 0] * tip[9] + wanted[2, 1] * tip[10] + wanted[2, 2] * tip[11]
+    # four times w^2, x^2, y^2, z^2 of the quaternion: what follows divides by the largest (Shepperd 1978)
+    ww = 1.0 + r00 + r11 + r22
+    xx = 1.0 + r00 - r11 - r22
+    yy = 1.0 - r00 + r11 - r22
+    zz = 1.0 - r00 - r11 + r22
+    if ww >= xx and ww >= yy and ww >= zz:
+        w = ww
+        x = r21 - r12
+        y = r02 - r20
+        z = r10 - r01
+    elif xx >= yy and xx >= zz:
+        w = r21 - r12
+        x = xx
+        y = r01 + r10
+        z = r02 + r20
+    elif yy >= zz:
+        w = r02 - r20
+        x = r01 + r10
+        y = yy
+        z = r12 + r21
+    else:
+        w = r10 - r01
+        x = r02 + r20
+        y = r12 + r21
+        z = zz
+    length = math.sqrt(x * x + y * y + z * z)
+    if length == 0.0:
+        scale = 0.0
+    elif w < 0.0:
+        scale = -2.0 * math.atan2(length, -w) / length
+    else:
+        scale = 2.0 * math.atan2(length, w) / length
     out[3] = scale * x
     out[4] = scale * y
     out[5] = scale * z
@@ -130,10 +161,6 @@ def fill_moment(joints, root, settings, aim, q, qd, felt, frames, lines, squares
     fill_task(settings, squares[JACOBIAN], n, task)
     difference = lines[SPARE]
     fill_error(settings, aim, tip, difference, lines[ERROR])
-    for k in range(3):
-        difference[k] = tip[k]
-        difference[3 + k] = 0.0
-    into_task(settings, difference, lines[ACTUAL])
     into_task(settings, aim.twist, lines[WANTED_RATE])
     into_task(settings, aim.acceleration, lines[WANTED_ACCELERATION])
     into_task(settings, aim.wrench, lines[WANTED_FORCE])
@@ -155,6 +182,13 @@ def pull_back(task, n_rows, n, force, out):
         for i in range(n_rows):
             total += task[i, j] * force[i]
         out[j] += total
+
+
+@inlined
+def lean(joints, settings, q, qd, out):
+    """Torques that pull the joints towards their rest posture."""
+    for j in range(joints.size):
+        out[j] = settings.posture_kp * (joints[j].rest - q[j]) - settings.posture_kd * qd[j]
 
 
 def line_length(n: int) -> int:

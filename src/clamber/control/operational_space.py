@@ -2,8 +2,11 @@ r"""Operational space control, or resolved acceleration (Khatib 1985; Luh 1980; 
 
 .. math:: \tau = H J^{-1} (K_p e + K_d \dot e - \dot J \dot\theta) + h + g
 
-H, h and g are those of the model, in full; the loop adds h and g (`feed_bias`, `feed_gravity`). Its gains are accelerations per metre
-[1/s^2]. It is as good as the model is: friction that the model leaves out is an error of the model.
+H, h and g are those of the model, in full; the loop adds h and g (`feed_bias`, which brings Jdot too, and `feed_gravity`). Its gains are
+accelerations per metre [1/s^2]. It is as good as the model is: friction that the model leaves out is an error of the model.
+
+A limb with more joints than rows takes T^T (T H^-1 T^T)^-1 for H J^-1, and what pulls it to its rest posture passes through the null
+space that belongs to it, E - T^T (T H^-1 T^T)^-1 T H^-1, so that it does not accelerate the tip (Khatib 1987).
 """
 
 from ..compiled import kernel
@@ -24,6 +27,7 @@ from .moment import (
     WANTED_ACCELERATION,
     WANTED_RATE,
     into_task,
+    lean,
 )
 
 
@@ -56,19 +60,32 @@ def operational_space(joints, root, settings, aim, q, qd, memory, frames, lines,
             for j in range(n):
                 torque[i] += inertia[i, j] * wanted[j]
         return
-    # T^T (T M^-1 T^T + lambda^2)^-1 a, the damping in units of the largest inertia
-    largest = 0.0
-    for i in range(n):
-        largest = max(largest, inertia[i, i])
-    factor(inertia, n)
+    posture = lines[SPARE + 3]
+    for j in range(n):
+        posture[j] = 0.0
+    if rows < n:
+        lean(joints, settings, q, qd, posture)
+    _through_inertia(task, rows, n, inertia, lambda2, wanted, posture, squares, lines[SPARE + 2], torque)
+
+
+@kernel
+def _through_inertia(task, rows, n, inertia, lambda2, wanted, posture, squares, held, torque):
+    """Torque = p + T^T (T M^-1 T^T + lambda^2)^-1 (a - T M^-1 p), the damping in units of the largest inertia; M and `wanted` are spent."""
+    square = squares[SQUARE]
     through = squares[OTHER]
-    held = lines[SPARE + 2]
+    largest = 0.0
+    for j in range(n):
+        largest = max(largest, inertia[j, j])
+        torque[j] = 0.0
+    if not factor(inertia, n):
+        return
     for i in range(rows):
         for j in range(n):
             held[j] = task[i, j]
         back_substitute(inertia, n, held)
         for j in range(n):
             through[i, j] = held[j]
+            wanted[i] -= held[j] * posture[j]
     for i in range(rows):
         for k in range(i + 1):
             total = lambda2 / largest if i == k else 0.0
@@ -79,7 +96,7 @@ def operational_space(joints, root, settings, aim, q, qd, memory, frames, lines,
     if found:
         back_substitute(square, rows, wanted)
     for j in range(n):
-        torque[j] = 0.0
+        torque[j] = posture[j]
         if found:
             for i in range(rows):
                 torque[j] += task[i, j] * wanted[i]

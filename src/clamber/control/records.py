@@ -21,6 +21,7 @@ JOINT = np.dtype(
         ("rotor", "f8"),  # inertia of motor and gear, reflected to the joint
         ("damping", "f8"),
         ("friction", "f8"),
+        ("back_emf", "f8"),  # torque that its motor, on a voltage amplifier, loses with speed; 0: not known
         ("share", "f8"),  # the joint's entry in K', largest 1
         ("limit", "f8"),  # largest torque
         ("speed", "f8"),  # joint speed without load
@@ -58,10 +59,7 @@ SETTINGS = np.dtype(
         ("feed_friction", "f8"),  # part of the modelled friction fed forward
         ("feed_force", "i4"),
         ("friction_from", "i4"),  # 0 the aim's speed, 1 the measured one, 2 the pull of the law
-        (
-            "friction_speed",
-            "f8",
-        ),  # below it the friction fed forward fades to nothing; of torques: that times the damping gain
+        ("friction_speed", "f8"),  # below it the friction fed forward fades to nothing
         ("scaled", "i4"),  # 1: all torques of a limb shrink together at a limit, 0: each is cut off
         ("sigma", "f8"),  # smallest singular value that needs no damping
         ("lambda2", "f8"),  # damping at a singular value of 0

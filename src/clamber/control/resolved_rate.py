@@ -11,13 +11,13 @@ Plain, the speeds are those of the aim alone, summed up to joint angles for a jo
 
 .. math:: \tau = W (k_p (\theta_{des} - \theta) + k_d (\dot\theta_{des} - \dot\theta)), \quad \theta_{des} = \int J^{-1} \dot x_{des} dt
 
-A step of the aim enters as what it moves in one tick. No error at the tip is ever fed back, so the tip drifts off by what the
-Jacobian changes on the way.
+The integral is summed tick by tick from how far the aim has moved, so a step of the aim enters in one tick. No error at the tip is ever
+fed back: the tip drifts off by what the Jacobian changes on the way, and after a step it never arrives.
 """
 
 from ..compiled import kernel
 from .inverse_motion import damping_of, invert_motion
-from .moment import ACTUAL, ERROR, GRAM, SHARE, SPARE, SQUARE, TASK, TORQUE, WANTED_RATE
+from .moment import ERROR, GRAM, SHARE, SPARE, SQUARE, TASK, TIP, TORQUE, WANTED_RATE, fill_error
 
 
 @kernel
@@ -41,32 +41,32 @@ def resolved_rate(joints, root, settings, aim, q, qd, memory, frames, lines, squ
 def resolved_rate_plain(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report):
     """Torques of plain resolved rate control into `lines[TORQUE]`; arguments as in `drive`.
 
-    Memory: started, then the joint angles asked for, then by row where the aim was.
+    Memory: started, then the joint angles asked for, then where the aim was: place and turn, twelve numbers like those of a tip.
     """
     n = joints.size
     rows = settings.n_rows
     task = squares[TASK]
     lambda2 = damping_of(settings, task, rows, n, squares[GRAM], report)
     moved = lines[SPARE]
-    aim = memory[1 + n : 1 + n + rows]
-    first = memory[0] == 0.0
-    if first:
+    motion = lines[SPARE + 1]
+    angles = memory[1 : 1 + n]
+    before = memory[1 + n : 13 + n]
+    if memory[0] == 0.0:
         memory[0] = 1.0
         for j in range(n):
-            memory[1 + j] = q[j]
-    for i in range(rows):
-        place = lines[ERROR, i] + lines[ACTUAL, i]
-        if first:
-            moved[i] = lines[ERROR, i]
-        elif settings.rows[i] >= 3:
-            moved[i] = lines[WANTED_RATE, i] * settings.period  # turns do not subtract; their speed does
-        else:
-            moved[i] = place - aim[i]
-        aim[i] = place
-    motion = lines[SPARE + 1]
+            angles[j] = q[j]
+        for k in range(12):
+            before[k] = lines[TIP, k]
+    fill_error(settings, aim, before, lines[SPARE + 3], moved)
+    for i in range(3):
+        before[i] = aim.place[i]
+        for k in range(3):
+            before[3 + 3 * i + k] = aim.turn[i, k]
     invert_motion(task, rows, n, lines[SHARE], lambda2, moved, squares[SQUARE], lines[SPARE + 2], motion)
     for j in range(n):
-        memory[1 + j] += motion[j]
-        speed = motion[j] / settings.period if settings.feed_velocity else 0.0
-        pull = settings.joint_kp * (memory[1 + j] - q[j]) + settings.joint_kd * (speed - qd[j])
+        angles[j] += motion[j]
+    invert_motion(task, rows, n, lines[SHARE], lambda2, lines[WANTED_RATE], squares[SQUARE], lines[SPARE + 2], motion)
+    for j in range(n):
+        speed = motion[j] if settings.feed_velocity else 0.0
+        pull = settings.joint_kp * (angles[j] - q[j]) + settings.joint_kd * (speed - qd[j])
         lines[TORQUE, j] = lines[SHARE, j] * pull

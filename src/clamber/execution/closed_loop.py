@@ -2,47 +2,60 @@
 
 import numpy as np
 
-from ..control.controller import Controller
+from ..control.controller import Controller, MeasurementError
 from ..control.records import AXES
 from ..types import Records
 from .plant import Plant
+from .recorder import Recorder
 from .trace import LimbTrace
 
 
-def close_loop(plant: Plant, controller: Controller, aims: Records) -> LimbTrace:
+def close_loop(plant: Plant, controller: Controller, aims: Records, *, keep: bool = False) -> LimbTrace:
     """Run `controller` on `plant`, from where it is, through `aims`.
 
     Args:
         plant: Reset to its start.
         controller: Of the plant's batch and period; its memory is cleared.
         aims: Records of `AIM`, shape (ticks, 1) or (ticks, batch).
+        keep: Whether a measurement that is not finite ends the run with the trace so far, NaN after it, in place of an error.
 
     Raises:
-        MeasurementError: If the plant's sensors say something that is not finite.
+        MeasurementError: If the plant's sensors say something that is not finite, and not `keep`.
     """
     ticks, batch, n = aims.shape[0], controller.batch, controller.chain.n
     trace = LimbTrace(
         chain=controller.chain,
         time=np.arange(ticks, dtype=np.float64) * controller.period,
         aims=aims,
-        sensed=np.empty((ticks, batch, 2, n)),
-        true=np.empty((ticks, batch, 2, n)),
-        commanded=np.empty((ticks, batch, n)),
-        applied=np.empty((ticks, batch, n)),
-        wrenches=np.empty((ticks, batch, AXES)),
-        reports=np.empty((ticks, batch), controller.reports.dtype),
+        sensed=np.full((ticks, batch, 2, n), np.nan),
+        true=np.full((ticks, batch, 2, n), np.nan),
+        commanded=np.full((ticks, batch, n), np.nan),
+        applied=np.full((ticks, batch, n), np.nan),
+        wrenches=np.full((ticks, batch, AXES), np.nan),
+        reports=np.zeros((ticks, batch), controller.reports.dtype),
     )
     controller.reset()
-    truth = plant.truth()
+    truth, sensed = plant.truth(), plant.sense()
+    before = Recorder(
+        (
+            (trace.sensed, sensed.states),
+            (trace.true, truth.states),
+            (trace.commanded, controller.torques),
+            (trace.reports, controller.reports),
+        )
+    )
+    after = Recorder(((trace.applied, truth.torques), (trace.wrenches, truth.wrenches)))
     for k in range(ticks):
-        sensed = plant.sense()
-        torques = controller.command(aims[k], sensed.states, sensed.wrenches)
-        trace.sensed[k] = sensed.states
-        trace.true[k] = truth.states
-        trace.commanded[k] = torques
-        trace.reports[k] = controller.reports
+        if k:
+            plant.sense()
+        try:
+            torques = controller.command(aims[k], sensed.states, sensed.wrenches)
+        except MeasurementError:
+            if keep:
+                return trace
+            raise
         plant.actuate(torques)
+        before.note(k)
         plant.step()
-        trace.applied[k] = truth.torques
-        trace.wrenches[k] = truth.wrenches
+        after.note(k)
     return trace

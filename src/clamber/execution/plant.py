@@ -8,7 +8,7 @@ from ..types import Floats
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sensed:
-    """What the sensors say at a tick; the arrays are the plant's own and change with the next tick."""
+    """What the sensors say; the arrays are the plant's own, the same for its whole life, and change with the next tick."""
 
     states: Floats
     """Joint angles and speeds by the encoders, shape (batch, 2, n) [rad], [rad/s]."""
@@ -18,12 +18,12 @@ class Sensed:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Truth:
-    """What is really so: for logs and tests, never for a controller. The arrays change with the next tick."""
+    """What is really so: for logs and tests, never for a controller. The arrays are the plant's own as in `Sensed`."""
 
     states: Floats
     """True joint angles and speeds at the output of the gears, shape (batch, 2, n)."""
     torques: Floats
-    """Torques that the motors gave over the last tick, shape (batch, n) [N m]."""
+    """Mean torques that the motors gave over the last tick, shape (batch, n) [N m]."""
     wrenches: Floats
     """True wrench of each limb on what it touches or is pushed by, base frame, shape (batch, 6)."""
 

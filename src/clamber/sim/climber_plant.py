@@ -85,6 +85,10 @@ class ClimberPlant:
         self._counts = counts
         n = len(names)
         self._limits, self._no_load = records["limit"].copy(), records["speed"].copy()
+        self._agility = (
+            2.0 * self._limits / records["rotor"]
+        )  # a load on the motor's side brings no more than the motor itself
+        self._also = np.zeros((1, n))
         self._angles, self._speeds = np.zeros((1, n + 1)), np.zeros((1, n + 1))
         self._ring, self._before = np.zeros((flaws.delay + 1, 1, 2, n + 1)), np.zeros((1, n + 1))
         self._states = np.zeros((1, 2, n + 1))
@@ -132,10 +136,23 @@ class ClimberPlant:
     def step(self) -> None:
         """Let one control period pass."""
         self._speeds[0] = self._data.qvel[self._speed_at]
-        limit_torques(self._wanted, self._speeds[:, 1:], self._limits, self._no_load, self._given)
-        self._data.ctrl[self._motors] = self._given[0]
-        self._step(self.model, self._data, self.flaws.steps)
+        steady = self._limit(self.period)
+        if steady:
+            self._step(self.model, self._data, self.flaws.steps)
+        else:  # near a limit the torque follows the speed at every physics step
+            for _ in range(self.flaws.steps):
+                self._speeds[0] = self._data.qvel[self._speed_at]
+                self._limit(0.0)
+                self._step(self.model, self._data, 1)
         self.tick += 1
+
+    def _limit(self, time: float) -> bool:
+        """Put what the motors give at the present speeds on the joints; whether that may be held for `time` [s]."""
+        steady: bool = limit_torques(
+            self._wanted, self._speeds[:, 1:], self._limits, self._no_load, self._agility, time, self._given, self._also
+        )
+        self._data.ctrl[self._motors] = self._given[0]
+        return steady
 
     def truth(self) -> BodyTruth:
         """How things really are."""

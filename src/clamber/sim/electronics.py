@@ -2,7 +2,7 @@
 
 import math
 
-from ..compiled import kernel
+from ..compiled import inlined, kernel
 
 
 @kernel
@@ -37,25 +37,54 @@ def read_encoders(angles, speeds, counts, period, tick, delayed, before, states)
                 states[b, k, j] = then[b, k, j]
 
 
+@inlined
+def limited(wanted, speed, limit, no_load):
+    """The torque that a motor gives of what it is asked: within its limit, and below its torque-speed line."""
+    high = limit
+    low = -limit
+    if limit < math.inf and no_load < math.inf:
+        high = min(limit, max(-limit, limit * (1.0 - speed / no_load)))
+        low = max(-limit, min(limit, -limit * (1.0 + speed / no_load)))
+    return min(max(wanted, low), high)
+
+
 @kernel
-def limit_torques(wanted, speeds, limits, no_load, out):
-    """What the motors give: within their limit and below their torque-speed line.
+def take_torques(asked, wanted):
+    """Copy the torques `asked` into `wanted`, both of shape (batch, n); the first limb with one that is not finite, or -1."""
+    bad = -1
+    for b in range(asked.shape[0]):
+        for j in range(asked.shape[1]):
+            wanted[b, j] = asked[b, j]
+            if bad < 0 and not math.isfinite(asked[b, j]):
+                bad = b
+    return bad
+
+
+@kernel
+def limit_torques(wanted, speeds, limits, no_load, agility, time, out, also):
+    """What the motors give at these speeds.
 
     Args:
         wanted: Torques asked for, shape (batch, n) [N m].
         speeds: Motor-side joint speeds, shape (batch, n) [rad/s].
         limits: Largest torque of each joint, shape (n,) [N m]; inf for none.
         no_load: Speed of each joint without load, shape (n,) [rad/s]; inf for none.
-        out: Filled, shape (batch, n).
+        agility: More than any joint accelerates, shape (n,) [rad/s^2].
+        time: For which the torques might be held [s].
+        out, also: Both filled, shape (batch, n).
 
     Returns:
-        Whether a limit is so near that the torque may depend on the speed within a few milliseconds.
+        Whether they may be held: no motor would give another torque at any speed that it can reach within that time.
     """
-    near = False
+    steady = True
     for b in range(wanted.shape[0]):
         for j in range(wanted.shape[1]):
-            high = min(limits[j], limits[j] * (1.0 - speeds[b, j] / no_load[j]))
-            low = max(-limits[j], -limits[j] * (1.0 + speeds[b, j] / no_load[j]))
-            out[b, j] = min(max(wanted[b, j], low), high)
-            near = near or wanted[b, j] > 0.7 * high or wanted[b, j] < 0.7 * low
-    return near
+            value = limited(wanted[b, j], speeds[b, j], limits[j], no_load[j])
+            out[b, j] = value
+            also[b, j] = value
+            if limits[j] < math.inf and no_load[j] < math.inf:
+                change = agility[j] * time
+                slow = limited(wanted[b, j], speeds[b, j] - change, limits[j], no_load[j])
+                fast = limited(wanted[b, j], speeds[b, j] + change, limits[j], no_load[j])
+                steady = steady and slow == value and fast == value
+    return steady

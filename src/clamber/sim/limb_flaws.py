@@ -56,6 +56,9 @@ class Push:
     rise: float = 0.05
 
     def __post_init__(self) -> None:
+        for key in ("x", "y", "start", "end", "rise"):
+            if not math.isfinite(getattr(self, key)):
+                raise PlantError(f"push.{key}", getattr(self, key), "must be a finite number")
         if not self.start >= 0.0 or not self.end >= self.start:
             raise PlantError("push", (self.start, self.end), "must start at 0 s or later and end after its start")
         if not self.rise >= 0.0:
@@ -95,16 +98,34 @@ class LimbFlaws:
     """Whether weight acts."""
     motor_limits: bool = True
     """Whether the motors have their torque limits and torque-speed lines."""
+    seed: int | None = None
+    """Draws each joint's side of its play at the start, its encoder's phase, noise and model error; None: mid-play, no noise."""
+    speed_noise: float = 0.0
+    """Standard deviation of the noise on sensed joint speeds [rad/s]."""
+    wrench_noise: float = 0.0
+    """Standard deviation of the noise on sensed forces, where the limb has a force sensor of no other noise [N]."""
+    model_error: float = 0.0
+    """Largest relative error of what the controller believes of each joint's inertia, damping, friction and mass [-]."""
+    joint_limits: bool = False
+    """Whether hard stops at the robot's joint limits hold the motors' side. Off by default: the published circle of 5 cm about (0.22, 0)
+    asks for an elbow of 115.6 deg, or -111.9 deg on the other branch, beyond the printed 110 deg."""
     push: Push | None = None
     wall: Wall | None = None
 
     def __post_init__(self) -> None:
-        for key in ("backlash", "friction", "damping", "payload"):
+        for key in ("backlash", "friction", "damping", "payload", "speed_noise", "wrench_noise", "model_error"):
             if not 0.0 <= getattr(self, key) < math.inf:
                 raise PlantError(key, getattr(self, key), "must be 0 or more, and finite")
-        if self.encoder_counts < 0 or self.delay < 0:
-            key = "delay" if self.delay < 0 else "encoder_counts"
-            raise PlantError(key, getattr(self, key), "must be a whole number, 0 or more")
+        if not self.model_error < 1.0:
+            raise PlantError("model_error", self.model_error, "must be less than 1, that is 100 %")
+        if self.seed is not None and self.seed < 0:
+            raise PlantError("seed", self.seed, "must be a whole number, 0 or more")
+        for key in ("speed_noise", "wrench_noise", "model_error"):
+            if self.seed is None and getattr(self, key) > 0.0:
+                raise PlantError(key, getattr(self, key), "needs a seed")
+        for key in ("encoder_counts", "delay"):
+            if not isinstance(getattr(self, key), int) or getattr(self, key) < 0:
+                raise PlantError(key, getattr(self, key), "must be a whole number, 0 or more")
         for key in ("control_rate", "physics_rate"):
             if not 0.0 < getattr(self, key) < math.inf:
                 raise PlantError(key, getattr(self, key), "must be more than 0 Hz, and finite")

@@ -5,12 +5,16 @@ from typing import Any
 import numpy as np
 
 from ..control.chain import Chain
+from ..control.kinematics import FRAME
 from ..control.records import AXES
 from ..execution.plant import Sensed, Truth
 from ..types import Floats
-from .electronics import limit_torques, read_encoders
+from .chances import Chances
+from .limb_electronics import LimbElectronics
 from .limb_flaws import LimbFlaws
 from .limb_model import limb_spec
+from .output_side import look_behind_gears
+from .tip_push import push_tips
 
 
 class MujocoLimb:
@@ -31,6 +35,7 @@ class MujocoLimb:
 
         self.chain, self.flaws, self.batch = chain, flaws, batch
         self.period = flaws.period
+        self._step_time = 1.0 / flaws.physics_rate
         self.model: Any = limb_spec(chain, flaws).compile()
         self._step = mujoco.mj_step
         self._data: Any = None
@@ -41,28 +46,28 @@ class MujocoLimb:
             self._qpos, self._qvel, self._ctrl = (
                 a[None, :] for a in (self._data.qpos, self._data.qvel, self._data.ctrl)
             )
-            self._pushed = self._data.xfrc_applied[None]
+            pushed = self._data.xfrc_applied[None]
         else:
             from mujoco.batch import Batch
 
             self._pool = Batch(self.model, batch, threads)
             self._qpos, self._qvel, self._ctrl = (self._pool.bind(name) for name in ("qpos", "qvel", "ctrl"))
-            self._pushed = self._pool.bind("xfrc_applied")
+            pushed = self._pool.bind("xfrc_applied")
         stride = 2 if flaws.backlash > 0.0 else 1
         self._motors = slice(0, stride * n, stride)
-        self._play = slice(1, stride * n, stride) if stride == 2 else None
+        self._stride = stride
         self._angles, self._speeds = self._qpos[:, self._motors], self._qvel[:, self._motors]
-        turns = np.ones(n) if gears is None else np.asarray(gears, dtype=np.float64)
-        self._counts = flaws.encoder_counts * turns / (2.0 * np.pi)
-        unlimited = np.full(n, np.inf)
-        self._limits = chain.joints["limit"].copy() if flaws.motor_limits else unlimited
-        self._no_load = chain.joints["speed"].copy() if flaws.motor_limits else unlimited
-        self._ring = np.zeros((flaws.delay + 1, batch, 2, n))
-        self._before = np.zeros((batch, n))
-        self._wanted = np.zeros((batch, n))
-        self._sensed = Sensed(np.zeros((batch, 2, n)), np.zeros((batch, AXES)))
+        self._electronics = LimbElectronics(chain, flaws, gears, batch)
+        self._chances = None if flaws.seed is None else Chances(flaws, batch, n, self._electronics.counts)
+        self._sensed = Sensed(self._electronics.states, np.zeros((batch, AXES)))
         self._truth = Truth(np.zeros((batch, 2, n)), np.zeros((batch, n)), np.zeros((batch, AXES)))
-        self._last_body = self.model.body(chain.joint_names[-1]).id
+        self._given = np.zeros((batch, n))
+        # The centre of mass is that of what really moves, payload included
+        carried = chain.with_payload(flaws.payload).joints
+        last = self.model.body(chain.joint_names[-1]).id
+        self._pushed_rows = pushed[:, last]
+        self._push_arrays = (np.zeros((n, FRAME)), np.zeros(12), self._pushed_rows, self._truth.wrenches)
+        self._push_chain = (carried, chain.root, self._truth.states)
         self.tick = 0
 
     def reset(self, q: Floats) -> None:
@@ -75,44 +80,42 @@ class MujocoLimb:
             self._pool.reset()
         self._qpos[:, self._motors] = q
         self._qvel[:] = 0.0
-        self._wanted[:] = 0.0
-        self._ring[:] = 0.0
+        if self._chances is not None:
+            self._chances.restart()
+            if self._stride == 2:
+                self._qpos[:, 1 : 2 * self.chain.n : 2] = self._chances.play
+        self._truth.torques[:] = 0.0
+        self._truth.wrenches[:] = 0.0
+        self._electronics.reset()
         self.tick = 0
         self._look()
 
     def sense(self) -> Sensed:
         """See `Plant`."""
-        read_encoders(
-            self._angles,
-            self._speeds,
-            self._counts,
-            self.period,
-            self.tick,
-            self._ring,
-            self._before,
-            self._sensed.states,
-        )
+        chances = self._chances
+        self._electronics.read(self._angles if chances is None else self._angles + chances.phase, self._speeds)
+        if chances is not None:
+            chances.disturb(self._sensed.states)
         return self._sensed
 
     def actuate(self, torques: Floats) -> None:
         """See `Plant`."""
-        self._wanted[:] = torques
+        self._electronics.ask(torques)
 
     def step(self) -> None:
-        """See `Plant`. Where a motor's limit is near, the torque follows the speed at every physics step."""
-        steps = self.flaws.steps
+        """See `Plant`. Where a motor's torque depends on its speed, it follows that at every physics step."""
         if self.flaws.push is not None:
-            self._push()
-        near = limit_torques(self._wanted, self._speeds, self._limits, self._no_load, self._truth.torques)
-        self._ctrl[:] = self._truth.torques
-        if near:
-            for k in range(steps):
-                if k:
-                    limit_torques(self._wanted, self._speeds, self._limits, self._no_load, self._truth.torques)
-                    self._ctrl[:] = self._truth.torques
-                self._advance(1)
-        else:
-            self._advance(steps)
+            push_tips(*self._push_chain, *self.flaws.push.at((self.tick + 0.5) * self.period), *self._push_arrays)
+        steps, done, mean = self.flaws.steps, 0, self._truth.torques
+        given = mean
+        while done < steps:
+            steady = self._electronics.limit(self._speeds, (steps - done) * self._step_time, given, self._ctrl)
+            now = steps - done if steady else 1
+            self._advance(now)
+            done += now
+            if done > now:
+                mean += (given - mean) * (now / done)
+            given = self._given
         self.tick += 1
         self._look()
 
@@ -127,22 +130,4 @@ class MujocoLimb:
             self._pool.step(nstep=steps)
 
     def _look(self) -> None:
-        states = self._truth.states
-        states[:, 0] = self._angles
-        states[:, 1] = self._speeds
-        if self._play is not None:
-            states[:, 0] += self._qpos[:, self._play]
-            states[:, 1] += self._qvel[:, self._play]
-
-    def _push(self) -> None:
-        """Put the push of this tick on the tip, as a force and its moment about the last link's centre of mass."""
-        push = self.flaws.push
-        assert push is not None
-        fx, fy = push.at((self.tick + 0.5) * self.period)
-        for b in range(self.batch):
-            arm = self.chain.place(self._truth.states[b, 0]) - self._centre(b)
-            self._pushed[b, self._last_body] = (fx, fy, 0.0, 0.0, 0.0, arm[0] * fy - arm[1] * fx)
-            self._truth.wrenches[b, :2] = -fx, -fy
-
-    def _centre(self, b: int) -> Floats:
-        return self.chain.last_centre(self._truth.states[b, 0])
+        look_behind_gears(self._qpos, self._qvel, self._stride, self._truth.states)

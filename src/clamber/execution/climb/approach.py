@@ -60,7 +60,7 @@ def discs_near(holds: Mapping[int, Floats], pose: Floats, radius: float) -> Floa
 
 
 def rank(found: Iterable[Posture], elbow: int) -> list[Posture]:
-    """Postures within the joints' limits with the elbow on the wanted side (+1, -1), or with the hook on top (0), that most on top first."""
+    """Postures within the joints' limits with the elbow on the wanted side (+1, -1), or the hook on top (0); most on top first."""
     fit = [one for one in found if one.inside and (elbow * one.angles[1] > 0.0 if elbow else one.on_top > 0.0)]
     return sorted(fit, key=lambda one: -one.on_top)
 

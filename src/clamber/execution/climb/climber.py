@@ -13,8 +13,8 @@ from .approach import Approaches, rank
 from .postures import postures
 from .whole_body import BodyGains, LimbTask, WholeBody
 
-SUNK: Final = 0.08
-"""A body this far below its aim has fallen, or is about to [m]."""
+ASTRAY: Final = 0.08
+"""A body this far from its aim has fallen, or is about to [m]."""
 TURNED: Final = 0.6
 """Likewise turned this far from it [rad]."""
 STRAINED: Final = 0.03
@@ -139,7 +139,7 @@ class Climber:
         """Sense, command, step.
 
         Raises:
-            FallenError: If no limb holds, a hook has come off, or the body is far below its aim or turned away from it.
+            FallenError: If no limb holds, a hook has come off, or the body is far from its aim or turned away from it.
         """
         sensed = self.plant.sense()
         self.body.see(sensed.q, sensed.qd, sensed.angle, sensed.angle_speed)
@@ -156,11 +156,10 @@ class Climber:
             raise FallenError(
                 f"a hook has come off: two holding tips are {1e3 * strain:.0f} mm off their holds' distance"
             )
-        sunk, turned = self.body.aim[1] - self.body.pose[1], abs(self.body.pose[2] - self.body.aim[2])
-        if sunk > SUNK or turned > TURNED:
-            raise FallenError(
-                f"the body is {1e3 * sunk:.0f} mm below its aim and turned by {np.degrees(turned):.0f} deg"
-            )
+        off = float(np.hypot(*(self.body.aim[:2] - self.body.pose[:2])))
+        turned = abs(float(self.body.pose[2] - self.body.aim[2]))
+        if off > ASTRAY or turned > TURNED:
+            raise FallenError(f"the body is {1e3 * off:.0f} mm off its aim and turned by {np.degrees(turned):.0f} deg")
 
     def wait(self, seconds: float) -> None:
         """Let time pass [s]."""

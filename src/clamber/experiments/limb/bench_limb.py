@@ -7,7 +7,7 @@ import numpy as np
 from ...control.chain import Chain, chain_of_limb, closed_branches
 from ...errors import ClamberError
 from ...robots.library import load_robot
-from ...robots.limbed import LimbedRobot
+from ...robots.limbed import Limb, LimbedRobot
 from ...types import Floats
 
 
@@ -36,6 +36,11 @@ class BenchLimb:
     """Joint angles at the start [rad]."""
 
     @property
+    def spec(self) -> Limb:
+        """As the robot's file states it."""
+        return self.robot.limbs[self.robot.limb_index(self.name)]
+
+    @property
     def start(self) -> tuple[float, float]:
         """Tip at the start, port frame [m]."""
         place = self.chain.place(self.q0)
@@ -44,6 +49,19 @@ class BenchLimb:
 
 LEAST_SIGMA = 0.01
 """A start whose Jacobian has a smaller singular value counts as singular [m/rad]."""
+
+
+def limbed_robot(name: str) -> LimbedRobot:
+    """A climber by name or file.
+
+    Raises:
+        UnknownNameError: If there is no such robot.
+        ClamberError: If it is of another family.
+    """
+    loaded = load_robot(name)
+    if not isinstance(loaded, LimbedRobot):
+        raise ClamberError(f"{name}: the limb bench takes robots of the family 'limbed'")
+    return loaded
 
 
 def bench_limb(
@@ -67,9 +85,7 @@ def bench_limb(
         StartError: If no pose within the joints' limits has its tip there, or only a singular one.
         UnknownNameError: If there is no such robot or limb.
     """
-    loaded = load_robot(robot)
-    if not isinstance(loaded, LimbedRobot):
-        raise ClamberError(f"{robot}: the limb bench takes robots of the family 'limbed'")
+    loaded = limbed_robot(robot)
     names = loaded.limb_names
     name = (
         names[0]

@@ -12,18 +12,21 @@ import numpy as np
 
 from ...control.chain import Chain
 from ...control.controller import Controller, still_aim
-from ...control.law_settings import LawSettings
+from ...control.law_settings import LawError, LawSettings
 from ...types import Floats
 
 Match: TypeAlias = Literal["yy", "mean", "diagonal", "none"]
 MATCHES: Final[tuple[Match, ...]] = ("yy", "mean", "diagonal", "none")
 NUDGE: Final = 1e-6
 """Of a joint [rad]."""
+LEAST_PART: Final = 1e-6
+"""A stiffness smaller than this part of that along the other axis is none."""
 
 
 def tip_stiffness(chain: Chain, settings: LawSettings, q: Floats) -> Floats:
     """Stiffness of a law at the tip in x and y, at rest on its aim, from its own torques, shape (2, 2) [N/m]."""
-    bare = settings.with_changes(feed_gravity=False, feed_friction=0.0)
+    # at rest a derivative term has died away; in the tick after a nudge it has not
+    bare = settings.with_changes(feed_gravity=False, feed_friction=0.0, derivative=0.0)
     controller = Controller(chain, bare, period=0.005)
     aim = still_aim(chain.place(q))
     states = np.zeros((1, 2, chain.n))
@@ -49,11 +52,26 @@ def match_gains(chain: Chain, settings: LawSettings, reference: LawSettings, q: 
     """`settings` with kp and kd scaled until its stiffness at `q` is that of `reference` in the sense of `how`.
 
     kd is scaled as kp is, so the ratio of both stays that of `reference`, whose gains are the starting point.
+
+    "diagonal" goes by the axes of the task frame of `settings`.
+
+    Raises:
+        LawError: If either law has no stiffness in that sense, as along a row that carries a force, or one that kp does not set, as the
+            servo of joint-pd, which knows no directions.
     """
     if how == "none":
         return settings
     start = replace(settings, kp=reference.kp, kd=reference.kd)
-    ours, theirs = tip_stiffness(chain, start, q), tip_stiffness(chain, reference, q)
+    turn = settings.task_frame()[:2, :2] if how == "diagonal" else np.eye(2)
+    ours, theirs = (turn.T @ tip_stiffness(chain, law, q) @ turn for law in (start, reference))
+    for law, stiffness in ((settings, ours), (reference, theirs)):
+        if not np.diag(stiffness).min() > LEAST_PART * np.diag(stiffness).max():
+            raise LawError(
+                law.law,
+                "kp",
+                "(matched)",
+                f"has no stiffness of its own to match by '{how}': state kp and kd, or 'none'",
+            )
     if how == "yy":
         factors = np.full(2, theirs[1, 1] / ours[1, 1])
     elif how == "mean":
@@ -65,4 +83,10 @@ def match_gains(chain: Chain, settings: LawSettings, reference: LawSettings, q: 
         pair = np.broadcast_to(np.asarray(value, dtype=np.float64), 2) * factors
         return float(pair[0]) if pair[0] == pair[1] else tuple(map(float, pair))
 
-    return replace(start, kp=scaled(start.kp), kd=scaled(start.kd))
+    matched = replace(start, kp=scaled(start.kp), kd=scaled(start.kd))
+    got = turn.T @ tip_stiffness(chain, matched, q) @ turn
+    if not np.allclose(got.diagonal() / ours.diagonal(), factors, rtol=1e-4):
+        raise LawError(
+            settings.law, "kp", "(matched)", f"does not set its stiffness by '{how}': state gains, or match by 'none'"
+        )
+    return matched

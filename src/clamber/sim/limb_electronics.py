@@ -1,0 +1,72 @@
+"""What lies between a controller and a limb's mechanics, the same for every plant: encoders with their delay, and the motors' limits."""
+
+from typing import Final
+
+import numpy as np
+
+from ..control.chain import Chain
+from ..types import Floats
+from .electronics import limit_torques, read_encoders, take_torques
+from .limb_flaws import LimbFlaws, PlantError
+
+
+class LimbElectronics:
+    """Encoders and motors of a batch of limbs.
+
+    Args:
+        chain: Whose motors they are.
+        flaws: Counts, delay, whether the motors have limits.
+        gears: Motor turns per joint turn, shape (n,): counts are of the motor; None: 1.
+        batch: Number of limbs.
+    """
+
+    def __init__(self, chain: Chain, flaws: LimbFlaws, gears: Floats | None, batch: int) -> None:
+        n = chain.n
+        turns = np.ones(n) if gears is None else np.asarray(gears, dtype=np.float64)
+        unlimited = np.full(n, np.inf)
+        self.limits: Final[Floats] = chain.joints["limit"].copy() if flaws.motor_limits else unlimited
+        """Largest torque of each joint, shape (n,) [N m]."""
+        self.no_load: Final[Floats] = chain.joints["speed"].copy() if flaws.motor_limits else unlimited
+        """Speed of each joint without load, shape (n,) [rad/s]."""
+        self.states: Final = np.zeros((batch, 2, n))
+        """What the encoders say, shape (batch, 2, n)."""
+        self.wanted: Final = np.zeros((batch, n))
+        """What the motors are asked for, shape (batch, n) [N m]."""
+        self._names = chain.joint_names
+        # The motor's own acceleration, and as much again from outside
+        with np.errstate(divide="ignore", invalid="ignore"):
+            self._agility = 2.0 * self.limits / chain.joints["rotor"]
+        self.counts: Final[Floats] = flaws.encoder_counts * turns / (2.0 * np.pi)
+        """Of each encoder per radian of its joint, shape (n,); 0 for a perfect one."""
+        self._period = flaws.period
+        self._ring = np.zeros((flaws.delay + 1, batch, 2, n))
+        self._before = np.zeros((batch, n))
+        self._readings = 0
+
+    def reset(self) -> None:
+        """Forget all readings and torques."""
+        self.wanted[:] = 0.0
+        self._ring[:] = 0.0
+        self._readings = 0
+
+    def read(self, angles: Floats, speeds: Floats) -> None:
+        """Read the encoders into `states`, once a tick; true motor-side angles and speeds, shape (batch, n)."""
+        read_encoders(angles, speeds, self.counts, self._period, self._readings, self._ring, self._before, self.states)
+        self._readings += 1
+
+    def ask(self, torques: Floats) -> None:
+        """Ask the motors for torques, held until the next call, shape (batch, n) [N m].
+
+        Raises:
+            PlantError: If one is not a finite number.
+        """
+        bad = take_torques(torques, self.wanted)
+        if bad >= 0:
+            joint = int(np.argmin(np.isfinite(torques[bad])))
+            key = f"torque of the {self._names[joint]}, limb {bad} of the batch"
+            raise PlantError(key, float(torques[bad, joint]), "must be a finite number")
+
+    def limit(self, speeds: Floats, time: float, out: Floats, also: Floats) -> bool:
+        """What the motors give at these speeds into `out` and `also`; whether it may be held for `time` [s]. See `limit_torques`."""
+        steady: bool = limit_torques(self.wanted, speeds, self.limits, self.no_load, self._agility, time, out, also)
+        return steady
