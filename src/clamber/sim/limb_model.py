@@ -50,7 +50,7 @@ def limb_spec(chain: Chain, flaws: LimbFlaws) -> Any:
     spec.option.gravity = chain.root["gravity"][0]
     parent = spec.worldbody
     for name, record in zip(chain.joint_names, carried.joints, strict=True):
-        parent = _add_link(mujoco, spec, parent, name, record, flaws)
+        parent = add_link(mujoco, spec, parent, name, record, flaws)
     root = chain.root[0]
     parent.add_site(name="tip", pos=root["tip"], quat=_quaternion(mujoco, root["tip_turn"]))
     if flaws.wall is not None:
@@ -58,7 +58,8 @@ def limb_spec(chain: Chain, flaws: LimbFlaws) -> Any:
     return spec
 
 
-def _add_link(mujoco: Any, spec: Any, parent: Any, name: str, record: Any, flaws: LimbFlaws) -> Any:
+def add_link(mujoco: Any, spec: Any, parent: Any, name: str, record: Any, flaws: LimbFlaws) -> Any:
+    """Add a joint, its motor, its play and the link after it to a body of an `MjSpec`; returns the link's body."""
     body = parent.add_body(name=name, pos=record["place"], quat=_quaternion(mujoco, record["turn"]))
     body.explicitinertial = True
     body.mass = max(float(record["mass"]), SMALL_MASS)

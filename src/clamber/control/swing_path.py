@@ -1,0 +1,230 @@
+"""A way for a free two-joint limb between two postures, past holds and body: Dijkstra on a grid of its joint angles. Kernels."""
+
+import math
+
+import numpy as np
+
+from ..compiled import inlined, kernel
+
+FAR = 1e9
+PREFERRED = 0.03
+"""Clearance beyond which a way costs no more than its length [m]."""
+DEAR = 8.0
+"""How many times longer a step counts where there is no clearance left [-]."""
+
+
+@inlined
+def segment_point(ax, ay, bx, by, px, py):
+    """Distance of a point from a segment."""
+    dx = bx - ax
+    dy = by - ay
+    square = dx * dx + dy * dy
+    t = 0.0
+    if square > 0.0:
+        t = min(1.0, max(0.0, ((px - ax) * dx + (py - ay) * dy) / square))
+    return math.hypot(ax + t * dx - px, ay + t * dy - py)
+
+
+@inlined
+def _crosses(ax, ay, bx, by, cx, cy, dx, dy):
+    d1 = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+    d2 = (bx - ax) * (dy - ay) - (by - ay) * (dx - ax)
+    d3 = (dx - cx) * (ay - cy) - (dy - cy) * (ax - cx)
+    d4 = (dx - cx) * (by - cy) - (dy - cy) * (bx - cx)
+    return d1 * d2 < 0.0 and d3 * d4 < 0.0
+
+
+@inlined
+def segment_segment(ax, ay, bx, by, cx, cy, dx, dy):
+    """Distance of two segments; 0 where they cross."""
+    if _crosses(ax, ay, bx, by, cx, cy, dx, dy):
+        return 0.0
+    return min(
+        min(segment_point(ax, ay, bx, by, cx, cy), segment_point(ax, ay, bx, by, dx, dy)),
+        min(segment_point(cx, cy, dx, dy, ax, ay), segment_point(cx, cy, dx, dy, bx, by)),
+    )
+
+
+@kernel
+def clearance(leg, t1, t2, discs, walls, link_radius, tip_radius):
+    """Smallest distance of a limb's links and tip from all obstacles, less their radii [m].
+
+    Args:
+        leg: A record of `body.LEG`.
+        t1, t2: Its joint angles [rad].
+        discs: Obstacles x, y, radius in the body frame, shape (n, 3) [m].
+        walls: Segments x, y, x, y, radius in the body frame, shape (m, 5) [m]; the first link may touch them (it starts at the body).
+        link_radius, tip_radius: Of the limb [m].
+    """
+    first = leg.port_angle + t1
+    second = first + t2
+    ex = leg.port_x + leg.l1 * math.cos(first)
+    ey = leg.port_y + leg.l1 * math.sin(first)
+    tx = ex + leg.l2 * math.cos(second + leg.beta)
+    ty = ey + leg.l2 * math.sin(second + leg.beta)
+    least = FAR
+    for k in range(discs.shape[0]):
+        x = discs[k, 0]
+        y = discs[k, 1]
+        r = discs[k, 2]
+        least = min(least, segment_point(leg.port_x, leg.port_y, ex, ey, x, y) - link_radius - r)
+        least = min(least, segment_point(ex, ey, tx, ty, x, y) - link_radius - r)
+        least = min(least, math.hypot(tx - x, ty - y) - tip_radius - r)
+    for k in range(walls.shape[0]):
+        least = min(
+            least,
+            segment_segment(ex, ey, tx, ty, walls[k, 0], walls[k, 1], walls[k, 2], walls[k, 3])
+            - link_radius
+            - walls[k, 4],
+        )
+    return least
+
+
+@kernel
+def find_way(leg, lower, upper, cells, start, goal, discs, walls, link_radius, tip_radius, least, path):
+    """Cheapest way over the grid of joint angles, length made dearer near obstacles.
+
+    Args:
+        leg: A record of `body.LEG`.
+        lower, upper: Joint limits, shape (2,) [rad].
+        cells: Grid points along each joint.
+        start, goal: Joint angles, shape (2,) [rad].
+        discs, walls, link_radius, tip_radius: See `clearance`.
+        least: Clearance that a way must keep, unless start or goal have less [m].
+        path: Filled with joint angles from start to goal, shape (most, 2).
+
+    Returns:
+        Number of points, 0 where there is no way.
+    """
+    size = cells * cells
+    room = np.empty(size)
+    pitch1 = (upper[0] - lower[0]) / (cells - 1)
+    pitch2 = (upper[1] - lower[1]) / (cells - 1)
+    for i in range(cells):
+        for j in range(cells):
+            room[i * cells + j] = clearance(
+                leg, lower[0] + i * pitch1, lower[1] + j * pitch2, discs, walls, link_radius, tip_radius
+            )
+    origin = _nearest(start, lower, pitch1, pitch2, cells)
+    target = _nearest(goal, lower, pitch1, pitch2, cells)
+    # where the ends themselves are tight, the way out may be as tight
+    ends = min(
+        clearance(leg, start[0], start[1], discs, walls, link_radius, tip_radius),
+        clearance(leg, goal[0], goal[1], discs, walls, link_radius, tip_radius),
+    )
+    floor = min(least, ends - 0.002)
+    cost = np.full(size, FAR)
+    came = np.full(size, -1, np.int64)
+    heap_cost = np.empty(8 * size)
+    heap_node = np.empty(8 * size, np.int64)
+    count = 1
+    heap_cost[0] = 0.0
+    heap_node[0] = origin
+    cost[origin] = 0.0
+    while count:
+        here_cost = heap_cost[0]
+        here = heap_node[0]
+        count -= 1
+        heap_cost[0] = heap_cost[count]
+        heap_node[0] = heap_node[count]
+        _sink(heap_cost, heap_node, count)
+        if here_cost > cost[here]:
+            continue
+        if here == target:
+            break
+        i = here // cells
+        j = here % cells
+        for di in range(-1, 2):
+            for dj in range(-1, 2):
+                if (di == 0 and dj == 0) or not (0 <= i + di < cells and 0 <= j + dj < cells):
+                    continue
+                there = (i + di) * cells + j + dj
+                if room[there] < floor and there != target and there != origin:
+                    continue
+                lack = max(0.0, PREFERRED - room[there]) / PREFERRED
+                step = math.hypot(di * pitch1, dj * pitch2) * (1.0 + DEAR * lack * lack)
+                if here_cost + step < cost[there]:
+                    cost[there] = here_cost + step
+                    came[there] = here
+                    heap_cost[count] = here_cost + step
+                    heap_node[count] = there
+                    count += 1
+                    _rise(heap_cost, heap_node, count - 1)
+    if came[target] < 0 and target != origin:
+        return 0
+    length = 0
+    node = target
+    while node >= 0 and length < path.shape[0] - 2:
+        length += 1
+        node = came[node] if node != origin else -1
+    node = target
+    for k in range(length, 0, -1):
+        path[k, 0] = lower[0] + (node // cells) * pitch1
+        path[k, 1] = lower[1] + (node % cells) * pitch2
+        node = came[node]
+    path[0] = start
+    path[length + 1] = goal
+    return _straighten(leg, path, length + 2, floor, discs, walls, link_radius, tip_radius)
+
+
+@inlined
+def _nearest(angles, lower, pitch1, pitch2, cells):
+    i = min(max(int(round((angles[0] - lower[0]) / pitch1)), 0), cells - 1)
+    j = min(max(int(round((angles[1] - lower[1]) / pitch2)), 0), cells - 1)
+    return i * cells + j
+
+
+@inlined
+def _sink(costs, nodes, count):
+    at = 0
+    while True:
+        child = 2 * at + 1
+        if child >= count:
+            return
+        if child + 1 < count and costs[child + 1] < costs[child]:
+            child += 1
+        if costs[at] <= costs[child]:
+            return
+        costs[at], costs[child] = costs[child], costs[at]
+        nodes[at], nodes[child] = nodes[child], nodes[at]
+        at = child
+
+
+@inlined
+def _rise(costs, nodes, at):
+    while at:
+        above = (at - 1) // 2
+        if costs[above] <= costs[at]:
+            return
+        costs[at], costs[above] = costs[above], costs[at]
+        nodes[at], nodes[above] = nodes[above], nodes[at]
+        at = above
+
+
+@kernel
+def _straighten(leg, path, length, floor, discs, walls, link_radius, tip_radius):
+    """Leave out points between which the straight way keeps the preferred clearance, or that of the points themselves."""
+    kept = 1
+    at = 0
+    while at < length - 1:
+        best = at + 1
+        for to in range(length - 1, at + 1, -1):
+            tight = PREFERRED
+            for k in range(at, to + 1):
+                tight = min(tight, clearance(leg, path[k, 0], path[k, 1], discs, walls, link_radius, tip_radius))
+            tight = max(min(tight, 0.6 * PREFERRED), floor)
+            free = True
+            for k in range(1, 40):
+                part = k / 40.0
+                a = path[at, 0] + part * (path[to, 0] - path[at, 0])
+                b = path[at, 1] + part * (path[to, 1] - path[at, 1])
+                if clearance(leg, a, b, discs, walls, link_radius, tip_radius) < tight - 1e-6:
+                    free = False
+                    break
+            if free:
+                best = to
+                break
+        path[kept] = path[best]
+        kept += 1
+        at = best
+    return kept

@@ -1,0 +1,146 @@
+"""How a free limb comes to a hold: the posture to hold with, a place to stand off, the way there, and where the body should be."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ...control.swing_path import find_way
+from ...robots.limbed import LimbedRobot
+from ...types import Floats, Records
+from .postures import Posture, postures
+
+CELLS: Final = 81
+"""Grid points along each joint: 2.75 deg for LIBRA."""
+MOST_POINTS: Final = 400
+TIP_RADIUS: Final = 0.012
+"""Of the disc that stands for a hook with its flare [m]."""
+LEAST_CLEARANCE: Final = 0.004
+"""That a way must keep [m]."""
+STAND_OFFS: Final = (1.0, 0.8, 0.65)
+"""Parts of the wished stand-off that are tried in turn."""
+SLANTS: Final = ((0, 15, -15, 30, -30), (45, -45, 60, -60))
+"""Angles between the way in and the grab direction, in two groups: a straight way with a moved body comes before a slanted one [deg]."""
+SHIFTS: Final = ((0.0, 0.0), (0.0, 0.02), (0.0, 0.035), (-0.03, 0.035), (-0.06, 0.035), (0.0, 0.05))
+"""Moves of the body that make room: x away from the hold's side, y up [m]."""
+NEARBY: Final = 0.6
+"""Holds farther from the body are in no limb's way [m]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Approach:
+    """A way to a hold."""
+
+    shift: Floats
+    """Move of the body before it, world frame, shape (2,) [m]."""
+    way: Floats
+    """Joint angles from where the limb is to the stand-off, shape (n, 2) [rad]."""
+    grab: Floats
+    """Direction in which the hook will pull, world frame."""
+    stand_off: float
+    """Distance of the stand-off from the hold [m]."""
+
+
+def wall_of(robot: LimbedRobot) -> Floats:
+    """The body's outline as segments x, y, x, y, radius in the body frame, shape (limbs, 5) [m]."""
+    ports = [(limb.port_x, limb.port_y) for limb in robot.limbs]
+    return np.array([(*a, *b, robot.body_margin) for a, b in zip(ports, ports[1:] + ports[:1], strict=True)])
+
+
+def discs_near(holds: Mapping[int, Floats], pose: Floats, radius: float) -> Floats:
+    """Holds near the body as discs x, y, radius in the body frame, shape (n, 3) [m]."""
+    c, s = np.cos(pose[2]), np.sin(pose[2])
+    out = []
+    for place in holds.values():
+        dx, dy = place - pose[:2]
+        if np.hypot(dx, dy) < NEARBY:
+            out.append((c * dx + s * dy, -s * dx + c * dy, radius))
+    return np.array(out).reshape(-1, 3)
+
+
+def rank(found: Iterable[Posture], elbow: int) -> list[Posture]:
+    """Postures within the joints' limits with the elbow on the wanted side (+1, -1), or the hook on top (0); most on top first."""
+    fit = [one for one in found if one.inside and (elbow * one.angles[1] > 0.0 if elbow else one.on_top > 0.0)]
+    return sorted(fit, key=lambda one: -one.on_top)
+
+
+class Approaches:
+    """Finds ways to holds for the limbs of one robot.
+
+    Args:
+        robot: The climber.
+        legs: Records of `control.body.LEG`, one per limb.
+        peg_radius: Of every hold [m].
+    """
+
+    def __init__(self, robot: LimbedRobot, legs: Records, peg_radius: float) -> None:
+        self.robot, self.legs, self.peg_radius = robot, legs, peg_radius
+        self._wall = wall_of(robot)
+        self._path = np.zeros((MOST_POINTS, 2))
+
+    def find(
+        self,
+        i: int,
+        angles: Floats,
+        pose: Floats,
+        hold: Floats,
+        holds: Mapping[int, Floats],
+        *,
+        elbow: int = 0,
+        stand_off: float = 0.028,
+    ) -> Approach | None:
+        """A way for limb `i` from joint angles `angles` to a stand-off before `hold`; None where there is none.
+
+        Args:
+            i: Index of the limb.
+            angles: Where it is, shape (2,) [rad].
+            pose: Body pose, shape (3,).
+            hold: Place of the hold, world frame [m].
+            holds: All holds by number, as obstacles.
+            elbow: Side of the elbow to hold with: +1, -1, or 0 for whichever has the hook more on top.
+            stand_off: Wished distance from the hold before the way in [m].
+        """
+        side = float(np.sign(hold[0] - pose[0]))
+        for slants in SLANTS:
+            for x, y in SHIFTS:
+                shift = np.array((x * side, y))
+                moved = pose + np.array((*shift, 0.0))
+                found = self._stand_off(i, angles, moved, hold, holds, elbow, stand_off, slants)
+                if found is not None:
+                    grab, way, distance = found
+                    return Approach(shift, way, grab, distance)
+        return None
+
+    def _stand_off(
+        self,
+        i: int,
+        angles: Floats,
+        pose: Floats,
+        hold: Floats,
+        holds: Mapping[int, Floats],
+        elbow: int,
+        stand_off: float,
+        slants: tuple[int, ...],
+    ) -> tuple[Floats, Floats, float] | None:
+        limb = self.robot.limbs[i]
+        discs = discs_near(holds, pose, self.peg_radius)
+        lower = np.array((limb.shoulder.lower, limb.elbow.lower))
+        upper = np.array((limb.shoulder.upper, limb.elbow.upper))
+        # the posture that is best on the hold; the other one would pull sideways, and the robot fall when it has to carry
+        for final in rank(postures(limb, pose, hold), elbow)[:1]:
+            for part in STAND_OFFS:
+                for slant in np.radians(slants):
+                    c, s = np.cos(slant), np.sin(slant)
+                    x, y = final.grab
+                    place = hold - part * stand_off * np.array((c * x - s * y, s * x + c * y))
+                    for posture in postures(limb, pose, place):
+                        if not posture.inside or posture.angles[1] * final.angles[1] < 0.0:
+                            continue
+                        count = find_way(
+                            self.legs[i], lower, upper, CELLS, angles, posture.angles, discs, self._wall,
+                            self.robot.link_radius, TIP_RADIUS, LEAST_CLEARANCE, self._path,
+                        )  # fmt: skip
+                        if count:
+                            return final.grab, self._path[:count].copy(), part * stand_off
+        return None

@@ -1,0 +1,173 @@
+"""A climber that carries out actions: one tick of sensing and commanding at a time, falls seen, holds corrected as hooks feel them."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Final, Protocol
+
+import numpy as np
+
+from ...robots.limbed import LimbedRobot
+from ...types import Floats
+from ...worlds.board import Board
+from .approach import Approaches, rank
+from .postures import postures
+from .whole_body import BodyGains, LimbTask, WholeBody
+
+ASTRAY: Final = 0.08
+"""A body this far from its aim has fallen, or is about to [m]."""
+TURNED: Final = 0.6
+"""Likewise turned this far from it [rad]."""
+STRAINED: Final = 0.03
+"""Two holding tips whose distance differs that much from that of their holds are not both on them [m]."""
+
+
+class BodySenses(Protocol):
+    """What a plant's sensors say at a tick."""
+
+    @property
+    def q(self) -> Floats:
+        """Joint angles, shape (limbs, 2) [rad]."""
+
+    @property
+    def qd(self) -> Floats:
+        """Joint speeds, shape (limbs, 2) [rad/s]."""
+
+    @property
+    def angle(self) -> float:
+        """Of the body [rad]."""
+
+    @property
+    def angle_speed(self) -> float:
+        """[rad/s]."""
+
+
+class BodyPlant(Protocol):
+    """A climber that can be driven: simulated, or real."""
+
+    period: float
+
+    def reset(self, pose: Floats, q: Floats) -> None:
+        """Put the body at a pose with joint angles q, at rest."""
+
+    def sense(self) -> BodySenses:
+        """Read the sensors, once a tick."""
+
+    def actuate(self, torques: Floats) -> None:
+        """Set the motors' torques, shape (limbs, 2) [N m]."""
+
+    def step(self) -> None:
+        """Let one control period pass."""
+
+
+class FallenError(Exception):
+    """The robot has lost its holds; the run ends with this reason. Never a user's mistake."""
+
+
+@dataclass(frozen=True, slots=True)
+class Grabbed:
+    """How a grab ended."""
+
+    held: bool
+    tries: int
+    along: float
+    """Where the hook stopped beyond the hold as it was believed, along the grab direction [m]."""
+    across: float
+    """[m]."""
+
+
+class Climber:
+    """A robot on a plant, with the map of holds that it believes in.
+
+    Args:
+        robot: The climber.
+        board: Its holds, as the map says.
+        plant: What moves.
+        gains: Of body and limbs.
+        map_error: Largest error of a hold's place in the map, each way [m]: how far a hook may stop from it and still count as seated.
+        backlash: Whole play of a joint that is reckoned with [rad]; None: that of the robot's file.
+    """
+
+    def __init__(
+        self,
+        robot: LimbedRobot,
+        board: Board,
+        plant: BodyPlant,
+        *,
+        gains: BodyGains = BodyGains(),  # noqa: B008  # frozen
+        map_error: float = 0.004,
+        backlash: float | None = None,
+    ) -> None:
+        self.robot, self.plant, self.map_error = robot, plant, map_error
+        self.body = WholeBody(robot, period=plant.period, gains=gains, backlash=backlash)
+        self.holds = {hold.number: np.array((hold.x, hold.y)) for hold in board.holds}
+        self.approaches = Approaches(robot, self.body.legs, max(hold.radius for hold in board.holds))
+        self.ticks = 0
+        self._strained = 0
+
+    @property
+    def time(self) -> float:
+        """Since the start [s]."""
+        return self.ticks * self.plant.period
+
+    def start(
+        self, pose: Floats, holds: Mapping[str, int], *, idle: str | None = None, elbows: Mapping[str, int]
+    ) -> None:
+        """Put the robot on its holds, at rest.
+
+        Args:
+            pose: Body x, y [m], theta [rad].
+            holds: Limb -> number of its hold; others are left out.
+            idle: The limb on a hold that carries nothing.
+            elbows: Limb -> side of its elbow, +1 or -1; others take the hook most on top.
+        """
+        q = np.zeros((self.body.n, 2))
+        for i, limb in enumerate(self.robot.limbs):
+            number = holds.get(limb.name, 0)
+            task = LimbTask("joints")
+            if number:
+                place = self.holds[number]
+                q[i] = rank(postures(limb, pose, place), elbows.get(limb.name, 0))[0].angles
+                task = LimbTask("cling" if limb.name == idle else "hold", number, place.copy())
+            task.angles = q[i].copy()
+            self.body.tasks[i] = task
+        self.plant.reset(pose, q)
+        self.body.pose[:], self.body.settled[:], self.body.aim[:] = pose, pose, pose
+        self.body.aim_speed[:] = 0.0
+        self.ticks = self._strained = 0
+
+    def tick(self) -> None:
+        """Sense, command, step.
+
+        Raises:
+            FallenError: If no limb holds, a hook has come off, or the body is far from its aim or turned away from it.
+        """
+        sensed = self.plant.sense()
+        self.body.see(sensed.q, sensed.qd, sensed.angle, sensed.angle_speed)
+        self.plant.actuate(self.body.command())
+        self.plant.step()
+        self.ticks += 1
+        holding = [i for i, task in enumerate(self.body.tasks) if task.doing == "hold"]
+        if not holding:
+            raise FallenError("no limb holds the body")
+        # Hooks that slip off are not felt, but two tips can then not both be on their holds
+        strain = self.body.strain(holding[0], holding[-1])
+        self._strained = self._strained + 1 if strain > STRAINED else 0
+        if self._strained * self.plant.period > 0.1:
+            raise FallenError(
+                f"a hook has come off: two holding tips are {1e3 * strain:.0f} mm off their holds' distance"
+            )
+        off = float(np.hypot(*(self.body.aim[:2] - self.body.pose[:2])))
+        turned = abs(float(self.body.pose[2] - self.body.aim[2]))
+        if off > ASTRAY or turned > TURNED:
+            raise FallenError(f"the body is {1e3 * off:.0f} mm off its aim and turned by {np.degrees(turned):.0f} deg")
+
+    def wait(self, seconds: float) -> None:
+        """Let time pass [s]."""
+        for _ in range(round(seconds / self.plant.period)):
+            self.tick()
+
+    def carry_with_all(self, but: int) -> None:
+        """Let every limb on a hold carry, but one that is about to leave."""
+        for i, task in enumerate(self.body.tasks):
+            if i != but and task.hold:
+                task.doing = "hold"

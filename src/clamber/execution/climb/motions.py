@@ -1,0 +1,184 @@
+"""Motions: how each kind of action is carried out. Body moves on smooth ways, releases, and the grab of Bevly (1997), Fig. 4.14."""
+
+from itertools import pairwise
+from typing import Final
+
+import numpy as np
+
+from ...types import Floats
+from .climber import Climber, Grabbed
+
+BODY_SPEED: Final = 0.08
+"""Of the body's aim, at most [m/s]."""
+BODY_TURN: Final = 0.4
+"""[rad/s]."""
+JOINT_SPEED: Final = 1.6
+"""Of a free limb's joints on their way [rad/s]."""
+BLEND: Final = 0.3
+"""Over which corners of a limb's way are rounded [s]."""
+STAND_OFF: Final = 0.028
+"""Distance from a hold at which a hook turns towards it [m]."""
+WIDE_STAND_OFF: Final = 0.042
+"""For a hook that opens along its link: nearer, its flare knocks the hold [m]."""
+NEAR: Final = 0.016
+"""From here on the hook is pushed, not placed [m]."""
+PUSH: Final = 0.35
+"""Gentle pull along the grab direction, in the units of the limb's gains (about 12 N at LIBRA's hook)."""
+FIRM: Final = 2.2
+"""How many times firmer the tug is, once the hook has stopped [-]."""
+DITHER: Final = 0.15
+"""Pull across, to and fro, so that friction lets the hook slide in."""
+DITHER_RATE: Final = 6.0
+"""[Hz]."""
+CENTRING: Final = 8.0
+"""Pull towards the believed hold across the hook, per metre."""
+STOPPED: Final = 0.004
+"""A tip slower than this along the grab direction counts as stopped [m/s]."""
+STILL: Final = 0.3
+"""That long, the tug included, before a hook counts as seated [s]."""
+PATIENCE: Final = 2.0
+"""For one push [s]."""
+ASIDE: Final = (0.0, 0.004, -0.004, 0.008, -0.008, 0.0)
+"""Across the hook, where each try aims [m]."""
+SLACK: Final = 0.006
+"""Beyond the map's error, how far a seated hook may be from where it should be: play and backlash [m]."""
+
+
+def move_body(climber: Climber, pose: Floats, *, speed: float = BODY_SPEED) -> None:
+    """Bring the body to a pose (x, y, theta) along a straight smooth way."""
+    body, period = climber.body, climber.plant.period
+    start = body.aim.copy()
+    change = pose - start
+    seconds = 1.5 * max(float(np.hypot(change[0], change[1])) / speed, abs(float(change[2])) / BODY_TURN, 0.2)
+    count = max(1, round(seconds / period))
+    for k in range(1, count + 1):
+        u = k / count
+        body.aim[:] = start + u * u * (3 - 2 * u) * change
+        body.aim_speed[:] = 6 * u * (1 - u) / seconds * change
+        climber.tick()
+    body.aim_speed[:] = 0.0
+
+
+def move_tip(climber: Climber, i: int, place: Floats, seconds: float) -> None:
+    """Bring a free limb's tip straight to a place of the world [m]."""
+    task, period = climber.body.tasks[i], climber.plant.period
+    task.doing = "tip"
+    start = climber.body.tip(i)
+    count = max(1, round(seconds / period))
+    for k in range(1, count + 1):
+        task.place = start + k / count * (place - start)
+        task.speed = (place - start) / seconds
+        climber.tick()
+    task.speed = np.zeros(2)
+
+
+def follow(climber: Climber, i: int, way: Floats) -> None:
+    """Bring a free limb's joints along a way, shape (n, 2) [rad], smoothly from rest to rest."""
+    task, period = climber.body.tasks[i], climber.plant.period
+    lengths = np.abs(np.diff(way, axis=0)).max(axis=1)
+    along = np.concatenate(([0.0], np.cumsum(lengths)))
+    seconds = max(1.5 * along[-1] / JOINT_SPEED, 0.2)
+    count, blend = round(seconds / period), max(2, round(BLEND / period))
+    u = np.arange(1, count + 1) / count
+    done = u * u * (3 - 2 * u) * along[-1]
+    angles = np.stack([np.interp(done, along, way[:, j]) for j in range(2)], axis=1)
+    # rounded corners: a turn on the spot throws the body about
+    window = np.hanning(blend + 2)[1:-1]
+    padded = np.concatenate((np.repeat(way[:1], blend, axis=0), angles, np.repeat(way[-1:], blend, axis=0)))
+    smooth = np.stack([np.convolve(padded[:, j], window / window.sum(), "valid") for j in range(2)], axis=1)
+    task.doing = "joints"
+    for before, after in pairwise(smooth):
+        task.angles, task.rates = after, (after - before) / period
+        climber.tick()
+    task.angles, task.rates = way[-1].copy(), np.zeros(2)
+
+
+def stand_off_of(climber: Climber, i: int) -> float:
+    """How far from a hold a limb's hook turns towards it [m]."""
+    return STAND_OFF if climber.robot.limbs[i].end.offset > 0.0 else WIDE_STAND_OFF
+
+
+def release(climber: Climber, i: int) -> None:
+    """Take a limb off its hold, against its grab direction; the others carry."""
+    climber.carry_with_all(but=i)
+    task = climber.body.tasks[i]
+    place = climber.body.tip(i) - stand_off_of(climber, i) * climber.body.grab_direction(i)
+    move_tip(climber, i, place, 0.4)
+    task.hold, task.doing, task.angles = 0, "joints", climber.body.q[i].copy()
+
+
+def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
+    """Bring a limb to a hold and hook on: off the old one, round to the new, push until it stops, tug; try again beside where it misses.
+
+    Args:
+        climber: The robot.
+        i: Index of the limb.
+        number: Of the hold.
+        elbow: Side of the elbow to hold with: +1, -1, or 0 for the hook most on top.
+
+    Raises:
+        FallenError: If the robot falls.
+    """
+    body, task = climber.body, climber.body.tasks[i]
+    climber.carry_with_all(but=i)
+    if task.hold:
+        release(climber, i)
+    hold = climber.holds[number]
+    wished = stand_off_of(climber, i)
+    found = climber.approaches.find(
+        i, body.q[i] - body.play[i], body.settled, hold, climber.holds, elbow=elbow, stand_off=wished
+    )
+    if found is None:
+        return Grabbed(False, 0, 0.0, 0.0)
+    if found.shift.any():
+        move_body(climber, body.aim + np.array((*found.shift, 0.0)))
+        found = (
+            climber.approaches.find(
+                i, body.q[i] - body.play[i], body.settled, hold, climber.holds, elbow=elbow, stand_off=wished
+            )
+            or found
+        )
+    follow(climber, i, found.way)
+    climber.wait(0.15)
+    along = across = 0.0
+    g = found.grab
+    h = np.array((-g[1], g[0]))
+    for tries, aside in enumerate(ASIDE, 1):
+        move_tip(climber, i, hold - NEAR * g + aside * h, 0.5)
+        stopped = _push(climber, i, hold + aside * h, g)
+        off = body.tip(i) - hold
+        along, across = float(off @ g), float(off @ h)
+        room = climber.map_error + SLACK
+        if stopped and along > -room and abs(across) < room:
+            # what the hook feels is nearer the truth than the map: most of the difference goes into it
+            climber.holds[number] = hold + 0.7 * off
+            task.doing, task.hold, task.place = "cling", number, climber.holds[number].copy()
+            climber.wait(0.1)
+            return Grabbed(True, tries, along, across)
+        move_tip(climber, i, hold - wished * g, 0.5)
+    task.doing, task.angles = "joints", body.q[i].copy()
+    return Grabbed(False, len(ASIDE), along, across)
+
+
+def _push(climber: Climber, i: int, place: Floats, g: Floats) -> bool:
+    """Push a hook along its grab direction until it stops, then tug; False if it slips past where a hold could be."""
+    body, task, period = climber.body, climber.body.tasks[i], climber.plant.period
+    task.doing, task.damping, task.pressed = "pull", 25.0, False
+    still = 0.0
+    for k in range(round(PATIENCE / period)):
+        along = body.grab_direction(i)
+        across = np.array((-along[1], along[0]))
+        firm = FIRM if still > STILL / 3 else 1.0
+        task.pull = (
+            firm * PUSH * along
+            + DITHER * np.sin(2 * np.pi * DITHER_RATE * k * period) * across
+            + CENTRING * float(across @ (place - body.tip(i))) * across
+        )
+        task.pressed = still > STILL / 6
+        climber.tick()
+        still = still + period if body.tip_speed(i) @ along < STOPPED else max(0.0, still - 5 * period)
+        if (body.tip(i) - place) @ g > climber.map_error + SLACK:
+            return False
+        if still > STILL:
+            return True
+    return True

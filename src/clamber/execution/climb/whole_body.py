@@ -1,0 +1,261 @@
+"""The climber's controller: what each limb is doing, where the body is to be, and the torques of one tick."""
+
+from dataclasses import dataclass, field
+from typing import Final, Literal, TypeAlias
+
+import numpy as np
+
+from ...control.body import (
+    KINEMATIC,
+    LEG,
+    LIMIT_COUNTED,
+    LIMIT_NONE,
+    LIMIT_SHARED,
+    LIMIT_THESIS,
+    THESIS,
+    command_tips,
+    estimate_body,
+)
+from ...control.chain import chain_of_limb
+from ...control.controller import Controller, still_aim
+from ...control.law_settings import LawSettings
+from ...robots.limbed import LimbedRobot
+from ...types import Floats
+from ...units import GRAVITY
+
+Doing: TypeAlias = Literal["hold", "cling", "tip", "joints", "pull"]
+"""A limb holds the body, clings to its hold without carrying, brings its tip or its joints somewhere, or pulls along a direction."""
+MAPPINGS: Final = {"thesis": THESIS, "kinematic": KINEMATIC}
+SURE: Final = 0.05
+"""A load well above this puts a joint at one end of its play [N m]."""
+PLAY_TIME: Final = 0.2
+"""Time in which the believed side of the play follows the load [s]."""
+LIMITS: Final = {"none": LIMIT_NONE, "thesis": LIMIT_THESIS, "counted": LIMIT_COUNTED, "shared": LIMIT_SHARED}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BodyGains:
+    """Gains of body and limbs; those of the thesis's Table 4.1 unless said."""
+
+    kp: tuple[float, float, float] = (100.0, 50.0, 10.0)
+    kd: tuple[float, float, float] = (10.0, 5.0, 1.0)
+    """Twice the table's: with delay and backlash its own let the body swing (ours)."""
+    limb_kp: float = 500.0
+    limb_kd: float = 25.0
+    joint_kp: float = 400.0
+    joint_kd: float = 20.0
+    cling: float = 0.1
+    """Acceleration with which a limb that carries nothing keeps to its hold."""
+    gentle: float = 3.0
+    """Most torque of a limb near a hold, so that what it meets is not thrown off [N m]."""
+    least_pull: float = 0.3
+    """alpha of the hook limit."""
+    weight_fed: float = 0.95
+    """Part of the weight that is fed forward."""
+    mapping: str = "thesis"
+    limit: str = "shared"
+    law: str = "scct"
+
+
+@dataclass(slots=True)
+class LimbTask:
+    """What one limb is doing now."""
+
+    doing: Doing
+    hold: int = 0
+    """Number of its hold; 0: none."""
+    place: Floats = field(default_factory=lambda: np.zeros(2))
+    """Of "hold": the hold, of "tip": the aim, world frame [m]."""
+    speed: Floats = field(default_factory=lambda: np.zeros(2))
+    """Of the aim [m/s]."""
+    angles: Floats = field(default_factory=lambda: np.zeros(2))
+    """Of "joints" [rad]."""
+    rates: Floats = field(default_factory=lambda: np.zeros(2))
+    pull: Floats = field(default_factory=lambda: np.zeros(2))
+    """Of "pull": acceleration asked of the tip, world frame, in the units of the limb's gains."""
+    damping: float = 25.0
+    """Of "pull"."""
+    pressed: bool = False
+    """Of "pull": whether the tip has stopped against something, which then loads the joints."""
+
+
+class WholeBody:
+    """Torques of all limbs from the sensors, the body's aim and each limb's task.
+
+    Args:
+        robot: The climber.
+        period: Of the control [s].
+        gains: Of body and limbs.
+        backlash: Whole play of a joint that is reckoned with [rad]; None: that of the robot's file.
+    """
+
+    def __init__(
+        self,
+        robot: LimbedRobot,
+        *,
+        period: float,
+        gains: BodyGains = BodyGains(),  # frozen
+        backlash: float | None = None,
+    ) -> None:
+        self.robot, self.gains, self.period = robot, gains, period
+        self.backlash = robot.motor.backlash if backlash is None else backlash
+        n = len(robot.limbs)
+        self.n = n
+        self.chains = [chain_of_limb(robot, limb.name) for limb in robot.limbs]
+        self.legs = np.zeros(n, LEG)
+        for i, (limb, chain) in enumerate(zip(robot.limbs, self.chains, strict=True)):
+            hooked = limb.end.kind == "hook"
+            shares = chain.joints["share"]
+            self.legs[i] = (
+                *(limb.port_x, limb.port_y, limb.port_angle, limb.l1, limb.l2_effective, limb.hook_beta),
+                *(limb.end.angle, hooked, shares[0], shares[1]),
+            )
+        unit = LawSettings(law=gains.law, kp=1.0, kd=0.0, joint_kd=1.0)
+        free = LawSettings(law=gains.law, kp=gains.limb_kp, kd=gains.limb_kd)
+        self._pullers = [Controller(chain, unit, period=period) for chain in self.chains]
+        self._reachers = [Controller(chain, free, period=period) for chain in self.chains]
+        self._aim = still_aim((0.0, 0.0))
+        self._states = np.zeros((1, 2, 2))
+        self.tasks = [LimbTask("joints") for _ in range(n)]
+        self.pose, self.twist = np.zeros(3), np.zeros(3)
+        """Estimated body pose and speed, world frame."""
+        self.aim, self.aim_speed = np.zeros(3), np.zeros(3)
+        """Of the body."""
+        self.tips, self.tip_speeds = np.zeros((n, 2)), np.zeros((n, 2))
+        """In the body frame, by the encoders."""
+        self.q, self.qd = np.zeros((n, 2)), np.zeros((n, 2))
+        self.torques = np.zeros((n, 2))
+        self.play = np.zeros((n, 2))
+        """How far each joint's output is believed to lag its encoder, the side of the play it rests on [rad]."""
+        self.settled_tips = np.zeros((n, 2))
+        """Tips in the body frame with the play counted."""
+        self.settled = np.zeros(3)
+        """The pose with the play counted: for maps and aims, never for the fast loop, which it would set swinging."""
+        self._held = np.zeros(n, np.int64)
+        self._holds, self._arms = np.zeros((n, 2)), np.zeros((n, 2))
+        self._unused_speeds, self._unused_twist = np.zeros((n, 2)), np.zeros(3)
+        self._pulls, self._forces = np.zeros((n, 2)), np.zeros((n, 2))
+        self._least = np.full(n, gains.least_pull)
+
+    def see(self, q: Floats, qd: Floats, angle: float, angle_speed: float, *, with_encoder: bool = True) -> None:
+        """Take in a tick's measurements and estimate where the body is."""
+        self.q[:], self.qd[:] = q, qd
+        for i, task in enumerate(self.tasks):
+            self._held[i] = task.doing == "hold"
+            if task.doing == "hold":
+                self._holds[i] = task.place
+        estimate_body(
+            self.legs, self.q, self.qd, self._held, self._holds, angle, angle_speed, with_encoder,
+            self.tips, self.tip_speeds, self.pose, self.twist,
+        )  # fmt: skip
+        estimate_body(
+            self.legs, self.q - self.play, self.qd, self._held, self._holds, angle, angle_speed, with_encoder,
+            self.settled_tips, self._unused_speeds, self.settled, self._unused_twist,
+        )  # fmt: skip
+
+    def _follow_play(self) -> None:
+        """Which end of its play a joint rests on follows from what loads it: the fed-forward force, or a free limb's own weight."""
+        for i, (task, chain) in enumerate(zip(self.tasks, self.chains, strict=True)):
+            if task.doing == "hold":
+                load = chain.jacobian(self.q[i])[:2].T @ self._forces[i]
+            elif task.doing == "pull" and task.pressed:
+                load = self.torques[i]
+            else:
+                down = self._into_port(i, np.array((0.0, -GRAVITY)))
+                load = chain.with_gravity((down[0], down[1], 0.0)).bias(self.q[i], np.zeros(2))
+            side = np.tanh(load / SURE)
+            self.play[i] += self.period / PLAY_TIME * (self.backlash / 2 * side - self.play[i])
+
+    def tip(self, i: int) -> Floats:
+        """A limb's tip in the world by encoders and estimate, the play counted [m]."""
+        c, s = np.cos(self.settled[2]), np.sin(self.settled[2])
+        x, y = self.settled_tips[i]
+        return np.array((self.settled[0] + c * x - s * y, self.settled[1] + s * x + c * y))
+
+    def tip_speed(self, i: int) -> Floats:
+        """Its speed in the world [m/s]."""
+        c, s = np.cos(self.pose[2]), np.sin(self.pose[2])
+        x, y = self.tips[i]
+        vx, vy = self.tip_speeds[i]
+        w = self.twist[2]
+        ax, ay = vx - w * y, vy + w * x
+        return np.array((self.twist[0] + c * ax - s * ay, self.twist[1] + s * ax + c * ay))
+
+    def strain(self, i: int, j: int) -> float:
+        """How far the distance of two holding tips is from that of their holds [m]."""
+        tips = float(np.hypot(*(self.tips[i] - self.tips[j])))
+        return abs(tips - float(np.hypot(*(self.tasks[i].place - self.tasks[j].place))))
+
+    def grab_direction(self, i: int) -> Floats:
+        """Where a limb's hook pulls, world frame, unit vector."""
+        angle = self.pose[2] + self.legs[i]["port_angle"] + self.q[i].sum() + self.legs[i]["hook_angle"]
+        return np.array((np.cos(angle), np.sin(angle)))
+
+    def command(self) -> Floats:
+        """Torques of this tick, shape (limbs, 2) [N m]."""
+        gains = self.gains
+        wanted = np.array(gains.kp) * (self.aim - self.pose) + np.array(gains.kd) * (self.aim_speed - self.twist)
+        np.subtract(self._holds, self.pose[:2], out=self._arms)
+        fed = np.array((0.0, gains.weight_fed * self.robot.weight, 0.0))
+        command_tips(
+            self.legs, self.q, self._held, self.pose, self._arms, wanted, fed,
+            MAPPINGS[gains.mapping], LIMITS[gains.limit], self._least, self._pulls, self._forces,
+        )  # fmt: skip
+        for i, task in enumerate(self.tasks):
+            if task.doing == "hold":
+                self._pull(i, self._pulls[i], self._forces[i])
+            elif task.doing == "cling":
+                turned = self._into_port(i, gains.cling * self.grab_direction(i) - task.damping * self.tip_speed(i))
+                self._pull(i, turned, np.zeros(2))
+            elif task.doing == "pull":
+                turned = self._into_port(i, task.pull - task.damping * self.tip_speed(i))
+                self._pull(i, turned, np.zeros(2))
+            elif task.doing == "tip":
+                self._reach(i, task)
+            else:
+                shares = self.chains[i].joints["share"]
+                self.torques[i] = shares * (
+                    gains.joint_kp * (task.angles - self.q[i]) + gains.joint_kd * (task.rates - self.qd[i])
+                )
+            if task.doing in ("tip", "pull", "cling"):
+                np.clip(self.torques[i], -gains.gentle, gains.gentle, out=self.torques[i])
+        self._follow_play()
+        return self.torques
+
+    def _into_port(self, i: int, vector: Floats) -> Floats:
+        angle = -(self.pose[2] + self.legs[i]["port_angle"])
+        c, s = np.cos(angle), np.sin(angle)
+        return np.array((c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]))
+
+    def _own_tip(self, i: int) -> Floats:
+        leg = self.legs[i]
+        c, s = np.cos(leg["port_angle"]), np.sin(leg["port_angle"])
+        x, y = self.tips[i, 0] - leg["port_x"], self.tips[i, 1] - leg["port_y"]
+        return np.array((c * x + s * y, -s * x + c * y))
+
+    def _pull(self, i: int, pull: Floats, force: Floats) -> None:
+        """A law with a gain of one, aimed one pull away, turns exactly that pull into torques."""
+        aim = self._aim
+        aim["place"][0, :2] = self._own_tip(i) + pull
+        aim["twist"][0] = 0.0
+        aim["wrench"][0, :2] = force
+        self._state(i)
+        self.torques[i] = self._pullers[i].command(aim, self._states)[0]
+
+    def _reach(self, i: int, task: LimbTask) -> None:
+        aim = self._aim
+        aim["place"][0, :2] = self._own_tip(i) + self._into_port(i, task.place - self.tip(i))
+        still = self.tip_speed(i) - self._turned_back(i)
+        aim["twist"][0, :2] = self._into_port(i, task.speed - still)
+        aim["wrench"][0] = 0.0
+        self._state(i)
+        self.torques[i] = self._reachers[i].command(aim, self._states)[0]
+
+    def _turned_back(self, i: int) -> Floats:
+        """Speed of the tip relative to the body, world axes."""
+        c, s = np.cos(self.pose[2]), np.sin(self.pose[2])
+        vx, vy = self.tip_speeds[i]
+        return np.array((c * vx - s * vy, s * vx + c * vy))
+
+    def _state(self, i: int) -> None:
+        self._states[0, 0], self._states[0, 1] = self.q[i], self.qd[i]

@@ -1,0 +1,75 @@
+"""A climber in contact dynamics: it hangs on two hooks, moves its body, and climbs a rung."""
+
+import numpy as np
+import pytest
+
+from clamber.execution.climb.climber import Climber, FallenError
+from clamber.execution.climb.motions import grab, move_body, release
+from clamber.robots.library import load_robot
+from clamber.robots.limbed import LimbedRobot
+from clamber.sim.climber_plant import ClimberPlant
+from clamber.sim.limb_flaws import LimbFlaws
+from clamber.types import Floats
+from clamber.worlds.library import load_board
+
+NOMINAL = LimbFlaws(backlash=np.radians(2.0), physics_rate=1000.0, encoder_counts=400, delay=1)
+ELBOWS = {"right": -1, "left": 1}
+RIGHT, LEFT, BOTTOM = 0, 1, 2
+START = np.array((0.2286, 0.1374, 0.0))  # 15 mm below the two pegs that carry
+
+
+def on_the_ladder(flaws: LimbFlaws = NOMINAL, pegs: Floats | None = None) -> tuple[Climber, ClimberPlant]:
+    robot, board = load_robot("libra"), load_board("ladder")
+    assert isinstance(robot, LimbedRobot)
+    plant = ClimberPlant(robot, board, flaws, pegs=pegs)
+    climber = Climber(robot, board, plant, map_error=0.006)
+    climber.start(START, {"right": 4, "left": 3, "bottom": 2}, idle="bottom", elbows=ELBOWS)
+    return climber, plant
+
+
+def test_the_robot_hangs_on_two_hooks_and_hardly_creeps() -> None:
+    climber, plant = on_the_ladder()
+    climber.wait(2.0)
+    before = plant.truth().pose
+    climber.wait(1.0)
+    np.testing.assert_allclose(plant.truth().pose, before, atol=1e-3)  # within a second [m], [rad]
+    np.testing.assert_allclose(climber.body.settled[:2], plant.truth().pose[:2], atol=2e-3)
+
+
+def test_the_body_moves_up_on_its_hooks() -> None:
+    climber, plant = on_the_ladder()
+    release(climber, BOTTOM)
+    move_body(climber, START + np.array((0.0, 0.0762, 0.0)))
+    climber.wait(0.5)
+    np.testing.assert_allclose(plant.truth().pose[:2], START[:2] + np.array((0.0, 0.0762)), atol=0.01)
+
+
+def test_a_rung_is_climbed_and_every_hook_is_seated() -> None:
+    climber, plant = on_the_ladder()
+    climber.wait(0.5)
+    board = load_board("ladder")
+    for limb, number, elbow in ((RIGHT, 6, -1), (BOTTOM, 1, 1), (LEFT, 5, 1)):
+        result = grab(climber, limb, number, elbow=elbow)
+        assert result.held, (limb, number, result)
+        np.testing.assert_allclose(plant.truth().tips[limb], board.positions()[number - 1], atol=2e-3)
+    release(climber, BOTTOM)
+    move_body(climber, START + np.array((0.0, 0.1524, 0.0)))
+    climber.wait(0.3)
+    np.testing.assert_allclose(plant.truth().pose[:2], START[:2] + np.array((0.0, 0.1524)), atol=0.015)
+
+
+def test_without_its_hooks_the_robot_falls_and_says_so() -> None:
+    climber, _ = on_the_ladder()
+    for task in climber.body.tasks:
+        task.doing, task.hold = "joints", 0
+    with pytest.raises(FallenError, match="no limb holds"):
+        climber.tick()
+
+
+def test_a_hook_that_slips_off_is_noticed() -> None:
+    climber, plant = on_the_ladder()
+    climber.wait(0.5)
+    plant.push((0.0, 400.0))
+    with pytest.raises(FallenError, match=r"come off|off its aim"):
+        climber.wait(3.0)
+    assert climber.time < 2.0
