@@ -35,6 +35,7 @@ OTHER_GAINS: Final = {
 """Law -> dimensions of kp and kd, where they are not those of a joint's servo; None: a plain number, in 1/s^2 and 1/s."""
 DIMENSIONS: Final = {
     "angle": "angle",
+    "frame": "angle",
     "joint_kp": "angular stiffness",
     "joint_kd": "damping",
     "feed_friction": "ratio",
@@ -53,7 +54,7 @@ DIMENSIONS: Final = {
 """Setting -> its dimension; a number without a unit is in SI."""
 WORDS: Final = ("weight", "friction_from")
 LISTS: Final = ("axes", "forced")
-PER_AXIS: Final = (*GAINS, "mass", "admittance_kp", "admittance_kd")
+PER_AXIS: Final = (*GAINS, "frame", "mass", "admittance_kp", "admittance_kd")
 BETWEEN: Final = re.compile(r"/(?=[+-]?[\d.])")
 """Between the values of two axes; the slash of a unit is followed by a letter."""
 SWITCHES: Final = ("feed_velocity", "feed_acceleration", "feed_gravity", "feed_bias", "feed_force", "scaled")
