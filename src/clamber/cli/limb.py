@@ -3,6 +3,7 @@
 import typer
 
 from .limb_circle import circle
+from .limb_open_loop import open_loop
 from .limb_push import push
 from .limb_step import step
 
@@ -10,3 +11,4 @@ limb = typer.Typer(help="Compare Cartesian controllers on one geared limb.", no_
 limb.command("step")(step)
 limb.command("circle")(circle)
 limb.command("push")(push)
+limb.command("open-loop")(open_loop)

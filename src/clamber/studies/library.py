@@ -9,6 +9,11 @@ from .bevly_1997.evolution import follow_h, follow_modified_ladder
 from .bevly_1997.h_torques import compare_h_torques
 from .bevly_1997.hook_check import check_hooks
 from .bevly_1997.inventory_size import count_modules
+from .bevly_1997.limb_circle import track_circle
+from .bevly_1997.limb_models import compare_models
+from .bevly_1997.limb_open_loop import compare_transforms
+from .bevly_1997.limb_push import push_and_release
+from .bevly_1997.limb_step import step_response
 from .bevly_1997.no_rotation import rotation_is_needed, rotation_is_not_needed
 from .bevly_1997.nominal_gait import climb_with_gait
 from .bevly_1997.planner_success import count_successes
@@ -37,6 +42,12 @@ STUDIES: Final[dict[str, dict[str, Repeat]]] = {
         "modified-ladder-evolution": follow_modified_ladder,
         "h-evolution": follow_h,
         "planner-success": count_successes,
+        "fig-3-9": compare_models,
+        "fig-3-10": compare_transforms,
+        "fig-3-11": partial(step_response, "fig-3-11", "ode"),
+        "fig-3-12": partial(step_response, "fig-3-12", "mujoco"),
+        "fig-3-13": track_circle,
+        "fig-3-14": push_and_release,
     },
     BOARDS_EXACT: {
         "optima": prove_optima,

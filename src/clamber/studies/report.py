@@ -68,7 +68,7 @@ def _body(result: StudyResult, place: str) -> list[str]:
 
 def _table(table: Table) -> list[str]:
     rows = ["| " + " | ".join(_shown(value) for value in row) + " |" for row in table.rows]
-    return ["| " + " | ".join(table.columns) + " |", "|" + "---|" * len(table.columns), *rows]
+    return ["| " + " | ".join(map(_shown, table.columns)) + " |", "|" + "---|" * len(table.columns), *rows]
 
 
 def _shown(value: Value) -> str:

@@ -12,6 +12,7 @@ from ..experiments.limb.measures import components, radial_error
 from ..experiments.limb.result import LimbResult, Row
 from ..types import Floats
 from . import style
+from .law_colours import LAW_COLOURS
 from .output import CANVASES, check_suffix, save_figure
 from .style import bare, styled
 
@@ -64,12 +65,12 @@ def _head(figure: Figure, result: LimbResult) -> None:
     figure.text(0.012, 0.95, under, va="top", fontsize=8, color=style.QUIET, linespacing=1.4)
 
 
-def _look(k: int) -> dict[str, Any]:
-    return {"color": style.PARTS[k % len(style.PARTS)], "ls": LINES[k % len(LINES)], "lw": 1.5}
+def _look(row: Row, k: int) -> dict[str, Any]:
+    return {"color": LAW_COLOURS[row.entry.settings.law], "ls": LINES[k % len(LINES)], "lw": 1.5}
 
 
-def _faint(k: int) -> dict[str, Any]:
-    return {"color": style.PARTS[k % len(style.PARTS)], "lw": 0.6, "alpha": 0.7}
+def _faint(row: Row) -> dict[str, Any]:
+    return {"color": LAW_COLOURS[row.entry.settings.law], "lw": 0.6, "alpha": 0.7}
 
 
 def _name(row: Row) -> str:
@@ -102,7 +103,7 @@ def _draw_step(figure: Figure, result: LimbResult) -> None:
     length = components(aim - start, scenario.direction)[0]
     for k, row in enumerate(result.rows):
         time = row.run.trace.time
-        for places, look, label in zip(_paths(row), (_look(k), _faint(k)), (_name(row), None), strict=True):
+        for places, look, label in zip(_paths(row), (_look(row, k), _faint(row)), (_name(row), None), strict=True):
             if label is None and not result.imperfect:
                 continue
             along, across = (MM * part for part in components(places - start, scenario.direction))
@@ -130,9 +131,8 @@ def _draw_step(figure: Figure, result: LimbResult) -> None:
 def _torques(axes: Axes, row: Row, k: int) -> None:
     trace = row.run.trace
     for j, width in ((0, 1.3), (1, 0.7)):
-        axes.plot(
-            trace.time, trace.applied[:, 0, min(j, trace.applied.shape[2] - 1)], color=_look(k)["color"], lw=width
-        )
+        torque = trace.applied[:, 0, min(j, trace.applied.shape[2] - 1)]
+        axes.plot(trace.time, torque, **(_look(row, k) | {"lw": width}))
 
 
 def _finish_torques(axes: Axes, result: LimbResult) -> None:
@@ -167,7 +167,7 @@ def _draw_circle(figure: Figure, result: LimbResult) -> None:
         color=style.INK, lw=0.8, ls=(0, (2, 2)), label="wanted",
     )  # fmt: skip
     for k, row in enumerate(result.rows):
-        for places, look, label in zip(_paths(row), (_look(k), _faint(k)), (_name(row), None), strict=True):
+        for places, look, label in zip(_paths(row), (_look(row, k), _faint(row)), (_name(row), None), strict=True):
             if label is None and not result.imperfect:
                 continue
             off = radial_error(places[last], scenario)
@@ -204,7 +204,7 @@ def _draw_holding(figure: Figure, result: LimbResult) -> None:
     aim = result.rows[0].run.trace.wanted_places()[-1, 0, :2]
     for k, row in enumerate(result.rows):
         time = row.run.trace.time
-        for places, look, label in zip(_paths(row), (_look(k), _faint(k)), (_name(row), None), strict=True):
+        for places, look, label in zip(_paths(row), (_look(row, k), _faint(row)), (_name(row), None), strict=True):
             if label is None and not result.imperfect:
                 continue
             along, across = (MM * part for part in components(places - aim, scenario.direction))

@@ -1,0 +1,62 @@
+"""`clamber limb open-loop`: steady torques, and where the tip goes first."""
+
+from typing import Annotated
+
+import typer
+
+from . import limb_options as opt
+from .options import AsJson, Output, Quiet
+from .output import announce_compilation, check_writable, print_json, stdout
+
+
+def open_loop(
+    force: Annotated[str, typer.Option(help="Along the wanted direction, such as 10N.")] = "10N",
+    direction: Annotated[str, typer.Option(help="Wanted, from the x axis of the port, such as -90deg.")] = "-90deg",
+    seconds: Annotated[float, typer.Option(help="Length of the run [s].")] = 0.7,
+    transforms: Annotated[
+        list[str] | None,
+        typer.Option("--controller", "-c", metavar="NAME", help="A law whose transform is used; repeat it. All four."),
+    ] = None,
+    renewed: Annotated[
+        bool, typer.Option("--renewed", help="Let the torques follow the pose instead of standing still.")
+    ] = False,
+    robot: opt.Robot = "libra",
+    limb: opt.LimbName = None,
+    start: opt.Start = None,
+    elbow: opt.Elbow = None,
+    plant: opt.Plant = "mujoco",
+    flaws: opt.Flaws = opt.FlawsChoice.ideal,
+    settings: opt.Settings = None,
+    seed: opt.Seed = None,
+    output: Output = None,
+    as_json: AsJson = False,
+    quiet: Quiet = False,
+) -> None:
+    """Put steady torques on the limb at rest, and compare in which direction each law's transform starts the tip."""
+    from ..experiments.limb.open_loop import TRANSFORMS
+    from ..experiments.limb.open_loop_result import compare_open_loop
+    from ..experiments.limb.points import read_number
+    from ..viewing.output import CANVASES, check_suffix
+    from .open_loop_text import print_open_loop, write_open_loop
+
+    check_writable(output)
+    if output is not None:
+        check_suffix(output, (".json", *CANVASES))
+    words = opt.BenchWords(
+        None, None, None, opt.MatchChoice.none, "scct", robot, limb, start, elbow, plant, flaws, settings, seed, 1
+    )
+    properties = words.build_plant()
+    chosen = words.build_limb(properties)
+    size, angle = read_number("force", force, "force"), read_number("direction", direction, "angle")
+    announce_compilation("drive", quiet=quiet)
+    result = compare_open_loop(
+        chosen, properties, transforms or tuple(TRANSFORMS), force=size, direction=angle, seconds=seconds,
+        renewed=renewed, plant=plant,
+    )  # fmt: skip
+    if output is not None:
+        write_open_loop(result, output)
+    if as_json:
+        print_json(result.to_json())
+    else:
+        print_open_loop(stdout(), result, output=output)
+    raise typer.Exit(0 if result.moved else 1)
