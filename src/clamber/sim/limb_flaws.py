@@ -95,6 +95,8 @@ class LimbFlaws:
     """Whether weight acts."""
     motor_limits: bool = True
     """Whether the motors have their torque limits and torque-speed lines."""
+    stops: bool = False
+    """Whether the joints stop at the limits of the robot's file, on the motor's side; else they turn freely past them."""
     push: Push | None = None
     wall: Wall | None = None
 

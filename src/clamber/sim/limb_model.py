@@ -16,6 +16,8 @@ PLAY_INERTIA: Final = 1e-4
 PLAY_SOLREF: Final = (0.002, 1.0)
 """Of the play's ends: as stiff as two physics steps allow."""
 PLAY_SOLIMP: Final = (0.95, 0.99, 0.0005, 0.5, 2.0)
+STOP_SOLREF: Final = (0.004, 1.0)
+"""Of the joints' hard stops."""
 TIP_RADIUS: Final = 0.005
 """Of the ball that touches a wall [m]."""
 SMALL_MASS: Final = 1e-6
@@ -31,6 +33,7 @@ def limb_spec(chain: Chain, flaws: LimbFlaws) -> Any:
 
     carried = chain.with_payload(flaws.payload)
     spec = mujoco.MjSpec()
+    spec.compiler.degree = False
     spec.option.timestep = 1.0 / flaws.physics_rate
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
@@ -60,6 +63,10 @@ def _add_link(mujoco: Any, spec: Any, parent: Any, name: str, record: Any, flaws
     joint.frictionloss = record["friction"] * flaws.friction
     joint.solref_friction = FRICTION_SOLREF
     joint.solimp_friction = FRICTION_SOLIMP
+    if flaws.stops:
+        joint.limited = True
+        joint.range = (float(record["lower"]), float(record["upper"]))
+        joint.solref_limit, joint.solimp_limit = STOP_SOLREF, PLAY_SOLIMP
     motor = spec.add_actuator(name=name, trntype=mujoco.mjtTrn.mjTRN_JOINT, target=name)
     motor.set_to_motor()
     if flaws.backlash > 0.0:
