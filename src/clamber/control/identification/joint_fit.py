@@ -1,0 +1,157 @@
+"""Inertia, damping and Coulomb friction of one joint by robust regression of the weak form, with errors from a bootstrap."""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from scipy.optimize import least_squares, minimize_scalar
+
+from ...types import Floats
+from .estimate import Estimate
+from .motion import Motion
+from .samples import JointSamples
+from .weak_form import MOST_LAG, STRIDE, Rows, rows_of
+
+WIDTHS: Final = (0.1, 0.2, 0.4, 0.8)
+"""Of the windows tried [s]: the one with the least standard errors is taken."""
+LEAST_ROWS: Final = 24
+BOTH_WAYS: Final = 0.1
+"""An offset is told from friction where each direction has this part of the rows."""
+VAGUE: Final = 0.3
+"""A parameter whose standard error is a larger part of it is not told by the log,"""
+SMALL: Final = 0.02
+"""unless what that error makes is a smaller part of the largest torque: then the parameter is told to be nearly 0."""
+RESAMPLES: Final = 300
+BLOCK: Final = 4 * STRIDE
+"""Rows that are resampled together, for neighbours share samples: four windows."""
+NAMES: Final = ("inertia", "damping", "friction", "offset")
+UNITS: Final = ("kg m^2", "N m s/rad", "N m", "N m")
+NEEDS: Final = (
+    "speeds that change, one way, over 0.1 s or more",
+    "two or more speeds, one way, over 0.1 s or more",
+    "motion at two or more speeds, over 0.1 s or more",
+    "motion both ways",
+)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class JointFit:
+    """The regression of one joint."""
+
+    estimates: tuple[Estimate, ...]
+    """Inertia, damping, friction, offset."""
+    lag: float
+    """Of the angle behind the torque [s]; half a period of it is the torque being held."""
+    values: Floats
+    """What was fitted, in the order of `NAMES`, zeros where left out."""
+    rows: Rows | None
+    residual: float
+    """Root mean square of the torque not explained, over the windows [N m]."""
+
+
+def fit_joint(samples: JointSamples, motion: Motion, torque: Floats, known: Floats, seed: int = 0) -> JointFit:
+    """Fit the equation of motion to evenly spaced samples.
+
+    Args:
+        samples: Of one joint.
+        motion: Of the same samples.
+        torque: Of the motor at the joint [N m].
+        known: Torque that is explained otherwise, by links and weight [N m].
+        seed: Of the bootstrap.
+    """
+    best: tuple[float, Rows, Floats, Floats, float, list[int]] | None = None
+    for width in WIDTHS:
+        rows = rows_of(samples, motion, torque, known, width)
+        if rows is None or rows.centres.size < LEAST_ROWS:
+            continue
+        columns = _columns(rows)
+        lag = _find_lag(rows, columns, samples.period)
+        values, weights = _robust(rows.regressors[:, columns], rows.torques(lag))
+        draws = _bootstrap(rows, columns, lag, weights, seed)
+        vague = float(np.sum((draws.std(axis=0)[:2] / np.maximum(np.abs(values[:2]), 1e-12)) ** 2))
+        if best is None or vague < best[0]:
+            best = vague, rows, values, draws, lag, columns
+    if best is None:
+        return JointFit(tuple(map(_missing, range(4))), 0.0, np.zeros(4), None, 0.0)
+    _, rows, values, draws, lag, columns = best
+    whole = np.zeros(4)
+    whole[columns] = values
+    residual = rows.torques(lag) - rows.regressors @ whole
+    reach = np.abs(rows.regressors).max(axis=0) / max(float(np.abs(rows.torques(lag)).max()), 1e-300)
+    estimates = tuple(
+        _estimate(k, whole[k], draws[:, columns.index(k)], rows.width, reach[k]) if k in columns else _missing(k)
+        for k in range(4)
+    )
+    return JointFit(estimates, lag, whole, rows, float(np.sqrt(np.mean(residual**2))))
+
+
+def _columns(rows: Rows) -> list[int]:
+    forward = float(np.mean(rows.sign > 0.0))
+    return [0, 1, 2, 3] if min(forward, 1.0 - forward) >= BOTH_WAYS else [0, 1, 2]
+
+
+def _find_lag(rows: Rows, columns: list[int], period: float) -> float:
+    """The lag at which the regression leaves least."""
+    design = rows.regressors[:, columns]
+    projector = np.linalg.qr(design)[0]
+
+    def left(lag: float) -> float:
+        right = rows.torques(lag)
+        rest = right - projector @ (projector.T @ right)
+        return float(np.mean(np.abs(rest)))
+
+    grid = np.arange(-0.5 * MOST_LAG, MOST_LAG + 0.25, 0.5) * period
+    coarse = grid[int(np.argmin([left(lag) for lag in grid]))]
+    found = minimize_scalar(left, bounds=(coarse - 0.5 * period, coarse + 0.5 * period), method="bounded")
+    return float(found.x)
+
+
+def _robust(design: Floats, right: Floats) -> tuple[Floats, Floats]:
+    """Regression with Huber's loss, and the weights that it gave the rows."""
+    scale = np.maximum(np.linalg.norm(design, axis=0), 1e-300)
+    start = np.linalg.lstsq(design / scale, right, rcond=None)[0]
+    rest = right - design / scale @ start
+    spread = 1.4826 * float(np.median(np.abs(rest - np.median(rest))))
+    edge = max(1.345 * spread, 1e-9 * float(np.max(np.abs(right))), 1e-300)
+    jacobian = design / scale
+    found = least_squares(lambda x: jacobian @ x - right, start, jac=lambda x: jacobian, loss="huber", f_scale=edge)
+    off = np.maximum(np.abs(right - jacobian @ found.x), 1e-300)
+    return found.x / scale, np.minimum(1.0, edge / off)
+
+
+def _bootstrap(rows: Rows, columns: list[int], lag: float, weights: Floats, seed: int) -> Floats:
+    """Answers to resampled blocks of rows, shape (RESAMPLES, columns); the lag is free to first order in each."""
+    design = np.column_stack((rows.regressors[:, columns], -rows.torques(lag, 1)))
+    right = rows.torques(lag)
+    n, width = design.shape
+    block = min(BLOCK, max(1, n // 6))
+    starts = np.arange(0, n - block + 1)
+    # Normal equations of every block, so that a resample is a sum
+    weighed = design * weights[:, None]
+    squares = np.einsum("ij,ik->ijk", weighed, design).reshape(n, -1)
+    sides = weighed * right[:, None]
+    totals = np.cumsum(np.vstack((np.zeros(squares.shape[1] + width), np.hstack((squares, sides)))), axis=0)
+    blocks = totals[starts + block] - totals[starts]
+    rng = np.random.default_rng(seed)
+    out = np.empty((RESAMPLES, len(columns)))
+    scale = np.maximum(np.sqrt(np.diag(totals[-1, : width * width].reshape(width, width))), 1e-300)
+    for k in range(RESAMPLES):
+        drawn = blocks[rng.integers(0, starts.size, -(-n // block))].sum(axis=0)
+        matrix = drawn[: width * width].reshape(width, width) / np.outer(scale, scale)
+        out[k] = (np.linalg.lstsq(matrix, drawn[width * width :] / scale, rcond=1e-12)[0] / scale)[: len(columns)]
+    return out
+
+
+def _estimate(k: int, value: float, draws: Floats, width: float, reach: float) -> Estimate:
+    """`reach` is the largest part of the torques that one unit of the parameter makes."""
+    error = float(draws.std())
+    if error > VAGUE * abs(value) and error * reach > SMALL:
+        return _missing(k)
+    low, high = np.quantile(draws, (0.025, 0.975))
+    return Estimate(
+        NAMES[k], UNITS[k], float(value), error, float(low), float(high), f"weak form, windows of {width:g} s"
+    )
+
+
+def _missing(k: int) -> Estimate:
+    return Estimate(NAMES[k], UNITS[k], needs=NEEDS[k])

@@ -1,0 +1,174 @@
+"""A log identified: every joint that it has, with what the robot's file says of it where a robot is named."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ..control.chain import Chain, chain_of_limb
+from ..control.identification.joint import Drivetrain, IdentifiedJoint, identify_joint
+from ..control.identification.links import link_torques
+from ..control.identification.motion import motion_of
+from ..errors import ClamberError, UnknownNameError
+from ..robots.library import load_robot
+from ..robots.limbed import Joint, LimbedRobot
+from ..toml_text import toml_value
+from ..types import Floats, Json
+from .log import Log, LogError
+from .log_roles import LimbSamples, samples_of
+
+UNITS_OF_FILE: Final = {"inertia": "inertia", "damping": "damping", "friction": "friction"}
+"""Parameter -> key of a joint in a robot's file."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Identification:
+    """What a log tells of the joints of a limb."""
+
+    log: str
+    """The file."""
+    robot: str | None
+    limb: str | None
+    joints: tuple[IdentifiedJoint, ...]
+    notes: tuple[str, ...]
+    """What had to be assumed."""
+
+    @property
+    def complete(self) -> bool:
+        """Whether any joint's parameters were found at all."""
+        return any(estimate.value is not None for joint in self.joints for estimate in joint.estimates)
+
+    def to_json(self) -> Json:
+        """As plain data."""
+        return {
+            "log": self.log,
+            "robot": self.robot,
+            "limb": self.limb,
+            "joints": [joint.to_json() for joint in self.joints],
+            "notes": list(self.notes),
+        }
+
+    def toml(self) -> str:
+        """Lines for a robot's file, a section a joint, each number with its unit and source; what is not known is left out."""
+        lines = []
+        for joint in self.joints:
+            place = joint.samples.name.split()[-1]
+            lines.append(f"[limbs.{place}] # {joint.samples.name}")
+            shared = []
+            for estimate in joint.estimates:
+                if estimate.value is None or estimate.error is None:
+                    continue
+                value = float(f"{estimate.value:.6g}")
+                source = f"identified from {self.log}: {estimate.method}, standard error {estimate.error:.2g}"
+                entry = toml_value({"value": value, "unit": estimate.unit, "source": source})
+                if estimate.name in UNITS_OF_FILE:
+                    lines.append(f"{UNITS_OF_FILE[estimate.name]} = {entry}")
+                elif estimate.name in ("amplifier gain", "backlash"):
+                    shared.append(f"# [motor] {estimate.name.replace(' ', '_')} = {entry}")
+            lines += [*shared, ""]
+        return "\n".join(lines)
+
+
+def identify_log(
+    log: Log,
+    *,
+    robot: str | None = None,
+    limb: str | None = None,
+    mapping: Mapping[str, str] | None = None,
+    torque_constant: float | None = None,
+    gear: float | None = None,
+    gain: float | None = None,
+    upright: bool = False,
+    seed: int = 0,
+) -> Identification:
+    """Identify every joint that a log has an angle of.
+
+    Args:
+        log: As read.
+        robot: A climber's name or file; None: as the log's notes say, if they do.
+        limb: Its limb; None: as the notes say, or the one whose joints the log names.
+        mapping: Column -> what it is (`log_roles.samples_of`).
+        torque_constant: Of the motors [N m/A]; None: the robot's.
+        gear: Of the joints [-]; None: the robot's.
+        gain: Of the amplifier [A/V], for a log with voltages and no currents; None: the robot's.
+        upright: Whether weight acts on the links.
+        seed: Of the bootstrap.
+
+    Raises:
+        LogError: If the log cannot be used.
+        UnknownNameError: If there is no such robot or limb.
+    """
+    found = samples_of(log, mapping)
+    robot = robot or log.notes.get("robot")
+    notes = list(found.notes)
+    chain, stated = None, {}
+    name = None
+    if robot is not None:
+        spec, name = _limb_of(robot, limb or log.notes.get("limb"), found)
+        chain = chain_of_limb(spec, name, upright=upright)
+        stated = _drivetrains(spec, name, chain)
+        robot = spec.name
+    elif upright or limb is not None:
+        raise ClamberError("identify: --upright and --limb need a robot: state --robot")
+    evened = tuple(samples.evened() for samples in found.joints)
+    motions = [motion_of(samples) for samples in evened]
+    links: list[Floats] = [np.zeros(samples.time.size) for samples in evened]
+    by_name = {samples.name: k for k, samples in enumerate(evened)}
+    if chain is not None:
+        missing = [joint for joint in chain.joint_names if joint not in by_name]
+        if missing:
+            notes.append(f"the log has no angle of {missing[0]}: the links' torques are not taken off, inertia includes them")
+        else:
+            places = [by_name[joint] for joint in chain.joint_names]
+            torques = link_torques(chain, [evened[k].angle for k in places], [motions[k] for k in places])
+            for k, row in zip(places, torques, strict=True):
+                links[k] = row
+    else:
+        notes.append("no robot is named: inertia includes the links', as far as they move along")
+    joints = []
+    for samples, motion, known in zip(evened, motions, links, strict=True):
+        drivetrain = _with_stated(stated.get(samples.name, Drivetrain()), torque_constant, gear, gain)
+        joints.append(identify_joint(samples, motion, known, drivetrain, seed))
+    return Identification(log.label, robot, name, tuple(joints), tuple(notes))
+
+
+def _limb_of(robot: str, limb: str | None, found: LimbSamples) -> tuple[LimbedRobot, str]:
+    loaded = load_robot(robot)
+    if not isinstance(loaded, LimbedRobot):
+        raise ClamberError(f"{robot}: logs are identified for robots of the family 'limbed'")
+    if limb is None:
+        words = {word for joint in found.joints for word in joint.name.split()}
+        named = [name for name in loaded.limb_names if name in words]
+        if len(named) != 1:
+            raise UnknownNameError(f"limb of {loaded.name} (state --limb)", "", loaded.limb_names)
+        return loaded, named[0]
+    if limb.isdecimal() and 1 <= int(limb) <= len(loaded.limb_names):
+        return loaded, loaded.limb_names[int(limb) - 1]
+    loaded.limb_index(limb)
+    return loaded, limb
+
+
+def _drivetrains(robot: LimbedRobot, limb: str, chain: Chain) -> dict[str, Drivetrain]:
+    spec, motor = robot.limbs[robot.limb_index(limb)], robot.motor
+    out = {}
+    joints: tuple[Joint, ...] = (spec.shoulder, spec.elbow)
+    for name, joint in zip(chain.joint_names, joints, strict=True):
+        said = {"inertia": joint.inertia, "damping": joint.damping, "friction": joint.friction, "backlash": motor.backlash}
+        if motor.amplifier_gain is not None:
+            said["amplifier gain"] = motor.amplifier_gain
+        out[name] = Drivetrain(
+            torque_per_current=motor.torque_constant * joint.gear, amplifier_gain=motor.amplifier_gain, stated=said
+        )
+    return out
+
+
+def _with_stated(drivetrain: Drivetrain, constant: float | None, gear: float | None, gain: float | None) -> Drivetrain:
+    """A drivetrain with what the user states; a torque constant without a gear is that of a motor without one."""
+    for key, value in (("torque constant", constant), ("gear", gear), ("amplifier gain", gain)):
+        if value is not None and not 0.0 < value < np.inf:
+            raise ClamberError(f"identify: {key} = {value:g}: must be more than 0, and finite")
+    per_current = drivetrain.torque_per_current if constant is None else constant * (gear or 1.0)
+    return Drivetrain(
+        torque_per_current=per_current, amplifier_gain=gain or drivetrain.amplifier_gain, stated=drivetrain.stated
+    )
