@@ -20,7 +20,7 @@ def test_a_joint_turns_past_its_limits_only_without_stops() -> None:
     limb = bench_limb()
     upper = float(limb.chain.joints["upper"][0])
     for stops in (False, True):
-        plant = MujocoLimb(limb.chain, LimbFlaws(stops=stops))
+        plant = MujocoLimb(limb.chain, LimbFlaws(joint_limits=stops))
         plant.reset(limb.q0)
         plant.actuate(np.array([[3.0, 0.0]]))
         for _ in range(1200):

@@ -3,10 +3,14 @@
 import typer
 
 from .limb_circle import circle
+from .limb_identify import identify
 from .limb_push import push
+from .limb_record import record
 from .limb_step import step
 
 limb = typer.Typer(help="Compare Cartesian controllers on one geared limb.", no_args_is_help=True)
 limb.command("step")(step)
 limb.command("circle")(circle)
 limb.command("push")(push)
+limb.command("identify")(identify)
+limb.command("record")(record)

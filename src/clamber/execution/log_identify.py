@@ -1,25 +1,58 @@
 """A log identified: every joint that it has, with what the robot's file says of it where a robot is named."""
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
-
-import numpy as np
 
 from ..control.chain import Chain, chain_of_limb
 from ..control.identification.joint import Drivetrain, IdentifiedJoint, identify_joint
-from ..control.identification.links import link_torques
+from ..control.identification.links import LinkLoad, link_loads
 from ..control.identification.motion import motion_of
-from ..errors import ClamberError, UnknownNameError
+from ..errors import ClamberError, UnitError, UnknownNameError
 from ..robots.library import load_robot
 from ..robots.limbed import Joint, LimbedRobot
 from ..toml_text import toml_value
-from ..types import Floats, Json
-from .log import Log, LogError
+from ..types import Json
+from ..units import parse_quantity
+from .log import Log
 from .log_roles import LimbSamples, samples_of
 
 UNITS_OF_FILE: Final = {"inertia": "inertia", "damping": "damping", "friction": "friction"}
 """Parameter -> key of a joint in a robot's file."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Known:
+    """What the user states of motors and amplifiers; None where the robot's file is to say it."""
+
+    torque_constant: float | None = None
+    """Before the gear [N m/A]."""
+    gear: float | None = None
+    """Motor turns per joint turn [-]."""
+    gain: float | None = None
+    """Of the amplifier [A/V], for a log with voltages and no currents."""
+
+    @classmethod
+    def read(cls, torque_constant: str | None, gear: float | None, gain: str | None) -> "Known":
+        """From texts with units.
+
+        Raises:
+            UnitError: If a text is no such quantity, or a number is not more than 0.
+        """
+        constant = None if torque_constant is None else parse_quantity(torque_constant, "torque constant")
+        amplifier = None if gain is None else parse_quantity(gain, "amplifier gain")
+        for value, what in ((constant, "torque constant"), (gear, "gear"), (amplifier, "amplifier gain")):
+            if value is not None and not 0.0 < value < math.inf:
+                raise UnitError(value, f"is no {what}", "state a finite number over 0")
+        return cls(torque_constant=constant, gear=gear, gain=amplifier)
+
+    def over(self, drivetrain: Drivetrain) -> Drivetrain:
+        """A drivetrain with what is stated here; a torque constant without a gear is that of a motor without one."""
+        scale = drivetrain.torque_per_current
+        if self.torque_constant is not None:
+            scale = self.torque_constant * (self.gear or 1.0)
+        return replace(drivetrain, torque_per_current=scale, amplifier_gain=self.gain or drivetrain.amplifier_gain)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -76,9 +109,8 @@ def identify_log(
     robot: str | None = None,
     limb: str | None = None,
     mapping: Mapping[str, str] | None = None,
-    torque_constant: float | None = None,
-    gear: float | None = None,
-    gain: float | None = None,
+    joints: tuple[str, ...] = (),
+    known: Known | None = None,
     upright: bool = False,
     seed: int = 0,
 ) -> Identification:
@@ -89,9 +121,8 @@ def identify_log(
         robot: A climber's name or file; None: as the log's notes say, if they do.
         limb: Its limb; None: as the notes say, or the one whose joints the log names.
         mapping: Column -> what it is (`log_roles.samples_of`).
-        torque_constant: Of the motors [N m/A]; None: the robot's.
-        gear: Of the joints [-]; None: the robot's.
-        gain: Of the amplifier [A/V], for a log with voltages and no currents; None: the robot's.
+        joints: Only these of the log's; all if empty.
+        known: Of the motors, before what the robot's file says.
         upright: Whether weight acts on the links.
         seed: Of the bootstrap.
 
@@ -99,7 +130,8 @@ def identify_log(
         LogError: If the log cannot be used.
         UnknownNameError: If there is no such robot or limb.
     """
-    found = samples_of(log, mapping)
+    found = samples_of(log, mapping, joints)
+    known = known or Known()
     robot = robot or log.notes.get("robot")
     notes = list(found.notes)
     chain, stated = None, {}
@@ -113,7 +145,7 @@ def identify_log(
         raise ClamberError("identify: --upright and --limb need a robot: state --robot")
     evened = tuple(samples.evened() for samples in found.joints)
     motions = [motion_of(samples) for samples in evened]
-    links: list[Floats] = [np.zeros(samples.time.size) for samples in evened]
+    links: list[LinkLoad | None] = [None] * len(evened)
     by_name = {samples.name: k for k, samples in enumerate(evened)}
     if chain is not None:
         missing = [joint for joint in chain.joint_names if joint not in by_name]
@@ -121,15 +153,16 @@ def identify_log(
             notes.append(f"the log has no angle of {missing[0]}: the links' torques are not taken off, inertia includes them")
         else:
             places = [by_name[joint] for joint in chain.joint_names]
-            torques = link_torques(chain, [evened[k].angle for k in places], [motions[k] for k in places])
-            for k, row in zip(places, torques, strict=True):
-                links[k] = row
+            behind = [evened[k].angle if (out := evened[k].output_angle) is None else out for k in places]
+            loads = link_loads(chain, behind, [motions[k].speed for k in places])
+            for k, load in zip(places, loads, strict=True):
+                links[k] = load
     else:
         notes.append("no robot is named: inertia includes the links', as far as they move along")
     joints = []
-    for samples, motion, known in zip(evened, motions, links, strict=True):
-        drivetrain = _with_stated(stated.get(samples.name, Drivetrain()), torque_constant, gear, gain)
-        joints.append(identify_joint(samples, motion, known, drivetrain, seed))
+    for samples, motion, load in zip(evened, motions, links, strict=True):
+        drivetrain = known.over(stated.get(samples.name, Drivetrain()))
+        joints.append(identify_joint(samples, motion, load, drivetrain, seed))
     return Identification(log.label, robot, name, tuple(joints), tuple(notes))
 
 
@@ -161,14 +194,3 @@ def _drivetrains(robot: LimbedRobot, limb: str, chain: Chain) -> dict[str, Drive
             torque_per_current=motor.torque_constant * joint.gear, amplifier_gain=motor.amplifier_gain, stated=said
         )
     return out
-
-
-def _with_stated(drivetrain: Drivetrain, constant: float | None, gear: float | None, gain: float | None) -> Drivetrain:
-    """A drivetrain with what the user states; a torque constant without a gear is that of a motor without one."""
-    for key, value in (("torque constant", constant), ("gear", gear), ("amplifier gain", gain)):
-        if value is not None and not 0.0 < value < np.inf:
-            raise ClamberError(f"identify: {key} = {value:g}: must be more than 0, and finite")
-    per_current = drivetrain.torque_per_current if constant is None else constant * (gear or 1.0)
-    return Drivetrain(
-        torque_per_current=per_current, amplifier_gain=gain or drivetrain.amplifier_gain, stated=drivetrain.stated
-    )

@@ -49,16 +49,13 @@ def parse_mcap(content: bytes, label: str, topic: str | None = None) -> Log:
         LogError: If it is no MCAP file, no such channel is in it, or its messages are not JSON with the same numbers each.
     """
     try:
-        topics, notes = _summary(content)
-        chosen = _choose(topics, topic, label)
-        stamps, messages = _messages(content, chosen)
-    except LogError:
-        raise
+        encodings, messages, notes = _read(content)
     except Exception as error:  # the reader raises whatever a broken record makes of its struct, codec or index
         what = f"is not a readable MCAP file ({type(error).__name__}: {error})"
         raise LogError(label, None, None, None, what[:300]) from None
+    chosen = _choose(encodings, topic, label)
     rows: list[dict[str, float]] = []
-    for k, data in enumerate(messages, start=1):
+    for k, (_, data) in enumerate(messages[chosen], start=1):
         flat: dict[str, float] = {}
         try:
             _flatten(json.loads(data), "", flat)
@@ -76,12 +73,13 @@ def parse_mcap(content: bytes, label: str, topic: str | None = None) -> Log:
     columns = list(table.T.copy())
     if not any(title.split("[")[0].strip().lower() in ("time", "timestamp", "t") for title in titles):
         titles.insert(0, "time [s]")
-        columns.insert(0, (np.array(stamps) - stamps[0]) * 1e-9)
+        stamps = np.array([stamp - messages[chosen][0][0] for stamp, _ in messages[chosen]], dtype=np.float64)
+        columns.insert(0, stamps * 1e-9)
     return build_log(titles, columns, notes, label)
 
 
-def _summary(content: bytes) -> tuple[dict[str, str], dict[str, str]]:
-    """Topics with the encoding of their messages, and notes."""
+def _read(content: bytes) -> tuple[dict[str, str], dict[str, list[tuple[int, bytes]]], dict[str, str]]:
+    """Topic -> encoding, topic -> times and data of its messages, and notes."""
     from mcap.reader import make_reader
 
     reader = make_reader(io.BytesIO(content), validate_crcs=True)
@@ -89,27 +87,24 @@ def _summary(content: bytes) -> tuple[dict[str, str], dict[str, str]]:
     for record in reader.iter_metadata():
         if record.name == "clamber":
             notes |= record.metadata
-    topics = {channel.topic: channel.message_encoding for _, channel, _ in reader.iter_messages()}
-    return topics, notes
+    encodings: dict[str, str] = {}
+    messages: dict[str, list[tuple[int, bytes]]] = {}
+    for _, channel, message in reader.iter_messages():
+        encodings[channel.topic] = channel.message_encoding
+        messages.setdefault(channel.topic, []).append((message.log_time, message.data))
+    return encodings, messages, notes
 
 
-def _choose(topics: dict[str, str], topic: str | None, label: str) -> str:
-    if not topics:
+def _choose(encodings: dict[str, str], topic: str | None, label: str) -> str:
+    if not encodings:
         raise LogError(label, None, None, None, "holds no messages")
     if topic is None:
-        topic = next(iter(topics)) if len(topics) == 1 else TOPIC
-    if topic not in topics:
-        raise LogError(label, topic, None, None, f"no such channel; name one: {', '.join(topics)[:400]}")
-    if topics[topic] != "json":
-        raise LogError(label, topic, None, f"encoding '{topics[topic]}'", "must be 'json'")
+        topic = next(iter(encodings)) if len(encodings) == 1 else TOPIC
+    if topic not in encodings:
+        raise LogError(label, None, None, f"channel '{topic}'", f"no such channel; name one: {', '.join(encodings)[:400]}")
+    if encodings[topic] != "json":
+        raise LogError(label, None, None, f"channel '{topic}' is encoded as '{encodings[topic]}'", "must be 'json'")
     return topic
-
-
-def _messages(content: bytes, topic: str) -> tuple[list[int], list[bytes]]:
-    from mcap.reader import make_reader
-
-    found = [message for _, _, message in make_reader(io.BytesIO(content), validate_crcs=True).iter_messages(topics=[topic])]
-    return [message.log_time for message in found], [message.data for message in found]
 
 
 def _flatten(value: Any, name: str, out: dict[str, float]) -> None:

@@ -95,8 +95,9 @@ class LimbFlaws:
     """Whether weight acts."""
     motor_limits: bool = True
     """Whether the motors have their torque limits and torque-speed lines."""
-    stops: bool = False
-    """Whether the joints stop at the limits of the robot's file, on the motor's side; else they turn freely past them."""
+    joint_limits: bool = False
+    """Whether hard stops at the robot's joint limits hold the motors' side. Off by default: the published circle of 5 cm about (0.22, 0)
+    asks for an elbow of 115.6 deg, or -111.9 deg on the other branch, beyond the printed 110 deg."""
     seed: int | None = None
     """Draws where each joint starts in its play, where its encoder starts within a count, noise and model error; None: mid-play, no noise."""
     speed_noise: float = 0.0

@@ -6,18 +6,16 @@ import numpy as np
 
 from ..control.chain import Chain
 from ..types import Floats
-from .limb_flaws import LimbFlaws, Wall
+from .limb_flaws import LimbFlaws, PlantError, Wall
 
 FRICTION_SOLREF: Final = (0.004, 1.0)
 """Time constant and damping ratio of Coulomb friction: with MuJoCo's default a loaded joint creeps."""
 FRICTION_SOLIMP: Final = (0.95, 0.99, 0.001, 0.5, 2.0)
 PLAY_INERTIA: Final = 1e-4
 """Of the play joint, so that it has a mass of its own [kg m^2]: a thousandth of a link's."""
-PLAY_SOLREF: Final = (0.002, 1.0)
-"""Of the play's ends: as stiff as two physics steps allow."""
-PLAY_SOLIMP: Final = (0.95, 0.99, 0.0005, 0.5, 2.0)
-STOP_SOLREF: Final = (0.004, 1.0)
-"""Of the joints' hard stops."""
+STOP_SOLREF: Final = (0.002, 1.0)
+"""Of the play's ends and of the joints' stops: as stiff as two physics steps allow."""
+STOP_SOLIMP: Final = (0.95, 0.99, 0.0005, 0.5, 2.0)
 TIP_RADIUS: Final = 0.005
 """Of the ball that touches a wall [m]."""
 SMALL_MASS: Final = 1e-6
@@ -28,12 +26,17 @@ def limb_spec(chain: Chain, flaws: LimbFlaws) -> Any:
     """An `MjSpec` of the chain with the flaws that are mechanical. Joints are named as the chain's, their play "NAME play".
 
     The first joint is mounted on the world; the tip is the site "tip". Motors are plain torques: their limits are the plant's.
+
+    Raises:
+        PlantError: If the limb is to be upright but its chain has no gravity, whose direction only the robot's file knows.
     """
     import mujoco
 
+    if flaws.upright and not np.any(chain.root["gravity"]):
+        raise PlantError("upright", True, "needs a chain under gravity, made with upright=True")
     carried = chain.with_payload(flaws.payload)
     spec = mujoco.MjSpec()
-    spec.compiler.degree = False
+    spec.compiler.degree = False  # else MuJoCo reads our ranges, the play's too, as degrees
     spec.option.timestep = 1.0 / flaws.physics_rate
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
@@ -63,20 +66,22 @@ def _add_link(mujoco: Any, spec: Any, parent: Any, name: str, record: Any, flaws
     joint.frictionloss = record["friction"] * flaws.friction
     joint.solref_friction = FRICTION_SOLREF
     joint.solimp_friction = FRICTION_SOLIMP
-    if flaws.stops:
-        joint.limited = True
-        joint.range = (float(record["lower"]), float(record["upper"]))
-        joint.solref_limit, joint.solimp_limit = STOP_SOLREF, PLAY_SOLIMP
+    if flaws.joint_limits:
+        _stop(joint, float(record["lower"]), float(record["upper"]))
     motor = spec.add_actuator(name=name, trntype=mujoco.mjtTrn.mjTRN_JOINT, target=name)
     motor.set_to_motor()
     if flaws.backlash > 0.0:
         play = body.add_joint(name=f"{name} play", type=kind, axis=record["axis"])
         play.armature = PLAY_INERTIA
-        play.limited = True
-        play.range = (-flaws.backlash / 2, flaws.backlash / 2)
-        play.solref_limit = PLAY_SOLREF
-        play.solimp_limit = PLAY_SOLIMP
+        _stop(play, -flaws.backlash / 2, flaws.backlash / 2)
     return body
+
+
+def _stop(joint: Any, lower: float, upper: float) -> None:
+    joint.limited = True
+    joint.range = (lower, upper)
+    joint.solref_limit = STOP_SOLREF
+    joint.solimp_limit = STOP_SOLIMP
 
 
 def _add_wall(mujoco: Any, spec: Any, tip_body: Any, tip: Floats, wall: Wall) -> None:

@@ -12,6 +12,7 @@ from .backlash import backlash
 from .constant_torque import RoughEstimates, rough_estimates
 from .estimate import Estimate
 from .joint_fit import NAMES, NEEDS, UNITS, JointFit, fit_joint
+from .links import LinkLoad
 from .motion import Motion
 from .samples import JointSamples
 
@@ -39,8 +40,8 @@ class IdentifiedJoint:
     motion: Motion
     torque: Floats | None
     """Of the motor at the joint, at every sample [N m]."""
-    links: Floats
-    """Torque that the links took, shape as torque [N m]."""
+    links: LinkLoad | None
+    """What the links ask of the joint, where a robot is named."""
     torque_from: str
     fit: JointFit | None
     rough: RoughEstimates
@@ -68,14 +69,14 @@ class IdentifiedJoint:
 
 
 def identify_joint(
-    samples: JointSamples, motion: Motion, links: Floats, drivetrain: Drivetrain, seed: int = 0
+    samples: JointSamples, motion: Motion, links: LinkLoad | None, drivetrain: Drivetrain, seed: int = 0
 ) -> IdentifiedJoint:
     """Everything that evenly spaced samples of one joint tell.
 
     Args:
         samples: Of the joint.
         motion: Of the same samples.
-        links: Torque that the limb's links take at every sample, zeros where it is not known [N m].
+        links: What the limb's links ask of the joint; None where that is not known: inertia then includes theirs.
         drivetrain: What is known beforehand.
         seed: Of the bootstrap.
     """
@@ -88,7 +89,7 @@ def identify_joint(
         moved = tuple(Estimate(name, unit, needs=need) for name, unit, need in zip(NAMES, UNITS, NEEDS, strict=True))
     else:
         fit = fit_joint(samples, motion, torque, links, seed)
-        rough = rough_estimates(samples, motion, torque - links)
+        rough = rough_estimates(samples, motion, torque)
         moved = fit.estimates
     estimates = tuple(
         replace(estimate, stated=drivetrain.stated.get(estimate.name)) for estimate in (*moved, gain, backlash(samples, seed))

@@ -4,10 +4,11 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from scipy.optimize import least_squares, minimize_scalar
+from scipy.optimize import least_squares
 
 from ...types import Floats
 from .estimate import Estimate
+from .links import LinkLoad
 from .motion import Motion
 from .samples import JointSamples
 from .weak_form import MOST_LAG, STRIDE, Rows, rows_of
@@ -22,8 +23,8 @@ VAGUE: Final = 0.3
 SMALL: Final = 0.02
 """unless what that error makes is a smaller part of the largest torque: then the parameter is told to be nearly 0."""
 RESAMPLES: Final = 300
-BLOCK: Final = 4 * STRIDE
-"""Rows that are resampled together, for neighbours share samples: four windows."""
+BLOCK: Final = 8 * STRIDE
+"""Rows that are resampled together, for neighbours share samples: eight windows."""
 NAMES: Final = ("inertia", "damping", "friction", "offset")
 UNITS: Final = ("kg m^2", "N m s/rad", "N m", "N m")
 NEEDS: Final = (
@@ -49,26 +50,28 @@ class JointFit:
     """Root mean square of the torque not explained, over the windows [N m]."""
 
 
-def fit_joint(samples: JointSamples, motion: Motion, torque: Floats, known: Floats, seed: int = 0) -> JointFit:
+def fit_joint(
+    samples: JointSamples, motion: Motion, torque: Floats, links: LinkLoad | None, seed: int = 0
+) -> JointFit:
     """Fit the equation of motion to evenly spaced samples.
 
     Args:
         samples: Of one joint.
         motion: Of the same samples.
         torque: Of the motor at the joint [N m].
-        known: Torque that is explained otherwise, by links and weight [N m].
+        links: What the limb's links ask of the joint; None where that is not known.
         seed: Of the bootstrap.
     """
     best: tuple[float, Rows, Floats, Floats, float, list[int]] | None = None
     for width in WIDTHS:
-        rows = rows_of(samples, motion, torque, known, width)
+        rows = rows_of(samples, motion, torque, links, width)
         if rows is None or rows.centres.size < LEAST_ROWS:
             continue
         columns = _columns(rows)
-        lag = _find_lag(rows, columns, samples.period)
-        values, weights = _robust(rows.regressors[:, columns], rows.torques(lag))
+        first = _first_lag(rows, columns, samples.period)
+        values, weights, lag = _robust(rows, columns, first, samples.period)
         draws = _bootstrap(rows, columns, lag, weights, seed)
-        vague = float(np.sum((draws.std(axis=0)[:2] / np.maximum(np.abs(values[:2]), 1e-12)) ** 2))
+        vague = float(np.sum((draws.std(axis=0)[:3] / np.maximum(np.abs(values[:3]), 1e-12)) ** 2))
         if best is None or vague < best[0]:
             best = vague, rows, values, draws, lag, columns
     if best is None:
@@ -90,33 +93,40 @@ def _columns(rows: Rows) -> list[int]:
     return [0, 1, 2, 3] if min(forward, 1.0 - forward) >= BOTH_WAYS else [0, 1, 2]
 
 
-def _find_lag(rows: Rows, columns: list[int], period: float) -> float:
-    """The lag at which the regression leaves least."""
-    design = rows.regressors[:, columns]
-    projector = np.linalg.qr(design)[0]
+def _first_lag(rows: Rows, columns: list[int], period: float) -> float:
+    """The lag of a coarse grid at which the regression leaves least."""
+    projector = np.linalg.qr(rows.regressors[:, columns])[0]
 
     def left(lag: float) -> float:
         right = rows.torques(lag)
-        rest = right - projector @ (projector.T @ right)
-        return float(np.mean(np.abs(rest)))
+        return float(np.mean(np.abs(right - projector @ (projector.T @ right))))
 
     grid = np.arange(-0.5 * MOST_LAG, MOST_LAG + 0.25, 0.5) * period
-    coarse = grid[int(np.argmin([left(lag) for lag in grid]))]
-    found = minimize_scalar(left, bounds=(coarse - 0.5 * period, coarse + 0.5 * period), method="bounded")
-    return float(found.x)
+    return float(grid[int(np.argmin([left(lag) for lag in grid]))])
 
 
-def _robust(design: Floats, right: Floats) -> tuple[Floats, Floats]:
-    """Regression with Huber's loss, and the weights that it gave the rows."""
-    scale = np.maximum(np.linalg.norm(design, axis=0), 1e-300)
-    start = np.linalg.lstsq(design / scale, right, rcond=None)[0]
-    rest = right - design / scale @ start
+def _robust(rows: Rows, columns: list[int], lag: float, period: float) -> tuple[Floats, Floats, float]:
+    """Regression with Huber's loss over parameters and lag: the parameters, the weights that it gave the rows, the lag."""
+    design = rows.regressors[:, columns]
+    scale = np.append(np.maximum(np.linalg.norm(design, axis=0), 1e-300), 1.0 / period)
+    design = design / scale[:-1]
+    right = rows.torques(lag)
+    start = np.append(np.linalg.lstsq(design, right, rcond=None)[0], lag / period)
+    rest = right - design @ start[:-1]
     spread = 1.4826 * float(np.median(np.abs(rest - np.median(rest))))
     edge = max(1.345 * spread, 1e-9 * float(np.max(np.abs(right))), 1e-300)
-    jacobian = design / scale
-    found = least_squares(lambda x: jacobian @ x - right, start, jac=lambda x: jacobian, loss="huber", f_scale=edge)
-    off = np.maximum(np.abs(right - jacobian @ found.x), 1e-300)
-    return found.x / scale, np.minimum(1.0, edge / off)
+
+    def off(x: Floats) -> Floats:
+        return design @ x[:-1] - rows.torques(x[-1] * period)
+
+    def slopes(x: Floats) -> Floats:
+        return np.column_stack((design, -period * rows.torques(x[-1] * period, 1)))
+
+    reach = np.full(start.size, np.inf)
+    reach[-1] = 1.0
+    found = least_squares(off, start, jac=slopes, bounds=(start - reach, start + reach), loss="huber", f_scale=edge)
+    weights = np.minimum(1.0, edge / np.maximum(np.abs(found.fun), 1e-300))
+    return found.x[:-1] / scale[:-1], weights, float(found.x[-1] * period)
 
 
 def _bootstrap(rows: Rows, columns: list[int], lag: float, weights: Floats, seed: int) -> Floats:
@@ -124,7 +134,7 @@ def _bootstrap(rows: Rows, columns: list[int], lag: float, weights: Floats, seed
     design = np.column_stack((rows.regressors[:, columns], -rows.torques(lag, 1)))
     right = rows.torques(lag)
     n, width = design.shape
-    block = min(BLOCK, max(1, n // 6))
+    block = min(BLOCK, max(1, n // 8))
     starts = np.arange(0, n - block + 1)
     # Normal equations of every block, so that a resample is a sum
     weighed = design * weights[:, None]

@@ -17,6 +17,7 @@ import numpy as np
 from scipy.signal import fftconvolve
 
 from ...types import Floats
+from .links import LinkLoad
 from .motion import Motion
 from .samples import JointSamples
 
@@ -80,14 +81,16 @@ def _weighed(values: Floats, weights: Floats, kernel: Floats, picked: Floats) ->
     return out
 
 
-def rows_of(samples: JointSamples, motion: Motion, torque: Floats, known: Floats, width: float) -> Rows | None:
+def rows_of(
+    samples: JointSamples, motion: Motion, torque: Floats, links: LinkLoad | None, width: float
+) -> Rows | None:
     """The rows that evenly spaced samples give with windows of one width; None if there is no window in motion.
 
     Args:
         samples: Of one joint.
         motion: Of the same samples.
         torque: Of the motor at the joint [N m].
-        known: Torque that is explained otherwise [N m].
+        links: What the limb's links ask of the joint; None where that is not known.
         width: Of a window [s].
     """
     period = samples.period
@@ -116,12 +119,21 @@ def rows_of(samples: JointSamples, motion: Motion, torque: Floats, known: Floats
         width=width,
         centres=samples.time[places],
         regressors=regressors,
-        known=_weighed(known, plain, kernel, picked),
+        known=np.zeros(picked.size) if links is None else _load(links, curve, plain, kernel, picked),
         kernel=kernel,
         torque=torque,
         picked=picked,
         sign=motion.forward[places],
     )
+
+
+def _load(links: LinkLoad, curve: Floats, plain: Floats, kernel: Floats, picked: Floats) -> Floats:
+    """Windowed torques of the links; their inertia is taken as it is at a window's middle."""
+    places = picked.astype(np.intp)
+    out = _weighed(links.bias, plain, kernel, picked)
+    for j, angle in enumerate(links.angles):
+        out += links.inertia[places, j] * _about_centre(angle, curve, kernel, picked)
+    return out
 
 
 def _about_centre(angle: Floats, weights: Floats, kernel: Floats, picked: Floats) -> Floats:

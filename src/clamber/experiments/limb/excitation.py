@@ -5,6 +5,7 @@ the joint's angle, so that each phase starts where it has room, whatever the fri
 """
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -13,7 +14,7 @@ from ...errors import ClamberError
 from ...execution.log import Log
 from ...sim.limb_flaws import LimbFlaws
 from ...sim.mujoco_limb import MujocoLimb
-from ...types import Floats
+from ...types import Floats, Json
 from .bench_limb import BenchLimb
 from .excitation_phases import Drive, Phase, phases_of
 
@@ -57,7 +58,7 @@ def record_log(
     """Excite every joint of a simulated limb in turn and log what its sensors say.
 
     The log's columns are time and, for each joint, its encoder's angle, the command voltage, the motor's current and the angle behind
-    the gear. Stops are put at the joints' limits.
+    the gear. Hard stops stand at the joints' limits, whatever `flaws` says.
 
     Args:
         limb: On the bench.
@@ -72,7 +73,7 @@ def record_log(
     motor = limb.robot.motor
     if motor.amplifier_gain is None:
         raise ExcitationError("motor.amplifier_gain", None, f"must be stated in {limb.robot.name}'s file: commands are volts")
-    stopped = flaws.with_changes(stops=True, push=None, wall=None)
+    stopped = flaws.with_changes(joint_limits=True, push=None, wall=None)
     plant = MujocoLimb(limb.chain, stopped, gears=limb.gears)
     plant.reset(limb.q0)
     rows: list[Floats] = []
@@ -125,3 +126,14 @@ def _log_of(rows: Floats, limb: BenchLimb, flaws: LimbFlaws, noise: SensorNoise,
             units[f"{name} output angle"] = "rad"
     notes = {"robot": limb.robot.name, "limb": limb.name, "seed": str(noise.seed)}
     return Log(columns, units, notes, "simulated log")
+
+
+def log_summary(log: Log, path: Path) -> Json:
+    """What was recorded, as plain data."""
+    return {
+        "file": str(path),
+        "rows": log.rows,
+        "seconds": float(log.columns["time"][-1]),
+        "columns": log.titles(),
+        "notes": dict(log.notes),
+    }

@@ -5,9 +5,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, Final, Protocol
 
-RAMP_TIME: Final = 12.0
+RAMP_TIME: Final = 30.0
 """In which the starting torque grows from 0 to the joint's limit [s]."""
-STARTED: Final = 0.01
+STARTED: Final = 0.002
 """A joint that moved so far from rest has started [rad]."""
 MARGIN: Final = 0.25
 """Kept from the joint's limits in motion [rad]."""
@@ -15,6 +15,8 @@ RETURN_STIFFNESS: Final = 40.0
 """Of the servo, per inertia [1/s^2]."""
 RETURN_SPEED: Final = 0.8
 """Of the servo's aim [rad/s]."""
+SPEEDS: Final = (0.15, 0.3, 0.8)
+"""That constant torques may end at [rad/s]: two slow ones get there within the joint's range, the last leaves it in motion."""
 STALL_STEPS: Final = 12
 STALL_PART: Final = 0.6
 """Of the torque limit, at the last step of a stall."""
@@ -28,7 +30,7 @@ class Drive:
     """Record of `control.records.JOINT`: only to choose torques and times by."""
     period: float
     starting: float = field(default=0.0)
-    """Torque at which the joint started from rest [N m], found by the first phase."""
+    """Torque at which the joint starts and keeps moving [N m], found by the first phases."""
 
     @property
     def low(self) -> float:
@@ -103,6 +105,33 @@ class Start:
             drive.starting = torque
             return 0.0, True
         return torque, False
+
+
+@dataclass(slots=True)
+class Creep:
+    """A servo draws the joint along slowly; the mean torque, less that of damping, replaces the starting torque."""
+
+    name: str = "creeping"
+    speed: float = 0.1
+    seconds: float = 4.0
+    start: float = 0.0
+    total: float = 0.0
+    count: int = 0
+
+    def torque(self, drive: Drive, tick: int, angle: float, speed: float) -> tuple[float, bool]:
+        """See `Phase`."""
+        if tick == 0:
+            self.start = angle
+        time = tick * drive.period
+        off = self.start + self.speed * time - angle
+        pull = RETURN_STIFFNESS * off + 2 * RETURN_STIFFNESS**0.5 * (self.speed - speed)
+        torque = drive.starting + float(drive.joint["rotor"]) * pull
+        if time > self.seconds / 2:
+            self.total, self.count = self.total + torque, self.count + 1
+        if time < self.seconds:
+            return torque, False
+        drive.starting = max(0.0, self.total / self.count - float(drive.joint["damping"]) * self.speed)
+        return torque, True
 
 
 @dataclass(slots=True)
@@ -181,7 +210,8 @@ def phases_of(drive: Drive) -> Iterator[Phase]:
     """The whole excitation of one joint, ending at rest in the middle of its range."""
     yield Go(drive.middle)
     yield Start()
-    for speed in (0.2, 0.35):
+    yield Creep()
+    for speed in SPEEDS:
         yield Go(drive.low + 0.05)
         yield Constant(speed)
         yield Go(drive.high - 0.05)

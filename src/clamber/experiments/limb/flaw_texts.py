@@ -21,7 +21,7 @@ DIMENSIONS: Final[dict[str, str]] = {
 }
 """Property -> its dimension; what is not here is a whole number or yes or no."""
 WHOLE: Final = ("encoder_counts", "delay")
-SWITCHES: Final = ("upright", "motor_limits")
+SWITCHES: Final = ("upright", "motor_limits", "joint_limits")
 SET: Final = ("ideal", "nominal")
 """Names of sets of flaws."""
 YES_NO: Final = {
