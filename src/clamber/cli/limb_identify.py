@@ -13,9 +13,7 @@ Column: TypeAlias = str | None
 
 def identify(
     log: Annotated[Path, typer.Argument(help="A log with named columns (.csv, .mcap).")],
-    robot: Annotated[
-        str | None, typer.Option(help="A climber's name or file; as the log says unless given.")
-    ] = None,
+    robot: Annotated[str | None, typer.Option(help="A climber's name or file; as the log says unless given.")] = None,
     limb: Annotated[str | None, typer.Option(help="Its limb, by name or from 1.")] = None,
     joint: Annotated[
         list[str] | None, typer.Option(metavar="NAME", help="Only this joint of the log; repeat it.")
@@ -23,13 +21,15 @@ def identify(
     columns: Annotated[
         list[str] | None,
         typer.Option(
-            "--column", metavar="COLUMN=ROLE",
+            "--column",
+            metavar="COLUMN=ROLE",
             help="What a column is, such as 'pos_3=left elbow angle [deg]'; repeat it.",
         ),
     ] = None,
     time: Annotated[Column, typer.Option(metavar="COLUMN", help="The column of time.")] = None,
     angle: Annotated[
-        Column, typer.Option(metavar="COLUMN", help="Angle by the encoder, at the joint's scale; for a log of one joint.")
+        Column,
+        typer.Option(metavar="COLUMN", help="Angle by the encoder, at the joint's scale; for a log of one joint."),
     ] = None,
     torque: Annotated[Column, typer.Option(metavar="COLUMN", help="The motor's torque at the joint.")] = None,
     current: Annotated[Column, typer.Option(metavar="COLUMN", help="The motor's current.")] = None,
@@ -42,12 +42,16 @@ def identify(
     gain: Annotated[
         str | None, typer.Option(help="Of the amplifier, for voltages without currents, such as 0.27A/V.")
     ] = None,
-    upright: Annotated[bool, typer.Option("--upright", help="The links' weight acts: the limb hangs on a wall.")] = False,
+    upright: Annotated[
+        bool, typer.Option("--upright", help="The links' weight acts: the limb hangs on a wall.")
+    ] = False,
     topic: Annotated[str | None, typer.Option(help="Channel of an MCAP file.")] = None,
     seed: Annotated[int, typer.Option(min=0, help="Of the bootstrap that tells errors.")] = 0,
     output: Annotated[
         Path | None,
-        typer.Option("--output", "-o", metavar="FILE", help="A picture (.png, .svg, .pdf), or lines for a robot file (.toml)."),
+        typer.Option(
+            "--output", "-o", metavar="FILE", help="A picture (.png, .svg, .pdf), or lines for a robot file (.toml)."
+        ),
     ] = None,
     as_json: AsJson = False,
 ) -> None:
@@ -68,7 +72,14 @@ def identify(
     read = read_log(log, topic)
     announce_compilation("accelerate", quiet=as_json)
     result = identify_log(
-        read, robot=robot, limb=limb, mapping=mapping, joints=tuple(joint or ()), known=known, upright=upright, seed=seed
+        read,
+        robot=robot,
+        limb=limb,
+        mapping=mapping,
+        joints=tuple(joint or ()),
+        known=known,
+        upright=upright,
+        seed=seed,
     )
     if output is not None:
         write_identification(result, output)

@@ -37,7 +37,13 @@ def _print_joint(console: Console, joint: IdentifiedJoint) -> None:
             f" {joint.fit.residual:.2g} N m left over"
         )
     table = plain_table(
-        "  parameter", "value", "std error", "unit", "in the file", "diff", right=("value", "std error", "in the file", "diff")
+        "  parameter",
+        "value",
+        "std error",
+        "unit",
+        "in the file",
+        "diff",
+        right=("value", "std error", "in the file", "diff"),
     )
     told = [estimate for estimate in joint.estimates if estimate.value is not None]
     for estimate in told:

@@ -18,10 +18,10 @@ def record(
     robot: opt.Robot = "libra",
     flaws: opt.Flaws = opt.FlawsChoice.nominal,
     settings: opt.Settings = None,
-    current_noise: Annotated[
-        float, typer.Option(help="Standard deviation of the current sensors' noise [A].")
-    ] = 0.01,
-    angle_noise: Annotated[str, typer.Option(help="Of the encoders' noise besides their steps, such as 0.01deg.")] = "0deg",
+    current_noise: Annotated[float, typer.Option(help="Standard deviation of the current sensors' noise [A].")] = 0.01,
+    angle_noise: Annotated[
+        str, typer.Option(help="Of the encoders' noise besides their steps, such as 0.01deg.")
+    ] = "0deg",
     output_noise: Annotated[str, typer.Option(help="Of the angles behind the gears, such as 0.02deg.")] = "0.02deg",
     output_encoder: Annotated[
         bool, typer.Option("--output-encoder/--no-output-encoder", help="Whether angles behind the gears are measured.")
@@ -55,4 +55,6 @@ def record(
     if as_json:
         print_json(summary)
     else:
-        stdout().print(f"{summary['file']}: {summary['rows']} samples, {summary['seconds']:.1f} s, {', '.join(log.columns)}")
+        stdout().print(
+            f"{summary['file']}: {summary['rows']} samples, {summary['seconds']:.1f} s, {', '.join(log.columns)}"
+        )

@@ -70,7 +70,9 @@ class Log:
             LogError: If there is none of that name.
         """
         if name not in self.columns:
-            raise LogError(self.label, name, None, None, f"no such column; there are {describe_choices(name, self.columns)}")
+            raise LogError(
+                self.label, name, None, None, f"no such column; there are {describe_choices(name, self.columns)}"
+            )
         return self.columns[name]
 
     def titles(self) -> list[str]:

@@ -9,13 +9,13 @@ from ..control.chain import Chain, chain_of_limb
 from ..control.identification.joint import Drivetrain, IdentifiedJoint, identify_joint
 from ..control.identification.links import LinkLoad, link_loads
 from ..control.identification.motion import motion_of
-from ..errors import ClamberError, UnitError, UnknownNameError
+from ..errors import ClamberError, UnitError, UnknownNameError, describe_choices
 from ..robots.library import load_robot
 from ..robots.limbed import Joint, LimbedRobot
 from ..toml_text import toml_value
 from ..types import Json
 from ..units import parse_quantity
-from .log import Log
+from .log import Log, LogError
 from .log_roles import LimbSamples, samples_of
 
 UNITS_OF_FILE: Final = {"inertia": "inertia", "damping": "damping", "friction": "friction"}
@@ -130,7 +130,7 @@ def identify_log(
         LogError: If the log cannot be used.
         UnknownNameError: If there is no such robot or limb.
     """
-    found = samples_of(log, mapping, joints)
+    found = samples_of(log, mapping)
     known = known or Known()
     robot = robot or log.notes.get("robot")
     notes = list(found.notes)
@@ -150,20 +150,29 @@ def identify_log(
     if chain is not None:
         missing = [joint for joint in chain.joint_names if joint not in by_name]
         if missing:
-            notes.append(f"the log has no angle of {missing[0]}: the links' torques are not taken off, inertia includes them")
+            notes.append(
+                f"the log has no angle of {missing[0]}: the links' torques are not taken off, inertia includes them"
+            )
         else:
             places = [by_name[joint] for joint in chain.joint_names]
             behind = [evened[k].angle if (out := evened[k].output_angle) is None else out for k in places]
             loads = link_loads(chain, behind, [motions[k].speed for k in places])
-            for k, load in zip(places, loads, strict=True):
-                links[k] = load
+            for k, at_joint in zip(places, loads, strict=True):
+                links[k] = at_joint
     else:
         notes.append("no robot is named: inertia includes the links', as far as they move along")
-    joints = []
+    for joint in joints:
+        if joint not in by_name:
+            raise LogError(
+                log.label, f"{joint} angle", None, None, f"no such joint; there are {describe_choices(joint, by_name)}"
+            )
+    found_joints = []
     for samples, motion, load in zip(evened, motions, links, strict=True):
         drivetrain = known.over(stated.get(samples.name, Drivetrain()))
-        joints.append(identify_joint(samples, motion, load, drivetrain, seed))
-    return Identification(log.label, robot, name, tuple(joints), tuple(notes))
+        if joints and samples.name not in joints:
+            continue
+        found_joints.append(identify_joint(samples, motion, load, drivetrain, seed))
+    return Identification(log.label, robot, name, tuple(found_joints), tuple(notes))
 
 
 def _limb_of(robot: str, limb: str | None, found: LimbSamples) -> tuple[LimbedRobot, str]:
@@ -187,7 +196,12 @@ def _drivetrains(robot: LimbedRobot, limb: str, chain: Chain) -> dict[str, Drive
     out = {}
     joints: tuple[Joint, ...] = (spec.shoulder, spec.elbow)
     for name, joint in zip(chain.joint_names, joints, strict=True):
-        said = {"inertia": joint.inertia, "damping": joint.damping, "friction": joint.friction, "backlash": motor.backlash}
+        said = {
+            "inertia": joint.inertia,
+            "damping": joint.damping,
+            "friction": joint.friction,
+            "backlash": motor.backlash,
+        }
         if motor.amplifier_gain is not None:
             said["amplifier gain"] = motor.amplifier_gain
         out[name] = Drivetrain(

@@ -33,7 +33,7 @@ def mcap_bytes(log: Log, topic: str = TOPIC) -> bytes:
         stamp = max(0, round(float(times[k]) * 1e9))
         data = json.dumps(dict(zip(titles, row, strict=True))).encode()
         writer.add_message(channel, stamp, data, stamp, k)
-    writer.finish()
+    writer.finish()  # type: ignore[no-untyped-call]
     return out.getvalue()
 
 
@@ -68,7 +68,9 @@ def parse_mcap(content: bytes, label: str, topic: str | None = None) -> Log:
     for k, flat in enumerate(rows, start=1):
         if flat.keys() != rows[0].keys():
             odd = sorted(flat.keys() ^ rows[0].keys())[0]
-            raise LogError(label, odd, k, "there" if odd in flat else "missing", "every message must hold the same numbers")
+            raise LogError(
+                label, odd, k, "there" if odd in flat else "missing", "every message must hold the same numbers"
+            )
     table = np.array([[flat[title] for title in titles] for flat in rows])
     columns = list(table.T.copy())
     if not any(title.split("[")[0].strip().lower() in ("time", "timestamp", "t") for title in titles):
@@ -101,7 +103,9 @@ def _choose(encodings: dict[str, str], topic: str | None, label: str) -> str:
     if topic is None:
         topic = next(iter(encodings)) if len(encodings) == 1 else TOPIC
     if topic not in encodings:
-        raise LogError(label, None, None, f"channel '{topic}'", f"no such channel; name one: {', '.join(encodings)[:400]}")
+        raise LogError(
+            label, None, None, f"channel '{topic}'", f"no such channel; name one: {', '.join(encodings)[:400]}"
+        )
     if encodings[topic] != "json":
         raise LogError(label, None, None, f"channel '{topic}' is encoded as '{encodings[topic]}'", "must be 'json'")
     return topic

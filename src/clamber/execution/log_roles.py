@@ -69,13 +69,12 @@ class LimbSamples:
     notes: tuple[str, ...]
 
 
-def samples_of(log: Log, mapping: Mapping[str, str] | None = None, joints: tuple[str, ...] = ()) -> LimbSamples:
+def samples_of(log: Log, mapping: Mapping[str, str] | None = None) -> LimbSamples:
     """The samples of every joint in a log, in SI units.
 
     Args:
         log: As read.
         mapping: Column's name -> what it is, such as "shoulder angle [deg]" or "time"; goes before what the names say.
-        joints: Only these, in this order; all in the log's order if empty.
 
     Raises:
         LogError: If there is no time or no angle, two columns have the same role, a unit is not one of the role's, time
@@ -93,11 +92,8 @@ def samples_of(log: Log, mapping: Mapping[str, str] | None = None, joints: tuple
             log.label, None, None, None,
             f"no column is a joint's angle; name it 'NAME angle [rad]' or state which is; there are {describe_choices('angle', log.columns)}",
         )  # fmt: skip
-    for joint in joints:
-        if joint not in names:
-            raise LogError(log.label, f"{joint} angle", None, None, f"no such joint; there are {describe_choices(joint, names)}")
     out = []
-    for joint in joints or names:
+    for joint in names:
         fields: dict[str, Floats] = {}
         for role, (field, _) in ROLES.items():
             if role != "time" and (joint, role) in found:
@@ -128,7 +124,9 @@ def _assign(log: Log, mapping: Mapping[str, str]) -> tuple[dict[tuple[str, str],
         name, unit = split_title(title)
         place = role_of(name)
         if place is None:
-            raise LogError(log.label, column, None, repr(title), f"must be one of: time, or a joint's {', '.join(list(ROLES)[1:])}")
+            raise LogError(
+                log.label, column, None, repr(title), f"must be one of: time, or a joint's {', '.join(list(ROLES)[1:])}"
+            )
         if place in found:
             raise LogError(log.label, column, None, repr(title), f"is column '{found[place]}' already")
         found[place] = column
@@ -168,4 +166,6 @@ def _check_time(log: Log, column: str, time: Floats) -> None:
     back = np.flatnonzero(~(np.diff(time) > 0.0))
     if back.size:
         k = int(back[0])
-        raise LogError(log.label, column, k + 2, f"{time[k + 1]:.9g} s", f"must be later than the row before, {time[k]:.9g} s")
+        raise LogError(
+            log.label, column, k + 2, f"{time[k + 1]:.9g} s", f"must be later than the row before, {time[k]:.9g} s"
+        )

@@ -79,7 +79,9 @@ def _cells(label: str, records: Records, rest: Any) -> list[tuple[str, Any, floa
         shape = records.dtype[field].shape
         for place in np.ndindex(*shape):
             name = " ".join((label, field, *map(str, place)))
-            out.append((name, records[field][(slice(None), *place)], float(rest[field][place] if shape else rest[field])))
+            out.append(
+                (name, records[field][(slice(None), *place)], float(rest[field][place] if shape else rest[field]))
+            )
     return out
 
 

@@ -1,14 +1,16 @@
 """The amplifier's gain, current over command voltage, by the motor that is stalled (Bevly 1997, 4.3.4), or else in motion."""
 
-from typing import Final
+from typing import Final, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
 from ...types import Floats
 from .estimate import Estimate
 from .motion import Motion
 from .samples import JointSamples
 
+Mask: TypeAlias = npt.NDArray[np.bool_]
 NEEDS: Final = "command voltage and current (or sensed torque), at two or more voltages"
 LEAST_STALL: Final = 40
 """Samples at rest under a voltage."""
@@ -18,9 +20,7 @@ RESAMPLES: Final = 200
 BLOCKS: Final = 40
 
 
-def amplifier_gain(
-    samples: JointSamples, motion: Motion, torque_per_current: float | None, seed: int = 0
-) -> Estimate:
+def amplifier_gain(samples: JointSamples, motion: Motion, torque_per_current: float | None, seed: int = 0) -> Estimate:
     """The slope of current over voltage, with an offset for the sensor's zero.
 
     At rest, currents are compared with voltages as they are. In motion, speed is a third variable, so that back-EMF does not count as
@@ -54,22 +54,19 @@ def amplifier_gain(
     return _missing()
 
 
-def _calm(command: Floats) -> Floats:
+def _calm(command: Floats) -> Mask:
     """Whether the voltage is that of the samples around."""
     same = np.abs(np.diff(command, prepend=command[0])) < 1e-3 * float(np.abs(command).max() + 1e-300)
-    calm: Floats = same & np.roll(same, -1)
-    return calm
+    return same & np.roll(same, -1)
 
 
-def _tells(command: Floats, mask: Floats) -> bool:
+def _tells(command: Floats, mask: Mask) -> bool:
     if int(np.count_nonzero(mask)) < LEAST_STALL:
         return False
     return bool(np.ptp(command[mask]) > SPREAD * np.abs(command).max() > 0.0)
 
 
-def _slope(
-    command: Floats, current: Floats, mask: Floats, others: Floats, method: str, seed: int
-) -> Estimate:
+def _slope(command: Floats, current: Floats, mask: Mask, others: Floats, method: str, seed: int) -> Estimate:
     """Median of means: the regression over resampled blocks of the samples, without those far off."""
     design = np.column_stack((command, others))[mask]
     right = current[mask]

@@ -13,21 +13,29 @@ LEAST_PART: Final = 0.02
 """Of the samples must lie at each end of the play."""
 APART: Final = 4.0
 """Ends must be so many standard deviations of the noise apart, or there is no play to see."""
+NEARER: Final = (0.3, 0.15, 0.08, 0.04, 0.04)
+"""Part of the play within which samples count as at its ends, round by round: those that cross it are sorted out."""
 BLOCK_TIME: Final = 0.25
 """Samples that are resampled together [s]: a side of the play is kept for a while."""
 RESAMPLES: Final = 100
 
 
-def backlash(samples: JointSamples, seed: int = 0) -> Estimate:
+def backlash(samples: JointSamples, speed: Floats, seed: int = 0) -> Estimate:
     """Play from the angles on both sides of the gear: the distance of the two places where their difference stays.
 
     The load lies at one end of the play while it is pushed and at the other while it is pulled; the most frequent difference in each
-    half of the differences is that end, whatever crosses between them and whatever noise widens them.
+    half of the differences is that end, whatever crosses between them and whatever noise widens them. Where one sensor is late, the
+    difference holds speed times that time, which is taken off first.
+
+    Args:
+        samples: Evenly spaced, of one joint.
+        speed: Of the motor, at the joint's scale [rad/s].
+        seed: Of the bootstrap.
     """
     if samples.output_angle is None:
         return _missing("an angle measured behind the gear, and reversals")
-    gap = samples.output_angle - samples.angle
     noise = angle_noise(samples.output_angle) + angle_noise(samples.angle)
+    gap = _without_delay(samples.output_angle - samples.angle, speed, noise)
     ends = _ends(gap, noise)
     if ends is None:
         spread = float(np.quantile(gap, 0.99) - np.quantile(gap, 0.01))
@@ -48,11 +56,34 @@ def backlash(samples: JointSamples, seed: int = 0) -> Estimate:
     return Estimate("backlash", "rad", ends[1] - ends[0], float(np.std(draws)), float(low), float(high), method)
 
 
-def _ends(gap: Floats, noise: float) -> tuple[float, float] | None:
-    """The two differences that occur most, one in each half; None if they are not two."""
+def _without_delay(gap: Floats, speed: Floats, noise: float) -> Floats:
+    """Differences of two angles without the part of the speed in them, told from the samples near the ends of the play."""
+    for part in NEARER:
+        low, high = _halves(gap)
+        if min(low.size, high.size) < LEAST_PART * gap.size:
+            sides = np.ones((gap.size, 1))
+        else:
+            ends = _mode(low), _mode(high)
+            reach = max(part * (ends[1] - ends[0]), 3.0 * noise)
+            sides = np.column_stack([np.abs(gap - end) < reach for end in ends]).astype(np.float64)
+        near = sides.any(axis=1)
+        if float(np.ptp(speed[near])) == 0.0:
+            return gap
+        design = np.column_stack((speed, sides))[near]
+        gap = gap - np.linalg.lstsq(design, gap[near], rcond=None)[0][0] * speed
+    return gap
+
+
+def _halves(gap: Floats) -> tuple[Floats, Floats]:
+    """Differences below and above the middle of their range, sorted."""
     ordered = np.sort(gap)
     middle = float(ordered[0] + ordered[-1]) / 2
-    lower, upper = ordered[ordered < middle], ordered[ordered >= middle]
+    return ordered[ordered < middle], ordered[ordered >= middle]
+
+
+def _ends(gap: Floats, noise: float) -> tuple[float, float] | None:
+    """The two differences that occur most, one in each half; None if they are not two."""
+    lower, upper = _halves(gap)
     if min(lower.size, upper.size) < LEAST_PART * gap.size:
         return None
     ends = _mode(lower), _mode(upper)

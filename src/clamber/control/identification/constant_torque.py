@@ -71,9 +71,7 @@ def _episodes(samples: JointSamples, motion: Motion, torque: Floats) -> list[Epi
         if moving.size < 0.8 * (end - start) or abs(float(np.median(motion.speed[early]))) > 2 * motion.dead:
             continue
         last = slice(end - (end - start) // 4, end - 2)
-        early_speed, late_speed = (
-            sign * float(np.median(part)) for part in np.array_split(motion.speed[last], 2)
-        )
+        early_speed, late_speed = (sign * float(np.median(part)) for part in np.array_split(motion.speed[last], 2))
         steady = abs(late_speed - early_speed) * 2 < STEADY * late_speed
         speed = float(np.polyfit(samples.time[last] - samples.time[last][0], sign * samples.angle[last], 1)[0])
         first = _first_acceleration(samples, sign, start, end, late_speed)

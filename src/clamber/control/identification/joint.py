@@ -92,7 +92,8 @@ def identify_joint(
         rough = rough_estimates(samples, motion, torque)
         moved = fit.estimates
     estimates = tuple(
-        replace(estimate, stated=drivetrain.stated.get(estimate.name)) for estimate in (*moved, gain, backlash(samples, seed))
+        replace(estimate, stated=drivetrain.stated.get(estimate.name))
+        for estimate in (*moved, gain, backlash(samples, motion.speed, seed))
     )
     return IdentifiedJoint(samples, motion, torque, links, source, fit, rough, estimates)
 

@@ -50,9 +50,7 @@ class JointFit:
     """Root mean square of the torque not explained, over the windows [N m]."""
 
 
-def fit_joint(
-    samples: JointSamples, motion: Motion, torque: Floats, links: LinkLoad | None, seed: int = 0
-) -> JointFit:
+def fit_joint(samples: JointSamples, motion: Motion, torque: Floats, links: LinkLoad | None, seed: int = 0) -> JointFit:
     """Fit the equation of motion to evenly spaced samples.
 
     Args:
@@ -117,7 +115,8 @@ def _robust(rows: Rows, columns: list[int], lag: float, period: float) -> tuple[
     edge = max(1.345 * spread, 1e-9 * float(np.max(np.abs(right))), 1e-300)
 
     def off(x: Floats) -> Floats:
-        return design @ x[:-1] - rows.torques(x[-1] * period)
+        out: Floats = design @ x[:-1] - rows.torques(x[-1] * period)
+        return out
 
     def slopes(x: Floats) -> Floats:
         return np.column_stack((design, -period * rows.torques(x[-1] * period, 1)))

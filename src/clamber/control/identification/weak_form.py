@@ -66,10 +66,12 @@ def _phi(offset: Floats, width: float, derivative: int) -> Floats:
     size = 693.0 / 512.0 / half  # 1 / int (1 - s^2)^5
     u = 1.0 - s * s
     if derivative == 0:
-        return size * u**POWER
-    if derivative == 1:
-        return size / half * -2 * POWER * s * u ** (POWER - 1)
-    return size / half**2 * (4 * POWER * (POWER - 1) * s * s * u ** (POWER - 2) - 2 * POWER * u ** (POWER - 1))
+        out: Floats = size * u**POWER
+    elif derivative == 1:
+        out = size / half * -2 * POWER * s * u ** (POWER - 1)
+    else:
+        out = size / half**2 * (4 * POWER * (POWER - 1) * s * s * u ** (POWER - 2) - 2 * POWER * u ** (POWER - 1))
+    return out
 
 
 def _weighed(values: Floats, weights: Floats, kernel: Floats, picked: Floats) -> Floats:
@@ -81,9 +83,7 @@ def _weighed(values: Floats, weights: Floats, kernel: Floats, picked: Floats) ->
     return out
 
 
-def rows_of(
-    samples: JointSamples, motion: Motion, torque: Floats, links: LinkLoad | None, width: float
-) -> Rows | None:
+def rows_of(samples: JointSamples, motion: Motion, torque: Floats, links: LinkLoad | None, width: float) -> Rows | None:
     """The rows that evenly spaced samples give with windows of one width; None if there is no window in motion.
 
     Args:
@@ -98,7 +98,7 @@ def rows_of(
     reach = half + int(np.ceil(MOST_LAG)) + 1
     if half < LEAST_HALF or samples.time.size <= 2 * reach + 1:
         return None
-    kernel = np.arange(-reach, reach + 1) * period
+    kernel: Floats = np.arange(-reach, reach + 1) * np.float64(period)
     inside = (np.abs(np.arange(-reach, reach + 1)) <= half).astype(np.float64)
     picked = np.arange(reach, samples.time.size - reach, max(1, 2 * half // STRIDE)).astype(np.float64)
     turning = _weighed(motion.forward, inside, kernel, picked) / period / (2 * half + 1)
@@ -139,4 +139,6 @@ def _load(links: LinkLoad, curve: Floats, plain: Floats, kernel: Floats, picked:
 def _about_centre(angle: Floats, weights: Floats, kernel: Floats, picked: Floats) -> Floats:
     """Integrals of the angle from its value at the window's middle on: phi' and phi'' sum to zero only nearly."""
     period = kernel[1] - kernel[0]
-    return _weighed(angle, weights, kernel, picked) - angle[picked.astype(np.intp)] * float(np.sum(weights)) * period
+    still = angle[picked.astype(np.intp)] * float(np.sum(weights)) * float(period)
+    out: Floats = _weighed(angle, weights, kernel, picked) - still
+    return out

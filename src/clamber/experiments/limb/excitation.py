@@ -72,7 +72,9 @@ def record_log(
     noise = noise or SensorNoise()
     motor = limb.robot.motor
     if motor.amplifier_gain is None:
-        raise ExcitationError("motor.amplifier_gain", None, f"must be stated in {limb.robot.name}'s file: commands are volts")
+        raise ExcitationError(
+            "motor.amplifier_gain", None, f"must be stated in {limb.robot.name}'s file: commands are volts"
+        )
     stopped = flaws.with_changes(joint_limits=True, push=None, wall=None)
     plant = MujocoLimb(limb.chain, stopped, gears=limb.gears)
     plant.reset(limb.q0)
@@ -84,9 +86,7 @@ def record_log(
     return _log_of(np.array(rows), limb, flaws, noise, output_encoder)
 
 
-def _carry_out(
-    plant: MujocoLimb, limb: BenchLimb, j: int, drive: Drive, phase: Phase, rows: list[Floats]
-) -> None:
+def _carry_out(plant: MujocoLimb, limb: BenchLimb, j: int, drive: Drive, phase: Phase, rows: list[Floats]) -> None:
     """Run one phase of joint `j` to its end; the other joints are held where they are as it starts."""
     inertia = limb.chain.joints["rotor"]
     held = plant.truth().states[0, 0].copy()
@@ -105,7 +105,9 @@ def _carry_out(
         rows.append(np.concatenate((angles, true, asked, plant.truth().torques[0])))
         ticks += 1
         if len(rows) * plant.period > MOST_SECONDS:
-            raise ExcitationError("seconds", MOST_SECONDS, f"is not enough: {limb.chain.joint_names[j]} hangs in {phase.name}")
+            raise ExcitationError(
+                "seconds", MOST_SECONDS, f"is not enough: {limb.chain.joint_names[j]} hangs in {phase.name}"
+            )
 
 
 def _log_of(rows: Floats, limb: BenchLimb, flaws: LimbFlaws, noise: SensorNoise, output_encoder: bool) -> Log:
@@ -113,7 +115,7 @@ def _log_of(rows: Floats, limb: BenchLimb, flaws: LimbFlaws, noise: SensorNoise,
     motor, n = limb.robot.motor, limb.chain.n
     assert motor.amplifier_gain is not None  # checked before the run
     per_current = motor.torque_constant * limb.gears
-    columns: dict[str, Floats] = {"time": np.arange(len(rows)) * flaws.period}
+    columns: dict[str, Floats] = {"time": np.arange(len(rows)) * np.float64(flaws.period)}
     units = {"time": "s"}
     for j, name in enumerate(limb.chain.joint_names):
         angle, true, asked, given = rows.reshape(-1, 4, n)[:, :, j].T
