@@ -46,6 +46,8 @@ def parse_csv(text: str, label: str) -> Log:
         rows = [row for row in csv.reader(lines[start:], delimiter=separator, skipinitialspace=True) if any(row)]
     except csv.Error as error:
         raise LogError(label, None, None, None, f"is not valid CSV: {error}") from None
+    if not rows:
+        raise LogError(label, None, None, None, "is empty; the first line names the columns, such as 'time [s]'")
     titles = rows.pop(0)
     while titles and not titles[-1].strip():  # a separator at the end of the line names nothing
         titles.pop()

@@ -88,10 +88,9 @@ def samples_of(log: Log, mapping: Mapping[str, str] | None = None) -> LimbSample
     _check_time(log, found["", "time"], time)
     names = list(dict.fromkeys(joint for joint, role in found if role == "angle"))
     if not names:
-        raise LogError(
-            log.label, None, None, None,
-            f"no column is a joint's angle; name it 'NAME angle [rad]' or state which is; there are {describe_choices('angle', log.columns)}",
-        )  # fmt: skip
+        known = describe_choices("angle", log.columns)
+        allowed = f"no column is a joint's angle; name it 'NAME angle [rad]' or state which is; there are {known}"
+        raise LogError(log.label, None, None, None, allowed)
     out = []
     for joint in names:
         fields: dict[str, Floats] = {}

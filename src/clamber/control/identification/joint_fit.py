@@ -154,7 +154,8 @@ def _bootstrap(rows: Rows, columns: list[int], lag: float, weights: Floats, seed
 def _estimate(k: int, value: float, draws: Floats, width: float, reach: float) -> Estimate:
     """`reach` is the largest part of the torques that one unit of the parameter makes."""
     error = float(draws.std())
-    if error > VAGUE * abs(value) and error * reach > SMALL:
+    nearly_zero = k > 0 and error * reach <= SMALL  # an inertia of nearly 0 would only mean that nothing accelerates
+    if error > VAGUE * abs(value) and not nearly_zero:
         return _missing(k)
     low, high = np.quantile(draws, (0.025, 0.975))
     return Estimate(

@@ -60,7 +60,7 @@ class Rows:
 
 
 def _phi(offset: Floats, width: float, derivative: int) -> Floats:
-    """phi or a derivative of it by time; its integral is 1."""
+    """The function phi or a derivative of it by time; its integral is 1."""
     half = width / 2
     s = np.clip(offset / half, -1.0, 1.0)
     size = 693.0 / 512.0 / half  # 1 / int (1 - s^2)^5
