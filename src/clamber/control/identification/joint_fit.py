@@ -22,6 +22,8 @@ VAGUE: Final = 0.3
 """A parameter whose standard error is a larger part of it is not told by the log,"""
 SMALL: Final = 0.02
 """unless what that error makes is a smaller part of the largest torque: then the parameter is told to be nearly 0."""
+ALONE: Final = 1e-3
+"""A regressor of which the others make up all but this part has no value of its own."""
 RESAMPLES: Final = 300
 BLOCK: Final = 8 * STRIDE
 """Rows that are resampled together, for neighbours share samples: eight windows."""
@@ -79,8 +81,11 @@ def fit_joint(samples: JointSamples, motion: Motion, torque: Floats, links: Link
     whole[columns] = values
     residual = rows.torques(lag) - rows.regressors @ whole
     reach = np.abs(rows.regressors).max(axis=0) / max(float(np.abs(rows.torques(lag)).max()), 1e-300)
+    alone = _alone(rows.regressors[:, columns])
     estimates = tuple(
-        _estimate(k, whole[k], draws[:, columns.index(k)], rows.width, reach[k]) if k in columns else _missing(k)
+        _estimate(k, whole[k], draws[:, columns.index(k)], rows.width, reach[k])
+        if k in columns and alone[columns.index(k)] > ALONE
+        else _missing(k)
         for k in range(4)
     )
     return JointFit(estimates, lag, whole, rows, float(np.sqrt(np.mean(residual**2))))
@@ -89,6 +94,16 @@ def fit_joint(samples: JointSamples, motion: Motion, torque: Floats, links: Link
 def _columns(rows: Rows) -> list[int]:
     forward = float(np.mean(rows.sign > 0.0))
     return [0, 1, 2, 3] if min(forward, 1.0 - forward) >= BOTH_WAYS else [0, 1, 2]
+
+
+def _alone(design: Floats) -> Floats:
+    """Part of each column that the others together do not make up."""
+    scaled = design / np.maximum(np.linalg.norm(design, axis=0), 1e-300)
+    out = np.empty(design.shape[1])
+    for k in range(out.size):
+        others = np.delete(scaled, k, axis=1)
+        out[k] = np.linalg.norm(scaled[:, k] - others @ np.linalg.lstsq(others, scaled[:, k], rcond=None)[0])
+    return out
 
 
 def _first_lag(rows: Rows, columns: list[int], period: float) -> float:
