@@ -103,3 +103,14 @@ def test_all_six_joints_come_within_five_percent_whatever_the_seed(limb: str, se
 def test_a_limb_that_is_not_as_its_file_says_is_told_as_it_is(limb: str) -> None:
     log = recorded(limb, 11, friction=1.5, damping=0.7, backlash=1 * DEGREE)
     assert_within(identify_log(log), 0.05, friction=1.5, damping=0.7, backlash=0.5)
+
+
+def test_a_stated_torque_constant_keeps_the_robots_gear_and_scales_what_torques_give() -> None:
+    log = recorded("right", 0)
+    once, twice = (
+        identify_log(log, joints=("right shoulder",), known=Known(torque_constant=constant)).joints[0]
+        for constant in (0.0138, 0.0276)
+    )
+    assert once.torque is not None and twice.torque is not None
+    np.testing.assert_allclose(twice.torque, 2 * once.torque, rtol=1e-12)
+    assert once.estimates[1].difference == pytest.approx(0.0, abs=0.05)

@@ -23,7 +23,7 @@ def identify(
         typer.Option(
             "--column",
             metavar="COLUMN=ROLE",
-            help="What a column is, such as 'pos_3=left elbow angle [deg]'; repeat it.",
+            help="What a column is, such as 'pos_3=left elbow angle (deg)'; repeat it.",
         ),
     ] = None,
     time: Annotated[Column, typer.Option(metavar="COLUMN", help="The column of time.")] = None,

@@ -48,11 +48,13 @@ class Known:
         return cls(torque_constant=constant, gear=gear, gain=amplifier)
 
     def over(self, drivetrain: Drivetrain) -> Drivetrain:
-        """A drivetrain with what is stated here; a torque constant without a gear is that of a motor without one."""
-        scale = drivetrain.torque_per_current
-        if self.torque_constant is not None:
-            scale = self.torque_constant * (self.gear or 1.0)
-        return replace(drivetrain, torque_per_current=scale, amplifier_gain=self.gain or drivetrain.amplifier_gain)
+        """A drivetrain with what is stated here."""
+        return replace(
+            drivetrain,
+            torque_constant=self.torque_constant or drivetrain.torque_constant,
+            gear=self.gear or drivetrain.gear,
+            amplifier_gain=self.gain or drivetrain.amplifier_gain,
+        )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -205,6 +207,6 @@ def _drivetrains(robot: LimbedRobot, limb: str, chain: Chain) -> dict[str, Drive
         if motor.amplifier_gain is not None:
             said["amplifier gain"] = motor.amplifier_gain
         out[name] = Drivetrain(
-            torque_per_current=motor.torque_constant * joint.gear, amplifier_gain=motor.amplifier_gain, stated=said
+            torque_constant=motor.torque_constant, gear=joint.gear, amplifier_gain=motor.amplifier_gain, stated=said
         )
     return out

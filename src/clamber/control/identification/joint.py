@@ -23,12 +23,19 @@ NO_TORQUE: Final = "torque, or current with the motor's torque constant and gear
 class Drivetrain:
     """What is known beforehand of a joint's motor; None where it is not."""
 
-    torque_per_current: float | None = None
-    """k_t N at the joint [N m/A]."""
+    torque_constant: float | None = None
+    """Motor torque per current, before the gear [N m/A]."""
+    gear: float | None = None
+    """Motor turns per joint turn; None: as if there were no gear [-]."""
     amplifier_gain: float | None = None
     """Taken where a log has voltages and no currents [A/V]."""
     stated: Mapping[str, float] = field(default_factory=dict)
     """Parameter -> what the robot's file says."""
+
+    @property
+    def torque_per_current(self) -> float | None:
+        """k_t N at the joint [N m/A]."""
+        return None if self.torque_constant is None else self.torque_constant * (self.gear or 1.0)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
