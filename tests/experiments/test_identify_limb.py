@@ -4,12 +4,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from clamber.control.law_settings import LawSettings
 from clamber.execution.log import Log
 from clamber.execution.log_files import read_log, write_log
 from clamber.execution.log_identify import Identification, Known, identify_log
 from clamber.execution.log_roles import samples_of
+from clamber.execution.log_trace import trace_log
 from clamber.experiments.limb.bench_limb import bench_limb
+from clamber.experiments.limb.contest import Entry, run_contest
 from clamber.experiments.limb.excitation import ExcitationError, SensorNoise, record_log
+from clamber.experiments.limb.scenario import circle_scenario
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.units import DEGREE
 
@@ -114,3 +118,24 @@ def test_a_stated_torque_constant_keeps_the_robots_gear_and_scales_what_torques_
     assert once.torque is not None and twice.torque is not None
     np.testing.assert_allclose(twice.torque, 2 * once.torque, rtol=1e-12)
     assert once.estimates[1].difference == pytest.approx(0.0, abs=0.05)
+
+
+@pytest.mark.slow
+def test_weight_is_taken_off_an_upright_limb_and_noticed_where_it_is_not() -> None:
+    limb = bench_limb("libra", "left", upright=True)
+    log = record_log(limb, LimbFlaws(backlash=2 * DEGREE, encoder_counts=400, upright=True))
+    assert_within(identify_log(log), 0.05)
+    assert not any("pulled one way" in note for note in identify_log(log).notes)
+    unsaid = Log(log.columns, log.units, {"robot": "libra", "limb": "left"}, "log")
+    assert any("left shoulder is pulled one way" in note for note in identify_log(unsaid).notes)
+
+
+def test_a_run_of_the_bench_is_identified_as_it_was_logged() -> None:
+    limb = bench_limb(start=(0.27, 0.0))
+    scenario = circle_scenario(limb, 200.0, lap=3.0, laps=3)
+    entries = [Entry("scct", LawSettings(law="scct", kp=200.0, kd=10.0))]
+    trace = run_contest(limb, scenario, entries, LimbFlaws(encoder_counts=400))[0].trace
+    found = identify_log(trace_log(trace, notes={"robot": "libra", "limb": "right"}))
+    for joint in found.joints:
+        for estimate in joint.estimates[:3]:
+            assert estimate.difference == pytest.approx(0.0, abs=0.05), (joint.samples.name, estimate)

@@ -18,6 +18,10 @@ from ..units import parse_quantity
 from .log import Log, LogError
 from .log_roles import LimbSamples, samples_of
 
+CLEAR: Final = 5.0
+"""An offset of so many standard errors"""
+PULL_PART: Final = 0.1
+"""and this part of the friction is spoken of."""
 UNITS_OF_FILE: Final = {"inertia": "inertia", "damping": "damping", "friction": "friction"}
 """Parameter -> key of a joint in a robot's file."""
 
@@ -125,7 +129,7 @@ def identify_log(
         mapping: Column -> what it is (`log_roles.samples_of`).
         joints: Only these of the log's; all if empty.
         known: Of the motors, before what the robot's file says.
-        upright: Whether weight acts on the links.
+        upright: Whether weight acts on the links; so it does where the log's notes say so.
         seed: Of the bootstrap.
 
     Raises:
@@ -135,6 +139,7 @@ def identify_log(
     found = samples_of(log, mapping)
     known = known or Known()
     robot = robot or log.notes.get("robot")
+    upright = upright or log.notes.get("upright") == "yes"
     notes = list(found.notes)
     chain, stated = None, {}
     name = None
@@ -174,7 +179,23 @@ def identify_log(
         if joints and samples.name not in joints:
             continue
         found_joints.append(identify_joint(samples, motion, load, drivetrain, seed))
+    notes += [note for joint in found_joints if (note := _pull_note(joint, upright=upright))]
     return Identification(log.label, robot, name, tuple(found_joints), tuple(notes))
+
+
+def _pull_note(joint: IdentifiedJoint, *, upright: bool) -> str | None:
+    """What to think of where something pulls a joint one way, by more than noise and a good part of its friction."""
+    pull, friction = joint.estimates[3], joint.estimates[2]
+    if pull.value is None or pull.error is None or friction.value is None:
+        return None
+    if abs(pull.value) < max(CLEAR * pull.error, PULL_PART * abs(friction.value)):
+        return None
+    why = (
+        "friction that differs by direction, or a sensor's zero"
+        if upright
+        else "weight (state --upright), or a sensor's zero"
+    )
+    return f"{joint.samples.name} is pulled one way by {pull.value:.2g} N m: {why}"
 
 
 def _limb_of(robot: str, limb: str | None, found: LimbSamples) -> tuple[LimbedRobot, str]:

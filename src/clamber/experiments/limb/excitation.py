@@ -127,6 +127,8 @@ def _log_of(rows: Floats, limb: BenchLimb, flaws: LimbFlaws, noise: SensorNoise,
             columns[f"{name} output angle"] = true + noise.output_angle * rng.standard_normal(len(rows))
             units[f"{name} output angle"] = "rad"
     notes = {"robot": limb.robot.name, "limb": limb.name, "seed": str(noise.seed)}
+    if flaws.upright:
+        notes["upright"] = "yes"
     return Log(columns, units, notes, "simulated log")
 
 
