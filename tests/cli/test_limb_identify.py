@@ -80,3 +80,14 @@ def test_bad_input_is_named_and_nothing_is_written(
     assert main_or_exit("limb", *(word.replace("{log}", str(log)) for word in words)) == 2
     assert message in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_log_that_tells_nothing_says_what_it_would_need_and_leaves_with_one(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    still = tmp_path / "still.csv"
+    still.write_text("time [ms],q [deg]\n" + "".join(f"{5 * k},30\n" for k in range(100)))
+    assert main_or_exit("limb", "identify", str(still)) == 1
+    text = capsys.readouterr().out
+    assert "inertia: not in this log: needs torque" in text
+    assert "backlash: not in this log: needs an angle measured behind the gear" in text

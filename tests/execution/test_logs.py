@@ -30,7 +30,6 @@ def logs(draw: st.DrawFn) -> Log:
     columns = {name: np.array(draw(st.lists(NUMBERS, min_size=rows, max_size=rows))) for name in names}
     if "time" not in columns:
         columns["time"] = np.arange(float(rows))
-    columns["time"] = np.abs(columns["time"]) % 1e6
     units = {name: draw(st.sampled_from(("rad", "N m", "deg/s"))) for name in names if draw(st.booleans())}
     return Log(columns, units, {"robot": "libra"}, "log")
 

@@ -13,6 +13,9 @@ TOPIC: Final = "limb"
 TIME: Final = "time"
 """Column that gives the messages their time [s]; a file without it gets the messages' own time."""
 
+LATEST: Final = 2**64 - 1
+"""Largest time that a message can have [ns]."""
+
 
 def mcap_bytes(log: Log, topic: str = TOPIC) -> bytes:
     """The bytes of an MCAP file of a log: one channel, whose messages hold one number a column under its title."""
@@ -30,7 +33,7 @@ def mcap_bytes(log: Log, topic: str = TOPIC) -> bytes:
         writer.add_metadata("clamber", dict(log.notes))
     times = log.columns[TIME] if TIME in log.columns else np.arange(log.rows, dtype=np.float64)
     for k, row in enumerate(np.column_stack([np.asarray(v) for v in log.columns.values()]).tolist()):
-        stamp = max(0, round(float(times[k]) * 1e9))
+        stamp = min(max(0, round(float(times[k]) * 1e9)), LATEST)
         data = json.dumps(dict(zip(titles, row, strict=True))).encode()
         writer.add_message(channel, stamp, data, stamp, k)
     writer.finish()  # type: ignore[no-untyped-call]
