@@ -3,8 +3,10 @@
 import typer
 
 from .limb_circle import circle
+from .limb_identify import identify
 from .limb_open_loop import open_loop
 from .limb_push import push
+from .limb_record import record
 from .limb_step import step
 
 limb = typer.Typer(help="Compare Cartesian controllers on one geared limb.", no_args_is_help=True)
@@ -12,3 +14,5 @@ limb.command("step")(step)
 limb.command("circle")(circle)
 limb.command("push")(push)
 limb.command("open-loop")(open_loop)
+limb.command("identify")(identify)
+limb.command("record")(record)

@@ -98,6 +98,9 @@ class LimbFlaws:
     """Whether weight acts."""
     motor_limits: bool = True
     """Whether the motors have their torque limits and torque-speed lines."""
+    joint_limits: bool = False
+    """Whether hard stops at the robot's joint limits hold the motors' side. Off by default: the published circle of 5 cm about (0.22, 0)
+    asks for an elbow of 115.6 deg, or -111.9 deg on the other branch, beyond the printed 110 deg."""
     seed: int | None = None
     """Draws each joint's side of its play at the start, its encoder's phase, noise and model error; None: mid-play, no noise."""
     speed_noise: float = 0.0

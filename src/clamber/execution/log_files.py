@@ -1,0 +1,65 @@
+"""Log files by their suffix: .csv and .mcap in, the same out, written whole."""
+
+from pathlib import Path
+from typing import Final
+
+from ..errors import FileError
+from ..files import write_atomically
+from .log import Log
+from .log_csv import csv_text, parse_csv
+from .log_mcap import TOPIC, mcap_bytes, parse_mcap
+
+SUFFIXES: Final = (".csv", ".mcap")
+MOST_BYTES: Final = 512 * 1024 * 1024
+"""Largest log that is read [bytes]."""
+
+
+def check_log_suffix(path: Path) -> str:
+    """The suffix of a log file's name, in lower case.
+
+    Raises:
+        FileError: If it is none of `SUFFIXES`.
+    """
+    suffix = path.suffix.lower()
+    if suffix not in SUFFIXES:
+        raise FileError(str(path), f"no log has the suffix '{suffix}'", f"allowed are {', '.join(SUFFIXES)}")
+    return suffix
+
+
+def read_log(path: Path, topic: str | None = None) -> Log:
+    """A log from a file.
+
+    Args:
+        path: A .csv or .mcap file.
+        topic: Channel of an MCAP file; None: the only one, or "limb".
+
+    Raises:
+        FileError: If it cannot be read.
+        LogError: If it is no log.
+    """
+    suffix, name = check_log_suffix(path), str(path)
+    try:
+        if not path.exists():
+            raise FileError(name, "does not exist", "name a .csv or .mcap file")
+        if path.is_dir():
+            raise FileError(name, "is a folder", "name a file")
+        if (size := path.stat().st_size) > MOST_BYTES:
+            raise FileError(name, f"has {size} bytes", f"at most {MOST_BYTES} are read")
+        content = path.read_bytes()
+        if suffix == ".mcap":
+            return parse_mcap(content, name, topic)
+        return parse_csv(content.decode("utf-8-sig"), name)
+    except UnicodeDecodeError as error:
+        raise FileError(name, f"is not UTF-8 (byte {error.start})", "save it as UTF-8 text") from None
+    except (OSError, ValueError) as error:
+        raise FileError(name, f"cannot be read ({error})", "name a readable file") from None
+
+
+def write_log(log: Log, path: Path, topic: str = TOPIC) -> None:
+    """Write a log as its file's suffix says, whole or not at all.
+
+    Raises:
+        FileError: If the suffix is none of `SUFFIXES`, or the file cannot be written.
+    """
+    suffix = check_log_suffix(path)
+    write_atomically(path, mcap_bytes(log, topic) if suffix == ".mcap" else csv_text(log))

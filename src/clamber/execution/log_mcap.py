@@ -1,0 +1,126 @@
+"""Logs as MCAP: JSON messages under a JSON schema, one a sample, as Foxglove and PlotJuggler open them."""
+
+import io
+import json
+from typing import Any, Final
+
+import numpy as np
+
+from .log import Log, LogError, build_log
+
+TOPIC: Final = "limb"
+"""Channel of a log that Clamber writes."""
+TIME: Final = "time"
+"""Column that gives the messages their time [s]; a file without it gets the messages' own time."""
+
+LATEST: Final = 2**64 - 1
+"""Largest time that a message can have [ns]."""
+
+
+def mcap_bytes(log: Log, topic: str = TOPIC) -> bytes:
+    """The bytes of an MCAP file of a log: one channel, whose messages hold one number a column under its title."""
+    from mcap.writer import Writer
+
+    out = io.BytesIO()
+    writer = Writer(out)
+    writer.start(profile="", library="clamber")
+    titles = log.titles()
+    properties = {title: {"type": "number"} for title in titles}
+    schema = {"title": "clamber.Log", "type": "object", "properties": properties}
+    number = writer.register_schema("clamber.Log", "jsonschema", json.dumps(schema).encode())
+    channel = writer.register_channel(topic, "json", number)
+    if log.notes:
+        writer.add_metadata("clamber", dict(log.notes))
+    times = log.columns[TIME] if TIME in log.columns else np.arange(log.rows, dtype=np.float64)
+    for k, row in enumerate(np.column_stack([np.asarray(v) for v in log.columns.values()]).tolist()):
+        stamp = min(max(0, round(float(times[k]) * 1e9)), LATEST)
+        data = json.dumps(dict(zip(titles, row, strict=True))).encode()
+        writer.add_message(channel, stamp, data, stamp, k)
+    writer.finish()  # type: ignore[no-untyped-call]
+    return out.getvalue()
+
+
+def parse_mcap(content: bytes, label: str, topic: str | None = None) -> Log:
+    """The log of an MCAP file's bytes: the numbers of one channel's JSON messages, nested ones by dotted names.
+
+    Args:
+        content: The file.
+        label: What errors call it.
+        topic: Channel to read; None: the only one, or the one called `TOPIC`.
+
+    Raises:
+        LogError: If it is no MCAP file, no such channel is in it, or its messages are not JSON with the same numbers each.
+    """
+    try:
+        encodings, messages, notes = _read(content)
+    except Exception as error:  # the reader raises whatever a broken record makes of its struct, codec or index
+        what = f"is not a readable MCAP file ({type(error).__name__}: {error})"
+        raise LogError(label, None, None, None, what[:300]) from None
+    chosen = _choose(encodings, topic, label)
+    rows: list[dict[str, float]] = []
+    for k, (_, data) in enumerate(messages[chosen], start=1):
+        flat: dict[str, float] = {}
+        try:
+            _flatten(json.loads(data), "", flat)
+        except (ValueError, RecursionError, OverflowError) as error:
+            raise LogError(label, chosen, k, None, f"is not valid JSON: {str(error)[:200]}") from None
+        rows.append(flat)
+    titles = list(rows[0])
+    if not titles:
+        raise LogError(label, chosen, 1, None, "must be an object that holds numbers")
+    for k, flat in enumerate(rows, start=1):
+        if flat.keys() != rows[0].keys():
+            odd = sorted(flat.keys() ^ rows[0].keys())[0]
+            raise LogError(
+                label, odd, k, "there" if odd in flat else "missing", "every message must hold the same numbers"
+            )
+    table = np.array([[flat[title] for title in titles] for flat in rows])
+    columns = list(table.T.copy())
+    if not any(title.split("[")[0].strip().lower() in ("time", "timestamp", "t") for title in titles):
+        titles.insert(0, "time [s]")
+        stamps = np.array([stamp - messages[chosen][0][0] for stamp, _ in messages[chosen]], dtype=np.float64)
+        columns.insert(0, stamps * 1e-9)
+    return build_log(titles, columns, notes, label)
+
+
+def _read(content: bytes) -> tuple[dict[str, str], dict[str, list[tuple[int, bytes]]], dict[str, str]]:
+    """Topic -> encoding, topic -> times and data of its messages, and notes."""
+    from mcap.reader import make_reader
+
+    reader = make_reader(io.BytesIO(content), validate_crcs=True)
+    notes: dict[str, str] = {}
+    for record in reader.iter_metadata():
+        if record.name == "clamber":
+            notes |= record.metadata
+    encodings: dict[str, str] = {}
+    messages: dict[str, list[tuple[int, bytes]]] = {}
+    for _, channel, message in reader.iter_messages():
+        encodings[channel.topic] = channel.message_encoding
+        messages.setdefault(channel.topic, []).append((message.log_time, message.data))
+    return encodings, messages, notes
+
+
+def _choose(encodings: dict[str, str], topic: str | None, label: str) -> str:
+    if not encodings:
+        raise LogError(label, None, None, None, "holds no messages")
+    if topic is None:
+        topic = next(iter(encodings)) if len(encodings) == 1 else TOPIC
+    if topic not in encodings:
+        raise LogError(
+            label, None, None, f"channel '{topic}'", f"no such channel; name one: {', '.join(encodings)[:400]}"
+        )
+    if encodings[topic] != "json":
+        raise LogError(label, None, None, f"channel '{topic}' is encoded as '{encodings[topic]}'", "must be 'json'")
+    return topic
+
+
+def _flatten(value: Any, name: str, out: dict[str, float]) -> None:
+    """Collect the numbers of a message under dotted names; texts and truth values are left out."""
+    if isinstance(value, dict):
+        for key, inner in value.items():
+            _flatten(inner, f"{name}.{key}" if name else key, out)
+    elif isinstance(value, list):
+        for k, inner in enumerate(value):
+            _flatten(inner, f"{name}.{k}" if name else str(k), out)
+    elif isinstance(value, int | float) and not isinstance(value, bool):
+        out[name] = float(value)
