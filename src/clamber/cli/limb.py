@@ -3,6 +3,7 @@
 import typer
 
 from .limb_circle import circle
+from .limb_force import force
 from .limb_identify import identify
 from .limb_open_loop import open_loop
 from .limb_push import push
@@ -16,3 +17,4 @@ limb.command("push")(push)
 limb.command("open-loop")(open_loop)
 limb.command("identify")(identify)
 limb.command("record")(record)
+limb.command("force")(force)

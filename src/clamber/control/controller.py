@@ -56,8 +56,8 @@ FLOAT: Final = np.dtype(np.float64)
 
 
 def memory_length(n: int) -> int:
-    """Numbers that a law remembers for a chain of `n` joints, at most."""
-    return 1 + max(2 * max(n, AXES), n + 12)
+    """Numbers that a controller remembers for a chain of `n` joints: its law's, then by joint the torque loop's and the last motion's."""
+    return 1 + max(2 * max(n, AXES), n + 12) + 2 * n
 
 
 class Controller:
@@ -118,13 +118,17 @@ class Controller:
         """Forget what the laws remember."""
         self._memory[:] = 0.0
 
-    def command(self, aims: Records, states: Floats, wrenches: Floats | None = None) -> Floats:
+    def command(
+        self, aims: Records, states: Floats, wrenches: Floats | None = None, mounts: Floats | None = None
+    ) -> Floats:
         """Joint torques of one tick.
 
         Args:
             aims: Records of `AIM`, shape (1,) for all or (batch,).
             states: Sensed joint angles and speeds, shape (batch, 2, n) [rad], [rad/s].
             wrenches: Sensed wrench of each limb on what it touches, base frame, shape (batch, 6) [N], [N m]; None: nothing felt.
+            mounts: Sensed wrench of each limb on its mount, about the origin of the base frame, shape (batch, 6) [N], [N m]; None: nothing
+                felt. Only a law whose `torque_sensor` is the base reads it.
 
         Returns:
             Torques within the motors' limits, shape (batch, n) [N m]: the controller's own array, overwritten by the next tick.
@@ -135,6 +139,7 @@ class Controller:
             ShapeError: If something is not an array of this shape and kind, nor numbers that make one.
         """
         felt = self._nothing_felt if wrenches is None else wrenches
+        carried = self._nothing_felt if mounts is None else mounts
         try:  # as cheap as can be: the rest is done only if something is not as it should be
             ready = (
                 states.shape == self._state_shape
@@ -143,6 +148,9 @@ class Controller:
                 and felt.shape == self._felt_shape
                 and felt.dtype is FLOAT
                 and felt.flags.c_contiguous
+                and carried.shape == self._felt_shape
+                and carried.dtype is FLOAT
+                and carried.flags.c_contiguous
                 and aims.shape in self._aim_shapes
                 and aims.dtype is AIM
                 and aims.flags.c_contiguous
@@ -152,10 +160,11 @@ class Controller:
         if not ready:
             states = self._as_floats("states", states, self._state_shape)
             felt = self._as_floats("wrenches", felt, self._felt_shape)
+            carried = self._as_floats("mounts", carried, self._felt_shape)
             aims = self._as_aims(aims)
-        bad = drive_at(self._desk, aims, states, felt)
+        bad = drive_at(self._desk, aims, states, felt, carried)
         if bad >= 0:
-            self._complain(bad, aims, states, felt)
+            self._complain(bad, aims, states, felt, carried)
         return self.torques
 
     def explain(self, limb: int = 0) -> str:
@@ -187,14 +196,15 @@ class Controller:
         out: Records = np.ascontiguousarray(aims).view(AIM)
         return out
 
-    def _complain(self, bad: int, aims: Records, states: Floats, wrenches: Floats) -> None:
+    def _complain(self, bad: int, aims: Records, states: Floats, wrenches: Floats, mounts: Floats) -> None:
         for row, quantity in enumerate(("angle", "speed")):
             for name, value in zip(self.chain.joint_names, states[bad, row], strict=True):
                 if not np.isfinite(value):
                     raise MeasurementError(self.chain.name, f"{quantity} of the {name}", float(value), bad)
-        for axis, value in zip(["Fx", "Fy", "Fz", "Mx", "My", "Mz"], wrenches[bad], strict=True):
-            if not np.isfinite(value):
-                raise MeasurementError(self.chain.name, f"wrench {axis}", float(value), bad)
+        for where, wrench in (("wrench", wrenches), ("wrench on the mount", mounts)):
+            for axis, value in zip(["Fx", "Fy", "Fz", "Mx", "My", "Mz"], wrench[bad], strict=True):
+                if not np.isfinite(value):
+                    raise MeasurementError(self.chain.name, f"{where} {axis}", float(value), bad)
         aim = aims[bad if aims.size > 1 else 0]
         for quantity in AIM.names or ():
             for value in np.ravel(aim[quantity]):

@@ -24,7 +24,7 @@ DESK = 14
 
 
 @kernel
-def drive_at(desk, aims, states, wrenches):
+def drive_at(desk, aims, states, wrenches, mounts):
     """`drive` with the arrays whose addresses are in `desk`; their owner keeps them alive."""
     n = desk[JOINTS]
     batch = states.shape[0]
@@ -36,6 +36,7 @@ def drive_at(desk, aims, states, wrenches):
         aims,
         states,
         wrenches,
+        mounts,
         carray(pointer(desk[3]), (batch, desk[MEMORY]), np.float64),
         carray(pointer(desk[4]), (2 * n, FRAME), np.float64),
         carray(pointer(desk[5]), (LINES, desk[LENGTH]), np.float64),

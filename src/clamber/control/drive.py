@@ -4,6 +4,7 @@ import math
 
 from ..compiled import inlined, kernel
 from .admittance import admittance
+from .friction import feed_friction
 from .hybrid import hybrid
 from .implicit_admittance import implicit_admittance
 from .implicit_force import implicit_force
@@ -15,6 +16,8 @@ from .moment import (
     BIAS,
     DRIFT,
     ERROR,
+    FELT,
+    LINK,
     REST,
     SHARE,
     SPARE,
@@ -24,14 +27,15 @@ from .moment import (
     TORQUE,
     WANTED_ACCELERATION,
     WANTED_FORCE,
-    WANTED_RATE,
     fill_moment,
+    into_task,
     lean,
     pull_back,
 )
 from .operational_space import operational_space
 from .resolved_rate import resolved_rate, resolved_rate_plain
 from .scct import scct
+from .torque_loop import AT_BASE, AT_WRIST, NOWHERE, add_friction_felt, link_torques_by_wrist, read_mount, sum_up
 
 JACOBIAN_TRANSPOSE = 1
 OPERATIONAL_SPACE = 2
@@ -43,13 +47,6 @@ SCCT = 7
 IMPLICIT_ADMITTANCE = 8
 HYBRID = 9
 IMPLICIT_FORCE = 10
-
-FROM_AIM = 0
-"""Friction is fed forward by the speed that the aim asks for."""
-FROM_MEASURED = 1
-"""By the measured speed."""
-FROM_TORQUE = 2
-"""By the direction in which the law pulls."""
 
 
 @inlined
@@ -77,7 +74,7 @@ def _follow(law, joints, root, settings, aim, q, qd, memory, frames, lines, squa
 
 
 @kernel
-def drive(joints, root, settings, aims, states, wrenches, memory, frames, lines, squares, torques, reports):
+def drive(joints, root, settings, aims, states, wrenches, mounts, memory, frames, lines, squares, torques, reports):
     """Torques of a batch of limbs of one chain, one tick.
 
     Args:
@@ -87,6 +84,7 @@ def drive(joints, root, settings, aims, states, wrenches, memory, frames, lines,
         aims: Records of `AIM`, shape (1,) or (batch,).
         states: Sensed joint angles [rad] and speeds [rad/s], shape (batch, 2, n).
         wrenches: Sensed wrench of each limb on what it touches, base frame [N], [N m], shape (batch, 6).
+        mounts: Sensed wrench of each limb on its mount, about the base frame's origin, shape (batch, 6).
         memory: What the laws remember, zero at the start, shape (batch, `memory_length`).
         frames: Scratch, shape (2 n, FRAME).
         lines, squares: Scratch, see `moment`.
@@ -99,6 +97,7 @@ def drive(joints, root, settings, aims, states, wrenches, memory, frames, lines,
     """
     n = joints.size
     bad = -1
+    last = memory.shape[1]
     for b in range(states.shape[0]):
         chosen = settings[b if settings.size > 1 else 0]
         aim = aims[b if aims.size > 1 else 0]
@@ -108,7 +107,7 @@ def drive(joints, root, settings, aims, states, wrenches, memory, frames, lines,
         for j in range(n):
             total += abs(q[j]) + abs(qd[j])
         for i in range(6):
-            total += abs(wrenches[b, i])
+            total += abs(wrenches[b, i]) + abs(mounts[b, i])
         total += _size_of_aim(aim)
         report = reports[b]
         report.saturated = 0
@@ -141,9 +140,20 @@ def drive(joints, root, settings, aims, states, wrenches, memory, frames, lines,
                 lines[BIAS, j] = 0.0
             for i in range(6):
                 lines[DRIFT, i] = 0.0
+        if chosen.torque_sensor == AT_BASE:
+            read_mount(joints, root, frames, lines[TIP], mounts[b], lines[LINK], lines[SPARE])
+            into_task(chosen, lines[SPARE], lines[FELT])
         _follow(chosen.law, joints, root, chosen, aim, q, qd, memory[b], frames, lines, squares, report)
         _feed_forward(joints, chosen, q, qd, lines, squares, report)
+        feed_friction(joints, chosen, qd, memory[b, last - n : last], lines, squares, report)
+        sums = memory[b, last - 2 * n : last - n]
+        if chosen.torque_sensor != NOWHERE:
+            if chosen.torque_sensor == AT_WRIST:
+                link_torques_by_wrist(n, wrenches[b], lines, squares)
+            add_friction_felt(joints, chosen, qd, sums, lines)
         report.saturated = _limit(joints, chosen, qd, lines[TORQUE], torques[b])
+        if chosen.torque_sensor != NOWHERE:
+            sum_up(joints, chosen, qd, torques[b], sums, lines)
     return bad
 
 
@@ -167,7 +177,7 @@ def _size_of_aim(aim):
 
 @inlined
 def _feed_forward(joints, settings, q, qd, lines, squares, report):
-    """Add what is known beforehand: bias, a wanted force, inertia, friction; and the posture of a redundant limb."""
+    """Add what is known beforehand: bias, a wanted force, inertia; and the posture of a redundant limb."""
     n = joints.size
     rows = settings.n_rows
     task = squares[TASK]
@@ -187,25 +197,6 @@ def _feed_forward(joints, settings, q, qd, lines, squares, report):
         )
         for j in range(n):
             torque[j] += joints[j].rotor * motion[j]
-    if settings.feed_friction > 0.0:
-        if settings.friction_from == FROM_AIM:
-            invert_motion(
-                task, rows, n, lines[SHARE], report.lambda2, lines[WANTED_RATE], squares[SQUARE], held, motion
-            )
-        for j in range(n):
-            joint = joints[j]
-            if settings.friction_from == FROM_AIM:
-                speed = motion[j]
-            elif settings.friction_from == FROM_MEASURED:
-                speed = qd[j]
-            else:
-                speed = 0.0
-            if settings.friction_from == FROM_TORQUE:
-                # pulls against stiction fade out within a tenth of it
-                part = math.tanh(torque[j] / (0.1 * joint.friction)) if joint.friction > 0.0 else 0.0
-            else:
-                part = math.tanh(speed / settings.friction_speed)
-            torque[j] += settings.feed_friction * (joint.damping * speed + joint.friction * part)
     if rows < n and settings.law != OPERATIONAL_SPACE:
         _lean(joints, settings, q, qd, lines, squares, report)
 

@@ -13,9 +13,6 @@ from ..types import Floats, Records
 from .chain import Chain, rotation
 from .drive import (
     ADMITTANCE,
-    FROM_AIM,
-    FROM_MEASURED,
-    FROM_TORQUE,
     HYBRID,
     IMPLICIT_ADMITTANCE,
     IMPLICIT_FORCE,
@@ -26,7 +23,9 @@ from .drive import (
     RESOLVED_RATE_PLAIN,
     SCCT,
 )
+from .friction import FROM_AIM, FROM_LAST, FROM_MEASURED, FROM_TORQUE
 from .records import AXES, SETTINGS
+from .torque_loop import AT_BASE, AT_WRIST, NOWHERE
 
 LAWS: Final[dict[str, int]] = {
     "jacobian-transpose": JACOBIAN_TRANSPOSE,
@@ -46,13 +45,20 @@ WEIGHTED: Final = frozenset({"scct", "implicit-admittance", "hybrid", "implicit-
 FORCING: Final = frozenset({"hybrid", "implicit-force"})
 """Laws that take rows of force."""
 AXIS_NAMES: Final = ("x", "y", "z", "rx", "ry", "rz")
-FRICTION_SOURCES: Final[dict[str, int]] = {"aim": FROM_AIM, "measured": FROM_MEASURED, "torque": FROM_TORQUE}
+FRICTION_SOURCES: Final[dict[str, int]] = {
+    "aim": FROM_AIM,
+    "measured": FROM_MEASURED,
+    "torque": FROM_TORQUE,
+    "last": FROM_LAST,
+}
+TORQUE_SENSORS: Final[dict[str, int]] = {"none": NOWHERE, "base": AT_BASE, "wrist": AT_WRIST}
 WORDS: Final[dict[str, tuple[str, ...]]] = {
     "law": tuple(LAWS),
     "axes": AXIS_NAMES,
     "forced": AXIS_NAMES,
     "weight": ("inertia", "damping", "back-emf", "none"),
     "friction_from": tuple(FRICTION_SOURCES),
+    "torque_sensor": tuple(TORQUE_SENSORS),
 }
 """Settings that are words -> the words that are allowed."""
 SWITCHES: Final = ("feed_velocity", "feed_acceleration", "feed_gravity", "feed_bias", "feed_force", "scaled")
@@ -64,7 +70,7 @@ POSITIVE: Final = ("friction_speed", "environment")
 PLAIN: Final = (
     *("feed_velocity", "feed_acceleration", "feed_gravity", "feed_friction", "friction_speed", "feed_force"),
     *("sigma", "scaled", "derivative", "derivative_time", "force_gain", "force_limit", "force_damping"),
-    *("environment", "posture_kp", "posture_kd"),
+    *("torque_gain", "torque_limit", "environment", "posture_kp", "posture_kd"),
 )
 """Settings that the kernels read as they are."""
 
@@ -120,7 +126,8 @@ class LawSettings:
     feed_friction: float = 0.0
     """Part of the modelled friction that is fed forward [-]."""
     friction_from: str = "aim"
-    """Whose direction the friction has: that of the "aim", the "measured" speed, or the law's "torque"."""
+    """Whose direction the friction has: that of the "aim", the "measured" speed, or the law's "torque"; "last": the aim's,
+    and at rest that of the joint's last motion."""
     friction_speed: float = 0.02
     """Joint speed below which the Coulomb friction fed forward fades out [rad/s]."""
     feed_force: bool = True
@@ -143,6 +150,12 @@ class LawSettings:
     """Most that this integral adds [N]."""
     force_damping: float = 50.0
     """Damping along rows of force [N s/m]."""
+    torque_sensor: str = "none"
+    """Where the torque loop that rejects joint friction senses: "base", "wrist", or "none" for no such loop."""
+    torque_gain: float = 20.0
+    """Bandwidth of that loop [1/s]."""
+    torque_limit: float = 3.0
+    """Most that this loop adds at a joint [N m]."""
     environment: float = 10_000.0
     """Stiffness that implicit-force believes the surface to have [N/m]."""
     mass: PerAxis = 1.0
@@ -274,6 +287,7 @@ class LawSettings:
         bias = self.law == "operational-space" if self.feed_bias is None else self.feed_bias
         record["feed_bias"] = bias
         record["friction_from"] = FRICTION_SOURCES[self.friction_from]
+        record["torque_sensor"] = TORQUE_SENSORS[self.torque_sensor]
         record["lambda2"] = self.damping**2
         for key in PLAIN:
             record[key] = getattr(self, key)

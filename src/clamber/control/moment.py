@@ -31,9 +31,13 @@ BIAS = 10
 """By joint: bias torques h, and gravity if it is fed forward."""
 REST = 11
 """By joint: zeros."""
-SPARE = 12
+FRICTION = 12
+"""By joint: friction that was fed forward."""
+LINK = 13
+"""By joint: torque that the gear passes on to the link, by a sensor of force."""
+SPARE = 14
 """First of the scratch lines."""
-LINES = 19
+LINES = 21
 
 JACOBIAN = 0
 TASK = 1

@@ -58,7 +58,8 @@ SETTINGS = np.dtype(
         ("feed_bias", "i4"),
         ("feed_friction", "f8"),  # part of the modelled friction fed forward
         ("feed_force", "i4"),
-        ("friction_from", "i4"),  # 0 the aim's speed, 1 the measured one, 2 the pull of the law
+        # 0 the aim's speed, 1 the measured one, 2 the pull of the law, 3 the aim's, at rest the last motion
+        ("friction_from", "i4"),
         ("friction_speed", "f8"),  # below it the friction fed forward fades to nothing
         ("scaled", "i4"),  # 1: all torques of a limb shrink together at a limit, 0: each is cut off
         ("sigma", "f8"),  # smallest singular value that needs no damping
@@ -73,6 +74,9 @@ SETTINGS = np.dtype(
         ("force_gain", "f8"),  # integral gain of the force rows, 1/s
         ("force_limit", "f8"),  # most that the integral adds
         ("force_damping", "f8"),  # of the motion along force rows
+        ("torque_sensor", "i4"),  # of the torque loop: 0 none, 1 at the base, 2 at the wrist
+        ("torque_gain", "f8"),  # its bandwidth, 1/s
+        ("torque_limit", "f8"),  # most that it adds
         ("environment", "f8"),  # stiffness that implicit force control assumes
         ("posture_kp", "f8"),
         ("posture_kd", "f8"),

@@ -49,7 +49,7 @@ def close_loop(plant: Plant, controller: Controller, aims: Records, *, keep: boo
         if k:
             plant.sense()
         try:
-            torques = controller.command(aims[k], sensed.states, sensed.wrenches)
+            torques = controller.command(aims[k], sensed.states, sensed.wrenches, sensed.mounts)
         except MeasurementError:
             if keep:
                 return trace

@@ -14,6 +14,8 @@ class Sensed:
     """Joint angles and speeds by the encoders, shape (batch, 2, n) [rad], [rad/s]."""
     wrenches: Floats
     """Wrench of each limb on what it touches, base frame, shape (batch, 6) [N], [N m]; zero without a sensor."""
+    mounts: Floats
+    """Wrench of each limb on its mount, about the origin of the base frame, shape (batch, 6) [N], [N m]; zero without a sensor."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -32,7 +32,8 @@ class Wall:
     damping: float = 20.0
     """Along that direction [N s/m]."""
     friction: float = 0.0
-    """Friction coefficient along the surface [-]."""
+    """Friction coefficient along the surface [-]. While the tip slips with friction, MuJoCo's contact chatters: single ticks without
+    contact, some newtons about a right mean."""
 
     def __post_init__(self) -> None:
         for key in ("x", "y", "angle"):
@@ -75,6 +76,31 @@ class Push:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ForceSensor:
+    """A sensor of force and moment, at the wrist or at the mount, with what is wrong about it."""
+
+    noise: float = 0.0
+    """Standard deviation of each force at each reading [N]."""
+    moment_noise: float = 0.0
+    """That of each moment [N m]."""
+    bias: float = 0.0
+    """Added to each force [N]."""
+    time_constant: float = 0.0
+    """Of the low-pass filter that its readings go through [s]."""
+    seed: int = 0
+    """Of the noise."""
+
+    def __post_init__(self) -> None:
+        for key in ("noise", "moment_noise", "time_constant"):
+            if not 0.0 <= getattr(self, key) < math.inf:
+                raise PlantError(f"sensor.{key}", getattr(self, key), "must be 0 or more, and finite")
+        if not math.isfinite(self.bias):
+            raise PlantError("sensor.bias", self.bias, "must be a finite number")
+        if self.seed < 0:
+            raise PlantError("sensor.seed", self.seed, "must be a whole number, 0 or more")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class LimbFlaws:
     """What makes a plant differ from the robot's file, and its sensors from the truth. The defaults are an ideal limb with friction."""
 
@@ -109,11 +135,12 @@ class LimbFlaws:
     """Standard deviation of the noise on sensed forces, where the limb has a force sensor of no other noise [N]."""
     model_error: float = 0.0
     """Largest relative error of what the controller believes of each joint's inertia, damping, friction and mass [-]."""
-    joint_limits: bool = False
-    """Whether hard stops at the robot's joint limits hold the motors' side. Off by default: the published circle of 5 cm about (0.22, 0)
-    asks for an elbow of 115.6 deg, or -111.9 deg on the other branch, beyond the printed 110 deg."""
     push: Push | None = None
     wall: Wall | None = None
+    wrist: ForceSensor | None = None
+    """Senses what the tip does to its surroundings; its frame turns with the tip, by the encoders."""
+    base: ForceSensor | None = None
+    """Senses what the limb does to its mount (Bevly 1997, 3.3.3; Morel and Dubowsky 1996)."""
 
     def __post_init__(self) -> None:
         for key in ("backlash", "friction", "damping", "payload", "speed_noise", "wrench_noise", "model_error"):

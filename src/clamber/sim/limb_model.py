@@ -1,4 +1,4 @@
-"""A limb as a MuJoCo model, built from its chain: geared joints with rotor and friction, play behind them, a tip, perhaps a wall."""
+"""A limb as a MuJoCo model from its chain: geared joints with rotor and friction, play behind them, a tip; wall and sensors."""
 
 from typing import Any, Final
 
@@ -6,12 +6,15 @@ import numpy as np
 
 from ..control.chain import Chain
 from ..types import Floats
-from .limb_flaws import LimbFlaws, PlantError, Wall
+from .force_sensing import add_sensor, has_hand
+from .limb_flaws import LimbFlaws, PlantError
+from .wall_model import add_wall
 
 FRICTION_SOLREF: Final = (0.004, 1.0)
 """Time constant and damping ratio of Coulomb friction [s], [-]: it is viscous below a speed of friction * 2 ms / inertia, 3 mrad/s."""
-FRICTION_SOLIMP: Final = (0.999, 0.9999, 0.001, 0.5, 2.0)
-"""A joint loaded to its friction creeps by (1 - 0.999) of that speed, 3 urad/s; with an impedance of 0.9, the default, by 340."""
+FRICTION_SOLIMP: Final = (0.9999, 0.9999, 0.001, 0.5, 2.0)
+"""A joint loaded to its friction creeps by (1 - 0.9999) of that speed, 0.3 urad/s, and a force on a wall fades by as little; with an
+impedance of 0.9, the default, by 340."""
 PLAY_INERTIA: Final = 1e-4
 """Of the play joint, so that it has a mass of its own [kg m^2]: a thousandth of a link's."""
 PLAY_DAMPING: Final = 0.005
@@ -20,8 +23,6 @@ floats from end to end of its play for ever; from 0.003 on its size does not sho
 STOP_SOLREF: Final = (0.001, 1.0)
 """Of the play's ends and of the joints' stops: as stiff as two physics steps of 0.5 ms allow; MuJoCo softens it for longer ones."""
 STOP_SOLIMP: Final = (0.95, 0.99, 0.0005, 0.5, 2.0)
-TIP_RADIUS: Final = 0.005
-"""Of the ball that touches a wall [m]."""
 SMALL_MASS: Final = 1e-6
 """Where a link has no mass: MuJoCo asks for one [kg]."""
 
@@ -30,6 +31,8 @@ def limb_spec(chain: Chain, flaws: LimbFlaws) -> Any:
     """An `MjSpec` of the chain with the flaws that are mechanical. Joints are named as the chain's, their play "NAME play".
 
     The first joint is mounted on the world; the tip is the site "tip". Motors are plain torques: their limits are the plant's.
+    With a wall or a wrist sensor the tip carries the body "hand", whose sensor comes last; with a base sensor the limb hangs on the body
+    "mount", whose sensor comes first.
 
     Raises:
         PlantError: If the limb is to be upright but its chain has no gravity, whose direction only the robot's file knows.
@@ -49,12 +52,18 @@ def limb_spec(chain: Chain, flaws: LimbFlaws) -> Any:
     spec.option.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
     spec.option.gravity = chain.root["gravity"][0]
     parent = spec.worldbody
+    if flaws.base is not None:
+        parent = parent.add_body(name="mount")
+        add_sensor(mujoco, spec, "mount", parent)
     for name, record in zip(chain.joint_names, carried.joints, strict=True):
         parent = add_link(mujoco, spec, parent, name, record, flaws)
     root = chain.root[0]
     parent.add_site(name="tip", pos=root["tip"], quat=_quaternion(mujoco, root["tip_turn"]))
-    if flaws.wall is not None:
-        _add_wall(mujoco, spec, parent, root["tip"], flaws.wall)
+    if has_hand(flaws):
+        hand = parent.add_body(name="hand", pos=root["tip"], quat=_quaternion(mujoco, root["tip_turn"]))
+        add_sensor(mujoco, spec, "hand", hand)
+        if flaws.wall is not None:
+            add_wall(mujoco, spec, hand, flaws.wall)
     return spec
 
 
@@ -90,31 +99,6 @@ def _stop(joint: Any, lower: float, upper: float) -> None:
     joint.range = (lower, upper)
     joint.solref_limit = STOP_SOLREF
     joint.solimp_limit = STOP_SOLIMP
-
-
-def _add_wall(mujoco: Any, spec: Any, tip_body: Any, tip: Floats, wall: Wall) -> None:
-    """A plate on a spring along the wall's normal, and a ball at the tip: the spring, not the contact, is the wall's stiffness."""
-    normal = np.array((np.cos(wall.angle), np.sin(wall.angle), 0.0))
-    thick = 0.01
-    centre = np.array((wall.x, wall.y, 0.0)) + (thick + TIP_RADIUS) * normal
-    half = wall.angle / 2
-    plate = spec.worldbody.add_body(name="wall", pos=centre, quat=(np.cos(half), 0.0, 0.0, np.sin(half)))
-    plate.explicitinertial = True
-    plate.mass, plate.inertia = 0.05, (1e-4, 1e-4, 1e-4)
-    spring = plate.add_joint(name="wall", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=(1.0, 0.0, 0.0))
-    spring.stiffness[0], spring.damping[0] = wall.stiffness, wall.damping
-    contact = {"solref": (0.002, 1.0), "solimp": (0.95, 0.99, 0.0005, 0.5, 2.0), "condim": 3}
-    plate.add_geom(
-        name="wall", type=mujoco.mjtGeom.mjGEOM_BOX, size=(thick, 1.0, 0.1), friction=(wall.friction, 0, 0), **contact
-    )
-    tip_body.add_geom(
-        name="tip",
-        type=mujoco.mjtGeom.mjGEOM_SPHERE,
-        size=(TIP_RADIUS, 0, 0),
-        pos=tip,
-        friction=(wall.friction, 0, 0),
-        **contact,
-    )
 
 
 def _quaternion(mujoco: Any, turn: Floats) -> Floats:

@@ -10,6 +10,7 @@ from ..control.records import AXES
 from ..execution.plant import Sensed, Truth
 from ..types import Floats
 from .chances import Chances
+from .force_sensing import ForceSensing, has_hand
 from .limb_electronics import LimbElectronics
 from .limb_flaws import LimbFlaws
 from .limb_model import limb_spec
@@ -46,21 +47,24 @@ class MujocoLimb:
             self._qpos, self._qvel, self._ctrl = (
                 a[None, :] for a in (self._data.qpos, self._data.qvel, self._data.ctrl)
             )
-            pushed = self._data.xfrc_applied[None]
+            pushed, readings = self._data.xfrc_applied[None], self._data.sensordata[None]
         else:
             from mujoco.batch import Batch
 
             self._pool = Batch(self.model, batch, threads)
             self._qpos, self._qvel, self._ctrl = (self._pool.bind(name) for name in ("qpos", "qvel", "ctrl"))
             pushed = self._pool.bind("xfrc_applied")
+            readings = self._pool.bind("sensordata") if self.model.nsensordata else np.zeros((batch, 0))
         stride = 2 if flaws.backlash > 0.0 else 1
         self._motors = slice(0, stride * n, stride)
         self._stride = stride
         self._angles, self._speeds = self._qpos[:, self._motors], self._qvel[:, self._motors]
         self._electronics = LimbElectronics(chain, flaws, gears, batch)
         self._chances = None if flaws.seed is None else Chances(flaws, batch, n, self._electronics.counts)
-        self._sensed = Sensed(self._electronics.states, np.zeros((batch, AXES)))
+        self._sensed = Sensed(self._electronics.states, np.zeros((batch, AXES)), np.zeros((batch, AXES)))
         self._truth = Truth(np.zeros((batch, 2, n)), np.zeros((batch, n)), np.zeros((batch, AXES)))
+        self._forces = ForceSensing(chain, flaws, readings, self._sensed, self._truth)
+        self._hand = pushed[:, self.model.body("hand").id] if has_hand(flaws) else None
         self._given = np.zeros((batch, n))
         # The centre of mass is that of what really moves, payload included
         carried = chain.with_payload(flaws.payload).joints
@@ -87,6 +91,7 @@ class MujocoLimb:
         self._truth.torques[:] = 0.0
         self._truth.wrenches[:] = 0.0
         self._electronics.reset()
+        self._forces.reset()
         self.tick = 0
         self._look()
 
@@ -96,6 +101,7 @@ class MujocoLimb:
         self._electronics.read(self._angles if chances is None else self._angles + chances.phase, self._speeds)
         if chances is not None:
             chances.disturb(self._sensed.states)
+        self._forces.sense(self.tick)
         return self._sensed
 
     def actuate(self, torques: Floats) -> None:
@@ -105,7 +111,11 @@ class MujocoLimb:
     def step(self) -> None:
         """See `Plant`. Where a motor's torque depends on its speed, it follows that at every physics step."""
         if self.flaws.push is not None:
-            push_tips(*self._push_chain, *self.flaws.push.at((self.tick + 0.5) * self.period), *self._push_arrays)
+            force = self.flaws.push.at((self.tick + 0.5) * self.period)
+            if self._hand is None:
+                push_tips(*self._push_chain, *force, *self._push_arrays)
+            else:
+                self._hand[:, :2] = force
         steps, done, mean = self.flaws.steps, 0, self._truth.torques
         given = mean
         while done < steps:
@@ -118,6 +128,7 @@ class MujocoLimb:
             given = self._given
         self.tick += 1
         self._look()
+        self._forces.look()
 
     def truth(self) -> Truth:
         """See `Plant`."""

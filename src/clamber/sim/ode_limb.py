@@ -43,7 +43,7 @@ class OdeLimb:
         self._chances = None if flaws.seed is None else Chances(flaws, batch, n, self._electronics.counts)
         self._force = np.zeros(2)
         self._scratch = (np.zeros((n, FRAME)), np.zeros((AXES, n)), np.zeros((4, max(n, 12))))
-        self._sensed = Sensed(self._electronics.states, np.zeros((batch, AXES)))
+        self._sensed = Sensed(self._electronics.states, np.zeros((batch, AXES)), np.zeros((batch, AXES)))
         self._truth = Truth(np.zeros((batch, 2, n)), np.zeros((batch, n)), np.zeros((batch, AXES)))
         self.tick = 0
 
@@ -105,6 +105,9 @@ def _refuse(chain: Chain, flaws: LimbFlaws) -> None:
     ):
         if value:
             raise PlantError(key, value, f"{allowed}; {ode}")
+    for key in ("wrist", "base"):
+        if getattr(flaws, key) is not None:
+            raise PlantError(key, "a force sensor", f"must be left out; {ode}")
     if flaws.wall is not None:
         raise PlantError("wall", f"({flaws.wall.x:g}, {flaws.wall.y:g}) m", f"must be left out; {ode}")
     if np.any(chain.root["gravity"]):

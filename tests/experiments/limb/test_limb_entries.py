@@ -34,14 +34,14 @@ REFERENCE = LawSettings(law="scct", kp=100.0, kd=10.0)
 
 
 def test_every_setting_of_a_law_can_be_written() -> None:
-    plain = {"sigma", "damping", "scaled", "force_gain"}
+    plain = {"sigma", "damping", "scaled", "force_gain", "torque_gain"}
     known = {*GAINS, *DIMENSIONS, *WORDS, *LISTS, *SWITCHES, *plain}
     assert {field.name for field in fields(LawSettings)} - {"law"} == known
 
 
 def test_every_property_of_a_plant_but_its_surroundings_can_be_written() -> None:
     known = {*FLAW_DIMENSIONS, *WHOLE, *FLAW_SWITCHES}
-    assert {field.name for field in fields(LimbFlaws)} - {"seed", "push", "wall"} == known
+    assert {field.name for field in fields(LimbFlaws)} - {"seed", "push", "wall", "wrist", "base"} == known
 
 
 def test_every_law_has_a_title() -> None:

@@ -44,6 +44,7 @@ DIMENSIONS: Final = {
     "derivative_time": "time",
     "force_limit": "force",
     "force_damping": "linear damping",
+    "torque_limit": "torque",
     "environment": "stiffness",
     "mass": "mass",
     "admittance_kp": "stiffness",
@@ -52,7 +53,7 @@ DIMENSIONS: Final = {
     "posture_kd": "damping",
 }
 """Setting -> its dimension; a number without a unit is in SI."""
-WORDS: Final = ("weight", "friction_from")
+WORDS: Final = ("weight", "friction_from", "torque_sensor")
 LISTS: Final = ("axes", "forced")
 PER_AXIS: Final = (*GAINS, "frame", "mass", "admittance_kp", "admittance_kd")
 BETWEEN: Final = re.compile(r"/(?=[+-]?[\d.])")

@@ -1,0 +1,89 @@
+"""`clamber limb force`: a force on a wall, held standing and sliding, with each way to deal with joint friction."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from . import limb_options as opt
+from .options import AsJson, Output, Quiet
+from .output import announce_compilation, check_writable, print_json, stdout
+
+
+def force(
+    controllers: Annotated[
+        list[str] | None,
+        typer.Option("--controller", "-c", help="hybrid, implicit-force or admittance; repeat it. All unless given."),
+    ] = None,
+    compensations: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--friction-compensation",
+            metavar="WAY",
+            help="none, model, integral (of the wrist's force), wrist or base (torque loops), wrist+model or base+model; repeat it.",
+        ),
+    ] = None,
+    size: Annotated[str, typer.Option("--force", help="Into the wall.")] = "20N",
+    angle: Annotated[str, typer.Option(help="Direction into the wall, from the limb's x axis.")] = "90deg",
+    stiffness: Annotated[str, typer.Option(help="Of the wall.")] = "10N/mm",
+    wall_friction: Annotated[
+        float, typer.Option(min=0.0, help="Friction coefficient of the wall; a slip chatters.")
+    ] = 0.0,
+    believed_angle: Annotated[str | None, typer.Option(help="What the laws take for the angle.")] = None,
+    believed_stiffness: Annotated[str | None, typer.Option(help="What they take for the stiffness.")] = None,
+    slide: Annotated[str, typer.Option(help="Way along the wall at full force.")] = "3cm",
+    gap: Annotated[str, typer.Option(help="From the start to the wall.")] = "2mm",
+    tolerance: Annotated[str, typer.Option(help="Largest error of a force that is held.")] = "1N",
+    robot: opt.Robot = "libra",
+    limb: opt.LimbName = None,
+    start: opt.Start = None,
+    elbow: opt.Elbow = None,
+    flaws: opt.Flaws = opt.FlawsChoice.ideal,
+    settings: opt.Settings = None,
+    seed: opt.Seed = None,
+    output: Output = None,
+    as_json: AsJson = False,
+    quiet: Quiet = False,
+) -> None:
+    """Press on a wall, stand, slide along it and stand again: who holds the force, and how joint friction is dealt with."""
+    _check_output(output)
+    from ..experiments.limb.force_entries import force_entries
+    from ..experiments.limb.force_result import run_force
+    from ..experiments.limb.force_scenario import ForceTask
+    from ..units import parse_quantity
+    from .limb_force_text import print_force_result, write_force_result
+
+    task = ForceTask(
+        force=parse_quantity(size, "force"),
+        angle=parse_quantity(angle, "angle"),
+        stiffness=parse_quantity(stiffness, "stiffness"),
+        friction=wall_friction,
+        believed_angle=None if believed_angle is None else parse_quantity(believed_angle, "angle"),
+        believed_stiffness=None if believed_stiffness is None else parse_quantity(believed_stiffness, "stiffness"),
+        slide=parse_quantity(slide, "length"),
+        gap=parse_quantity(gap, "length"),
+        tolerance=parse_quantity(tolerance, "force"),
+    )
+    words = opt.BenchWords(
+        None, None, None, opt.MatchChoice.none, "scct", robot, limb, start, elbow, "mujoco", flaws, settings, seed, 1
+    )
+    properties = words.build_plant()
+    chosen = words.build_limb(properties)
+    entries = force_entries(chosen, task, properties, controllers or (), compensations or ())
+    announce_compilation("drive", quiet=quiet)
+    result = run_force(chosen, task, entries, properties)
+    if output is not None:
+        write_force_result(result, output)
+    if as_json:
+        print_json(result.to_json())
+    else:
+        print_force_result(stdout(), result, output)
+    raise typer.Exit(0 if result.held else 1)
+
+
+def _check_output(output: Path | None) -> None:
+    check_writable(output)
+    if output is not None:
+        from ..viewing.output import CANVASES, check_suffix
+
+        check_suffix(output, (".json", *CANVASES))
