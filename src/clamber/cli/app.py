@@ -15,6 +15,7 @@ from .bench import bench
 from .check import check
 from .inventory import inventory
 from .learn import learn
+from .limb import limb
 from .list import list_names
 from .new import new
 from .plan import plan
@@ -40,6 +41,7 @@ app.command("check")(check)
 app.command("show")(show)
 app.command("bench")(bench)
 app.command("sweep")(sweep)
+app.add_typer(limb, name="limb")
 app.add_typer(new, name="new")
 app.command("reach")(reach)
 app.command("study")(study)

@@ -95,13 +95,28 @@ class LimbFlaws:
     """Whether weight acts."""
     motor_limits: bool = True
     """Whether the motors have their torque limits and torque-speed lines."""
+    seed: int | None = None
+    """Draws where each joint starts in its play, where its encoder starts within a count, noise and model error; None: mid-play, no noise."""
+    speed_noise: float = 0.0
+    """Standard deviation of the noise on sensed joint speeds [rad/s]."""
+    wrench_noise: float = 0.0
+    """Standard deviation of the noise on sensed forces [N]."""
+    model_error: float = 0.0
+    """Largest relative error of what the controller believes of each joint's inertia, damping, friction and mass [-]."""
     push: Push | None = None
     wall: Wall | None = None
 
     def __post_init__(self) -> None:
-        for key in ("backlash", "friction", "damping", "payload"):
+        for key in ("backlash", "friction", "damping", "payload", "speed_noise", "wrench_noise", "model_error"):
             if not 0.0 <= getattr(self, key) < math.inf:
                 raise PlantError(key, getattr(self, key), "must be 0 or more, and finite")
+        if not self.model_error < 1.0:
+            raise PlantError("model_error", self.model_error, "must be less than 1, that is 100 %")
+        if self.seed is not None and self.seed < 0:
+            raise PlantError("seed", self.seed, "must be a whole number, 0 or more")
+        for key in ("speed_noise", "wrench_noise", "model_error"):
+            if self.seed is None and getattr(self, key) > 0.0:
+                raise PlantError(key, getattr(self, key), "needs a seed")
         if self.encoder_counts < 0 or self.delay < 0:
             key = "delay" if self.delay < 0 else "encoder_counts"
             raise PlantError(key, getattr(self, key), "must be a whole number, 0 or more")

@@ -8,6 +8,7 @@ from ..control.chain import Chain
 from ..control.records import AXES
 from ..execution.plant import Sensed, Truth
 from ..types import Floats
+from .chances import Chances
 from .electronics import limit_torques, read_encoders
 from .limb_flaws import LimbFlaws
 from .limb_model import limb_spec
@@ -57,6 +58,7 @@ class MujocoLimb:
         unlimited = np.full(n, np.inf)
         self._limits = chain.joints["limit"].copy() if flaws.motor_limits else unlimited
         self._no_load = chain.joints["speed"].copy() if flaws.motor_limits else unlimited
+        self._chances = None if flaws.seed is None else Chances(flaws, batch, n, self._counts)
         self._ring = np.zeros((flaws.delay + 1, batch, 2, n))
         self._before = np.zeros((batch, n))
         self._wanted = np.zeros((batch, n))
@@ -75,6 +77,10 @@ class MujocoLimb:
             self._pool.reset()
         self._qpos[:, self._motors] = q
         self._qvel[:] = 0.0
+        if self._chances is not None:
+            self._chances.restart()
+            if self._play is not None:
+                self._qpos[:, self._play] = self._chances.play
         self._wanted[:] = 0.0
         self._ring[:] = 0.0
         self.tick = 0
@@ -82,8 +88,9 @@ class MujocoLimb:
 
     def sense(self) -> Sensed:
         """See `Plant`."""
+        chances = self._chances
         read_encoders(
-            self._angles,
+            self._angles if chances is None else self._angles + chances.phase,
             self._speeds,
             self._counts,
             self.period,
@@ -92,6 +99,9 @@ class MujocoLimb:
             self._before,
             self._sensed.states,
         )
+        if chances is not None:
+            self._sensed.wrenches[:] = 0.0  # no sensor of force; only noise would be felt
+            chances.disturb(self._sensed.states, self._sensed.wrenches)
         return self._sensed
 
     def actuate(self, torques: Floats) -> None:

@@ -46,6 +46,19 @@ LEAST_SIGMA = 0.01
 """A start whose Jacobian has a smaller singular value counts as singular [m/rad]."""
 
 
+def limbed_robot(name: str) -> LimbedRobot:
+    """A climber by name or file.
+
+    Raises:
+        UnknownNameError: If there is no such robot.
+        ClamberError: If it is of another family.
+    """
+    loaded = load_robot(name)
+    if not isinstance(loaded, LimbedRobot):
+        raise ClamberError(f"{name}: the limb bench takes robots of the family 'limbed'")
+    return loaded
+
+
 def bench_limb(
     robot: str = "libra",
     limb: str | None = None,
@@ -67,9 +80,7 @@ def bench_limb(
         StartError: If no pose within the joints' limits has its tip there, or only a singular one.
         UnknownNameError: If there is no such robot or limb.
     """
-    loaded = load_robot(robot)
-    if not isinstance(loaded, LimbedRobot):
-        raise ClamberError(f"{robot}: the limb bench takes robots of the family 'limbed'")
+    loaded = limbed_robot(robot)
     names = loaded.limb_names
     name = (
         names[0]

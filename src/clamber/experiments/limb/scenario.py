@@ -35,6 +35,8 @@ class Scenario:
     """Measures of what lasts count from here [s]."""
     direction: tuple[float, float]
     """Unit vector along which the motion is asked for; what happens across it is an error of coupling."""
+    start: tuple[float, float] | None = None
+    """Where the tip is at first [m]; None: where the limb is."""
     push: Push | None = None
     wall: Wall | None = None
     lap: float | None = None
@@ -72,7 +74,7 @@ def step_scenario(
     x, y = limb.start[0] + dx, limb.start[1] + dy
     _within_reach("step", limb, x, y)
     aims = np.stack([still_aim((x, y))] * _ticks("step", seconds, rate))
-    return Scenario("step", aims, settle=0.75 * seconds, direction=(dx / length, dy / length))
+    return Scenario("step", aims, settle=0.75 * seconds, direction=(dx / length, dy / length), start=limb.start)
 
 
 def circle_scenario(

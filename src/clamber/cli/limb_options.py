@@ -1,0 +1,150 @@
+"""Options that the commands of `clamber limb` share, and how they become a limb, a plant and laws."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, TypeAlias
+
+import typer
+
+from .output import announce_compilation, check_writable, print_json, stdout
+
+if TYPE_CHECKING:
+    from ..control.law_settings import LawSettings
+    from ..experiments.limb.bench_limb import BenchLimb
+    from ..experiments.limb.contest import Entry
+    from ..experiments.limb.scenario import Scenario
+    from ..sim.limb_flaws import LimbFlaws
+
+
+class MatchChoice(StrEnum):
+    """Which stiffness at the tip is made equal."""
+
+    yy = "yy"
+    mean = "mean"
+    diagonal = "diagonal"
+    none = "none"
+
+
+class FlawsChoice(StrEnum):
+    """Sets of a plant's properties."""
+
+    ideal = "ideal"
+    nominal = "nominal"
+
+
+Controllers: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--controller", "-c", metavar="NAME[:KEY=VALUE,...]",
+        help="A law, such as scct or jacobian-transpose:kp=1000,kd=100; repeat it. A usual set unless given.",
+    ),
+]  # fmt: skip
+Kp: TypeAlias = Annotated[float | None, typer.Option(help="Stiffness of the reference law, in its unit.")]
+Kd: TypeAlias = Annotated[float | None, typer.Option(help="Damping of the reference law, in its unit.")]
+Matched: TypeAlias = Annotated[
+    MatchChoice,
+    typer.Option("--match", help="Which tip stiffness laws without gains of their own share with the reference."),
+]
+Reference: TypeAlias = Annotated[str, typer.Option(metavar="NAME[:KEY=VALUE,...]", help="Law that is matched to.")]
+Robot: TypeAlias = Annotated[str, typer.Option(help="A climber's name or file.")]
+LimbName: TypeAlias = Annotated[str | None, typer.Option("--limb", help="Its limb, by name or from 1.")]
+Start: TypeAlias = Annotated[
+    str | None, typer.Option(metavar="X,Y", help="Where the tip starts in the limb's port frame, such as 22cm,0.")
+]
+Elbow: TypeAlias = Annotated[str | None, typer.Option(metavar="+|-", help="Sign of the elbow's angle.")]
+Plant: TypeAlias = Annotated[str, typer.Option(help="What simulates the limb.")]
+Flaws: TypeAlias = Annotated[
+    FlawsChoice,
+    typer.Option("--flaws", help="nominal: backlash, rate and encoders of the robot's file, one sample of delay."),
+]
+Settings: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="KEY=VALUE", help="Change the plant, such as backlash=2deg or payload=0.3kg."),
+]
+Seed: TypeAlias = Annotated[
+    int | None, typer.Option(min=0, help="Draw play, encoder phase, noise and model error; same seed, same result.")
+]
+Trials: TypeAlias = Annotated[int, typer.Option(min=1, help="Plants that are drawn, from the seed on.")]
+Everything: TypeAlias = Annotated[bool, typer.Option("--all", help="Print every measure, and the gains.")]
+
+
+@dataclass(frozen=True, slots=True)
+class BenchWords:
+    """What the shared options say, as they came."""
+
+    controllers: list[str] | None
+    kp: float | None
+    kd: float | None
+    match: MatchChoice
+    reference: str
+    robot: str
+    limb: str | None
+    start: str | None
+    elbow: str | None
+    plant: str
+    flaws: FlawsChoice
+    settings: list[str] | None
+    seed: int | None
+    trials: int
+
+    def build_plant(self) -> "LimbFlaws":
+        """The plant's properties; checked before anything else is looked at."""
+        from ..experiments.limb.bench_limb import limbed_robot
+        from ..experiments.limb.flaw_texts import named_flaws, read_flaws
+
+        seed = 0 if self.seed is None and self.trials > 1 else self.seed
+        return read_flaws(named_flaws(self.flaws.value, limbed_robot(self.robot)), self.settings or (), seed)
+
+    def build_limb(self, flaws: "LimbFlaws", start: tuple[float, float] = (0.22, 0.0)) -> "BenchLimb":
+        """The limb at its start, or at `start` where none is said."""
+        from ..experiments.limb.bench_limb import bench_limb
+        from ..experiments.limb.points import read_elbow, read_point
+
+        at = start if self.start is None else read_point("start", self.start)
+        return bench_limb(self.robot, self.limb, at, elbow=read_elbow(self.elbow), upright=flaws.upright)
+
+    def build_laws(self, limb: "BenchLimb") -> "tuple[list[Entry], LawSettings]":
+        """The entries, and the law that they were matched to."""
+        from ..experiments.limb.entries import make_entries, reference_law
+
+        reference = reference_law(self.reference, self.kp, self.kd)
+        return make_entries(limb, self.controllers or (), reference, self.match.value), reference
+
+
+@dataclass(frozen=True, slots=True)
+class Telling:
+    """How a result is to be told."""
+
+    output: Path | None
+    everything: bool
+    as_json: bool
+    quiet: bool
+
+    def check(self) -> None:
+        """Make sure that the output can be written before anything runs."""
+        from ..viewing.output import CANVASES, check_suffix
+
+        check_writable(self.output)
+        if self.output is not None:
+            check_suffix(self.output, (".json", ".csv", *CANVASES))
+
+
+def run_bench(words: BenchWords, limb: "BenchLimb", scenario: "Scenario", flaws: "LimbFlaws", telling: Telling) -> None:
+    """Run the laws, write and print what came out, and leave with the exit code."""
+    from ..experiments.limb.result import run_trials
+    from .limb_text import print_limb_result, write_limb_result
+
+    entries, reference = words.build_laws(limb)
+    announce_compilation("drive", quiet=telling.quiet)
+    result = run_trials(
+        limb, scenario, entries, flaws, plant=words.plant, seed=words.seed or 0, trials=words.trials,
+        match=words.match.value, reference=reference,
+    )  # fmt: skip
+    if telling.output is not None:
+        write_limb_result(result, telling.output)
+    if telling.as_json:
+        print_json(result.to_json())
+    else:
+        print_limb_result(stdout(), result, everything=telling.everything, output=telling.output)
+    raise typer.Exit(0 if result.stable else 1)

@@ -1,0 +1,86 @@
+"""A plant's properties as a user writes them, such as backlash=2deg, and sets of them by name."""
+
+from collections.abc import Iterable
+from typing import Any, Final
+
+from ...errors import UnitError, UnknownNameError, describe_choices
+from ...robots.limbed import LimbedRobot
+from ...sim.limb_flaws import LimbFlaws, PlantError
+from ...units import parse_quantity
+
+DIMENSIONS: Final[dict[str, str]] = {
+    "backlash": "angle",
+    "friction": "ratio",
+    "damping": "ratio",
+    "payload": "mass",
+    "control_rate": "frequency",
+    "physics_rate": "frequency",
+    "speed_noise": "angular speed",
+    "wrench_noise": "force",
+    "model_error": "ratio",
+}
+"""Property -> its dimension; what is not here is a whole number or yes or no."""
+WHOLE: Final = ("encoder_counts", "delay")
+SWITCHES: Final = ("upright", "motor_limits")
+SET: Final = ("ideal", "nominal")
+"""Names of sets of flaws."""
+YES_NO: Final = {
+    "yes": True,
+    "true": True,
+    "on": True,
+    "1": True,
+    "no": False,
+    "false": False,
+    "off": False,
+    "0": False,
+}
+
+
+def named_flaws(name: str, robot: LimbedRobot) -> LimbFlaws:
+    """A set of flaws by name: "ideal", with friction alone, or "nominal", as the robot's file has its motors, with a sample of delay.
+
+    Raises:
+        UnknownNameError: If there is no such set.
+    """
+    if name not in SET:
+        raise UnknownNameError("set of flaws", name, SET)
+    rate = robot.motor.control_rate
+    flaws = LimbFlaws() if rate is None else LimbFlaws(control_rate=rate)
+    if name == "ideal":
+        return flaws
+    return flaws.with_changes(backlash=robot.motor.backlash, encoder_counts=robot.motor.encoder_counts, delay=1)
+
+
+def read_flaw(text: str) -> tuple[str, Any]:
+    """Key and SI value of a text such as "backlash=2deg".
+
+    Raises:
+        PlantError: If there is no such property, or its value cannot be read.
+    """
+    key, equals, said = (part.strip() for part in text.partition("="))
+    known = (*DIMENSIONS, *WHOLE, *SWITCHES)
+    if key not in known:
+        raise PlantError(key, said, f"no such property; there are {describe_choices(key, known)}")
+    if not equals or not said:
+        raise PlantError(key, said, "needs a value, as in backlash=2deg")
+    if key in WHOLE:
+        if not said.isdecimal():
+            raise PlantError(key, said, "must be a whole number, 0 or more")
+        return key, int(said)
+    if key in SWITCHES:
+        if said.lower() not in YES_NO:
+            raise PlantError(key, said, "must be yes or no")
+        return key, YES_NO[said.lower()]
+    try:
+        return key, parse_quantity(said, DIMENSIONS[key])
+    except UnitError as error:
+        raise PlantError(key, said, f"{error.problem}; {error.allowed}") from None
+
+
+def read_flaws(base: LimbFlaws, texts: Iterable[str], seed: int | None = None) -> LimbFlaws:
+    """`base` with the properties of `texts`, all at once, so that rates may depend on each other.
+
+    Raises:
+        PlantError: If one of them cannot be.
+    """
+    return base.with_changes(**dict(read_flaw(text) for text in texts), seed=seed)
