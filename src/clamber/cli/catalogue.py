@@ -21,6 +21,18 @@ def _planners() -> list[tuple[str, str]]:
     return [(name, _first_line(planner)) for name, planner in PLANNERS.items()]
 
 
+def _controllers() -> list[tuple[str, str]]:
+    from ..control.law_titles import LAW_TITLES
+
+    return list(LAW_TITLES.items())
+
+
+def _plants() -> list[tuple[str, str]]:
+    from ..sim.limb_plants import PLANTS
+
+    return [(name, _first_line(plant)) for name, plant in PLANTS.items()]
+
+
 def _studies() -> list[tuple[str, str]]:
     from ..studies.library import STUDIES
 
@@ -36,6 +48,8 @@ ENTRIES: Final[dict[str, Callable[[], list[tuple[str, str]]]]] = {
     "boards": lambda: _shipped("worlds"),
     "tasks": lambda: _shipped("tasks"),
     "planners": _planners,
+    "controllers": _controllers,
+    "plants": _plants,
     "studies": _studies,
 }
 

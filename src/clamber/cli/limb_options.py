@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from ..experiments.limb.contest import Entry
     from ..experiments.limb.scenario import Scenario
     from ..sim.limb_flaws import LimbFlaws
+    from ..types import Floats
 
 
 class MatchChoice(StrEnum):
@@ -63,7 +64,7 @@ Settings: TypeAlias = Annotated[
     typer.Option("--set", metavar="KEY=VALUE", help="Change the plant, such as backlash=2deg or payload=0.3kg."),
 ]
 Seed: TypeAlias = Annotated[
-    int | None, typer.Option(min=0, help="Draw play, encoder phase, noise and model error; same seed, same result.")
+    int | None, typer.Option(min=0, help="Draw play, encoder phase, noise and model error (0 where they need one).")
 ]
 Trials: TypeAlias = Annotated[int, typer.Option(min=1, help="Plants that are drawn, from the seed on.")]
 Everything: TypeAlias = Annotated[bool, typer.Option("--all", help="Print every measure, and the gains.")]
@@ -93,8 +94,8 @@ class BenchWords:
         from ..experiments.limb.bench_limb import limbed_robot
         from ..experiments.limb.flaw_texts import named_flaws, read_flaws
 
-        seed = 0 if self.seed is None and self.trials > 1 else self.seed
-        return read_flaws(named_flaws(self.flaws.value, limbed_robot(self.robot)), self.settings or (), seed)
+        base = named_flaws(self.flaws.value, limbed_robot(self.robot))
+        return read_flaws(base, self.settings or (), self.seed, drawn=self.trials > 1)
 
     def build_limb(self, flaws: "LimbFlaws", start: tuple[float, float] = (0.22, 0.0)) -> "BenchLimb":
         """The limb at its start, or at `start` where none is said."""
@@ -104,12 +105,12 @@ class BenchWords:
         at = start if self.start is None else read_point("start", self.start)
         return bench_limb(self.robot, self.limb, at, elbow=read_elbow(self.elbow), upright=flaws.upright)
 
-    def build_laws(self, limb: "BenchLimb") -> "tuple[list[Entry], LawSettings]":
-        """The entries, and the law that they were matched to."""
+    def build_laws(self, limb: "BenchLimb", at: "Floats") -> "tuple[list[Entry], LawSettings]":
+        """The entries, and the law that they were matched to at the joint angles `at`."""
         from ..experiments.limb.entries import make_entries, reference_law
 
         reference = reference_law(self.reference, self.kp, self.kd)
-        return make_entries(limb, self.controllers or (), reference, self.match.value), reference
+        return make_entries(limb, self.controllers or (), reference, self.match.value, at), reference
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,14 +133,16 @@ class Telling:
 
 def run_bench(words: BenchWords, limb: "BenchLimb", scenario: "Scenario", flaws: "LimbFlaws", telling: Telling) -> None:
     """Run the laws, write and print what came out, and leave with the exit code."""
+    from ..experiments.limb.entries import match_pose
     from ..experiments.limb.result import run_trials
     from .limb_text import print_limb_result, write_limb_result
 
-    entries, reference = words.build_laws(limb)
+    at = match_pose(limb, scenario)
+    entries, reference = words.build_laws(limb, at)
     announce_compilation("drive", quiet=telling.quiet)
     result = run_trials(
         limb, scenario, entries, flaws, plant=words.plant, seed=words.seed or 0, trials=words.trials,
-        match=words.match.value, reference=reference,
+        match=words.match.value, reference=reference, match_at=at,
     )  # fmt: skip
     if telling.output is not None:
         write_limb_result(result, telling.output)

@@ -149,19 +149,19 @@ def _number(value: float, column: Column) -> str:
 
 
 def _print_gains(console: Console, result: LimbResult) -> None:
-    table = plain_table(
-        "law", "kp", "kd", "Kxx N/mm", "Kxy", "Kyy", "gains", right=("kp", "kd", "Kxx N/mm", "Kxy", "Kyy")
-    )
+    numbers = ("kp", "kd", "Kxx", "Kxy", "Kyy")
+    table = plain_table("law", "kp", "kd", "in", "Kxx", "Kxy", "Kyy", "gains", right=numbers)
     for row in result.rows:
         settings, k = row.entry.settings, row.stiffness / 1e3
-        units = [gain_unit(settings.law, key) for key in ("kp", "kd")]
         table.add_row(
             row.entry.label,
-            *(f"{_per_axis(getattr(settings, key))} {unit}" for key, unit in zip(("kp", "kd"), units, strict=True)),
-            *(f"{value:.2f}" for value in (k[0, 0], k[0, 1], k[1, 1])),
+            *(_per_axis(getattr(settings, key)) for key in ("kp", "kd")),
+            gain_unit(settings.law, "kp"),
+            *(f"{value + 0.0:.2f}" for value in (k[0, 0], k[0, 1], k[1, 1])),
             "own" if row.entry.own_gains else result.match,
         )
     console.print(table)
+    console.print("kd in that unit times s; stiffness K of the tip by the law itself [N/mm]")
 
 
 def _per_axis(value: float | tuple[float, ...]) -> str:

@@ -16,6 +16,8 @@ class Listed(StrEnum):
     boards = "boards"
     tasks = "tasks"
     planners = "planners"
+    controllers = "controllers"
+    plants = "plants"
     studies = "studies"
 
 
@@ -23,7 +25,7 @@ def list_names(
     what: Annotated[Listed | None, typer.Argument(help="One kind; all kinds unless given.")] = None,
     as_json: AsJson = False,
 ) -> None:
-    """List robots, boards, tasks, planners and studies by name."""
+    """List robots, boards, tasks, planners, controllers, plants and studies by name."""
     from .catalogue import entries
 
     if as_json:

@@ -96,7 +96,7 @@ class LimbFlaws:
     motor_limits: bool = True
     """Whether the motors have their torque limits and torque-speed lines."""
     seed: int | None = None
-    """Draws where each joint starts in its play, where its encoder starts within a count, noise and model error; None: mid-play, no noise."""
+    """Draws each joint's side of its play at the start, its encoder's phase, noise and model error; None: mid-play, no noise."""
     speed_noise: float = 0.0
     """Standard deviation of the noise on sensed joint speeds [rad/s]."""
     wrench_noise: float = 0.0

@@ -7,7 +7,7 @@ import numpy as np
 from ...control.chain import Chain, chain_of_limb, closed_branches
 from ...errors import ClamberError
 from ...robots.library import load_robot
-from ...robots.limbed import LimbedRobot
+from ...robots.limbed import Limb, LimbedRobot
 from ...types import Floats
 
 
@@ -34,6 +34,11 @@ class BenchLimb:
     """Motor turns per joint turn, shape (n,)."""
     q0: Floats
     """Joint angles at the start [rad]."""
+
+    @property
+    def spec(self) -> Limb:
+        """As the robot's file states it."""
+        return self.robot.limbs[self.robot.limb_index(self.name)]
 
     @property
     def start(self) -> tuple[float, float]:

@@ -1,16 +1,22 @@
 """Laws as a user names them, such as jacobian-transpose:kp=1000,kd=100, and the usual set; gains matched unless stated."""
 
+import re
 from collections.abc import Sequence
 from dataclasses import fields, replace
 from typing import Any, Final
 
+import numpy as np
+
+from ...control.chain import closed_branches
 from ...control.law_settings import LAWS, LawError, LawSettings
 from ...errors import UnitError, UnknownNameError, describe_choices
+from ...types import Floats
 from ...units import parse_quantity, si_unit
-from .bench_limb import BenchLimb
+from .bench_limb import LEAST_SIGMA, BenchLimb
 from .contest import Entry
 from .flaw_texts import YES_NO
 from .matching import Match, match_gains
+from .scenario import Scenario
 
 USUAL: Final = (
     "scct",
@@ -49,6 +55,8 @@ DIMENSIONS: Final = {
 WORDS: Final = ("weight", "friction_from")
 LISTS: Final = ("axes", "forced")
 PER_AXIS: Final = (*GAINS, "mass", "admittance_kp", "admittance_kd")
+BETWEEN: Final = re.compile(r"/(?=[+-]?[\d.])")
+"""Between the values of two axes; the slash of a unit is followed by a letter."""
 SWITCHES: Final = ("feed_velocity", "feed_acceleration", "feed_gravity", "feed_bias", "feed_force", "scaled")
 
 
@@ -90,9 +98,9 @@ def _value(law: str, key: str, text: str) -> Any:
         if text.lower() not in YES_NO:
             raise LawError(law, key, text, "must be yes or no")
         return YES_NO[text.lower()]
-    if "/" in text and key in PER_AXIS:
-        return tuple(_number(law, key, part) for part in text.split("/"))
-    return _number(law, key, text)
+    parts = BETWEEN.split(text) if key in PER_AXIS else [text]
+    numbers = tuple(_number(law, key, part) for part in parts)
+    return numbers if len(numbers) > 1 else numbers[0]
 
 
 def gain_dimension(law: str, key: str) -> str | None:
@@ -121,8 +129,18 @@ def _number(law: str, key: str, text: str) -> float:
         raise LawError(law, key, text, f"{error.problem}; {error.allowed}") from None
 
 
-def make_entries(limb: BenchLimb, texts: Sequence[str], reference: LawSettings, match: Match) -> list[Entry]:
-    """Entries of `texts` with labels of their own; kp and kd of those that state neither are matched to `reference`.
+def match_pose(limb: BenchLimb, scenario: Scenario) -> Floats:
+    """Joint angles at which stiffnesses are made equal: at a circle's centre where the limb is regular, else at the start [rad]."""
+    if scenario.centre is None:
+        return limb.q0
+    branches = [np.array(q) for q in closed_branches(limb.spec, *scenario.centre)]
+    nearest = min(branches, key=lambda q: float(np.abs(q - limb.q0).max()), default=limb.q0)
+    regular = np.linalg.svd(limb.chain.jacobian(nearest)[:2], compute_uv=False).min() > LEAST_SIGMA
+    return nearest if regular else limb.q0
+
+
+def make_entries(limb: BenchLimb, texts: Sequence[str], reference: LawSettings, match: Match, q: Floats) -> list[Entry]:
+    """Entries of `texts` with labels of their own; kp and kd of those that state neither are matched to `reference` at `q` [rad].
 
     With `match` "none" they are the numbers of `reference`, whatever each law's unit of them is.
 
@@ -133,14 +151,14 @@ def make_entries(limb: BenchLimb, texts: Sequence[str], reference: LawSettings, 
     out: list[Entry] = []
     chosen = [text.strip() for text in texts or USUAL]
     for text in chosen:
-        name, _, said = text.partition(":")
+        said = text.partition(":")[2]
         settings = read_law(text)
         stated = _settings(settings.law, said)
         own = any(key in stated for key in GAINS)
         if not own and match == "none":
             settings = replace(settings, kp=reference.kp, kd=reference.kd)
         elif not own:
-            settings = match_gains(limb.chain, settings, reference, limb.q0, match)
+            settings = match_gains(limb.chain, settings, reference, q, match)
         alone = sum(other.partition(":")[0].strip() == settings.law for other in chosen) == 1
         label = settings.law if alone else _short_label(settings.law, said)
         while any(entry.label == label for entry in out):

@@ -22,6 +22,8 @@ DIMENSIONS: Final[dict[str, str]] = {
 """Property -> its dimension; what is not here is a whole number or yes or no."""
 WHOLE: Final = ("encoder_counts", "delay")
 SWITCHES: Final = ("upright", "motor_limits")
+RANDOM: Final = ("speed_noise", "wrench_noise", "model_error")
+"""What needs a seed."""
 SET: Final = ("ideal", "nominal")
 """Names of sets of flaws."""
 YES_NO: Final = {
@@ -77,10 +79,19 @@ def read_flaw(text: str) -> tuple[str, Any]:
         raise PlantError(key, said, f"{error.problem}; {error.allowed}") from None
 
 
-def read_flaws(base: LimbFlaws, texts: Iterable[str], seed: int | None = None) -> LimbFlaws:
+def read_flaws(base: LimbFlaws, texts: Iterable[str], seed: int | None = None, *, drawn: bool = False) -> LimbFlaws:
     """`base` with the properties of `texts`, all at once, so that rates may depend on each other.
+
+    Args:
+        base: What is not changed.
+        texts: Such as "backlash=2deg".
+        seed: Of what is left to chance; None: nothing is, unless there is noise, a model error or `drawn`, then 0.
+        drawn: Whether chance is wanted.
 
     Raises:
         PlantError: If one of them cannot be.
     """
-    return base.with_changes(**dict(read_flaw(text) for text in texts), seed=seed)
+    changes = dict(read_flaw(text) for text in texts)
+    if seed is None and (drawn or any(changes.get(key) for key in RANDOM)):
+        seed = 0
+    return base.with_changes(**changes, seed=seed)

@@ -32,7 +32,7 @@ class Row:
 
     entry: Entry
     stiffness: Floats
-    """At the tip, at the start, shape (2, 2) [N/m]."""
+    """At the tip, at `LimbResult.match_at`, shape (2, 2) [N/m]."""
     measures: tuple[Measures, ...]
     """One of each trial."""
     run: Run
@@ -60,6 +60,8 @@ class LimbResult:
     match: Match
     reference: LawSettings
     """The law that gains were matched to."""
+    match_at: Floats
+    """Joint angles at which they were [rad]."""
     seed: int
     rows: tuple[Row, ...]
 
@@ -120,13 +122,14 @@ class LimbResult:
             return f"not matched; the numbers of {law}, whatever their unit"
         what = {"yy": "Kyy", "mean": "mean of Kxx and Kyy", "diagonal": "Kxx and Kyy"}[self.match]
         own = sum(row.entry.own_gains for row in self.rows)
-        return f"matched by '{self.match}': {what} at the start as {law}" + (f"; {own} of their own" if own else "")
+        where = "the start" if self.match_at is self.limb.q0 else "the centre"
+        return f"matched by '{self.match}': {what} at {where} as {law}" + (f"; {own} of their own" if own else "")
 
     def mismatches(self) -> list[str]:
         """Labels of laws that were to be matched and cannot be: those with one gain for all directions."""
         if self.match == "none":
             return []
-        theirs = tip_stiffness(self.limb.chain, self.reference, self.limb.q0)
+        theirs = tip_stiffness(self.limb.chain, self.reference, self.match_at)
         pick: dict[str, Callable[[Floats], Any]] = {
             "yy": lambda s: s[1, 1],
             "mean": np.trace,
@@ -164,7 +167,12 @@ class LimbResult:
                 "angles": [float(q) for q in self.limb.q0],
             },
             "plant": {"name": self.plant} | asdict(scenario.on(self.flaws)),
-            "match": {"how": self.match, "reference": _gains(self.reference), "not_matched": self.mismatches()},
+            "match": {
+                "how": self.match,
+                "reference": _gains(self.reference),
+                "at": self.match_at.tolist(),
+                "not_matched": self.mismatches(),
+            },
             "seed": self.seed,
             "trials": self.trials,
             "laws": [_law(row) for row in self.rows],
@@ -237,6 +245,7 @@ def run_trials(
     trials: int = 1,
     match: Match = "none",
     reference: LawSettings | None = None,
+    match_at: Floats | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> LimbResult:
     """Run every entry `trials` times, on plants drawn from `seed` and the trial's number.
@@ -256,8 +265,9 @@ def run_trials(
             told[k].append(measure(run, scenario, limb))
         if progress is not None:
             progress(trial + 1, trials)
+    at = limb.q0 if match_at is None else match_at
     rows = tuple(
-        Row(entry, tip_stiffness(limb.chain, entry.settings, limb.q0), tuple(measures), run)
+        Row(entry, tip_stiffness(limb.chain, entry.settings, at), tuple(measures), run)
         for entry, measures, run in zip(entries, told, first, strict=True)
     )
-    return LimbResult(limb, scenario, flaws, plant, match, reference or LawSettings(law="scct"), seed, rows)
+    return LimbResult(limb, scenario, flaws, plant, match, reference or LawSettings(law="scct"), at, seed, rows)
