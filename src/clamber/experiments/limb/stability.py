@@ -48,9 +48,7 @@ def scaled_gains(settings: LawSettings, factor: float) -> LawSettings:
     def times(value: PerAxis) -> PerAxis:
         return tuple(factor * part for part in value) if isinstance(value, tuple) else factor * value
 
-    servo = {
-        key: factor * value for key in ("joint_kp", "joint_kd") if (value := getattr(settings, key)) is not None
-    }
+    servo = {key: factor * value for key in ("joint_kp", "joint_kd") if (value := getattr(settings, key)) is not None}
     return replace(settings, kp=times(settings.kp), kd=times(settings.kd), **servo)
 
 
