@@ -9,22 +9,39 @@ from pathlib import Path
 from typing import Any, Final
 
 from ... import __version__
+from ...control.law_settings import LawError, LawSettings
+from ...errors import UnknownNameError
 from ...files import write_atomically
 from ...jobs import Executor, Outcome, map_items
 from ...planning.axes import Axis, check_axes
 from ...types import Json
-from .flaw_texts import WHOLE
-from .limb_sweep_point import GAIN_KEYS, PEAK, Bench, Cell, SweepKeyError, check_key, find_boundary, run_point
+from .bench_limb import limbed_robot
+from .entries import reference_law
+from .flaw_texts import WHOLE, named_flaws, read_flaws
+from .limb_sweep_point import (
+    GAIN_KEYS,
+    PEAK,
+    USUAL_MEASURE,
+    Bench,
+    Cell,
+    ScenarioKind,
+    SweepKeyError,
+    check_key,
+    find_boundary,
+    run_point,
+)
+from .matching import Match
 from .measures import TipMeasures
+from .points import read_elbow, read_number, read_point
 
 SCHEMA: Final = "clamber-limb-sweep-1"
 PRECISION: Final = 0.02
 """Of a boundary, over the distance of the two grid values that it lies between."""
-MEASURES: Final = (
-    *(field.name for field in fields(TipMeasures)),
-    *(f"encoder.{field.name}" for field in fields(TipMeasures)),
-    *("work", "heat", "saturated", PEAK),
-)
+CENTRE: Final = (0.22, 0.0)
+"""Of circles [m]."""
+TIP_FIELDS: Final = tuple(field.name for field in fields(TipMeasures))
+RUN_MEASURES: Final = ("work", "heat", "saturated", PEAK)
+MEASURES: Final = (*TIP_FIELDS, *(f"encoder.{name}" for name in TIP_FIELDS), *RUN_MEASURES)
 """What can be drawn: of the true tip, of the encoders' tip, of the run."""
 SCENARIO_MEASURES: Final = {
     "step": ("across_max", "across_rms", "overshoot", "settling", "on_aim", "rest", "iae"),
@@ -108,6 +125,63 @@ class LimbSweep:
                 value = "" if cell.value is None else cell.value
                 table.writerow([*self.values(k).values(), label, value, cell.peak_to_peak, cell.steady])
         write_atomically(path, text.getvalue())
+
+
+def make_bench(
+    *,
+    kind: ScenarioKind,
+    measure: str | None = None,
+    by: str = "0,-2cm",
+    radius: str = "5cm",
+    lap: float = 3.0,
+    force: str = "10N,0",
+    laws: Sequence[str] = (),
+    kp: float | None = None,
+    kd: float | None = None,
+    match: Match = "yy",
+    reference: str = "scct",
+    robot: str = "libra",
+    limb: str | None = None,
+    start: str | None = None,
+    elbow: str | None = None,
+    flaws: str = "nominal",
+    settings: Sequence[str] = (),
+) -> Bench:
+    """A bench from words as on the command line of `clamber limb`.
+
+    Raises:
+        PointError, PlantError, LawError: If a word cannot be read, or its value is not allowed.
+        UnknownNameError: If there is no such robot, law, set of flaws or measure.
+    """
+    chosen = USUAL_MEASURE[kind] if measure is None else measure
+    inner = chosen.rpartition(".")[2]
+    if chosen not in MEASURES or (inner in TIP_FIELDS and inner not in SCENARIO_MEASURES[kind]):
+        sides = ("", "encoder.")
+        known = (*(f"{each}{name}" for each in sides for name in SCENARIO_MEASURES[kind]), *RUN_MEASURES)
+        raise UnknownNameError(f"measure of a {kind}", chosen, known)
+    plant = read_flaws(named_flaws(flaws, limbed_robot(robot)), settings)
+    law = reference_law(reference, kp, kd)
+    stated: Json
+    size = read_number("radius", radius, "length")
+    at = (CENTRE[0] + size, CENTRE[1]) if kind == "circle" else (0.22, 0.0)
+    if kind == "step":
+        stated = dict(zip(("dx", "dy"), read_point("by", by), strict=True))
+    elif kind == "circle":
+        stated = {"centre": CENTRE, "radius": size, "lap": lap}
+    else:
+        stated = {"force": read_point("force", force, "force")}
+    return Bench(
+        robot=robot, limb=limb, start=at if start is None else read_point("start", start), elbow=read_elbow(elbow),
+        kind=kind, command=stated, laws=tuple(laws), reference=law.law, kp=_one(law, "kp"), kd=_one(law, "kd"), match=match,
+        measure=chosen, flaws=asdict(plant),
+    )  # fmt: skip
+
+
+def _one(law: LawSettings, key: str) -> float:
+    value = getattr(law, key)
+    if isinstance(value, tuple):
+        raise LawError(law.law, key, value, "must be one number for all directions in a sweep")
+    return float(value)
 
 
 def _places(axes: Sequence[Axis]) -> list[tuple[str, ...]]:

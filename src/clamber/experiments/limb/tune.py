@@ -12,6 +12,8 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any, Final
 
+import numpy as np
+
 from ... import __version__
 from ...control.law_settings import LAWS, LawSettings
 from ...control.recommended import Recommended
@@ -165,16 +167,22 @@ def with_damping_time(law: LawSettings, kp: float, damping_time: float) -> LawSe
     return replace(law, kp=kp, kd=kp * damping_time, joint_kp=None, joint_kd=None)
 
 
+def _rebuilt(item: Json) -> tuple[BenchLimb, LimbFlaws]:
+    """Limb and plant of an item, in a worker."""
+    limb = bench_limb(item["robot"], item["limb"], tuple(item["start"]), upright=item["flaws"]["upright"])
+    return replace(limb, q0=np.array(item["q0"])), LimbFlaws(**item["flaws"])
+
+
 def find_edge(item: Json) -> Json:
     """The edge of one law at one damping time; runs in a worker.
 
     Args:
-        item: `robot`, `limb`, `law` as text, `damping_time`, `margin`, `flaws`.
+        item: `robot`, `limb`, its `start` and `q0`, `law` as text, `damping_time`, `margin`, `flaws`.
 
     Returns:
         The fields of `Edge`, or `problem`.
     """
-    limb, flaws = bench_limb(item["robot"], item["limb"], upright=item["flaws"]["upright"]), LimbFlaws(**item["flaws"])
+    limb, flaws = _rebuilt(item)
     unit = with_damping_time(read_law(item["law"]), 1.0, item["damping_time"])
     linear = linear_limit(limb.chain, unit, flaws, poses(limb))
     low, high, where = FIRST * linear, math.inf, ""
@@ -213,7 +221,7 @@ def settle_gains(item: Json) -> Json:
     Returns:
         The fields of `Tuned` beside `law` and `edges`.
     """
-    limb, flaws = bench_limb(item["robot"], item["limb"], upright=item["flaws"]["upright"]), LimbFlaws(**item["flaws"])
+    limb, flaws = _rebuilt(item)
     unit = with_damping_time(read_law(item["law"]), 1.0, item["damping_time"])
     effort: Effort = item["effort"]
     limit = item["kp"]
@@ -283,7 +291,7 @@ def tune(
     for name in names:
         read_law(name).record(limb.chain, flaws.period)
     about: Json = {"robot": robot or limb.robot.name, "limb": limb.name, "flaws": asdict(flaws)}
-    about |= {"margin": margin, "version": __version__}
+    about |= {"start": list(limb.start), "q0": limb.q0.tolist(), "margin": margin, "version": __version__}
     items: list[Json] = [about | {"law": name, "damping_time": time} for name in names for time in damping_times]
     title = f"the tuning of {limb.robot.name}'s {limb.name} limb"
     common: dict[str, Any] = {"workers": workers, "executor": executor, "progress": progress}
