@@ -83,6 +83,8 @@ def print_limb_result(console: Console, result: LimbResult, *, everything: bool,
     _print_lines(console, result)
     for label in result.mismatches():
         console.print(f"{label}: one gain for all directions, so '{result.match}' does not hold for it")
+    for name, excess in result.beyond_limits().items():
+        console.print(f"the {name} turned {math.degrees(excess):.1f} deg beyond its limit; the plant has no stops")
     if output is not None:
         console.print(f"written to {output}", soft_wrap=True)
 
@@ -111,7 +113,7 @@ def _print_table(console: Console, result: LimbResult, keys: Sequence[str]) -> N
     for row in result.rows:
         if row.unstable == result.trials:
             when = min(each.unstable_at for each in row.measures if each.unstable_at is not None)
-            table.add_row(row.entry.label, f"unstable at {when:.2f} s")
+            table.add_row(row.entry.label, "unstable", f"from {when:.1f} s")
             continue
         told = row.entry.label + (f" ({row.unstable} of {result.trials} unstable)" if row.unstable else "")
         table.add_row(told, *_cells(row, columns, "true", _mean))

@@ -72,7 +72,7 @@ def _faint(k: int) -> dict[str, Any]:
 
 def _name(row: Row) -> str:
     when = row.measures[0].unstable_at
-    return row.entry.label if when is None else f"{row.entry.label} (unstable at {when:.2f} s)"
+    return row.entry.label if when is None else f"{row.entry.label} (unstable from {when:.1f} s)"
 
 
 def _paths(row: Row) -> tuple[Floats, Floats]:
@@ -144,10 +144,16 @@ def _torques(axes: Axes, row: Row, k: int) -> None:
 
 def _finish_torques(axes: Axes, result: LimbResult) -> None:
     _dress(axes, "time [s]", "torque [N m]")
-    axes.annotate(
-        "thick: shoulder, thin: elbow", (1.0, 1.0), xycoords="axes fraction", xytext=(-2, -2), textcoords="offset points",
-        ha="right", va="top", fontsize=7, color=style.QUIET,
-    )  # fmt: skip
+    axes.set_title(
+        "thick: shoulder, thin: elbow", loc="right", fontsize=7, fontweight="normal", color=style.QUIET, pad=2
+    )
+
+
+def _magnified(result: LimbResult, last: Any, radius: float) -> int:
+    """By how much distances from the circle are drawn larger, so that the largest of a stable law fills a third of the radius."""
+    stable = [row for row in result.rows if row.measures[0].unstable_at is None]
+    off = [np.abs(radial_error(_paths(row)[0][last], result.scenario)).max() for row in stable]
+    return max(factor for factor in MAGNIFY if factor == 1 or factor * max(off, default=radius) <= radius / 3)
 
 
 def _draw_circle(figure: Figure, result: LimbResult) -> None:
@@ -161,12 +167,7 @@ def _draw_circle(figure: Figure, result: LimbResult) -> None:
     wanted = result.rows[0].run.trace.wanted_places()[last, 0, :2] - centre
     turned = np.unwrap(np.arctan2(wanted[:, 1], wanted[:, 0]))
     degrees = np.degrees(turned - turned[0])
-    largest = max(
-        float(np.nanmax(np.abs(radial_error(_paths(row)[0][last], scenario)), initial=0.0))
-        for row in result.rows
-        if row.measures[0].unstable_at is None or len(result.rows) == 1
-    ) if any(row.measures[0].unstable_at is None for row in result.rows) else radius  # fmt: skip
-    times = max(factor for factor in MAGNIFY if factor == 1 or factor * largest <= 0.45 * radius)
+    times = _magnified(result, last, radius)
     round_ = np.linspace(0.0, math.tau, 361)
     plane.plot(
         MM * (centre[0] + radius * np.cos(round_)), MM * (centre[1] + radius * np.sin(round_)),

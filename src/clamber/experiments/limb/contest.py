@@ -80,7 +80,6 @@ def run_contest(
 
 def _tick_seconds(controller: Controller, trace: LimbTrace, most: int = 200) -> float:
     """Seconds of one tick, by the law again on what was sensed: the best of three rounds."""
-
     rounds = []
     count = min(most, len(trace.time))
     states = [trace.sensed[k] for k in range(count) if np.isfinite(trace.sensed[k]).all()]

@@ -12,13 +12,15 @@ import numpy as np
 
 from ...control.chain import Chain
 from ...control.controller import Controller, still_aim
-from ...control.law_settings import LawSettings
+from ...control.law_settings import LawError, LawSettings
 from ...types import Floats
 
 Match: TypeAlias = Literal["yy", "mean", "diagonal", "none"]
 MATCHES: Final[tuple[Match, ...]] = ("yy", "mean", "diagonal", "none")
 NUDGE: Final = 1e-6
 """Of a joint [rad]."""
+LEAST_PART: Final = 1e-6
+"""A stiffness smaller than this part of that along the other axis is none."""
 
 
 def tip_stiffness(chain: Chain, settings: LawSettings, q: Floats) -> Floats:
@@ -49,11 +51,22 @@ def match_gains(chain: Chain, settings: LawSettings, reference: LawSettings, q: 
     """`settings` with kp and kd scaled until its stiffness at `q` is that of `reference` in the sense of `how`.
 
     kd is scaled as kp is, so the ratio of both stays that of `reference`, whose gains are the starting point.
+
+    Raises:
+        LawError: If either law has no stiffness in that sense, as along a row that carries a force.
     """
     if how == "none":
         return settings
     start = replace(settings, kp=reference.kp, kd=reference.kd)
     ours, theirs = tip_stiffness(chain, start, q), tip_stiffness(chain, reference, q)
+    for law, stiffness in ((settings, ours), (reference, theirs)):
+        if not np.diag(stiffness).min() > LEAST_PART * np.diag(stiffness).max():
+            raise LawError(
+                law.law,
+                "kp",
+                "(matched)",
+                f"has no stiffness of its own to match by '{how}': state kp and kd, or 'none'",
+            )
     if how == "yy":
         factors = np.full(2, theirs[1, 1] / ours[1, 1])
     elif how == "mean":

@@ -19,6 +19,10 @@ CYCLE_FROM: Final = 5.0
 """A limit cycle is looked for after this time [s]."""
 BEYOND: Final = math.radians(20.0)
 """A joint this far beyond its limits has run away: a real one would have hit its stop [rad]."""
+WINDOWS: Final = 8
+"""Parts of a run in which its swing is looked at, at most."""
+SWING: Final = 0.5
+"""Shortest such part [s]: it has to hold a swing of the limb."""
 NEVER: Final = math.inf
 """In place of a time that never came."""
 
@@ -210,8 +214,8 @@ def _settled(distance: Floats, time: Floats, band: float, begin: float) -> float
 def instability(trace: LimbTrace, scenario: Scenario, index: int = 0) -> float | None:
     """When a run went unstable [s], or None.
 
-    A run is unstable where a number is not finite, where a joint is 20 deg beyond its limits, or where the tip still swings by more than
-    the motion that was asked for in the last quarter; then from when it first is off by one and a half of it.
+    A run is unstable where a number is not finite, where a joint is 20 deg beyond its limits, or where the tip swings by more than the
+    motion that was asked for, peak to peak, in every window of the last quarter; then from the first window after the last calm one.
     """
     states = trace.true[:, index]
     lost = ~np.isfinite(states).all(axis=(1, 2))
@@ -225,11 +229,12 @@ def instability(trace: LimbTrace, scenario: Scenario, index: int = 0) -> float |
     size = scenario_size(trace, scenario)
     if scenario.push is not None:
         size = max(size, float(distance[trace.time <= scenario.push.end].max()))
-    last = trace.time >= 0.75 * trace.time[-1]
-    if not np.ptp(error[last], axis=0).max() > size:
+    count = min(WINDOWS, max(2, int(len(trace.time) * trace.time[1] / SWING)))
+    wild = [np.ptp(part, axis=0).max() > size for part in np.array_split(error, count)]
+    if not all(wild[-max(1, count // 4) :]):
         return None
-    far = distance > 1.5 * size
-    return float(trace.time[int(np.argmax(far if far.any() else last))])
+    calm = max((k for k in range(count) if not wild[k]), default=-1)
+    return float(trace.time[round((calm + 1) * len(trace.time) / count)])
 
 
 def _work(trace: LimbTrace, index: int) -> float:

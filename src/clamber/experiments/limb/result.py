@@ -116,7 +116,9 @@ class LimbResult:
 
     def match_words(self) -> str:
         """What the laws' gains have in common, in one line."""
-        kp, kd = (f"{getattr(self.reference, key)}".strip("()") for key in ("kp", "kd"))
+        kp, kd = (
+            "/".join(f"{one:g}" for one in np.atleast_1d(gain)) for gain in (self.reference.kp, self.reference.kd)
+        )
         law = f"{self.reference.law} (kp {kp}, kd {kd})"
         if self.match == "none":
             return f"not matched; the numbers of {law}, whatever their unit"
@@ -143,10 +145,25 @@ class LimbResult:
             and np.abs(np.atleast_1d(pick[self.match](row.stiffness)) / wanted - 1.0).max() > MISMATCH
         ]
 
+    def beyond_limits(self) -> dict[str, float]:
+        """Joints that any stable law turned beyond the limits of the robot's file, and how far [rad]: the plant has no stops."""
+        joints = self.limb.chain.joints
+        out: dict[str, float] = {}
+        for row in self.rows:
+            if row.measures[0].unstable_at is not None:
+                continue
+            angles = row.run.trace.true[:, 0, 0]
+            over = np.maximum(angles - joints["upper"], joints["lower"] - angles).max(axis=0)
+            for name, most in zip(self.limb.chain.joint_names, over, strict=True):
+                if most > 0.0:
+                    out[name] = max(out.get(name, 0.0), float(most))
+        return out
+
     def to_json(self) -> Json:
         """Everything but the traces, in SI units and radians; `null` is a time that never came.
 
-        Keys are stable: schema, scenario, limb, plant, match, trials, seed, laws. Of `laws`, `tick` alone depends on the machine.
+        Keys are stable: schema, scenario, limb, plant, match, beyond_limits, seed, trials, laws. Of `laws`, `tick` alone depends on the
+        machine.
         """
         scenario = self.scenario
         return {
@@ -173,6 +190,7 @@ class LimbResult:
                 "at": self.match_at.tolist(),
                 "not_matched": self.mismatches(),
             },
+            "beyond_limits": self.beyond_limits(),
             "seed": self.seed,
             "trials": self.trials,
             "laws": [_law(row) for row in self.rows],
