@@ -1,9 +1,11 @@
 """A sweep of laws as a picture: curves over one axis, a map of the best law over two, with where each goes unstable."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
@@ -46,7 +48,7 @@ def draw_limb_sweep(sweep: LimbSweep, path: str | Path, scale: float, unit: str)
         if len(sweep.axes) == 1:
             _curves(axes, sweep, scale)
             axes.set_ylabel(words)
-            handles = axes.get_legend_handles_labels()[0]
+            handles: Sequence[Artist] = axes.get_legend_handles_labels()[0]
         else:
             handles = _map(axes, sweep)
         figure.legend(handles=handles, loc="outside lower center", ncols=3, fontsize=8)

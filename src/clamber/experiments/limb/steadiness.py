@@ -166,7 +166,15 @@ FRICTIONS: Final[dict[Effort, tuple[float, ...]]] = {
 """Coulomb friction over the file's: the search takes the least, which calms least; the others prove it."""
 
 
-def unrest(limb: BenchLimb, settings: LawSettings, flaws: LimbFlaws, effort: Effort, *, stop: bool = True) -> Unrest:
+def unrest(
+    limb: BenchLimb,
+    settings: LawSettings,
+    flaws: LimbFlaws,
+    effort: Effort,
+    *,
+    stop: bool = True,
+    since: float = QUIET_FROM,
+) -> Unrest:
     """The least steady run of a law through the situations, at each friction of `effort`.
 
     Args:
@@ -175,13 +183,14 @@ def unrest(limb: BenchLimb, settings: LawSettings, flaws: LimbFlaws, effort: Eff
         flaws: The plant; its friction is multiplied.
         effort: Which situations and frictions.
         stop: Whether to end at the first friction at which a run is unsteady.
+        since: From when on the tip must be still [s].
     """
     worst = Unrest(0.0, "none")
     chosen = situations(limb, flaws.control_rate, effort)
     for friction in FRICTIONS[effort]:
         worn = flaws.with_changes(friction=friction * flaws.friction, seed=SEED)
         for group, trace in run_situations(limb, settings, worn, chosen):
-            sizes = peak_to_peak(trace)
+            sizes = peak_to_peak(trace, since)
             k = int(np.argmax(sizes))
             if sizes[k] > worst.peak_to_peak:
                 worst = Unrest(float(sizes[k]), f"{group[k].name}, friction {friction:g}")

@@ -45,6 +45,8 @@ WIDEST: Final = 2.0**8
 """How far from the linear limit an edge is looked for, both ways."""
 LOWER: Final = (0.5, 0.25)
 """Parts of the recommended gains that must be steady too: stability is then no island."""
+LATER: Final = 6.0
+"""From when on those must be still [s]: a quarter of the gains may take more than 5 s to arrive, which is no limit cycle."""
 
 
 class TuningError(ClamberError):
@@ -99,7 +101,7 @@ class Tuned:
     situation: str
     """Where that was."""
     lower: float
-    """The same at a half and a quarter of the gains [m]."""
+    """The same at a half and a quarter of the gains, after 6 s, with the least friction [m]."""
     overshoot: float
     """Largest of steps of 2 cm by the encoders, at the recommended gains [-]."""
     iae: float
@@ -230,7 +232,7 @@ def settle_gains(item: Json) -> Json:
     kp = rounded_down(limit / item["margin"], 3)
     law = replace(unit, kp=kp, kd=float(f"{kp * item['damping_time']:.3g}"))
     worst = unrest(limb, law, flaws, effort, stop=False)
-    lower = max(unrest(limb, scaled_gains(law, part), flaws, "search").peak_to_peak for part in LOWER)
+    lower = max(unrest(limb, scaled_gains(law, part), flaws, "search", since=LATER).peak_to_peak for part in LOWER)
     scenario = step_scenario(limb, flaws.control_rate, seconds=SECONDS)
     (run,) = run_contest(limb, scenario, [Entry(law.law, law)], flaws)
     told = measure(run, scenario, limb)
