@@ -4,9 +4,7 @@ from pathlib import Path
 
 from rich.console import Console
 
-from ..experiments.limb.flaw_texts import plant_words
 from ..experiments.limb.limb_sweep import LimbSweep
-from ..sim.limb_flaws import LimbFlaws
 from .limb_text import COLUMNS
 from .output import plain_table
 
@@ -19,8 +17,8 @@ def print_limb_sweep(console: Console, result: LimbSweep, output: Path | None) -
     bench = result.bench
     over = " and ".join(axis.key for axis in result.axes)
     console.print(f"{bench.kind} over {over}: {bench.measure}{_unit(bench.measure)}", style="bold")
-    console.print(f"plant: {plant_words(LimbFlaws(**bench.flaws))}")
-    console.print(f"gains: matched by '{bench.match}' to {bench.reference} (kp {bench.kp:g}, kd {bench.kd:g})")
+    console.print(f"plant: {result.plant_words()}")
+    console.print(f"gains: {result.gain_words()}")
     console.print()
     if len(result.axes) == 1:
         _print_rows(console, result)

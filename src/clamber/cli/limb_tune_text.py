@@ -40,9 +40,13 @@ def print_tuning(console: Console, result: Tuning, save: Path | None, output: Pa
         )
     console.print(table)
     console.print()
-    console.print("kp, kd: N m/rad, N m s/rad; jacobian-transpose N/m, N s/m; operational-space 1/s^2, 1/s")
+    console.print(
+        "kp, kd: N m/rad, N m s/rad; of jacobian-transpose N/m, N s/m;\n        of operational-space 1/s^2, 1/s"
+    )
     console.print("of linear: limit kp over that of the linear loop; K: of the tip at the start")
-    console.print("p-p: true tip at rest, worst run; over: worst step of 2 cm, by encoders; IAE: step in -y")
+    console.print(
+        "p-p: true tip at rest, worst run; over: worst step of 2 cm, by encoders;\nIAE: of a step of 2 cm in -y"
+    )
     for law in result.laws:
         if not law.steady:
             console.print(f"{law.law}: does not come to rest at these gains: {law.situation}", soft_wrap=True)

@@ -12,10 +12,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from ..experiments.limb.flaw_texts import plant_words
 from ..experiments.limb.limb_sweep import LimbSweep
 from ..planning.axes import Axis
-from ..sim.limb_flaws import LimbFlaws
 from ..types import Floats
 from . import style
 from .limb_plot import LINES
@@ -63,14 +61,7 @@ def _head(figure: Figure, sweep: LimbSweep, words: str) -> None:
     ]
     title = f"Laws on {what} over {' and '.join(axis.key.replace('_', ' ') for axis in sweep.axes)}: {words}"
     figure.text(0.012, 0.985, title, va="top", fontsize=11, fontweight="bold")
-    varied = {axis.key for axis in sweep.axes}
-    kept = {key: value for key, value in bench.flaws.items() if key not in varied}
-    proportion = (
-        "" if "kd" in varied else f", kd = {bench.kd / bench.kp:.3g} s x kp" if "kp" in varied else f", kd {bench.kd:g}"
-    )
-    stiff = "" if "kp" in varied else f" kp {bench.kp:g}"
-    under = f"plant, where it does not vary: {plant_words(LimbFlaws(**kept))}\n"
-    under += f"gains matched by '{bench.match}' to {bench.reference}{stiff}{proportion}"
+    under = f"plant: {sweep.plant_words()}\ngains: {sweep.gain_words()}"
     figure.text(0.012, 0.945, under, va="top", fontsize=8, color=style.QUIET, linespacing=1.4)
 
 

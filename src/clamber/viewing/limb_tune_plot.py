@@ -69,7 +69,7 @@ def _panel(axes: Axes, law: Tuned) -> None:
     axes.plot([law.kp, limit], [law.kd, limit * law.damping_time], color=style.ALERT, lw=1.0, zorder=4)
     axes.plot([law.kp], [law.kd], color=style.ALERT, marker="o", ms=5, ls="none", zorder=5, label="recommended")
     axes.annotate(
-        f"{law.kp:.3g}, {law.kd:.3g}", (law.kp, law.kd), xytext=(-5, 3), textcoords="offset points", fontsize=7.5, ha="right",
+        f"{law.kp:.4g}, {law.kd:.3g}", (law.kp, law.kd), xytext=(6, -3), textcoords="offset points", fontsize=7.5, va="top",
         color=style.ALERT, zorder=6,
     )  # fmt: skip
     axes.set_title(law.law, fontsize=8.5)

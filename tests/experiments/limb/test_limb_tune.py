@@ -4,6 +4,7 @@ import math
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -20,6 +21,7 @@ from clamber.errors import SpecError, UnknownNameError
 from clamber.experiments.limb.bench_limb import BenchLimb, bench_limb
 from clamber.experiments.limb.entries import read_law
 from clamber.experiments.limb.flaw_texts import named_flaws
+from clamber.experiments.limb.matching import tip_stiffness
 from clamber.experiments.limb.steadiness import STEADY, peak_to_peak, poses, run_situations, situations
 from clamber.experiments.limb.tune import (
     OVERSHOOT,
@@ -85,6 +87,14 @@ def test_situations_cover_both_elbows_near_and_far(limb: BenchLimb) -> None:
     assert {round(math.copysign(1.0, q[1])) for q in places} == {-1, 1}
     reaches = sorted({round(float((limb.chain.place(q)[:2] ** 2).sum() ** 0.5), 3) for q in places})
     assert reaches[0] < 0.15 < 0.27 < reaches[-1]
+
+
+def test_the_derivative_of_the_implicit_admittance_is_no_stiffness(limb: BenchLimb) -> None:
+    scct, implicit = (
+        tip_stiffness(limb.chain, LawSettings(law=law, kp=100.0, kd=4.0), limb.q0)
+        for law in ("scct", "implicit-admittance")
+    )
+    np.testing.assert_allclose(implicit, scct, rtol=1e-6)
 
 
 def test_every_command_has_ended_before_the_limb_must_be_still(limb: BenchLimb) -> None:

@@ -98,9 +98,9 @@ def read_flaws(base: LimbFlaws, texts: Iterable[str], seed: int | None = None, *
     return base.with_changes(**changes, seed=seed)
 
 
-def plant_words(flaws: LimbFlaws) -> str:
-    """What is not ideal about a plant, in one line."""
-    told = [f"{flaws.control_rate:g} Hz"]
+def plant_words(flaws: LimbFlaws, *, rate: bool = True) -> str:
+    """What is not ideal about a plant, in one line; its control rate first, if `rate`."""
+    told = [f"{flaws.control_rate:g} Hz"] if rate else []
     for key, words in (
         ("backlash", f"backlash {math.degrees(flaws.backlash):.4g} deg"),
         ("encoder_counts", f"{flaws.encoder_counts} counts"),
@@ -112,4 +112,4 @@ def plant_words(flaws: LimbFlaws) -> str:
     told += [f"{key} x {getattr(flaws, key):g}" for key in ("friction", "damping") if getattr(flaws, key) != 1.0]
     told += ["upright"] if flaws.upright else []
     told += [] if flaws.motor_limits else ["motors without limits"]
-    return ", ".join(told)
+    return ", ".join(told) or "as its file says"

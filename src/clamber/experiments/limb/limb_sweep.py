@@ -14,10 +14,11 @@ from ...errors import UnknownNameError
 from ...files import write_atomically
 from ...jobs import Executor, Outcome, map_items
 from ...planning.axes import Axis, check_axes
+from ...sim.limb_flaws import LimbFlaws
 from ...types import Json
 from .bench_limb import limbed_robot
 from .entries import reference_law
-from .flaw_texts import WHOLE, named_flaws, read_flaws
+from .flaw_texts import WHOLE, named_flaws, plant_words, read_flaws
 from .limb_sweep_point import (
     GAIN_KEYS,
     PEAK,
@@ -97,6 +98,25 @@ class LimbSweep:
     def values(self, index: int) -> dict[str, str]:
         """Texts of a point by key."""
         return dict(zip((axis.key for axis in self.axes), _places(self.axes)[index], strict=True))
+
+    def plant_words(self) -> str:
+        """What does not vary of the plant, in one line."""
+        varied = {axis.key for axis in self.axes}
+        kept = {key: value for key, value in self.bench.flaws.items() if key not in varied}
+        return plant_words(LimbFlaws(**kept), rate="control_rate" not in varied)
+
+    def gain_words(self) -> str:
+        """Where the gains come from, in one line."""
+        bench, varied = self.bench, {axis.key for axis in self.axes}
+        kp = "" if "kp" in varied else f"kp {bench.kp:g}"
+        kd = (
+            "" if "kd" in varied else f"kd = {bench.kd / bench.kp:.3g} s x kp" if "kp" in varied else f"kd {bench.kd:g}"
+        )
+        told = ", ".join(filter(None, (kp, kd)))
+        told = f" ({told})" if told else ""
+        if bench.match == "none":
+            return f"the numbers of {bench.reference}{told}, not matched"
+        return f"matched by '{bench.match}' to {bench.reference}{told}"
 
     def to_json(self) -> Json:
         """Plain data; measures in SI, axes and boundaries in the units of their axes."""
