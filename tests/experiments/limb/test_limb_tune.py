@@ -24,6 +24,7 @@ from clamber.experiments.limb.flaw_texts import named_flaws
 from clamber.experiments.limb.matching import tip_stiffness
 from clamber.experiments.limb.steadiness import STEADY, peak_to_peak, poses, run_situations, situations
 from clamber.experiments.limb.tune import (
+    DAMPING_TIMES,
     OVERSHOOT,
     PRECISION,
     Edge,
@@ -86,7 +87,7 @@ def test_situations_cover_both_elbows_near_and_far(limb: BenchLimb) -> None:
     places = poses(limb)
     assert {round(math.copysign(1.0, q[1])) for q in places} == {-1, 1}
     reaches = sorted({round(float((limb.chain.place(q)[:2] ** 2).sum() ** 0.5), 3) for q in places})
-    assert reaches[0] < 0.15 < 0.27 < reaches[-1]
+    assert reaches[0] < 0.2 < 0.27 < reaches[-1]
 
 
 def test_the_derivative_of_the_implicit_admittance_is_no_stiffness(limb: BenchLimb) -> None:
@@ -165,7 +166,7 @@ def test_an_unknown_law_is_refused_before_anything_runs(limb: BenchLimb, flaws: 
 @pytest.mark.parametrize("law", LAWS)
 def test_the_procedure_finds_the_stored_limit_again(limb: BenchLimb, flaws: LimbFlaws, law: str) -> None:
     found = stored(law)[1]
-    time = min((0.02, 0.028, 0.04, 0.057, 0.08, 0.113, 0.16), key=lambda each: abs(each - found.kd / found.kp))
+    time = min(DAMPING_TIMES, key=lambda each: abs(each - found.kd / found.kp))
     (again,) = tune(limb, [law], flaws, damping_times=(time,), workers=2).laws
     assert again.limit_kp == pytest.approx(found.limit_kp, rel=PRECISION)
     assert again.steady

@@ -37,7 +37,7 @@ LAPS: Final = (3.0, 6.0)
 CIRCLE_SECONDS: Final = 3.0
 PUSH: Final = 10.0
 """Force on the tip, from 0.5 to 2 s [N]."""
-REACHES: Final = (0.45, 0.7, 0.9)
+REACHES: Final = (0.62, 0.7, 0.9)
 """Distances of the poses from the port, over the limb's length: folded, middling, stretched."""
 Effort: TypeAlias = Literal["search", "full", "fine"]
 
@@ -75,7 +75,7 @@ def situations(limb: BenchLimb, rate: float, effort: Effort) -> list[Situation]:
     off the axis, six directions, another push.
     """
     fine = effort == "fine"
-    places = poses(limb, (0.4, 0.55, 0.8, 0.92), 0.35) if fine else poses(limb)
+    places = poses(limb, (0.65, 0.8, 0.92), 0.35) if fine else poses(limb)
     directions, pushes = (6, (0.8,)) if fine else (4, (0.0,))
     out = []
     for q in places:

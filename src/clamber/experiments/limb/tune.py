@@ -30,7 +30,7 @@ from .scenario import step_scenario
 from .stability import linear_limit, scaled_gains
 from .steadiness import SECONDS, STEADY, Effort, overshoot, poses, unrest
 
-DAMPING_TIMES: Final = (0.01, 0.014, 0.02, 0.028, 0.04, 0.057, 0.08, 0.113, 0.16)
+DAMPING_TIMES: Final = (0.01, 0.014, 0.02, 0.028, 0.04, 0.057, 0.08, 0.113, 0.16, 0.226)
 """kd/kp that are tried [s]."""
 MARGIN: Final = 2.0
 """Gain margin: the edge over what is recommended [-]; 2 is 6 dB."""
