@@ -11,6 +11,13 @@ from .options import AsJson, Output, Quiet, Ray, Resume, Store, Workers
 from .output import announce_compilation, check_writable, print_json, stderr, stdout
 
 
+class GainsChoice(StrEnum):
+    """Where the gains come from of laws that state none."""
+
+    matched = "matched"
+    recommended = "recommended"
+
+
 class ScenarioChoice(StrEnum):
     """What is asked of the limb."""
 
@@ -36,6 +43,10 @@ def sweep(
     lap: Annotated[float, typer.Option(help="Time of one lap of the circle [s].")] = 3.0,
     force: Annotated[str, typer.Option(metavar="FX,FY", help="The push.")] = "10N,0",
     controllers: opt.Controllers = None,
+    gains: Annotated[
+        GainsChoice,
+        typer.Option(help="Of laws without gains of their own: --match to the reference, or as `limb tune` found."),
+    ] = GainsChoice.matched,
     kp: opt.Kp = None,
     kd: opt.Kd = None,
     match: opt.Matched = opt.MatchChoice.yy,
@@ -69,7 +80,7 @@ def sweep(
     bench = make_bench(
         kind=scenario.value, measure=measure, by=by, radius=radius, lap=lap, force=force, laws=controllers or (),
         kp=kp, kd=kd, match=match.value, reference=reference, robot=robot, limb=limb, start=start, elbow=elbow,
-        flaws=flaws.value, settings=settings or (),
+        flaws=flaws.value, settings=settings or (), recommended=gains is GainsChoice.recommended,
     )  # fmt: skip
     announce_compilation("drive", quiet=quiet)
     result = run_limb_sweep(

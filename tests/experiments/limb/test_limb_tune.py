@@ -34,6 +34,7 @@ from clamber.experiments.limb.tune import (
     rounded_down,
     tune,
 )
+from clamber.experiments.limb.tuned_laws import with_recommended_gains
 from clamber.sim.limb_flaws import LimbFlaws
 
 
@@ -132,6 +133,22 @@ def test_saved_gains_replace_their_own_kind_alone(tmp_path: Path) -> None:
     save_recommended([first, other], path)
     save_recommended([replace(first, kp=1.25)], path)
     assert read_recommended(path) == [other, replace(first, kp=1.25)]
+
+
+def test_laws_take_the_gains_recommended_for_them(limb: BenchLimb) -> None:
+    texts = ["scct", "scct:kp=7", "joint-pd:weight=none", "operational-space:feed_friction=1,feed_acceleration=yes"]
+    laws = [read_law(text) for text in with_recommended_gains(limb, texts)]
+    for law, name in ((laws[0], "scct"), (laws[2], "joint-pd"), (laws[3], "operational-space")):
+        found = stored(name)[1]
+        assert (law.kp, law.kd) == (found.kp, found.kd)
+    assert laws[1].kp == 7.0
+    assert laws[3].feed_friction == 1.0
+
+
+@pytest.mark.parametrize("text", ["scct:weight=damping", "scct:feed_friction=1,friction_from=measured"])
+def test_a_law_with_another_loop_has_no_recommended_gains(limb: BenchLimb, text: str) -> None:
+    with pytest.raises(RecommendationError, match="no gains of scct"):
+        with_recommended_gains(limb, [text])
 
 
 def test_gains_that_nobody_found_name_what_there_is() -> None:

@@ -9,15 +9,15 @@ from pathlib import Path
 from typing import Any, Final
 
 from ... import __version__
-from ...control.law_settings import LawError, LawSettings
+from ...control.law_settings import LAWS, LawError, LawSettings
 from ...errors import UnknownNameError
 from ...files import write_atomically
 from ...jobs import Executor, Outcome, map_items
 from ...planning.axes import Axis, check_axes
 from ...sim.limb_flaws import LimbFlaws
 from ...types import Json
-from .bench_limb import limbed_robot
-from .entries import reference_law
+from .bench_limb import bench_limb, limbed_robot
+from .entries import GAINS, reference_law
 from .flaw_texts import WHOLE, named_flaws, plant_words, read_flaws
 from .limb_sweep_point import (
     GAIN_KEYS,
@@ -34,6 +34,7 @@ from .limb_sweep_point import (
 from .matching import Match
 from .measures import TipMeasures
 from .points import read_elbow, read_number, read_point
+from .tuned_laws import with_recommended_gains
 
 SCHEMA: Final = "clamber-limb-sweep-1"
 PRECISION: Final = 0.02
@@ -108,6 +109,8 @@ class LimbSweep:
     def gain_words(self) -> str:
         """Where the gains come from, in one line."""
         bench, varied = self.bench, {axis.key for axis in self.axes}
+        if bench.laws and all(any(f"{key}=" in text for key in GAINS) for text in bench.laws):
+            return "each law's own"
         kp = "" if "kp" in varied else f"kp {bench.kp:g}"
         kd = (
             "" if "kd" in varied else f"kd = {bench.kd / bench.kp:.3g} s x kp" if "kp" in varied else f"kd {bench.kd:g}"
@@ -166,8 +169,9 @@ def make_bench(
     elbow: str | None = None,
     flaws: str = "nominal",
     settings: Sequence[str] = (),
+    recommended: bool = False,
 ) -> Bench:
-    """A bench from words as on the command line of `clamber limb`.
+    """A bench from words as on the command line of `clamber limb`; if `recommended`, laws without gains have those found by tuning.
 
     Raises:
         PointError, PlantError, LawError: If a word cannot be read, or its value is not allowed.
@@ -190,9 +194,14 @@ def make_bench(
         stated = {"centre": CENTRE, "radius": size, "lap": lap}
     else:
         stated = {"force": read_point("force", force, "force")}
+    texts = tuple(laws)
+    where = at if start is None else read_point("start", start)
+    if recommended:
+        chosen_limb = bench_limb(robot, limb, where, elbow=read_elbow(elbow), upright=plant.upright)
+        texts = tuple(with_recommended_gains(chosen_limb, texts or tuple(LAWS)))
     return Bench(
-        robot=robot, limb=limb, start=at if start is None else read_point("start", start), elbow=read_elbow(elbow),
-        kind=kind, command=stated, laws=tuple(laws), reference=law.law, kp=_one(law, "kp"), kd=_one(law, "kd"), match=match,
+        robot=robot, limb=limb, start=where, elbow=read_elbow(elbow),
+        kind=kind, command=stated, laws=texts, reference=law.law, kp=_one(law, "kp"), kd=_one(law, "kd"), match=match,
         measure=chosen, flaws=asdict(plant),
     )  # fmt: skip
 
