@@ -11,6 +11,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 from ..experiments.limb.limb_sweep import LimbSweep
 from ..planning.axes import Axis
@@ -20,6 +21,9 @@ from .limb_plot import LINES
 from .output import CANVASES, check_suffix, save_figure
 from .style import bare, styled
 
+WIDE: Final = 8.0
+"""Curves whose largest value is so many times the smallest are drawn to a logarithmic scale."""
+MOST_TICKS: Final = 12
 NONE: Final = "#ECE9E6"
 """Fill of where no law is stable, under a hatch."""
 
@@ -79,7 +83,7 @@ def _curves(axes: Axes, sweep: LimbSweep, scale: float) -> None:
     assert axis.numbers is not None
     order = np.argsort(axis.numbers)
     at = np.array(axis.numbers)[order]
-    top = 0.0
+    top, least = 0.0, np.inf
     for k, label in enumerate(sweep.labels):
         cells = [sweep.points[j][label] for j in order]
         values = np.array([np.nan if cell.value is None else scale * cell.value for cell in cells])
@@ -96,8 +100,13 @@ def _curves(axes: Axes, sweep: LimbSweep, scale: float) -> None:
         axes.plot(at[~steady], values[~steady], color=_colour(k), ls="none", marker="x", ms=5, mew=1.1, alpha=0.8)
         axes.plot(edges, ends, color=_colour(k), ls="none", marker="|", ms=15, mew=2.2)
         shown = y[np.isfinite(y)]
-        top = max(top, float(shown.max()) if shown.size else 0.0)
-    if top > 0.0:
+        top, least = max(top, shown.max(initial=0.0)), min(least, shown.min(initial=np.inf))
+    if least > 0.0 and top > WIDE * least:
+        axes.set_yscale("log")
+        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axes.yaxis.set_minor_locator(NullLocator())
+    elif top > 0.0:
         axes.set_ylim(0.0, 1.15 * top)
     axes.plot([], [], color=style.QUIET, ls="none", marker="|", ms=11, mew=2.0, label="stability ends here")
     axes.plot([], [], color=style.QUIET, ls="none", marker="x", ms=5, label="unstable")
@@ -139,6 +148,8 @@ def _map(axes: Axes, sweep: LimbSweep) -> list[Patch | Line2D]:
     axes.set_ylim(low[0], low[-1])
     axes.set_xlabel(_title(across))
     axes.set_ylabel(_title(up))
+    axes.set_xticks(x[:: -(-len(x) // MOST_TICKS)])
+    axes.set_yticks(y[:: -(-len(y) // MOST_TICKS)])
     axes.tick_params(length=0)
     for spine in axes.spines.values():
         spine.set_visible(False)
