@@ -64,5 +64,5 @@ def test_a_push_never_leaves_its_line_nor_exceeds_its_size(time: float, rise: fl
     assert -4.0 * x == pytest.approx(3.0 * y) and 0.0 <= x <= 3.0
     if time <= 1.0 or time >= 2.0 + rise:
         assert (x, y) == (0.0, 0.0)
-    if 1.0 + rise <= time <= 2.0 and time > 1.0:
+    if 1.0 + rise <= time <= 2.0 and 1.0 < time < 2.0 + rise:
         assert (x, y) == (3.0, -4.0)

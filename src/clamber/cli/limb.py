@@ -10,6 +10,8 @@ from .limb_portrait import portrait
 from .limb_push import push
 from .limb_record import record
 from .limb_step import step
+from .limb_sweep import sweep
+from .limb_tune import tune
 
 limb = typer.Typer(help="Compare Cartesian controllers on one geared limb.", no_args_is_help=True)
 limb.command("step")(step)
@@ -20,3 +22,5 @@ limb.command("identify")(identify)
 limb.command("record")(record)
 limb.command("force")(force)
 limb.command("portrait")(portrait)
+limb.command("sweep")(sweep)
+limb.command("tune")(tune)

@@ -15,8 +15,10 @@ def portrait(
     folder: Annotated[
         Path | None, typer.Option("--output", "-o", metavar="DIR", help="Write DIR/LAW.png for each law.")
     ] = None,
-    kp: Annotated[float, typer.Option(help="Stiffness of SCCT, which the others are matched to.")] = 200.0,
-    kd: Annotated[float, typer.Option(help="Its damping.")] = 10.0,
+    reference: Annotated[
+        str | None,
+        typer.Option(metavar="NAME[:KEY=VALUE,...]", help="Match gains to this law, such as scct:kp=200,kd=10."),
+    ] = None,
     match: opt.Matched = opt.MatchChoice.yy,
     robot: opt.Robot = "libra",
     limb: opt.LimbName = None,
@@ -24,14 +26,18 @@ def portrait(
     as_json: AsJson = False,
     quiet: Quiet = False,
 ) -> None:
-    """Show what each law does: a step, a circle, a push, forces on a wall; ideal and nominal limb, matched gains."""
+    """Show what each law does: a step, a circle, a push, forces on a wall; ideal and nominal limb.
+
+    Gains are those recommended for the limb, unless they are matched to a reference."""
+    from ..experiments.limb.entries import read_law
     from ..experiments.limb.portrait import paint_portraits, portraits_json
     from .limb_portrait_text import check_folder, draw_portraits, print_portraits
 
     check_folder(folder)
     announce_compilation("drive", quiet=quiet)
+    matched = None if reference is None else read_law(reference)
     portraits = paint_portraits(
-        () if laws == ["all"] else laws, robot=robot, limb=limb, kp=kp, kd=kd, match=match.value, seed=seed
+        () if laws == ["all"] else laws, robot=robot, limb=limb, matched=matched, match=match.value, seed=seed
     )
     if folder is not None:
         draw_portraits(portraits, folder)

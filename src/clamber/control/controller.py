@@ -118,6 +118,11 @@ class Controller:
         """Forget what the laws remember."""
         self._memory[:] = 0.0
 
+    @property
+    def memory(self) -> Floats:
+        """What the laws remember, shape (batch, `memory_length`): the controller's own array, for those who analyse a loop."""
+        return self._memory
+
     def command(
         self, aims: Records, states: Floats, wrenches: Floats | None = None, mounts: Floats | None = None
     ) -> Floats:

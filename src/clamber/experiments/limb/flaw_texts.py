@@ -1,5 +1,6 @@
 """A plant's properties as a user writes them, such as backlash=2deg, and sets of them by name."""
 
+import math
 from collections.abc import Iterable
 from typing import Any, Final
 
@@ -95,3 +96,20 @@ def read_flaws(base: LimbFlaws, texts: Iterable[str], seed: int | None = None, *
     if seed is None and (drawn or any(changes.get(key) for key in RANDOM)):
         seed = 0
     return base.with_changes(**changes, seed=seed)
+
+
+def plant_words(flaws: LimbFlaws, *, rate: bool = True) -> str:
+    """What is not ideal about a plant, in one line; its control rate first, if `rate`."""
+    told = [f"{flaws.control_rate:g} Hz"] if rate else []
+    for key, words in (
+        ("backlash", f"backlash {math.degrees(flaws.backlash):.4g} deg"),
+        ("encoder_counts", f"{flaws.encoder_counts} counts"),
+        ("delay", f"delay {flaws.delay}"),
+        ("payload", f"payload {flaws.payload:g} kg"),
+    ):
+        if getattr(flaws, key):
+            told.append(words)
+    told += [f"{key} x {getattr(flaws, key):g}" for key in ("friction", "damping") if getattr(flaws, key) != 1.0]
+    told += ["upright"] if flaws.upright else []
+    told += [] if flaws.motor_limits else ["motors without limits"]
+    return ", ".join(told) or "as its file says"

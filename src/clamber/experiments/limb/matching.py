@@ -19,6 +19,8 @@ Match: TypeAlias = Literal["yy", "mean", "diagonal", "none"]
 MATCHES: Final[tuple[Match, ...]] = ("yy", "mean", "diagonal", "none")
 NUDGE: Final = 1e-6
 """Of a joint [rad]."""
+HELD: Final = 200
+"""Ticks that a nudge is held before its torques count: a filtered derivative has died away, what is left is the spring."""
 LEAST_PART: Final = 1e-6
 """A stiffness smaller than this part of that along the other axis is none."""
 
@@ -37,8 +39,9 @@ def tip_stiffness(chain: Chain, settings: LawSettings, q: Floats) -> Floats:
         states[0, 0] = q
         controller.command(aim, states)
         states[0, 0] = angles
-        out: Floats = controller.command(aim, states)[0].copy()
-        return out
+        for _ in range(HELD):
+            out: Floats = controller.command(aim, states)[0]
+        return out.copy()
 
     joint = np.empty((chain.n, chain.n))
     for j, nudge in enumerate(NUDGE * np.eye(chain.n)):

@@ -1,4 +1,4 @@
-"""A law's portrait: the same step, circle, push and wall for every law, on an ideal and on a nominal limb, at matched gains."""
+"""A law's portrait: the same step, circle, push and wall for every law, on an ideal and on a nominal limb, at recommended or matched gains."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
@@ -20,6 +20,7 @@ from .force_scenario import ForceTask
 from .matching import Match, tip_stiffness
 from .measures import Measures, measure
 from .scenario import Scenario, circle_scenario, push_scenario, step_scenario
+from .tuned_laws import with_recommended_gains
 
 SCHEMA: Final = "clamber-limb-portrait-1"
 STEP_START: Final = (0.22, 0.0)
@@ -125,8 +126,7 @@ def paint_portraits(
     *,
     robot: str = "libra",
     limb: str | None = None,
-    kp: float = 200.0,
-    kd: float = 10.0,
+    matched: LawSettings | None = None,
     match: Match = "yy",
     seed: int = 1,
 ) -> list[Portrait]:
@@ -136,12 +136,13 @@ def paint_portraits(
         laws: Their names.
         robot: A climber's name or file.
         limb: Its limb, by name or from 1; None: the first.
-        kp, kd: Gains of SCCT, which the other laws are matched to [N m/rad], [N m s/rad].
-        match: In which sense.
+        matched: Law that the gains of all are matched to; None: gains as recommended for the limb.
+        match: In which sense they are matched.
         seed: Draws on which side of its play each joint of the nominal limb starts, and its encoders' phases.
 
     Raises:
         UnknownNameError: If there is no such law, robot or limb.
+        RecommendationError: If nobody tuned a law on this limb.
         StartError: If the limb cannot start where the scenes do.
         ScenarioError: If it cannot reach what they ask for.
     """
@@ -150,8 +151,8 @@ def paint_portraits(
         if law not in LAWS:
             raise UnknownNameError("controller", law, tuple(LAWS))
     stands, rounds = (bench_limb(robot, limb, start) for start in (STEP_START, CIRCLE_START))
-    reference = LawSettings(law="scct", kp=kp, kd=kd)
-    entries = make_entries(stands, chosen, reference, match, stands.q0)
+    texts = chosen if matched is not None else with_recommended_gains(stands, chosen)
+    entries = make_entries(stands, texts, matched or LawSettings(law="scct"), match, stands.q0)
     plants = {name: named_flaws(name, stands.robot) for name in SET}
     plants["nominal"] = plants["nominal"].with_changes(seed=seed)
     rate = plants["nominal"].control_rate

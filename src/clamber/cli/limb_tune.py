@@ -1,0 +1,75 @@
+"""`clamber limb tune`: the largest stable gains of laws on a limb, and recommended ones a margin below."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from . import limb_options as opt
+from .crew import EndsLine, check_resume, executor_of
+from .options import AsJson, Output, Quiet, Ray, Resume, Store, Workers
+from .output import announce_compilation, check_writable, print_json, stderr, stdout
+
+
+def tune(
+    controllers: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="[NAME[:KEY=VALUE,...]]...", help="Laws without their gains; all of them unless given."),
+    ] = None,
+    margin: Annotated[float, typer.Option(help="Largest stable gains over the recommended ones; 2 is 6 dB.")] = 2.0,
+    robot: opt.Robot = "libra",
+    limb: opt.LimbName = None,
+    start: opt.Start = None,
+    elbow: opt.Elbow = None,
+    flaws: opt.Flaws = opt.FlawsChoice.nominal,
+    settings: opt.Settings = None,
+    save: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Put the recommended gains into this TOML file; others in it stay."),
+    ] = None,
+    workers: Workers = None,
+    ray: Ray = None,
+    store: Store = None,
+    resume: Resume = False,
+    output: Output = None,
+    as_json: AsJson = False,
+    quiet: Quiet = False,
+) -> None:
+    """Find the largest gains at which the limb comes to rest after steps, circles and pushes, and recommend some below."""
+    check_resume(resume, store)
+    for path in (save, output):
+        check_writable(path)
+    if output is not None:
+        from ..viewing.output import CANVASES, check_suffix
+
+        check_suffix(output, CANVASES)
+    from ..control.recommended import read_recommended, save_recommended
+    from ..experiments.limb.bench_limb import bench_limb, limbed_robot
+    from ..experiments.limb.flaw_texts import named_flaws, read_flaws
+    from ..experiments.limb.points import read_elbow, read_point
+    from ..experiments.limb.tune import tune as find
+
+    if save is not None and save.exists():
+        read_recommended(save)
+    plant = read_flaws(named_flaws(flaws.value, limbed_robot(robot)), settings or ())
+    at = (0.22, 0.0) if start is None else read_point("start", start)
+    chosen = bench_limb(robot, limb, at, elbow=read_elbow(elbow), upright=plant.upright)
+    laws = [] if controllers in (None, ["all"]) else list(controllers or ())
+    announce_compilation("drive", quiet=quiet)
+    result = find(
+        chosen, laws, plant, robot=robot, margin=margin, executor=executor_of(ray, workers), store=store, resume=resume,
+        progress=EndsLine(stderr(), "searches", quiet=quiet).update,
+    )  # fmt: skip
+    if save is not None:
+        save_recommended(result.recommended(), save)
+    if output is not None:
+        from ..viewing.limb_tune_plot import draw_tuning
+
+        draw_tuning(result, output)
+    if as_json:
+        print_json(result.to_json())
+    else:
+        from .limb_tune_text import print_tuning
+
+        print_tuning(stdout(), result, save, output)
+    raise typer.Exit(0 if result.steady else 1)
