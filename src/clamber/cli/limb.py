@@ -6,6 +6,7 @@ from .limb_circle import circle
 from .limb_force import force
 from .limb_identify import identify
 from .limb_open_loop import open_loop
+from .limb_portrait import portrait
 from .limb_push import push
 from .limb_record import record
 from .limb_step import step
@@ -20,5 +21,6 @@ limb.command("open-loop")(open_loop)
 limb.command("identify")(identify)
 limb.command("record")(record)
 limb.command("force")(force)
+limb.command("portrait")(portrait)
 limb.command("sweep")(sweep)
 limb.command("tune")(tune)

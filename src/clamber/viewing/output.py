@@ -8,6 +8,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
+from PIL import Image
 
 from ..errors import ClamberError, describe_choices
 from ..files import write_atomically
@@ -68,8 +69,14 @@ def check_suffix(path: str | Path, allowed: Iterable[str]) -> str:
     return suffix
 
 
-def save_figure(figure: Figure, path: str | Path, dpi: int = DPI) -> Path:
+def save_figure(figure: Figure, path: str | Path, dpi: int = DPI, colours: int | None = None) -> Path:
     """Write a figure as its suffix says.
+
+    Args:
+        figure: What is drawn.
+        path: A file (.png, .svg, .pdf).
+        dpi: Dots per inch of a .png.
+        colours: Of a .png, at most: a third of the bytes; None: as many as there are.
 
     Raises:
         SuffixError: If the suffix names no format for still pictures.
@@ -79,5 +86,15 @@ def save_figure(figure: Figure, path: str | Path, dpi: int = DPI) -> Path:
     content = BytesIO()
     metadata = {".png": {"Software": "Clamber"}, ".svg": {"Date": None}, ".pdf": {"CreationDate": None}}[suffix]
     CANVASES[suffix](figure).print_figure(content, format=suffix[1:], dpi=dpi, metadata=metadata)
-    write_atomically(Path(path), content.getvalue())
+    written = content.getvalue()
+    write_atomically(Path(path), written if colours is None or suffix != ".png" else _indexed(written, colours))
     return Path(path)
+
+
+def _indexed(picture: bytes, colours: int) -> bytes:
+    """The same picture with a palette."""
+    out = BytesIO()
+    with Image.open(BytesIO(picture)) as full:
+        indexed = full.convert("RGB").quantize(colours, dither=Image.Dither.NONE)
+    indexed.save(out, "png", optimize=True)
+    return out.getvalue()
