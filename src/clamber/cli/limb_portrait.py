@@ -28,7 +28,8 @@ def portrait(
 ) -> None:
     """Show what each law does: a step, a circle, a push, forces on a wall; ideal and nominal limb.
 
-    Gains are those recommended for the limb, unless they are matched to a reference."""
+    Gains are those recommended for the limb, unless they are matched to a reference.
+    """
     from ..experiments.limb.entries import read_law
     from ..experiments.limb.portrait import paint_portraits, portraits_json
     from .limb_portrait_text import check_folder, draw_portraits, print_portraits
