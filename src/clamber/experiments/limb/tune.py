@@ -45,8 +45,8 @@ WIDEST: Final = 2.0**8
 """How far from the linear limit an edge is looked for, both ways."""
 LOWER: Final = (0.5, 0.25)
 """Parts of the recommended gains that must be steady too: stability is then no island."""
-LATER: Final = 6.0
-"""From when on those must be still [s]: a quarter of the gains may take more than 5 s to arrive, which is no limit cycle."""
+LATER: Final = 11.0
+"""From when on those must be still [s]: a quarter of the gains may take longer to arrive, which is no limit cycle."""
 
 
 class TuningError(ClamberError):
