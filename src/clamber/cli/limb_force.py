@@ -1,13 +1,12 @@
 """`clamber limb force`: a force on a wall, held standing and sliding, with each way to deal with joint friction."""
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from . import limb_options as opt
 from .options import AsJson, Output, Quiet
-from .output import announce_compilation, check_writable, print_json, stdout
+from .output import announce_compilation
 
 
 def force(
@@ -41,12 +40,14 @@ def force(
     flaws: opt.Flaws = opt.FlawsChoice.ideal,
     settings: opt.Settings = None,
     seed: opt.Seed = None,
+    log: opt.Log = None,
     output: Output = None,
     as_json: AsJson = False,
     quiet: Quiet = False,
 ) -> None:
     """Press on a wall, stand, slide along it and stand again: who holds the force, and how joint friction is dealt with."""
-    _check_output(output)
+    telling = opt.Telling(output, log, as_json, quiet)
+    telling.check(".json")
     from ..experiments.limb.force_entries import force_entries
     from ..experiments.limb.force_result import run_force
     from ..experiments.limb.force_scenario import ForceTask
@@ -72,18 +73,7 @@ def force(
     entries = force_entries(chosen, task, properties, controllers or (), compensations or ())
     announce_compilation("drive", quiet=quiet)
     result = run_force(chosen, task, entries, properties)
-    if output is not None:
-        write_force_result(result, output)
-    if as_json:
-        print_json(result.to_json())
-    else:
-        print_force_result(stdout(), result, output)
+    telling.tell(
+        result, lambda path: write_force_result(result, path), lambda console: print_force_result(console, result)
+    )
     raise typer.Exit(0 if result.held else 1)
-
-
-def _check_output(output: Path | None) -> None:
-    check_writable(output)
-    if output is not None:
-        from ..viewing.output import CANVASES, check_suffix
-
-        check_suffix(output, (".json", *CANVASES))
