@@ -51,27 +51,29 @@ def force(
     from ..experiments.limb.force_entries import force_entries
     from ..experiments.limb.force_result import run_force
     from ..experiments.limb.force_scenario import ForceTask
-    from ..units import parse_quantity
+    from ..experiments.limb.points import read_number
     from .limb_force_text import print_force_result, write_force_result
 
     task = ForceTask(
-        force=parse_quantity(size, "force"),
-        angle=parse_quantity(angle, "angle"),
-        stiffness=parse_quantity(stiffness, "stiffness"),
+        force=read_number("force", size, "force"),
+        angle=read_number("angle", angle, "angle"),
+        stiffness=read_number("stiffness", stiffness, "stiffness"),
         friction=wall_friction,
-        believed_angle=None if believed_angle is None else parse_quantity(believed_angle, "angle"),
-        believed_stiffness=None if believed_stiffness is None else parse_quantity(believed_stiffness, "stiffness"),
-        slide=parse_quantity(slide, "length"),
-        gap=parse_quantity(gap, "length"),
-        tolerance=parse_quantity(tolerance, "force"),
+        believed_angle=None if believed_angle is None else read_number("believed angle", believed_angle, "angle"),
+        believed_stiffness=None
+        if believed_stiffness is None
+        else read_number("believed stiffness", believed_stiffness, "stiffness"),
+        slide=read_number("slide", slide, "length"),
+        gap=read_number("gap", gap, "length"),
+        tolerance=read_number("tolerance", tolerance, "force"),
     )
     words = opt.BenchWords(
         None, None, None, opt.MatchChoice.none, "scct", robot, limb, start, elbow, "mujoco", flaws, settings, seed, 1
     )
     properties = words.build_plant()
+    announce_compilation("drive", quiet=quiet)
     chosen = words.build_limb(properties)
     entries = force_entries(chosen, task, properties, controllers or (), compensations or ())
-    announce_compilation("drive", quiet=quiet)
     result = run_force(chosen, task, entries, properties)
     telling.tell(
         result, lambda path: write_force_result(result, path), lambda console: print_force_result(console, result)

@@ -197,9 +197,9 @@ def run_bench(words: BenchWords, limb: "BenchLimb", scenario: "Scenario", flaws:
     from ..experiments.limb.result import compare_laws
     from .limb_text import print_limb_result, write_limb_result
 
+    announce_compilation("drive", quiet=telling.quiet)  # gains are matched by the laws themselves
     at = match_pose(limb, scenario)
     entries, reference = words.build_laws(limb, at)
-    announce_compilation("drive", quiet=telling.quiet)
     line = EndsLine(stderr(), "trials", quiet=telling.quiet or words.trials == 1)
     result = compare_laws(
         limb, scenario, entries, flaws, plant=words.plant, trials=words.trials, workers=words.crew,
