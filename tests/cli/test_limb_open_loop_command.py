@@ -27,7 +27,7 @@ def test_every_transform_is_told_within_80_columns(capfd: Capture, monkeypatch: 
     assert code == 0
     assert max(map(len, out.splitlines())) <= 80
     assert all(name in out for name in TRANSFORMS)
-    assert "backlash 0.0349066" in out and "friction 0.5" in out
+    assert "backlash 2 deg" in out and "friction x 0.5" in out
 
 
 def test_json_tells_the_first_motion_in_radians(capfd: Capture) -> None:

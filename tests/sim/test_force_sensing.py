@@ -76,6 +76,21 @@ def test_a_wrist_and_a_mount_change_nothing_about_the_motion(leg: BenchLimb) -> 
     np.testing.assert_allclose(places[0], places[1], atol=1e-9)
 
 
+def test_a_push_moves_a_limb_with_a_wrist_sensor_as_it_moves_one_without(leg: BenchLimb) -> None:
+    push = Push(x=4.0, y=-3.0, start=0.0, end=1.0, rise=0.0)
+    places = []
+    for sensors in ({}, {"wrist": ForceSensor(), "base": ForceSensor()}):
+        plant = MujocoLimb(leg.chain, LimbFlaws(push=push, friction=0.0, physics_rate=20_000.0, **sensors))
+        plant.reset(leg.q0)
+        for _ in range(20):
+            plant.actuate(np.zeros((1, 2)))
+            plant.step()
+        places.append(plant.truth().states.copy())
+    assert abs(places[0][0, 1]).max() > 0.1
+    # at the tip MuJoCo turns the push with the arm every physics step, at the last link's centre only every tick
+    np.testing.assert_allclose(places[0], places[1], rtol=5e-3)
+
+
 def reader(delay: int = 0, **changes: float) -> WrenchReader:
     return WrenchReader(ForceSensor(**changes), period=0.005, delay=delay, batch=1)
 

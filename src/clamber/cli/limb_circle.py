@@ -27,19 +27,21 @@ def circle(
     settings: opt.Settings = None,
     seed: opt.Seed = None,
     trials: opt.Trials = 1,
+    workers: opt.Workers = None,
     everything: opt.Everything = False,
+    log: opt.Log = None,
     output: Output = None,
     as_json: AsJson = False,
     quiet: Quiet = False,
 ) -> None:
     """Let the aim run round a circle, and compare how far each law leaves it in the last lap."""
-    telling = opt.Telling(output, everything, as_json, quiet)
-    telling.check()
+    telling = opt.Telling(output, log, as_json, quiet, everything)
+    telling.check(".json", ".csv")
     from ..experiments.limb.points import read_number, read_point
     from ..experiments.limb.scenario import circle_scenario
 
     words = opt.BenchWords(
-        controllers, kp, kd, match, reference, robot, limb, start, elbow, plant, flaws, settings, seed, trials
+        controllers, kp, kd, match, reference, robot, limb, start, elbow, plant, flaws, settings, seed, trials, workers
     )
     properties = words.build_plant()
     middle, size = read_point("centre", centre), read_number("radius", radius, "length")

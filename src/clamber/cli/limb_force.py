@@ -1,13 +1,12 @@
 """`clamber limb force`: a force on a wall, held standing and sliding, with each way to deal with joint friction."""
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from . import limb_options as opt
 from .options import AsJson, Output, Quiet
-from .output import announce_compilation, check_writable, print_json, stdout
+from .output import announce_compilation
 
 
 def force(
@@ -41,49 +40,42 @@ def force(
     flaws: opt.Flaws = opt.FlawsChoice.ideal,
     settings: opt.Settings = None,
     seed: opt.Seed = None,
+    log: opt.Log = None,
     output: Output = None,
     as_json: AsJson = False,
     quiet: Quiet = False,
 ) -> None:
     """Press on a wall, stand, slide along it and stand again: who holds the force, and how joint friction is dealt with."""
-    _check_output(output)
+    telling = opt.Telling(output, log, as_json, quiet)
+    telling.check(".json")
     from ..experiments.limb.force_entries import force_entries
     from ..experiments.limb.force_result import run_force
     from ..experiments.limb.force_scenario import ForceTask
-    from ..units import parse_quantity
+    from ..experiments.limb.points import read_number
     from .limb_force_text import print_force_result, write_force_result
 
     task = ForceTask(
-        force=parse_quantity(size, "force"),
-        angle=parse_quantity(angle, "angle"),
-        stiffness=parse_quantity(stiffness, "stiffness"),
+        force=read_number("force", size, "force"),
+        angle=read_number("angle", angle, "angle"),
+        stiffness=read_number("stiffness", stiffness, "stiffness"),
         friction=wall_friction,
-        believed_angle=None if believed_angle is None else parse_quantity(believed_angle, "angle"),
-        believed_stiffness=None if believed_stiffness is None else parse_quantity(believed_stiffness, "stiffness"),
-        slide=parse_quantity(slide, "length"),
-        gap=parse_quantity(gap, "length"),
-        tolerance=parse_quantity(tolerance, "force"),
+        believed_angle=None if believed_angle is None else read_number("believed angle", believed_angle, "angle"),
+        believed_stiffness=None
+        if believed_stiffness is None
+        else read_number("believed stiffness", believed_stiffness, "stiffness"),
+        slide=read_number("slide", slide, "length"),
+        gap=read_number("gap", gap, "length"),
+        tolerance=read_number("tolerance", tolerance, "force"),
     )
     words = opt.BenchWords(
         None, None, None, opt.MatchChoice.none, "scct", robot, limb, start, elbow, "mujoco", flaws, settings, seed, 1
     )
     properties = words.build_plant()
+    announce_compilation("drive", quiet=quiet)
     chosen = words.build_limb(properties)
     entries = force_entries(chosen, task, properties, controllers or (), compensations or ())
-    announce_compilation("drive", quiet=quiet)
     result = run_force(chosen, task, entries, properties)
-    if output is not None:
-        write_force_result(result, output)
-    if as_json:
-        print_json(result.to_json())
-    else:
-        print_force_result(stdout(), result, output)
+    telling.tell(
+        result, lambda path: write_force_result(result, path), lambda console: print_force_result(console, result)
+    )
     raise typer.Exit(0 if result.held else 1)
-
-
-def _check_output(output: Path | None) -> None:
-    check_writable(output)
-    if output is not None:
-        from ..viewing.output import CANVASES, check_suffix
-
-        check_suffix(output, (".json", *CANVASES))

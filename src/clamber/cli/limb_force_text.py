@@ -10,7 +10,7 @@ from .output import plain_table
 TITLES = ("mean\nN", "stand\nN", "slide\nN", "worst\nN", "touch\n%", "off\nmm", "work\nJ", "held")
 
 
-def print_force_result(console: Console, result: ForceResult, output: Path | None = None) -> None:
+def print_force_result(console: Console, result: ForceResult) -> None:
     """Print how well each law held the force."""
     console.print(f"{result.title()}, {result.limb.robot.name}'s {result.limb.name} limb", style="bold")
     console.print(f"plant: {result.plant_words()}")
@@ -33,8 +33,6 @@ def print_force_result(console: Console, result: ForceResult, output: Path | Non
     console.print("errors of the true force, after it has settled: mean; largest while standing")
     console.print("and while sliding; worst, with the slide's start and end; off: along the wall")
     console.print(f"held: none beyond {result.task.tolerance:g} N, and the tip never off the wall")
-    if output is not None:
-        console.print(f"written to {output}", soft_wrap=True)
 
 
 def write_force_result(result: ForceResult, path: Path) -> None:

@@ -6,7 +6,7 @@ import typer
 
 from . import limb_options as opt
 from .options import AsJson, Output, Quiet
-from .output import announce_compilation, check_writable, print_json, stdout
+from .output import announce_compilation
 
 
 def open_loop(
@@ -28,20 +28,19 @@ def open_loop(
     flaws: opt.Flaws = opt.FlawsChoice.ideal,
     settings: opt.Settings = None,
     seed: opt.Seed = None,
+    log: opt.Log = None,
     output: Output = None,
     as_json: AsJson = False,
     quiet: Quiet = False,
 ) -> None:
     """Put steady torques on the limb at rest, and compare in which direction each law's transform starts the tip."""
+    telling = opt.Telling(output, log, as_json, quiet)
+    telling.check(".json")
     from ..experiments.limb.open_loop import TRANSFORMS
     from ..experiments.limb.open_loop_result import compare_open_loop
     from ..experiments.limb.points import read_number
-    from ..viewing.output import CANVASES, check_suffix
     from .open_loop_text import print_open_loop, write_open_loop
 
-    check_writable(output)
-    if output is not None:
-        check_suffix(output, (".json", *CANVASES))
     words = opt.BenchWords(
         None, None, None, opt.MatchChoice.none, "scct", robot, limb, start, elbow, plant, flaws, settings, seed, 1
     )
@@ -53,10 +52,5 @@ def open_loop(
         chosen, properties, transforms or tuple(TRANSFORMS), force=size, direction=angle, seconds=seconds,
         renewed=renewed, plant=plant,
     )  # fmt: skip
-    if output is not None:
-        write_open_loop(result, output)
-    if as_json:
-        print_json(result.to_json())
-    else:
-        print_open_loop(stdout(), result, output=output)
+    telling.tell(result, lambda path: write_open_loop(result, path), lambda console: print_open_loop(console, result))
     raise typer.Exit(0 if result.moved else 1)

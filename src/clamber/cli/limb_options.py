@@ -1,22 +1,30 @@
 """Options that the commands of `clamber limb` share, and how they become a limb, a plant and laws."""
 
+import os
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Final, Protocol, TypeAlias
 
 import typer
+from rich.console import Console
 
 from .crew import EndsLine
 from .output import announce_compilation, check_writable, print_json, stderr, stdout
 
 if TYPE_CHECKING:
     from ..control.law_settings import LawSettings
+    from ..execution.log import Log as RunLog
     from ..experiments.limb.bench_limb import BenchLimb
     from ..experiments.limb.contest import Entry
     from ..experiments.limb.scenario import Scenario
     from ..sim.limb_flaws import LimbFlaws
-    from ..types import Floats
+    from ..types import Floats, Json
+
+
+LEAST_TRIALS: Final = 4
+"""A worker process is worth its start for so many trials."""
 
 
 class MatchChoice(StrEnum):
@@ -68,6 +76,16 @@ Seed: TypeAlias = Annotated[
     int | None, typer.Option(min=0, help="Draw play, encoder phase, noise and model error (0 where they need one).")
 ]
 Trials: TypeAlias = Annotated[int, typer.Option(min=1, help="Plants that are drawn, from the seed on.")]
+Workers: TypeAlias = Annotated[
+    int | None, typer.Option(min=1, help="Processes for the trials; one a core unless given, where there are many.")
+]
+Log: TypeAlias = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE",
+        help="Keep every tick of the first trial: .mcap, a channel a law; .csv, a file a law. `limb identify` reads both.",
+    ),
+]
 Everything: TypeAlias = Annotated[bool, typer.Option("--all", help="Print every measure, and the gains.")]
 
 
@@ -89,6 +107,12 @@ class BenchWords:
     settings: list[str] | None
     seed: int | None
     trials: int
+    workers: int | None = None
+
+    @property
+    def crew(self) -> int:
+        """Worker processes: as many as asked for, else one a core, but none for so few trials that its start takes longer."""
+        return self.workers or max(1, min(os.cpu_count() or 1, self.trials // LEAST_TRIALS))
 
     def build_plant(self) -> "LimbFlaws":
         """The plant's properties; checked before anything else is looked at."""
@@ -114,22 +138,57 @@ class BenchWords:
         return make_entries(limb, self.controllers or (), reference, self.match.value, at), reference
 
 
+class Told(Protocol):
+    """A result that can be told."""
+
+    def to_json(self) -> "Json":
+        """As plain data."""
+
+    def logs(self) -> "dict[str, RunLog]":
+        """Label -> what happened, tick by tick."""
+
+
 @dataclass(frozen=True, slots=True)
 class Telling:
     """How a result is to be told."""
 
     output: Path | None
-    everything: bool
+    log: Path | None
     as_json: bool
     quiet: bool
+    everything: bool = False
 
-    def check(self) -> None:
-        """Make sure that the output can be written before anything runs."""
-        from ..viewing.output import CANVASES, check_suffix
-
-        check_writable(self.output)
+    def check(self, *suffixes: str) -> None:
+        """Make sure that the files can be written before anything runs; `suffixes` are allowed of the output beside those of pictures."""
+        for path in (self.output, self.log):
+            check_writable(path)
         if self.output is not None:
-            check_suffix(self.output, (".json", ".csv", *CANVASES))
+            from ..viewing.output import CANVASES, check_suffix
+
+            check_suffix(self.output, (*suffixes, *CANVASES))
+        if self.log is not None:
+            from ..execution.log_files import check_log_suffix
+
+            check_log_suffix(self.log)
+            if self.output is not None and self.output.absolute() == self.log.absolute():
+                raise typer.BadParameter("must be two files", param_hint="--output, --log")
+
+    def tell(self, result: Told, write: Callable[[Path], None], show: Callable[[Console], None]) -> None:
+        """Write the files that are asked for, then print the result: as JSON, or by `show` and with the files' names."""
+        if self.output is not None:
+            write(self.output)
+        logged: tuple[Path, ...] = ()
+        if self.log is not None:
+            from ..execution.log_files import write_logs
+
+            logged = write_logs(result.logs(), self.log)
+        if self.as_json:
+            print_json(result.to_json())
+            return
+        console = stdout()
+        show(console)
+        for path in (*(() if self.output is None else (self.output,)), *logged):
+            console.print(f"written to {path}", soft_wrap=True)
 
 
 def run_bench(words: BenchWords, limb: "BenchLimb", scenario: "Scenario", flaws: "LimbFlaws", telling: Telling) -> None:
@@ -138,18 +197,17 @@ def run_bench(words: BenchWords, limb: "BenchLimb", scenario: "Scenario", flaws:
     from ..experiments.limb.result import compare_laws
     from .limb_text import print_limb_result, write_limb_result
 
+    announce_compilation("drive", quiet=telling.quiet)  # gains are matched by the laws themselves
     at = match_pose(limb, scenario)
     entries, reference = words.build_laws(limb, at)
-    announce_compilation("drive", quiet=telling.quiet)
     line = EndsLine(stderr(), "trials", quiet=telling.quiet or words.trials == 1)
     result = compare_laws(
-        limb, scenario, entries, flaws, plant=words.plant, trials=words.trials,
+        limb, scenario, entries, flaws, plant=words.plant, trials=words.trials, workers=words.crew,
         match=words.match.value, reference=reference, match_at=at, progress=line.update,
     )  # fmt: skip
-    if telling.output is not None:
-        write_limb_result(result, telling.output)
-    if telling.as_json:
-        print_json(result.to_json())
-    else:
-        print_limb_result(stdout(), result, everything=telling.everything, output=telling.output)
+    telling.tell(
+        result,
+        lambda path: write_limb_result(result, path),
+        lambda console: print_limb_result(console, result, everything=telling.everything),
+    )
     raise typer.Exit(0 if result.stable else 1)

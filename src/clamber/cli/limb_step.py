@@ -25,19 +25,21 @@ def step(
     settings: opt.Settings = None,
     seed: opt.Seed = None,
     trials: opt.Trials = 1,
+    workers: opt.Workers = None,
     everything: opt.Everything = False,
+    log: opt.Log = None,
     output: Output = None,
     as_json: AsJson = False,
     quiet: Quiet = False,
 ) -> None:
     """Let the aim jump, and compare how each law gets there: along the step, across it, at rest."""
-    telling = opt.Telling(output, everything, as_json, quiet)
-    telling.check()
+    telling = opt.Telling(output, log, as_json, quiet, everything)
+    telling.check(".json", ".csv")
     from ..experiments.limb.points import read_point
     from ..experiments.limb.scenario import step_scenario
 
     words = opt.BenchWords(
-        controllers, kp, kd, match, reference, robot, limb, start, elbow, plant, flaws, settings, seed, trials
+        controllers, kp, kd, match, reference, robot, limb, start, elbow, plant, flaws, settings, seed, trials, workers
     )
     properties = words.build_plant()
     chosen = words.build_limb(properties)

@@ -65,7 +65,7 @@ MORE: Final = {
 BLOCKS: Final = " ▁▂▃▄▅▆▇█"
 
 
-def print_limb_result(console: Console, result: LimbResult, *, everything: bool, output: Path | None = None) -> None:
+def print_limb_result(console: Console, result: LimbResult, *, everything: bool) -> None:
     """Print how the laws compare."""
     kind = result.scenario.kind
     console.print(_headline(result), style="bold")
@@ -86,8 +86,6 @@ def print_limb_result(console: Console, result: LimbResult, *, everything: bool,
     stops = "has" if result.flaws.joint_limits else "has no"
     for name, excess in result.beyond_limits().items():
         console.print(f"the {name} turned {math.degrees(excess):.1f} deg beyond its limit; the plant {stops} stops")
-    if output is not None:
-        console.print(f"written to {output}", soft_wrap=True)
 
 
 def _headline(result: LimbResult) -> str:

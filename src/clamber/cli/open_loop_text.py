@@ -10,7 +10,7 @@ from ..experiments.limb.open_loop_result import FAR, OpenLoopResult
 from .output import plain_table
 
 
-def print_open_loop(console: Console, result: OpenLoopResult, *, output: Path | None = None) -> None:
+def print_open_loop(console: Console, result: OpenLoopResult) -> None:
     """Print how each transform's torques start the tip, and where it strays."""
     limb, run = result.limb, result.runs[0]
     start = ", ".join(f"{round(1e3 * value, 3) + 0.0:g}" for value in limb.start)
@@ -41,8 +41,6 @@ def print_open_loop(console: Console, result: OpenLoopResult, *, output: Path | 
     )
     if not result.moved:
         console.print(f"no transform moves the tip by {1e3 * FIRST:g} mm: friction holds it")
-    if output is not None:
-        console.print(f"written to {output}", soft_wrap=True)
 
 
 def _shown(value: float | None, scale: float) -> str:

@@ -17,16 +17,16 @@ def study(
 ) -> None:
     """Repeat what a paper reports, and say for each result whether it holds."""
     from ..errors import UnknownNameError
-    from ..studies.library import STUDIES
+    from ..studies.library import STUDIES, first_loop
     from .study_text import print_results
 
     if paper not in STUDIES:
         raise UnknownNameError("study", paper, tuple(STUDIES))
     if result is not None and result not in STUDIES[paper]:
         raise UnknownNameError(f"result of '{paper}'", result, tuple(STUDIES[paper]))
-    announce_compilation("rollout")
     results = []
     for chosen in STUDIES[paper] if result is None else (result,):
+        announce_compilation(first_loop(STUDIES[paper][chosen]))
         stderr().print(f"working on {chosen}")
         results.append(STUDIES[paper][chosen]())
     if report is not None:

@@ -44,6 +44,8 @@ WEIGHTED: Final = frozenset({"scct", "implicit-admittance", "hybrid", "implicit-
 """Laws that weigh their joints by K' unless told otherwise."""
 FORCING: Final = frozenset({"hybrid", "implicit-force"})
 """Laws that take rows of force."""
+FEELING: Final = frozenset({"admittance"})
+"""Laws that do nothing of their own unless they feel a force; hybrid feels one where it has an integral of it."""
 AXIS_NAMES: Final = ("x", "y", "z", "rx", "ry", "rz")
 FRICTION_SOURCES: Final[dict[str, int]] = {
     "aim": FROM_AIM,
@@ -241,6 +243,13 @@ class LawSettings:
         most = 2 if chain.plane else 3 if chain.n < AXES else AXES
         names = self.axes or AXIS_NAMES[: min(chain.n, most)]
         return tuple(AXIS_NAMES.index(name) for name in names)
+
+    def sensors(self) -> frozenset[str]:
+        """Where the law reads a force sensor: "wrist", "base", both or neither; a torque loop's sensor serves the law too."""
+        if self.torque_sensor != "none":
+            return frozenset({self.torque_sensor})
+        feels = self.law in FEELING or (self.law == "hybrid" and self.force_gain > 0.0)
+        return frozenset({"wrist"}) if feels else frozenset()
 
     def weighs_joints(self) -> bool:
         """Whether the law weighs its joints by K'; else all count alike."""

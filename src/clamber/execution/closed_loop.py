@@ -1,13 +1,10 @@
 """The closed loop: sense, command, actuate, step, and write down what happened."""
 
-import numpy as np
-
 from ..control.controller import Controller, MeasurementError
-from ..control.records import AXES
 from ..types import Records
 from .plant import Plant
 from .recorder import Recorder
-from .trace import LimbTrace
+from .trace import LimbTrace, empty_trace
 
 
 def close_loop(plant: Plant, controller: Controller, aims: Records, *, keep: bool = False) -> LimbTrace:
@@ -22,18 +19,8 @@ def close_loop(plant: Plant, controller: Controller, aims: Records, *, keep: boo
     Raises:
         MeasurementError: If the plant's sensors say something that is not finite, and not `keep`.
     """
-    ticks, batch, n = aims.shape[0], controller.batch, controller.chain.n
-    trace = LimbTrace(
-        chain=controller.chain,
-        time=np.arange(ticks, dtype=np.float64) * controller.period,
-        aims=aims,
-        sensed=np.full((ticks, batch, 2, n), np.nan),
-        true=np.full((ticks, batch, 2, n), np.nan),
-        commanded=np.full((ticks, batch, n), np.nan),
-        applied=np.full((ticks, batch, n), np.nan),
-        wrenches=np.full((ticks, batch, AXES), np.nan),
-        reports=np.zeros((ticks, batch), controller.reports.dtype),
-    )
+    ticks = aims.shape[0]
+    trace = empty_trace(controller.chain, aims, controller.period, controller.batch)
     controller.reset()
     truth, sensed = plant.truth(), plant.sense()
     before = Recorder(

@@ -1,5 +1,7 @@
 """Log files by their suffix: .csv and .mcap in, the same out, written whole."""
 
+import re
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Final
 
@@ -7,7 +9,7 @@ from ..errors import FileError
 from ..files import write_atomically
 from .log import Log
 from .log_csv import csv_text, parse_csv
-from .log_mcap import TOPIC, mcap_bytes, parse_mcap
+from .log_mcap import TOPIC, mcap_bytes, mcap_of, parse_mcap
 
 SUFFIXES: Final = (".csv", ".mcap")
 MOST_BYTES: Final = 512 * 1024 * 1024
@@ -63,3 +65,34 @@ def write_log(log: Log, path: Path, topic: str = TOPIC) -> None:
     """
     suffix = check_log_suffix(path)
     write_atomically(path, mcap_bytes(log, topic) if suffix == ".mcap" else csv_text(log))
+
+
+def write_logs(logs: Mapping[str, Log], path: Path) -> tuple[Path, ...]:
+    """Write several logs, each under a name: an MCAP file gets a channel each, a single CSV log the file, several a file each.
+
+    Returns:
+        The files, each written whole or not at all: `path`, or for several CSV logs "run-scct.csv" and so on of "run.csv".
+
+    Raises:
+        FileError: If the suffix is none of `SUFFIXES`, or a file cannot be written.
+    """
+    if check_log_suffix(path) == ".mcap":
+        write_atomically(path, mcap_of(logs))
+        return (path,)
+    files = dict(zip(_files(tuple(logs), path), logs.values(), strict=True))
+    for file, log in files.items():
+        write_log(log, file)
+    return tuple(files)
+
+
+def _files(names: tuple[str, ...], path: Path) -> list[Path]:
+    """A file for each name, its letters and numbers kept; a second one of the same letters gets a number."""
+    if len(names) == 1:
+        return [path]
+    out: list[Path] = []
+    for name in names:
+        word = re.sub(r"[^A-Za-z0-9._=+-]+", "-", name).strip("-")
+        while (file := path.with_name(f"{path.stem}-{word}{path.suffix}")) in out:
+            word += "-2"
+        out.append(file)
+    return out

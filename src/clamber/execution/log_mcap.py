@@ -2,6 +2,8 @@
 
 import io
 import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Any, Final
 
 import numpy as np
@@ -10,6 +12,7 @@ from .log import Log, LogError, build_log
 
 TOPIC: Final = "limb"
 """Channel of a log that Clamber writes."""
+SCHEMA: Final = "clamber.Log"
 TIME: Final = "time"
 """Column that gives the messages their time [s]; a file without it gets the messages' own time."""
 
@@ -19,23 +22,27 @@ LATEST: Final = 2**64 - 1
 
 def mcap_bytes(log: Log, topic: str = TOPIC) -> bytes:
     """The bytes of an MCAP file of a log: one channel, whose messages hold one number a column under its title."""
+    return mcap_of({topic: log})
+
+
+def mcap_of(logs: Mapping[str, Log]) -> bytes:
+    """The bytes of an MCAP file of several logs, each on the channel that it is named by; notes are the channel's metadata."""
     from mcap.writer import Writer
 
     out = io.BytesIO()
     writer = Writer(out)
     writer.start(profile="", library="clamber")
-    titles = log.titles()
-    properties = {title: {"type": "number"} for title in titles}
-    schema = {"title": "clamber.Log", "type": "object", "properties": properties}
-    number = writer.register_schema("clamber.Log", "jsonschema", json.dumps(schema).encode())
-    channel = writer.register_channel(topic, "json", number)
-    if log.notes:
-        writer.add_metadata("clamber", dict(log.notes))
-    times = log.columns[TIME] if TIME in log.columns else np.arange(log.rows, dtype=np.float64)
-    for k, row in enumerate(np.column_stack([np.asarray(v) for v in log.columns.values()]).tolist()):
-        stamp = min(max(0, round(float(times[k]) * 1e9)), LATEST)
-        data = json.dumps(dict(zip(titles, row, strict=True))).encode()
-        writer.add_message(channel, stamp, data, stamp, k)
+    for topic, log in logs.items():
+        titles = log.titles()
+        properties = {title: {"type": "number"} for title in titles}
+        schema = {"title": SCHEMA, "type": "object", "properties": properties}
+        number = writer.register_schema(SCHEMA, "jsonschema", json.dumps(schema).encode())
+        channel = writer.register_channel(topic, "json", number, dict(log.notes))
+        times = log.columns[TIME] if TIME in log.columns else np.arange(log.rows, dtype=np.float64)
+        for k, row in enumerate(np.column_stack([np.asarray(v) for v in log.columns.values()]).tolist()):
+            stamp = min(max(0, round(float(times[k]) * 1e9)), LATEST)
+            data = json.dumps(dict(zip(titles, row, strict=True))).encode()
+            writer.add_message(channel, stamp, data, stamp, k)
     writer.finish()  # type: ignore[no-untyped-call]
     return out.getvalue()
 
@@ -52,22 +59,23 @@ def parse_mcap(content: bytes, label: str, topic: str | None = None) -> Log:
         LogError: If it is no MCAP file, no such channel is in it, or its messages are not JSON with the same numbers each.
     """
     try:
-        encodings, messages, notes = _read(content)
+        channels = _read(content)
     except Exception as error:  # the reader raises whatever a broken record makes of its struct, codec or index
         what = f"is not a readable MCAP file ({type(error).__name__}: {error})"
         raise LogError(label, None, None, None, what[:300]) from None
-    chosen = _choose(encodings, topic, label)
+    name = _choose(channels, topic, label)
+    chosen = channels[name]
     rows: list[dict[str, float]] = []
-    for k, (_, data) in enumerate(messages[chosen], start=1):
+    for k, (_, data) in enumerate(chosen.messages, start=1):
         flat: dict[str, float] = {}
         try:
             _flatten(json.loads(data), "", flat)
         except (ValueError, RecursionError, OverflowError) as error:
-            raise LogError(label, chosen, k, None, f"is not valid JSON: {str(error)[:200]}") from None
+            raise LogError(label, name, k, None, f"is not valid JSON: {str(error)[:200]}") from None
         rows.append(flat)
     titles = list(rows[0])
     if not titles:
-        raise LogError(label, chosen, 1, None, "must be an object that holds numbers")
+        raise LogError(label, name, 1, None, "must be an object that holds numbers")
     for k, flat in enumerate(rows, start=1):
         if flat.keys() != rows[0].keys():
             odd = sorted(flat.keys() ^ rows[0].keys())[0]
@@ -78,39 +86,47 @@ def parse_mcap(content: bytes, label: str, topic: str | None = None) -> Log:
     columns = list(table.T.copy())
     if not any(title.split("[")[0].strip().lower() in ("time", "timestamp", "t") for title in titles):
         titles.insert(0, "time [s]")
-        stamps = np.array([stamp - messages[chosen][0][0] for stamp, _ in messages[chosen]], dtype=np.float64)
+        stamps = np.array([stamp - chosen.messages[0][0] for stamp, _ in chosen.messages], dtype=np.float64)
         columns.insert(0, stamps * 1e-9)
-    return build_log(titles, columns, notes, label)
+    return build_log(titles, columns, chosen.notes, label)
 
 
-def _read(content: bytes) -> tuple[dict[str, str], dict[str, list[tuple[int, bytes]]], dict[str, str]]:
-    """Topic -> encoding, topic -> times and data of its messages, and notes."""
+@dataclass(slots=True)
+class _Channel:
+    """What a file holds of one topic."""
+
+    encoding: str
+    notes: dict[str, str]
+    messages: list[tuple[int, bytes]] = field(default_factory=list)
+    """Times [ns] and data."""
+
+
+def _read(content: bytes) -> dict[str, _Channel]:
+    """The channels by topic."""
     from mcap.reader import make_reader
 
-    reader = make_reader(io.BytesIO(content), validate_crcs=True)
-    notes: dict[str, str] = {}
-    for record in reader.iter_metadata():
-        if record.name == "clamber":
-            notes |= record.metadata
-    encodings: dict[str, str] = {}
-    messages: dict[str, list[tuple[int, bytes]]] = {}
-    for _, channel, message in reader.iter_messages():
-        encodings[channel.topic] = channel.message_encoding
-        messages.setdefault(channel.topic, []).append((message.log_time, message.data))
-    return encodings, messages, notes
+    channels: dict[str, _Channel] = {}
+    for schema, channel, message in make_reader(io.BytesIO(content), validate_crcs=True).iter_messages():
+        ours = schema is not None and schema.name == SCHEMA  # the metadata of others are no notes of a limb
+        found = channels.setdefault(
+            channel.topic, _Channel(channel.message_encoding, dict(channel.metadata) if ours else {})
+        )
+        found.messages.append((message.log_time, message.data))
+    return channels
 
 
-def _choose(encodings: dict[str, str], topic: str | None, label: str) -> str:
-    if not encodings:
+def _choose(channels: dict[str, _Channel], topic: str | None, label: str) -> str:
+    if not channels:
         raise LogError(label, None, None, None, "holds no messages")
     if topic is None:
-        topic = next(iter(encodings)) if len(encodings) == 1 else TOPIC
-    if topic not in encodings:
+        topic = next(iter(channels)) if len(channels) == 1 else TOPIC
+    if topic not in channels:
         raise LogError(
-            label, None, None, f"channel '{topic}'", f"no such channel; name one: {', '.join(encodings)[:400]}"
+            label, None, None, f"channel '{topic}'", f"no such channel; name one: {', '.join(channels)[:400]}"
         )
-    if encodings[topic] != "json":
-        raise LogError(label, None, None, f"channel '{topic}' is encoded as '{encodings[topic]}'", "must be 'json'")
+    encoding = channels[topic].encoding
+    if encoding != "json":
+        raise LogError(label, None, None, f"channel '{topic}' is encoded as '{encoding}'", "must be 'json'")
     return topic
 
 

@@ -19,13 +19,19 @@ _TORQUES: Final = (("commanded", "torque commanded"), ("applied", "torque"))
 
 
 def trace_log(trace: LimbTrace, item: int = 0, notes: Mapping[str, str] | None = None) -> Log:
-    """One limb of a trace as a log. Columns of aims, wrenches and reports that never leave their rest are left out.
+    """One limb of a trace as a log, up to where it left the finite numbers, if it did.
+
+    Columns of aims, wrenches and reports that never leave their rest are left out.
 
     Args:
         trace: What happened.
         item: Which of the batch, from 0.
         notes: To be kept in the file, such as robot and limb.
+
+    Raises:
+        LogError: If not even the first tick is finite.
     """
+    trace = _finite(trace, item)
     columns: dict[str, Floats] = {"time": trace.time.copy()}
     units = {"time": "s"}
     for j, joint in enumerate(trace.chain.joint_names):
@@ -44,6 +50,14 @@ def trace_log(trace: LimbTrace, item: int = 0, notes: Mapping[str, str] | None =
         if np.any(values != rest):
             columns[name] = np.array(values, dtype=np.float64)
     return Log(columns, units, dict(notes or {}), "trace")
+
+
+def _finite(trace: LimbTrace, item: int) -> LimbTrace:
+    """The trace up to the first tick of which something is not finite."""
+    parts = (getattr(trace, key)[:, item] for key in ("sensed", "true", "commanded", "applied", "wrenches"))
+    bad = [~np.isfinite(part.reshape(len(part), -1)).all(axis=1) for part in parts]
+    odd = np.flatnonzero(np.any(bad, axis=0))
+    return trace.first(int(odd[0])) if odd.size else trace
 
 
 def log_trace(log: Log, chain: Chain) -> LimbTrace:

@@ -61,6 +61,8 @@ def limb_spec(chain: Chain, flaws: LimbFlaws) -> Any:
     parent.add_site(name="tip", pos=root["tip"], quat=_quaternion(mujoco, root["tip_turn"]))
     if has_hand(flaws):
         hand = parent.add_body(name="hand", pos=root["tip"], quat=_quaternion(mujoco, root["tip_turn"]))
+        hand.explicitinertial = True  # else MuJoCo puts its centre of mass, where pushes act, at its place once more
+        hand.ipos = np.zeros(3)
         add_sensor(mujoco, spec, "hand", hand)
         if flaws.wall is not None:
             add_wall(mujoco, spec, hand, flaws.wall)

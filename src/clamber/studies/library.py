@@ -29,6 +29,15 @@ from .boards_exact.torque_front import trade_length_for_torque
 from .result import StudyResult
 
 Repeat: TypeAlias = Callable[[], StudyResult]
+ON_ONE_LIMB: Final[dict[str, Repeat]] = {
+    "fig-3-9": compare_models,
+    "fig-3-10": compare_transforms,
+    "fig-3-11": partial(step_response, "fig-3-11", "ode"),
+    "fig-3-12": partial(step_response, "fig-3-12", "mujoco"),
+    "fig-3-13": track_circle,
+    "fig-3-14": push_and_release,
+}
+"""Chapter 3 of Bevly 1997: laws in closed loop."""
 STUDIES: Final[dict[str, dict[str, Repeat]]] = {
     PAPER: {
         "inventory-size": count_modules,
@@ -42,12 +51,7 @@ STUDIES: Final[dict[str, dict[str, Repeat]]] = {
         "modified-ladder-evolution": follow_modified_ladder,
         "h-evolution": follow_h,
         "planner-success": count_successes,
-        "fig-3-9": compare_models,
-        "fig-3-10": compare_transforms,
-        "fig-3-11": partial(step_response, "fig-3-11", "ode"),
-        "fig-3-12": partial(step_response, "fig-3-12", "mujoco"),
-        "fig-3-13": track_circle,
-        "fig-3-14": push_and_release,
+        **ON_ONE_LIMB,
     },
     BOARDS_EXACT: {
         "optima": prove_optima,
@@ -60,3 +64,8 @@ STUDIES: Final[dict[str, dict[str, Repeat]]] = {
     },
 }
 """Paper or subject -> result -> what repeats it; the command line, the pages and the tests read it."""
+
+
+def first_loop(result: Repeat) -> str:
+    """The kernel that a result runs first: plans are rolled out, laws on a limb are ticked."""
+    return "drive" if result in ON_ONE_LIMB.values() else "rollout"

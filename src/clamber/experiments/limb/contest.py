@@ -1,5 +1,6 @@
 """Laws on the same limb, the same plant and the same command: run them, keep what happened."""
 
+import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,13 +13,15 @@ from ...control.controller import Controller
 from ...control.law_settings import LawSettings
 from ...execution.closed_loop import close_loop
 from ...execution.trace import LimbTrace
-from ...sim.limb_flaws import LimbFlaws
+from ...sim.limb_flaws import ForceSensor, LimbFlaws
 from ...sim.plants import plant_maker
 from .bench_limb import BenchLimb
 from .scenario import Scenario
 
 MISBELIEVED: Final = ("rotor", "damping", "friction", "mass", "inertia")
 """What a controller may be wrong about, joint by joint; lengths and angles it knows."""
+MOMENT_ARM: Final = 0.05
+"""Noise of a sensor's moments over that of its forces, of a size with the sensor [m]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,24 +58,52 @@ def believed_chain(chain: Chain, flaws: LimbFlaws) -> Chain:
     return Chain(chain.name, chain.joint_names, joints, chain.root.copy(), chain.plane).with_shares("inertia")
 
 
+def with_sensors(flaws: LimbFlaws, entries: Sequence[Entry]) -> LimbFlaws:
+    """The plant with the force sensors that the laws read and `flaws` does not have: ideal but for its `wrench_noise`."""
+    noise, seed = flaws.wrench_noise, flaws.seed or 0
+    needed = frozenset[str]().union(*(entry.settings.sensors() for entry in entries))
+    added = {
+        place: ForceSensor(noise=noise, moment_noise=MOMENT_ARM * noise, seed=2 * seed + k)
+        for k, place in enumerate(("wrist", "base"))
+        if place in needed and getattr(flaws, place) is None
+    }
+    return flaws.with_changes(**added)
+
+
 def run_contest(
-    limb: BenchLimb, scenario: Scenario, entries: Sequence[Entry], flaws: LimbFlaws, *, plant: str = "mujoco"
+    limb: BenchLimb,
+    scenario: Scenario,
+    entries: Sequence[Entry],
+    flaws: LimbFlaws,
+    *,
+    plant: str = "mujoco",
+    timed: bool = True,
 ) -> list[Run]:
     """Run every entry alone, from rest at the limb's start; a run that leaves the finite numbers ends in NaN.
+
+    Laws that read a force have one to read: the plant gets the sensors of `with_sensors`.
+
+    Args:
+        limb: On the bench.
+        scenario: What is asked of it.
+        entries: The laws.
+        flaws: Of the plant.
+        plant: Its name.
+        timed: Whether to measure how long a tick takes; else `Run.tick_seconds` is NaN.
 
     Raises:
         UnknownNameError: If there is no such plant.
         PlantError: If the plant does not have one of the flaws.
         LawError: If settings do not fit the limb.
     """
-    moved = plant_maker(plant)(limb.chain, scenario.on(flaws), gears=limb.gears)
+    moved = plant_maker(plant)(limb.chain, scenario.on(with_sensors(flaws, entries)), gears=limb.gears)
     believed = believed_chain(limb.chain, flaws)
     out = []
     for entry in entries:
         controller = Controller(believed, entry.settings, period=flaws.period)
         moved.reset(limb.q0)
         trace = close_loop(moved, controller, scenario.aims, keep=True)
-        out.append(Run(entry, trace, _tick_seconds(controller, trace)))
+        out.append(Run(entry, trace, _tick_seconds(controller, trace) if timed else math.nan))
     return out
 
 

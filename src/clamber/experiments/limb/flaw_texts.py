@@ -2,11 +2,12 @@
 
 import math
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any, Final
 
 from ...errors import UnitError, UnknownNameError, describe_choices
 from ...robots.limbed import LimbedRobot
-from ...sim.limb_flaws import LimbFlaws, PlantError
+from ...sim.limb_flaws import ForceSensor, LimbFlaws, PlantError
 from ...units import parse_quantity
 
 DIMENSIONS: Final[dict[str, str]] = {
@@ -25,6 +26,7 @@ WHOLE: Final = ("encoder_counts", "delay")
 SWITCHES: Final = ("upright", "motor_limits", "joint_limits")
 RANDOM: Final = ("speed_noise", "wrench_noise", "model_error")
 """What needs a seed."""
+USUAL: Final = LimbFlaws()
 SET: Final = ("ideal", "nominal")
 """Names of sets of flaws."""
 YES_NO: Final = {
@@ -101,15 +103,25 @@ def read_flaws(base: LimbFlaws, texts: Iterable[str], seed: int | None = None, *
 def plant_words(flaws: LimbFlaws, *, rate: bool = True) -> str:
     """What is not ideal about a plant, in one line; its control rate first, if `rate`."""
     told = [f"{flaws.control_rate:g} Hz"] if rate else []
+    told += [] if flaws.physics_rate == USUAL.physics_rate else [f"physics {flaws.physics_rate:g} Hz"]
     for key, words in (
         ("backlash", f"backlash {math.degrees(flaws.backlash):.4g} deg"),
         ("encoder_counts", f"{flaws.encoder_counts} counts"),
         ("delay", f"delay {flaws.delay}"),
         ("payload", f"payload {flaws.payload:g} kg"),
+        ("speed_noise", f"speed noise {flaws.speed_noise:g} rad/s"),
+        ("wrench_noise", f"force noise {flaws.wrench_noise:g} N"),
+        ("model_error", f"model error {100 * flaws.model_error:g} %"),
     ):
         if getattr(flaws, key):
             told.append(words)
     told += [f"{key} x {getattr(flaws, key):g}" for key in ("friction", "damping") if getattr(flaws, key) != 1.0]
     told += ["upright"] if flaws.upright else []
     told += [] if flaws.motor_limits else ["motors without limits"]
+    told += ["joint stops"] if flaws.joint_limits else []
+    for sensor, place in ((flaws.wrist, "wrist"), (flaws.base, "mount")):
+        if sensor is not None:
+            ideal = "ideal " if replace(sensor, seed=0) == ForceSensor() else ""
+            told.append(f"{ideal}force sensor at the {place}")
+    told += [] if flaws.seed is None else [f"seed {flaws.seed}"]
     return ", ".join(told) or "as its file says"

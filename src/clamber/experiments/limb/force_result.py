@@ -3,23 +3,24 @@
 import json
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Final
 
 import numpy as np
 
+from ...execution.log import Log
 from ...files import write_atomically
-from ...sim.limb_flaws import ForceSensor, LimbFlaws
+from ...sim.limb_flaws import LimbFlaws
 from ...types import Floats, Json
 from .bench_limb import BenchLimb
-from .contest import Entry, Run, run_contest
+from .contest import Entry, Run, run_contest, with_sensors
+from .flaw_texts import plant_words
 from .force_scenario import ForceTask, direction, force_scenario
+from .run_logs import run_logs
 from .scenario import Scenario
 
 SCHEMA: Final = "clamber-limb-force-1"
-MOMENT_ARM: Final = 0.05
-"""Noise of a sensor's moments over that of its forces, of a size with the sensor [m]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -84,15 +85,8 @@ class ForceResult:
 
     def plant_words(self) -> str:
         """The plant and what is not ideal about it, in one line."""
-        flaws = self.flaws
-        told = [f"{flaws.control_rate:g} Hz"]
-        told += [f"backlash {math.degrees(flaws.backlash):.4g} deg"] if flaws.backlash else []
-        told += [f"{flaws.encoder_counts} counts"] if flaws.encoder_counts else []
-        told += [f"delay {flaws.delay}"] if flaws.delay else []
-        told += [f"force noise {flaws.wrench_noise:g} N"] if flaws.wrench_noise else []
-        told += [f"friction x {flaws.friction:g}"] if flaws.friction != 1.0 else []
-        told += [f"wall friction {self.task.friction:g}"] if self.task.friction else []
-        return ", ".join(told)
+        wall = [f"wall friction {self.task.friction:g}"] if self.task.friction else []
+        return ", ".join((plant_words(self.flaws), *wall))
 
     def belief_words(self) -> str:
         """What the laws are wrong about, in one line; empty if nothing."""
@@ -118,17 +112,13 @@ class ForceResult:
             ],
         }
 
+    def logs(self) -> dict[str, Log]:
+        """Label -> every tick of each law."""
+        return run_logs(self.limb, self.flaws, ((row.entry.label, row.run.trace) for row in self.rows))
+
     def save(self, path: Path) -> None:
         """Write `to_json` to a file, whole or not at all."""
         write_atomically(path, json.dumps(self.to_json(), indent=2, allow_nan=False) + "\n")
-
-
-def with_sensors(flaws: LimbFlaws) -> LimbFlaws:
-    """The plant with a sensor of force at its wrist and one at its mount, if it has none, of its `wrench_noise`."""
-    noise, seed = flaws.wrench_noise, flaws.seed or 0
-    wrist = flaws.wrist or ForceSensor(noise=noise, moment_noise=MOMENT_ARM * noise, seed=2 * seed)
-    base = flaws.base or ForceSensor(noise=noise, moment_noise=MOMENT_ARM * noise, seed=2 * seed + 1)
-    return replace(flaws, wrist=wrist, base=base)
 
 
 def run_force(limb: BenchLimb, task: ForceTask, entries: Sequence[Entry], flaws: LimbFlaws) -> ForceResult:
@@ -138,7 +128,7 @@ def run_force(limb: BenchLimb, task: ForceTask, entries: Sequence[Entry], flaws:
         LawError: If settings do not fit the limb.
         ScenarioError: If the wall is out of reach.
     """
-    sensing = with_sensors(flaws)
+    sensing = with_sensors(flaws, entries)
     scenario = force_scenario(limb, flaws.control_rate, task)
     runs = run_contest(limb, scenario, entries, sensing)
     rows = tuple(ForceRow(run.entry, run, measure_force(run, task)) for run in runs)

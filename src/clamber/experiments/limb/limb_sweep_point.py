@@ -161,7 +161,7 @@ def try_laws(bench: Bench, varied: Json, only: str | None = None) -> dict[str, C
 def _cell(bench: Bench, limb: BenchLimb, scenario: Scenario, run: Run, ticks: int) -> Cell:
     swing = float(peak_to_peak(run.trace, ticks / _rate(run.trace) + REST / 2)[0])
     asked = replace(scenario, aims=scenario.aims[:ticks])
-    told = measure(replace(run, trace=_first(run.trace, ticks)), asked, limb)
+    told = measure(replace(run, trace=run.trace.first(ticks)), asked, limb)
     steady = told.unstable_at is None and swing <= STEADY
     value = swing if bench.measure == PEAK else _pick(told, bench.measure)
     lost = value is None or not math.isfinite(value)
@@ -170,11 +170,6 @@ def _cell(bench: Bench, limb: BenchLimb, scenario: Scenario, run: Run, ticks: in
 
 def _rate(trace: LimbTrace) -> float:
     return 1.0 / float(trace.time[1] - trace.time[0])
-
-
-def _first(trace: LimbTrace, ticks: int) -> LimbTrace:
-    parts = ("time", "aims", "sensed", "true", "commanded", "applied", "wrenches", "reports")
-    return replace(trace, **{part: getattr(trace, part)[:ticks] for part in parts})
 
 
 def _pick(told: Measures, name: str) -> float | None:

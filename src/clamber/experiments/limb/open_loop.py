@@ -13,7 +13,9 @@ from typing import Final
 import numpy as np
 
 from ...control.chain import Chain
+from ...control.controller import still_aim
 from ...errors import UnknownNameError
+from ...execution.trace import LimbTrace, empty_trace
 from ...sim.limb_flaws import LimbFlaws
 from ...sim.plants import plant_maker
 from ...types import Floats
@@ -53,8 +55,8 @@ class OpenLoopRun:
     """The wanted direction, a unit vector, shape (2,)."""
     torques: Floats
     """At the start, shape (n,) [N m]."""
-    time: Floats
-    """Shape (steps + 1,) [s]."""
+    trace: LimbTrace
+    """Every step of the physics; it has no aims and no reports."""
     places: Floats
     """True tip from the start on, base frame, shape (steps + 1, 2) [m]."""
 
@@ -155,16 +157,18 @@ def run_open_loop(
     scale = float(np.linalg.norm(torques) / np.linalg.norm(TRANSFORMS[transform](chain, limb.q0, wanted)))
     stage = plant_maker(plant)(chain, flaws.with_changes(control_rate=flaws.physics_rate), gears=limb.gears)
     stage.reset(limb.q0)
-    truth = stage.truth()
+    truth, sensed = stage.truth(), stage.sense()
     steps = max(1, round(seconds * flaws.physics_rate))
-    places = np.empty((steps + 1, 2))
-    places[0] = limb.start
+    trace = empty_trace(chain, still_aim(limb.start)[None].repeat(steps, axis=0), stage.period, 1)
     now = torques
     for k in range(steps):
+        if k:
+            stage.sense()
         if renewed:
             now = scale * TRANSFORMS[transform](chain, truth.states[0, 0], wanted)
         stage.actuate(now[None])
+        trace.sensed[k], trace.true[k], trace.commanded[k] = sensed.states, truth.states, now
         stage.step()
-        places[k + 1] = chain.place(truth.states[0, 0])[:2]
-    time = np.arange(steps + 1) / flaws.physics_rate
-    return OpenLoopRun(transform, force, wanted, torques, time, places)
+        trace.applied[k], trace.wrenches[k] = truth.torques, truth.wrenches
+    places = np.concatenate((trace.true_places()[:, 0, :2], chain.place(truth.states[0, 0])[None, :2]))
+    return OpenLoopRun(transform, force, wanted, torques, trace, places)

@@ -3,15 +3,18 @@
 import json
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Final
 
+from ...execution.log import Log
 from ...files import write_atomically
 from ...sim.limb_flaws import LimbFlaws
 from ...types import Json
 from .bench_limb import BenchLimb
+from .flaw_texts import plant_words
 from .open_loop import FIRST, TRANSFORMS, OpenLoopRun, first_turn, run_open_loop
+from .run_logs import run_logs
 
 SCHEMA: Final = "clamber-open-loop-1"
 FAR: Final = (0.02, 0.05)
@@ -37,13 +40,8 @@ class OpenLoopResult:
         return any(run.turned() is not None for run in self.runs)
 
     def plant_words(self) -> str:
-        """The plant and what of it is not as usual, in one line, in SI units."""
-        usual = LimbFlaws()
-        told = {field.name: getattr(self.flaws, field.name) for field in fields(self.flaws)}
-        changed = [
-            f"{key} {value:g}" for key, value in told.items() if value is not None and value != getattr(usual, key)
-        ]
-        return ", ".join([self.plant, *changed])
+        """The plant and what is not ideal about it, in one line."""
+        return f"{self.plant}, {plant_words(self.flaws, rate=False)}"
 
     def predicted(self, run: OpenLoopRun) -> float:
         """Angle of the first acceleration from the wanted direction by the dynamics without friction [rad]."""
@@ -79,6 +77,10 @@ class OpenLoopResult:
                 for run in self.runs
             ],
         }
+
+    def logs(self) -> dict[str, Log]:
+        """Transform -> every step of its run."""
+        return run_logs(self.limb, self.flaws, ((run.transform, run.trace) for run in self.runs))
 
     def save(self, path: Path) -> None:
         """Write `to_json` to a file, whole or not at all."""

@@ -5,7 +5,7 @@ import io
 import json
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from operator import attrgetter
 from pathlib import Path
 from typing import Any, Final
@@ -13,14 +13,18 @@ from typing import Any, Final
 import numpy as np
 
 from ...control.law_settings import LawSettings
+from ...execution.log import Log
 from ...files import write_atomically
 from ...sim.limb_flaws import LimbFlaws
 from ...types import Floats, Json
 from .bench_limb import BenchLimb
-from .contest import Entry, Run, run_contest
+from .contest import Entry, Run, run_contest, with_sensors
+from .flaw_texts import plant_words
 from .matching import Match, tip_stiffness
 from .measures import Measures, measure, scenario_size
+from .run_logs import run_logs
 from .scenario import Scenario
+from .trial import run_trials
 
 SCHEMA: Final = "clamber-limb-1"
 LEAST_BEYOND: Final = 1e-3
@@ -106,24 +110,7 @@ class LimbResult:
 
     def plant_words(self) -> str:
         """The plant and what is not ideal about it, in one line."""
-        flaws = self.flaws
-        told = [self.plant, f"{flaws.control_rate:g} Hz"]
-        for key, words in (
-            ("backlash", f"backlash {math.degrees(flaws.backlash):.4g} deg"),
-            ("encoder_counts", f"{flaws.encoder_counts} counts"),
-            ("delay", f"delay {flaws.delay}"),
-            ("payload", f"payload {flaws.payload:g} kg"),
-            ("speed_noise", f"speed noise {flaws.speed_noise:g} rad/s"),
-            ("wrench_noise", f"force noise {flaws.wrench_noise:g} N"),
-            ("model_error", f"model error {100 * flaws.model_error:g} %"),
-        ):
-            if getattr(flaws, key):
-                told.append(words)
-        told += [f"{key} x {getattr(flaws, key):g}" for key in ("friction", "damping") if getattr(flaws, key) != 1.0]
-        told += ["upright"] if flaws.upright else []
-        told += [] if flaws.motor_limits else ["motors without limits"]
-        told += ["joint stops"] if flaws.joint_limits else []
-        return ", ".join([*told, *([] if flaws.seed is None else [f"seed {flaws.seed}"])])
+        return f"{self.plant}, {plant_words(self.flaws)}"
 
     def match_words(self) -> str:
         """What the laws' gains have in common, in one line."""
@@ -207,6 +194,10 @@ class LimbResult:
             "laws": [_law(row) for row in self.rows],
         }
 
+    def logs(self) -> dict[str, Log]:
+        """Label -> every tick of the first trial of each law."""
+        return run_logs(self.limb, self.flaws, ((row.entry.label, row.run.trace) for row in self.rows))
+
     def save(self, path: Path) -> None:
         """Write `to_json` to a file, whole or not at all."""
         write_atomically(path, json.dumps(self.to_json(), indent=2, allow_nan=False) + "\n")
@@ -272,6 +263,7 @@ def compare_laws(
     *,
     plant: str = "mujoco",
     trials: int = 1,
+    workers: int = 1,
     match: Match = "none",
     reference: LawSettings | None = None,
     match_at: Floats | None = None,
@@ -279,24 +271,29 @@ def compare_laws(
 ) -> LimbResult:
     """Run every entry `trials` times, on plants drawn from the seed of `flaws` plus the trial's number.
 
-    Without a seed nothing is left to chance, and all trials are the same.
+    Without a seed nothing is left to chance, and all trials are the same. The first trial runs here, is kept whole and tells how long a
+    tick takes; the others run over `workers` processes and are measured there. The result does not depend on how many.
 
     Raises:
         LawError: If settings do not fit the limb.
+        ClamberError: If a worker failed.
     """
-    told: list[list[Measures]] = [[] for _ in entries]
-    first: list[Run] = []
-    for trial in range(trials):
-        drawn = flaws if flaws.seed is None else flaws.with_changes(seed=flaws.seed + trial)
-        runs = run_contest(limb, scenario, entries, drawn, plant=plant)
-        first = first or runs
-        for k, run in enumerate(runs):
-            told[k].append(measure(run, scenario, limb))
+
+    def told(ended: int) -> None:
         if progress is not None:
-            progress(trial + 1, trials)
+            progress(ended + 1, trials)
+
+    first = run_contest(limb, scenario, entries, flaws, plant=plant)
+    measured = [[measure(run, scenario, limb) for run in first]]
+    told(0)
+    later = run_trials(limb, scenario, entries, flaws, range(1, trials), plant=plant, workers=workers, progress=told)
+    measured += [
+        [replace(each, tick=run.tick_seconds) for each, run in zip(trial, first, strict=True)] for trial in later
+    ]
     at = limb.q0 if match_at is None else match_at
     rows = tuple(
-        Row(entry, tip_stiffness(limb.chain, entry.settings, at), tuple(measures), run)
-        for entry, measures, run in zip(entries, told, first, strict=True)
+        Row(run.entry, tip_stiffness(limb.chain, run.entry.settings, at), measures, run)
+        for run, measures in zip(first, zip(*measured, strict=True), strict=True)
     )
-    return LimbResult(limb, scenario, flaws, plant, match, reference or LawSettings(law="scct"), at, rows)
+    sensing = with_sensors(flaws, entries)
+    return LimbResult(limb, scenario, sensing, plant, match, reference or LawSettings(law="scct"), at, rows)
