@@ -1,4 +1,4 @@
-"""A law's portrait: the same step, circle, push and wall for all, on an ideal and a nominal limb, at recommended or matched gains."""
+"""A portrait of each law: one step, one circle, one push or wall, on an ideal and a nominal limb, at matched or recommended gains."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
