@@ -23,6 +23,7 @@ def portrait(
     robot: opt.Robot = "libra",
     limb: opt.LimbName = None,
     seed: Annotated[int, typer.Option(min=0, help="Draws play and encoder phase of the nominal limb.")] = 1,
+    markdown: Annotated[bool, typer.Option("--markdown", help="Print the tables as a page has them.")] = False,
     as_json: AsJson = False,
     quiet: Quiet = False,
 ) -> None:
@@ -32,7 +33,7 @@ def portrait(
     """
     from ..experiments.limb.entries import read_law
     from ..experiments.limb.portrait import paint_portraits, portraits_json
-    from .limb_portrait_text import check_folder, draw_portraits, print_portraits
+    from .limb_portrait_text import check_folder, draw_portraits, print_markdown, print_portraits
 
     check_folder(folder)
     announce_compilation("drive", quiet=quiet)
@@ -44,5 +45,7 @@ def portrait(
         draw_portraits(portraits, folder)
     if as_json:
         print_json(portraits_json(portraits, seed))
+    elif markdown:
+        print_markdown(portraits)
     else:
         print_portraits(stdout(), portraits, folder)

@@ -1,5 +1,6 @@
 """Portraits of laws as people read them: two tables, and a folder of pictures."""
 
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
@@ -37,6 +38,13 @@ def draw_portraits(portraits: Sequence[Portrait], folder: Path) -> None:
 
     for each in portraits:
         draw_portrait(each, folder / f"{each.law}.png")
+
+
+def print_markdown(portraits: Sequence[Portrait]) -> None:
+    """Print the rows of motions, and after an empty line those of forces, as docs/controllers.md has them."""
+    rows = ["| " + " | ".join(each.row()) + " |" for each in portraits]
+    forces = ["| " + " | ".join(row) + " |" for each in portraits for row in each.force_rows()]
+    sys.stdout.write("\n".join([*rows, *(["", *forces] if forces else [])]) + "\n")
 
 
 def print_portraits(console: Console, portraits: Sequence[Portrait], folder: Path | None = None) -> None:

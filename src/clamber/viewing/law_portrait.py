@@ -54,8 +54,8 @@ def draw_portrait(portrait: Portrait, path: str | Path) -> None:
             0.012, 0.975, portrait.law, va="top", fontsize=12, fontweight="bold", color=LAW_COLOURS[portrait.law]
         )
         figure.text(0.988, 0.975, LAW_EQUATIONS[portrait.law], va="top", ha="right", fontsize=10)
-        figure.text(0.012, 0.895, _gains(portrait.settings), va="top", fontsize=8, color=style.QUIET)
-        words = "bold: ideal limb with friction;  thin: with backlash, encoders, delay too;  dashed: wanted"
+        figure.text(0.012, 0.895, _all_gains(portrait), va="top", fontsize=8, color=style.QUIET)
+        words = "bold: ideal limb;  thin: backlash, encoders, delay too;  dashed: wanted"
         figure.text(0.988, 0.895, words, va="top", ha="right", fontsize=8, color=style.QUIET)
         left, middle, right = (
             figure.add_axes(box)
@@ -65,6 +65,13 @@ def draw_portrait(portrait: Portrait, path: str | Path) -> None:
         _draw_circle(middle, portrait)
         (_draw_force if portrait.forces else _draw_push)(right, portrait)
         save_figure(figure, path, DPI, COLOURS)
+
+
+def _all_gains(portrait: Portrait) -> str:
+    if not portrait.forces:
+        return _gains(portrait.settings)
+    wall = portrait.forces["nominal"][0].entry.settings
+    return f"{_gains(portrait.settings)};  wall: {wall.kp:.4g}, {wall.kd:.4g}"
 
 
 def _gains(settings: LawSettings) -> str:

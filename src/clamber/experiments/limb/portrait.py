@@ -94,7 +94,7 @@ class Portrait:
         """Its line in a table: law; in mm the step, the circle, the circle fed and the push, on the ideal and the nominal limb each."""
         told = self.figures()
         numbers = (told[name][plant] for name in SCENES for plant in SET)
-        return (self.law, *("unstable" if value is None else f"{1e3 * value:.2f}" for value in numbers))
+        return (self.law, *("unstable" if value is None else _millimetres(value) for value in numbers))
 
     def force_rows(self) -> list[tuple[str, ...]]:
         """Lines in a table: law, way with friction; mean and largest error in N on the ideal and on the nominal limb."""
@@ -102,7 +102,7 @@ class Portrait:
         for ideal, nominal in zip(*(self.forces[plant] for plant in SET), strict=True) if self.forces else ():
             law, _, way = ideal.entry.label.partition(" / ")
             errors = (value for row in (ideal, nominal) for value in (row.measures.mean_error, row.measures.worst))
-            out.append((law, way, *(f"{value + 0.0:.2f}" for value in errors)))
+            out.append((law, way, *(f"{round(value, 2) + 0.0:.2f}" for value in errors)))
         return out
 
     def to_json(self) -> Json:
@@ -178,6 +178,10 @@ def paint_portraits(
         )
         for k, entry in enumerate(entries)
     ]
+
+
+def _millimetres(value: float) -> str:
+    return f"{1e3 * value:.2f}" if value >= 1e-4 else f"{1e3 * value:.3f}"
 
 
 def _move(limb: BenchLimb, scenario: Scenario, entries: Sequence[Entry], flaws: LimbFlaws) -> list[Motion]:
