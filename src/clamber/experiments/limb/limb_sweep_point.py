@@ -23,7 +23,7 @@ from .measures import Measures, measure
 from .points import read_number
 from .scenario import Scenario, circle_scenario, push_scenario, step_scenario
 from .stability import scaled_gains
-from .steadiness import STEADY, peak_to_peak
+from .steadiness import RESTING, STEADY, motor_peak_to_peak, peak_to_peak
 
 ScenarioKind: TypeAlias = Literal["step", "circle", "push"]
 GAIN_KEYS: Final = ("kp", "kd", "gain")
@@ -159,10 +159,13 @@ def try_laws(bench: Bench, varied: Json, only: str | None = None) -> dict[str, C
 
 
 def _cell(bench: Bench, limb: BenchLimb, scenario: Scenario, run: Run, ticks: int) -> Cell:
-    swing = float(peak_to_peak(run.trace, ticks / _rate(run.trace) + REST / 2)[0])
+    since = ticks / _rate(run.trace) + REST / 2
+    swing = float(peak_to_peak(run.trace, since)[0])
     asked = replace(scenario, aims=scenario.aims[:ticks])
     told = measure(replace(run, trace=run.trace.first(ticks)), asked, limb)
-    steady = told.unstable_at is None and swing <= STEADY
+    # Behind resting motors a link may still coast through its play: that is no cycle, and dies out
+    resting = float(motor_peak_to_peak(run.trace, since)[0]) <= RESTING
+    steady = told.unstable_at is None and (swing <= STEADY or resting)
     value = swing if bench.measure == PEAK else _pick(told, bench.measure)
     lost = value is None or not math.isfinite(value)
     return Cell(None if lost else value, swing if math.isfinite(swing) else 1e9, steady)

@@ -30,6 +30,8 @@ SECONDS: Final = 12.0
 """Of a run [s]."""
 STEADY: Final = 0.0005
 """Largest peak-to-peak motion of the tip that counts as rest [m]."""
+RESTING: Final = 0.00005
+"""Motors that move the tip by less than this are at rest [m]: a few encoder counts."""
 STEP: Final = 0.02
 """Of the aim [m]."""
 CIRCLE: Final = 0.05
@@ -137,7 +139,16 @@ def run_situations(
 
 def peak_to_peak(trace: LimbTrace, since: float = QUIET_FROM) -> Floats:
     """Longer side of the box that the true tip stays in from `since` on, shape (batch,) [m]; inf where a run diverged."""
-    late = trace.true[trace.time >= since]
+    return _box(trace, trace.true, since)
+
+
+def motor_peak_to_peak(trace: LimbTrace, since: float) -> Floats:
+    """The same of the tip as the motors' encoders place it."""
+    return _box(trace, trace.sensed, since)
+
+
+def _box(trace: LimbTrace, states: Floats, since: float) -> Floats:
+    late = states[trace.time >= since]
     places = np.array([[trace.chain.place(state[0])[:2] for state in row] for row in late])
     sides: Floats = np.ptp(places, axis=0).max(axis=-1)
     return np.where(np.isfinite(sides), sides, np.inf)
