@@ -143,12 +143,11 @@ def find_way(leg, lower, upper, cells, start, goal, discs, walls, link_radius, h
                 if (di == 0 and dj == 0) or not (0 <= i + di < cells and 0 <= j + dj < cells):
                     continue
                 there = (i + di) * cells + j + dj
-                if room[there] < least:
-                    a = lower[0] + (i + di) * pitch1
-                    b = lower[1] + (j + dj) * pitch2
-                    if room[there] < _floor(a, b, start, goal, at_start, at_goal, least):
-                        if there != target and there != origin:
-                            continue
+                a = lower[0] + (i + di) * pitch1
+                b = lower[1] + (j + dj) * pitch2
+                tight = room[there] < _floor(a, b, start, goal, at_start, at_goal, least)
+                if tight and there != target and there != origin:
+                    continue
                 lack = max(0.0, PREFERRED - room[there]) / PREFERRED
                 step = math.hypot(di * pitch1, dj * pitch2) * (1.0 + DEAR * lack * lack)
                 if here_cost + step < cost[there]:

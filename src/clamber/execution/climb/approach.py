@@ -1,6 +1,6 @@
 """How a free limb comes to a hold: the posture to hold with, a place to stand off, the way there, and where the body should be."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Final
 
@@ -48,14 +48,19 @@ def wall_of(robot: LimbedRobot) -> Floats:
     return np.array([(*a, *b, robot.body_margin) for a, b in zip(ports, ports[1:] + ports[:1], strict=True)])
 
 
-def discs_near(holds: Mapping[int, Floats], pose: Floats, radius: float) -> Floats:
-    """Holds near the body as discs x, y, radius in the body frame, shape (n, 3) [m]."""
+def free_distance(peg_radius: float, doubt: float) -> float:
+    """Distance from a hold at which a hook with its flare is clear of it, wherever within its doubt it is [m]."""
+    return float(HOOK.sum()) + LEAST_CLEARANCE + peg_radius + doubt
+
+
+def discs_near(holds: Mapping[int, Floats], pose: Floats, radius: Callable[[int], float]) -> Floats:
+    """Holds near the body as discs x, y, radius in the body frame, shape (n, 3) [m]; `radius` of a hold by its number."""
     c, s = np.cos(pose[2]), np.sin(pose[2])
     out = []
-    for place in holds.values():
+    for number, place in holds.items():
         dx, dy = place - pose[:2]
         if np.hypot(dx, dy) < NEARBY:
-            out.append((c * dx + s * dy, -s * dx + c * dy, radius))
+            out.append((c * dx + s * dy, -s * dx + c * dy, radius(number)))
     return np.array(out).reshape(-1, 3)
 
 
@@ -71,10 +76,10 @@ class Approaches:
     Args:
         robot: The climber.
         legs: Records of `control.body.LEG`, one per limb.
-        peg_radius: Of every hold [m].
+        peg_radius: Of a hold by its number, its place's doubt included [m].
     """
 
-    def __init__(self, robot: LimbedRobot, legs: Records, peg_radius: float) -> None:
+    def __init__(self, robot: LimbedRobot, legs: Records, peg_radius: Callable[[int], float]) -> None:
         self.robot, self.legs, self.peg_radius = robot, legs, peg_radius
         self._wall = wall_of(robot)
         self._path = np.zeros((MOST_POINTS, 2))

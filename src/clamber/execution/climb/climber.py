@@ -102,7 +102,8 @@ class Climber:
         self.body = WholeBody(robot, period=plant.period, gains=gains, backlash=backlash)
         self.holds = {hold.number: np.array((hold.x, hold.y)) for hold in board.holds}
         self.map = HoldMap(self.holds, map_error)
-        self.approaches = Approaches(robot, self.body.legs, max(hold.radius for hold in board.holds))
+        self.peg_radius = max(hold.radius for hold in board.holds)
+        self.approaches = Approaches(robot, self.body.legs, lambda number: self.peg_radius + self.map.error(number))
         self.ticks = 0
         self._strained = 0
 

@@ -49,8 +49,7 @@ class HoldMap:
                 self.places[one] = self.places[one] + gain[k] * lack
             self._variance -= np.outer(gain, towards)
 
-    def doubt(self, number: int, other: int) -> float:
-        """Standard deviation of one hold's place relative to another's, along each axis [m]."""
-        a, b = self._row[number], self._row[other]
-        v = self._variance
-        return float(np.sqrt(max(v[a, a] + v[b, b] - 2 * v[a, b], 0.0)))
+    def error(self, number: int) -> float:
+        """How far off a hold's place may be along each axis: the map's error, less what has been learned [m]."""
+        k = self._row[number]
+        return float(np.sqrt(3.0 * self._variance[k, k]))

@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 
 from ...types import Floats
-from .approach import Approach
+from .approach import Approach, free_distance
 from .climber import Climber, Grabbed
 
 BODY_SPEED: Final = 0.08
@@ -17,16 +17,16 @@ JOINT_SPEED: Final = 1.6
 """Of a free limb's joints on their way [rad/s]."""
 BLEND: Final = 0.3
 """Over which corners of a limb's way are rounded [s]."""
-STAND_OFF: Final = 0.028
-"""Distance from a hold at which a hook turns towards it [m]."""
 WIDE_STAND_OFF: Final = 0.042
-"""For a hook that opens along its link: nearer, its flare knocks the hold [m]."""
+"""Least distance from a hold at which a hook that opens along its link turns towards it: nearer, its flare knocks the hold [m]."""
 NEAR: Final = 0.022
 """From here on, and the map's error farther off, the hook is pushed, not placed: nearer, its flare would meet the hold sideways [m]."""
 PUSH: Final = 10.0
 """Gentle pull along the grab direction until the hook stops [N]."""
-TUG: Final = 13.0
-"""Pull on a hook that has stopped: a third of LIBRA's weight; more would lift the limb below off its hold [N]."""
+TUG: Final = 10.0
+"""Pull on a hook that has stopped: a quarter of LIBRA's weight; more would lift the limb below off its hold [N]."""
+LIFT: Final = 0.004
+"""A tug that lifts the body that far bears already, and is ended before it takes other hooks off [m]."""
 TUG_RISE: Final = 0.2
 """In which the tug grows to its full size [s]."""
 DITHER: Final = 5.0
@@ -100,8 +100,8 @@ def follow(climber: Climber, i: int, way: Floats) -> None:
 
 def stand_off_of(climber: Climber, i: int) -> float:
     """How far from a hold a limb's hook turns towards it [m]."""
-    least = STAND_OFF if climber.robot.limbs[i].end.offset > 0.0 else WIDE_STAND_OFF
-    return max(least, NEAR + climber.map_error)
+    free = free_distance(climber.peg_radius, climber.map_error)
+    return free if climber.robot.limbs[i].end.offset > 0.0 else max(WIDE_STAND_OFF, free)
 
 
 def release(climber: Climber, i: int) -> None:
@@ -179,6 +179,7 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats) -> bool:
     room = climber.map_error + SLACK
     still = tugged = 0.0
     tugging, seated, mark = False, False, -np.inf
+    rested = body.pose[:2].copy()
     for k in range(round(PATIENCE / period)):
         along = body.grab_direction(i)
         across = np.array((-along[1], along[0]))
@@ -198,6 +199,11 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats) -> bool:
         if not tugging and still > STOPPED:
             tugging, still = True, 0.0
         if (body.tip(i) - place) @ g > room:
+            break
+        if not tugging:
+            rested = body.pose[:2].copy()
+        elif (rested - body.pose[:2]) @ g > LIFT:
+            seated = still > STOPPED
             break
         if tugged > TUG_RISE and still > STILL:
             seated = True
