@@ -189,3 +189,9 @@ class Climber:
         for task in tasks:
             if task.hold:
                 task.place = self.holds[task.hold].copy()
+
+    def learn_again(self) -> None:
+        """Correct the map by the limbs that hold: their joints are loaded, and hooks that were not quite home have slid in."""
+        holding = [i for i, task in enumerate(self.body.tasks) if task.doing == "hold"]
+        if len(holding) == 2:
+            self.learn(self.body.tasks[holding[0]].hold, holding[0], holding[1:])

@@ -25,11 +25,11 @@ PUSH: Final = 10.0
 """Gentle pull along the grab direction until the hook stops [N]."""
 TUG: Final = 10.0
 """Pull on a hook that has stopped: a quarter of LIBRA's weight; more would lift the limb below off its hold [N]."""
-LIFT: Final = 0.004
-"""A tug that lifts the body that far bears already, and is ended before it takes other hooks off [m]."""
+LIFT: Final = (0.002, 0.006)
+"""A push that lifts the body bears already: it weakens from the first of these on, to a third at the second, before other hooks come off [m]."""
 TUG_RISE: Final = 0.2
 """In which the tug grows to its full size [s]."""
-DITHER: Final = 5.0
+DITHER: Final = 8.0
 """Pull across, to and fro, so that friction lets the hook slide in [N]."""
 DITHER_RATE: Final = 5.0
 """[Hz]."""
@@ -110,6 +110,7 @@ def release(climber: Climber, i: int) -> None:
     task = climber.body.tasks[i]
     place = climber.body.tip(i) - stand_off_of(climber, i) * climber.body.grab_direction(i)
     move_tip(climber, i, place, 0.4)
+    climber.learn_again()
     task.hold, task.doing, task.angles = 0, "joints", climber.body.q[i].copy()
 
 
@@ -184,6 +185,8 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats) -> bool:
         along = body.grab_direction(i)
         across = np.array((-along[1], along[0]))
         size = PUSH + (TUG - PUSH) * min(tugged / TUG_RISE, 1.0)
+        lifted = float((rested - body.pose[:2]) @ g)
+        size *= np.interp(lifted, LIFT, (1.0, 1 / 3))
         side = DITHER * np.sin(2 * np.pi * DITHER_RATE * k * period)
         if tugging:
             tugged += period
@@ -199,11 +202,6 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats) -> bool:
         if not tugging and still > STOPPED:
             tugging, still = True, 0.0
         if (body.tip(i) - place) @ g > room:
-            break
-        if not tugging:
-            rested = body.pose[:2].copy()
-        elif (rested - body.pose[:2]) @ g > LIFT:
-            seated = still > STOPPED
             break
         if tugged > TUG_RISE and still > STILL:
             seated = True
