@@ -1,5 +1,6 @@
 """A climber that carries out actions: one tick of sensing and commanding at a time, falls seen, holds corrected as hooks feel them."""
 
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Final, Protocol
@@ -160,7 +161,7 @@ class Climber:
             raise FallenError(
                 f"a hook has come off: two holding tips are {1e3 * strain:.0f} mm off their holds' distance"
             )
-        off = float(np.hypot(*(self.body.aim[:2] - self.body.pose[:2])))
+        off = math.dist(self.body.aim[:2], self.body.pose[:2])
         turned = abs(float(self.body.pose[2] - self.body.aim[2]))
         if off > ASTRAY or turned > TURNED:
             raise FallenError(f"the body is {1e3 * off:.0f} mm off its aim and turned by {np.degrees(turned):.0f} deg")

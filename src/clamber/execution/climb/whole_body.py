@@ -1,5 +1,6 @@
 """The climber's controller: what each limb is doing, where the body is to be, and the torques of one tick."""
 
+import math
 from dataclasses import dataclass, field
 from typing import Final, Literal, TypeAlias
 
@@ -145,6 +146,11 @@ class WholeBody:
         self._unused_speeds, self._unused_twist = np.zeros((n, 2)), np.zeros(3)
         self._pulls, self._forces = np.zeros((n, 2)), np.zeros((n, 2))
         self._least = np.full(n, gains.least_pull)
+        self._ports = [
+            (limb.port_x, limb.port_y, math.cos(limb.port_angle), math.sin(limb.port_angle)) for limb in robot.limbs
+        ]
+        self._kp, self._kd = np.array(gains.kp), np.array(gains.kd)
+        self._no_force = np.zeros(2)
         self._pressed, self._loads = np.zeros(n, np.int64), np.zeros((n, 2))
         self._lag = np.array((period / PLAY_TIME, self.backlash / 2))
 
@@ -166,19 +172,19 @@ class WholeBody:
 
     def tip(self, i: int) -> Floats:
         """A limb's tip in the world by encoders and estimate, the play counted [m]."""
-        c, s = np.cos(self.settled[2]), np.sin(self.settled[2])
+        c, s = math.cos(self.settled[2]), math.sin(self.settled[2])
         x, y = self.settled_tips[i]
         return np.array((self.settled[0] + c * x - s * y, self.settled[1] + s * x + c * y))
 
     def felt_tip(self, i: int) -> Floats:
         """The same by the encoders alone: rougher, but it moves only when a motor does [m]."""
-        c, s = np.cos(self.pose[2]), np.sin(self.pose[2])
+        c, s = math.cos(self.pose[2]), math.sin(self.pose[2])
         x, y = self.tips[i]
         return np.array((self.pose[0] + c * x - s * y, self.pose[1] + s * x + c * y))
 
     def tip_speed(self, i: int) -> Floats:
         """Its speed in the world [m/s]."""
-        c, s = np.cos(self.pose[2]), np.sin(self.pose[2])
+        c, s = math.cos(self.pose[2]), math.sin(self.pose[2])
         x, y = self.tips[i]
         vx, vy = self.tip_speeds[i]
         w = self.twist[2]
@@ -187,18 +193,18 @@ class WholeBody:
 
     def strain(self, i: int, j: int) -> float:
         """How far the distance of two holding tips is from that of their holds [m]."""
-        tips = float(np.hypot(*(self.tips[i] - self.tips[j])))
-        return abs(tips - float(np.hypot(*(self.tasks[i].place - self.tasks[j].place))))
+        return abs(math.dist(self.tips[i], self.tips[j]) - math.dist(self.tasks[i].place, self.tasks[j].place))
 
     def grab_direction(self, i: int) -> Floats:
         """Where a limb's hook pulls, world frame, unit vector."""
-        angle = self.pose[2] + self.legs[i]["port_angle"] + self.q[i].sum() + self.legs[i]["hook_angle"]
-        return np.array((np.cos(angle), np.sin(angle)))
+        limb = self.robot.limbs[i]
+        angle = self.pose[2] + limb.port_angle + self.q[i, 0] + self.q[i, 1] + limb.end.angle
+        return np.array((math.cos(angle), math.sin(angle)))
 
     def command(self) -> Floats:
         """Torques of this tick, shape (limbs, 2) [N m]."""
         gains = self.gains
-        wanted = np.array(gains.kp) * (self.aim - self.pose) + np.array(gains.kd) * (self.aim_speed - self.twist)
+        wanted = self._kp * (self.aim - self.pose) + self._kd * (self.aim_speed - self.twist)
         np.subtract(self._holds, self.pose[:2], out=self._arms)
         fed = self._fed()
         command_tips(
@@ -210,7 +216,7 @@ class WholeBody:
                 self._pull(i, self._pulls[i], self._forces[i])
             elif task.doing == "cling":
                 turned = self._into_port(i, gains.cling * self.grab_direction(i) - CLING_DAMPING * self.tip_speed(i))
-                self._pull(i, turned, np.zeros(2))
+                self._pull(i, turned, self._no_force)
             elif task.doing == "pull":
                 pull_torques(
                     self.legs[i], self.q[i], self.qd[i], self.pose, self.twist, task.force, task.damping,
@@ -242,14 +248,13 @@ class WholeBody:
         return fed
 
     def _into_port(self, i: int, vector: Floats) -> Floats:
-        angle = -(self.pose[2] + self.legs[i]["port_angle"])
-        c, s = np.cos(angle), np.sin(angle)
+        angle = -(self.pose[2] + self.robot.limbs[i].port_angle)
+        c, s = math.cos(angle), math.sin(angle)
         return np.array((c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]))
 
     def _own_tip(self, i: int) -> Floats:
-        leg = self.legs[i]
-        c, s = np.cos(leg["port_angle"]), np.sin(leg["port_angle"])
-        x, y = self.tips[i, 0] - leg["port_x"], self.tips[i, 1] - leg["port_y"]
+        port_x, port_y, c, s = self._ports[i]
+        x, y = self.tips[i, 0] - port_x, self.tips[i, 1] - port_y
         return np.array((c * x + s * y, -s * x + c * y))
 
     def _pull(self, i: int, pull: Floats, force: Floats) -> None:
@@ -272,7 +277,7 @@ class WholeBody:
 
     def _turned_back(self, i: int) -> Floats:
         """Speed of the tip relative to the body, world axes."""
-        c, s = np.cos(self.pose[2]), np.sin(self.pose[2])
+        c, s = math.cos(self.pose[2]), math.sin(self.pose[2])
         vx, vy = self.tip_speeds[i]
         return np.array((c * vx - s * vy, s * vx + c * vy))
 
