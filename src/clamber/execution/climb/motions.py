@@ -26,7 +26,7 @@ PUSH: Final = 10.0
 TUG: Final = 10.0
 """Pull on a hook that has stopped: a quarter of LIBRA's weight; more would lift the limb below off its hold [N]."""
 LIFT: Final = (0.002, 0.006)
-"""A push that lifts the body bears already: from the first of these on it weakens, to a third at the second; other hooks would come off [m]."""
+"""A push that lifts the body this far weakens, to a third at the second: it bears already, and other hooks would come off [m]."""
 TUG_RISE: Final = 0.2
 """In which the tug grows to its full size [s]."""
 DITHER: Final = 8.0
