@@ -25,7 +25,7 @@ PUSH: Final = 10.0
 """Gentle pull along the grab direction until the hook stops [N]."""
 TUG: Final = 10.0
 """Pull on a hook that has stopped: a quarter of LIBRA's weight; more would lift the limb below off its hold [N]."""
-LIFT: Final = (0.002, 0.006)
+LIFT: Final = (0.001, 0.003)
 """A push that lifts the body this far weakens, to a third at the second: it bears already, and other hooks would come off [m]."""
 TUG_RISE: Final = 0.2
 """In which the tug grows to its full size [s]."""
