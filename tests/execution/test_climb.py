@@ -22,7 +22,7 @@ def on_the_ladder(flaws: LimbFlaws = NOMINAL, pegs: Floats | None = None) -> tup
     robot, board = load_robot("libra"), load_board("ladder")
     assert isinstance(robot, LimbedRobot)
     plant = ClimberPlant(robot, board, flaws, pegs=pegs)
-    climber = Climber(robot, board, plant, map_error=0.006)
+    climber = Climber(robot, board, plant, map_error=0.00635)
     climber.start(START, {"right": 4, "left": 3, "bottom": 2}, idle="bottom", elbows=ELBOWS)
     return climber, plant
 
@@ -44,14 +44,18 @@ def test_the_body_moves_up_on_its_hooks() -> None:
     np.testing.assert_allclose(plant.truth().pose[:2], START[:2] + np.array((0.0, 0.0762)), atol=0.01)
 
 
-def test_a_rung_is_climbed_and_every_hook_is_seated() -> None:
-    climber, plant = on_the_ladder()
+@pytest.mark.parametrize(("seed", "error", "friction"), [(0, 0.0, 1.0), (4, 0.00635, 0.75), (11, 0.00635, 1.25)])
+def test_a_rung_is_climbed_and_every_hook_is_seated(seed: int, error: float, friction: float) -> None:
+    places = load_board("ladder").positions()
+    pegs = places + np.random.default_rng(seed).uniform(-error, error, places.shape)
+    pegs[1:4] = places[1:4]  # the robot was put on these
+    climber, plant = on_the_ladder(NOMINAL.with_changes(friction=friction), pegs)
     climber.wait(0.5)
-    board = load_board("ladder")
     for limb, number, elbow in ((RIGHT, 6, -1), (BOTTOM, 1, 1), (LEFT, 5, 1)):
         result = grab(climber, limb, number, elbow=elbow)
         assert result.held, (limb, number, result)
-        np.testing.assert_allclose(plant.truth().tips[limb], board.positions()[number - 1], atol=2e-3)
+        np.testing.assert_allclose(plant.truth().tips[limb], pegs[number - 1], atol=2e-3)
+        np.testing.assert_allclose(climber.holds[number], pegs[number - 1], atol=5e-3)
     release(climber, BOTTOM)
     move_body(climber, START + np.array((0.0, 0.1524, 0.0)))
     climber.wait(0.3)

@@ -9,6 +9,10 @@ from ..compiled import inlined, kernel
 FAR = 1e9
 PREFERRED = 0.03
 """Clearance beyond which a way costs no more than its length [m]."""
+BESIDE = 0.35
+"""So near an end of the way, in either joint, the clearance may be as little as at that end [rad]."""
+TIGHTER = 0.002
+"""And that much less [m]."""
 DEAR = 8.0
 """How many times longer a step counts where there is no clearance left [-]."""
 
@@ -46,7 +50,7 @@ def segment_segment(ax, ay, bx, by, cx, cy, dx, dy):
 
 
 @kernel
-def clearance(leg, t1, t2, discs, walls, link_radius, tip_radius):
+def clearance(leg, t1, t2, discs, walls, link_radius, hook):
     """Smallest distance of a limb's links and tip from all obstacles, less their radii [m].
 
     Args:
@@ -54,7 +58,7 @@ def clearance(leg, t1, t2, discs, walls, link_radius, tip_radius):
         t1, t2: Its joint angles [rad].
         discs: Obstacles x, y, radius in the body frame, shape (n, 3) [m].
         walls: Segments x, y, x, y, radius in the body frame, shape (m, 5) [m]; the first link may touch them (it starts at the body).
-        link_radius, tip_radius: Of the limb [m].
+        link_radius, hook: Of the limb [m].
     """
     first = leg.port_angle + t1
     second = first + t2
@@ -62,6 +66,9 @@ def clearance(leg, t1, t2, discs, walls, link_radius, tip_radius):
     ey = leg.port_y + leg.l1 * math.sin(first)
     tx = ex + leg.l2 * math.cos(second + leg.beta)
     ty = ey + leg.l2 * math.sin(second + leg.beta)
+    grab = second + leg.hook_angle
+    hx = tx + hook[1] * math.cos(grab)
+    hy = ty + hook[1] * math.sin(grab)
     least = FAR
     for k in range(discs.shape[0]):
         x = discs[k, 0]
@@ -69,7 +76,7 @@ def clearance(leg, t1, t2, discs, walls, link_radius, tip_radius):
         r = discs[k, 2]
         least = min(least, segment_point(leg.port_x, leg.port_y, ex, ey, x, y) - link_radius - r)
         least = min(least, segment_point(ex, ey, tx, ty, x, y) - link_radius - r)
-        least = min(least, math.hypot(tx - x, ty - y) - tip_radius - r)
+        least = min(least, math.hypot(hx - x, hy - y) - hook[0] - r)
     for k in range(walls.shape[0]):
         least = min(
             least,
@@ -81,7 +88,7 @@ def clearance(leg, t1, t2, discs, walls, link_radius, tip_radius):
 
 
 @kernel
-def find_way(leg, lower, upper, cells, start, goal, discs, walls, link_radius, tip_radius, least, path):
+def find_way(leg, lower, upper, cells, start, goal, discs, walls, link_radius, hook, least, path):
     """Cheapest way over the grid of joint angles, length made dearer near obstacles.
 
     Args:
@@ -89,8 +96,8 @@ def find_way(leg, lower, upper, cells, start, goal, discs, walls, link_radius, t
         lower, upper: Joint limits, shape (2,) [rad].
         cells: Grid points along each joint.
         start, goal: Joint angles, shape (2,) [rad].
-        discs, walls, link_radius, tip_radius: See `clearance`.
-        least: Clearance that a way must keep, unless start or goal have less [m].
+        discs, walls, link_radius, hook: See `clearance`.
+        least: Clearance that a way must keep, but next to a start or goal that has less [m].
         path: Filled with joint angles from start to goal, shape (most, 2).
 
     Returns:
@@ -103,16 +110,13 @@ def find_way(leg, lower, upper, cells, start, goal, discs, walls, link_radius, t
     for i in range(cells):
         for j in range(cells):
             room[i * cells + j] = clearance(
-                leg, lower[0] + i * pitch1, lower[1] + j * pitch2, discs, walls, link_radius, tip_radius
+                leg, lower[0] + i * pitch1, lower[1] + j * pitch2, discs, walls, link_radius, hook
             )
     origin = _nearest(start, lower, pitch1, pitch2, cells)
     target = _nearest(goal, lower, pitch1, pitch2, cells)
-    # where the ends themselves are tight, the way out may be as tight
-    ends = min(
-        clearance(leg, start[0], start[1], discs, walls, link_radius, tip_radius),
-        clearance(leg, goal[0], goal[1], discs, walls, link_radius, tip_radius),
-    )
-    floor = min(least, ends - 0.002)
+    # where an end itself is tight, the way next to it may be as tight
+    at_start = min(least, clearance(leg, start[0], start[1], discs, walls, link_radius, hook) - TIGHTER)
+    at_goal = min(least, clearance(leg, goal[0], goal[1], discs, walls, link_radius, hook) - TIGHTER)
     cost = np.full(size, FAR)
     came = np.full(size, -1, np.int64)
     heap_cost = np.empty(8 * size)
@@ -139,7 +143,10 @@ def find_way(leg, lower, upper, cells, start, goal, discs, walls, link_radius, t
                 if (di == 0 and dj == 0) or not (0 <= i + di < cells and 0 <= j + dj < cells):
                     continue
                 there = (i + di) * cells + j + dj
-                if room[there] < floor and there != target and there != origin:
+                a = lower[0] + (i + di) * pitch1
+                b = lower[1] + (j + dj) * pitch2
+                tight = room[there] < _floor(a, b, start, goal, at_start, at_goal, least)
+                if tight and there != target and there != origin:
                     continue
                 lack = max(0.0, PREFERRED - room[there]) / PREFERRED
                 step = math.hypot(di * pitch1, dj * pitch2) * (1.0 + DEAR * lack * lack)
@@ -164,7 +171,17 @@ def find_way(leg, lower, upper, cells, start, goal, discs, walls, link_radius, t
         node = came[node]
     path[0] = start
     path[length + 1] = goal
-    return _straighten(leg, path, length + 2, floor, discs, walls, link_radius, tip_radius)
+    return _straighten(leg, path, length + 2, at_start, at_goal, least, discs, walls, link_radius, hook)
+
+
+@inlined
+def _floor(a, b, start, goal, at_start, at_goal, least):
+    """Clearance that joint angles must keep: less next to an end that has less itself."""
+    if max(abs(a - start[0]), abs(b - start[1])) < BESIDE:
+        return at_start
+    if max(abs(a - goal[0]), abs(b - goal[1])) < BESIDE:
+        return at_goal
+    return least
 
 
 @inlined
@@ -202,7 +219,7 @@ def _rise(costs, nodes, at):
 
 
 @kernel
-def _straighten(leg, path, length, floor, discs, walls, link_radius, tip_radius):
+def _straighten(leg, path, length, at_start, at_goal, least, discs, walls, link_radius, hook):
     """Leave out points between which the straight way keeps the preferred clearance, or that of the points themselves."""
     kept = 1
     at = 0
@@ -211,14 +228,15 @@ def _straighten(leg, path, length, floor, discs, walls, link_radius, tip_radius)
         for to in range(length - 1, at + 1, -1):
             tight = PREFERRED
             for k in range(at, to + 1):
-                tight = min(tight, clearance(leg, path[k, 0], path[k, 1], discs, walls, link_radius, tip_radius))
-            tight = max(min(tight, 0.6 * PREFERRED), floor)
+                tight = min(tight, clearance(leg, path[k, 0], path[k, 1], discs, walls, link_radius, hook))
+            tight = max(min(tight, 0.6 * PREFERRED), min(at_start, at_goal))
             free = True
             for k in range(1, 40):
                 part = k / 40.0
                 a = path[at, 0] + part * (path[to, 0] - path[at, 0])
                 b = path[at, 1] + part * (path[to, 1] - path[at, 1])
-                if clearance(leg, a, b, discs, walls, link_radius, tip_radius) < tight - 1e-6:
+                floor = _floor(a, b, path[0], path[length - 1], at_start, at_goal, least)
+                if clearance(leg, a, b, discs, walls, link_radius, hook) < max(tight, floor) - 1e-6:
                     free = False
                     break
             if free:

@@ -53,7 +53,7 @@ def climber_spec(
 ) -> Any:
     """An `MjSpec` of the robot on the board.
 
-    Joints: "x", "y", "theta" of the body, then every limb's as in `chain_of_limb`. Bodies of pegs are called "peg NUMBER"; tips are sites
+    Joints: "x", "y", "theta" of the body, then every limb's as in `chain_of_limb`. Geoms of pegs are called "peg NUMBER"; tips are sites
     "LIMB tip".
 
     Args:
@@ -74,8 +74,9 @@ def climber_spec(
     spec.option.gravity = (0.0, -GRAVITY, 0.0)
     places = board.positions() if pegs is None else pegs
     for hold, (x, y) in zip(board.holds, places, strict=True):
-        peg = spec.worldbody.add_body(name=f"peg {hold.number}", pos=(x, y, 0.0))
-        peg.add_geom(
+        spec.worldbody.add_geom(
+            name=f"peg {hold.number}",
+            pos=(x, y, 0.0),
             type=mujoco.mjtGeom.mjGEOM_SPHERE,
             size=(hold.radius, 0.0, 0.0),
             contype=PEGS,

@@ -1,29 +1,29 @@
 """How a free limb comes to a hold: the posture to hold with, a place to stand off, the way there, and where the body should be."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
 from ...control.swing_path import find_way
-from ...robots.limbed import LimbedRobot
+from ...robots.limbed import Limb, LimbedRobot
 from ...types import Floats, Records
 from .postures import Posture, postures
 
 CELLS: Final = 81
 """Grid points along each joint: 2.75 deg for LIBRA."""
 MOST_POINTS: Final = 400
-TIP_RADIUS: Final = 0.012
-"""Of the disc that stands for a hook with its flare [m]."""
+HOOK: Final = np.array((0.0185, 0.005))
+"""Radius of the disc that stands for a hook with its flare, and how far its centre is before the tip, along the grab direction [m]."""
 LEAST_CLEARANCE: Final = 0.004
 """That a way must keep [m]."""
-STAND_OFFS: Final = (1.0, 0.8, 0.65)
+STAND_OFFS: Final = (1.0, 0.85)
 """Parts of the wished stand-off that are tried in turn."""
-SLANTS: Final = ((0, 15, -15, 30, -30), (45, -45, 60, -60))
-"""Angles between the way in and the grab direction, in two groups: a straight way with a moved body comes before a slanted one [deg]."""
-SHIFTS: Final = ((0.0, 0.0), (0.0, 0.02), (0.0, 0.035), (-0.03, 0.035), (-0.06, 0.035), (0.0, 0.05))
-"""Moves of the body that make room: x away from the hold's side, y up [m]."""
+SLANTS: Final = ((0, 15, -15), (30, -30), (45, -45))
+"""Angles between the way in and the grab direction, in groups: a straight way with a moved body comes before a slanted one [deg]."""
+SHIFTS: Final = ((0.0, 0.0), (0.0, 0.02), (0.0, 0.035), (0.0, 0.05), (-0.03, 0.035), (0.0, 0.07), (-0.06, 0.035))
+"""Moves of the body that make room: x towards the hold's side, y up [m]. Away from it the hook that holds on that side stays steeper."""
 NEARBY: Final = 0.6
 """Holds farther from the body are in no limb's way [m]."""
 
@@ -48,14 +48,19 @@ def wall_of(robot: LimbedRobot) -> Floats:
     return np.array([(*a, *b, robot.body_margin) for a, b in zip(ports, ports[1:] + ports[:1], strict=True)])
 
 
-def discs_near(holds: Mapping[int, Floats], pose: Floats, radius: float) -> Floats:
-    """Holds near the body as discs x, y, radius in the body frame, shape (n, 3) [m]."""
+def free_distance(peg_radius: float, doubt: float) -> float:
+    """Distance from a hold at which a hook with its flare is clear of it, wherever within its doubt it is [m]."""
+    return float(HOOK.sum()) + LEAST_CLEARANCE + peg_radius + doubt
+
+
+def discs_near(holds: Mapping[int, Floats], pose: Floats, radius: Callable[[int], float]) -> Floats:
+    """Holds near the body as discs x, y, radius in the body frame, shape (n, 3) [m]; `radius` of a hold by its number."""
     c, s = np.cos(pose[2]), np.sin(pose[2])
     out = []
-    for place in holds.values():
+    for number, place in holds.items():
         dx, dy = place - pose[:2]
         if np.hypot(dx, dy) < NEARBY:
-            out.append((c * dx + s * dy, -s * dx + c * dy, radius))
+            out.append((c * dx + s * dy, -s * dx + c * dy, radius(number)))
     return np.array(out).reshape(-1, 3)
 
 
@@ -71,10 +76,10 @@ class Approaches:
     Args:
         robot: The climber.
         legs: Records of `control.body.LEG`, one per limb.
-        peg_radius: Of every hold [m].
+        peg_radius: Of a hold by its number, its place's doubt included [m].
     """
 
-    def __init__(self, robot: LimbedRobot, legs: Records, peg_radius: float) -> None:
+    def __init__(self, robot: LimbedRobot, legs: Records, peg_radius: Callable[[int], float]) -> None:
         self.robot, self.legs, self.peg_radius = robot, legs, peg_radius
         self._wall = wall_of(robot)
         self._path = np.zeros((MOST_POINTS, 2))
@@ -89,6 +94,7 @@ class Approaches:
         *,
         elbow: int = 0,
         stand_off: float = 0.028,
+        near: float = 0.016,
     ) -> Approach | None:
         """A way for limb `i` from joint angles `angles` to a stand-off before `hold`; None where there is none.
 
@@ -100,13 +106,14 @@ class Approaches:
             holds: All holds by number, as obstacles.
             elbow: Side of the elbow to hold with: +1, -1, or 0 for whichever has the hook more on top.
             stand_off: Wished distance from the hold before the way in [m].
+            near: Distance straight before the hold, against the grab direction, that the limb must also reach [m].
         """
         side = float(np.sign(hold[0] - pose[0]))
         for slants in SLANTS:
             for x, y in SHIFTS:
                 shift = np.array((x * side, y))
                 moved = pose + np.array((*shift, 0.0))
-                found = self._stand_off(i, angles, moved, hold, holds, elbow, stand_off, slants)
+                found = self._stand_off(i, angles, moved, hold, holds, elbow, (stand_off, near), slants)
                 if found is not None:
                     grab, way, distance = found
                     return Approach(shift, way, grab, distance)
@@ -120,15 +127,17 @@ class Approaches:
         hold: Floats,
         holds: Mapping[int, Floats],
         elbow: int,
-        stand_off: float,
+        distances: tuple[float, float],
         slants: tuple[int, ...],
     ) -> tuple[Floats, Floats, float] | None:
-        limb = self.robot.limbs[i]
+        limb, (stand_off, near) = self.robot.limbs[i], distances
         discs = discs_near(holds, pose, self.peg_radius)
         lower = np.array((limb.shoulder.lower, limb.elbow.lower))
         upper = np.array((limb.shoulder.upper, limb.elbow.upper))
         # the posture that is best on the hold; the other one would pull sideways, and the robot fall when it has to carry
         for final in rank(postures(limb, pose, hold), elbow)[:1]:
+            if not _within(limb, pose, hold - near * final.grab, final):
+                continue
             for part in STAND_OFFS:
                 for slant in np.radians(slants):
                     c, s = np.cos(slant), np.sin(slant)
@@ -139,8 +148,13 @@ class Approaches:
                             continue
                         count = find_way(
                             self.legs[i], lower, upper, CELLS, angles, posture.angles, discs, self._wall,
-                            self.robot.link_radius, TIP_RADIUS, LEAST_CLEARANCE, self._path,
+                            self.robot.link_radius, HOOK, LEAST_CLEARANCE, self._path,
                         )  # fmt: skip
                         if count:
                             return final.grab, self._path[:count].copy(), part * stand_off
         return None
+
+
+def _within(limb: Limb, pose: Floats, place: Floats, like: Posture) -> bool:
+    """Whether a limb reaches a place within its joint limits, its elbow on the same side as in another posture."""
+    return any(one.inside and one.angles[1] * like.angles[1] > 0.0 for one in postures(limb, pose, place))

@@ -1,6 +1,7 @@
 """A climber that carries out actions: one tick of sensing and commanding at a time, falls seen, holds corrected as hooks feel them."""
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Final, Protocol
 
@@ -10,6 +11,7 @@ from ...robots.limbed import LimbedRobot
 from ...types import Floats
 from ...worlds.board import Board
 from .approach import Approaches, rank
+from .hold_map import HoldMap
 from .postures import postures
 from .whole_body import BodyGains, LimbTask, WholeBody
 
@@ -100,7 +102,9 @@ class Climber:
         self.robot, self.plant, self.map_error = robot, plant, map_error
         self.body = WholeBody(robot, period=plant.period, gains=gains, backlash=backlash)
         self.holds = {hold.number: np.array((hold.x, hold.y)) for hold in board.holds}
-        self.approaches = Approaches(robot, self.body.legs, max(hold.radius for hold in board.holds))
+        self.map = HoldMap(self.holds, map_error)
+        self.peg_radius = max(hold.radius for hold in board.holds)
+        self.approaches = Approaches(robot, self.body.legs, lambda number: self.peg_radius + self.map.error(number))
         self.ticks = 0
         self._strained = 0
 
@@ -130,6 +134,7 @@ class Climber:
                 task = LimbTask("cling" if limb.name == idle else "hold", number, place.copy())
             task.angles = q[i].copy()
             self.body.tasks[i] = task
+        self.map.know(number for number in holds.values() if number)
         self.plant.reset(pose, q)
         self.body.pose[:], self.body.settled[:], self.body.aim[:] = pose, pose, pose
         self.body.aim_speed[:] = 0.0
@@ -156,7 +161,7 @@ class Climber:
             raise FallenError(
                 f"a hook has come off: two holding tips are {1e3 * strain:.0f} mm off their holds' distance"
             )
-        off = float(np.hypot(*(self.body.aim[:2] - self.body.pose[:2])))
+        off = math.dist(self.body.aim[:2], self.body.pose[:2])
         turned = abs(float(self.body.pose[2] - self.body.aim[2]))
         if off > ASTRAY or turned > TURNED:
             raise FallenError(f"the body is {1e3 * off:.0f} mm off its aim and turned by {np.degrees(turned):.0f} deg")
@@ -171,3 +176,23 @@ class Climber:
         for i, task in enumerate(self.body.tasks):
             if i != but and task.hold:
                 task.doing = "hold"
+
+    def learn(self, number: int, i: int, others: Iterable[int]) -> None:
+        """Correct the map: limb `i` is on a hold, and so are others, all of them loaded.
+
+        Args:
+            number: Of the hold of limb `i`.
+            i: Index of that limb.
+            others: Indices of limbs whose tips are on the holds of their tasks.
+        """
+        tip, tasks = self.body.tip(i), self.body.tasks
+        self.map.learn(number, {tasks[j].hold: tip - self.body.tip(j) for j in others})
+        for task in tasks:
+            if task.hold:
+                task.place = self.holds[task.hold].copy()
+
+    def learn_again(self) -> None:
+        """Correct the map by the limbs that hold: their joints are loaded, and hooks that were not quite home have slid in."""
+        holding = [i for i, task in enumerate(self.body.tasks) if task.doing == "hold"]
+        if len(holding) == 2:
+            self.learn(self.body.tasks[holding[0]].hold, holding[0], holding[1:])

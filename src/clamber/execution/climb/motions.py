@@ -6,6 +6,7 @@ from typing import Final
 import numpy as np
 
 from ...types import Floats
+from .approach import Approach, free_distance
 from .climber import Climber, Grabbed
 
 BODY_SPEED: Final = 0.08
@@ -16,30 +17,34 @@ JOINT_SPEED: Final = 1.6
 """Of a free limb's joints on their way [rad/s]."""
 BLEND: Final = 0.3
 """Over which corners of a limb's way are rounded [s]."""
-STAND_OFF: Final = 0.028
-"""Distance from a hold at which a hook turns towards it [m]."""
 WIDE_STAND_OFF: Final = 0.042
-"""For a hook that opens along its link: nearer, its flare knocks the hold [m]."""
-NEAR: Final = 0.016
-"""From here on the hook is pushed, not placed [m]."""
-PUSH: Final = 0.35
-"""Gentle pull along the grab direction, in the units of the limb's gains (about 12 N at LIBRA's hook)."""
-FIRM: Final = 2.2
-"""How many times firmer the tug is, once the hook has stopped [-]."""
-DITHER: Final = 0.15
-"""Pull across, to and fro, so that friction lets the hook slide in."""
-DITHER_RATE: Final = 6.0
+"""Least distance from a hold at which a hook that opens along its link turns towards it: nearer, its flare knocks the hold [m]."""
+NEAR: Final = 0.022
+"""From here on, and the map's error farther off, the hook is pushed, not placed: nearer, its flare would meet the hold sideways [m]."""
+PUSH: Final = 10.0
+"""Gentle pull along the grab direction until the hook stops [N]."""
+TUG: Final = 10.0
+"""Pull on a hook that has stopped: a quarter of LIBRA's weight; more would lift the limb below off its hold [N]."""
+LIFT: Final = (0.001, 0.003)
+"""A push that lifts the body this far weakens, to a third at the second: it bears already, and other hooks would come off [m]."""
+TUG_RISE: Final = 0.2
+"""In which the tug grows to its full size [s]."""
+DITHER: Final = 8.0
+"""Pull across, to and fro, so that friction lets the hook slide in [N]."""
+DITHER_RATE: Final = 5.0
 """[Hz]."""
-CENTRING: Final = 8.0
-"""Pull towards the believed hold across the hook, per metre."""
-STOPPED: Final = 0.004
-"""A tip slower than this along the grab direction counts as stopped [m/s]."""
+CENTRING: Final = 150.0
+"""Pull towards the believed hold across the hook [N/m]."""
+ADVANCE: Final = 0.0015
+"""A tip that advances less than this along the grab direction has stopped [m]."""
+STOPPED: Final = 0.2
+"""For that long, a period of the dither, before the tug begins [s]."""
 STILL: Final = 0.3
-"""That long, the tug included, before a hook counts as seated [s]."""
-PATIENCE: Final = 2.0
+"""For that long under the full tug before a hook counts as seated [s]."""
+PATIENCE: Final = 5.0
 """For one push [s]."""
-ASIDE: Final = (0.0, 0.004, -0.004, 0.008, -0.008, 0.0)
-"""Across the hook, where each try aims [m]."""
+ASIDE: Final = (0.0, 0.8, -0.8, 1.4, -1.4, 0.0)
+"""Across the hook, where each try aims, in errors of the map [-]."""
 SLACK: Final = 0.006
 """Beyond the map's error, how far a seated hook may be from where it should be: play and backlash [m]."""
 
@@ -95,7 +100,8 @@ def follow(climber: Climber, i: int, way: Floats) -> None:
 
 def stand_off_of(climber: Climber, i: int) -> float:
     """How far from a hold a limb's hook turns towards it [m]."""
-    return STAND_OFF if climber.robot.limbs[i].end.offset > 0.0 else WIDE_STAND_OFF
+    free = free_distance(climber.peg_radius, climber.map_error)
+    return free if climber.robot.limbs[i].end.offset > 0.0 else max(WIDE_STAND_OFF, free)
 
 
 def release(climber: Climber, i: int) -> None:
@@ -104,6 +110,7 @@ def release(climber: Climber, i: int) -> None:
     task = climber.body.tasks[i]
     place = climber.body.tip(i) - stand_off_of(climber, i) * climber.body.grab_direction(i)
     move_tip(climber, i, place, 0.4)
+    climber.learn_again()
     task.hold, task.doing, task.angles = 0, "joints", climber.body.q[i].copy()
 
 
@@ -125,33 +132,27 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
         release(climber, i)
     hold = climber.holds[number]
     wished = stand_off_of(climber, i)
-    found = climber.approaches.find(
-        i, body.q[i] - body.play[i], body.settled, hold, climber.holds, elbow=elbow, stand_off=wished
-    )
+    near = NEAR + climber.map_error
+    found = _find(climber, i, hold, elbow, wished, near)
     if found is None:
         return Grabbed(False, 0, 0.0, 0.0)
     if found.shift.any():
         move_body(climber, body.aim + np.array((*found.shift, 0.0)))
-        found = (
-            climber.approaches.find(
-                i, body.q[i] - body.play[i], body.settled, hold, climber.holds, elbow=elbow, stand_off=wished
-            )
-            or found
-        )
+        found = _find(climber, i, hold, elbow, wished, near) or found
     follow(climber, i, found.way)
     climber.wait(0.15)
     along = across = 0.0
     g = found.grab
     h = np.array((-g[1], g[0]))
-    for tries, aside in enumerate(ASIDE, 1):
-        move_tip(climber, i, hold - NEAR * g + aside * h, 0.5)
+    for tries, part in enumerate(ASIDE, 1):
+        aside = part * climber.map_error
+        move_tip(climber, i, hold - near * g + aside * h, 0.5)
         stopped = _push(climber, i, hold + aside * h, g)
         off = body.tip(i) - hold
         along, across = float(off @ g), float(off @ h)
         room = climber.map_error + SLACK
         if stopped and along > -room and abs(across) < room:
-            # what the hook feels is nearer the truth than the map: most of the difference goes into it
-            climber.holds[number] = hold + 0.7 * off
+            climber.learn(number, i, [j for j, other in enumerate(body.tasks) if other.doing == "hold"])
             task.doing, task.hold, task.place = "cling", number, climber.holds[number].copy()
             climber.wait(0.1)
             return Grabbed(True, tries, along, across)
@@ -160,25 +161,50 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
     return Grabbed(False, len(ASIDE), along, across)
 
 
+def _find(climber: Climber, i: int, hold: Floats, elbow: int, wished: float, near: float) -> Approach | None:
+    body = climber.body
+    return climber.approaches.find(
+        i, body.q[i] - body.play[i], body.settled, hold, climber.holds, elbow=elbow, stand_off=wished, near=near
+    )
+
+
 def _push(climber: Climber, i: int, place: Floats, g: Floats) -> bool:
-    """Push a hook along its grab direction until it stops, then tug; False if it slips past where a hold could be."""
+    """Push a hook along its grab direction until it stops, then tug as hard as it will have to carry, until it no longer advances.
+
+    Returns:
+        Whether it came to rest under the tug, not farther in than a hold could be.
+    """
     body, task, period = climber.body, climber.body.tasks[i], climber.plant.period
-    task.doing, task.damping, task.pressed = "pull", 25.0, False
-    still = 0.0
+    # believed to press from the start: in free air the tip is then farther in than believed, never less far
+    task.doing, task.pressed, task.tug = "pull", True, np.zeros(2)
+    room = climber.map_error + SLACK
+    still = tugged = 0.0
+    tugging, seated, mark = False, False, -np.inf
+    rested = body.pose[:2].copy()
     for k in range(round(PATIENCE / period)):
         along = body.grab_direction(i)
         across = np.array((-along[1], along[0]))
-        firm = FIRM if still > STILL / 3 else 1.0
-        task.pull = (
-            firm * PUSH * along
-            + DITHER * np.sin(2 * np.pi * DITHER_RATE * k * period) * across
-            + CENTRING * float(across @ (place - body.tip(i))) * across
-        )
-        task.pressed = still > STILL / 6
+        size = PUSH + (TUG - PUSH) * min(tugged / TUG_RISE, 1.0)
+        lifted = float((rested - body.pose[:2]) @ g)
+        size *= np.interp(lifted, LIFT, (1.0, 1 / 3))
+        side = DITHER * np.sin(2 * np.pi * DITHER_RATE * k * period)
+        if tugging:
+            tugged += period
+            task.tug = size * along
+        else:
+            side += CENTRING * float(across @ (place - body.tip(i)))
+        task.force = size * along + side * across
         climber.tick()
-        still = still + period if body.tip_speed(i) @ along < STOPPED else max(0.0, still - 5 * period)
-        if (body.tip(i) - place) @ g > climber.map_error + SLACK:
-            return False
-        if still > STILL:
-            return True
-    return True
+        reached = float(body.felt_tip(i) @ g)
+        still += period
+        if reached > mark + ADVANCE:
+            mark, still = reached, 0.0
+        if not tugging and still > STOPPED:
+            tugging, still = True, 0.0
+        if (body.tip(i) - place) @ g > room:
+            break
+        if tugged > TUG_RISE and still > STILL:
+            seated = True
+            break
+    task.pressed, task.tug = False, np.zeros(2)
+    return seated

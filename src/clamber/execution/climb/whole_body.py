@@ -1,5 +1,6 @@
 """The climber's controller: what each limb is doing, where the body is to be, and the torques of one tick."""
 
+import math
 from dataclasses import dataclass, field
 from typing import Final, Literal, TypeAlias
 
@@ -15,6 +16,8 @@ from ...control.body import (
     THESIS,
     command_tips,
     estimate_body,
+    follow_play,
+    pull_torques,
 )
 from ...control.chain import chain_of_limb
 from ...control.controller import Controller, still_aim
@@ -26,10 +29,10 @@ from ...units import GRAVITY
 Doing: TypeAlias = Literal["hold", "cling", "tip", "joints", "pull"]
 """A limb holds the body, clings to its hold without carrying, brings its tip or its joints somewhere, or pulls along a direction."""
 MAPPINGS: Final = {"thesis": THESIS, "kinematic": KINEMATIC}
-SURE: Final = 0.05
-"""A load well above this puts a joint at one end of its play [N m]."""
 PLAY_TIME: Final = 0.2
 """Time in which the believed side of the play follows the load [s]."""
+CLING_DAMPING: Final = 25.0
+"""Of a limb that clings, in the units of the limb's gains."""
 LIMITS: Final = {"none": LIMIT_NONE, "thesis": LIMIT_THESIS, "counted": LIMIT_COUNTED, "shared": LIMIT_SHARED}
 
 
@@ -48,6 +51,8 @@ class BodyGains:
     """Acceleration with which a limb that carries nothing keeps to its hold."""
     gentle: float = 3.0
     """Most torque of a limb near a hold, so that what it meets is not thrown off [N m]."""
+    firm: float = 8.0
+    """Likewise of a limb that tugs at its hold: enough to carry half the weight at arm's length [N m]."""
     least_pull: float = 0.3
     """alpha of the hook limit."""
     weight_fed: float = 0.95
@@ -71,10 +76,12 @@ class LimbTask:
     angles: Floats = field(default_factory=lambda: np.zeros(2))
     """Of "joints" [rad]."""
     rates: Floats = field(default_factory=lambda: np.zeros(2))
-    pull: Floats = field(default_factory=lambda: np.zeros(2))
-    """Of "pull": acceleration asked of the tip, world frame, in the units of the limb's gains."""
-    damping: float = 25.0
-    """Of "pull"."""
+    force: Floats = field(default_factory=lambda: np.zeros(2))
+    """Of "pull": what the tip does to what it meets, world frame [N]."""
+    tug: Floats = field(default_factory=lambda: np.zeros(2))
+    """Of "pull": the steady part of that force which the body leans on; the limbs that hold carry that much less [N]."""
+    damping: float = 150.0
+    """Of "pull": of the tip's motion in the world [N s/m]."""
     pressed: bool = False
     """Of "pull": whether the tip has stopped against something, which then loads the joints."""
 
@@ -105,10 +112,13 @@ class WholeBody:
         self.legs = np.zeros(n, LEG)
         for i, (limb, chain) in enumerate(zip(robot.limbs, self.chains, strict=True)):
             hooked = limb.end.kind == "hook"
-            shares = chain.joints["share"]
+            joints, masses = chain.joints, chain.joints["mass"]
+            centres = joints["centre"][:, 0]
             self.legs[i] = (
                 *(limb.port_x, limb.port_y, limb.port_angle, limb.l1, limb.l2_effective, limb.hook_beta),
-                *(limb.end.angle, hooked, shares[0], shares[1]),
+                *(limb.end.angle, hooked, *joints["share"]),
+                *(GRAVITY * (masses[0] * centres[0] + masses[1] * limb.l1), GRAVITY * masses[1] * centres[1]),
+                *joints["friction"],
             )
         unit = LawSettings(law=gains.law, kp=1.0, kd=0.0, joint_kd=1.0)
         free = LawSettings(law=gains.law, kp=gains.limb_kp, kd=gains.limb_kd)
@@ -136,6 +146,13 @@ class WholeBody:
         self._unused_speeds, self._unused_twist = np.zeros((n, 2)), np.zeros(3)
         self._pulls, self._forces = np.zeros((n, 2)), np.zeros((n, 2))
         self._least = np.full(n, gains.least_pull)
+        self._ports = [
+            (limb.port_x, limb.port_y, math.cos(limb.port_angle), math.sin(limb.port_angle)) for limb in robot.limbs
+        ]
+        self._kp, self._kd = np.array(gains.kp), np.array(gains.kd)
+        self._no_force = np.zeros(2)
+        self._pressed, self._loads = np.zeros(n, np.int64), np.zeros((n, 2))
+        self._lag = np.array((period / PLAY_TIME, self.backlash / 2))
 
     def see(self, q: Floats, qd: Floats, angle: float, angle_speed: float, *, with_encoder: bool = True) -> None:
         """Take in a tick's measurements and estimate where the body is."""
@@ -153,28 +170,21 @@ class WholeBody:
             self.settled_tips, self._unused_speeds, self.settled, self._unused_twist,
         )  # fmt: skip
 
-    def _follow_play(self) -> None:
-        """Which end of its play a joint rests on follows from what loads it: the fed-forward force, or a free limb's own weight."""
-        for i, (task, chain) in enumerate(zip(self.tasks, self.chains, strict=True)):
-            if task.doing == "hold":
-                load = chain.jacobian(self.q[i])[:2].T @ self._forces[i]
-            elif task.doing == "pull" and task.pressed:
-                load = self.torques[i]
-            else:
-                down = self._into_port(i, np.array((0.0, -GRAVITY)))
-                load = chain.with_gravity((down[0], down[1], 0.0)).bias(self.q[i], np.zeros(2))
-            side = np.tanh(load / SURE)
-            self.play[i] += self.period / PLAY_TIME * (self.backlash / 2 * side - self.play[i])
-
     def tip(self, i: int) -> Floats:
         """A limb's tip in the world by encoders and estimate, the play counted [m]."""
-        c, s = np.cos(self.settled[2]), np.sin(self.settled[2])
+        c, s = math.cos(self.settled[2]), math.sin(self.settled[2])
         x, y = self.settled_tips[i]
         return np.array((self.settled[0] + c * x - s * y, self.settled[1] + s * x + c * y))
 
+    def felt_tip(self, i: int) -> Floats:
+        """The same by the encoders alone: rougher, but it moves only when a motor does [m]."""
+        c, s = math.cos(self.pose[2]), math.sin(self.pose[2])
+        x, y = self.tips[i]
+        return np.array((self.pose[0] + c * x - s * y, self.pose[1] + s * x + c * y))
+
     def tip_speed(self, i: int) -> Floats:
         """Its speed in the world [m/s]."""
-        c, s = np.cos(self.pose[2]), np.sin(self.pose[2])
+        c, s = math.cos(self.pose[2]), math.sin(self.pose[2])
         x, y = self.tips[i]
         vx, vy = self.tip_speeds[i]
         w = self.twist[2]
@@ -183,20 +193,20 @@ class WholeBody:
 
     def strain(self, i: int, j: int) -> float:
         """How far the distance of two holding tips is from that of their holds [m]."""
-        tips = float(np.hypot(*(self.tips[i] - self.tips[j])))
-        return abs(tips - float(np.hypot(*(self.tasks[i].place - self.tasks[j].place))))
+        return abs(math.dist(self.tips[i], self.tips[j]) - math.dist(self.tasks[i].place, self.tasks[j].place))
 
     def grab_direction(self, i: int) -> Floats:
         """Where a limb's hook pulls, world frame, unit vector."""
-        angle = self.pose[2] + self.legs[i]["port_angle"] + self.q[i].sum() + self.legs[i]["hook_angle"]
-        return np.array((np.cos(angle), np.sin(angle)))
+        limb = self.robot.limbs[i]
+        angle = self.pose[2] + limb.port_angle + self.q[i, 0] + self.q[i, 1] + limb.end.angle
+        return np.array((math.cos(angle), math.sin(angle)))
 
     def command(self) -> Floats:
         """Torques of this tick, shape (limbs, 2) [N m]."""
         gains = self.gains
-        wanted = np.array(gains.kp) * (self.aim - self.pose) + np.array(gains.kd) * (self.aim_speed - self.twist)
+        wanted = self._kp * (self.aim - self.pose) + self._kd * (self.aim_speed - self.twist)
         np.subtract(self._holds, self.pose[:2], out=self._arms)
-        fed = np.array((0.0, gains.weight_fed * self.robot.weight, 0.0))
+        fed = self._fed()
         command_tips(
             self.legs, self.q, self._held, self.pose, self._arms, wanted, fed,
             MAPPINGS[gains.mapping], LIMITS[gains.limit], self._least, self._pulls, self._forces,
@@ -205,11 +215,13 @@ class WholeBody:
             if task.doing == "hold":
                 self._pull(i, self._pulls[i], self._forces[i])
             elif task.doing == "cling":
-                turned = self._into_port(i, gains.cling * self.grab_direction(i) - task.damping * self.tip_speed(i))
-                self._pull(i, turned, np.zeros(2))
+                turned = self._into_port(i, gains.cling * self.grab_direction(i) - CLING_DAMPING * self.tip_speed(i))
+                self._pull(i, turned, self._no_force)
             elif task.doing == "pull":
-                turned = self._into_port(i, task.pull - task.damping * self.tip_speed(i))
-                self._pull(i, turned, np.zeros(2))
+                pull_torques(
+                    self.legs[i], self.q[i], self.qd[i], self.pose, self.twist, task.force, task.damping,
+                    self.torques[i], self._loads[i],
+                )  # fmt: skip
             elif task.doing == "tip":
                 self._reach(i, task)
             else:
@@ -217,20 +229,32 @@ class WholeBody:
                 self.torques[i] = shares * (
                     gains.joint_kp * (task.angles - self.q[i]) + gains.joint_kd * (task.rates - self.qd[i])
                 )
+            self._pressed[i] = task.doing == "pull" and task.pressed
             if task.doing in ("tip", "pull", "cling"):
-                np.clip(self.torques[i], -gains.gentle, gains.gentle, out=self.torques[i])
-        self._follow_play()
+                most = gains.firm if self._pressed[i] else gains.gentle
+                np.clip(self.torques[i], -most, most, out=self.torques[i])
+        follow_play(
+            self.legs, self.q, self._held, self._forces, self.pose[2], self._pressed, self._loads, self._lag, self.play
+        )
         return self.torques
 
+    def _fed(self) -> Floats:
+        """The wrench on the body that the holding limbs bring in any case: the weight, less what tugging limbs already carry."""
+        fed = np.array((0.0, self.gains.weight_fed * self.robot.weight, 0.0))
+        for i, task in enumerate(self.tasks):
+            if task.doing == "pull" and task.tug.any():
+                arm = self.tip(i) - self.settled[:2]
+                fed += (*task.tug, arm[0] * task.tug[1] - arm[1] * task.tug[0])
+        return fed
+
     def _into_port(self, i: int, vector: Floats) -> Floats:
-        angle = -(self.pose[2] + self.legs[i]["port_angle"])
-        c, s = np.cos(angle), np.sin(angle)
+        angle = -(self.pose[2] + self.robot.limbs[i].port_angle)
+        c, s = math.cos(angle), math.sin(angle)
         return np.array((c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]))
 
     def _own_tip(self, i: int) -> Floats:
-        leg = self.legs[i]
-        c, s = np.cos(leg["port_angle"]), np.sin(leg["port_angle"])
-        x, y = self.tips[i, 0] - leg["port_x"], self.tips[i, 1] - leg["port_y"]
+        port_x, port_y, c, s = self._ports[i]
+        x, y = self.tips[i, 0] - port_x, self.tips[i, 1] - port_y
         return np.array((c * x + s * y, -s * x + c * y))
 
     def _pull(self, i: int, pull: Floats, force: Floats) -> None:
@@ -253,7 +277,7 @@ class WholeBody:
 
     def _turned_back(self, i: int) -> Floats:
         """Speed of the tip relative to the body, world axes."""
-        c, s = np.cos(self.pose[2]), np.sin(self.pose[2])
+        c, s = math.cos(self.pose[2]), math.sin(self.pose[2])
         vx, vy = self.tip_speeds[i]
         return np.array((c * vx - s * vy, s * vx + c * vy))
 

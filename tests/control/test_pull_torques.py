@@ -1,0 +1,52 @@
+"""A free limb that pulls, and the play of joints that are loaded."""
+
+import numpy as np
+
+from clamber.control.body import follow_play, pull_torques
+from clamber.control.chain import chain_of_limb
+from clamber.execution.climb.whole_body import WholeBody
+from clamber.robots.library import load_robot
+from clamber.robots.limbed import LimbedRobot
+from clamber.units import GRAVITY
+
+ROBOT = load_robot("libra")
+assert isinstance(ROBOT, LimbedRobot)
+BODY = WholeBody(ROBOT, period=0.005)
+STILL = np.zeros(3)
+
+
+def test_the_load_is_the_force_through_the_jacobian_and_the_limbs_own_weight() -> None:
+    rng = np.random.default_rng(3)
+    for i, limb in enumerate(ROBOT.limbs):
+        q, force = rng.uniform(-1.2, 1.2, 2), rng.normal(0.0, 10.0, 2)
+        pose = np.array((0.3, -0.2, 0.4))
+        torques, loads = np.zeros(2), np.zeros(2)
+        pull_torques(BODY.legs[i], q, np.zeros(2), pose, STILL, force, 150.0, torques, loads)
+        angle = -(pose[2] + limb.port_angle)
+        turn = np.array(((np.cos(angle), -np.sin(angle)), (np.sin(angle), np.cos(angle))))
+        chain, down = chain_of_limb(ROBOT, limb.name), turn @ np.array((0.0, -GRAVITY))
+        weight = chain.with_gravity((down[0], down[1], 0.0)).bias(q, np.zeros(2))
+        np.testing.assert_allclose(loads, chain.jacobian(q)[:2].T @ (turn @ force) + weight, atol=1e-9)
+        assert np.all(np.abs(torques - loads) <= chain.joints["friction"] + 1e-12)
+
+
+def test_damping_takes_power_from_a_tip_that_moves_with_the_body_too() -> None:
+    rng = np.random.default_rng(4)
+    for i in range(3):
+        q, qd, twist = rng.uniform(-1.0, 1.0, 2), rng.normal(0.0, 1.0, 2), np.zeros(3)
+        still, damped, loads = np.zeros(2), np.zeros(2), np.zeros(2)
+        arguments = (BODY.legs[i], q, qd, STILL, twist, np.zeros(2))
+        pull_torques(*arguments, 0.0, still, loads)
+        pull_torques(*arguments, 150.0, damped, loads)
+        assert (damped - still) @ qd < 0.0
+
+
+def test_a_pressed_joint_comes_to_rest_at_the_side_that_its_load_pushes_it_to() -> None:
+    play, half = np.zeros((3, 2)), np.radians(1.0)
+    loads = np.array(((1.0, -1.0), (-2.0, 0.5), (0.0, 3.0)))
+    for _ in range(400):
+        follow_play(
+            BODY.legs, np.zeros((3, 2)), np.zeros(3, np.int64), np.zeros((3, 2)), 0.0, np.ones(3, np.int64), loads,
+            np.array((0.025, half)), play,
+        )  # fmt: skip
+    np.testing.assert_allclose(play, half * np.tanh(loads / 0.05), atol=1e-4)
