@@ -20,9 +20,12 @@ GRAB_Y: Final = 5
 """Place of the grab direction's y in a stance's solution of a limb, for branch 0."""
 SOLVED: Final = 5
 """Numbers of one branch there."""
-CHANGE: Final = 1.0
+CHANGE: Final = 0.4
 """What a change of side counts, where 1 is a hook that pulls sideways instead of down [-]."""
-BARRED: Final = 1e3
+SIDEWAYS: Final = 0.15
+"""A hook whose pull is less downwards than this holds no weight that hangs straight down [-]."""
+BARRED, POOR = 1e3, 10.0
+"""What counts a side that the plan's checks forbid, and one that holds no such weight."""
 HANGING: Final = 1e-9
 """A body that turns by more than this in an action which is no turn swings to hang [rad]."""
 
@@ -153,7 +156,8 @@ def _drawback(stances: Records, i: int, run: tuple[int, int], branch: int) -> fl
     first, last = run
     if not int(stances["open"][last, i]) >> branch & 1:
         return BARRED
-    return 1.0 + float(np.max(stances["solved"][first : last + 1, i, GRAB_Y + SOLVED * branch]))
+    down = -float(np.max(stances["solved"][first : last + 1, i, GRAB_Y + SOLVED * branch]))
+    return 1.0 - down + (POOR if down < SIDEWAYS else 0.0)
 
 
 def _runs(holds: Ints) -> list[tuple[int, int]]:
