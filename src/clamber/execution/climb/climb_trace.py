@@ -148,9 +148,9 @@ class TracedClimber(Climber):
             self.keep()
 
     def keep(self) -> None:
-        """Take a sample of now, unless there is one."""
+        """Take a sample of now, in place of one that there is."""
         if self._kept == self.ticks:
-            return
+            self._rows.pop()
         self._kept = self.ticks
         body, true = self.body, None if self.truth is None else self.truth()
         self._rows.append((

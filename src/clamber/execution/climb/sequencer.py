@@ -1,6 +1,5 @@
 """The sequencer: carries a plan out action by action, tries again where a grab misses, and tells what happened to each."""
 
-import copy
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -9,12 +8,12 @@ from typing import Final, Literal, TypeAlias
 import numpy as np
 
 from ...actions.plan import Plan
-from ...tasks import task_from_document
 from ...tasks.limbed import LimbedTask
 from ...types import Floats, Json
 from .climb_trace import TracedClimber
 from .climber import FallenError, Grabbed
 from .course import Course, PlanRefusedError, lay_course, names_of, swings
+from .here import task_from_here
 from .motions import grab, move_body, release
 
 Outcome: TypeAlias = Literal["ok", "stalled", "missed", "fell", "interrupted", "not supported"]
@@ -273,7 +272,8 @@ class Sequencer:
         """Ask for a plan from where the robot is, without the holds that were missed; whether there is one."""
         if self._replan is None or len(self.report.replans) >= MOST_REPLANS:
             return False
-        task = task_from_here(self.course, step, self.climber, self._missed)
+        held = {limb.name: self.climber.body.tasks[i].hold for i, limb in enumerate(self.climber.robot.limbs)}
+        task = task_from_here(self.course, step, held, self._missed)
         plan = self._replan(task)
         if plan is None:
             return False
@@ -298,33 +298,6 @@ class Sequencer:
         return ActionReport(
             first, last, kind, title, outcome, start, climber.time - start, tries, self._off(), body_error, tip_error, reason
         )  # fmt: skip
-
-
-def task_from_here(course: Course, step: int, climber: TracedClimber, missed: set[int]) -> LimbedTask:
-    """The task that starts in the pose before a step with the robot's present holds, on the board without the missed ones."""
-    task, pose = course.task, course.pose(step - 1)
-    held = {limb.name: climber.body.tasks[i].hold for i, limb in enumerate(climber.robot.limbs)}
-    document = copy.deepcopy(task.document)
-    document["start"] = {
-        "x": f"{pose[0]!r} m", "y": f"{pose[1]!r} m", "theta": f"{pose[2]!r} rad", "holds": held,
-    }  # fmt: skip
-    gone = missed - set(held.values())
-    document["board"] = _without(document["board"], task, gone)
-    changed = task_from_document(document, "where the robot is")
-    assert isinstance(changed, LimbedTask)
-    return changed
-
-
-def _without(board: Json, task: LimbedTask, gone: set[int]) -> Json:
-    """A board's document with every hold written out but those."""
-    kept = [
-        {"number": hold.number, "x": f"{hold.x!r} m", "y": f"{hold.y!r} m", "radius": f"{hold.radius!r} m"}
-        for hold in task.world.holds
-        if hold.number not in gone
-    ]
-    return {key: value for key, value in board.items() if key not in ("ladder", "grid", "csv", "holds")} | {
-        "holds": kept
-    }
 
 
 def _beyond(task: LimbedTask, pose: Floats) -> float:
