@@ -29,6 +29,8 @@ ARRIVED: Final = 0.02
 """A body nearer to its aim than this has come to it [m]."""
 TURNED: Final = math.radians(6.0)
 """Likewise [rad]."""
+SHIFTED: Final = 0.005
+"""A body's aim farther from the plan's pose than this is brought back before a grab [m], [rad]."""
 SETTLING: Final = 1.0
 """Most time that it gets to come there after its way [s]."""
 PAUSE: Final = 0.1
@@ -229,11 +231,13 @@ class Sequencer:
         side = math.copysign(1.0, self.climber.holds[action.hold][0] - self._pose(step)[0])
         result = Grabbed(False, 0, 0.0, 0.0)
         for x, y in ELSEWHERE:
-            if tries or (x, y) != (0.0, 0.0):
-                move_body(self.climber, self._pose(step) + np.array((side * x, y, 0.0)))
+            place = self._pose(step) + np.array((side * x, y, 0.0))
+            if float(np.abs(place - self.climber.body.aim).max()) > SHIFTED:  # also by the approach to the hold before
+                move_body(self.climber, place)
             result = grab(self.climber, i, action.hold, elbow=elbow)
             tries += max(1, result.tries)
             if result.held:
+                self._keep_in_map(i, action.hold)
                 return "ok", tries, ""
         self._missed.add(action.hold)
         if not result.tries:
@@ -243,6 +247,13 @@ class Sequencer:
             tries,
             f"the hook stopped {1e3 * result.along:+.0f}, {1e3 * result.across:+.0f} mm from the hold",
         )
+
+    def _keep_in_map(self, i: int, number: int) -> None:
+        """What a hook felt corrects the map, but never by more than the map can be wrong: a bias would add up from grab to grab."""
+        hold, climber = self.course.task.world.by_number(number), self.climber
+        place, most = np.array((hold.x, hold.y)), climber.map_error
+        climber.holds[number] = place + np.clip(climber.holds[number] - place, -most, most)
+        climber.body.tasks[i].place = climber.holds[number].copy()
 
     def _settle(self) -> bool:
         for _ in range(round(SETTLING / PAUSE)):
