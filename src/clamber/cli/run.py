@@ -38,10 +38,9 @@ def run(
     check_writable(output)
     from ..actions.plan_source import is_plan_file, open_plan
     from ..experiments.climb.planning import plan_to_climb, replanner
-    from ..experiments.climb.run_plan import climbing_flaws, climbing_task, run_plan, split_settings
+    from ..experiments.climb.run_plan import climbing_flaws, climbing_task, read_peg_error, run_plan, split_settings
     from ..planning.planners import FIRST_LOOPS, PLANNERS
     from ..tasks import load_task
-    from ..units import parse_quantity
     from ..viewing.climb_run_view import check_run_suffix, write_run
     from .run_text import ClimbLine, print_run
 
@@ -50,7 +49,7 @@ def run(
     if planner not in PLANNERS:
         raise UnknownNameError("planner", planner, tuple(PLANNERS))
     for_task, for_plant = split_settings(overrides or ())
-    error = parse_quantity(peg_error, "length")
+    error = read_peg_error(peg_error)
     announce_compilation(FIRST_LOOPS[planner], quiet=quiet)
     if is_plan_file(what):
         opened = open_plan(Path(what), task, for_task)

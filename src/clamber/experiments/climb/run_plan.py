@@ -12,10 +12,11 @@ from ...execution.climb.climb_trace import ClimbTrace, TracedClimber
 from ...execution.climb.course import climbable, lay_course
 from ...execution.climb.sequencer import ClimbReport, Progress, Replan, Sequencer
 from ...sim.climber_plant import ClimberPlant
-from ...sim.limb_flaws import LimbFlaws
+from ...sim.limb_flaws import LimbFlaws, PlantError
 from ...tasks import Task
 from ...tasks.limbed import LimbedTask
 from ...types import Floats, Json
+from ...units import parse_quantity
 from ..limb.flaw_texts import named_flaws, read_flaws
 
 PLANT: str = "plant."
@@ -67,6 +68,19 @@ def climbing_flaws(task: LimbedTask, settings: Sequence[str], seed: int | None =
     """
     nominal = named_flaws("nominal", task.robot).with_changes(physics_rate=PHYSICS_RATE)
     return read_flaws(nominal, settings, seed)
+
+
+def read_peg_error(text: str) -> float:
+    """The largest error of a peg's place along each axis, from a text such as "3mm" [m].
+
+    Raises:
+        UnitError: If it is no length.
+        PlantError: If it is less than nothing.
+    """
+    error = parse_quantity(text, "length")
+    if error < 0.0:
+        raise PlantError("peg error", text, "must be 0 mm or more")
+    return error
 
 
 def true_pegs(task: LimbedTask, error: float, seed: int) -> Floats | None:
