@@ -18,7 +18,7 @@ CAUTIONS: Final = ((0.22, 2.0), (0.4, 2.0), (0.4, 0.0), (1.0, 0.0))
 """Share of the motors' torque that a plan may use [-], and reach that its grabs leave [in]; the next where there is no plan."""
 PULL_CONE: Final = 10.0
 """Holds that state no direction are pulled down, within this of straight [deg]: limbs carry side by side, not one against the other."""
-HOOK_CONE: Final = 62.0
+HOOK_CONE: Final = 58.0
 """Hooks pull within this of their grab direction [deg]."""
 
 
