@@ -21,6 +21,7 @@ from .new import new
 from .plan import plan
 from .polish import polish
 from .reach import reach
+from .run import run
 from .show import show
 from .study import study
 from .sweep import sweep
@@ -38,6 +39,7 @@ app.command("polish")(polish)
 app.command("learn")(learn)
 app.command("inventory")(inventory)
 app.command("check")(check)
+app.command("run")(run)
 app.command("show")(show)
 app.command("bench")(bench)
 app.command("sweep")(sweep)

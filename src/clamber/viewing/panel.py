@@ -111,19 +111,35 @@ class GaugeBars:
 class StepStrip:
     """A coloured cell per step, and a mark at the step that is shown."""
 
-    def __init__(self, axes: Axes, grades: list[int], place: Place) -> None:
+    def __init__(
+        self,
+        axes: Axes,
+        grades: list[int],
+        place: Place,
+        title: str = "Smallest margin of every step",
+        words: tuple[str, str, str, str] = style.STRIP_WORDS,
+    ) -> None:
+        """Draw the strip.
+
+        Args:
+            axes: Of the panel, in inches.
+            grades: Index into `style.STRIP` of every step.
+            place: Where.
+            title: What the colours tell.
+            words: What each of them means.
+        """
         self.place, self.count = place, max(len(grades), 1)
-        axes.text(place.left, place.top, "Smallest margin of every step", fontsize=9, weight="bold", va="top")
+        axes.text(place.left, place.top, title, fontsize=9, weight="bold", va="top")
         height, top = 0.15, place.top - 0.28
         cells = np.array([[int(style.STRIP[g][k : k + 2], 16) for k in (1, 3, 5)] for g in grades or [3]], np.uint8)
         axes.imshow(
             cells[None], extent=(place.left, place.left + place.width, top - height, top), aspect="auto",
             interpolation="nearest", zorder=1,
         )  # fmt: skip
-        for k, (colour, words) in enumerate(zip(style.STRIP, style.STRIP_WORDS, strict=True)):
+        for k, (colour, word) in enumerate(zip(style.STRIP, words, strict=True)):
             x = place.left + k * place.width / 4
             axes.add_patch(Rectangle((x, top - height - 0.25), 0.11, 0.11, fc=colour, lw=0))
-            axes.text(x + 0.15, top - height - 0.2, words, fontsize=6.5, va="center", color=style.QUIET)
+            axes.text(x + 0.15, top - height - 0.2, word, fontsize=6.5, va="center", color=style.QUIET)
         (self.mark,) = axes.plot([], [], marker="v", ms=6, color=style.INK, ls="", clip_on=False)
         self.y = top + 0.05
 

@@ -147,10 +147,13 @@ class View(ABC, Generic[Moment]):
         text_end = height - len(rows) * 2.2 * LINE - 0.1
         self.bars = GaugeBars(self.panel, gauges, Place(left, height if self.layout.below else text_end, PANEL_WIDTH))
         top = text_end if self.layout.below else self.bars.bottom - 0.12
-        grades = [grade(step) for step in self.limiting]
-        self.strip = StepStrip(self.panel, grades, Place(0.0, top, PANEL_WIDTH - 0.1))
+        self.strip = self.make_strip(Place(0.0, top, PANEL_WIDTH - 0.1))
         self.layout.fix_panel(self.panel)
         self.key = Place(0.0, top - 0.92, PANEL_WIDTH)
+
+    def make_strip(self, place: Place) -> StepStrip:
+        """The cell per step."""
+        return StepStrip(self.panel, [grade(step) for step in self.limiting], place)
 
     @abstractmethod
     def settled(self, step: int) -> Moment:

@@ -1,0 +1,1 @@
+"""Plans carried out by a simulated climber."""
