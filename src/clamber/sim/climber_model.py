@@ -23,8 +23,6 @@ PEG_SOLIMP: Final = (0.95, 0.99, 0.0005, 0.5, 2.0)
 """Stiff contacts: under the robot's weight a peg sinks less than a tenth of a millimetre into a hook."""
 HOOKS, PEGS, LINKS = 1, 2, 4
 """Bits of what may touch what: hooks and links touch pegs, nothing else touches."""
-SPAN: Final = 100.0
-"""Side of the wall on which the body can be [m]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
