@@ -14,6 +14,8 @@ THESIS = 0
 """The thesis's T for forces and accelerations alike."""
 KINEMATIC = 1
 """Accelerations by the body's motion, -(a + alpha x r); forces by T."""
+COLLOCATED = 2
+"""As kinematic for where the body is; how fast, each limb damps by its own joints, whose encoders are far finer than the body's (ours)."""
 LIMIT_NONE = 0
 LIMIT_THESIS = 1
 """The commanded acceleration alone is kept along the grab direction."""
@@ -82,7 +84,7 @@ def share_wrench(held, arms, wrench, forces):
 
 
 @kernel
-def command_tips(legs, q, held, pose, arms, wanted, fed, mapping, limit, least, cuts, pulls, forces):
+def command_tips(legs, q, held, pose, arms, wanted, fed, mapping, limit, least, drags, cuts, pulls, forces):
     """What each holding tip is to do, in its port frame: an acceleration relative to the body, and a force on its hold.
 
     Args:
@@ -93,9 +95,10 @@ def command_tips(legs, q, held, pose, arms, wanted, fed, mapping, limit, least, 
         arms: Holds less body, world frame, shape (n, 2) [m].
         wanted: Acceleration of the body that is asked for, in the units of its gains, shape (3,).
         fed: Wrench that is fed forward, such as the weight, shape (3,) [N], [N m].
-        mapping: THESIS or KINEMATIC.
+        mapping: THESIS, KINEMATIC or COLLOCATED.
         limit: LIMIT_NONE, LIMIT_THESIS, LIMIT_COUNTED, LIMIT_SHARED or LIMIT_FEASIBLE.
         least: alpha, the least acceleration along the grab direction, shape (n,).
+        drags: Accelerations of the tips relative to the body that are asked for besides, world frame, shape (n, 2).
         cuts: Work space of `pair_forces`.
         pulls: Filled with accelerations, port frame, shape (n, 2).
         forces: Filled with forces of the tips on their holds, port frame, shape (n, 2) [N].
@@ -107,12 +110,12 @@ def command_tips(legs, q, held, pose, arms, wanted, fed, mapping, limit, least, 
         if not held[i]:
             continue
         # the hold's force on the limb moves the body; the limb's on the hold is the opposite
-        if mapping == KINEMATIC:
-            pulls[i, 0] = -(wanted[0] - wanted[2] * arms[i, 1])
-            pulls[i, 1] = -(wanted[1] + wanted[2] * arms[i, 0])
-        else:
+        if mapping == THESIS:
             pulls[i, 0] = -pulls[i, 0]
             pulls[i, 1] = -pulls[i, 1]
+        else:
+            pulls[i, 0] = -(wanted[0] - wanted[2] * arms[i, 1])
+            pulls[i, 1] = -(wanted[1] + wanted[2] * arms[i, 0])
     if limit == LIMIT_FEASIBLE:
         if count == 2:
             pair_forces(legs, q, a, b, pose, arms, fed, cuts, forces)
@@ -124,6 +127,9 @@ def command_tips(legs, q, held, pose, arms, wanted, fed, mapping, limit, least, 
                     raise_pull(legs[i], q[i], pose[2], fx - forces[i, 0], fy - forces[i, 1], pulls[i])
     for i in range(legs.size):
         if held[i]:
+            # a limb's own inertia takes up what damps it, so hooks do not feel it
+            pulls[i, 0] += drags[i, 0]
+            pulls[i, 1] += drags[i, 1]
             turn = -(pose[2] + legs[i].port_angle)
             _turn(pulls[i], turn)
             forces[i, 0] = -forces[i, 0]
@@ -134,6 +140,27 @@ def command_tips(legs, q, held, pose, arms, wanted, fed, mapping, limit, least, 
     for i in range(legs.size):
         if held[i] and limit not in (LIMIT_NONE, LIMIT_FEASIBLE) and legs[i].hooked:
             limit_pull(legs[i], q[i], limit, least[i], pulls[i], forces[i])
+
+
+@kernel
+def drag_tips(speeds, angle, arms, aim_speed, kd, drags):
+    """What damps each tip's motion relative to the body towards the one that the body's aim has.
+
+    Args:
+        speeds: Of the tips in the body frame, shape (n, 2) [m/s].
+        angle: Of the body [rad].
+        arms: Holds less body, world frame, shape (n, 2) [m].
+        aim_speed: Of the body's aim, shape (3,).
+        kd: In the units of the gains.
+        drags: Filled, world frame, shape (n, 2).
+    """
+    c = math.cos(angle)
+    s = math.sin(angle)
+    for i in range(arms.shape[0]):
+        vx = c * speeds[i, 0] - s * speeds[i, 1]
+        vy = s * speeds[i, 0] + c * speeds[i, 1]
+        drags[i, 0] = -kd * (aim_speed[0] - aim_speed[2] * arms[i, 1] + vx)
+        drags[i, 1] = -kd * (aim_speed[1] + aim_speed[2] * arms[i, 0] + vy)
 
 
 @inlined
