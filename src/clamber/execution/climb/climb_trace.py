@@ -168,6 +168,7 @@ class TracedClimber(Climber):
         """Is told each sample when the next one is taken; the last one, `last`, may still be taken again."""
         self._rows: list[Floats] = []
         self._kept = -1
+        self._width = len(self.titles)
 
     @property
     def limbs(self) -> tuple[str, ...]:
@@ -194,11 +195,16 @@ class TracedClimber(Climber):
         """Take a sample of now, in place of one that there is."""
         body = self.body
         true = None if self.truth is None else self.truth()
-        row = np.concatenate([
+        parts = (
             (self.time, self.step), body.settled, body.aim, () if true is None else true.pose,
             body.q.ravel(), () if true is None else true.q.ravel(), body.torques.ravel(),
             [task.hold for task in body.tasks], [task.doing == "hold" for task in body.tasks],
-        ])  # fmt: skip
+        )  # fmt: skip
+        row = np.empty(self._width)
+        start = 0
+        for part in parts:
+            row[start : start + len(part)] = part
+            start += len(part)
         if self._kept == self.ticks:
             self._rows[-1] = row
             return
