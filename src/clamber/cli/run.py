@@ -66,12 +66,13 @@ def run(
             raise typer.Exit(1)
         plan = found
     again = replanner(planner, seconds=seconds, seed=seed) if replan else None
+    streamed = output if output is not None and output.suffix.lower() == ".mcap" else None
     with ClimbLine(stderr(), quiet=quiet) as line:
         run = run_plan(
             chosen, plan, flaws, peg_error=error, seed=seed, force=force, replan=again, progress=line.update,
-            label=what,
+            label=what, log=streamed,
         )  # fmt: skip
-    if output is not None:
+    if output is not None and streamed is None:
         write_run(run, output)
     if as_json:
         print_json(run.to_json())

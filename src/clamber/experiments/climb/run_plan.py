@@ -2,15 +2,18 @@
 
 import time
 from collections.abc import Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
 from ...actions.plan import Plan
 from ...errors import SpecError
-from ...execution.climb.climb_trace import ClimbTrace, TracedClimber
+from ...execution.climb.climb_trace import TOPIC, ClimbTrace, TracedClimber, limb_notes, report_notes
 from ...execution.climb.course import climbable, lay_course
 from ...execution.climb.sequencer import ClimbReport, Progress, Replan, Sequencer
+from ...execution.log_stream import LogStream
 from ...sim.climber_plant import ClimberPlant
 from ...sim.limb_flaws import LimbFlaws, PlantError
 from ...tasks import Task
@@ -102,6 +105,7 @@ def run_plan(
     replan: Replan | None = None,
     progress: Progress | None = None,
     label: str = "plan",
+    log: Path | None = None,
 ) -> ClimbRun:
     """Carry a plan out.
 
@@ -115,8 +119,10 @@ def run_plan(
         replan: What plans again where a hold cannot be had.
         progress: Told before each action.
         label: What errors call the plan.
+        log: An .mcap file that grows as the robot climbs (`execution.log_stream`).
 
     Raises:
+        FileError: If the log cannot be written.
         PlanRefusedError: If something speaks against the plan and it is not forced.
         SpecError: If an action is none that the task's robot and board have.
         StartError: If the start violates a hard check.
@@ -126,6 +132,12 @@ def run_plan(
     plant = ClimberPlant(task.robot, task.world, flaws, pegs=true_pegs(task, peg_error, seed))
     climber = TracedClimber(task.robot, task.world, plant, map_error=LEAST_MAP_ERROR + peg_error, truth=plant.truth)
     sequencer = Sequencer(climber, course, replan=replan, force=force, progress=progress)
-    report = sequencer.run()
-    notes = report.to_json() | {"task": task.name, "peg_error": peg_error, "seed": seed}
+    stream = None if log is None else LogStream(log, climber.titles, limb_notes(climber.limbs), TOPIC)
+    with nullcontext() if stream is None else stream:
+        climber.told = None if stream is None else stream.add
+        report = sequencer.run()
+        notes = report.to_json() | {"task": task.name, "peg_error": peg_error, "seed": seed}
+        if stream is not None:
+            stream.add(climber.last())
+            stream.finish(report_notes(notes))
     return ClimbRun(task, plan, report, climber.trace(notes), time.perf_counter() - began)
