@@ -11,13 +11,13 @@ from ...errors import SpecError
 from ...execution.climb.climb_trace import ClimbTrace, TracedClimber
 from ...execution.climb.course import climbable, lay_course
 from ...execution.climb.sequencer import ClimbReport, Progress, Replan, Sequencer
-from ...sim.climber_plant import ClimberPlant
 from ...sim.limb_flaws import LimbFlaws, PlantError
 from ...tasks import Task
 from ...tasks.limbed import LimbedTask
 from ...types import Floats, Json
 from ...units import parse_quantity
 from ..limb.flaw_texts import named_flaws, read_flaws
+from .plants import climbing_plant, truth_of
 
 PLANT: str = "plant."
 """First word of settings that change the plant."""
@@ -102,6 +102,7 @@ def run_plan(
     replan: Replan | None = None,
     progress: Progress | None = None,
     label: str = "plan",
+    plant: str = "torques",
 ) -> ClimbRun:
     """Carry a plan out.
 
@@ -115,6 +116,7 @@ def run_plan(
         replan: What plans again where a hold cannot be had.
         progress: Told before each action.
         label: What errors call the plan.
+        plant: By name or address, see `climbing_plant`.
 
     Raises:
         PlanRefusedError: If something speaks against the plan and it is not forced.
@@ -123,9 +125,11 @@ def run_plan(
     """
     began = time.perf_counter()
     course = lay_course(task, plan, label)
-    plant = ClimberPlant(task.robot, task.world, flaws, pegs=true_pegs(task, peg_error, seed))
-    climber = TracedClimber(task.robot, task.world, plant, map_error=LEAST_MAP_ERROR + peg_error, truth=plant.truth)
-    sequencer = Sequencer(climber, course, replan=replan, force=force, progress=progress)
-    report = sequencer.run()
+    with climbing_plant(plant, task, flaws, true_pegs(task, peg_error, seed)) as moved:
+        climber = TracedClimber(
+            task.robot, task.world, moved, map_error=LEAST_MAP_ERROR + peg_error, truth=truth_of(moved)
+        )
+        sequencer = Sequencer(climber, course, replan=replan, force=force, progress=progress)
+        report = sequencer.run()
     notes = report.to_json() | {"task": task.name, "peg_error": peg_error, "seed": seed}
     return ClimbRun(task, plan, report, climber.trace(notes), time.perf_counter() - began)
