@@ -33,6 +33,9 @@ class Hardware(Plant[Reading, Floats], Protocol):
         A real robot has been put there by hand, and its counters are set.
         """
 
+    def pause(self) -> None:
+        """Hold the posture without commands until the next."""
+
 
 class Decoder:
     """Angles and speeds from readings, the speeds by difference."""
@@ -81,6 +84,10 @@ class WiredClimber:
     def actuate(self, torques: Floats) -> None:
         """See `BodyPlant`."""
         self.hardware.actuate(self.wiring.volts(np.ravel(torques)))
+
+    def pause(self) -> None:
+        """See `BodyPlant`."""
+        self.hardware.pause()
 
     def step(self) -> None:
         """See `BodyPlant`."""

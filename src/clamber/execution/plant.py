@@ -98,3 +98,6 @@ class BodyPlant(Plant[BodySensed, BodyTruth | None], Protocol):
 
     def reset(self, pose: Floats, q: Floats) -> None:
         """Put the body at a pose x, y [m], theta [rad] with joint angles q, shape (limbs, 2) [rad], at rest, at time 0."""
+
+    def pause(self) -> None:
+        """Hold the posture without commands until the next: the controller has to think for longer than a period."""

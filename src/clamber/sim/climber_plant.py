@@ -101,6 +101,9 @@ class ClimberPlant:
         """Push the body at its centre until the next call, world frame [N]."""
         self._pushed[:2] = force
 
+    def pause(self) -> None:
+        """See `BodyPlant`: nothing to do, as time stands still meanwhile."""
+
     def step(self) -> None:
         """Let one control period pass."""
         self._speeds[0] = self._data.qvel[self._speed_at]

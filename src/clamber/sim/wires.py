@@ -64,6 +64,9 @@ class ClimberWires:
         """See `Hardware`."""
         self.plant.actuate(self._amplifiers.torques(volts).reshape(-1, 2))
 
+    def pause(self) -> None:
+        """See `Hardware`: nothing to do, as time stands still meanwhile."""
+
     def step(self) -> None:
         """See `Hardware`."""
         self.plant.step()
@@ -101,6 +104,9 @@ class LimbWires:
     def actuate(self, volts: Floats) -> None:
         """See `Hardware`."""
         self.plant.actuate(self._amplifiers.torques(volts)[None])
+
+    def pause(self) -> None:
+        """See `Hardware`: nothing to do, as time stands still meanwhile."""
 
     def step(self) -> None:
         """See `Hardware`."""

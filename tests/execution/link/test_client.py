@@ -82,23 +82,39 @@ def test_a_unix_socket_is_for_its_user_alone_and_goes_with_the_server(tmp_path: 
 def test_in_real_time_the_plant_moves_on_by_itself() -> None:
     with toy_server(real_time=True) as (address, server), RemoteHardware(address) as remote:
         remote.reset(np.zeros(2))
+        ticks = []
         for _ in range(10):
             remote.actuate(np.zeros(2))
             remote.step()
-        assert remote.sense().tick == 10 + remote.skipped
+            ticks.append(remote.sense().tick)
+        assert ticks == sorted(set(ticks)), "each step is a new sample"
     assert not server.stops
 
 
-def test_who_is_late_finds_the_plant_stopped() -> None:
+def test_who_pauses_may_be_late() -> None:
+    with toy_server(real_time=True) as (address, server), RemoteHardware(address) as remote:
+        remote.reset(np.zeros(2))
+        remote.step()
+        for _ in range(3):
+            remote.pause()
+            before = remote.sense().tick
+            while remote.sense().tick < before + 5:
+                pass
+            remote.step()
+    assert not server.stops
+
+
+def test_who_is_late_finds_the_plant_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
     stopped = threading.Event()
+    monkeypatch.setattr("clamber.execution.link.server.HELD", 0.1)
     with (
         toy_server(real_time=True, told=lambda _: stopped.set()) as (address, server),
         RemoteHardware(address) as remote,
     ):
         remote.reset(np.zeros(2))
-        remote.step()
-        assert stopped.wait(20.0)
         with pytest.raises(PlantStoppedError, match="safe stop: no command came for two ticks"):
+            remote.step()
+            assert stopped.wait(20.0)
             remote.step()
     assert server.stops == [Stop.SILENT]
 

@@ -235,6 +235,41 @@ def test_after_a_safe_stop_only_a_new_start_moves_the_robot() -> None:
     assert seen[0].samples[-1].tick == 1
 
 
+@pytest.mark.parametrize("load", [0.0, 3.0])
+def test_a_pause_is_held_by_the_guard_and_ends_with_the_next_command(load: float) -> None:
+    def script(address: Address) -> Iterator[float]:
+        driver = next(placed(address))
+        yield 0.5 * PERIOD
+        for pause in (1.0, 0.1, 30.0):
+            driver.say(Kind.COMMAND, (load, load))
+            yield PERIOD
+            driver.channel.send(Kind.PAUSE)
+            driver.channel.send(Kind.PAUSE)
+            yield pause
+        driver.say(Kind.COMMAND, (load + 2.0, load))
+        yield PERIOD
+
+    server, robot, told = play(script, real_time=True, load=load)
+    assert not server.stops and not told
+    assert robot.commands[-1][0] == load + 2.0
+    np.testing.assert_allclose(robot.q, START, atol=1e-3)
+
+
+def test_no_pause_is_for_ever() -> None:
+    def script(address: Address) -> Iterator[float]:
+        driver = next(placed(address))
+        driver.say(Kind.COMMAND, (0.0, 0.0))
+        yield PERIOD
+        driver.channel.send(Kind.PAUSE)
+        yield 119.0
+        driver.channel.send(Kind.PAUSE)
+        yield 60.0
+
+    server, robot, _ = play(script, real_time=True)
+    assert server.stops == [Stop.SILENT]
+    np.testing.assert_allclose(robot.q, START, atol=1e-3)
+
+
 @pytest.mark.parametrize(("abrupt", "stops"), [(False, []), (True, [Stop.LOST])])
 @pytest.mark.parametrize("real_time", [False, True])
 def test_once_it_ends_with_its_first_client_after_having_held(abrupt: bool, stops: list[Stop], real_time: bool) -> None:

@@ -40,6 +40,9 @@ class ToyRobot:
         self._volts = volts.copy()
         self.commands.append(self._volts)
 
+    def pause(self) -> None:
+        pass
+
     def step(self) -> None:
         for _ in range(5):
             self.qd += (WIRING.torques(self._volts) - self.load) / INERTIA * PERIOD / 5

@@ -291,6 +291,7 @@ class Sequencer:
             return False
         held = {limb.name: self.climber.body.tasks[i].hold for i, limb in enumerate(self.climber.robot.limbs)}
         task = task_from_here(self.course, step, held, self._missed)
+        self.climber.plant.pause()
         plan = self._replan(task)
         if plan is None:
             return False

@@ -85,7 +85,7 @@ def listen(address: Address) -> tuple[socket.socket, Address]:
             os.umask(before)
         server.listen(4)
     except OSError as error:
-        raise LinkError(str(address), f"cannot listen there ({error.strerror or error})", "take another") from None
+        raise LinkError(str(address), f"cannot listen there ({error.strerror or error})", "take another, or remove what a killed server left") from None
     return server, address
 
 

@@ -56,8 +56,6 @@ class RemoteHardware:
         none = np.zeros(self.about.truths)
         self.sample = Sample(0, 0, Stop.NONE, np.zeros(self.about.encoders, np.int32), none)
         """The latest."""
-        self.skipped = 0
-        """Ticks of a plant that keeps its own time whose samples came too late to be used."""
 
     def __enter__(self) -> Self:
         return self
@@ -98,12 +96,18 @@ class RemoteHardware:
             raise self._no_link(str(stop)) from None
 
     def sense(self) -> Reading:
-        """See `Hardware`."""
+        """See `Hardware`: the latest sample that has come."""
+        if self.about.real_time:
+            self._catch_up()
         return Reading(self.sample.counts, self.sample.tick)
 
     def actuate(self, volts: Floats) -> None:
         """See `Hardware`; sent with the next step."""
         self._volts = volts
+
+    def pause(self) -> None:
+        """See `Hardware`: the server's guard holds until the next step."""
+        self._send(Kind.PAUSE)
 
     def step(self) -> None:
         """See `Hardware`. Of a plant that keeps its own time: until its next sample, or the latest of those that have come meanwhile.
@@ -111,15 +115,20 @@ class RemoteHardware:
         Raises:
             PlantStoppedError: If the server is gone, refuses, or has made a safe stop.
         """
-        number, before = self._send(Kind.COMMAND, self._volts), self.sample.tick
+        number = self._send(Kind.COMMAND, self._volts)
         sample = self._sample()
-        if self.about.real_time:
-            for message in self._read():
-                sample = self._unpack(message)
-        elif sample.answers != number:
+        if not self.about.real_time and sample.answers != number:
             raise PlantStoppedError("the plant's server answers another command")
+        self._take(sample)
+        if self.about.real_time:
+            self._catch_up()
+
+    def _catch_up(self) -> None:
+        for message in self._read():
+            self._take(self._unpack(message))
+
+    def _take(self, sample: Sample) -> None:
         self.sample = sample
-        self.skipped += max(0, sample.tick - before - 1)
         if sample.stop:
             raise PlantStoppedError(f"the plant has made a safe stop: {STOPS[sample.stop]}")
 
@@ -145,9 +154,9 @@ class RemoteHardware:
         except (ConnectionEndedError, MessageError) as error:
             raise PlantStoppedError(f"the plant's server is lost: {error}") from None
 
-    def _send(self, kind: Kind, numbers: Floats) -> int:
+    def _send(self, kind: Kind, numbers: Floats | None = None) -> int:
         try:
-            self._channel.send(kind, pack_numbers(np.asarray(numbers, np.float64)))
+            self._channel.send(kind, b"" if numbers is None else pack_numbers(np.asarray(numbers, np.float64)))
         except ConnectionEndedError as end:
             # a server that refuses hangs up after it has said why
             with contextlib.suppress(ConnectionEndedError, MessageError):

@@ -37,6 +37,7 @@ class Kind(IntEnum):
     SAMPLE = 5
     BYE = 6
     REFUSAL = 7
+    PAUSE = 8
 
 
 class Stop(IntEnum):
@@ -287,7 +288,7 @@ def unpack_refusal(payload: bytes) -> str:
 
 
 def unpack_nothing(kind: Kind, payload: bytes) -> None:
-    """A HELLO or BYE says nothing.
+    """A HELLO, PAUSE or BYE says nothing.
 
     Raises:
         MessageError: If it does.

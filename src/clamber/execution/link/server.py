@@ -32,6 +32,8 @@ SILENT_TICKS: Final = 2
 """So many ticks without a command, and the robot stops."""
 PATIENCE: Final = 2.0
 """For a client's first message, and for the rest of one that has begun [s]."""
+LONGEST_PAUSE: Final = 120.0
+"""That a client may ask for; a robot that hangs on warm motors is no place to think for longer [s]."""
 HELD: Final = 2.0
 """For which a plant that waits for commands is held after a safe stop, to see whether the robot stays [s]."""
 Say = Callable[[str], None]
@@ -103,7 +105,7 @@ class PlantServer:
         self._leaving: list[tuple[Channel, float]] = []
         """Those that have been let go, and until when."""
         self._welcomed, self._since = False, 0.0
-        self._placed = self._driven = False
+        self._placed = self._driven = self._paused = False
         self._reading = Reading(np.zeros(about.encoders, np.int32), 0)
         self._volts = np.zeros(about.joints)
         self._fresh, self._silent, self._answers = False, 0, 0
@@ -185,11 +187,14 @@ class PlantServer:
             self._start(channel, message)
         elif kind is Kind.COMMAND:
             self._command(channel, message)
+        elif kind is Kind.PAUSE:
+            unpack_nothing(kind, payload)
+            self._pause(message)
         elif kind is Kind.BYE:
             unpack_nothing(kind, payload)
             self._let_go(Stop.NONE, "")
         else:
-            raise MessageError("a client's message", f"a {kind.name}", "must be a START, COMMAND or BYE")
+            raise MessageError("a client's message", f"a {kind.name}", "must be a START, COMMAND, PAUSE or BYE")
 
     def _start(self, channel: Channel, message: Message) -> None:
         start = unpack_numbers(message.kind, message.payload, self.about.starts)
@@ -198,7 +203,7 @@ class PlantServer:
         self._volts = np.zeros(self.about.joints)
         self.guard.hold(self._reading, self._volts)
         self.stop, self._placed, self._driven = Stop.NONE, True, False
-        self._fresh, self._silent, self._held_until = False, 0, 0
+        self._fresh, self._silent, self._held_until, self._paused = False, 0, 0, False
         self._next = self._clock.now() + self._wall_period
         self._send_sample(channel)
 
@@ -212,9 +217,17 @@ class PlantServer:
                 self._send_sample(channel)
             return
         self._volts, self._fresh, self._driven, self._silent = volts, True, True, 0
+        self._paused = False
         if not self.about.real_time:
             self._advance(volts)
             self._send_sample(channel)
+
+    def _pause(self, message: Message) -> None:
+        """The guard holds, and silence is no stop, until the next command."""
+        self._answers = message.number
+        if self._driven and not self.stop and not self._paused:
+            self._paused, self._silent = True, 0
+            self.guard.hold(self._reading, self._volts)
 
     def _tick(self, late: float) -> None:
         """One period by the clock."""
@@ -225,10 +238,10 @@ class PlantServer:
             self._next = self._clock.now() + self._wall_period  # lost time is not caught up with
         if self._driven and not self.stop and not self._fresh:
             self._silent += 1
-            if self._silent >= SILENT_TICKS:
+            if self._silent >= (LONGEST_PAUSE / self.about.period if self._paused else SILENT_TICKS):
                 self._make_stop(Stop.SILENT, "")
         self._fresh = False
-        if self._driven and not self.stop:
+        if self._driven and not self.stop and not self._paused:
             self._advance(self._volts)
         else:
             self._hold()

@@ -91,6 +91,10 @@ class TimedHardware:
         """See `Hardware`."""
         self.hardware.actuate(volts)
 
+    def pause(self) -> None:
+        """See `Hardware`."""
+        self.hardware.pause()
+
     def step(self) -> None:
         """See `Hardware`."""
         began = time.perf_counter()
@@ -128,6 +132,10 @@ class StoppingHardware:
     def actuate(self, volts: Floats) -> None:
         """See `Hardware`."""
         self._volts = volts
+
+    def pause(self) -> None:
+        """See `Hardware`."""
+        self.hardware.pause()
 
     def step(self) -> None:
         """See `Hardware`.
@@ -200,14 +208,14 @@ def plant_rows(*, say: Say = keep_quiet) -> list[Row]:
     ):
         timed = TimedHardware(remote)
         _wait_through(task, timed, SECONDS)
-        skipped = remote.skipped
     between = 1e6 * np.diff(timed.ends)
+    missed = np.maximum(np.rint(between / (1e6 * remote.period)) - 1, 0).sum()
     off = np.abs(between - 1e6 * remote.period)
     rows.append(Row("in real time, between samples, mean", float(between.mean()), "us", "5000"))
     rows.append(Row("in real time, jitter, median", float(np.median(off)), "us"))
     rows.append(Row("in real time, jitter, 99 %", float(np.quantile(off, 0.99)), "us"))
     rows.append(Row("in real time, jitter, largest", float(off.max()), "us", "< 5000"))
-    rows.append(Row("in real time, samples that came too late", float(skipped), "", "0"))
+    rows.append(Row("in real time, samples that came too late", float(missed), "", "0"))
     say("safe stops")
     moments = np.random.default_rng(0).integers(100, RUNG_TICKS, STOPS)
     moved = [stopped_at(task, flaws, int(tick), seed).hold(HOLD) for seed, tick in enumerate(moments)]
