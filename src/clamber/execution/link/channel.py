@@ -85,7 +85,11 @@ def listen(address: Address) -> tuple[socket.socket, Address]:
             os.umask(before)
         server.listen(4)
     except OSError as error:
-        raise LinkError(str(address), f"cannot listen there ({error.strerror or error})", "take another, or remove what a killed server left") from None
+        raise LinkError(
+            str(address),
+            f"cannot listen there ({error.strerror or error})",
+            "take another, or remove what a killed server left",
+        ) from None
     return server, address
 
 

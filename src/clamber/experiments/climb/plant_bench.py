@@ -27,7 +27,7 @@ from ...tasks import load_task
 from ...tasks.limbed import LimbedTask
 from ...types import Floats
 from ..rows import Row, Say, keep_quiet
-from .run_plan import LEAST_MAP_ERROR, climbing_flaws, climbing_task, true_pegs
+from .run_plan import LEAST_MAP_ERROR, climbing_flaws, climbing_task, run_plan, true_pegs
 
 TASK: Final = "ladder"
 GAIT: Final = (191, 392, 291, 300, 3, 3)
@@ -44,6 +44,10 @@ HOLD: Final = 3.0
 """After each stop [s]."""
 FELL: Final = 0.05
 """A body that has moved farther since the stop has fallen [m]."""
+RUNGS: Final = 3
+"""Climbed in real time."""
+REAL_TIME: Final = ("--real-time", "-q", "--set", "plant.delay=0")
+"""How they are served: the link brings the tick of delay that the nominal plant simulates."""
 SERVE: Final = "from clamber.cli import main; main()"
 
 
@@ -184,6 +188,12 @@ def _wait_through(task: LimbedTask, timed: TimedHardware, seconds: float) -> Non
     climber.wait(seconds)
 
 
+def _climb_in_real_time(task: LimbedTask, flaws: LimbFlaws, seed: int) -> bool:
+    pegs = ("--peg-error", f"{PEG_ERROR} m", "--seed", str(seed))
+    with served(TASK, *REAL_TIME, *pegs) as (_, address):
+        return run_plan(task, gait_of(task), flaws, plant=address, peg_error=PEG_ERROR).report.done
+
+
 def plant_rows(*, say: Say = keep_quiet) -> list[Row]:
     """Round trips and jitter at 200 Hz on this machine, and safe stops of a climbing robot."""
     task = climbing_task(load_task(TASK))
@@ -203,7 +213,7 @@ def plant_rows(*, say: Say = keep_quiet) -> list[Row]:
     rows.append(Row("over TCP in lock-step, 99 %", float(np.quantile(took, 0.99)), "us", "< 5000"))
     say("plant in real time")
     with (
-        served(TASK, "-q", "--real-time", "--set", "plant.delay=0") as (_, address),
+        served(TASK, *REAL_TIME) as (_, address),
         RemoteHardware(read_address(address)) as remote,
     ):
         timed = TimedHardware(remote)
@@ -216,6 +226,9 @@ def plant_rows(*, say: Say = keep_quiet) -> list[Row]:
     rows.append(Row("in real time, jitter, 99 %", float(np.quantile(off, 0.99)), "us"))
     rows.append(Row("in real time, jitter, largest", float(off.max()), "us", "< 5000"))
     rows.append(Row("in real time, samples that came too late", float(missed), "", "0"))
+    say("rungs in real time")
+    climbed = [_climb_in_real_time(task, flaws, seed) for seed in range(RUNGS)]
+    rows.append(Row("in real time, rungs climbed without a stop", sum(climbed), f"of {RUNGS}", f"{RUNGS}"))
     say("safe stops")
     moments = np.random.default_rng(0).integers(100, RUNG_TICKS, STOPS)
     moved = [stopped_at(task, flaws, int(tick), seed).hold(HOLD) for seed, tick in enumerate(moments)]
