@@ -68,12 +68,12 @@ def serve(
         if not quiet:
             stderr().print(words, soft_wrap=True)
 
+    before = signal.signal(signal.SIGTERM, _interrupt)
     listener, address = listen(wished)
     try:
         server = climb_server(
             chosen, flaws, pegs, listener, say=say, real_time=real_time, pace=pace, once=once, dac_bits=dac_bits
         )
-        signal.signal(signal.SIGTERM, _interrupt)
         print(address, flush=True)
         say(
             f"'{chosen.robot.name}' on '{chosen.world.name}', {'in real time' if real_time else 'in lock-step'}; Ctrl-C ends"
@@ -85,6 +85,7 @@ def serve(
     finally:
         listener.close()
         unlink(address)
+        signal.signal(signal.SIGTERM, before)
     raise typer.Exit(1 if server.stops else 0)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..execution.hardware import Reading, flat_body_truth, flat_limb_truth
 from ..execution.plant import BodyPlant, LimbPlant
-from ..execution.wiring import COMMAND_LIMIT, Wiring
+from ..execution.wiring import COMMAND_LIMIT, Wiring, within
 from ..types import Floats
 from .limb_flaws import PlantError
 
@@ -33,7 +33,7 @@ class Amplifiers:
     def torques(self, volts: Floats) -> Floats:
         """What the motors are driven to, shape (n_joints,) [N m]."""
         if self._step:
-            volts = np.rint(np.clip(volts, -COMMAND_LIMIT, COMMAND_LIMIT) / self._step) * self._step
+            volts = np.rint(within(volts, COMMAND_LIMIT) / self._step) * self._step
         return self._wiring.torques(volts)
 
 
@@ -49,6 +49,7 @@ class ClimberWires:
     def __init__(self, plant: BodyPlant, wiring: Wiring, *, dac_bits: int = 0) -> None:
         self.plant, self.wiring, self.period = plant, wiring, plant.period
         self._amplifiers, self._tick = Amplifiers(wiring, dac_bits), 0
+        self._angles = np.zeros(wiring.n_encoders)
 
     def reset(self, start: Floats) -> None:
         """See `Hardware`."""
@@ -58,7 +59,8 @@ class ClimberWires:
     def sense(self) -> Reading:
         """See `Hardware`."""
         sensed = self.plant.sense()
-        return Reading(self.wiring.counts(np.append(sensed.q.ravel(), sensed.angle)), self._tick)
+        self._angles[:-1], self._angles[-1] = sensed.q.ravel(), sensed.angle
+        return Reading(self.wiring.counts(self._angles), self._tick)
 
     def actuate(self, volts: Floats) -> None:
         """See `Hardware`."""

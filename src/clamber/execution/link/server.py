@@ -28,10 +28,14 @@ from .messages import (
     unpack_numbers,
 )
 
+MOST_TICKS: Final = 20_000
+"""Whose lateness is kept."""
 SILENT_TICKS: Final = 2
 """So many ticks without a command, and the robot stops."""
 PATIENCE: Final = 2.0
 """For a client's first message, and for the rest of one that has begun [s]."""
+MOST_LEAVING: Final = 8
+"""Connections that may be hanging up at once; knocking often must not use up what the system lets a process open."""
 LONGEST_PAUSE: Final = 120.0
 """That a client may ask for; a robot that hangs on warm motors is no place to think for longer [s]."""
 HELD: Final = 2.0
@@ -94,10 +98,8 @@ class PlantServer:
         """Of the last client."""
         self.stops: list[Stop] = []
         """All safe stops so far."""
-        self.late_ticks = 0
-        """Ticks that began more than a period late."""
-        self.lateness: deque[float] = deque(maxlen=20_000)
-        """Of the last ticks' beginnings [s]."""
+        self._lateness: deque[float] = deque(maxlen=MOST_TICKS)
+        listener.setblocking(False)
         self._listener, self._say, self._once = listener, say, once
         self._clock = WallClock() if clock is None else clock
         self._wall_period = about.period / about.pace
@@ -148,8 +150,11 @@ class PlantServer:
         return None
 
     def _welcome(self) -> None:
-        made, _ = self._listener.accept()
-        channel = Channel(made)
+        try:
+            made, _ = self._listener.accept()
+            channel = Channel(made)
+        except OSError:  # whoever knocked is gone
+            return
         if self._channel is None:
             self._channel, self._welcomed, self._since = channel, False, self._clock.now()
             return
@@ -231,10 +236,9 @@ class PlantServer:
 
     def _tick(self, late: float) -> None:
         """One period by the clock."""
-        self.lateness.append(late)
+        self._lateness.append(late)
         self._next += self._wall_period
         if late > self._wall_period:
-            self.late_ticks += 1
             self._next = self._clock.now() + self._wall_period  # lost time is not caught up with
         if self._driven and not self.stop and not self._fresh:
             self._silent += 1
@@ -293,6 +297,8 @@ class PlantServer:
         with contextlib.suppress(OSError):
             channel.socket.shutdown(socket.SHUT_WR)
         self._leaving.append((channel, self._clock.now() + PATIENCE))
+        if len(self._leaving) > MOST_LEAVING:
+            self._leaving.pop(0)[0].hang_up()
 
     def _sweep(self, ready: list[socket.socket]) -> None:
         """Let those go that have hung up, or do not."""
@@ -320,8 +326,22 @@ class PlantServer:
                 self._say("the client has ended; the posture is held")
         elif stop:
             self._say(f"the client is let go: {why}")
+        self._tell_times()
         self._driven = False
         self._over = self._once and self._welcomed and not self._held_until
+
+    def _tell_times(self) -> None:
+        """How well the clock was kept for the client that goes."""
+        if not self._lateness:
+            return
+        late = np.array(self._lateness)
+        self._lateness.clear()
+        middle, most = 1e3 * np.quantile(late, (0.5, 0.99))
+        lost = int(np.count_nonzero(late > self._wall_period))
+        self._say(
+            f"the last {len(late)} ticks began {middle:.2f} ms late in the median, 99 % within {most:.2f} ms; "
+            f"{lost} were a period late or more"
+        )
 
     def _tell_end(self) -> None:
         """The server itself ends."""
