@@ -54,6 +54,7 @@ class ClimberPlant:
         flaws: Of joints, motors and sensors.
         pegs: Where the holds truly are, shape (n_holds, 2) [m]; None: as believed.
         shape: Of the hooks.
+        offsets: What every encoder tells too much: the body's, then the joints', shape (1 + 2 limbs,) [rad]; None: nothing.
     """
 
     def __init__(
@@ -64,6 +65,7 @@ class ClimberPlant:
         *,
         pegs: Floats | None = None,
         shape: HookShape = HookShape(),  # noqa: B008  # frozen
+        offsets: Floats | None = None,
     ) -> None:
         import mujoco
 
@@ -83,6 +85,7 @@ class ClimberPlant:
         gears = [joint.gear for limb in robot.limbs for joint in (limb.shoulder, limb.elbow)]
         counts = flaws.encoder_counts * np.array([BODY_COUNTS / max(flaws.encoder_counts, 1), *gears]) / (2 * np.pi)
         self._counts = counts
+        self._offsets = np.zeros(1 + len(names)) if offsets is None else offsets
         n = len(names)
         self._limits, self._no_load = records["limit"].copy(), records["speed"].copy()
         self._agility = (
@@ -115,7 +118,7 @@ class ClimberPlant:
 
     def sense(self) -> BodySensed:
         """Read the sensors, once a tick."""
-        self._angles[0] = self._data.qpos[self._at]
+        self._angles[0] = self._data.qpos[self._at] + self._offsets
         self._speeds[0] = self._data.qvel[self._speed_at]
         read_encoders(
             self._angles, self._speeds, self._counts, self.period, self.tick, self._ring, self._before, self._states
