@@ -11,7 +11,7 @@ from .output import announce_compilation, check_writable, print_json, stderr, st
 
 def run(
     what: Annotated[
-        str, typer.Argument(metavar="TASK|PLAN", help="A task's name or file, to be planned first, or a plan's file.")
+        str, typer.Argument(metavar="TASK|PLAN", help="A task, to be planned first, or a plan: names or files.")
     ],
     task: Annotated[str | None, typer.Option(help="Carry the plan out in this task, in place of its own.")] = None,
     planner: Annotated[str, typer.Option(help="How to search (`clamber list planners`).")] = "auto",

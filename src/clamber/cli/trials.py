@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 def trials(
     what: Annotated[
-        str, typer.Argument(metavar="TASK|PLAN", help="A task's name or file, to be planned once, or a plan.")
+        str, typer.Argument(metavar="TASK|PLAN", help="A task, to be planned once, or a plan: names or files.")
     ],
     n: Annotated[int, typer.Option("-n", min=1, help="How many climbs.")] = 24,
     seed: Annotated[int, typer.Option(min=0, help="Of the first climb; each further one has the next.")] = 0,

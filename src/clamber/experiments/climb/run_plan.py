@@ -3,12 +3,11 @@
 import time
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
 from ...actions.plan import Plan
-from ...actions.plan_source import is_plan_file, open_plan
+from ...actions.plan_source import is_plan, open_plan
 from ...errors import SpecError
 from ...execution.climb.climb_trace import ClimbTrace, TracedClimber
 from ...execution.climb.course import climbable, lay_course
@@ -78,8 +77,8 @@ def open_climb(what: str, task: str | None, settings: Sequence[str]) -> tuple[Li
         ClamberError: As `open_plan` and `load_task`.
     """
     for_task, for_plant = split_settings(settings)
-    if is_plan_file(what):
-        opened = open_plan(Path(what), task, for_task)
+    if is_plan(what):
+        opened = open_plan(what, task, for_task)
         return climbing_task(opened.task), opened.plan, tuple(for_plant)
     if task is not None:
         raise SpecError(what, "--task", task, "is for a plan; this is a task itself")
