@@ -79,7 +79,8 @@ def _draw_effect(axes: Axes, effect: Effect, summary: TrialSummary, *, first: bo
     axes.set_ylim(-0.02, 1.02)
     axes.yaxis.set_major_formatter(PercentFormatter(1.0, decimals=0))
     axes.xaxis.set_major_locator(MaxNLocator(nbins=5))
-    axes.set_title(f"{effect.key.replace('_', ' ')} [{kind.unit}]", fontsize=9)
+    which = ", largest" if kind.many else ""
+    axes.set_title(f"{effect.key.replace('_', ' ')}{which} [{kind.unit}]", fontsize=9)
     note: dict[str, Any] = {"transform": axes.transAxes, "fontsize": 7, "color": colour if told else style.QUIET}
     axes.text(0.02, 0.04, VERDICTS[effect.verdict], **note)
     if first:

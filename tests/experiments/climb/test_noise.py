@@ -44,7 +44,8 @@ def test_each_key_draws_from_its_own_stream() -> None:
     usual = read_noise(named_noise("usual"), ["joint_friction=10%"])
     all_drawn = draw(usual, libra(), HOLDS, 7)
     for off in NOISE:
-        without = draw(read_noise(usual, [f"{off}=0{'%' if NOISE[off].dimension == 'ratio' else NOISE[off].unit}"]), libra(), HOLDS, 7)  # fmt: skip
+        nothing = f"{off}=0{'%' if NOISE[off].dimension == 'ratio' else NOISE[off].unit}"
+        without = draw(read_noise(usual, [nothing]), libra(), HOLDS, 7)
         for key in NOISE:
             name = "pegs" if key == "peg_error" else key
             kept, left = np.asarray(getattr(all_drawn, name)), np.asarray(getattr(without, name))

@@ -40,6 +40,8 @@ class NoiseKind:
     """What deviates."""
     below_one: bool = False
     """Whether it is a share that must not take all away."""
+    many: bool = False
+    """Whether each peg or joint has its own."""
 
     def shown(self, value: float) -> str:
         """A value in the unit, such as "6.35 mm"."""
@@ -48,7 +50,7 @@ class NoiseKind:
 
 NOISE: Final[dict[str, NoiseKind]] = {
     "peg_error": NoiseKind(
-        dimension="length", unit="mm", scale=1e-3, width=0.00635, words="place of each peg, along each axis"
+        dimension="length", unit="mm", scale=1e-3, width=0.00635, words="place of each peg, along each axis", many=True
     ),
     "backlash": NoiseKind(
         dimension="angle", unit="deg", scale=DEGREE, width=0.5 * DEGREE, words="true play of all joints, about the file's"
@@ -60,7 +62,7 @@ NOISE: Final[dict[str, NoiseKind]] = {
         dimension="ratio", unit="%", scale=0.01, width=0.3, words="Coulomb friction of all joints alike", below_one=True
     ),
     "joint_friction": NoiseKind(
-        dimension="ratio", unit="%", scale=0.01, width=0.0, words="the same of each joint by itself", below_one=True
+        dimension="ratio", unit="%", scale=0.01, width=0.0, words="the same of each joint by itself", below_one=True, many=True
     ),
     "payload": NoiseKind(
         dimension="ratio", unit="%", scale=0.01, width=0.1, words="mass on the body, of the whole weight", below_one=True
@@ -75,7 +77,7 @@ NOISE: Final[dict[str, NoiseKind]] = {
         dimension="angle", unit="deg", scale=DEGREE, width=1.0 * DEGREE, words="zero of the body's encoder"
     ),
     "joint_angle": NoiseKind(
-        dimension="angle", unit="deg", scale=DEGREE, width=0.3 * DEGREE, words="zero of each joint's encoder"
+        dimension="angle", unit="deg", scale=DEGREE, width=0.3 * DEGREE, words="zero of each joint's encoder", many=True
     ),
 }  # fmt: skip
 """Key -> what deviates, evenly spread over its width to either side. Zeros of encoders: half a turn of a motor at a joint, and what an
