@@ -11,12 +11,13 @@ import pytest
 import clamber
 from clamber.actions.codes import MOVE, NEAREST, RANDOM, RELEASE, Code, pack
 from clamber.actions.plan import Plan, load_plan
-from clamber.actions.plan_source import is_plan_file, open_plan
+from clamber.actions.plan_source import is_plan, open_plan, plan_names
 from clamber.actions.planned import PlannedAction
 from clamber.actions.thesis_plan import load_thesis_plan
 from clamber.actions.verdict import Verdict, check_plan
 from clamber.errors import ClamberError, FileError, SpecError, UnknownNameError
 from clamber.tasks import Task, load_task
+from clamber.tasks.library import task_names
 from clamber.units import OZ_IN
 
 PRINTED = Path(clamber.__file__).parent / "actions" / "data"
@@ -320,6 +321,13 @@ def test_a_corrupt_printed_plan_names_file_and_key(tmp_path: Path, before: str, 
     assert str(path) in str(caught.value) and words in str(caught.value)
 
 
+@pytest.mark.parametrize("name", plan_names())
+def test_a_shipped_plan_is_known_by_its_name(name: str) -> None:
+    assert is_plan(name)
+    assert name not in task_names()
+    assert open_plan(name).plan == open_plan(PRINTED / f"{name}.toml").plan
+
+
 def test_a_printed_plan_for_an_unknown_task_is_named(tmp_path: Path) -> None:
     path = tmp_path / "plan.toml"
     path.write_text(H_GA.read_text().replace('task="h"', 'task="hh"'))
@@ -329,8 +337,8 @@ def test_a_printed_plan_for_an_unknown_task_is_named(tmp_path: Path) -> None:
 
 
 def test_plan_files_are_told_from_task_files(tmp_path: Path) -> None:
-    assert is_plan_file(str(H_GA)) and is_plan_file("some/where.json")
-    assert not is_plan_file("ladder") and not is_plan_file("missing.toml")
+    assert is_plan(str(H_GA)) and is_plan("some/where.json")
+    assert not is_plan("ladder") and not is_plan("missing.toml")
     task = tmp_path / "task.toml"
     task.write_text('schema = "clamber-task-1"\nname = "actions"\n')
-    assert not is_plan_file(str(task))
+    assert not is_plan(str(task))
