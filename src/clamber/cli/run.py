@@ -35,6 +35,7 @@ def run(
     animation (.gif, .html, .mp4) or a picture (.png, .svg, .pdf).
     """
     check_writable(output)
+    from ..actions.plan_source import is_plan
     from ..experiments.climb.noise import NO_NOISE, check_noise, read_noise
     from ..experiments.climb.planning import plan_to_climb, replanner
     from ..experiments.climb.run_plan import climbing_flaws, open_climb, run_plan
@@ -47,7 +48,7 @@ def run(
     if planner not in PLANNERS:
         raise UnknownNameError("planner", planner, tuple(PLANNERS))
     deviations = read_noise(NO_NOISE, [*(noise or ()), *(() if peg_error is None else (f"peg_error={peg_error}",))])
-    announce_compilation(FIRST_LOOPS[planner], quiet=quiet)
+    announce_compilation("replay" if is_plan(what) else FIRST_LOOPS[planner], quiet=quiet)
     chosen, plan, for_plant = open_climb(what, task, overrides or ())
     flaws = climbing_flaws(chosen, for_plant)
     check_noise(deviations, chosen.robot, flaws)

@@ -49,6 +49,7 @@ def trials(
     """
     check_writable(output)
     check_resume(resume, store)
+    from ..actions.plan_source import is_plan
     from ..experiments.climb.noise import named_noise, read_noise
     from ..experiments.climb.run_plan import open_climb
     from ..experiments.climb.trial_summary import sum_up
@@ -62,7 +63,10 @@ def trials(
         raise UnknownNameError("planner", planner, tuple(PLANNERS))
     least = _share(at_least)
     widths = read_noise(named_noise("usual"), noise or ())
-    announce_compilation(FIRST_LOOPS[planner], quiet=quiet)
+    announce_compilation("replay" if is_plan(what) else FIRST_LOOPS[planner], quiet=quiet)
+    executor = executor_of(ray, workers)
+    if replay is None:
+        executor.check()  # before a minute is spent on a plan
     chosen, plan, plant = open_climb(what, task, overrides or ())
     asked = TrialSetup(
         task=chosen, noise=widths, plan=plan, plant=plant, planner=planner, seconds=seconds, replan=replan, force=force
@@ -76,7 +80,7 @@ def trials(
         raise typer.Exit(_replay(setup, replay, store, output, as_json=as_json, quiet=quiet))
     with TrialsLine(stderr(), quiet=quiet) as line:
         told = run_trials(
-            setup, range(seed, seed + n), executor=executor_of(ray, workers), store=store, resume=resume, told=line.update
+            setup, range(seed, seed + n), executor=executor, store=store, resume=resume, told=line.update
         )  # fmt: skip
     summary = sum_up(told)
     if output is not None:

@@ -37,6 +37,9 @@ def print_trials(console: Console, summary: TrialSummary, written: Path | None) 
         console.print(f"time of a climb: {_times(summary.seconds)}")
     if summary.per_rung is not None:
         console.print(f"for each 6 in of way: {_times(summary.per_rung)}")
+    if summary.short is not None:
+        middle, high = (1e3 * part for part in (summary.short.median, summary.short.high))
+        console.print(f"body from the goal at the end: {middle:.0f} mm (95 %: at most {high:.0f} mm)")
     if summary.pushes is not None:
         console.print(
             f"pushes for each grab: {summary.pushes:.2f}; moves that did not arrive: {summary.stalled}; "

@@ -29,7 +29,8 @@ from clamber.worlds.library import load_board
 
 FLAWS = LimbFlaws(backlash=2.0 * DEGREE, physics_rate=1000.0)
 BOARD = load_board("ladder")
-HOLDS = len(BOARD.holds)
+HOLDS = np.zeros(len(BOARD.holds), bool)
+"""None of them known."""
 START = np.array((0.2286, 0.1374, 0.0))
 ON = {"right": 4, "left": 3, "bottom": 2}
 
@@ -63,6 +64,17 @@ def test_draws_fill_their_widths_evenly_and_scale_with_them() -> None:
     assert draw(half, robot, HOLDS, 3).friction == pytest.approx(draw(usual, robot, HOLDS, 3).friction / 2)
     pegs = draw(usual, robot, HOLDS, 3).pegs
     assert 0.004 < np.abs(pegs).max() <= 0.00635
+
+
+def test_holds_that_the_robot_is_put_on_are_where_the_map_says() -> None:
+    usual, known = named_noise("usual"), HOLDS.copy()
+    known[1:4] = True
+    drawn, free = draw(usual, libra(), known, 3), draw(usual, libra(), HOLDS, 3)
+    np.testing.assert_array_equal(drawn.pegs[known], 0.0)
+    np.testing.assert_array_equal(drawn.pegs[~known], free.pegs[~known])
+    far = np.hypot(*free.pegs.T)
+    assert free.to_json()["peg_error"] == far.max()
+    assert drawn.to_json(np.array([1, 6, 8], np.int32))["peg_error"] == max(far[6], far[8])
 
 
 def test_no_noise_leaves_the_nominal_plant() -> None:

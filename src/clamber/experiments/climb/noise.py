@@ -5,12 +5,13 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
+import numpy.typing as npt
 
 from ...errors import ClamberError, UnitError, describe_choices
 from ...robots.limbed import Limb, LimbedRobot
 from ...sim.climber_model import HookShape
 from ...sim.limb_flaws import LimbFlaws
-from ...types import Floats, Json
+from ...types import Floats, Ints, Json
 from ...units import DEGREE, GRAVITY, parse_quantity
 
 
@@ -161,15 +162,20 @@ class Drawn:
     joint_angle: Floats
     """Shape (limbs, 2) [rad]."""
 
-    def to_json(self) -> Json:
-        """One number for each key: the deviation, and of many alike the largest: of pegs the distance, of joints the size."""
+    def to_json(self, pegs: Ints | None = None) -> Json:
+        """One number for each key: the deviation, and of many alike the largest: of pegs the distance, of joints the size.
+
+        Args:
+            pegs: Indices of those that count; None: all.
+        """
         told = {key: getattr(self, key) for key in NOISE if key != "peg_error"}
         told["joint_friction"] = float(np.abs(self.joint_friction).max())
         told["joint_angle"] = float(np.abs(self.joint_angle).max())
-        return {"peg_error": float(np.hypot(self.pegs[:, 0], self.pegs[:, 1]).max())} | told
+        off = np.hypot(self.pegs[:, 0], self.pegs[:, 1])
+        return {"peg_error": float((off if pegs is None else off[pegs]).max(initial=0.0))} | told
 
 
-def draw(noise: Noise, robot: LimbedRobot, n_holds: int, seed: int) -> Drawn:
+def draw(noise: Noise, robot: LimbedRobot, known: npt.NDArray[np.bool_], seed: int) -> Drawn:
     """What a seed makes of a noise.
 
     Each key draws from a stream of its own, and its draw is a share of its width: whatever becomes of other keys, it stays.
@@ -177,7 +183,7 @@ def draw(noise: Noise, robot: LimbedRobot, n_holds: int, seed: int) -> Drawn:
     Args:
         noise: Widths.
         robot: As believed.
-        n_holds: Of the board.
+        known: Which holds the robot is put on at the start: the map is measured from there, so it is right about them, shape (n_holds,).
         seed: Of all draws.
     """
     n = len(robot.limbs)
@@ -187,7 +193,7 @@ def draw(noise: Noise, robot: LimbedRobot, n_holds: int, seed: int) -> Drawn:
         return noise.widths[key] * stream.uniform(-1.0, 1.0, shape)
 
     return Drawn(
-        pegs=share("peg_error", n_holds, 2),
+        pegs=np.where(known[:, None], 0.0, share("peg_error", len(known), 2)),
         joint_friction=share("joint_friction", n, 2),
         joint_angle=share("joint_angle", n, 2),
         **{

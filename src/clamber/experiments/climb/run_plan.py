@@ -1,7 +1,7 @@
 """One plan carried out in contact dynamics: the plant with its flaws, pegs that are not where the map says, and what came out."""
 
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -47,6 +47,8 @@ class ClimbRun:
     plan: Plan
     report: ClimbReport
     trace: ClimbTrace
+    drawn: Drawn
+    """How far things truly were from what was believed."""
     wall_seconds: float
     """That it took."""
 
@@ -140,33 +142,23 @@ def run_plan(
     began = time.perf_counter()
     course = lay_course(task, plan, label)
     check_noise(noise, task.robot, flaws)
-    drawn = draw(noise, task.robot, len(task.world.holds), seed)
-    climber = drawn_climber(task, flaws, noise, drawn, course.holds(0).values())
+    started = set(course.holds(0).values())
+    known = np.array([hold.number in started for hold in task.world.holds])
+    drawn = draw(noise, task.robot, known, seed)
+    climber = drawn_climber(task, flaws, noise, drawn)
     sequencer = Sequencer(climber, course, replan=replan, force=force, progress=progress)
     report = sequencer.run()
     notes = report.to_json() | {"task": task.name, "noise": noise.to_json(), "seed": seed}
-    return ClimbRun(task, plan, report, climber.trace(notes), time.perf_counter() - began)
+    return ClimbRun(task, plan, report, climber.trace(notes), drawn, time.perf_counter() - began)
 
 
-def drawn_climber(
-    task: LimbedTask, flaws: LimbFlaws, noise: Noise, drawn: Drawn, start: Iterable[int]
-) -> TracedClimber:
-    """A robot as it was drawn, under a controller that knows the nominal one and how far off its map may be.
-
-    Args:
-        task: Robot and board as believed.
-        flaws: The same of the plant.
-        noise: What the controller is told of its map's error.
-        drawn: How things truly are.
-        start: Numbers of the holds that the robot is put on: the map is measured from there, so it is right about them.
-    """
-    numbers = set(start)
-    known = np.array([hold.number in numbers for hold in task.world.holds])
+def drawn_climber(task: LimbedTask, flaws: LimbFlaws, noise: Noise, drawn: Drawn) -> TracedClimber:
+    """A robot as it was drawn, under a controller that knows the nominal one and how far off its map may be."""
     plant = ClimberPlant(
         drawn_robot(task.robot, drawn),
         task.world,
         drawn_flaws(flaws, drawn),
-        pegs=task.world.positions() + np.where(known[:, None], 0.0, drawn.pegs),
+        pegs=task.world.positions() + drawn.pegs,
         shape=drawn_hook(drawn),
         offsets=encoder_offsets(drawn),
     )

@@ -92,6 +92,8 @@ class TrialSummary:
     """Simulated, of climbs that were carried out; None without one."""
     per_rung: Spread | None
     """The same for each 6 in of the body's way in the plan; None where the body stays."""
+    short: Spread | None
+    """By how much their bodies truly missed the goal's box [m]."""
     speed: float | None
     """Simulated over wall-clock time of one worker."""
     pushes: float | None
@@ -120,6 +122,7 @@ class TrialSummary:
             "causes": [cause.to_json() for cause in self.causes],
             "seconds": None if self.seconds is None else self.seconds.to_json(),
             "seconds_per_6in": None if self.per_rung is None else self.per_rung.to_json(),
+            "short": None if self.short is None else self.short.to_json(),
             "speed": self.speed,
             "pushes_per_grab": self.pushes,
             "stalled": self.stalled,
@@ -144,6 +147,7 @@ def sum_up(trials: Trials) -> TrialSummary:
         causes=_causes(trials),
         seconds=_spread(times),
         per_rung=_spread([time * WAY / way for time in times]) if way > SHORTEST_WAY else None,
+        short=_spread([trial.short for trial in ended if trial.done]),
         speed=simulated / trials.wall_seconds if trials.wall_seconds > 0.0 else None,
         pushes=sum(trial.pushes for trial in ended) / grabs if grabs else None,
         stalled=sum(trial.stalled for trial in ended),

@@ -6,6 +6,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
+import numpy as np
+
 from ... import __version__
 from ...actions.plan import Plan
 from ...compiled import is_compiled
@@ -16,7 +18,7 @@ from ...jobs import Executor, Kept, Outcome, look_into, map_items
 from ...tasks import task_from_document
 from ...tasks.limbed import LimbedTask
 from ...types import Json
-from .noise import Noise, check_noise, draw, noise_of
+from .noise import Noise, check_noise, noise_of
 from .planning import plan_to_climb, replanner
 from .run_plan import ClimbRun, climbing_flaws, run_plan
 
@@ -121,7 +123,7 @@ class ClimbTrial:
     replans: int
     """New plans that were taken."""
     drawn: Json
-    """Deviation of each key of the noise."""
+    """Deviation of each key of the noise; of pegs, of those that the plan takes."""
 
     def to_json(self) -> Json:
         """Plain data."""
@@ -190,6 +192,7 @@ def _judged(setup: TrialSetup, seed: int, run: ClimbRun, told: list[Json | None]
     plan = plans[len(report.replans)]  # one that is refused ends the climb, so those taken come first
     limb = None if last is None or plan is None else plan.actions[last.first - 1].limb
     grabs = [action for action in report.actions if action.kind == "grab"]
+    taken = [k for k, hold in enumerate(setup.task.world.holds) if hold.number in _grabbed(setup.plan)]
     return ClimbTrial(
         seed=seed,
         done=report.done,
@@ -204,8 +207,12 @@ def _judged(setup: TrialSetup, seed: int, run: ClimbRun, told: list[Json | None]
         grabs=len(grabs),
         stalled=sum(action.outcome == "stalled" for action in report.actions),
         replans=len(report.replans),
-        drawn=draw(setup.noise, setup.task.robot, len(setup.task.world.holds), seed).to_json(),
+        drawn=run.drawn.to_json(np.array(taken, np.int32)),
     )
+
+
+def _grabbed(plan: Plan | None) -> set[int]:
+    return set() if plan is None else {action.hold for action in plan.actions if action.hold is not None}
 
 
 def _outcome(run: ClimbRun) -> str:
