@@ -1,7 +1,7 @@
 """Many climbs as a picture: success by thirds of each key of the noise, and what ended the climbs that failed; 95 % intervals."""
 
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -19,7 +19,7 @@ ACROSS: Final = 3
 """Keys of the noise beside each other."""
 MOST_CAUSES: Final = 8
 """Bars; rarer causes are left to the table."""
-HEIGHT: Final = 1.7
+HEIGHT: Final = 1.8
 """Of a row of panels [in]."""
 
 
@@ -81,8 +81,7 @@ def _draw_effect(axes: Axes, effect: Effect, summary: TrialSummary, *, first: bo
     axes.xaxis.set_major_locator(MaxNLocator(nbins=5))
     which = ", largest" if kind.many else ""
     axes.set_title(f"{effect.key.replace('_', ' ')}{which} [{kind.unit}]", fontsize=9)
-    note: dict[str, Any] = {"transform": axes.transAxes, "fontsize": 7, "color": colour if told else style.QUIET}
-    axes.text(0.02, 0.04, VERDICTS[effect.verdict], **note)
+    axes.set_xlabel(VERDICTS[effect.verdict], fontsize=7, color=colour if told else style.QUIET)
     if first:
         axes.set_ylabel("success")
     style.bare(axes)
