@@ -1,6 +1,7 @@
 """`clamber trials`: what it prints, writes and refuses."""
 
 import json
+import sqlite3
 from pathlib import Path
 from typing import Any
 
@@ -52,9 +53,13 @@ def test_trials_are_counted_stored_drawn_and_any_of_them_climbed_again(command: 
     stored = {trial["seed"]: trial for trial in json.loads(out)["trials"]}
     assert sorted(stored) == [5, 6, 7]
     log = tmp_path / "climb.mcap"
-    code, out, _ = command("trials", plan, "--replay", "6", "--store", store, "-o", str(log), "--json", "-q")
-    assert code == 0
+    code, out, err = command("trials", plan, "--replay", "6", "--store", store, "-o", str(log), "--json", "-q")
+    assert (code, err) == (0, "")
     assert json.loads(out)["trial"] == stored[6]
+    with sqlite3.connect(store) as file:
+        file.execute("UPDATE items SET result = json_set(result, '$.seconds', 1.0)")
+    _, _, err = command("trials", plan, "--replay", "6", "--store", store, "-q")
+    assert "the store's trial 6 went otherwise" in err
     trace = ClimbTrace.from_log(read_log(log))
     assert trace.time[-1] == pytest.approx(stored[6]["seconds"])
     assert trace.notes is not None and trace.notes["seed"] == 6

@@ -122,15 +122,19 @@ def _replay(
     setup: "TrialSetup", seed: int, store: "Path | None", output: "Path | None", *, as_json: bool, quiet: bool
 ) -> int:
     """One trial again; the exit code."""
-    from ..experiments.climb.trials import climb_once, stored_plans
+    from ..experiments.climb.trials import climb_once, stored_trial
     from ..viewing.climb_run_view import write_run
     from .run_text import ClimbLine, print_run
 
-    plans = stored_plans(setup, seed, store)
+    known, plans = stored_trial(setup, seed, store)
     with ClimbLine(stderr(), quiet=quiet) as line:
         run, trial, _ = climb_once(setup, seed, plans=plans, progress=line.update)
     if output is not None:
         write_run(run, output)
+    if known is not None and known != trial:
+        stderr().print(
+            f"the store's trial {seed} went otherwise: another machine or other code; it ended {known.outcome}"
+        )
     if as_json:
         print_json(run.to_json() | {"trial": trial.to_json()})
     else:

@@ -23,7 +23,7 @@ from clamber.execution.climb.course import PlanRefusedError
 from clamber.experiments.climb import run_plan as runs
 from clamber.experiments.climb import trials as module
 from clamber.experiments.climb.noise import NO_NOISE, NoiseError, named_noise, read_noise
-from clamber.experiments.climb.trials import NoPlanError, climb_once, run_trials, stored_plans, with_plan
+from clamber.experiments.climb.trials import NoPlanError, climb_once, run_trials, stored_trial, with_plan
 from clamber.jobs import LocalProcesses, StoreError
 
 LETS_GO = (300, 3)
@@ -35,11 +35,13 @@ def test_a_trial_is_the_same_from_a_worker_and_climbed_again(tmp_path: Path) -> 
     trials = run_trials(setup, [3, 11], executor=LocalProcesses(2), store=store)
     assert [trial.seed for trial in trials.ended] == [3, 11]
     for told in trials.ended:
-        run, again, _ = climb_once(setup, told.seed, plans=stored_plans(setup, told.seed, store))
-        assert again == told
+        known, plans = stored_trial(setup, told.seed, store)
+        run, again, _ = climb_once(setup, told.seed, plans=plans)
+        assert again == told == known
         other, _, _ = climb_once(setup, told.seed)
         for name in ("time", "believed", "torques", "true_pose"):
             np.testing.assert_array_equal(getattr(run.trace, name), getattr(other.trace, name), err_msg=name)
+    assert stored_trial(setup, 4, store) == (None, None)
     assert trials.ended[0].drawn != trials.ended[1].drawn
     assert trials.ended[0].seconds > 0.0
 

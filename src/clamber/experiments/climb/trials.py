@@ -3,18 +3,19 @@
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from importlib.metadata import version
 from pathlib import Path
 from typing import Final
 
 import numpy as np
 
-from ... import __version__
 from ...actions.plan import Plan
 from ...compiled import is_compiled
 from ...errors import ClamberError
 from ...execution.climb.course import lay_course
 from ...execution.climb.sequencer import Progress, Replan
 from ...jobs import Executor, Kept, Outcome, look_into, map_items
+from ...jobs.release import release
 from ...tasks import task_from_document
 from ...tasks.limbed import LimbedTask
 from ...types import Json
@@ -71,7 +72,7 @@ class TrialSetup:
             "noise": self.noise.to_json(),
             "planner": [self.planner, self.seconds, self.replan],
             "force": self.force,
-            "version": __version__,
+            "release": release() | {"mujoco": version("mujoco")},
         }
 
     @property
@@ -90,7 +91,6 @@ class TrialSetup:
             "planner": [self.planner, self.seconds, self.replan],
             "force": self.force,
             "seed": seed,
-            "version": __version__,
         }
 
 
@@ -273,15 +273,19 @@ def with_plan(setup: TrialSetup, store: Path | None = None, label: str = "plan")
     return replace(setup, plan=plan, planned=planned)
 
 
-def stored_plans(setup: TrialSetup, seed: int, store: Path | None) -> list[Json | None] | None:
-    """Plans that a stored trial was given on its way; None where it is not in the store.
+def stored_trial(
+    setup: TrialSetup, seed: int, store: Path | None
+) -> tuple[ClimbTrial | None, list[Json | None] | None]:
+    """A trial as the store has it, and the plans that it was given on its way; None where it is not there.
 
     Raises:
         StoreError: If the file can't be the store of these trials.
     """
     kept = _kept(setup, store)
-    known: dict[int, list[Json | None]] = {} if kept is None else {one["seed"]: one["plans"] for one in kept.results}
-    return known.get(seed)
+    for one in () if kept is None else kept.results:
+        if one["seed"] == seed:
+            return trial_of(one), one["plans"]
+    return None, None
 
 
 def _kept(setup: TrialSetup, store: Path | None) -> Kept | None:
