@@ -84,6 +84,7 @@ def test_failed_climbs_are_told_with_their_cause_and_leave_with_1(command: Any, 
     assert "step" in err and "--force" in err
     code, out, _ = command(*words, "--force")
     assert code == 1
+    assert "forced in spite of step" in out
     assert "0 of 2 climbs" in out and "fell: move" in out and "seed 0: fell: " in out
     assert max(map(len, out.splitlines())) <= 80
 

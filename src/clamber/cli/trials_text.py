@@ -31,6 +31,8 @@ def print_trials(console: Console, summary: TrialSummary, written: Path | None) 
     early = f" (of {summary.asked} asked for)" if n < summary.asked else ""
     console.print(f"{done} of {n} climbs of '{summary.task}' succeeded{early}: {_percent(done, n)}", style="bold")
     console.print(f"noise: {summary.noise}")
+    for objection in summary.forced:
+        console.print(f"forced in spite of {objection}")
     if summary.causes:
         print_causes(console, summary.causes)
     if summary.seconds is not None:

@@ -162,9 +162,10 @@ def test_trials_stopped_at_several_moments_lose_and_repeat_none(tmp_path: Path, 
         out, _ = process.communicate(timeout=60)
         now = rows(store)
         assert before.items() <= now.items(), "a trial was lost, or climbed again"
-        if stop == signal.SIGINT and process.returncode == 130:
+        if stop == signal.SIGINT:
             said = json.loads(out)
-            assert said["n"] == len(said["trials"]) >= enough
+            assert process.returncode == (130 if len(now) < 10 else 0)
+            assert said["n"] == len(said["trials"]) == len(now) >= enough
         before = now
     assert len(before) > 0
     done = subprocess.run(command(plan, store), env=environment, stdout=subprocess.PIPE, text=True, check=False)

@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from ...execution.climb.course import lay_course
+from ...execution.climb.course import Course, lay_course, names_of
 from ...types import Json
 from ...units import INCH
 from ..intervals import wilson_interval
@@ -102,6 +102,8 @@ class TrialSummary:
     """Moves of the body that did not arrive, in all climbs."""
     replanned: int
     """Climbs that took a new plan."""
+    forced: tuple[str, ...]
+    """What speaks against the plan, which was carried out all the same."""
     effects: tuple[Effect, ...]
 
     @property
@@ -127,6 +129,7 @@ class TrialSummary:
             "pushes_per_grab": self.pushes,
             "stalled": self.stalled,
             "replanned": self.replanned,
+            "forced": list(self.forced),
             "effects": [effect.to_json() for effect in self.effects],
         }
 
@@ -135,7 +138,9 @@ def sum_up(trials: Trials) -> TrialSummary:
     """What there is to say of trials, ended early or not."""
     ended = trials.ended
     times = [trial.seconds for trial in ended if trial.done]
-    way = body_way(trials)
+    assert trials.setup.plan is not None
+    course = lay_course(trials.setup.task, trials.setup.plan)
+    way = body_way(course)
     grabs = sum(trial.grabs for trial in ended)
     simulated = sum(trial.seconds for trial in ended)
     return TrialSummary(
@@ -152,15 +157,14 @@ def sum_up(trials: Trials) -> TrialSummary:
         pushes=sum(trial.pushes for trial in ended) / grabs if grabs else None,
         stalled=sum(trial.stalled for trial in ended),
         replanned=sum(trial.replans > 0 for trial in ended),
+        forced=tuple(names_of(course.objections)),
         effects=tuple(find_effects(ended)),
     )
 
 
-def body_way(trials: Trials) -> float:
-    """Length of the body's way in the plan [m]."""
-    assert trials.setup.plan is not None
-    stances = lay_course(trials.setup.task, trials.setup.plan).stances
-    return float(np.hypot(np.diff(stances["x"]), np.diff(stances["y"])).sum())
+def body_way(course: Course) -> float:
+    """Length of the body's way in a plan [m]."""
+    return float(np.hypot(np.diff(course.stances["x"]), np.diff(course.stances["y"])).sum())
 
 
 def _causes(trials: Trials) -> tuple[Cause, ...]:
