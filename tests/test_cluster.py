@@ -21,7 +21,8 @@ from clamber.actions.limbed_plans import thesis_code
 from clamber.actions.plan import Plan
 from clamber.execution.climb.course import climbable
 from clamber.experiments.climb.noise import named_noise
-from clamber.experiments.climb.trials import TrialSetup, run_trials
+from clamber.experiments.climb.trial import TrialSetup
+from clamber.experiments.climb.trials import run_trials
 from clamber.jobs import ClusterError, LocalProcesses, Outcome, RayCluster, cluster, map_items
 from clamber.planning.axes import range_axis
 from clamber.planning.sweep import run_sweep

@@ -12,7 +12,7 @@ from .output import announce_compilation, check_writable, print_json, stderr, st
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from ..experiments.climb.trials import TrialSetup
+    from ..experiments.climb.trial import TrialSetup
 
 
 def trials(
@@ -52,8 +52,9 @@ def trials(
     from ..actions.plan_source import is_plan
     from ..experiments.climb.noise import named_noise, read_noise
     from ..experiments.climb.run_plan import open_climb
+    from ..experiments.climb.trial import TrialSetup
     from ..experiments.climb.trial_summary import sum_up
-    from ..experiments.climb.trials import NoPlanError, TrialSetup, run_trials, with_plan
+    from ..experiments.climb.trials import NoPlanError, run_trials, with_plan
     from ..planning.planners import FIRST_LOOPS, PLANNERS
     from .trials_text import TrialsLine, print_trials
 
@@ -122,7 +123,8 @@ def _replay(
     setup: "TrialSetup", seed: int, store: "Path | None", output: "Path | None", *, as_json: bool, quiet: bool
 ) -> int:
     """One trial again; the exit code."""
-    from ..experiments.climb.trials import climb_once, stored_trial
+    from ..experiments.climb.trial import climb_once
+    from ..experiments.climb.trials import stored_trial
     from ..viewing.climb_run_view import write_run
     from .run_text import ClimbLine, print_run
 

@@ -8,7 +8,7 @@ from clamber.actions.limbed_plans import thesis_code
 from clamber.actions.plan import Plan
 from clamber.execution.climb.course import climbable
 from clamber.experiments.climb.noise import NOISE, Noise, named_noise
-from clamber.experiments.climb.trials import ClimbTrial, TrialSetup
+from clamber.experiments.climb.trial import ClimbTrial, TrialSetup
 from clamber.tasks import load_task
 from clamber.tasks.limbed import LimbedTask
 

@@ -8,7 +8,7 @@ from climbs_by_hand import climb
 
 from clamber.experiments.climb.noise import NOISE
 from clamber.experiments.climb.sensitivity import LEVEL, Effect, find_effects
-from clamber.experiments.climb.trials import ClimbTrial, error_trial
+from clamber.experiments.climb.trial import ClimbTrial, error_trial
 
 
 def effects(trials: list[ClimbTrial]) -> dict[str, Effect]:

@@ -21,9 +21,11 @@ from clamber.actions.plan import Plan
 from clamber.execution.climb.climb_trace import TracedClimber
 from clamber.execution.climb.course import PlanRefusedError
 from clamber.experiments.climb import run_plan as runs
+from clamber.experiments.climb import trial as one
 from clamber.experiments.climb import trials as module
 from clamber.experiments.climb.noise import NO_NOISE, NoiseError, named_noise, read_noise
-from clamber.experiments.climb.trials import NoPlanError, climb_once, run_trials, stored_trial, with_plan
+from clamber.experiments.climb.trial import climb_once
+from clamber.experiments.climb.trials import NoPlanError, run_trials, stored_trial, with_plan
 from clamber.jobs import LocalProcesses, StoreError
 
 LETS_GO = (300, 3)
@@ -80,7 +82,7 @@ def test_plans_made_on_the_way_are_kept_and_taken_again(monkeypatch: pytest.Monk
 
         return replan
 
-    monkeypatch.setattr(module, "replanner", another)
+    monkeypatch.setattr(one, "replanner", another)
     monkeypatch.setattr(runs, "drawn_climber", blind)
     setup = setup_of(106)
     _, first, plans = climb_once(setup, 0)

@@ -10,7 +10,7 @@ import numpy as np
 from ...types import Json
 from ..intervals import wilson_interval
 from .noise import NOISE
-from .trials import ClimbTrial
+from .trial import ClimbTrial
 
 LEVEL: Final = 0.05
 """Chance that any key of a campaign is wrongly said to matter [-]."""
