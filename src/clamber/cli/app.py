@@ -19,12 +19,14 @@ from .limb import limb
 from .list import list_names
 from .new import new
 from .plan import plan
+from .plant import plant
 from .polish import polish
 from .reach import reach
 from .run import run
 from .show import show
 from .study import study
 from .sweep import sweep
+from .trials import trials
 
 app = typer.Typer(
     name="clamber",
@@ -40,11 +42,13 @@ app.command("learn")(learn)
 app.command("inventory")(inventory)
 app.command("check")(check)
 app.command("run")(run)
+app.command("trials")(trials)
 app.command("show")(show)
 app.command("bench")(bench)
 app.command("sweep")(sweep)
 app.add_typer(limb, name="limb")
 app.add_typer(new, name="new")
+app.add_typer(plant, name="plant")
 app.command("reach")(reach)
 app.command("study")(study)
 

@@ -75,7 +75,7 @@ class Approaches:
 
     Args:
         robot: The climber.
-        legs: Records of `control.body.LEG`, one per limb.
+        legs: Records of `control.leg.LEG`, one per limb.
         peg_radius: Of a hold by its number, its place's doubt included [m].
     """
 

@@ -72,6 +72,7 @@ def move_body(climber: Climber, pose: Floats, *, speed: float = BODY_SPEED) -> N
 
 def _park(climber: Climber, i: int, pose: Floats) -> None:
     body = climber.body
+    climber.plant.pause()
     way = park(climber.approaches, i, body.q[i] - body.play[i], poses_between(body.settled, pose), climber.holds)
     if way is not None:
         follow(climber, i, way)
@@ -177,6 +178,7 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
 def _find(climber: Climber, i: int, hold: Floats, elbow: int, wished: float, near: float) -> Approach | None:
     body = climber.body
     least = min(0.0, body.stands(body.settled)) - WEAKER
+    climber.plant.pause()
     return climber.approaches.find(
         i, body.q[i] - body.play[i], body.settled, hold, climber.holds, elbow=elbow, stand_off=wished, near=near,
         stands=lambda pose: body.stands(pose) >= least,
