@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Final, Literal, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
 from ...control.body import (
     KINEMATIC,
@@ -26,7 +27,7 @@ from ...control.hook_forces import MOST_CUTS, pair_forces
 from ...control.law_settings import LawSettings
 from ...control.play import follow_play, pull_torques, weight_loads, weight_moment
 from ...robots.limbed import LimbedRobot
-from ...types import Floats, Ints
+from ...types import Floats
 from .legs import legs_of
 from .postures import postures
 
@@ -202,7 +203,7 @@ class WholeBody:
         self._handed = 0.0
 
     def stands(self, pose: Floats) -> float:
-        """How well the limbs that hold now would at another pose of the body, in newtons of the worst wish; -inf where one does not reach."""
+        """How well the limbs that hold now would at another pose of the body, in newtons of the worst wish; -inf out of reach."""
         carriers = [i for i, task in enumerate(self.tasks) if task.doing == "hold"]
         q, arms, forces = self.q.copy(), np.zeros((self.n, 2)), np.zeros((self.n, 2))
         for i in carriers:
@@ -218,7 +219,9 @@ class WholeBody:
         if len(carriers) != 2:
             return 0.0
         wrench = np.array((0.0, self.robot.weight, weight_moment(self.legs, q, pose[2])))
-        margin, _ = pair_forces(self.legs, q, *carriers, pose, arms, wrench, np.zeros(3), self._cuts, forces)
+        margin, _ = pair_forces(
+            self.legs, q, carriers[0], carriers[1], pose, arms, wrench, np.zeros(3), self._cuts, forces
+        )
         return float(margin)
 
     @property
@@ -321,7 +324,9 @@ class WholeBody:
         )
         return self.torques
 
-    def _command_tips(self, held: Ints, wanted: Floats, fed: Floats, pulls: Floats, forces: Floats) -> None:
+    def _command_tips(
+        self, held: npt.NDArray[np.int64], wanted: Floats, fed: Floats, pulls: Floats, forces: Floats
+    ) -> None:
         gains = self.gains
         pulls[:] = 0.0
         command_tips(
