@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Final, Literal, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
 from ...control.body import (
     KINEMATIC,
@@ -22,12 +23,13 @@ from ...control.body import (
 from ...control.body_estimate import estimate_body
 from ...control.chain import chain_of_limb
 from ...control.controller import Controller, still_aim
-from ...control.hook_forces import MOST_CUTS
+from ...control.hook_forces import MOST_CUTS, pair_forces
 from ...control.law_settings import LawSettings
-from ...control.play import follow_play, pull_torques
+from ...control.play import follow_play, pull_torques, weight_loads, weight_moment
 from ...robots.limbed import LimbedRobot
-from ...types import Floats, Ints
+from ...types import Floats
 from .legs import legs_of
+from .postures import postures
 
 Doing: TypeAlias = Literal["hold", "cling", "tip", "joints", "pull"]
 """A limb holds the body, clings to its hold without carrying, brings its tip or its joints somewhere, or pulls along a direction."""
@@ -49,6 +51,8 @@ LIMITS: Final = {
     "shared": LIMIT_SHARED,
     "feasible": LIMIT_FEASIBLE,
 }
+STRETCHED: Final = math.radians(15.0)
+"""An elbow nearer to straight than this is soft and may pass to the other side [rad]."""
 HANDING_OVER: Final = 0.5
 """Time in which the load passes from the limbs that carried to those that will [s]."""
 
@@ -130,8 +134,8 @@ class WholeBody:
         self.n = n
         self.chains = [chain_of_limb(robot, limb.name) for limb in robot.limbs]
         self.legs = legs_of(robot)
-        unit = LawSettings(law=gains.law, kp=1.0, kd=0.0, joint_kd=1.0)
-        free = LawSettings(law=gains.law, kp=gains.limb_kp, kd=gains.limb_kd)
+        unit = LawSettings(law=gains.law, kp=1.0, kd=0.0, joint_kd=1.0, feed_gravity=False)
+        free = LawSettings(law=gains.law, kp=gains.limb_kp, kd=gains.limb_kd, feed_gravity=False)
         self._pullers = [Controller(chain, unit, period=period) for chain in self.chains]
         self._reachers = [Controller(chain, free, period=period) for chain in self.chains]
         self._aim = still_aim((0.0, 0.0))
@@ -160,6 +164,7 @@ class WholeBody:
         self._unused_speeds, self._unused_twist = np.zeros((n, 2)), np.zeros(3)
         self._pulls, self._forces = np.zeros((n, 2)), np.zeros((n, 2))
         self._old_pulls, self._old_forces = np.zeros((n, 2)), np.zeros((n, 2))
+        self._own = np.zeros(2)
         self._cuts, self._drags = np.zeros((MOST_CUTS, 2)), np.zeros((n, 2))
         self._least = np.full(n, gains.least_pull)
         self._ports = [
@@ -196,6 +201,28 @@ class WholeBody:
         for row, limbs in zip(self._carriers, (now, carriers), strict=True):
             row[:] = [i in limbs for i in range(self.n)]
         self._handed = 0.0
+
+    def stands(self, pose: Floats) -> float:
+        """How well the limbs that hold now would at another pose of the body, in newtons of the worst wish; -inf out of reach."""
+        carriers = [i for i, task in enumerate(self.tasks) if task.doing == "hold"]
+        q, arms, forces = self.q.copy(), np.zeros((self.n, 2)), np.zeros((self.n, 2))
+        for i in carriers:
+            side = self.q[i, 1] - self.play[i, 1]
+            found = [
+                one
+                for one in postures(self.robot.limbs[i], pose, self.tasks[i].place)
+                if one.inside and one.angles[1] * side > 0.0 and abs(one.angles[1]) > STRETCHED
+            ]
+            if not found:
+                return -math.inf
+            q[i], arms[i] = found[0].angles, self.tasks[i].place - pose[:2]
+        if len(carriers) != 2:
+            return 0.0
+        wrench = np.array((0.0, self.robot.weight, weight_moment(self.legs, q, pose[2])))
+        margin, _ = pair_forces(
+            self.legs, q, carriers[0], carriers[1], pose, arms, wrench, np.zeros(3), self._cuts, forces
+        )
+        return float(margin)
 
     @property
     def handing_over(self) -> bool:
@@ -297,7 +324,9 @@ class WholeBody:
         )
         return self.torques
 
-    def _command_tips(self, held: Ints, wanted: Floats, fed: Floats, pulls: Floats, forces: Floats) -> None:
+    def _command_tips(
+        self, held: npt.NDArray[np.int64], wanted: Floats, fed: Floats, pulls: Floats, forces: Floats
+    ) -> None:
         gains = self.gains
         pulls[:] = 0.0
         command_tips(
@@ -307,7 +336,7 @@ class WholeBody:
 
     def _fed(self) -> Floats:
         """The wrench on the body that the holding limbs bring in any case: the weight, less what tugging limbs already carry."""
-        fed = np.array((0.0, self.gains.weight_fed * self.robot.weight, 0.0))
+        fed = self.gains.weight_fed * np.array((0.0, self.robot.weight, weight_moment(self.legs, self.q, self.pose[2])))
         for i, task in enumerate(self.tasks):
             if task.doing == "pull" and task.tug.any():
                 arm = self.tip(i) - self.settled[:2]
@@ -331,7 +360,7 @@ class WholeBody:
         aim["twist"][0] = 0.0
         aim["wrench"][0, :2] = force
         self._state(i)
-        self.torques[i] = self._pullers[i].command(aim, self._states)[0]
+        self.torques[i] = self._pullers[i].command(aim, self._states)[0] + self._own_weight(i)
 
     def _towards(self, off: Floats) -> Floats:
         """Pull of a limb that clings, towards a hold that far off [N]."""
@@ -350,13 +379,18 @@ class WholeBody:
         aim["twist"][0, :2] = self._into_port(i, task.speed - still)
         aim["wrench"][0] = 0.0
         self._state(i)
-        self.torques[i] = self._reachers[i].command(aim, self._states)[0]
+        self.torques[i] = self._reachers[i].command(aim, self._states)[0] + self._own_weight(i)
 
     def _turned_back(self, i: int) -> Floats:
         """Speed of the tip relative to the body, world axes."""
         c, s = math.cos(self.pose[2]), math.sin(self.pose[2])
         vx, vy = self.tip_speeds[i]
         return np.array((c * vx - s * vy, s * vx + c * vy))
+
+    def _own_weight(self, i: int) -> Floats:
+        """Torques that carry a limb's own weight, however the body is turned [N m]."""
+        weight_loads(self.legs[i], self.q[i], self.pose[2], self._own)
+        return self._own
 
     def _state(self, i: int) -> None:
         self._states[0, 0], self._states[0, 1] = self.q[i], self.qd[i]
