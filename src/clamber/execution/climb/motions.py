@@ -136,7 +136,7 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
     found = _find(climber, i, hold, elbow, wished, near)
     if found is None:
         return Grabbed(False, 0, 0.0, 0.0)
-    if found.shift.any():
+    if found.shift.any() and not climber.hangs:
         move_body(climber, body.aim + np.array((*found.shift, 0.0)))
         found = _find(climber, i, hold, elbow, wished, near) or found
     follow(climber, i, found.way)
@@ -152,7 +152,7 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
         along, across = float(off @ g), float(off @ h)
         room = climber.map_error + SLACK
         if stopped and along > -room and abs(across) < room:
-            climber.learn(number, i, [j for j, other in enumerate(body.tasks) if other.doing == "hold"])
+            climber.learn(number, i, [j for j, other in enumerate(body.tasks) if other.holds])
             task.doing, task.hold, task.place = "cling", number, climber.holds[number].copy()
             climber.wait(0.1)
             return Grabbed(True, tries, along, across)

@@ -26,8 +26,8 @@ from ...robots.limbed import LimbedRobot
 from ...types import Floats
 from ...units import GRAVITY
 
-Doing: TypeAlias = Literal["hold", "cling", "tip", "joints", "pull"]
-"""A limb holds the body, clings to its hold without carrying, brings its tip or its joints somewhere, or pulls along a direction."""
+Doing: TypeAlias = Literal["hold", "hang", "cling", "tip", "joints", "pull"]
+"""A limb holds the body, holds it alone with its joints kept at angles while the body swings as it will, clings to its hold without carrying, brings its tip or its joints somewhere, or pulls along a direction."""
 MAPPINGS: Final = {"thesis": THESIS, "kinematic": KINEMATIC}
 PLAY_TIME: Final = 0.2
 """Time in which the believed side of the play follows the load [s]."""
@@ -74,8 +74,10 @@ class LimbTask:
     speed: Floats = field(default_factory=lambda: np.zeros(2))
     """Of the aim [m/s]."""
     angles: Floats = field(default_factory=lambda: np.zeros(2))
-    """Of "joints" [rad]."""
+    """Of "joints" and "hang" [rad]."""
     rates: Floats = field(default_factory=lambda: np.zeros(2))
+    loads: Floats = field(default_factory=lambda: np.zeros(2))
+    """Of "hang": torques that bear the weight [N m]."""
     force: Floats = field(default_factory=lambda: np.zeros(2))
     """Of "pull": what the tip does to what it meets, world frame [N]."""
     tug: Floats = field(default_factory=lambda: np.zeros(2))
@@ -84,6 +86,11 @@ class LimbTask:
     """Of "pull": of the tip's motion in the world [N s/m]."""
     pressed: bool = False
     """Of "pull": whether the tip has stopped against something, which then loads the joints."""
+
+    @property
+    def holds(self) -> bool:
+        """Whether the limb carries the body."""
+        return self.doing in ("hold", "hang")
 
 
 class WholeBody:
@@ -158,8 +165,8 @@ class WholeBody:
         """Take in a tick's measurements and estimate where the body is."""
         self.q[:], self.qd[:] = q, qd
         for i, task in enumerate(self.tasks):
-            self._held[i] = task.doing == "hold"
-            if task.doing == "hold":
+            self._held[i] = task.holds
+            if task.holds:
                 self._holds[i] = task.place
         estimate_body(
             self.legs, self.q, self.qd, self._held, self._holds, angle, angle_speed, with_encoder,
@@ -229,6 +236,8 @@ class WholeBody:
                 self.torques[i] = shares * (
                     gains.joint_kp * (task.angles - self.q[i]) + gains.joint_kd * (task.rates - self.qd[i])
                 )
+                if task.doing == "hang":
+                    self.torques[i] += task.loads
             self._pressed[i] = task.doing == "pull" and task.pressed
             if task.doing in ("tip", "pull", "cling"):
                 most = gains.firm if self._pressed[i] else gains.gentle

@@ -1,0 +1,202 @@
+"""Hanging on one limb: letting go into a hang, damping the swing with the limb's own joints, other joint angles, and the load shared again."""
+
+import math
+from typing import Final
+
+import numpy as np
+
+from ...types import Floats
+from .climber import Climber, FallenError
+from .motions import move_body, release
+from .pendulum import Pendulum
+from .postures import postures
+
+DAMPING: Final = 0.5
+"""kappa of the damping, 0 .. 1 [-]."""
+LAG: Final = 0.5
+"""T of the damping: the less, the more of what the joints do goes against the swing; the joints must follow twice as fast [-]."""
+WIDEST: Final = 0.25
+"""Most that the joints go aside for damping: at LIBRA's swings half their no-load speed [rad]."""
+TRACKING: Final = 40.0
+"""Of the observer of the swing [rad/s]."""
+OVER: Final = math.radians(100.0)
+"""A centre of gravity that is farther than this from straight below does not hang on anything [rad]."""
+JOINT_SPEED: Final = 0.4
+"""With which the holding limb's joints go to other angles [rad/s]."""
+CALM: Final = math.radians(1.0), math.radians(4.0)
+"""Amplitude [rad] below which a swing no longer matters, and speed [rad/s]."""
+PATIENCE: Final = 12.0
+"""Most time for a swing to calm down [s]."""
+FRACTIONS: Final = 40
+"""Steps of the search for how far the body can turn about the hold before the other limb lets go."""
+STRAIGHT: Final = math.radians(15.0)
+"""A limb whose elbow is straighter is at the end of its reach [rad]."""
+ON_TOP: Final = 0.3
+"""A hook that pulls less downwards comes off [-]."""
+
+
+class Hang:
+    r"""A body that hangs on one limb: keeps the limb's joints at angles, and its swing damped.
+
+    The pivot at the hold is passive, so damping has to come from the joints' inertia c (`Pendulum`): along n = c / |c| they go aside by u,
+
+        tau u' = -(k phi' + u),    tau = T / omega,    k = kappa I tau / |c|
+
+    With z = s / omega the swing then obeys (1 - kappa) T z^3 + z^2 + T z + 1 = 0: damped for 0 < kappa < 1 (Routh), with the ratio
+    kappa T / (2 + 2 T^2) for small ones. phi' is an observer's, as differences of an encoder's counts are rough.
+
+    Args:
+        climber: The robot; limb `i` is on a hold.
+        i: The limb that holds.
+        damping: kappa.
+    """
+
+    def __init__(self, climber: Climber, i: int, damping: float = DAMPING) -> None:
+        self.climber, self.i, self.damping = climber, i, damping
+        self.pendulum = Pendulum(climber.robot, i)
+        body = climber.body
+        self.angles = body.q[i].copy()
+        """That the holding limb's joints keep to, but for the damping [rad]."""
+        self.rates = np.zeros(2)
+        self.phi = self.pendulum.swing(body.q, float(body.pose[2]))
+        """Swing as observed [rad]."""
+        self.speed = 0.0
+        """[rad/s]."""
+        self.aside = 0.0
+        """u [rad]."""
+        limb = climber.robot.limbs[i]
+        self._lower = np.array((limb.shoulder.lower, limb.elbow.lower))
+        self._upper = np.array((limb.shoulder.upper, limb.elbow.upper))
+        self._tune()
+        task = body.tasks[i]
+        task.doing = "hang"
+        self._set(0.0)
+        climber.balance = self.balance
+
+    def _tune(self) -> None:
+        q = self.climber.body.q.copy()
+        q[self.i] = self.angles
+        c = self.pendulum.momentum(q)
+        size = float(np.hypot(*c))
+        self.omega = self.pendulum.frequency(q)
+        """Of the swing [rad/s]."""
+        self._along = c / size
+        self._gain = self.damping * self.pendulum.inertia(q) * LAG / (size * self.omega)
+
+    def balance(self) -> None:
+        """After sensing, before commanding: what the holding limb is to do at this tick.
+
+        Raises:
+            FallenError: If the body is where nothing that hangs can be.
+        """
+        body, period = self.climber.body, self.climber.plant.period
+        seen = self.pendulum.swing(body.q, float(body.pose[2]))
+        if abs(seen) > OVER:
+            raise FallenError(f"the body hangs {np.degrees(seen):.0f} deg from straight below its hold")
+        off = seen - self.phi
+        self.phi += period * (self.speed + 2.0 * TRACKING * off)
+        self.speed += period * TRACKING**2 * off
+        wished = float(np.clip(self._gain * self.speed, -WIDEST, WIDEST))
+        rate = -self.omega / LAG * (wished + self.aside)
+        self.aside += period * rate
+        self._set(rate)
+
+    def _set(self, rate: float) -> None:
+        body = self.climber.body
+        task = body.tasks[self.i]
+        task.angles = np.clip(self.angles + self.aside * self._along, self._lower, self._upper)
+        task.rates = self.rates + rate * self._along
+        task.loads = self.pendulum.loads(body.q, float(body.pose[2]))
+
+    def bring(self, angles: Floats) -> None:
+        """Bring the holding limb's joints to other angles, shape (2,) [rad], smoothly; the body turns with them as it hangs."""
+        start = self.angles.copy()
+        change = angles - start
+        period = self.climber.plant.period
+        seconds = 1.5 * max(float(np.abs(change).max()) / JOINT_SPEED, period)
+        count = max(1, round(seconds / period))
+        for k in range(1, count + 1):
+            u = k / count
+            self.angles = start + u * u * (3 - 2 * u) * change
+            self.rates = 6 * u * (1 - u) / seconds * change
+            self.climber.tick()
+        self.rates = np.zeros(2)
+        self._tune()
+
+    def calm(self, seconds: float = PATIENCE) -> bool:
+        """Wait until the body hardly swings, for a whole period of it; whether it does."""
+        period = self.climber.plant.period
+        quiet = 0.0
+        for _ in range(round(seconds / period)):
+            self.climber.tick()
+            amplitude = math.hypot(self.speed / self.omega, 0.0)
+            quiet = quiet + period if amplitude < CALM[0] else 0.0
+            if quiet > math.tau / self.omega:
+                return True
+        return False
+
+    def end(self) -> None:
+        """Let every limb on a hold carry the body where it is."""
+        body = self.climber.body
+        self.climber.balance = None
+        for task in body.tasks:
+            if task.hold:
+                task.doing = "hold"
+        body.aim[:] = body.pose
+        body.aim_speed[:] = 0.0
+
+
+def posture_at(climber: Climber, i: int, pose: Floats) -> Floats | None:
+    """Joint angles of a limb on its hold at a pose of the body, its elbow on the side where it is; None where it has none."""
+    limb, task = climber.robot.limbs[i], climber.body.tasks[i]
+    side = climber.body.q[i, 1]
+    found = [one for one in postures(limb, pose, task.place) if one.inside and one.angles[1] * side > 0.0]
+    return found[0].angles if found else None
+
+
+def turned_about(pose: Floats, hold: Floats, turn: float) -> Floats:
+    """A pose turned about a hold."""
+    c, s = math.cos(turn), math.sin(turn)
+    x, y = pose[:2] - hold
+    return np.array((hold[0] + c * x - s * y, hold[1] + s * x + c * y, pose[2] + turn))
+
+
+def let_go(climber: Climber, i: int, stay: int) -> Hang:
+    """Take limb `i` off, so that the body hangs on limb `stay` alone.
+
+    While both hold, the body turns about the hold that stays, towards having its centre of gravity below it, as far as the other limb
+    reaches; the holding limb's joints keep their angles, as in the swing of a plan. Then the other one is taken off, and what is left of
+    the swing is damped.
+    """
+    body = climber.body
+    hold = body.tasks[stay].place
+    pendulum = Pendulum(climber.robot, stay)
+    turn = -pendulum.swing(body.q, float(body.pose[2]))
+    start = body.aim.copy()
+    for part in parts_within_reach(climber, i, stay, start, turn):
+        move_body(climber, turned_about(start, hold, part * turn))
+    climber.wait(0.3)
+    hang = Hang(climber, stay)
+    release(climber, i)
+    hang.calm()
+    return hang
+
+
+def parts_within_reach(climber: Climber, i: int, stay: int, pose: Floats, turn: float) -> Floats:
+    """Parts of a turn about the hold of `stay`, growing, that limb `i` can follow on its hold; none if none can be."""
+    limb, task = climber.robot.limbs[i], climber.body.tasks[i]
+    side = climber.body.q[i, 1]
+    parts = np.arange(1, FRACTIONS + 1) / FRACTIONS
+    n = 0
+    for part in parts:
+        moved = turned_about(pose, climber.body.tasks[stay].place, part * turn)
+        fit = [
+            one
+            for one in postures(limb, moved, task.place)
+            if one.inside and one.angles[1] * side > 0.0 and abs(one.angles[1]) > STRAIGHT and one.on_top > ON_TOP
+        ]
+        if not fit:
+            break
+        n += 1
+    ways = max(1, math.ceil(n * abs(turn) / FRACTIONS / 0.2))  # pieces of the arc of at most 0.2 rad
+    return np.array([parts[n * k // ways - 1] for k in range(1, ways + 1)]) if n else np.zeros(0)
