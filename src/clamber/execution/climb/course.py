@@ -94,7 +94,9 @@ def climbable(task: LimbedTask) -> LimbedTask:
     """
     hard = task.rules.hard if "hook" in task.rules.hard else (*task.rules.hard, "hook")
     names = ", ".join(f'"{name}"' for name in hard)
-    changed = change_task(task, [f"rules.hard=[{names}]", "rules.branch=kept", f"rules.max_hangs={max(task.rules.max_hangs, 0)}"])
+    changed = change_task(
+        task, [f"rules.hard=[{names}]", "rules.branch=kept", f"rules.max_hangs={max(task.rules.max_hangs, 0)}"]
+    )
     assert isinstance(changed, LimbedTask)  # rules never change the family
     return changed
 

@@ -21,8 +21,12 @@ TRACKING: Final = 40.0
 """Of the observer of the swing [rad/s]."""
 OVER: Final = math.radians(100.0)
 """A centre of gravity that is farther than this from straight below does not hang on anything [rad]."""
-JOINT_SPEED: Final = 0.4
-"""With which the holding limb's joints go to other angles [rad/s]."""
+SPEED: Final = 0.05
+"""With which the body rises and sinks [m/s]."""
+TURN: Final = 0.25
+"""[rad/s]."""
+JOINT_SPEED: Final = 0.8
+"""Most of the holding limb's joints, but for the damping [rad/s]."""
 CALM: Final = math.radians(1.0), math.radians(4.0)
 """Amplitude [rad] below which a swing no longer matters, and speed [rad/s]."""
 PATIENCE: Final = 12.0
@@ -70,6 +74,9 @@ class Hang:
         self._tune()
         task = body.tasks[i]
         task.doing = "hang"
+        pose = self.pendulum.pose(body.q, task.place)
+        self.wish = np.array((task.place[1] - pose[1], pose[2]))
+        """Depth of the body below the hold [m] and its angle [rad], at rest."""
         self._set(0.0)
         climber.balance = self.balance
 
@@ -96,10 +103,20 @@ class Hang:
         off = seen - self.phi
         self.phi += period * (self.speed + 2.0 * TRACKING * off)
         self.speed += period * TRACKING**2 * off
-        wished = float(np.clip(self._gain * self.speed, -WIDEST, WIDEST))
+        pushing = any(task.doing == "pull" for task in body.tasks)  # against a hold the body is no pendulum
+        wished = 0.0 if pushing else float(np.clip(self._gain * self.speed, -WIDEST, WIDEST))
         rate = -self.omega / LAG * (wished + self.aside)
         self.aside += period * rate
+        self._follow()
         self._set(rate)
+
+    def _follow(self) -> None:
+        """One step of the joints towards the wish, whatever the free limbs have done to the centre of gravity."""
+        q, most = self.climber.body.q.copy(), JOINT_SPEED * self.climber.plant.period
+        q[self.i] = self.angles
+        change = np.clip(self.pendulum.angles_for(q, *self.wish) - self.angles, -most, most)
+        self.angles = np.clip(self.angles + change, self._lower, self._upper)
+        self.rates = change / self.climber.plant.period
 
     def _set(self, rate: float) -> None:
         body = self.climber.body
@@ -108,19 +125,17 @@ class Hang:
         task.rates = self.rates + rate * self._along
         task.loads = self.pendulum.loads(body.q, float(body.pose[2]))
 
-    def bring(self, angles: Floats) -> None:
-        """Bring the holding limb's joints to other angles, shape (2,) [rad], smoothly; the body turns with them as it hangs."""
-        start = self.angles.copy()
-        change = angles - start
-        period = self.climber.plant.period
-        seconds = 1.5 * max(float(np.abs(change).max()) / JOINT_SPEED, period)
-        count = max(1, round(seconds / period))
+    def bring(self, pose: Floats) -> None:
+        """Bring the body to a pose's height and angle, shape (3,); its x is what the weight makes of it."""
+        start, period = self.wish.copy(), self.climber.plant.period
+        depth = float(self.climber.body.tasks[self.i].place[1] - pose[1])
+        change = np.array((depth - start[0], math.remainder(pose[2] - start[1], math.tau)))
+        seconds = 1.5 * max(abs(change[0]) / SPEED, abs(change[1]) / TURN, 0.2)
+        count = round(seconds / period)
         for k in range(1, count + 1):
             u = k / count
-            self.angles = start + u * u * (3 - 2 * u) * change
-            self.rates = 6 * u * (1 - u) / seconds * change
+            self.wish = start + u * u * (3 - 2 * u) * change
             self.climber.tick()
-        self.rates = np.zeros(2)
         self._tune()
 
     def calm(self, seconds: float = PATIENCE) -> bool:
@@ -144,14 +159,6 @@ class Hang:
                 task.doing = "hold"
         body.aim[:] = body.pose
         body.aim_speed[:] = 0.0
-
-
-def posture_at(climber: Climber, i: int, pose: Floats) -> Floats | None:
-    """Joint angles of a limb on its hold at a pose of the body, its elbow on the side where it is; None where it has none."""
-    limb, task = climber.robot.limbs[i], climber.body.tasks[i]
-    side = climber.body.q[i, 1]
-    found = [one for one in postures(limb, pose, task.place) if one.inside and one.angles[1] * side > 0.0]
-    return found[0].angles if found else None
 
 
 def turned_about(pose: Floats, hold: Floats, turn: float) -> Floats:

@@ -33,6 +33,8 @@ DITHER: Final = 8.0
 """Pull across, to and fro, so that friction lets the hook slide in [N]."""
 DITHER_RATE: Final = 5.0
 """[Hz]."""
+HANGING: Final = 0.4
+"""Part of these forces where the body hangs on one limb, which gives way [-]."""
 CENTRING: Final = 150.0
 """Pull towards the believed hold across the hook [N/m]."""
 ADVANCE: Final = 0.0015
@@ -181,13 +183,14 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats) -> bool:
     still = tugged = 0.0
     tugging, seated, mark = False, False, -np.inf
     rested = body.pose[:2].copy()
+    part = HANGING if climber.hangs else 1.0
     for k in range(round(PATIENCE / period)):
         along = body.grab_direction(i)
         across = np.array((-along[1], along[0]))
         size = PUSH + (TUG - PUSH) * min(tugged / TUG_RISE, 1.0)
         lifted = float((rested - body.pose[:2]) @ g)
-        size *= np.interp(lifted, LIFT, (1.0, 1 / 3))
-        side = DITHER * np.sin(2 * np.pi * DITHER_RATE * k * period)
+        size *= part * np.interp(lifted, LIFT, (1.0, 1 / 3))
+        side = part * DITHER * np.sin(2 * np.pi * DITHER_RATE * k * period)
         if tugging:
             tugged += period
             task.tug = size * along

@@ -22,6 +22,10 @@ from ...units import GRAVITY
 
 DIFFERENCE: Final = 1e-5
 """Step of the joints over which slopes are taken [rad]."""
+ARM: Final = 0.2
+"""Of a turn that counts as much as a length [m]."""
+SOFT: Final = 0.01
+"""Damping of the inverse [m]."""
 
 
 class Pendulum:
@@ -81,6 +85,36 @@ class Pendulum:
         theta = self.rest(q) if angle is None else angle
         tip = self._parts(q)[2] * complex(math.cos(theta), math.sin(theta))
         return np.array((hold[0] - tip.real, hold[1] - tip.imag, theta))
+
+    def angles_for(self, q: Floats, depth: float, angle: float, rounds: int = 1) -> Floats:
+        """Joint angles of the holding limb with which the body, at rest, is so far below the hold and turned so, shape (2,) [rad].
+
+        Newton's rounds from its angles in `q`, damped where the limb is stretched; x is what the weight makes of it.
+
+        Args:
+            q: Joint angles, shape (limbs, 2) [rad].
+            depth: Of the body's origin below the hold [m].
+            angle: Of the body [rad].
+            rounds: One for following, more from afar.
+        """
+        moved = q.copy()
+        for _ in range(rounds):
+            here = self._depth_and_rest(moved)
+            slopes = np.zeros((2, 2))
+            for j in range(2):
+                moved[self.limb, j] += DIFFERENCE
+                there = self._depth_and_rest(moved)
+                moved[self.limb, j] -= DIFFERENCE
+                slopes[:, j] = there[0] - here[0], math.remainder(there[1] - here[1], math.tau) * ARM
+            slopes /= DIFFERENCE
+            lack = np.array((depth - here[0], math.remainder(angle - here[1], math.tau) * ARM))
+            moved[self.limb] += slopes.T @ np.linalg.solve(slopes @ slopes.T + SOFT**2 * np.eye(2), lack)
+        return moved[self.limb].copy()
+
+    def _depth_and_rest(self, q: Floats) -> tuple[float, float]:
+        theta = self.rest(q)
+        tip = self._parts(q)[2]
+        return tip.imag * math.cos(theta) + tip.real * math.sin(theta), theta
 
     def inertia(self, q: Floats) -> float:
         """About the hold, with stiff joints [kg m^2]."""

@@ -13,7 +13,7 @@ from ...types import Floats, Json
 from .climb_trace import TracedClimber
 from .climber import FallenError, Grabbed
 from .course import Course, PlanRefusedError, lay_course, names_of, swings
-from .hang import Hang, let_go, posture_at
+from .hang import Hang, let_go
 from .here import task_from_here
 from .motions import grab, move_body, release
 
@@ -232,10 +232,7 @@ class Sequencer:
             self._hanging = let_go(climber, leaving, stay[0])
         hanging = self._hanging
         assert hanging is not None
-        angles = posture_at(climber, hanging.i, self._pose(step))
-        if angles is None:
-            return "the limb that is to hold alone has no posture for the pose"
-        hanging.bring(angles)
+        hanging.bring(self._pose(step))
         hanging.calm()
         return ""
 
@@ -257,7 +254,9 @@ class Sequencer:
         result = Grabbed(False, 0, 0.0, 0.0)
         for x, y in ELSEWHERE:
             place = self._pose(step) + np.array((side * x, y, 0.0))
-            if not self.climber.hangs and float(np.abs(place - self.climber.body.aim).max()) > SHIFTED:  # also by the approach to the hold before
+            if (
+                not self.climber.hangs and float(np.abs(place - self.climber.body.aim).max()) > SHIFTED
+            ):  # also by the approach to the hold before
                 move_body(self.climber, place)
             result = grab(self.climber, i, action.hold, elbow=elbow)
             tries += max(1, result.tries)
