@@ -154,11 +154,10 @@ class Hang:
         """Let every limb on a hold carry the body where it is."""
         body = self.climber.body
         self.climber.balance = None
-        for task in body.tasks:
-            if task.hold:
-                task.doing = "hold"
+        body.tasks[self.i].doing = "hold"
         body.aim[:] = body.pose
         body.aim_speed[:] = 0.0
+        self.climber.carry_with_all(but=-1)
 
 
 def turned_about(pose: Floats, hold: Floats, turn: float) -> Floats:
@@ -183,6 +182,7 @@ def let_go(climber: Climber, i: int, stay: int) -> Hang:
     for part in parts_within_reach(climber, i, stay, start, turn):
         move_body(climber, turned_about(start, hold, part * turn))
     climber.wait(0.3)
+    climber.carry_with_all(but=i)
     hang = Hang(climber, stay)
     release(climber, i)
     hang.calm()
