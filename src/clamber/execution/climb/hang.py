@@ -7,7 +7,7 @@ import numpy as np
 
 from ...types import Floats
 from .climber import Climber, FallenError
-from .motions import move_body, release
+from .motions import move_body, release, stand_off_of
 from .pendulum import Pendulum
 from .postures import postures
 
@@ -31,12 +31,21 @@ CALM: Final = math.radians(1.0), math.radians(4.0)
 """Amplitude [rad] below which a swing no longer matters, and speed [rad/s]."""
 PATIENCE: Final = 12.0
 """Most time for a swing to calm down [s]."""
-FRACTIONS: Final = 40
-"""Steps of the search for how far the body can turn about the hold before the other limb lets go."""
+WAY: Final = 0.2
+"""Turn of the body on one straight way of it [rad]."""
+SETTLING: Final = 0.3
+"""Before the load passes to one limb [s]."""
+OFFSETS: Final = (0.0, 0.1, 0.2, 0.35, 0.5, 0.75)
+"""Parts of the weight's present distance from below the hold that are tried, in turn, where the limbs do not reach closer [-]."""
+TURNS: Final = np.radians(np.arange(-75.0, 76.0, 7.5))
+"""Of the body from where it is that are tried [rad]."""
+DEPTHS: Final = np.arange(0.10, 0.33, 0.02)
+"""Of the body below the hold [m]."""
+ROUNDS: Final = 3
 STRAIGHT: Final = math.radians(15.0)
 """A limb whose elbow is straighter is at the end of its reach [rad]."""
-ON_TOP: Final = 0.3
-"""A hook that pulls less downwards comes off [-]."""
+ON_TOP: Final = 0.5
+"""A hook that pulls less downwards might come off [-]."""
 
 
 class Hang:
@@ -160,28 +169,19 @@ class Hang:
         self.climber.carry_with_all(but=-1)
 
 
-def turned_about(pose: Floats, hold: Floats, turn: float) -> Floats:
-    """A pose turned about a hold."""
-    c, s = math.cos(turn), math.sin(turn)
-    x, y = pose[:2] - hold
-    return np.array((hold[0] + c * x - s * y, hold[1] + s * x + c * y, pose[2] + turn))
-
-
 def let_go(climber: Climber, i: int, stay: int) -> Hang:
     """Take limb `i` off, so that the body hangs on limb `stay` alone.
 
-    While both hold, the body turns about the hold that stays, towards having its centre of gravity below it, as far as the other limb
-    reaches; the holding limb's joints keep their angles, as in the swing of a plan. Then the other one is taken off, and what is left of
-    the swing is damped.
+    While both hold, the body goes to where its centre of gravity is below the hold that stays, or as near as both limbs reach; the other
+    one then bears next to nothing, and taking it off sets off no swing. What is left of one is damped.
     """
     body = climber.body
-    hold = body.tasks[stay].place
-    pendulum = Pendulum(climber.robot, stay)
-    turn = -pendulum.swing(body.q, float(body.pose[2]))
-    start = body.aim.copy()
-    for part in parts_within_reach(climber, i, stay, start, turn):
-        move_body(climber, turned_about(start, hold, part * turn))
-    climber.wait(0.3)
+    start = body.settled.copy()
+    end = pose_to_let_go(climber, i, stay)
+    ways = max(1, math.ceil(abs(end[2] - start[2]) / WAY))
+    for k in range(1, ways + 1):
+        move_body(climber, start + k / ways * (end - start))
+    climber.wait(SETTLING)
     climber.carry_with_all(but=i)
     hang = Hang(climber, stay)
     release(climber, i)
@@ -189,21 +189,45 @@ def let_go(climber: Climber, i: int, stay: int) -> Hang:
     return hang
 
 
-def parts_within_reach(climber: Climber, i: int, stay: int, pose: Floats, turn: float) -> Floats:
-    """Parts of a turn about the hold of `stay`, growing, that limb `i` can follow on its hold; none if none can be."""
-    limb, task = climber.robot.limbs[i], climber.body.tasks[i]
-    side = climber.body.q[i, 1]
-    parts = np.arange(1, FRACTIONS + 1) / FRACTIONS
-    n = 0
-    for part in parts:
-        moved = turned_about(pose, climber.body.tasks[stay].place, part * turn)
-        fit = [
-            one
-            for one in postures(limb, moved, task.place)
-            if one.inside and one.angles[1] * side > 0.0 and abs(one.angles[1]) > STRAIGHT and one.on_top > ON_TOP
-        ]
-        if not fit:
-            break
-        n += 1
-    ways = max(1, math.ceil(n * abs(turn) / FRACTIONS / 0.2))  # pieces of the arc of at most 0.2 rad
-    return np.array([parts[n * k // ways - 1] for k in range(1, ways + 1)]) if n else np.zeros(0)
+def pose_to_let_go(climber: Climber, i: int, stay: int) -> Floats:
+    """The pose nearest to the present one in which both limbs are well on their holds and the weight is as near as can be below that of `stay`.
+
+    Limb `i` can be lifted off there. The present pose where there is no better one.
+    """
+    body, robot = climber.body, climber.robot
+    pendulum, here, hold = Pendulum(robot, stay), body.settled.copy(), body.tasks[stay].place
+    q = body.q - body.play
+    now = (pendulum.arm(q) * complex(math.cos(here[2]), math.sin(here[2]))).real
+    for part in OFFSETS:
+        found = []
+        for turn in TURNS:
+            for depth in DEPTHS:
+                pose = np.array((hold[0], hold[1] - depth, here[2] + turn))
+                moved = q.copy()
+                fit = True
+                for _ in range(ROUNDS):  # the weight moves with the limbs that reach for the holds
+                    angles = [_well_on(climber, stay, pose, 0.0), _well_on(climber, i, pose, stand_off_of(climber, i))]
+                    if angles[0] is None or angles[1] is None:
+                        fit = False
+                        break
+                    moved[stay], moved[i] = angles
+                    aside = (pendulum.arm(moved) * complex(math.cos(pose[2]), math.sin(pose[2]))).real - part * now
+                    pose[0] -= aside
+                if fit:
+                    found.append(pose)
+        if found:
+            return min(found, key=lambda pose: float(np.hypot(*(pose[:2] - here[:2])) + 0.2 * abs(pose[2] - here[2])))
+    return here
+
+
+def _well_on(climber: Climber, i: int, pose: Floats, off: float) -> Floats | None:
+    """Angles of a limb on its hold at a pose, its elbow on the side where it is, its hook well on top, and room to lift it off by `off`."""
+    limb, task, side = climber.robot.limbs[i], climber.body.tasks[i], climber.body.q[i, 1]
+    on = [one for one in postures(limb, pose, task.place) if one.inside and one.angles[1] * side > 0.0]
+    if not on or on[0].on_top < ON_TOP or abs(on[0].angles[1]) < STRAIGHT:
+        return None
+    if off > 0.0:
+        clear = postures(limb, pose, task.place - off * on[0].grab)
+        if not any(one.inside and one.angles[1] * side > 0.0 and abs(one.angles[1]) > STRAIGHT for one in clear):
+            return None
+    return on[0].angles
