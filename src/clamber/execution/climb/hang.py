@@ -7,7 +7,7 @@ import numpy as np
 
 from ...types import Floats
 from .climber import Climber, FallenError
-from .motions import move_body, release, stand_off_of
+from .motions import follow, move_body
 from .pendulum import Pendulum
 from .postures import postures
 
@@ -41,7 +41,16 @@ TURNS: Final = np.radians(np.arange(-75.0, 76.0, 7.5))
 """Of the body from where it is that are tried [rad]."""
 DEPTHS: Final = np.arange(0.10, 0.33, 0.02)
 """Of the body below the hold [m]."""
-ROUNDS: Final = 3
+ROUNDS: Final = 5
+"""In which the body's x is found for an angle and a height."""
+NEAR: Final = 0.002
+"""Of the weight's place that they come to [m]."""
+OFF: Final = 0.022
+"""Way off a hold against the grab direction, after which a hook is out of its slot and its flare, and may go anywhere [m]."""
+BACK: Final = 0.05
+"""Way back towards the limb's own shoulder after it [m]."""
+CAUGHT: Final = 0.015
+"""A tip that is nearer to its hold after that has not come off [m]."""
 STRAIGHT: Final = math.radians(15.0)
 """A limb whose elbow is straighter is at the end of its reach [rad]."""
 ON_TOP: Final = 0.5
@@ -80,7 +89,7 @@ class Hang:
         limb = climber.robot.limbs[i]
         self._lower = np.array((limb.shoulder.lower, limb.elbow.lower))
         self._upper = np.array((limb.shoulder.upper, limb.elbow.upper))
-        self._tune()
+        self.tune()
         task = body.tasks[i]
         task.doing = "hang"
         pose = self.pendulum.pose(body.q, task.place)
@@ -89,7 +98,8 @@ class Hang:
         self._set(0.0)
         climber.balance = self.balance
 
-    def _tune(self) -> None:
+    def tune(self) -> None:
+        """Reckon the damping anew for the joints' angles."""
         q = self.climber.body.q.copy()
         q[self.i] = self.angles
         c = self.pendulum.momentum(q)
@@ -145,7 +155,7 @@ class Hang:
             u = k / count
             self.wish = start + u * u * (3 - 2 * u) * change
             self.climber.tick()
-        self._tune()
+        self.tune()
 
     def calm(self, seconds: float = PATIENCE) -> bool:
         """Wait until the body hardly swings, for a whole period of it; whether it does."""
@@ -183,10 +193,36 @@ def let_go(climber: Climber, i: int, stay: int) -> Hang:
         move_body(climber, start + k / ways * (end - start))
     climber.wait(SETTLING)
     climber.carry_with_all(but=i)
-    hang = Hang(climber, stay)
-    release(climber, i)
+    hang = Hang(climber, stay, damping=0.0)
+    if not lift_off(climber, i):
+        raise FallenError("the hook that was to let go is caught on its hold")
+    hang.damping = DAMPING
+    hang.tune()
     hang.calm()
     return hang
+
+
+def lift_off(climber: Climber, i: int) -> bool:
+    """Take limb `i` off its hold by its joints, against its grab direction and then back towards its shoulder; whether it came off.
+
+    Stretched as the limb may be, its joints do it more surely than its tip's law.
+    """
+    body = climber.body
+    task, limb = body.tasks[i], climber.robot.limbs[i]
+    g, place, hold = body.grab_direction(i), body.tip(i), task.place.copy()
+    pose = body.settled
+    c, s = math.cos(pose[2]), math.sin(pose[2])
+    port = pose[:2] + (c * limb.port_x - s * limb.port_y, s * limb.port_x + c * limb.port_y)
+    out = place - OFF * g
+    back = (port - out) / float(np.hypot(*(port - out)))
+    points = [place - part * OFF * g for part in (0.25, 0.5, 0.75, 1.0)] + [out + part * BACK * back for part in (0.5, 1.0)]
+    way = [body.q[i].copy()]
+    for point in points:
+        fit = [one for one in postures(limb, pose, point) if one.inside and one.angles[1] * way[0][1] > 0.0]
+        way += [one.angles + body.play[i] for one in fit]
+    task.hold = 0
+    follow(climber, i, np.array(way))
+    return float(np.hypot(*(body.felt_tip(i) - hold))) > CAUGHT
 
 
 def pose_to_let_go(climber: Climber, i: int, stay: int) -> Floats:
@@ -202,19 +238,18 @@ def pose_to_let_go(climber: Climber, i: int, stay: int) -> Floats:
         found = []
         for turn in TURNS:
             for depth in DEPTHS:
-                pose = np.array((hold[0], hold[1] - depth, here[2] + turn))
+                pose = np.array((here[0] - now * (1.0 - part), hold[1] - depth, here[2] + turn))
                 moved = q.copy()
-                fit = True
                 for _ in range(ROUNDS):  # the weight moves with the limbs that reach for the holds
-                    angles = [_well_on(climber, stay, pose, 0.0), _well_on(climber, i, pose, stand_off_of(climber, i))]
+                    angles = [_well_on(climber, stay, pose, 0.0), _well_on(climber, i, pose, OFF)]
                     if angles[0] is None or angles[1] is None:
-                        fit = False
                         break
                     moved[stay], moved[i] = angles
                     aside = (pendulum.arm(moved) * complex(math.cos(pose[2]), math.sin(pose[2]))).real - part * now
+                    if abs(aside) < NEAR:
+                        found.append(pose)
+                        break
                     pose[0] -= aside
-                if fit:
-                    found.append(pose)
         if found:
             return min(found, key=lambda pose: float(np.hypot(*(pose[:2] - here[:2])) + 0.2 * abs(pose[2] - here[2])))
     return here
