@@ -35,8 +35,9 @@ WAY: Final = 0.2
 """Turn of the body on one straight way of it [rad]."""
 SETTLING: Final = 0.3
 """Before the load passes to one limb [s]."""
-OFFSETS: Final = (0.0, 0.1, 0.2, 0.35, 0.5, 0.75)
-"""Parts of the weight's present distance from below the hold that are tried, in turn, where the limbs do not reach closer [-]."""
+OFFSETS: Final = (0.0, 0.005, 0.01, 0.015)
+"""How far the weight may be from below the hold that stays, on the side where it is, tried in turn: from farther the other hook bears, and is
+caught on its hold [m]."""
 TURNS: Final = np.radians(np.arange(-75.0, 76.0, 7.5))
 """Of the body from where it is that are tried [rad]."""
 DEPTHS: Final = np.arange(0.10, 0.33, 0.02)
@@ -51,7 +52,7 @@ BACK: Final = 0.05
 """Way back towards the limb's own shoulder after it [m]."""
 CAUGHT: Final = 0.015
 """A tip that is nearer to its hold after that has not come off [m]."""
-STRAIGHT: Final = math.radians(15.0)
+STRAIGHT: Final = math.radians(8.0)
 """A limb whose elbow is straighter is at the end of its reach [rad]."""
 ON_TOP: Final = 0.5
 """A hook that pulls less downwards might come off [-]."""
@@ -179,15 +180,23 @@ class Hang:
         self.climber.carry_with_all(but=-1)
 
 
-def let_go(climber: Climber, i: int, stay: int) -> Hang:
+def let_go(climber: Climber, i: int, stay: int) -> Hang | None:
     """Take limb `i` off, so that the body hangs on limb `stay` alone.
 
-    While both hold, the body goes to where its centre of gravity is below the hold that stays, or as near as both limbs reach; the other
-    one then bears next to nothing, and taking it off sets off no swing. What is left of one is damped.
+    While both hold, the body goes to where its centre of gravity is below the hold that stays; the other one then bears next to nothing, and
+    taking it off sets off no swing. What is left of one is damped.
+
+    Returns:
+        The hang; None where the limbs do not reach so far, and nothing has moved.
+
+    Raises:
+        FallenError: If the hook does not come off.
     """
     body = climber.body
     start = body.settled.copy()
     end = pose_to_let_go(climber, i, stay)
+    if end is None:
+        return None
     ways = max(1, math.ceil(abs(end[2] - start[2]) / WAY))
     for k in range(1, ways + 1):
         move_body(climber, start + k / ways * (end - start))
@@ -215,7 +224,9 @@ def lift_off(climber: Climber, i: int) -> bool:
     port = pose[:2] + (c * limb.port_x - s * limb.port_y, s * limb.port_x + c * limb.port_y)
     out = place - OFF * g
     back = (port - out) / float(np.hypot(*(port - out)))
-    points = [place - part * OFF * g for part in (0.25, 0.5, 0.75, 1.0)] + [out + part * BACK * back for part in (0.5, 1.0)]
+    points = [place - part * OFF * g for part in (0.25, 0.5, 0.75, 1.0)] + [
+        out + part * BACK * back for part in (0.5, 1.0)
+    ]
     way = [body.q[i].copy()]
     for point in points:
         fit = [one for one in postures(limb, pose, point) if one.inside and one.angles[1] * way[0][1] > 0.0]
@@ -225,34 +236,35 @@ def lift_off(climber: Climber, i: int) -> bool:
     return float(np.hypot(*(body.felt_tip(i) - hold))) > CAUGHT
 
 
-def pose_to_let_go(climber: Climber, i: int, stay: int) -> Floats:
-    """The pose nearest to the present one in which both limbs are well on their holds and the weight is as near as can be below that of `stay`.
+def pose_to_let_go(climber: Climber, i: int, stay: int) -> Floats | None:
+    """The pose nearest to the present one in which both limbs are well on their holds and the weight is below that of `stay`.
 
-    Limb `i` can be lifted off there. The present pose where there is no better one.
+    Limb `i` can be lifted off there. None where there is none.
     """
     body, robot = climber.body, climber.robot
     pendulum, here, hold = Pendulum(robot, stay), body.settled.copy(), body.tasks[stay].place
     q = body.q - body.play
     now = (pendulum.arm(q) * complex(math.cos(here[2]), math.sin(here[2]))).real
-    for part in OFFSETS:
+    for offset in OFFSETS:
+        wished = math.copysign(min(offset, abs(now)), now)
         found = []
         for turn in TURNS:
             for depth in DEPTHS:
-                pose = np.array((here[0] - now * (1.0 - part), hold[1] - depth, here[2] + turn))
+                pose = np.array((here[0] - now + wished, hold[1] - depth, here[2] + turn))
                 moved = q.copy()
                 for _ in range(ROUNDS):  # the weight moves with the limbs that reach for the holds
                     angles = [_well_on(climber, stay, pose, 0.0), _well_on(climber, i, pose, OFF)]
                     if angles[0] is None or angles[1] is None:
                         break
                     moved[stay], moved[i] = angles
-                    aside = (pendulum.arm(moved) * complex(math.cos(pose[2]), math.sin(pose[2]))).real - part * now
+                    aside = (pendulum.arm(moved) * complex(math.cos(pose[2]), math.sin(pose[2]))).real - wished
                     if abs(aside) < NEAR:
                         found.append(pose)
                         break
                     pose[0] -= aside
         if found:
             return min(found, key=lambda pose: float(np.hypot(*(pose[:2] - here[:2])) + 0.2 * abs(pose[2] - here[2])))
-    return here
+    return None
 
 
 def _well_on(climber: Climber, i: int, pose: Floats, off: float) -> Floats | None:

@@ -231,8 +231,11 @@ class Sequencer:
             if leaving is None or len(stay) != 1:
                 return "more than one limb would have to let go"
             self._hanging = let_go(climber, leaving, stay[0])
+            if self._hanging is None:
+                return "the weight cannot be brought below the hold that is to carry it alone"
         hanging = self._hanging
         assert hanging is not None
+        self._clear_the_way(self._pose(step))
         hanging.bring(self._pose(step))
         hanging.calm()
         return ""
@@ -252,7 +255,9 @@ class Sequencer:
         for i, task in enumerate(body.tasks):
             if task.hold:
                 continue
-            way = park(climber.approaches, i, body.q[i] - body.play[i], poses_between(body.settled, pose), climber.holds)
+            way = park(
+                climber.approaches, i, body.q[i] - body.play[i], poses_between(body.settled, pose), climber.holds
+            )
             if way is not None:
                 follow(climber, i, way)
 

@@ -296,7 +296,9 @@ class WholeBody:
             if task.doing == "hold":
                 self._pull(i, self._pulls[i], self._forces[i])
             elif task.doing == "cling":
-                self._press(i, gains.cling * self.grab_direction(i) + self._towards(task.place - self.tip(i)), CLING_DAMPING)
+                self._press(
+                    i, gains.cling * self.grab_direction(i) + self._towards(task.place - self.tip(i)), CLING_DAMPING
+                )
             elif task.doing == "pull":
                 self._press(i, task.force, task.damping)
             elif task.doing == "tip":
