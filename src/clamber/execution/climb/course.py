@@ -184,7 +184,7 @@ def swings(course: Course, step: int) -> bool:
 
 def alone(course: Course, step: int) -> int | None:
     """Index of the limb that alone holds after a step; None where there are more."""
-    held = [i for i, hold in enumerate(course.stances[step]["hold"]) if hold >= 0]
+    held = [i for i in range(len(course.task.robot.limbs)) if course.stances[step]["hold"][i] >= 0]
     return held[0] if len(held) == 1 else None
 
 

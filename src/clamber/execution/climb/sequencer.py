@@ -13,8 +13,9 @@ from ...types import Floats, Json
 from .climb_trace import TracedClimber
 from .climber import FallenError, Grabbed
 from .course import Course, PlanRefusedError, lay_course, names_of, swings
-from .hang import Hang, let_go
+from .hang import Hang
 from .here import task_from_here
+from .let_go import let_go
 from .motions import follow, grab, move_body, release
 from .parking import park, poses_between
 
@@ -205,6 +206,8 @@ class Sequencer:
 
     def _motion(self, first: int, last: int) -> tuple[Outcome, int, str]:
         action = self.course.actions[first - 1]
+        if action.limb is not None and self._hanging is not None and self._hanging.i == self._limb(action.limb):
+            return "not supported", 0, "it is the last limb that holds"
         if swings(self.course, last):
             refused = self._hang(last)
             if refused:
