@@ -8,6 +8,7 @@ import numpy as np
 from ...types import Floats
 from .approach import Approach, free_distance
 from .climber import Climber, Grabbed
+from .parking import park, poses_between
 
 BODY_SPEED: Final = 0.08
 """Of the body's aim, at most [m/s]."""
@@ -52,7 +53,8 @@ SLACK: Final = 0.006
 
 
 def move_body(climber: Climber, pose: Floats, *, speed: float = BODY_SPEED) -> None:
-    """Bring the body to a pose (x, y, theta) along a straight smooth way."""
+    """Bring the body to a pose (x, y, theta) along a straight smooth way; free limbs first go to where they meet no hold on it."""
+    clear_the_way(climber, pose)
     body, period = climber.body, climber.plant.period
     start = body.aim.copy()
     change = pose - start
@@ -64,6 +66,20 @@ def move_body(climber: Climber, pose: Floats, *, speed: float = BODY_SPEED) -> N
         body.aim_speed[:] = 6 * u * (1 - u) / seconds * change
         climber.tick()
     body.aim_speed[:] = 0.0
+
+
+def clear_the_way(climber: Climber, pose: Floats) -> None:
+    """Bring free limbs to where they meet no hold while the body goes straight to a pose."""
+    for i, task in enumerate(climber.body.tasks):
+        if not task.hold:
+            _park(climber, i, pose)
+
+
+def _park(climber: Climber, i: int, pose: Floats) -> None:
+    body = climber.body
+    way = park(climber.approaches, i, body.q[i] - body.play[i], poses_between(body.settled, pose), climber.holds)
+    if way is not None:
+        follow(climber, i, way)
 
 
 def move_tip(climber: Climber, i: int, place: Floats, seconds: float) -> None:
@@ -165,6 +181,7 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
 
 def _find(climber: Climber, i: int, hold: Floats, elbow: int, wished: float, near: float) -> Approach | None:
     body = climber.body
+    climber.plant.pause()
     return climber.approaches.find(
         i, body.q[i] - body.play[i], body.settled, hold, climber.holds, elbow=elbow, stand_off=wished, near=near
     )

@@ -10,16 +10,16 @@ import numpy as np
 from ...actions.plan import Plan
 from ...tasks.limbed import LimbedTask
 from ...types import Floats, Json
+from ..plant import PlantStoppedError
 from .climb_trace import TracedClimber
 from .climber import FallenError, Grabbed
 from .course import Course, PlanRefusedError, lay_course, names_of, swings
 from .hang import Hang
 from .here import task_from_here
 from .let_go import let_go
-from .motions import follow, grab, move_body, release
-from .parking import park, poses_between
+from .motions import clear_the_way, grab, move_body, release
 
-Outcome: TypeAlias = Literal["ok", "stalled", "missed", "fell", "interrupted", "not supported"]
+Outcome: TypeAlias = Literal["ok", "stalled", "missed", "fell", "interrupted", "stopped", "not supported"]
 Replan: TypeAlias = Callable[[LimbedTask], Plan | None]
 """A plan for a task that starts where the robot is; None where there is none."""
 Progress: TypeAlias = Callable[[int, int, str, float], None]
@@ -149,7 +149,7 @@ class Sequencer:
             raise PlanRefusedError("plan", 0, "a limb has no posture for its hold at the start") from None
 
     def run(self) -> ClimbReport:
-        """Carry the plan out to its end, a fall, or Ctrl-C; what happened until then is in the report and the trace."""
+        """Carry the plan out to its end, a fall, a stopped plant, or Ctrl-C; what happened until then is in report and trace."""
         report, climber = self.report, self.climber
         try:
             self.start()
@@ -160,6 +160,8 @@ class Sequencer:
             report.reason = "interrupted"
         except FallenError as fall:
             report.reason = f"fell: {fall}"
+        except PlantStoppedError as stop:
+            report.reason = f"stopped: {stop}"
         report.seconds = climber.time
         report.pose = _tuple(climber.body.settled)
         pose = climber.body.settled
@@ -195,6 +197,9 @@ class Sequencer:
             outcome, tries, reason = self._motion(first, last)
         except FallenError as fall:
             outcome, reason = "fell", str(fall)
+            raise
+        except PlantStoppedError as stop:
+            outcome, reason = "stopped", str(stop)
             raise
         finally:
             title = action.title if last == first else f"{action.title}, {last - first + 1} times"
@@ -238,31 +243,18 @@ class Sequencer:
                 return "the weight cannot be brought below the hold that is to carry it alone"
         hanging = self._hanging
         assert hanging is not None
-        self._clear_the_way(self._pose(step))
+        clear_the_way(climber, self._pose(step))
         hanging.bring(self._pose(step))
         hanging.calm()
         return ""
 
     def _move(self, step: int) -> tuple[Outcome, int, str]:
         """The body goes to the plan's pose; once more where it does not come there."""
-        self._clear_the_way(self._pose(step))
         for tries in (1, 2):
             move_body(self.climber, self._pose(step))
             if self._settle():
                 return "ok", tries, ""
         return "stalled", 2, f"the body stays {1e3 * self._off():.0f} mm off its aim"
-
-    def _clear_the_way(self, pose: Floats) -> None:
-        """Bring free limbs to where they meet no hold while the body goes to a pose."""
-        climber, body = self.climber, self.climber.body
-        for i, task in enumerate(body.tasks):
-            if task.hold:
-                continue
-            way = park(
-                climber.approaches, i, body.q[i] - body.play[i], poses_between(body.settled, pose), climber.holds
-            )
-            if way is not None:
-                follow(climber, i, way)
 
     def _grab(self, step: int) -> tuple[Outcome, int, str]:
         action = self.course.actions[step - 1]
@@ -332,6 +324,7 @@ class Sequencer:
             return False
         held = {limb.name: self.climber.body.tasks[i].hold for i, limb in enumerate(self.climber.robot.limbs)}
         task = task_from_here(self.course, step, held, self._missed)
+        self.climber.plant.pause()
         plan = self._replan(task)
         if plan is None:
             return False

@@ -24,11 +24,10 @@ from ...control.chain import chain_of_limb
 from ...control.controller import Controller, still_aim
 from ...control.hook_forces import MOST_CUTS
 from ...control.law_settings import LawSettings
-from ...control.leg import LEG
 from ...control.play import follow_play, pull_torques
 from ...robots.limbed import LimbedRobot
 from ...types import Floats, Ints
-from ...units import GRAVITY
+from .legs import legs_of
 
 Doing: TypeAlias = Literal["hold", "hang", "cling", "tip", "joints", "pull"]
 """A limb holds the body, holds it alone while it swings as it will, clings to its hold without carrying, brings its tip or its joints
@@ -138,18 +137,7 @@ class WholeBody:
         n = len(robot.limbs)
         self.n = n
         self.chains = [chain_of_limb(robot, limb.name) for limb in robot.limbs]
-        self.legs = np.zeros(n, LEG)
-        for i, (limb, chain) in enumerate(zip(robot.limbs, self.chains, strict=True)):
-            hooked = limb.end.kind == "hook"
-            joints, masses = chain.joints, chain.joints["mass"]
-            centres = joints["centre"][:, 0]
-            self.legs[i] = (
-                *(limb.port_x, limb.port_y, limb.port_angle, limb.l1, limb.l2_effective, limb.hook_beta),
-                *(limb.end.angle, hooked, *joints["share"]),
-                *(GRAVITY * (masses[0] * centres[0] + masses[1] * limb.l1), GRAVITY * masses[1] * centres[1]),
-                *joints["friction"],
-                *joints["limit"],
-            )
+        self.legs = legs_of(robot)
         unit = LawSettings(law=gains.law, kp=1.0, kd=0.0, joint_kd=1.0)
         free = LawSettings(law=gains.law, kp=gains.limb_kp, kd=gains.limb_kd)
         self._pullers = [Controller(chain, unit, period=period) for chain in self.chains]
