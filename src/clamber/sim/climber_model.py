@@ -12,6 +12,7 @@ import numpy as np
 
 from ..control.chain import chain_of_limb
 from ..robots.limbed import Limb, LimbedRobot
+from ..robots.masses import body_inertia, body_mass
 from ..types import Floats
 from ..units import GRAVITY
 from ..worlds.board import Board
@@ -95,28 +96,12 @@ def _contact(friction: float) -> dict[str, Any]:
 def _add_body(mujoco: Any, spec: Any, robot: LimbedRobot) -> Any:
     body = spec.worldbody.add_body(name="body")
     body.explicitinertial = True
-    links = sum(sum(limb.link_masses) for limb in robot.limbs)
-    body.mass = robot.weight / GRAVITY - links
-    body.inertia = (
-        body.mass * body_inertia(robot) / 2,
-        body.mass * body_inertia(robot) / 2,
-        body.mass * body_inertia(robot),
-    )
+    body.mass, inertia = body_mass(robot), body_inertia(robot)
+    body.inertia = (inertia / 2, inertia / 2, inertia)
     for name, axis in (("x", (1, 0, 0)), ("y", (0, 1, 0))):
         body.add_joint(name=name, type=mujoco.mjtJoint.mjJNT_SLIDE, axis=axis)
     body.add_joint(name="theta", type=mujoco.mjtJoint.mjJNT_HINGE, axis=(0, 0, 1))
     return body
-
-
-def body_inertia(robot: LimbedRobot) -> float:
-    """Inertia of the body about its origin per mass [m^2]: an even plate over the triangle, or polygon, of its ports."""
-    ports = sorted(((limb.port_x, limb.port_y) for limb in robot.limbs), key=lambda p: math.atan2(p[1], p[0]))
-    area = second = 0.0
-    for (x0, y0), (x1, y1) in zip(ports, ports[1:] + ports[:1], strict=True):
-        cross = x0 * y1 - x1 * y0
-        area += cross / 2
-        second += cross * (x0 * x0 + x0 * x1 + x1 * x1 + y0 * y0 + y0 * y1 + y1 * y1) / 12
-    return second / area if area > 0.0 else max(x * x + y * y for x, y in ports) / 2
 
 
 def _add_limb(

@@ -1,7 +1,7 @@
 """A climber that carries out actions: one tick of sensing and commanding at a time, falls seen, holds corrected as hooks feel them."""
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Final
 
@@ -70,6 +70,8 @@ class Climber:
         self.map = HoldMap(self.holds, map_error)
         self.peg_radius = max(hold.radius for hold in board.holds)
         self.approaches = Approaches(robot, self.body.legs, lambda number: self.peg_radius + self.map.error(number))
+        self.balance: Callable[[], None] | None = None
+        """Told at every tick between sensing and commanding, while the body hangs on one limb."""
         self.ticks = 0
         self._strained = 0
 
@@ -103,6 +105,7 @@ class Climber:
         self.plant.reset(pose, q)
         self.body.pose[:], self.body.settled[:], self.body.aim[:] = pose, pose, pose
         self.body.aim_speed[:] = 0.0
+        self.balance = None
         self.ticks = self._strained = 0
         self.fall.reset()
 
@@ -114,11 +117,13 @@ class Climber:
         """
         sensed = self.plant.sense()
         self.body.see(sensed.q, sensed.qd, sensed.angle, sensed.angle_speed)
+        if self.balance is not None:
+            self.balance()
         falls = self.fall.see()
         self.plant.actuate(self.body.command())
         self.plant.step()
         self.ticks += 1
-        holding = [i for i, task in enumerate(self.body.tasks) if task.doing == "hold"]
+        holding = [i for i, task in enumerate(self.body.tasks) if task.holds]
         if not holding:
             raise FallenError("no limb holds the body")
         if falls:
@@ -130,10 +135,17 @@ class Climber:
             raise FallenError(
                 f"a hook has come off: two holding tips are {1e3 * strain:.0f} mm off their holds' distance"
             )
+        if self.body.tasks[holding[0]].doing == "hang":
+            self.body.aim[:] = self.body.pose  # it swings where it will
         off = math.dist(self.body.aim[:2], self.body.pose[:2])
         turned = abs(float(self.body.pose[2] - self.body.aim[2]))
         if off > ASTRAY or turned > TURNED:
             raise FallenError(f"the body is {1e3 * off:.0f} mm off its aim and turned by {np.degrees(turned):.0f} deg")
+
+    @property
+    def hangs(self) -> bool:
+        """Whether one limb holds the body, which swings as it will."""
+        return any(task.doing == "hang" for task in self.body.tasks)
 
     def wait(self, seconds: float) -> None:
         """Let time pass [s]."""
@@ -142,6 +154,8 @@ class Climber:
 
     def carry_with_all(self, but: int) -> None:
         """Let every limb on a hold carry, but one that is about to leave; the load passes while all are still on their holds."""
+        if self.hangs:
+            return
         self.body.hand_over([i for i, task in enumerate(self.body.tasks) if i != but and task.hold])
         while self.body.handing_over:
             self.tick()
