@@ -7,10 +7,11 @@ import numpy as np
 
 from ..control.chain import chain_of_limb
 from ..robots.limbed import LimbedRobot
-from ..types import Floats
+from ..types import Floats, Ints
 from ..worlds.board import Board
 from .climber_model import HookShape, climber_spec
 from .electronics import limit_torques, read_encoders
+from .grippers import Grippers
 from .limb_flaws import LimbFlaws
 
 BODY_COUNTS: Final = 4000
@@ -29,6 +30,8 @@ class BodySensed:
     """Body angle by the seventh encoder [rad]."""
     angle_speed: float
     """[rad/s]."""
+    gripped: Ints
+    """1 for grippers that are closed about something, by the gap of their jaws, shape (limbs,)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -94,6 +97,9 @@ class ClimberPlant:
         self._states = np.zeros((1, 2, n + 1))
         self._wanted, self._given = np.zeros((1, n)), np.zeros((1, n))
         self._pushed = self._data.xfrc_applied[self.model.body("body").id]
+        radius, places = max(hold.radius for hold in board.holds), board.positions() if pegs is None else pegs
+        self.grippers = Grippers(robot, places, radius, self.model, self._data, self.period)
+        self._grips = np.zeros(len(robot.limbs), np.int32)
         self.tick = 0
 
     @property
@@ -110,6 +116,8 @@ class ClimberPlant:
         self._data.qpos[self._at[1:]] = np.ravel(q)
         mujoco.mj_forward(self.model, self._data)
         self._wanted[:] = 0.0
+        self._grips[:] = 0
+        self.grippers.reset()
         self._ring[:] = 0.0
         self.tick = 0
 
@@ -122,12 +130,17 @@ class ClimberPlant:
         )
         state = self._states[0]
         return BodySensed(
-            state[0, 1:].reshape(-1, 2), state[1, 1:].reshape(-1, 2), float(state[0, 0]), float(state[1, 0])
+            state[0, 1:].reshape(-1, 2),
+            state[1, 1:].reshape(-1, 2),
+            float(state[0, 0]),
+            float(state[1, 0]),
+            self.grippers.gripped,
         )
 
-    def actuate(self, torques: Floats) -> None:
-        """Set the motors' torques, held until the next call, shape (limbs, 2) [N m]."""
+    def actuate(self, torques: Floats, grips: Ints) -> None:
+        """Set the motors' torques, shape (limbs, 2) [N m], and which grippers are shut, 1 or 0, shape (limbs,); held until the next call."""
         self._wanted[0] = np.ravel(torques)
+        self._grips[:] = grips
 
     def push(self, force: tuple[float, float]) -> None:
         """Push the body at its centre until the next call, world frame [N]."""
@@ -135,6 +148,7 @@ class ClimberPlant:
 
     def step(self) -> None:
         """Let one control period pass."""
+        self.grippers.act(self._grips)
         self._speeds[0] = self._data.qvel[self._speed_at]
         steady = self._limit(self.period)
         if steady:
@@ -144,6 +158,7 @@ class ClimberPlant:
                 self._speeds[0] = self._data.qvel[self._speed_at]
                 self._limit(0.0)
                 self._step(self.model, self._data, 1)
+        self.grippers.feel()
         self.tick += 1
 
     def _limit(self, time: float) -> bool:

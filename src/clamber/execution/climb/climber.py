@@ -8,9 +8,10 @@ from typing import Final, Protocol
 import numpy as np
 
 from ...robots.limbed import LimbedRobot
-from ...types import Floats
+from ...types import Floats, Ints
 from ...worlds.board import Board
 from .approach import Approaches, rank
+from .easing import Easing
 from .hold_map import HoldMap
 from .postures import postures
 from .whole_body import BodyGains, LimbTask, WholeBody
@@ -42,6 +43,10 @@ class BodySenses(Protocol):
     def angle_speed(self) -> float:
         """[rad/s]."""
 
+    @property
+    def gripped(self) -> Ints:
+        """1 for grippers that are closed about something, shape (limbs,); 0 for other ends."""
+
 
 class BodyPlant(Protocol):
     """A climber that can be driven: simulated, or real."""
@@ -54,8 +59,8 @@ class BodyPlant(Protocol):
     def sense(self) -> BodySenses:
         """Read the sensors, once a tick."""
 
-    def actuate(self, torques: Floats) -> None:
-        """Set the motors' torques, shape (limbs, 2) [N m]."""
+    def actuate(self, torques: Floats, grips: Ints) -> None:
+        """Set the motors' torques, shape (limbs, 2) [N m], and which grippers are shut, 1 or 0, shape (limbs,)."""
 
     def step(self) -> None:
         """Let one control period pass."""
@@ -105,8 +110,15 @@ class Climber:
         self.map = HoldMap(self.holds, map_error)
         self.peg_radius = max(hold.radius for hold in board.holds)
         self.approaches = Approaches(robot, self.body.legs, lambda number: self.peg_radius + self.map.error(number))
+        n = len(robot.limbs)
+        self.grips: Ints = np.zeros(n, np.int32)
+        """1 for grippers that are to be shut, shape (limbs,); other ends don't care."""
+        self.gripped: Ints = np.zeros(n, np.int32)
+        """1 for grippers that are closed about something, as last sensed, shape (limbs,)."""
+        self.easing = Easing(n, plant.period)
+        self._gripping = [i for i, limb in enumerate(robot.limbs) if limb.end.kind == "gripper"]
         self.ticks = 0
-        self._strained = 0
+        self._strained = self._slipped = 0
 
     @property
     def time(self) -> float:
@@ -133,22 +145,24 @@ class Climber:
                 q[i] = rank(postures(limb, pose, place), elbows.get(limb.name, 0))[0].angles
                 task = LimbTask("cling" if limb.name == idle else "hold", number, place.copy())
             task.angles = q[i].copy()
+            self.grips[i] = number > 0
             self.body.tasks[i] = task
         self.map.know(number for number in holds.values() if number)
         self.plant.reset(pose, q)
         self.body.pose[:], self.body.settled[:], self.body.aim[:] = pose, pose, pose
         self.body.aim_speed[:] = 0.0
-        self.ticks = self._strained = 0
+        self.ticks = self._strained = self._slipped = 0
 
     def tick(self) -> None:
         """Sense, command, step.
 
         Raises:
-            FallenError: If no limb holds, a hook has come off, or the body is far from its aim or turned away from it.
+            FallenError: If no limb holds, a hook has come off or a gripper slipped, or the body is far from its aim or turned away from it.
         """
         sensed = self.plant.sense()
         self.body.see(sensed.q, sensed.qd, sensed.angle, sensed.angle_speed)
-        self.plant.actuate(self.body.command())
+        self.gripped[:] = sensed.gripped
+        self.plant.actuate(self.easing.blend(self.body.command()), self.grips)
         self.plant.step()
         self.ticks += 1
         holding = [i for i, task in enumerate(self.body.tasks) if task.doing == "hold"]
@@ -161,6 +175,10 @@ class Climber:
             raise FallenError(
                 f"a hook has come off: two holding tips are {1e3 * strain:.0f} mm off their holds' distance"
             )
+        lost = [i for i in self._gripping if self.body.tasks[i].doing == "hold" and not self.gripped[i]]
+        self._slipped = self._slipped + 1 if lost else 0
+        if self._slipped * self.plant.period > 0.1:
+            raise FallenError(f"the gripper of '{self.robot.limbs[lost[0]].name}' has slipped off its hold")
         off = math.dist(self.body.aim[:2], self.body.pose[:2])
         turned = abs(float(self.body.pose[2] - self.body.aim[2]))
         if off > ASTRAY or turned > TURNED:
