@@ -1,4 +1,4 @@
-"""A gripper in MuJoCo: half a ring of open jaws about the tip, and the pin that stands for jaws closed about a peg.
+"""A gripper in MuJoCo: open jaws as an arc behind the tip, and the pin that stands for jaws closed about a peg.
 
 Closed jaws are no contact geometry but a constraint that pins a point of the limb to the peg. It takes force in every direction and is let
 go of where the force exceeds the gripper's strength (`sim.grippers`). A peg turns in the jaws freely: no moment goes through a grip.
@@ -14,8 +14,10 @@ from ..types import Floats
 
 WIRE: Final = 0.001
 """Radius of the jaws [m]."""
+BACK: Final = math.radians(60.0)
+"""How far open jaws come round the tip from straight behind it, either way [rad]: a peg may come in from any direction before it."""
 CHORDS: Final = 4
-"""Straight pieces of the half ring."""
+"""Straight pieces of that arc."""
 PIN_SOLREF: Final = (0.004, 1.0)
 PIN_SOLIMP: Final = (0.95, 0.99, 0.0005, 0.5, 2.0)
 """As stiff as a peg in a hook."""
@@ -29,8 +31,8 @@ def jaw_opening(end: EndEffector, peg_radius: float) -> float:
 
 
 def capture_radius(end: EndEffector, peg_radius: float) -> float:
-    """Jaws that close catch a peg whose centre is no farther than this from the tip [m]: all of it is between them."""
-    return max(0.0, jaw_opening(end, peg_radius) / 2.0 - peg_radius)
+    """Jaws that close catch a peg whose centre is no farther than this from the tip [m]: it lies within the circle of the open jaws."""
+    return jaw_opening(end, peg_radius) / 2.0
 
 
 def grip_name(limb: Limb) -> str:
@@ -51,8 +53,8 @@ def add_gripper(mujoco: Any, spec: Any, link: Any, limb: Limb, tip: Floats, peg_
         touch: What may touch the jaws, and how, as `add_geom` takes it.
     """
     # the ring's corners lie outside the circle that its pieces leave free
-    radius = (jaw_opening(limb.end, peg_radius) / 2.0 + WIRE) / math.cos(math.pi / 2 / CHORDS)
-    turns = limb.end.angle + np.linspace(0.5 * math.pi, 1.5 * math.pi, CHORDS + 1)
+    radius = (jaw_opening(limb.end, peg_radius) / 2.0 + WIRE) / math.cos(BACK / CHORDS)
+    turns = limb.end.angle + math.pi + np.linspace(-BACK, BACK, CHORDS + 1)
     corners = tip + radius * np.stack((np.cos(turns), np.sin(turns), np.zeros_like(turns)), axis=1)
     for start, end in zip(corners, corners[1:], strict=False):
         link.add_geom(

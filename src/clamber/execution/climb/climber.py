@@ -11,7 +11,6 @@ from ...robots.limbed import LimbedRobot
 from ...types import Floats, Ints
 from ...worlds.board import Board
 from .approach import Approaches, rank
-from .easing import Easing
 from .hold_map import HoldMap
 from .postures import postures
 from .whole_body import BodyGains, LimbTask, WholeBody
@@ -115,7 +114,6 @@ class Climber:
         """1 for grippers that are to be shut, shape (limbs,); other ends don't care."""
         self.gripped: Ints = np.zeros(n, np.int32)
         """1 for grippers that are closed about something, as last sensed, shape (limbs,)."""
-        self.easing = Easing(n, plant.period)
         self._gripping = [i for i, limb in enumerate(robot.limbs) if limb.end.kind == "gripper"]
         self.ticks = 0
         self._strained = self._slipped = 0
@@ -162,7 +160,7 @@ class Climber:
         sensed = self.plant.sense()
         self.body.see(sensed.q, sensed.qd, sensed.angle, sensed.angle_speed)
         self.gripped[:] = sensed.gripped
-        self.plant.actuate(self.easing.blend(self.body.command()), self.grips)
+        self.plant.actuate(self.body.command(), self.grips)
         self.plant.step()
         self.ticks += 1
         holding = [i for i, task in enumerate(self.body.tasks) if task.doing == "hold"]

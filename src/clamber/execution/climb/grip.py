@@ -5,16 +5,14 @@ from typing import Final
 import numpy as np
 
 from ...types import Floats
-from .approach import Approach
 from .climber import Climber, Grabbed
-from .motions import NEAR, follow, move_body, move_tip, stand_off_of
+from .grip_ways import way_in, way_out
+from .motions import follow, move_body, move_tip
 
 AROUND: Final = ((0.0, 0.0), (0.8, 0.0), (-0.8, 0.0), (0.0, 0.8), (0.0, -0.8), (0.8, 0.8), (-0.8, -0.8))
 """Where each try closes, along and across the grab direction from the hold as believed, in errors of the map [-]."""
 CLOSED: Final = 0.3
 """After that long jaws have brought what they caught to their middle, or are shut on nothing [s]."""
-HAND_OVER: Final = 0.5
-"""In which the others take a gripper's load before it opens [s]."""
 TUG: Final = 10.0
 """Pull on closed jaws against the grab direction, where they alone hold [N]."""
 TUG_RISE: Final = 0.2
@@ -22,11 +20,11 @@ TUG_RISE: Final = 0.2
 
 
 def release_gripper(climber: Climber, i: int) -> None:
-    """Hand the load over, open the jaws, and back off against the grab direction."""
-    _hand_over(climber, i)
+    """Hand the load over, open the jaws, and back off."""
+    climber.carry_with_all(but=i)
     task = climber.body.tasks[i]
     climber.grips[i] = 0
-    move_tip(climber, i, climber.body.tip(i) - stand_off_of(climber, i) * climber.body.grab_direction(i), 0.4)
+    move_tip(climber, i, way_out(climber, i), 0.5)
     climber.learn_again()
     task.hold, task.doing, task.angles = 0, "joints", climber.body.q[i].copy()
 
@@ -47,13 +45,13 @@ def grab_with_gripper(climber: Climber, i: int, number: int, *, elbow: int = 0) 
     if task.hold:
         release_gripper(climber, i)
     else:
-        _hand_over(climber, i)
+        climber.carry_with_all(but=i)
     climber.grips[i] = 0
-    hold, wished = climber.holds[number], stand_off_of(climber, i)
-    found = _find(climber, i, hold, elbow, wished)
+    hold = climber.holds[number]
+    found = way_in(climber, i, hold, elbow)
     if found is not None and found.shift.any():
         move_body(climber, body.aim + np.array((*found.shift, 0.0)))
-        found = _find(climber, i, hold, elbow, wished) or found
+        found = way_in(climber, i, hold, elbow) or found
     if found is None:
         return Grabbed(False, 0, 0.0, 0.0)
     follow(climber, i, found.way)
@@ -63,11 +61,10 @@ def grab_with_gripper(climber: Climber, i: int, number: int, *, elbow: int = 0) 
     along = across = 0.0
     for tries, (forth, aside) in enumerate(AROUND, 1):
         aim = hold + climber.map_error * (forth * g + aside * h)
-        move_tip(climber, i, hold - NEAR * g + climber.map_error * aside * h, 0.5)
-        move_tip(climber, i, aim, 0.5)
+        move_tip(climber, i, aim, 0.6)
         climber.wait(0.1)
         climber.grips[i] = 1
-        task.doing = "cling"  # the jaws draw the tip to the hold
+        task.doing, task.place = "cling", aim.copy()  # the jaws draw the tip to the hold
         climber.wait(CLOSED)
         if climber.gripped[i] and _holds(climber, i, g):
             off = body.tip(i) - hold
@@ -77,25 +74,9 @@ def grab_with_gripper(climber: Climber, i: int, number: int, *, elbow: int = 0) 
             climber.wait(0.1)
             return Grabbed(True, tries, along, across)
         climber.grips[i] = 0
-        move_tip(climber, i, hold - wished * g, 0.5)
+        move_tip(climber, i, hold - found.stand_off * g, 0.5)
     task.doing, task.angles = "joints", body.q[i].copy()
     return Grabbed(False, len(AROUND), along, across)
-
-
-def _hand_over(climber: Climber, i: int) -> None:
-    """Let all others carry, a limb that held still clinging while they take its load."""
-    climber.easing.begin(HAND_OVER)
-    climber.carry_with_all(but=i)
-    if climber.body.tasks[i].hold:
-        climber.body.tasks[i].doing = "cling"
-    climber.wait(HAND_OVER)
-
-
-def _find(climber: Climber, i: int, hold: Floats, elbow: int, wished: float) -> Approach | None:
-    body = climber.body
-    return climber.approaches.find(
-        i, body.q[i] - body.play[i], body.settled, hold, climber.holds, elbow=elbow, stand_off=wished, near=NEAR
-    )
 
 
 def _holds(climber: Climber, i: int, g: Floats) -> bool:
