@@ -11,7 +11,17 @@ from typing import Any
 import numpy as np
 from scipy.optimize import linprog
 
-from .carriers import Carrier, balance, best_option, general_split, placed, strength_of, strength_rows, torque_rows, torques
+from .carriers import (
+    Carrier,
+    balance,
+    best_option,
+    general_split,
+    placed,
+    strength_of,
+    strength_rows,
+    torque_rows,
+    torques,
+)
 from .hook import BIG, EXACT, cone_cuts, force_cuts, lam_interval
 from .kinematics import Option, Point
 

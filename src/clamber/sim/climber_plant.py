@@ -138,7 +138,7 @@ class ClimberPlant:
         )
 
     def actuate(self, torques: Floats, grips: Ints) -> None:
-        """Set the motors' torques, shape (limbs, 2) [N m], and which grippers are shut, 1 or 0, shape (limbs,); held until the next call."""
+        """Set the motors' torques, shape (limbs, 2) [N m], and the grippers that are shut, 1 or 0, shape (limbs,), until the next call."""
         self._wanted[0] = np.ravel(torques)
         self._grips[:] = grips
 

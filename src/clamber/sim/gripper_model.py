@@ -5,6 +5,7 @@ go of where the force exceeds the gripper's strength (`sim.grippers`). A peg tur
 """
 
 import math
+from itertools import pairwise
 from typing import Any, Final
 
 import numpy as np
@@ -56,7 +57,7 @@ def add_gripper(mujoco: Any, spec: Any, link: Any, limb: Limb, tip: Floats, peg_
     radius = (jaw_opening(limb.end, peg_radius) / 2.0 + WIRE) / math.cos(BACK / CHORDS)
     turns = limb.end.angle + math.pi + np.linspace(-BACK, BACK, CHORDS + 1)
     corners = tip + radius * np.stack((np.cos(turns), np.sin(turns), np.zeros_like(turns)), axis=1)
-    for start, end in zip(corners, corners[1:], strict=False):
+    for start, end in pairwise(corners):
         link.add_geom(
             type=mujoco.mjtGeom.mjGEOM_CAPSULE, fromto=(*start, *end), size=(WIRE, 0.0, 0.0), mass=0.0, **touch
         )
