@@ -1,4 +1,4 @@
-"""A climber on its board as a MuJoCo model: a planar body, limbs with play, hooks that pegs slide into, or grippers, pegs where they truly are.
+"""A climber on its board as a MuJoCo model: a planar body, limbs with play, hooks that pegs slide into or grippers, true pegs.
 
 World frame: x right, y up, z out of the wall. All that touches lies in the plane z = 0, pegs as spheres and hooks as capsules in it, so
 each contact is one point and quick; a peg is a bolt, and nothing moves along it.
