@@ -8,10 +8,11 @@ from ..control.chain import chain_of_limb
 from ..execution.plant import BodySensed, BodyTruth
 from ..execution.wiring import encoder_resolution
 from ..robots.limbed import LimbedRobot
-from ..types import Floats
+from ..types import Floats, Ints
 from ..worlds.board import Board
 from .climber_model import HookShape, climber_spec
 from .electronics import limit_torques, read_encoders
+from .grippers import Grippers
 from .limb_flaws import LimbFlaws
 
 
@@ -62,6 +63,9 @@ class ClimberPlant:
         self._states = np.zeros((1, 2, n + 1))
         self._wanted, self._given = np.zeros((1, n)), np.zeros((1, n))
         self._pushed = self._data.xfrc_applied[self.model.body("body").id]
+        radius, places = max(hold.radius for hold in board.holds), board.positions() if pegs is None else pegs
+        self.grippers = Grippers(robot, places, radius, self.model, self._data, self.period)
+        self._grips = np.zeros(len(robot.limbs), np.int32)
         self.tick = 0
 
     @property
@@ -78,6 +82,8 @@ class ClimberPlant:
         self._data.qpos[self._at[1:]] = np.ravel(q)
         mujoco.mj_forward(self.model, self._data)
         self._wanted[:] = 0.0
+        self._grips[:] = 0
+        self.grippers.reset()
         self._ring[:] = 0.0
         self.tick = 0
 
@@ -90,12 +96,17 @@ class ClimberPlant:
         )
         state = self._states[0]
         return BodySensed(
-            state[0, 1:].reshape(-1, 2), state[1, 1:].reshape(-1, 2), float(state[0, 0]), float(state[1, 0])
+            state[0, 1:].reshape(-1, 2),
+            state[1, 1:].reshape(-1, 2),
+            float(state[0, 0]),
+            float(state[1, 0]),
+            self.grippers.gripped,
         )
 
-    def actuate(self, torques: Floats) -> None:
-        """Set the motors' torques, held until the next call, shape (limbs, 2) [N m]."""
+    def actuate(self, torques: Floats, grips: Ints) -> None:
+        """Set the motors' torques, shape (limbs, 2) [N m], and the grippers that are shut, 1 or 0, shape (limbs,), until the next call."""
         self._wanted[0] = np.ravel(torques)
+        self._grips[:] = grips
 
     def push(self, force: tuple[float, float]) -> None:
         """Push the body at its centre until the next call, world frame [N]."""
@@ -106,6 +117,7 @@ class ClimberPlant:
 
     def step(self) -> None:
         """Let one control period pass."""
+        self.grippers.act(self._grips)
         self._speeds[0] = self._data.qvel[self._speed_at]
         steady = self._limit(self.period)
         if steady:
@@ -115,6 +127,7 @@ class ClimberPlant:
                 self._speeds[0] = self._data.qvel[self._speed_at]
                 self._limit(0.0)
                 self._step(self.model, self._data, 1)
+        self.grippers.feel()
         self.tick += 1
 
     def _limit(self, time: float) -> bool:

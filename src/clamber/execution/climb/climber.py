@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from ...robots.limbed import LimbedRobot
-from ...types import Floats
+from ...types import Floats, Ints
 from ...worlds.board import Board
 from ..plant import BodyPlant
 from .approach import Approaches, rank
@@ -68,8 +68,14 @@ class Climber:
         self.map = HoldMap(self.holds, map_error)
         self.peg_radius = max(hold.radius for hold in board.holds)
         self.approaches = Approaches(robot, self.body.legs, lambda number: self.peg_radius + self.map.error(number))
+        n = len(robot.limbs)
+        self.grips: Ints = np.zeros(n, np.int32)
+        """1 for grippers that are to be shut, shape (limbs,); other ends don't care."""
+        self.gripped: Ints = np.zeros(n, np.int32)
+        """1 for grippers that are closed about something, as last sensed, shape (limbs,)."""
+        self._gripping = [i for i, limb in enumerate(robot.limbs) if limb.end.kind == "gripper"]
         self.ticks = 0
-        self._strained = 0
+        self._strained = self._slipped = 0
 
     @property
     def time(self) -> float:
@@ -96,22 +102,24 @@ class Climber:
                 q[i] = rank(postures(limb, pose, place), elbows.get(limb.name, 0))[0].angles
                 task = LimbTask("cling" if limb.name == idle else "hold", number, place.copy())
             task.angles = q[i].copy()
+            self.grips[i] = number > 0
             self.body.tasks[i] = task
         self.map.know(number for number in holds.values() if number)
         self.plant.reset(pose, q)
         self.body.pose[:], self.body.settled[:], self.body.aim[:] = pose, pose, pose
         self.body.aim_speed[:] = 0.0
-        self.ticks = self._strained = 0
+        self.ticks = self._strained = self._slipped = 0
 
     def tick(self) -> None:
         """Sense, command, step.
 
         Raises:
-            FallenError: If no limb holds, a hook has come off, or the body is far from its aim or turned away from it.
+            FallenError: If no limb holds, a hook has come off or a gripper slipped, or the body is far from its aim or turned away from it.
         """
         sensed = self.plant.sense()
         self.body.see(sensed.q, sensed.qd, sensed.angle, sensed.angle_speed)
-        self.plant.actuate(self.body.command())
+        self.gripped[:] = sensed.gripped
+        self.plant.actuate(self.body.command(), self.grips)
         self.plant.step()
         self.ticks += 1
         holding = [i for i, task in enumerate(self.body.tasks) if task.doing == "hold"]
@@ -124,6 +132,10 @@ class Climber:
             raise FallenError(
                 f"a hook has come off: two holding tips are {1e3 * strain:.0f} mm off their holds' distance"
             )
+        lost = [i for i in self._gripping if self.body.tasks[i].doing == "hold" and not self.gripped[i]]
+        self._slipped = self._slipped + 1 if lost else 0
+        if self._slipped * self.plant.period > 0.1:
+            raise FallenError(f"the gripper of '{self.robot.limbs[lost[0]].name}' has slipped off its hold")
         off = math.dist(self.body.aim[:2], self.body.pose[:2])
         turned = abs(float(self.body.pose[2] - self.body.aim[2]))
         if off > ASTRAY or turned > TURNED:
@@ -135,10 +147,10 @@ class Climber:
             self.tick()
 
     def carry_with_all(self, but: int) -> None:
-        """Let every limb on a hold carry, but one that is about to leave."""
-        for i, task in enumerate(self.body.tasks):
-            if i != but and task.hold:
-                task.doing = "hold"
+        """Let every limb on a hold carry, but one that is about to leave; the load passes while all are still on their holds."""
+        self.body.hand_over([i for i, task in enumerate(self.body.tasks) if i != but and task.hold])
+        while self.body.handing_over:
+            self.tick()
 
     def learn(self, number: int, i: int, others: Iterable[int]) -> None:
         """Correct the map: limb `i` is on a hold, and so are others, all of them loaded.

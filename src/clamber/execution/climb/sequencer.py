@@ -14,8 +14,9 @@ from ..plant import PlantStoppedError
 from .climb_trace import TracedClimber
 from .climber import FallenError, Grabbed
 from .course import Course, PlanRefusedError, lay_course, names_of, swings
+from .ends import grab, release
 from .here import task_from_here
-from .motions import grab, move_body, release
+from .motions import move_body
 
 Outcome: TypeAlias = Literal["ok", "stalled", "missed", "fell", "interrupted", "stopped", "not supported"]
 Replan: TypeAlias = Callable[[LimbedTask], Plan | None]
