@@ -12,6 +12,7 @@ from ...types import Floats, Ints
 from ...worlds.board import Board
 from ..plant import BodyPlant
 from .approach import Approaches, rank
+from .fall import FallWatch
 from .hold_map import HoldMap
 from .postures import postures
 from .whole_body import BodyGains, LimbTask, WholeBody
@@ -64,6 +65,7 @@ class Climber:
     ) -> None:
         self.robot, self.plant, self.map_error = robot, plant, map_error
         self.body = WholeBody(robot, period=plant.period, gains=gains, backlash=backlash)
+        self.fall = FallWatch(self.body)
         self.holds = {hold.number: np.array((hold.x, hold.y)) for hold in board.holds}
         self.map = HoldMap(self.holds, map_error)
         self.peg_radius = max(hold.radius for hold in board.holds)
@@ -109,22 +111,27 @@ class Climber:
         self.body.pose[:], self.body.settled[:], self.body.aim[:] = pose, pose, pose
         self.body.aim_speed[:] = 0.0
         self.ticks = self._strained = self._slipped = 0
+        self.fall.reset()
 
     def tick(self) -> None:
         """Sense, command, step.
 
         Raises:
-            FallenError: If no limb holds, a hook has come off or a gripper slipped, or the body is far from its aim or turned away from it.
+            FallenError: If no limb holds, nothing carries the robot, a hook has come off or a gripper slipped, or the body is far or turned
+                from its aim.
         """
         sensed = self.plant.sense()
         self.body.see(sensed.q, sensed.qd, sensed.angle, sensed.angle_speed)
         self.gripped[:] = sensed.gripped
+        falls = self.fall.see()
         self.plant.actuate(self.body.command(), self.grips)
         self.plant.step()
         self.ticks += 1
         holding = [i for i, task in enumerate(self.body.tasks) if task.doing == "hold"]
         if not holding:
             raise FallenError("no limb holds the body")
+        if falls:
+            raise FallenError(f"nothing carries the robot: all tips together feel {self.fall.carried:.0f} N")
         # Hooks that slip off are not felt, but two tips can then not both be on their holds
         strain = self.body.strain(holding[0], holding[-1])
         self._strained = self._strained + 1 if strain > STRAINED else 0
