@@ -14,10 +14,11 @@ from ..plant import PlantStoppedError
 from .climb_trace import TracedClimber
 from .climber import FallenError, Grabbed
 from .course import Course, PlanRefusedError, lay_course, names_of, swings
+from .ends import grab, release
 from .hang import Hang
 from .here import task_from_here
 from .let_go import let_go
-from .motions import clear_the_way, grab, move_body, release
+from .motions import clear_the_way, move_body
 
 Outcome: TypeAlias = Literal["ok", "stalled", "missed", "fell", "interrupted", "stopped", "not supported"]
 Replan: TypeAlias = Callable[[LimbedTask], Plan | None]
