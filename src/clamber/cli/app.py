@@ -20,6 +20,7 @@ from .list import list_names
 from .new import new
 from .plan import plan
 from .polish import polish
+from .press import press
 from .reach import reach
 from .run import run
 from .show import show
@@ -40,6 +41,7 @@ app.command("learn")(learn)
 app.command("inventory")(inventory)
 app.command("check")(check)
 app.command("run")(run)
+app.command("press")(press)
 app.command("show")(show)
 app.command("bench")(bench)
 app.command("sweep")(sweep)
