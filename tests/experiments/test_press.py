@@ -37,7 +37,7 @@ def test_with_play_and_encoders_the_force_is_within_a_tenth_but_for_knocks(name:
 
 def test_the_measures_are_those_of_the_curve() -> None:
     time = np.arange(200) * 0.005
-    force = np.full(200, 20.0)
+    force = np.zeros(200) + 20.0
     force[50], force[100:120] = 30.0, 19.0
     body = np.zeros((200, 3))
     body[-1, 1] = 0.05
