@@ -9,7 +9,7 @@ from clamber.robots.limbed import LimbedRobot
 from clamber.sim.climber_plant import ClimberPlant
 from clamber.sim.gripper_model import capture_radius
 from clamber.sim.limb_flaws import LimbFlaws
-from clamber.types import Floats
+from clamber.types import Floats, Ints
 from clamber.worlds.library import load_board
 
 IDEAL = LimbFlaws(physics_rate=1000.0)
@@ -25,7 +25,7 @@ def robot() -> LimbedRobot:
 
 
 def placed(pegs: Floats | None = None) -> ClimberPlant:
-    """On the ladder, all three tips where the map has pegs, the jaws open."""
+    """On the ladder, all three tips where the map has pegs, the jaws open; no motor brings a torque."""
     board = load_board("ladder")
     plant = ClimberPlant(robot(), board, IDEAL, pegs=pegs)
     plant.model.opt.gravity[:] = 0.0  # what moves is moved by the grippers alone
@@ -37,9 +37,9 @@ def placed(pegs: Floats | None = None) -> ClimberPlant:
     return plant
 
 
-def ticks(plant: ClimberPlant, count: int, grips: np.ndarray, torques: Floats | None = None) -> None:
+def ticks(plant: ClimberPlant, count: int, grips: Ints) -> None:
     for _ in range(count):
-        plant.actuate(np.zeros((3, 2)) if torques is None else torques, grips)
+        plant.grip(grips)
         plant.step()
 
 

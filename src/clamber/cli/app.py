@@ -19,6 +19,7 @@ from .limb import limb
 from .list import list_names
 from .new import new
 from .plan import plan
+from .plant import plant
 from .polish import polish
 from .press import press
 from .reach import reach
@@ -26,6 +27,7 @@ from .run import run
 from .show import show
 from .study import study
 from .sweep import sweep
+from .trials import trials
 
 app = typer.Typer(
     name="clamber",
@@ -42,11 +44,13 @@ app.command("inventory")(inventory)
 app.command("check")(check)
 app.command("run")(run)
 app.command("press")(press)
+app.command("trials")(trials)
 app.command("show")(show)
 app.command("bench")(bench)
 app.command("sweep")(sweep)
 app.add_typer(limb, name="limb")
 app.add_typer(new, name="new")
+app.add_typer(plant, name="plant")
 app.command("reach")(reach)
 app.command("study")(study)
 
