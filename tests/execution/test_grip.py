@@ -43,10 +43,10 @@ def test_a_rung_is_climbed_and_every_gripper_is_closed_about_its_peg(seed: int, 
     for limb, number, elbow in ((RIGHT, 6, -1), (BOTTOM, 1, 1), (LEFT, 5, 1)):
         result = grab(climber, limb, number, elbow=elbow)
         assert result.held, (limb, number, result)
-        assert plant.sense().gripped[limb]
+        assert plant.grippers.gripped[limb]
         np.testing.assert_allclose(plant.truth().tips[limb], pegs[number - 1], atol=1e-3)
     release(climber, BOTTOM)
-    assert not plant.sense().gripped[BOTTOM]
+    assert not plant.grippers.gripped[BOTTOM]
     move_body(climber, START + np.array((0.0, 0.1524, 0.0)))
     climber.wait(0.3)
     np.testing.assert_allclose(plant.truth().pose[:2], START[:2] + np.array((0.0, 0.1524)), atol=0.015)
@@ -60,7 +60,7 @@ def test_jaws_that_close_on_nothing_are_a_miss() -> None:
     result = grab(climber, RIGHT, 6, elbow=-1)
     assert not result.held
     assert result.tries > 1
-    assert not plant.sense().gripped[RIGHT]
+    assert not plant.grippers.gripped[RIGHT]
     climber.wait(0.5)  # the others still hold
 
 

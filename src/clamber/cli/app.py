@@ -21,6 +21,7 @@ from .new import new
 from .plan import plan
 from .plant import plant
 from .polish import polish
+from .press import press
 from .reach import reach
 from .run import run
 from .show import show
@@ -42,6 +43,7 @@ app.command("learn")(learn)
 app.command("inventory")(inventory)
 app.command("check")(check)
 app.command("run")(run)
+app.command("press")(press)
 app.command("trials")(trials)
 app.command("show")(show)
 app.command("bench")(bench)

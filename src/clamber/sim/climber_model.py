@@ -17,15 +17,17 @@ from ..robots.masses import body_inertia, body_mass
 from ..types import Floats
 from ..units import GRAVITY
 from ..worlds.board import Board
+from .force_sensing import add_sensor
 from .gripper_model import add_gripper
 from .limb_flaws import LimbFlaws
 from .limb_model import add_link
+from .wall_model import add_wall
 
 PEG_SOLREF: Final = (0.004, 1.0)
 PEG_SOLIMP: Final = (0.95, 0.99, 0.0005, 0.5, 2.0)
 """Stiff contacts: under the robot's weight a peg sinks less than a tenth of a millimetre into a hook."""
-HOOKS, PEGS, LINKS = 1, 2, 4
-"""Bits of what may touch what: hooks and links touch pegs, nothing else touches."""
+HOOKS, PEGS, LINKS, WALL = 1, 2, 4, 8
+"""Bits of what may touch what: hooks and links touch pegs, a wall and the ball that presses it each other, nothing else touches."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,6 +53,7 @@ def climber_spec(
     *,
     pegs: Floats | None = None,
     shape: HookShape = HookShape(),  # frozen
+    presser: str | None = None,
 ) -> Any:
     """An `MjSpec` of the robot on the board.
 
@@ -63,6 +66,7 @@ def climber_spec(
         flaws: Of joints and motors; gravity always acts.
         pegs: Where the pegs truly are, shape (n_holds, 2) [m]; None: where the board says.
         shape: Of the hooks.
+        presser: The limb that presses against the wall of `flaws`: its tip has a ball and, last of all, a force sensor.
     """
     import mujoco
 
@@ -87,7 +91,13 @@ def climber_spec(
     body = _add_body(mujoco, spec, robot)
     peg_radius = max(hold.radius for hold in board.holds)
     for limb in robot.limbs:
-        _add_limb(mujoco, spec, body, robot, limb, flaws, shape, peg_radius)
+        link = _add_limb(mujoco, spec, body, robot, limb, flaws, shape, peg_radius)
+        if limb.name == presser and flaws.wall is not None:
+            hand = link.add_body(name="hand", pos=chain_of_limb(robot, limb.name).root["tip"][0])
+            hand.explicitinertial = True
+            hand.ipos = np.zeros(3)
+            add_sensor(mujoco, spec, "hand", hand)
+            add_wall(mujoco, spec, hand, flaws.wall, contype=WALL, conaffinity=WALL)
     return spec
 
 
@@ -115,7 +125,7 @@ def _add_limb(
     flaws: LimbFlaws,
     shape: HookShape,
     peg_radius: float,
-) -> None:
+) -> Any:
     chain = chain_of_limb(robot, limb.name)
     half = limb.port_angle / 2
     port = body.add_frame(pos=(limb.port_x, limb.port_y, 0.0), quat=(math.cos(half), 0.0, 0.0, math.sin(half)))
@@ -138,6 +148,7 @@ def _add_limb(
     tip = chain.root["tip"][0]
     parent.add_site(name=f"{limb.name} tip", pos=tip)
     END_MODELS[limb.end.kind](mujoco, spec, parent, limb, tip, shape, peg_radius)
+    return parent
 
 
 def _add_gripper(mujoco: Any, spec: Any, link: Any, limb: Limb, tip: Floats, _: HookShape, peg_radius: float) -> None:

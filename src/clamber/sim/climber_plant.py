@@ -13,7 +13,8 @@ from ..worlds.board import Board
 from .climber_model import HookShape, climber_spec
 from .climber_wires import command_motors, sense_climber
 from .grippers import Grippers
-from .limb_flaws import LimbFlaws
+from .limb_flaws import ForceSensor, LimbFlaws
+from .wrench_reader import WrenchReader
 
 
 class ClimberPlant:
@@ -26,6 +27,7 @@ class ClimberPlant:
         pegs: Where the holds truly are, shape (n_holds, 2) [m]; None: as believed.
         shape: Of the hooks.
         offsets: What every encoder tells too much: the body's, then the joints', shape (1 + 2 limbs,) [rad]; None: nothing.
+        presser: The limb that presses against the wall of `flaws`, if it has one.
     """
 
     def __init__(
@@ -37,11 +39,12 @@ class ClimberPlant:
         pegs: Floats | None = None,
         shape: HookShape = HookShape(),  # noqa: B008  # frozen
         offsets: Floats | None = None,
+        presser: str | None = None,
     ) -> None:
         import mujoco
 
         self.robot, self.board, self.flaws, self.period = robot, board, flaws, flaws.period
-        self.model: Any = climber_spec(robot, board, flaws, pegs=pegs, shape=shape).compile()
+        self.model: Any = climber_spec(robot, board, flaws, pegs=pegs, shape=shape, presser=presser).compile()
         # what pays for itself with hundreds of geoms and many robots costs a tenth of a step here
         self.model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_MIDPHASE | mujoco.mjtDisableBit.mjDSBL_ISLAND
         self._data: Any = mujoco.MjData(self.model)
@@ -77,6 +80,10 @@ class ClimberPlant:
         radius, places = max(hold.radius for hold in board.holds), board.positions() if pegs is None else pegs
         self.grippers = Grippers(robot, places, radius, self.model, self._data, self.period)
         self._grips = np.zeros(len(robot.limbs), np.int32)
+        self._press: WrenchReader | None = None
+        if presser is not None and flaws.wall is not None:
+            sensor = ForceSensor() if flaws.wrist is None else flaws.wrist
+            self._press = WrenchReader(sensor, period=self.period, delay=flaws.delay, batch=1)
         self.tick = 0
 
     @property
@@ -112,6 +119,21 @@ class ClimberPlant:
         """Set the motors' torques, shape (limbs, 2) [N m], and the grippers that are shut, 1 or 0, shape (limbs,), until the next call."""
         self._wanted_by_limb[:] = torques
         self._grips[:] = grips
+
+    def sense_press(self) -> Floats:
+        """Force of the pressing tip on the wall by its sensor, along the last link and across it, once a tick, shape (2,) [N].
+
+        Forces are those of the last physics step.
+        """
+        assert self._press is not None
+        return self._press.read(self._data.sensordata[None, -6:], self.tick)[0, :2]
+
+    def true_press(self) -> float:
+        """True force on the wall along its normal [N]."""
+        turn = self._data.site_xmat[self.model.site("hand").id].reshape(3, 3)
+        force = turn @ self._data.sensordata[-6:-3]
+        angle = self.flaws.wall.angle if self.flaws.wall is not None else 0.0
+        return float(np.cos(angle) * force[0] + np.sin(angle) * force[1])
 
     def push(self, force: tuple[float, float]) -> None:
         """Push the body at its centre until the next call, world frame [N]."""
