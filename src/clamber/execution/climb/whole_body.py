@@ -31,6 +31,8 @@ Doing: TypeAlias = Literal["hold", "cling", "tip", "joints", "pull"]
 MAPPINGS: Final = {"thesis": THESIS, "kinematic": KINEMATIC}
 PLAY_TIME: Final = 0.2
 """Time in which the believed side of the play follows the load [s]."""
+LOAD_TIME: Final = 0.15
+"""Time over which the load of a limb that pulls is evened out: a dither's own load moves no joint through its play [s]."""
 CLING_DAMPING: Final = 25.0
 """Of a limb that clings, in the units of the limb's gains."""
 LIMITS: Final = {"none": LIMIT_NONE, "thesis": LIMIT_THESIS, "counted": LIMIT_COUNTED, "shared": LIMIT_SHARED}
@@ -151,7 +153,7 @@ class WholeBody:
         ]
         self._kp, self._kd = np.array(gains.kp), np.array(gains.kd)
         self._no_force = np.zeros(2)
-        self._pressed, self._loads = np.zeros(n, np.int64), np.zeros((n, 2))
+        self._pressed, self._loads, self._loads_now = np.zeros(n, np.int64), np.zeros((n, 2)), np.zeros(2)
         self._lag = np.array((period / PLAY_TIME, self.backlash / 2))
 
     def see(self, q: Floats, qd: Floats, angle: float, angle_speed: float, *, with_encoder: bool = True) -> None:
@@ -169,6 +171,11 @@ class WholeBody:
             self.legs, self.q - self.play, self.qd, self._held, self._holds, angle, angle_speed, with_encoder,
             self.settled_tips, self._unused_speeds, self.settled, self._unused_twist,
         )  # fmt: skip
+
+    def reckon_with(self, backlash: float) -> None:
+        """Believe in another backlash of every joint from now on [rad]."""
+        self.backlash = backlash
+        self._lag[1] = backlash / 2
 
     def tip(self, i: int) -> Floats:
         """A limb's tip in the world by encoders and estimate, the play counted [m]."""
@@ -220,8 +227,9 @@ class WholeBody:
             elif task.doing == "pull":
                 pull_torques(
                     self.legs[i], self.q[i], self.qd[i], self.pose, self.twist, task.force, task.damping,
-                    self.torques[i], self._loads[i],
+                    self.torques[i], self._loads_now,
                 )  # fmt: skip
+                self._loads[i] += self.period / LOAD_TIME * (self._loads_now - self._loads[i])
             elif task.doing == "tip":
                 self._reach(i, task)
             else:
