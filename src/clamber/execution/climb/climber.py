@@ -106,6 +106,8 @@ class Climber:
         self.peg_radius = max(hold.radius for hold in board.holds)
         self.approaches = Approaches(robot, self.body.legs, lambda number: self.peg_radius + self.map.error(number))
         self.ticks = 0
+        self.latest = -1
+        """Index of the limb that took its hold last."""
         self._strained = 0
 
     @property
@@ -205,7 +207,7 @@ class Climber:
 
     def learn_again(self) -> None:
         """Correct the map by the limbs that hold: their joints are loaded, and hooks that were not quite home have slid in."""
-        holding = self.holding()
+        holding = sorted(self.holding(), key=lambda i: i != self.latest)
         if len(holding) == 2:
             self.learn(self.body.tasks[holding[0]].hold, holding[0], holding[1:])
 

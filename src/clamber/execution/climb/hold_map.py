@@ -13,6 +13,8 @@ TIP_ERROR: Final = 0.001
 """Standard deviation of a difference of two tips that are on their holds, each joint surely on one side of its play, along each axis [m]."""
 KNOWN: Final = 0.001
 """Standard deviation of the place of a hold that the robot was put on, along each axis [m]."""
+ODD: Final = 4.0
+"""What differs from what is expected by more than so many standard deviations was learned from a hook that was not home [-]."""
 ANGLE_ERROR: Final = math.radians(0.3)
 """Standard deviation of the offset of the body's own encoder: half a degree either way, evenly spread [rad]."""
 PLAY_ERROR: Final = math.radians(0.15)
@@ -45,7 +47,7 @@ class HoldMap:
     """
 
     def __init__(self, places: MutableMapping[int, Floats], error: float, *, backlash: float = 0.0) -> None:
-        self.places = places
+        self.places, self._error = places, error
         self.offset = 0.0
         """What the body's encoder tells too much [rad]."""
         self.half_play = backlash / 2
@@ -65,15 +67,22 @@ class HoldMap:
     def learn(self, number: int, other: int, seen: TipDifference) -> None:
         """Two hooks are on their holds: the difference of their tips corrects all that hangs together with it.
 
+        Where it is too odd for what is known, the place of the first hold counts as little known again.
+
         Args:
-            number: Of the hold of the one tip.
+            number: Of the hold of the one tip, the one that was taken last.
             other: Of that of the other.
             seen: Place of the one tip less that of the other, by the sensors as they are believed now.
         """
         slope = self._slope(number, other, seen)
+        lack = seen.place - (self.places[number] - self.places[other])
+        noise = seen.unsure + TIP_ERROR**2 * np.eye(2)
+        if lack @ np.linalg.solve(slope @ self._variance @ slope.T + noise, lack) > ODD**2:
+            for k in (self._row[number], self._row[number] + 1):
+                self._variance[k, k] += self._error**2 / 3.0
         towards = self._variance @ slope.T
-        gain = towards @ np.linalg.inv(slope @ towards + seen.unsure + TIP_ERROR**2 * np.eye(2))
-        change = gain @ (seen.place - (self.places[number] - self.places[other]))
+        gain = towards @ np.linalg.inv(slope @ towards + noise)
+        change = gain @ lack
         for one, k in self._row.items():
             self.places[one] = self.places[one] + change[k : k + 2]
         self.offset += float(change[-2])

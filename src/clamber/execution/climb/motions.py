@@ -173,6 +173,7 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
         along, across = float(off @ g), float(off @ h)
         if stopped and along > -room and abs(across) < room:
             climber.learn(number, i, climber.holding())
+            climber.latest = i
             task.doing, task.hold, task.place = "cling", number, climber.holds[number].copy()
             climber.wait(0.1)
             return Grabbed(True, tries, along, across)
@@ -198,7 +199,8 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bo
     # believed to press from the start: in free air the tip is then farther in than believed, never less far
     task.doing, task.pressed, task.tug = "pull", True, np.zeros(2)
     still = tugged = 0.0
-    tugging, seated, mark, phase = False, False, -np.inf, 0.0
+    tugging, seated, was_short, phase = False, False, False, 0.0
+    marks = np.full(2, -np.inf)
     rested = body.pose[:2].copy()
     for _ in range(round(PATIENCE / period)):
         along = body.grab_direction(i)
@@ -217,10 +219,11 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bo
             side += CENTRING * float(across @ (place - body.tip(i)))
         task.force = size * along + side * across
         climber.tick()
-        reached = float(body.felt_tip(i) @ g)
-        still += period
-        if reached > mark + ADVANCE:
-            mark, still = reached, 0.0
+        # the play is crossed without a motor that turns, and the belief about it lags: both must have come to rest
+        reached = np.array((body.felt_tip(i) @ g, body.tip(i) @ g))
+        advanced = reached > marks + ADVANCE
+        still = 0.0 if advanced.any() or short != was_short else still + period
+        marks, was_short = np.where(advanced, reached, marks), short
         if not tugging and still > STOPPED:
             tugging, still = True, 0.0
         if (body.tip(i) - place) @ g > room:
