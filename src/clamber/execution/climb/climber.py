@@ -181,9 +181,7 @@ class Climber:
 
     def doubt(self, number: int, i: int) -> float:
         """How far off limb `i`'s tip may seem to be along each axis when it is on a hold, by what is known of the map and sensors [m]."""
-        return max(
-            self.map.doubt(number, self.body.tasks[j].hold, self._seen(i, j)) for j in self.holding() if j != i
-        )
+        return max(self.map.doubt(number, self.body.tasks[j].hold, self.seen(i, j)) for j in self.holding() if j != i)
 
     def holding(self) -> list[int]:
         """Indices of the limbs that carry the body."""
@@ -199,7 +197,7 @@ class Climber:
         """
         tasks = self.body.tasks
         for j in others:
-            self.map.learn(number, tasks[j].hold, self._seen(i, j))
+            self.map.learn(number, tasks[j].hold, self.seen(i, j))
         self.body.reckon_with(2.0 * self.map.half_play)
         for task in tasks:
             if task.hold:
@@ -211,7 +209,7 @@ class Climber:
         if len(holding) == 2:
             self.learn(self.body.tasks[holding[0]].hold, holding[0], holding[1:])
 
-    def _seen(self, i: int, j: int) -> TipDifference:
+    def seen(self, i: int, j: int) -> TipDifference:
         """Where the tip of limb `i` is from that of limb `j`."""
         c, s = math.cos(self.body.settled[2]), math.sin(self.body.settled[2])
         place = self.body.tip(i) - self.body.tip(j)

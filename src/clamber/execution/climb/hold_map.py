@@ -1,4 +1,4 @@
-"""What the climber knows of its holds' places, and of what its sensors tell wrong: an extended Kalman filter that learns from hooks on holds."""
+"""What the climber knows of its holds' places and of its sensors' errors: an extended Kalman filter that learns from hooks on holds."""
 
 import math
 from collections.abc import Iterable, MutableMapping
@@ -10,7 +10,7 @@ import numpy as np
 from ...types import Floats
 
 TIP_ERROR: Final = 0.001
-"""Standard deviation of a difference of two tips that are on their holds, each joint surely on one side of its play, along each axis [m]."""
+"""Standard deviation of a difference of two tips on their holds, each joint surely on one side of its play, along each axis [m]."""
 KNOWN: Final = 0.001
 """Standard deviation of the place of a hold that the robot was put on, along each axis [m]."""
 ODD: Final = 4.0

@@ -29,27 +29,31 @@ TUG: Final = 10.0
 """Pull on a hook that has stopped: a quarter of LIBRA's weight; more would lift the limb below off its hold [N]."""
 LIFT: Final = (0.001, 0.003)
 """A push that lifts the body this far weakens, to a third at the second: it bears already, and other hooks would come off [m]."""
-TUG_RISE: Final = 0.2
+TUG_RISE: Final = 0.1
 """In which the tug grows to its full size [s]."""
 DITHER: Final = 8.0
 """Pull across, to and fro, so that friction lets the hook slide in [N]."""
 DITHER_RATE: Final = 5.0
 """[Hz]."""
+AWAY: Final = 0.006
+"""A limb that leaves a hold aims this far beyond where it is clear of it: its tip lags its aim [m]."""
+LEAVING: Final = 1.0
+"""Most time that it then gets to come clear [s]."""
 SHORT: Final = 0.004
 """A hook that stops this far before where its hold should be may have met it with its flare [m]."""
 WIDE_DITHER: Final = 14.0
 """Then the dither is so strong [N] ..."""
 WIDE_RATE: Final = 2.5
 """... and so slow that it moves the hook across by millimetres [Hz]."""
-STUCK: Final = 1.2
-"""And for that long it must stand still before that counts as its seat [s]."""
+STUCK: Final = 0.8
+"""At most for that long without an advance [s]."""
 CENTRING: Final = 150.0
 """Pull towards the believed hold across the hook [N/m]."""
 ADVANCE: Final = 0.0015
 """A tip that advances less than this along the grab direction has stopped [m]."""
 STOPPED: Final = 0.2
 """For that long, a period of the dither, before the tug begins [s]."""
-STILL: Final = 0.3
+STILL: Final = 0.25
 """For that long under the full tug before a hook counts as seated [s]."""
 PATIENCE: Final = 5.0
 """For one push [s]."""
@@ -125,12 +129,17 @@ def stand_off_of(climber: Climber, i: int, doubt: float) -> float:
 
 
 def release(climber: Climber, i: int) -> None:
-    """Take a limb off its hold, against its grab direction; the others carry."""
+    """Take a limb off its hold, against its grab direction, until its tip is clear of it; the others carry."""
     climber.carry_with_all(but=i)
-    task = climber.body.tasks[i]
-    place = climber.body.tip(i) - stand_off_of(climber, i, climber.map.error(task.hold)) * climber.body.grab_direction(i)
-    move_tip(climber, i, place, 0.4)
-    task.hold, task.doing, task.angles = 0, "joints", climber.body.q[i].copy()
+    body, task = climber.body, climber.body.tasks[i]
+    start, g = body.tip(i), body.grab_direction(i)
+    away = stand_off_of(climber, i, climber.map.error(task.hold)) + AWAY
+    move_tip(climber, i, start - away * g, 0.35)
+    for _ in range(round(LEAVING / climber.plant.period)):
+        if (start - body.tip(i)) @ g > away - AWAY:
+            break
+        climber.tick()
+    task.hold, task.doing, task.angles = 0, "joints", body.q[i].copy()
 
 
 def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
@@ -167,7 +176,7 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
     h = np.array((-g[1], g[0]))
     for tries, part in enumerate(ASIDE, 1):
         aside = part * doubt
-        move_tip(climber, i, hold - near * g + aside * h, 0.5 if tries > 1 else 0.3)
+        move_tip(climber, i, hold - near * g + aside * h, 0.5 if tries > 1 else 0.2)
         stopped = _push(climber, i, hold + aside * h, g, room)
         off = body.tip(i) - hold
         along, across = float(off @ g), float(off @ h)
@@ -192,15 +201,16 @@ def _find(climber: Climber, i: int, hold: Floats, elbow: int, wished: float, nea
 def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bool:
     """Push a hook along its grab direction until it stops, then tug as hard as it will have to carry, until it no longer advances.
 
+    One that stops short of where its hold should be is coaxed across under the tug, as its flare may have met the hold.
+
     Returns:
         Whether it came to rest under the tug, not farther in than a hold could be.
     """
     body, task, period = climber.body, climber.body.tasks[i], climber.plant.period
     # believed to press from the start: in free air the tip is then farther in than believed, never less far
     task.doing, task.pressed, task.tug = "pull", True, np.zeros(2)
-    still = tugged = 0.0
-    tugging, seated, was_short, phase = False, False, False, 0.0
-    marks = np.full(2, -np.inf)
+    stage, still, tugged, phase = "push", 0.0, 0.0, 0.0
+    seated, marks = False, np.full(2, -np.inf)
     rested = body.pose[:2].copy()
     for _ in range(round(PATIENCE / period)):
         along = body.grab_direction(i)
@@ -208,27 +218,29 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bo
         size = PUSH + (TUG - PUSH) * min(tugged / TUG_RISE, 1.0)
         lifted = float((rested - body.pose[:2]) @ g)
         size *= np.interp(lifted, LIFT, (1.0, 1 / 3))
-        short = tugging and float((place - body.tip(i)) @ g) > SHORT
-        strength, rate = (WIDE_DITHER, WIDE_RATE) if short else (DITHER, DITHER_RATE)
+        strength, rate = (WIDE_DITHER, WIDE_RATE) if stage == "coax" else (DITHER, DITHER_RATE)
         phase += 2 * np.pi * rate * period
         side = strength * np.sin(phase)
-        if tugging:
+        if stage == "push":
+            side += CENTRING * float(across @ (place - body.tip(i)))
+        else:
             tugged += period
             task.tug = size * along
-        else:
-            side += CENTRING * float(across @ (place - body.tip(i)))
         task.force = size * along + side * across
         climber.tick()
         # the play is crossed without a motor that turns, and the belief about it lags: both must have come to rest
         reached = np.array((body.felt_tip(i) @ g, body.tip(i) @ g))
         advanced = reached > marks + ADVANCE
-        still = 0.0 if advanced.any() or short != was_short else still + period
-        marks, was_short = np.where(advanced, reached, marks), short
-        if not tugging and still > STOPPED:
-            tugging, still = True, 0.0
-        if (body.tip(i) - place) @ g > room:
+        marks = np.where(advanced, reached, marks)
+        still = 0.0 if advanced.any() else still + period
+        ahead = float((place - body.tip(i)) @ g)
+        if ahead < -room:
             break
-        if tugged > TUG_RISE and still > (STUCK if short else STILL):
+        if stage == "push" and still > STOPPED:
+            stage, still = "coax" if ahead > SHORT else "tug", 0.0
+        elif stage == "coax" and (still > STUCK or ahead < 0.5 * SHORT):
+            stage, still = "tug", 0.0
+        elif stage == "tug" and tugged > TUG_RISE and still > STILL:
             seated = True
             break
     task.pressed, task.tug = False, np.zeros(2)
