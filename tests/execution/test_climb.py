@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from clamber.execution.climb.climber import Climber, FallenError
-from clamber.execution.climb.motions import grab, move_body, release
+from clamber.execution.climb.motions import JOINT_AGILITY, JOINT_SPEED, at_speed, grab, move_body, release
 from clamber.robots.library import load_robot
 from clamber.robots.limbed import LimbedRobot
 from clamber.sim.climber_plant import BodySensed, ClimberPlant
@@ -50,6 +50,25 @@ def test_the_robot_hangs_on_two_hooks_and_hardly_creeps() -> None:
     climber.wait(1.0)
     np.testing.assert_allclose(plant.truth().pose, before, atol=1e-3)  # within a second [m], [rad]
     np.testing.assert_allclose(climber.body.settled[:2], plant.truth().pose[:2], atol=2e-3)
+
+
+@pytest.mark.parametrize("friction", [0.7, 1.3])
+def test_a_hook_that_has_left_is_clear_of_its_peg(friction: float) -> None:
+    climber, plant = on_the_ladder(NOMINAL.with_changes(friction=friction))
+    climber.wait(0.5)
+    release(climber, BOTTOM)
+    # the flare's lips end 15 mm before the seat, the peg's far side is 5 mm beyond its centre
+    assert float(np.hypot(*(plant.truth().tips[BOTTOM] - climber.holds[2]))) > 0.020
+
+
+@pytest.mark.parametrize("length", [0.0, 0.05, 0.9, 4.0])
+def test_a_way_goes_from_rest_to_rest_within_speed_and_agility(length: float) -> None:
+    period = 0.001
+    done = np.concatenate(([0.0], at_speed(length, period), [length]))
+    speed = np.diff(done) / period
+    assert speed.min() >= -1e-9
+    assert speed.max() <= JOINT_SPEED + 1e-9
+    assert np.abs(np.diff(np.concatenate(([0.0], speed, [0.0])))).max() <= 1.01 * JOINT_AGILITY * period
 
 
 def test_the_body_moves_up_on_its_hooks() -> None:

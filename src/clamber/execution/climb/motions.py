@@ -1,5 +1,6 @@
 """Motions: how each kind of action is carried out. Body moves on smooth ways, releases, and the grab of Bevly (1997), Fig. 4.14."""
 
+import math
 from itertools import pairwise
 from typing import Final
 
@@ -29,6 +30,8 @@ TUG: Final = 10.0
 """Pull on a hook that has stopped: a quarter of LIBRA's weight; more would lift the limb below off its hold [N]."""
 LIFT: Final = (0.001, 0.003)
 """A push that lifts the body this far weakens, to a third at the second: it bears already, and other hooks would come off [m]."""
+SLIDING: Final = (0.003, 0.006)
+"""A push under which the tips of holding limbs come apart this far weakens, to nothing at the second: a hook is coming off [m]."""
 TUG_RISE: Final = 0.1
 """In which the tug grows to its full size [s]."""
 DITHER: Final = 8.0
@@ -97,7 +100,7 @@ def follow(climber: Climber, i: int, way: Floats) -> None:
     lengths = np.abs(np.diff(way, axis=0)).max(axis=1)
     along = np.concatenate(([0.0], np.cumsum(lengths)))
     blend = max(2, round(BLEND / period))
-    done = _at_speed(along[-1], period)
+    done = at_speed(along[-1], period)
     angles = np.stack([np.interp(done, along, way[:, j]) for j in range(2)], axis=1)
     # rounded corners: a turn on the spot throws the body about
     window = np.hanning(blend + 2)[1:-1]
@@ -110,7 +113,7 @@ def follow(climber: Climber, i: int, way: Floats) -> None:
     task.angles, task.rates = way[-1].copy(), np.zeros(2)
 
 
-def _at_speed(length: float, period: float) -> Floats:
+def at_speed(length: float, period: float) -> Floats:
     """How far along a way of some length one is at each tick, from rest to rest, at most JOINT_SPEED fast; shape (ticks,)."""
     speed = min(JOINT_SPEED, float(np.sqrt(length * JOINT_AGILITY)))
     rise = speed / JOINT_AGILITY
@@ -212,12 +215,15 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bo
     stage, still, tugged, phase = "push", 0.0, 0.0, 0.0
     seated, marks = False, np.full(2, -np.inf)
     rested = body.pose[:2].copy()
+    first, last = climber.holding()[0], climber.holding()[-1]
+    apart = body.tip(first) - body.tip(last)
     for _ in range(round(PATIENCE / period)):
         along = body.grab_direction(i)
         across = np.array((-along[1], along[0]))
         size = PUSH + (TUG - PUSH) * min(tugged / TUG_RISE, 1.0)
         lifted = float((rested - body.pose[:2]) @ g)
-        size *= np.interp(lifted, LIFT, (1.0, 1 / 3))
+        slid = math.dist(body.tip(first) - body.tip(last), apart)
+        size *= np.interp(lifted, LIFT, (1.0, 1 / 3)) * np.interp(slid, SLIDING, (1.0, 0.0))
         strength, rate = (WIDE_DITHER, WIDE_RATE) if stage == "coax" else (DITHER, DITHER_RATE)
         phase += 2 * np.pi * rate * period
         side = strength * np.sin(phase)
