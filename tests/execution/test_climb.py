@@ -25,7 +25,7 @@ class TurnedEncoder:
 
     def __init__(self, plant: ClimberPlant, offset: float) -> None:
         self.plant, self.offset, self.period = plant, offset, plant.period
-        self.reset, self.actuate, self.step = plant.reset, plant.actuate, plant.step
+        self.reset, self.actuate, self.step, self.pause = plant.reset, plant.actuate, plant.step, plant.pause
 
     def sense(self) -> BodySensed:
         sensed = self.plant.sense()

@@ -51,6 +51,8 @@ WIDE_RATE: Final = 2.5
 """... and so slow that it moves the hook across by millimetres [Hz]."""
 STUCK: Final = 0.8
 """At most for that long without an advance [s]."""
+HANGING: Final = 0.4
+"""Part of these forces where the body hangs on one limb, which gives way [-]."""
 CENTRING: Final = 150.0
 """Pull towards the believed hold across the hook [N/m]."""
 ADVANCE: Final = 0.0015
@@ -71,9 +73,7 @@ SLACK: Final = 0.004
 
 def move_body(climber: Climber, pose: Floats, *, speed: float = BODY_SPEED) -> None:
     """Bring the body to a pose (x, y, theta) along a straight smooth way; free limbs first go to where they meet no hold on it."""
-    for i, task in enumerate(climber.body.tasks):
-        if not task.hold:
-            _park(climber, i, pose)
+    clear_the_way(climber, pose)
     body, period = climber.body, climber.plant.period
     start = body.aim.copy()
     change = pose - start
@@ -85,6 +85,13 @@ def move_body(climber: Climber, pose: Floats, *, speed: float = BODY_SPEED) -> N
         body.aim_speed[:] = 6 * u * (1 - u) / seconds * change
         climber.tick()
     body.aim_speed[:] = 0.0
+
+
+def clear_the_way(climber: Climber, pose: Floats) -> None:
+    """Bring free limbs to where they meet no hold while the body goes straight to a pose."""
+    for i, task in enumerate(climber.body.tasks):
+        if not task.hold:
+            _park(climber, i, pose)
 
 
 def _park(climber: Climber, i: int, pose: Floats) -> None:
@@ -181,7 +188,7 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
     found = _find(climber, i, hold, elbow, wished, near)
     if found is None:
         return Grabbed(False, 0, 0.0, 0.0)
-    if found.shift.any():
+    if found.shift.any() and not climber.hangs:
         move_body(climber, body.aim + np.array((*found.shift, 0.0)))
         found = _find(climber, i, hold, elbow, wished, near) or found
     follow(climber, i, found.way)
@@ -234,16 +241,17 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bo
     rested = body.pose[:2].copy()
     first, last = climber.holding()[0], climber.holding()[-1]
     apart = body.tip(first) - body.tip(last)
+    part = HANGING if climber.hangs else 1.0
     for _ in range(round(PATIENCE / period)):
         along = body.grab_direction(i)
         across = np.array((-along[1], along[0]))
         size = PUSH + (TUG - PUSH) * min(tugged / TUG_RISE, 1.0)
         lifted = float((rested - body.pose[:2]) @ g)
         slid = math.dist(body.tip(first) - body.tip(last), apart)
-        size *= np.interp(lifted, LIFT, (1.0, 1 / 3)) * np.interp(slid, SLIDING, (1.0, 0.0))
+        size *= part * np.interp(lifted, LIFT, (1.0, 1 / 3)) * np.interp(slid, SLIDING, (1.0, 0.0))
         strength, rate = (WIDE_DITHER, WIDE_RATE) if stage == "coax" else (DITHER, DITHER_RATE)
         phase += 2 * np.pi * rate * period
-        side = strength * np.sin(phase)
+        side = part * strength * np.sin(phase)
         if stage == "push":
             side += CENTRING * float(across @ (place - body.tip(i)))
         else:

@@ -31,8 +31,9 @@ from ...types import Floats
 from .legs import legs_of
 from .postures import postures
 
-Doing: TypeAlias = Literal["hold", "cling", "tip", "joints", "pull"]
-"""A limb holds the body, clings to its hold without carrying, brings its tip or its joints somewhere, or pulls along a direction."""
+Doing: TypeAlias = Literal["hold", "hang", "cling", "tip", "joints", "pull"]
+"""A limb holds the body, holds it alone while it swings as it will, clings to its hold without carrying, brings its tip or its joints
+somewhere, or pulls along a direction."""
 MAPPINGS: Final = {"thesis": THESIS, "kinematic": KINEMATIC, "wrench": WRENCH}
 PLAY_TIME: Final = 0.2
 """Time in which the believed side of the play follows the load [s]."""
@@ -100,8 +101,10 @@ class LimbTask:
     speed: Floats = field(default_factory=lambda: np.zeros(2))
     """Of the aim [m/s]."""
     angles: Floats = field(default_factory=lambda: np.zeros(2))
-    """Of "joints" [rad]."""
+    """Of "joints" and "hang" [rad]."""
     rates: Floats = field(default_factory=lambda: np.zeros(2))
+    loads: Floats = field(default_factory=lambda: np.zeros(2))
+    """Of "hang": torques that bear the weight [N m]."""
     force: Floats = field(default_factory=lambda: np.zeros(2))
     """Of "pull": what the tip does to what it meets, world frame [N]."""
     tug: Floats = field(default_factory=lambda: np.zeros(2))
@@ -110,6 +113,11 @@ class LimbTask:
     """Of "pull": of the tip's motion in the world [N s/m]."""
     pressed: bool = False
     """Of "pull": whether the tip has stopped against something, which then loads the joints."""
+
+    @property
+    def holds(self) -> bool:
+        """Whether the limb carries the body."""
+        return self.doing in ("hold", "hang")
 
 
 class WholeBody:
@@ -180,8 +188,8 @@ class WholeBody:
         """Take in a tick's measurements and estimate where the body is."""
         self.q[:], self.qd[:] = q, qd
         for i, task in enumerate(self.tasks):
-            self._held[i] = task.doing == "hold"
-            if task.doing == "hold":
+            self._held[i] = task.holds
+            if task.holds:
                 self._holds[i] = task.place
         self._pass_load()
         estimate_body(
@@ -322,6 +330,8 @@ class WholeBody:
                 self.torques[i] = shares * (
                     gains.joint_kp * (task.angles - self.q[i]) + gains.joint_kd * (task.rates - self.qd[i])
                 )
+                if task.doing == "hang":
+                    self.torques[i] += task.loads
             self._pressed[i] = task.doing == "cling" or (task.doing == "pull" and task.pressed)
             if task.doing in ("tip", "pull", "cling"):
                 most = gains.firm if task.pressed else gains.gentle
