@@ -1,5 +1,6 @@
 """The whole climber in MuJoCo as a plant: encoders of every joint and of the body's angle in, torques out, the truth for logs and tests."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -12,6 +13,7 @@ from ..worlds.board import Board
 from .climber_model import HookShape, climber_spec
 from .electronics import limit_torques, read_encoders
 from .limb_flaws import LimbFlaws
+from .pinned_tips import pin_tips
 
 BODY_COUNTS: Final = 4000
 """Of the body's own encoder, a turn; nobody prints it, so ours."""
@@ -54,6 +56,7 @@ class ClimberPlant:
         flaws: Of joints, motors and sensors.
         pegs: Where the holds truly are, shape (n_holds, 2) [m]; None: as believed.
         shape: Of the hooks.
+        pinned: Limb -> hold that its tip is fixed to; others only hook on.
     """
 
     def __init__(
@@ -64,11 +67,14 @@ class ClimberPlant:
         *,
         pegs: Floats | None = None,
         shape: HookShape = HookShape(),  # noqa: B008  # frozen
+        pinned: Mapping[str, int] | None = None,
     ) -> None:
         import mujoco
 
         self.robot, self.board, self.flaws, self.period = robot, board, flaws, flaws.period
-        self.model: Any = climber_spec(robot, board, flaws, pegs=pegs, shape=shape).compile()
+        spec = climber_spec(robot, board, flaws, pegs=pegs, shape=shape)
+        pin_tips(spec, board, pinned or {}, pegs)
+        self.model: Any = spec.compile()
         self._data: Any = mujoco.MjData(self.model)
         self._step = mujoco.mj_step
         chains = [chain_of_limb(robot, limb.name) for limb in robot.limbs]

@@ -25,6 +25,7 @@ from ...control.law_settings import LawSettings
 from ...robots.limbed import LimbedRobot
 from ...types import Floats
 from ...units import GRAVITY
+from .body_schemes import SCHEMES
 
 Doing: TypeAlias = Literal["hold", "cling", "tip", "joints", "pull"]
 """A limb holds the body, clings to its hold without carrying, brings its tip or its joints somewhere, or pulls along a direction."""
@@ -60,6 +61,15 @@ class BodyGains:
     mapping: str = "thesis"
     limit: str = "shared"
     law: str = "scct"
+    scheme: str = "body"
+    """How the holding limbs carry the body: "body" as in the thesis's 4.4, or one of `SCHEMES`."""
+    leg_kp: float = 200.0
+    """Of a holding limb in those schemes, in the units of its law; "coordinated": of the pressing tip [N/m]."""
+    leg_kd: float = 10.0
+    inside: float = 8.0
+    """"coordinated": with how much the pressing tip is to pull at its hold [N]."""
+    hold_stiffness: float = 20_000.0
+    """"coordinated": that the holds are believed to have [N/m]."""
 
 
 @dataclass(slots=True)
@@ -153,6 +163,7 @@ class WholeBody:
         self._no_force = np.zeros(2)
         self._pressed, self._loads = np.zeros(n, np.int64), np.zeros((n, 2))
         self._lag = np.array((period / PLAY_TIME, self.backlash / 2))
+        self._scheme = None if gains.scheme == "body" else SCHEMES[gains.scheme](self)
 
     def see(self, q: Floats, qd: Floats, angle: float, angle_speed: float, *, with_encoder: bool = True) -> None:
         """Take in a tick's measurements and estimate where the body is."""
@@ -211,9 +222,13 @@ class WholeBody:
             self.legs, self.q, self._held, self.pose, self._arms, wanted, fed,
             MAPPINGS[gains.mapping], LIMITS[gains.limit], self._least, self._pulls, self._forces,
         )  # fmt: skip
+        if self._scheme is not None:
+            self._scheme.hold(self, [i for i, task in enumerate(self.tasks) if task.doing == "hold"])
         for i, task in enumerate(self.tasks):
-            if task.doing == "hold":
+            if task.doing == "hold" and self._scheme is None:
                 self._pull(i, self._pulls[i], self._forces[i])
+            elif task.doing == "hold":
+                continue
             elif task.doing == "cling":
                 turned = self._into_port(i, gains.cling * self.grab_direction(i) - CLING_DAMPING * self.tip_speed(i))
                 self._pull(i, turned, self._no_force)
