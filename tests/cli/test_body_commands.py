@@ -32,7 +32,7 @@ def test_a_circle_is_compared_and_drawn(run: Any, tmp_path: Path) -> None:
 
 
 def test_json_says_when_a_hook_came_off_and_so_does_the_exit_code(run: Any) -> None:
-    code, out, _ = run("push", "--force", "200N,0N", "-c", "scct", "--json")
+    code, out, _ = run("push", "--force", "400N,0N", "-c", "scct", "--json")
     (told,) = json.loads(out)["controls"]
     assert code == 1
     assert told["unhooked_at"] > 0.0
@@ -52,6 +52,7 @@ def test_trials_push_from_either_side(run: Any) -> None:
     [
         (("circle", "-c", "sct"), "sct"),
         (("push-up", "--kp", "1,2"), "must be three numbers"),
+        (("circle", "--limit", "thesi"), "thesis"),
         (("push", "--set", "backlsh=1deg"), "backlash"),
         (("circle", "-o", "x.doc"), ".doc"),
         (("push-up", "--height", "5 kg"), "5 kg"),

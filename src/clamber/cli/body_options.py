@@ -26,22 +26,6 @@ class BodyMatchChoice(StrEnum):
     none = "none"
 
 
-class MappingChoice(StrEnum):
-    """From the body's acceleration to those of the tips."""
-
-    thesis = "thesis"
-    kinematic = "kinematic"
-
-
-class LimitChoice(StrEnum):
-    """How a hook is kept from being pulled off."""
-
-    none = "none"
-    thesis = "thesis"
-    counted = "counted"
-    shared = "shared"
-
-
 @dataclass(frozen=True, slots=True)
 class BodyWords:
     """Options of every command of the body's bench, as they came."""
@@ -58,10 +42,16 @@ class BodyWords:
     match: Annotated[
         BodyMatchChoice, typer.Option(help="Other laws hold the body as stiffly as scct in this sense.")
     ] = BodyMatchChoice.diagonal
-    mapping: Annotated[MappingChoice, typer.Option(help="From the body to its tips.")] = MappingChoice.thesis
+    mapping: Annotated[
+        str, typer.Option(metavar="NAME", help="From the body to its tips: thesis, kinematic or collocated.")
+    ] = "thesis"
     limit: Annotated[
-        LimitChoice | None, typer.Option(help="Of the hooks' pulls; none where they are fixed, else shared.")
-    ] = None
+        str | None,
+        typer.Option(
+            metavar="NAME",
+            help="Of the hooks' pulls: none, thesis, counted, shared, feasible; where they are fixed none, else thesis.",
+        ),
+    ] = None  # fmt: skip
     encoder: Annotated[bool, typer.Option(help="Whether the body's own encoder tells its angle.")] = True
     fixed: Annotated[
         bool | None, typer.Option("--fixed/--hooked", help="Tips fixed to their pegs, or hooked onto them.")
@@ -100,14 +90,18 @@ class BodyWords:
 
     def build_entries(self, stand: "BodyStand") -> "list[BodyEntry]":
         """The controls to be compared."""
-        from ..execution.climb.whole_body import BodyGains
+        from ..errors import UnknownNameError
+        from ..execution.climb.whole_body import LIMITS, MAPPINGS, BodyGains
         from ..experiments.climb.body_entries import make_entries, read_triple
 
         kp = read_triple("kp", self.kp)
         kd = (kp[0] / 10, kp[1] / 10, kp[2] / 10) if self.kd is None else read_triple("kd", self.kd)
         fed = (1.0 if stand.fixed else BodyGains().weight_fed) if self.weight_fed is None else self.weight_fed
-        limit = self.limit or (LimitChoice.none if stand.fixed else LimitChoice.shared)
-        reference = BodyGains(kp=kp, kd=kd, mapping=self.mapping.value, limit=limit.value, weight_fed=fed)
+        limit = self.limit or ("none" if stand.fixed else "thesis")
+        for kind, name, known in (("mapping", self.mapping, MAPPINGS), ("limit", limit, LIMITS)):
+            if name not in known:
+                raise UnknownNameError(kind, name, tuple(known))
+        reference = BodyGains(kp=kp, kd=kd, mapping=self.mapping, limit=limit, weight_fed=fed)
         return make_entries(self.controllers or (), reference, stand, self.match.value, encoder=self.encoder)
 
 

@@ -18,7 +18,8 @@ from clamber.sim.limb_flaws import LimbFlaws, PlantError
 from clamber.types import Floats
 
 FREE = LimbFlaws(friction=0.0, damping=0.0, physics_rate=1000.0)
-REFERENCE = BodyGains(kp=(400.0, 400.0, 40.0), kd=(20.0, 20.0, 2.0), limit="none", weight_fed=1.0)
+REFERENCE = BodyGains(kp=(400.0, 400.0, 40.0), kd=(20.0, 20.0, 2.0), mapping="thesis", limit="none", weight_fed=1.0)
+TABLE_4_1 = BodyGains(kp=(100.0, 50.0, 10.0), kd=(10.0, 5.0, 1.0), mapping="thesis", limit="thesis")
 PINNED = ladder_stand(fixed=True, below=0.05)
 
 
@@ -133,17 +134,15 @@ def test_a_push_from_the_other_side_is_the_mirror_image() -> None:
 
 def test_the_limit_of_the_thesis_keeps_hooks_on_through_pushes_from_either_side() -> None:
     flaws = bench_flaws("nominal")
-    trials = push_trials(
-        ladder_stand(), BodyEntry("scct", BodyGains(limit="thesis")), flaws, force=(60.0, 0.0), seconds=0.5, trials=6
-    )
+    trials = push_trials(ladder_stand(), BodyEntry("scct", TABLE_4_1), flaws, force=(60.0, 0.0), seconds=0.5, trials=6)
     assert {trial.side for trial in trials} == {1, -1}
     assert all(trial.measures.unhooked_at is None and trial.measures.off_max < 2e-3 for trial in trials)
 
 
 def test_a_hook_that_comes_off_is_told() -> None:
     stand = ladder_stand()
-    scenario = push(stand.pose, 0.005, force=(200.0, 0.0), seconds=0.5)
-    told = measure_body(run_body(stand, scenario, BodyEntry("", BodyGains()), bench_flaws("nominal")), scenario)
+    scenario = push(stand.pose, 0.005, force=(400.0, 0.0), seconds=0.5)
+    told = measure_body(run_body(stand, scenario, BodyEntry("", TABLE_4_1), bench_flaws("nominal")), scenario)
     assert told.unhooked_at is not None
     assert 0.0 < told.unhooked_at < 1.0
 
@@ -151,7 +150,9 @@ def test_a_hook_that_comes_off_is_told() -> None:
 def test_a_push_up_ends_where_it_is_to() -> None:
     stand = ladder_stand()
     scenario = push_up(stand.pose, 0.005, height=0.075, seconds=0.5)
-    told = measure_body(run_body(stand, scenario, BodyEntry("", BodyGains()), bench_flaws("nominal")), scenario)
+    told = measure_body(
+        run_body(stand, scenario, BodyEntry("", replace(TABLE_4_1, limit="shared")), bench_flaws("nominal")), scenario
+    )
     assert told.unhooked_at is None
     assert told.rest < 5e-3
 

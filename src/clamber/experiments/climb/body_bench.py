@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from ...execution.climb.whole_body import BodyGains
+from ...execution.climb.whole_body import BodyGains, WholeBody
 from ...sim.limb_flaws import LimbFlaws
 from ...types import Floats
 from .body_scenario import BodyScenario
@@ -24,6 +24,8 @@ class BodyEntry:
     gains: BodyGains
     encoder: bool = True
     """Whether the body's own encoder tells its angle; else the line between the tips does."""
+    first_limb: bool = False
+    """Whether the first holding limb alone tells where the body is, as in the thesis (4.4.3); else all that hold do."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -88,6 +90,8 @@ def run_body(
         if not np.isfinite(sensed.q).all():
             break
         body.see(sensed.q, sensed.qd, sensed.angle, sensed.angle_speed, with_encoder=entry.encoder)
+        if entry.first_limb:
+            count_from(body, holding[0])
         body.aim[:], body.aim_speed[:] = scenario.aims[k], scenario.speeds[k]
         plant.actuate(body.command())
         plant.push((float(scenario.pushes[k, 0]), float(scenario.pushes[k, 1])))
@@ -96,6 +100,15 @@ def run_body(
         pose[k], believed[k], torques[k], tips[k] = truth.pose, body.pose, truth.torques, truth.tips
     off = np.linalg.norm(tips[:, holding] - seats, axis=2)
     return BodyRun(entry, BodyTrace(scenario.time, scenario.aims, pose, believed, scenario.pushes, torques, tips, off))
+
+
+def count_from(body: WholeBody, i: int) -> None:
+    """Let the body be where one limb has it: its hold less its tip."""
+    hold = body.tasks[i].place
+    arm = hold - body.felt_tip(i)
+    speed = body.tip_speed(i)  # that of a tip on its hold is none
+    body.pose[:2] += arm
+    body.twist[:2] -= speed
 
 
 def run_bodies(

@@ -10,6 +10,7 @@ from ...execution.climb.postures import postures
 from ...execution.climb.whole_body import BodyGains
 from ...robots.library import load_robot
 from ...robots.limbed import LimbedRobot
+from ...sim.climber_model import HookShape
 from ...sim.climber_plant import ClimberPlant
 from ...sim.limb_flaws import LimbFlaws, PlantError
 from ...types import Floats
@@ -36,6 +37,7 @@ class BodyStand:
     """Limb that holds nothing -> its joint angles [rad]."""
     fixed: bool = False
     """Whether the tips are fixed to their holds, so that they can push as well as pull (Bevly 1997, Fig. 4.17)."""
+    shape: HookShape = HookShape()  # noqa: RUF009  # frozen
     weight: float = 1.0
     """Of the robot, over what its control believes [-]."""
 
@@ -49,7 +51,7 @@ class BodyStand:
         """
         pinned = self.holds if self.fixed else {}
         robot = replace(self.robot, weight=self.weight * self.robot.weight)
-        plant = ClimberPlant(robot, self.board, flaws, pegs=pegs, pinned=pinned)
+        plant = ClimberPlant(robot, self.board, flaws, pegs=pegs, pinned=pinned, shape=self.shape)
         climber = Climber(self.robot, self.board, plant, gains=gains, backlash=flaws.backlash)
         climber.start(self.pose, self.holds, elbows=self.elbows)
         q = np.array([task.angles for task in climber.body.tasks])
