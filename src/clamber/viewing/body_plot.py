@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from ..experiments.climb.body_bench import SLOT, BodyEntry, BodyRun
 from ..experiments.climb.body_scenario import BodyScenario
 from . import style
-from .law_colours import LAW_COLOURS, WANTED
+from .law_colours import LAW_COLOURS, MATCH_LINES, WANTED
 from .output import CANVASES, check_suffix, save_figure
 from .style import styled
 
@@ -22,12 +22,14 @@ COORDINATED: Final = "#8C564B"
 
 
 def line_of(entry: BodyEntry) -> dict[str, Any]:
-    """How a control is drawn: in its law's colour, dashed where it works leg by leg."""
+    """How a control is drawn: in its law's colour, in the line of the matching that its label names, dashed where it works leg by leg."""
     gains = entry.gains
     if gains.scheme == "coordinated":
         return {"color": COORDINATED, "lw": 1.4}
     wide = 2.0 if gains.law == "scct" and gains.scheme == "body" else 1.4
-    return {"color": LAW_COLOURS[gains.law], "lw": wide, "ls": "-" if gains.scheme == "body" else (0, (5, 1.6))}
+    match = entry.label.partition(", ")[2]
+    line = MATCH_LINES.get(match, "-") if gains.scheme == "body" else MATCH_LINES["mean"]
+    return {"color": LAW_COLOURS[gains.law], "lw": wide, "ls": line}
 
 
 def _quiet(axes: Axes) -> None:
