@@ -9,10 +9,12 @@ import pytest
 
 from clamber.execution.climb.whole_body import BodyGains
 from clamber.experiments.climb.body_rung import RungTrial, climb_rung, climb_rungs
-from clamber.experiments.climb.body_stand import ladder_stand
+from clamber.experiments.climb.body_stand import bench_flaws, ladder_stand
 from clamber.experiments.climb.body_stiffness import body_stiffness
+from clamber.studies.bevly_1997 import body_table
 from clamber.studies.bevly_1997.body_climb import climbed, show_gait
 from clamber.studies.bevly_1997.body_cycle import CYCLE, GAINS, find_end, find_onset, peak_to_peak
+from clamber.studies.bevly_1997.body_entries import EARLIER, JOINT_PD
 from clamber.studies.bevly_1997.body_push import tenfold
 from clamber.studies.bevly_1997.body_table import count_lost_pegs
 from clamber.studies.library import ON_A_BODY
@@ -78,8 +80,6 @@ def test_onsets_are_read_from_the_stiff_end_and_sways_from_the_soft_one() -> Non
 
 
 def test_measured_at_one_hook_a_stiff_body_with_play_cycles_and_measured_at_both_it_rests() -> None:
-    from clamber.experiments.climb.body_stand import bench_flaws
-
     worn, tight = bench_flaws("nominal"), bench_flaws("nominal", ["backlash=0deg"])
     stand = ladder_stand(fixed=True)
     kpx = 6400.0
@@ -98,10 +98,8 @@ def test_trials_of_a_rung_are_the_same_wherever_they_run(tmp_path: Path) -> None
 
 
 def test_the_table_judges_by_who_loses_pegs(monkeypatch: pytest.MonkeyPatch) -> None:
-    from clamber.studies.bevly_1997 import body_table
-
     def made_up(controls: dict[str, BodyGains], seeds: range, **_: object) -> dict[str, list[RungTrial]]:
-        bad = (body_table.JOINT_PD, body_table.EARLIER)[: len(seeds) - 1]
+        bad = ((), (JOINT_PD, body_table.PRINTED), (JOINT_PD, EARLIER))[len(seeds) - 1]
         return {label: [RungTrial(label not in bad, label in bad, "fell", 20.0)] * len(seeds) for label in controls}
 
     monkeypatch.setattr(body_table, "climb_rungs", made_up)

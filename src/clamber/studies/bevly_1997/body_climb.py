@@ -72,9 +72,9 @@ def show_gait() -> StudyResult:
         ),
         deviations=(
             *PLANT,
-            "Modules 191, 392, 291 name pegs by where they are; ours are grabbed in the order right, bottom to the left, left, bottom off, "
-            "body up, with leg 3 on the lower right before leg 1 moves, for a swing needs two other legs on pegs (the planner's model lets "
-            "leg 3 hang in the air then, see `nominal-gait`). One module 003 is 3 in, so there are two a rung.",
+            "Modules 191, 392, 291 name pegs by where they are; ours are grabbed in the order right, bottom to the left, left, bottom "
+            "off, body up, with leg 3 on the lower right before leg 1 moves, for a swing needs two other legs on pegs (the planner's "
+            "model lets leg 3 hang in the air then, see `nominal-gait`). One module 003 is 3 in, so there are two a rung.",
             "2 deg of backlash, 400 counts, pegs where the map says; the robot's own control at its defaults.",
         ),
         table=Table(
@@ -135,8 +135,8 @@ def climb_two_steps() -> StudyResult:
         ),
         deviations=(
             *PLANT,
-            "The figure's curves are not printed as numbers, so what is compared is what the text says of them; the printed rise is that of "
-            "the aim. Two steps are read as two rungs of 6 in, each two modules 003.",
+            "The figure's curves are not printed as numbers, so what is compared is what the text says of them; the printed rise is "
+            "that of the aim. Two steps are read as two rungs of 6 in, each two modules 003.",
             "2 deg of backlash, 400 counts, pegs where the map says; the robot's own control at its defaults, not Table 4.1's.",
         ),
         table=Table(("actions", "what", "x moves [mm]", "y moves [mm]"), tuple(rows)),

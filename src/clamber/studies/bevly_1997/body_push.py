@@ -159,8 +159,8 @@ def _deviations(ratio: dict[str, float], needed: float) -> tuple[str, ...]:
         '"Kpy ten times Kpx" contradicts Table 4.1, where Kpy is half of Kpx. Both are shown, and neither makes the body ten times as '
         "stiff along y: gains are of accelerations, and J^-T K' J^-1 of two legs stretched sideways is by itself some times "
         f"stiffer along x. With the table's gains the body goes {ratio['Table 4.1']:.2g} times as far along x as along y, with Kpy = "
-        f"10 Kpx {ratio['Kpy = 10 Kpx']:.2g} times; ten times takes Kpy = {needed:.0f} Kpx. The verdict is holds only if hooks stay on in "
-        "all pushes and the ratio with Kpy = 10 Kpx is above 5.",
+        f"10 Kpx {ratio['Kpy = 10 Kpx']:.2g} times; ten times takes Kpy = {needed:.0f} Kpx. The verdict is holds only if hooks stay on "
+        "in all pushes and the ratio with Kpy = 10 Kpx is above 5.",
         f"The slow pushes are {SLOW:g} N along each axis; for the ratio with tips fixed and no friction, so that the springs alone "
         "decide. On hooks, friction and the limit of the pulls bear part of it.",
         f"The hard push is half a sine of {HARD:g} N and {SHORT:g} s at the body's centre from either side, with friction +-30 %, "

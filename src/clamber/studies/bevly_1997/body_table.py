@@ -66,16 +66,15 @@ def count_lost_pegs(
     told = climb_rungs(controls(), range(seeds), executor=crew, store=store, resume=resume, progress=progress)
     lost = {label: sum(trial.lost for trial in trials) for label, trials in told.items()}
     done = {label: sum(trial.done for trial in trials) for label, trials in told.items()}
-    best = min(lost[NOW], lost[PRINTED], lost[SHARED])
-    worse = [label for label in (JOINT_PD, EARLIER) if lost[label] > best]
+    cartesian = [label for label in told if label not in (JOINT_PD, EARLIER)]
+    keeps = [lost[label] == 0 and done[label] == seeds for label in cartesian]
+    joints_lose = lost[JOINT_PD] > seeds / 2
     return StudyResult(
         paper=PAPER,
         result="table-4-2",
-        claim="Section 4.2: conventional joint PD control loses contact with the pegs, or pushes too hard on others, which makes LIBRA "
-        "fall; "
-        "Cartesian control makes the hooks always push evenly. Section 4.4.5: the earlier scheme was not used, for it needs legs that "
-        "push.",
-        verdict="holds" if len(worse) == 2 and best == 0 else "open" if worse else "differs",
+        claim="Section 4.2: conventional joint PD control loses contact with the pegs, or pushes too hard on others, so that LIBRA falls; "
+        "Cartesian control keeps the hooks on their pegs, wherever these are.",
+        verdict="holds" if joints_lose and all(keeps) else "open" if joints_lose and any(keeps) else "differs",
         compared=(
             *(Compared(f"{label}: rungs with a hook off, of {seeds}", count) for label, count in lost.items()),
             *(Compared(f"{label}: rungs climbed, of {seeds}", count) for label, count in done.items()),
@@ -88,7 +87,12 @@ def count_lost_pegs(
             f"{PEG_ERROR * 1e3:g} mm an axis (but for the three that the robot is put on), friction +-{FRICTION:.0%}, weight "
             f"+-{WEIGHT:.0%}; 2 deg of backlash, 400 counts, a sample of delay.",
             "A hook came off if the tip of a limb that carries was more than 8 mm from its peg at any tick. The verdict is holds if "
-            "joint PD and the earlier scheme lose pegs more often than SCCT, which loses none.",
+            "joint PD loses pegs on more than half of the rungs and every Cartesian control climbs all of them without, open if only "
+            "some do.",
+            "The printed limit on the hooks' accelerations (4.4.2) looks at what the body's springs ask alone, not at the weight that "
+            "is fed forward: each correction becomes a pull, the body sways, turns, and falls. Counted with the weight, as our limit "
+            "is, the same gains climb. Section 4.4.5 says of the earlier scheme only that legs must push and that the risk of falling "
+            "is greater: on this stretch it loses nothing, pushed by 60 N it loses pegs (`fig-4-19`).",
             f'"{NOW}" is our own control at its defaults; "{PRINTED}" the printed gains (Kd twice the table\'s), map and limit, '
             f'"{SHARED}" the same but for the limit, which counts what the weight does to the tip. J^T holds '
             "the body as stiffly along each direction, joint PD and the earlier scheme in the mean of x and y; the earlier scheme "
