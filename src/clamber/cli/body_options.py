@@ -34,7 +34,7 @@ class BodyWords:
         list[str] | None,
         typer.Option(
             "--controller", "-c", metavar="NAME",
-            help="A law, leg-by-leg:LAW, or coordinated; scct and jacobian-transpose unless given.",
+            help="A law, leg-by-leg:LAW, coordinated, or climber; scct and jacobian-transpose unless given.",
         ),
     ] = None  # fmt: skip
     kp: Annotated[str, typer.Option(metavar="X,Y,THETA", help="Of the body, for scct; Table 4.1's.")] = "100,50,10"
@@ -42,9 +42,9 @@ class BodyWords:
     match: Annotated[
         BodyMatchChoice, typer.Option(help="Other laws hold the body as stiffly as scct in this sense.")
     ] = BodyMatchChoice.diagonal
-    mapping: Annotated[
-        str, typer.Option(metavar="NAME", help="From the body to its tips: thesis, kinematic or collocated.")
-    ] = "thesis"
+    mapping: Annotated[str, typer.Option(metavar="NAME", help="From the body to its tips: thesis or kinematic.")] = (
+        "thesis"
+    )
     limit: Annotated[
         str | None,
         typer.Option(
@@ -91,14 +91,14 @@ class BodyWords:
     def build_entries(self, stand: "BodyStand") -> "list[BodyEntry]":
         """The controls to be compared."""
         from ..errors import UnknownNameError
-        from ..execution.climb.whole_body import LIMITS, MAPPINGS, BodyGains
+        from ..execution.climb.whole_body import LIMITS, BodyGains
         from ..experiments.climb.body_entries import make_entries, read_triple
 
         kp = read_triple("kp", self.kp)
         kd = (kp[0] / 10, kp[1] / 10, kp[2] / 10) if self.kd is None else read_triple("kd", self.kd)
         fed = (1.0 if stand.fixed else BodyGains().weight_fed) if self.weight_fed is None else self.weight_fed
         limit = self.limit or ("none" if stand.fixed else "thesis")
-        for kind, name, known in (("mapping", self.mapping, MAPPINGS), ("limit", limit, LIMITS)):
+        for kind, name, known in (("mapping", self.mapping, ("thesis", "kinematic")), ("limit", limit, LIMITS)):
             if name not in known:
                 raise UnknownNameError(kind, name, tuple(known))
         reference = BodyGains(kp=kp, kd=kd, mapping=self.mapping, limit=limit, weight_fed=fed)

@@ -8,14 +8,14 @@ pulled off, and its own law turns both into torques. Arrays have one row per lim
 import math
 
 from ..compiled import inlined, kernel
-from .hook_forces import felt, keep_hooked, pair_forces, raise_pull
+from .hook_forces import pair_forces
 
 THESIS = 0
 """The thesis's T for forces and accelerations alike."""
 KINEMATIC = 1
 """Accelerations by the body's motion, -(a + alpha x r); forces by T."""
-COLLOCATED = 2
-"""As kinematic for where the body is; how fast, each limb damps by its own joints, whose encoders are far finer than the body's (ours)."""
+WRENCH = 2
+"""What brings the body back to its aim is a wrench like the weight, shared with it; each limb damps by its own joints (ours)."""
 LIMIT_NONE = 0
 LIMIT_THESIS = 1
 """The commanded acceleration alone is kept along the grab direction."""
@@ -24,7 +24,7 @@ LIMIT_COUNTED = 2
 LIMIT_SHARED = 3
 """As counted, after the holding limbs pull against each other as far as both hooks need: the body's wrench stays."""
 LIMIT_FEASIBLE = 4
-"""Forces count: two holding limbs share the fed wrench, and then the feedback, within what hooks and motors can take (`hook_forces`)."""
+"""Of forces only: two holding limbs share what is fed, and of what brings the body back a part, as hooks and motors can take it."""
 FAR = 1e9
 SQUEEZE = 12.0
 """Most that two limbs pull against each other [N]: a third of LIBRA's weight; more drags hooks sideways off their holds."""
@@ -93,9 +93,9 @@ def command_tips(legs, q, held, pose, arms, wanted, fed, mapping, limit, least, 
         held: 1 for limbs that hold, shape (n,).
         pose: Body pose, shape (3,).
         arms: Holds less body, world frame, shape (n, 2) [m].
-        wanted: Acceleration of the body that is asked for, in the units of its gains, shape (3,).
+        wanted: Acceleration of the body that is asked for, in the units of its gains, shape (3,); with WRENCH a wrench [N], [N m].
         fed: Wrench that is fed forward, such as the weight, shape (3,) [N], [N m].
-        mapping: THESIS, KINEMATIC or COLLOCATED.
+        mapping: THESIS, KINEMATIC or WRENCH.
         limit: LIMIT_NONE, LIMIT_THESIS, LIMIT_COUNTED, LIMIT_SHARED or LIMIT_FEASIBLE.
         least: alpha, the least acceleration along the grab direction, shape (n,).
         drags: Accelerations of the tips relative to the body that are asked for besides, world frame, shape (n, 2).
@@ -103,9 +103,12 @@ def command_tips(legs, q, held, pose, arms, wanted, fed, mapping, limit, least, 
         pulls: Filled with accelerations, port frame, shape (n, 2).
         forces: Filled with forces of the tips on their holds, port frame, shape (n, 2) [N].
     """
-    share_wrench(held, arms, wanted, pulls)
     share_wrench(held, arms, fed, forces)
+    share_wrench(held, arms, wanted, pulls)
     count, a, b = _pair(held)
+    feasible = limit == LIMIT_FEASIBLE and count == 2
+    if feasible:
+        pair_forces(legs, q, a, b, pose, arms, fed, _asked(mapping, wanted), cuts, forces)
     for i in range(legs.size):
         if not held[i]:
             continue
@@ -113,18 +116,15 @@ def command_tips(legs, q, held, pose, arms, wanted, fed, mapping, limit, least, 
         if mapping == THESIS:
             pulls[i, 0] = -pulls[i, 0]
             pulls[i, 1] = -pulls[i, 1]
-        else:
+        elif mapping == KINEMATIC:
             pulls[i, 0] = -(wanted[0] - wanted[2] * arms[i, 1])
             pulls[i, 1] = -(wanted[1] + wanted[2] * arms[i, 0])
-    if limit == LIMIT_FEASIBLE:
-        if count == 2:
-            pair_forces(legs, q, a, b, pose, arms, fed, cuts, forces)
-            keep_hooked(legs, q, a, b, pose, arms, pulls, cuts, forces)
         else:
-            for i in range(legs.size):
-                if held[i]:
-                    fx, fy = felt(legs[i], q[i], pose[2], pulls[i, 0], pulls[i, 1])
-                    raise_pull(legs[i], q[i], pose[2], fx - forces[i, 0], fy - forces[i, 1], pulls[i])
+            if not feasible:
+                forces[i, 0] += pulls[i, 0]
+                forces[i, 1] += pulls[i, 1]
+            pulls[i, 0] = 0.0
+            pulls[i, 1] = 0.0
     for i in range(legs.size):
         if held[i]:
             # a limb's own inertia takes up what damps it, so hooks do not feel it
@@ -140,6 +140,13 @@ def command_tips(legs, q, held, pose, arms, wanted, fed, mapping, limit, least, 
     for i in range(legs.size):
         if held[i] and limit not in (LIMIT_NONE, LIMIT_FEASIBLE) and legs[i].hooked:
             limit_pull(legs[i], q[i], limit, least[i], pulls[i], forces[i])
+
+
+@inlined
+def _asked(mapping, wanted):
+    """What is asked for in newtons."""
+    part = 1.0 if mapping == WRENCH else 0.0
+    return part * wanted[0], part * wanted[1], part * wanted[2]
 
 
 @kernel

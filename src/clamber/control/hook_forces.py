@@ -28,15 +28,18 @@ MOST_CUTS = 14
 """Three of each hook and four of each limb's motors."""
 FAR = 1e3
 """Internal forces are looked for within this [N]."""
-NEAR_STRAIGHT = 0.05
-"""A limb nearer to straight than this, as the sine of its elbow, is reckoned with as if it were there."""
+HALVINGS = 7
+"""In the search for the part of the feedback that hooks and motors bear."""
 FLAT = 1e-9
 """A cut with less slope than this says nothing about lambda."""
 
 
 @kernel
-def pair_forces(legs, q, a, b, pose, arms, wrench, cuts, forces):
+def pair_forces(legs, q, a, b, pose, arms, wrench, more, cuts, forces):
     """Forces of two holds on their limbs, added up to a wrench, within what hooks and motors can take if there is such a split.
+
+    First comes the steady wrench, as is wished of hooks and motors. What is asked for besides, to bring the body back to its aim, may go up to
+    their bounds; of more than these allow it gets a part.
 
     Args:
         legs: Records of `LEG`, shape (n,).
@@ -45,97 +48,75 @@ def pair_forces(legs, q, a, b, pose, arms, wrench, cuts, forces):
         pose: Body pose, shape (3,).
         arms: Holds less body, world frame, shape (n, 2) [m].
         wrench: On the body: Fx, Fy [N], M about its origin [N m].
+        more: What is asked for besides, shape (3,).
         cuts: Work space, shape (MOST_CUTS, 2).
         forces: Rows a and b are filled, world frame, shape (n, 2) [N].
 
     Returns:
-        How well the worst of hooks and motors is off [N]: negative if none of the splits meets all wishes.
+        How well the worst of hooks and motors is off under the steady wrench [N]: negative if none of the splits meets all wishes; and the
+        part of `more` that is brought.
     """
     dx = arms[b, 0] - arms[a, 0]
     dy = arms[b, 1] - arms[a, 1]
     length = max(math.hypot(dx, dy), 1e-6)
-    ux = dx / length
-    uy = dy / length
-    moment = wrench[2] - 0.5 * ((arms[a, 0] + arms[b, 0]) * wrench[1] - (arms[a, 1] + arms[b, 1]) * wrench[0])
-    turn = moment / length
-    forces[a, 0] = 0.5 * wrench[0] + turn * uy
-    forces[a, 1] = 0.5 * wrench[1] - turn * ux
-    forces[b, 0] = 0.5 * wrench[0] - turn * uy
-    forces[b, 1] = 0.5 * wrench[1] + turn * ux
-    size = max(math.hypot(wrench[0], wrench[1]), 1.0)
+    line = (dx / length, dy / length, length)
     wishes = (math.sin(WISHED_CONE), math.cos(WISHED_CONE), WISHED_PULL, WISHED_TORQUE)
-    count, slope, square = _add_cuts(legs[a], q[a], pose[2], forces[a], ux, uy, size, wishes, cuts, 0)
-    count, slope_b, square_b = _add_cuts(legs[b], q[b], pose[2], forces[b], -ux, -uy, size, wishes, cuts, count)
-    square += square_b
-    easiest = -(slope + slope_b) / square if square > FLAT else 0.0
+    bounds = (math.sin(WIDEST_CONE), math.cos(WIDEST_CONE), LEAST_PULL, MOST_TORQUE)
+    count, easiest = _cut_pair(legs, q, a, b, pose, arms, line, wrench, more, 0.0, wishes, cuts, forces)
     lam, margin = best_within(cuts, count, easiest)
-    forces[a, 0] += lam * ux
-    forces[a, 1] += lam * uy
-    forces[b, 0] -= lam * ux
-    forces[b, 1] -= lam * uy
-    return margin
+    part = 0.0
+    if more[0] != 0.0 or more[1] != 0.0 or more[2] != 0.0:
+        count, _ = _cut_pair(legs, q, a, b, pose, arms, line, wrench, more, 0.0, bounds, cuts, forces)
+        _, floor = best_within(cuts, count, lam)
+        floor = min(floor, 0.0)
+        count, _ = _cut_pair(legs, q, a, b, pose, arms, line, wrench, more, 1.0, bounds, cuts, forces)
+        whole, least = best_within(cuts, count, lam)
+        part = 1.0
+        if least < floor:
+            # the worst cut is a concave function of the part, so what serves is an interval from 0
+            part = 0.0
+            whole = lam
+            step = 0.5
+            for _ in range(HALVINGS):
+                count, _ = _cut_pair(legs, q, a, b, pose, arms, line, wrench, more, part + step, bounds, cuts, forces)
+                found, least = best_within(cuts, count, lam)
+                if least >= floor:
+                    part += step
+                    whole = found
+                step *= 0.5
+        lam = whole
+    _split(a, b, arms, line, wrench, more, part, forces)
+    forces[a, 0] += lam * line[0]
+    forces[a, 1] += lam * line[1]
+    forces[b, 0] -= lam * line[0]
+    forces[b, 1] -= lam * line[1]
+    return margin, part
+
+
+@inlined
+def _split(a, b, arms, line, wrench, more, part, forces):
+    """The split of wrench + part more with the least forces."""
+    ux, uy, length = line
+    x = wrench[0] + part * more[0]
+    y = wrench[1] + part * more[1]
+    moment = wrench[2] + part * more[2] - 0.5 * ((arms[a, 0] + arms[b, 0]) * y - (arms[a, 1] + arms[b, 1]) * x)
+    turn = moment / length
+    forces[a, 0] = 0.5 * x + turn * uy
+    forces[a, 1] = 0.5 * y - turn * ux
+    forces[b, 0] = 0.5 * x - turn * uy
+    forces[b, 1] = 0.5 * y + turn * ux
 
 
 @kernel
-def keep_hooked(legs, q, a, b, pose, arms, pulls, cuts, forces):
-    """Let two holding limbs pull against each other as much more as their hooks need to bear the feedback too; the body's wrench stays.
-
-    What even that leaves short is added to the feedback along the grab direction, which does move the body.
-
-    Args:
-        legs, q, a, b, pose, arms, cuts: As of `pair_forces`.
-        pulls: Accelerations of the tips relative to the body, world frame, shape (n, 2); changed.
-        forces: Of the holds on the limbs, fed forward, world frame, shape (n, 2) [N]; changed.
-    """
-    dx = arms[b, 0] - arms[a, 0]
-    dy = arms[b, 1] - arms[a, 1]
-    length = max(math.hypot(dx, dy), 1e-6)
-    ux = dx / length
-    uy = dy / length
-    ax, ay = felt(legs[a], q[a], pose[2], pulls[a, 0], pulls[a, 1])
-    bx, by = felt(legs[b], q[b], pose[2], pulls[b, 0], pulls[b, 1])
-    bounds = (math.sin(WIDEST_CONE), math.cos(WIDEST_CONE), LEAST_PULL, MOST_TORQUE)
-    whole_a = (forces[a, 0] - ax, forces[a, 1] - ay)
-    whole_b = (forces[b, 0] - bx, forces[b, 1] - by)
-    count, _, _ = _add_cuts(legs[a], q[a], pose[2], whole_a, ux, uy, 1.0, bounds, cuts, 0)
-    count, _, _ = _add_cuts(legs[b], q[b], pose[2], whole_b, -ux, -uy, 1.0, bounds, cuts, count)
-    lam, _ = best_within(cuts, count, 0.0)
-    forces[a, 0] += lam * ux
-    forces[a, 1] += lam * uy
-    forces[b, 0] -= lam * ux
-    forces[b, 1] -= lam * uy
-    raise_pull(legs[a], q[a], pose[2], ax - forces[a, 0], ay - forces[a, 1], pulls[a])
-    raise_pull(legs[b], q[b], pose[2], bx - forces[b, 0], by - forces[b, 1], pulls[b])
-
-
-@inlined
-def raise_pull(leg, q, angle, fx, fy, pull):
-    """Add to a tip's acceleration, world frame, what a hook lacks along its grab direction while its load is (fx, fy) [N]."""
-    if not leg.hooked:
-        return
-    grab = angle + leg.port_angle + q[0] + q[1] + leg.hook_angle
-    gx = math.cos(grab)
-    gy = math.sin(grab)
-    lack = LEAST_PULL - (gx * fx + gy * fy)
-    if lack > 0.0:
-        j00, j01, j10, j11 = _jacobian(leg, q, angle)
-        t0 = (j00 * gx + j10 * gy) / leg.share1
-        t1 = (j01 * gx + j11 * gy) / leg.share2
-        pull[0] += lack * (j00 * t0 + j01 * t1)
-        pull[1] += lack * (j10 * t0 + j11 * t1)
-
-
-@inlined
-def felt(leg, q, angle, ax, ay):
-    """Force of a tip that stands still on its hold for an acceleration that is asked of it: J^-T K' J^-1 a, world frame [N]."""
-    j00, j01, j10, j11 = _jacobian(leg, q, angle)
-    det = j00 * j11 - j01 * j10
-    least = NEAR_STRAIGHT * leg.l1 * leg.l2
-    if abs(det) < least:
-        det = math.copysign(least, det)
-    t0 = leg.share1 * (j11 * ax - j01 * ay) / det
-    t1 = leg.share2 * (j00 * ay - j10 * ax) / det
-    return (j11 * t0 - j10 * t1) / det, (j00 * t1 - j01 * t0) / det
+def _cut_pair(legs, q, a, b, pose, arms, line, wrench, more, part, wishes, cuts, forces):
+    """Fill the cuts of both limbs; how many, and the lambda with the least effort."""
+    _split(a, b, arms, line, wrench, more, part, forces)
+    size = max(math.hypot(wrench[0], wrench[1]), 1.0)
+    ux, uy, _ = line
+    count, slope, square = _add_cuts(legs[a], q[a], pose[2], forces[a], ux, uy, size, wishes, cuts, 0)
+    count, slope_b, square_b = _add_cuts(legs[b], q[b], pose[2], forces[b], -ux, -uy, size, wishes, cuts, count)
+    square += square_b
+    return count, -(slope + slope_b) / square if square > FLAT else 0.0
 
 
 @inlined
@@ -253,3 +234,4 @@ def _least_cut(cuts, count, lam):
             least = value
             best = k
     return best
+

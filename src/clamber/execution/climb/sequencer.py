@@ -14,8 +14,7 @@ from .climb_trace import TracedClimber
 from .climber import FallenError, Grabbed
 from .course import Course, PlanRefusedError, lay_course, names_of, swings
 from .here import task_from_here
-from .motions import follow, grab, move_body, release
-from .parking import park, poses_between
+from .motions import grab, move_body, release
 
 Outcome: TypeAlias = Literal["ok", "stalled", "missed", "fell", "interrupted", "not supported"]
 Replan: TypeAlias = Callable[[LimbedTask], Plan | None]
@@ -217,24 +216,11 @@ class Sequencer:
 
     def _move(self, step: int) -> tuple[Outcome, int, str]:
         """The body goes to the plan's pose; once more where it does not come there."""
-        self._clear_the_way(self._pose(step))
         for tries in (1, 2):
             move_body(self.climber, self._pose(step))
             if self._settle():
                 return "ok", tries, ""
         return "stalled", 2, f"the body stays {1e3 * self._off():.0f} mm off its aim"
-
-    def _clear_the_way(self, pose: Floats) -> None:
-        """Bring free limbs to where they meet no hold while the body goes to a pose."""
-        climber, body = self.climber, self.climber.body
-        for i, task in enumerate(body.tasks):
-            if task.hold:
-                continue
-            way = park(
-                climber.approaches, i, body.q[i] - body.play[i], poses_between(body.settled, pose), climber.holds
-            )
-            if way is not None:
-                follow(climber, i, way)
 
     def _grab(self, step: int) -> tuple[Outcome, int, str]:
         action = self.course.actions[step - 1]

@@ -8,7 +8,6 @@ from typing import Final, Literal, TypeAlias
 import numpy as np
 
 from ...control.body import (
-    COLLOCATED,
     KINEMATIC,
     LIMIT_COUNTED,
     LIMIT_FEASIBLE,
@@ -16,6 +15,7 @@ from ...control.body import (
     LIMIT_SHARED,
     LIMIT_THESIS,
     THESIS,
+    WRENCH,
     command_tips,
     drag_tips,
 )
@@ -24,16 +24,15 @@ from ...control.chain import chain_of_limb
 from ...control.controller import Controller, still_aim
 from ...control.hook_forces import MOST_CUTS
 from ...control.law_settings import LawSettings
-from ...control.leg import LEG
 from ...control.play import follow_play, pull_torques
 from ...robots.limbed import LimbedRobot
 from ...types import Floats, Ints
-from ...units import GRAVITY
 from .body_schemes import SCHEMES
+from .legs import legs_of
 
 Doing: TypeAlias = Literal["hold", "cling", "tip", "joints", "pull"]
 """A limb holds the body, clings to its hold without carrying, brings its tip or its joints somewhere, or pulls along a direction."""
-MAPPINGS: Final = {"thesis": THESIS, "kinematic": KINEMATIC, "collocated": COLLOCATED}
+MAPPINGS: Final = {"thesis": THESIS, "kinematic": KINEMATIC, "wrench": WRENCH}
 PLAY_TIME: Final = 0.2
 """Time in which the believed side of the play follows the load [s]."""
 CLING_DAMPING: Final = 60.0
@@ -57,12 +56,14 @@ HANDING_OVER: Final = 0.5
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BodyGains:
-    """Gains of body and limbs. The thesis's Table 4.1 goes with its own map: kp 100, 50, 10, kd 5, 2.5, 0.5."""
+    """Gains of body and limbs."""
 
-    kp: tuple[float, float, float] = (100.0, 100.0, 100.0)
-    """Even: each holding limb is then a spring about its joints, which no stance makes unstable (ours)."""
-    kd: tuple[float, float, float] = (10.0, 10.0, 10.0)
-    """Of x, y and angle; the collocated map takes that of x for all."""
+    kp: tuple[float, float, float] = (100.0, 50.0, 10.0)
+    """Of the maps "thesis" and "kinematic"; those of the thesis's Table 4.1."""
+    kd: tuple[float, float, float] = (10.0, 5.0, 1.0)
+    """Twice the table's: with delay and backlash its own let the body swing (ours). The map "wrench" takes that of x for all."""
+    stiffness: tuple[float, float, float] = (3000.0, 3000.0, 200.0)
+    """Of the map "wrench" [N/m], [N m/rad]; ours."""
     limb_kp: float = 500.0
     limb_kd: float = 25.0
     joint_kp: float = 400.0
@@ -77,7 +78,7 @@ class BodyGains:
     """alpha of the hook limit."""
     weight_fed: float = 0.95
     """Part of the weight that is fed forward."""
-    mapping: str = "collocated"
+    mapping: str = "wrench"
     limit: str = "feasible"
     law: str = "scct"
     scheme: str = "body"
@@ -138,18 +139,7 @@ class WholeBody:
         n = len(robot.limbs)
         self.n = n
         self.chains = [chain_of_limb(robot, limb.name) for limb in robot.limbs]
-        self.legs = np.zeros(n, LEG)
-        for i, (limb, chain) in enumerate(zip(robot.limbs, self.chains, strict=True)):
-            hooked = limb.end.kind == "hook"
-            joints, masses = chain.joints, chain.joints["mass"]
-            centres = joints["centre"][:, 0]
-            self.legs[i] = (
-                *(limb.port_x, limb.port_y, limb.port_angle, limb.l1, limb.l2_effective, limb.hook_beta),
-                *(limb.end.angle, hooked, *joints["share"]),
-                *(GRAVITY * (masses[0] * centres[0] + masses[1] * limb.l1), GRAVITY * masses[1] * centres[1]),
-                *joints["friction"],
-                *joints["limit"],
-            )
+        self.legs = legs_of(robot)
         unit = LawSettings(law=gains.law, kp=1.0, kd=0.0, joint_kd=1.0)
         free = LawSettings(law=gains.law, kp=gains.limb_kp, kd=gains.limb_kd)
         self._pullers = [Controller(chain, unit, period=period) for chain in self.chains]
@@ -185,7 +175,7 @@ class WholeBody:
         self._ports = [
             (limb.port_x, limb.port_y, math.cos(limb.port_angle), math.sin(limb.port_angle)) for limb in robot.limbs
         ]
-        self._kp, self._kd = np.array(gains.kp), np.array(gains.kd)
+        self._kp, self._kd, self._stiffness = np.array(gains.kp), np.array(gains.kd), np.array(gains.stiffness)
         self._pressed, self._loads = np.zeros(n, np.int64), np.zeros((n, 2))
         self._lag = np.array((period / PLAY_TIME, self.backlash / 2))
         self._scheme = None if gains.scheme == "body" else SCHEMES[gains.scheme](self)
@@ -277,12 +267,12 @@ class WholeBody:
     def command(self) -> Floats:
         """Torques of this tick, shape (limbs, 2) [N m]."""
         gains = self.gains
-        wanted = self._kp * (self.aim - self.pose)
         np.subtract(self._holds, self.pose[:2], out=self._arms)
-        if gains.mapping == "collocated":
+        if gains.mapping == "wrench":
+            wanted = self._stiffness * (self.aim - self.pose)
             drag_tips(self.tip_speeds, self.pose[2], self._arms, self.aim_speed, gains.kd[0], self._drags)
         else:
-            wanted += self._kd * (self.aim_speed - self.twist)
+            wanted = self._kp * (self.aim - self.pose) + self._kd * (self.aim_speed - self.twist)
         fed = self._fed()
         if self.handing_over:
             self._command_tips(self._carriers[0], wanted, fed, self._old_pulls, self._old_forces)

@@ -20,10 +20,13 @@ AIM_BOUND: Final = frozenset({"joint-pd"})
 """Laws that remember where their aim was: a pull of the body is no aim that stays, so they carry it leg by leg."""
 LEG_BY_LEG: Final = "leg-by-leg"
 COORDINATED: Final = "coordinated"
+CLIMBER: Final = "climber"
+"""The robot's own control as it climbs, with its own gains."""
 CONTROLS: Final = (
     *(law for law in LAWS if law not in AIM_BOUND | FEELING),
     *(f"{LEG_BY_LEG}:{law}" for law in LAWS if law not in FEELING),
     COORDINATED,
+    CLIMBER,
 )
 """All ways; none with a law that must feel forces: without a sensor at its tips the robot gives way to the weight that is fed forward."""
 
@@ -60,6 +63,8 @@ def read_gains(text: str, reference: BodyGains, stand: BodyStand, match: BodyMat
     Raises:
         UnknownNameError: If there is no such law.
     """
+    if text == CLIMBER:
+        return BodyGains()
     if text == COORDINATED:
         gains = replace(reference, scheme=COORDINATED, weight_fed=0.0)
         matched = match_body(stand, gains, reference, match)

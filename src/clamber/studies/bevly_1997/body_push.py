@@ -159,7 +159,7 @@ def _deviations(ratio: dict[str, float], needed: float, stiffer: float) -> tuple
     return (
         *PLANT,
         '"Kpy ten times Kpx" contradicts Table 4.1, where Kpy is half of Kpx. Both are shown, and neither makes the body ten times as '
-        "stiff along y: gains are of accelerations, and J^-T K' J^-1 of two legs stretched sideways is by itself {stiffer:.1f} times "
+        f"stiff along y: gains are of accelerations, and J^-T K' J^-1 of two legs stretched sideways is by itself {stiffer:.1f} times "
         f"stiffer along x. With the table's gains the body goes {ratio['Table 4.1']:.2g} times as far along x as along y, with Kpy = "
         f"10 Kpx {ratio['Kpy = 10 Kpx']:.2g} times; ten times takes Kpy = {needed:.0f} Kpx. The verdict is holds only if hooks stay on "
         "in all pushes and the ratio with Kpy = 10 Kpx is above 5.",
