@@ -42,6 +42,8 @@ class Log:
     """What else the file says about itself, such as robot and limb."""
     label: str = "log"
     """What errors call it: the file's path."""
+    cut: bool = False
+    """Whether the file ends in the middle, as a killed process leaves it: samples and notes may be missing at the end."""
 
     def __post_init__(self) -> None:
         rows = {name: np.shape(values) for name, values in self.columns.items()}

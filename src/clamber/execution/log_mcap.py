@@ -2,8 +2,9 @@
 
 import io
 import json
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+import struct
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
 import numpy as np
@@ -16,8 +17,13 @@ SCHEMA: Final = "clamber.Log"
 TIME: Final = "time"
 """Column that gives the messages their time [s]; a file without it gets the messages' own time."""
 
+NOTES: Final = "clamber"
+"""Metadata record with the notes that are known only at the end of a log."""
 LATEST: Final = 2**64 - 1
 """Largest time that a message can have [ns]."""
+MAGIC: Final = bytes((137, 77, 67, 65, 80, 48, 13, 10))
+"""First and last bytes of a whole file."""
+_HEAD: Final = struct.Struct("<BQ")
 
 
 def mcap_bytes(log: Log, topic: str = TOPIC) -> bytes:
@@ -34,21 +40,34 @@ def mcap_of(logs: Mapping[str, Log]) -> bytes:
     writer.start(profile="", library="clamber")
     for topic, log in logs.items():
         titles = log.titles()
-        properties = {title: {"type": "number"} for title in titles}
-        schema = {"title": SCHEMA, "type": "object", "properties": properties}
-        number = writer.register_schema(SCHEMA, "jsonschema", json.dumps(schema).encode())
-        channel = writer.register_channel(topic, "json", number, dict(log.notes))
+        channel = open_channel(writer, topic, titles, log.notes)
         times = log.columns[TIME] if TIME in log.columns else np.arange(log.rows, dtype=np.float64)
         for k, row in enumerate(np.column_stack([np.asarray(v) for v in log.columns.values()]).tolist()):
-            stamp = min(max(0, round(float(times[k]) * 1e9)), LATEST)
+            stamp = stamp_of(float(times[k]))
             data = json.dumps(dict(zip(titles, row, strict=True))).encode()
             writer.add_message(channel, stamp, data, stamp, k)
     writer.finish()  # type: ignore[no-untyped-call]
     return out.getvalue()
 
 
+def open_channel(writer: Any, topic: str, titles: Iterable[str], notes: Mapping[str, str]) -> int:
+    """Register a channel whose messages hold one number under each title; its number."""
+    properties = {title: {"type": "number"} for title in titles}
+    schema = {"title": SCHEMA, "type": "object", "properties": properties}
+    number = writer.register_schema(SCHEMA, "jsonschema", json.dumps(schema).encode())
+    channel: int = writer.register_channel(topic, "json", number, dict(notes))
+    return channel
+
+
+def stamp_of(time: float) -> int:
+    """A message's time [ns] for a time [s]."""
+    return min(max(0, round(time * 1e9)), LATEST)
+
+
 def parse_mcap(content: bytes, label: str, topic: str | None = None) -> Log:
     """The log of an MCAP file's bytes: the numbers of one channel's JSON messages, nested ones by dotted names.
+
+    A file that ends in the middle, as a killed process leaves it, is read as far as its records are whole; the log says that it is cut.
 
     Args:
         content: The file.
@@ -58,8 +77,9 @@ def parse_mcap(content: bytes, label: str, topic: str | None = None) -> Log:
     Raises:
         LogError: If it is no MCAP file, no such channel is in it, or its messages are not JSON with the same numbers each.
     """
+    cut = not content.endswith(MAGIC)
     try:
-        channels = _read(content)
+        channels = _read_cut(content) if cut else _read(content)
     except Exception as error:  # the reader raises whatever a broken record makes of its struct, codec or index
         what = f"is not a readable MCAP file ({type(error).__name__}: {error})"
         raise LogError(label, None, None, None, what[:300]) from None
@@ -88,7 +108,7 @@ def parse_mcap(content: bytes, label: str, topic: str | None = None) -> Log:
         titles.insert(0, "time [s]")
         stamps = np.array([stamp - chosen.messages[0][0] for stamp, _ in chosen.messages], dtype=np.float64)
         columns.insert(0, stamps * 1e-9)
-    return build_log(titles, columns, chosen.notes, label)
+    return replace(build_log(titles, columns, chosen.notes, label), cut=cut)
 
 
 @dataclass(slots=True)
@@ -102,17 +122,67 @@ class _Channel:
 
 
 def _read(content: bytes) -> dict[str, _Channel]:
-    """The channels by topic."""
+    """The channels of a whole file by topic."""
     from mcap.reader import make_reader
 
+    reader = make_reader(io.BytesIO(content), validate_crcs=True)
     channels: dict[str, _Channel] = {}
-    for schema, channel, message in make_reader(io.BytesIO(content), validate_crcs=True).iter_messages():
-        ours = schema is not None and schema.name == SCHEMA  # the metadata of others are no notes of a limb
-        found = channels.setdefault(
-            channel.topic, _Channel(channel.message_encoding, dict(channel.metadata) if ours else {})
-        )
-        found.messages.append((message.log_time, message.data))
+    for schema, channel, message in reader.iter_messages():
+        _keep(channels, schema, channel, message)
+    for record in reader.iter_metadata():
+        _add_notes(channels, record)
     return channels
+
+
+def _read_cut(content: bytes) -> dict[str, _Channel]:
+    """The channels of a file that ends in the middle, record by record up to the last whole one."""
+    from mcap.exceptions import EndOfFile
+    from mcap.records import Channel, Message, Metadata, Schema
+    from mcap.stream_reader import StreamReader
+
+    channels: dict[str, _Channel] = {}
+    schemas: dict[int, Any] = {}
+    known: dict[int, Any] = {}
+    reader = StreamReader(io.BytesIO(content[: _whole_records(content)]), validate_crcs=True)
+    try:
+        for record in reader.records:
+            if isinstance(record, Schema):
+                schemas[record.id] = record
+            elif isinstance(record, Channel):
+                known[record.id] = record
+            elif isinstance(record, Message):
+                channel = known[record.channel_id]
+                _keep(channels, schemas.get(channel.schema_id), channel, record)
+            elif isinstance(record, Metadata):
+                _add_notes(channels, record)
+    except EndOfFile:
+        pass
+    return channels
+
+
+def _whole_records(content: bytes) -> int:
+    """Where the last whole record ends: each is an opcode, its length, and that many bytes."""
+    end = len(MAGIC)
+    while (start := end + _HEAD.size) <= len(content):
+        _, length = _HEAD.unpack_from(content, end)
+        if start + length > len(content):
+            break
+        end = start + length
+    return end
+
+
+def _keep(channels: dict[str, _Channel], schema: Any, channel: Any, message: Any) -> None:
+    ours = schema is not None and schema.name == SCHEMA  # the metadata of others are no notes of a limb
+    found = channels.setdefault(
+        channel.topic, _Channel(channel.message_encoding, dict(channel.metadata) if ours else {})
+    )
+    found.messages.append((message.log_time, message.data))
+
+
+def _add_notes(channels: dict[str, _Channel], record: Any) -> None:
+    if record.name == NOTES:
+        for channel in channels.values():
+            channel.notes.update(record.metadata)
 
 
 def _choose(channels: dict[str, _Channel], topic: str | None, label: str) -> str:

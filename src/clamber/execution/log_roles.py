@@ -98,6 +98,8 @@ def samples_of(log: Log, mapping: Mapping[str, str] | None = None) -> LimbSample
             if role != "time" and (joint, role) in found:
                 fields[field] = _in_si(log, found[joint, role], role, units, notes)
         out.append(JointSamples(name=joint, time=time, **fields))
+    if log.cut:
+        notes.append(f"{log.label} ends in the middle: the {log.rows} samples before that are used")
     return LimbSamples(tuple(out), tuple(notes))
 
 

@@ -4,7 +4,7 @@ import json
 import os
 import tempfile
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import fmean
@@ -55,13 +55,15 @@ def points(n: int) -> list[Json]:
     return [{"point": point, "warm": warm} for point in made]
 
 
-def run_batch(items: Sequence[Json], executor: Executor, store: Path) -> Batch:
-    """Run points and see when the workers were ready, what they worked, and when all of it had ended.
+def run_batch(
+    items: Sequence[Json], executor: Executor, store: Path, do: Callable[[Json], Json] = timed_point
+) -> Batch:
+    """Run items and see when the workers were ready, what they worked, and when all of it had ended.
 
-    The moments of all processes are compared, so they must be on one machine.
+    The moments of all processes are compared, so they must be on one machine. What `do` returns is as `timed_point` has it.
     """
     called = time.monotonic()
-    told = [one.result for one in map_items(timed_point, items, executor=executor, store=store) if one.result]
+    told = [one.result for one in map_items(do, items, executor=executor, store=store) if one.result]
     ended = time.monotonic()
     ready = {one["process"]: one["ready"] for one in told}
     held = sum(ended - moment for moment in ready.values())

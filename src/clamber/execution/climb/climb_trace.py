@@ -8,7 +8,7 @@ from typing import Any, Final, Protocol
 import numpy as np
 
 from ...types import Floats, Ints, Json
-from ..log import Log, LogError
+from ..log import Log, LogError, split_title
 from .climber import Climber
 
 TOPIC: Final = "climb"
@@ -17,6 +17,10 @@ POSE: Final = (("x", "m"), ("y", "m"), ("theta", "rad"))
 JOINTS: Final = ("shoulder", "elbow")
 EVERY: Final = 4
 """Ticks between samples; the last tick is always one."""
+WHOLE: Final = ("step", "holds", "carries")
+"""Fields of whole numbers."""
+JOINTWISE: Final = ("angles", "true_angles", "torques")
+"""Fields with two numbers a limb."""
 
 
 class Truth(Protocol):
@@ -33,6 +37,42 @@ class Truth(Protocol):
     @property
     def tips(self) -> Floats:
         """World frame, shape (limbs, 2) [m]."""
+
+
+def climb_titles(limbs: tuple[str, ...], *, true: bool) -> dict[str, tuple[str, ...]]:
+    """Field of `ClimbTrace` -> titles of its columns in a log, in the order of a sample's numbers.
+
+    Args:
+        limbs: Their names.
+        true: Whether the plant tells how things really are.
+    """
+
+    def poses(word: str) -> tuple[str, ...]:
+        return tuple(f"body {axis} {word} [{unit}]" for axis, unit in POSE)
+
+    def joints(word: str, unit: str) -> tuple[str, ...]:
+        return tuple(f"{limb} {joint} {word} [{unit}]" for limb in limbs for joint in JOINTS)
+
+    titles = {"time": ("time [s]",), "step": ("step",), "believed": poses("believed"), "aim": poses("aim")}
+    if true:
+        titles["true_pose"] = poses("true")
+    titles["angles"] = joints("angle", "rad")
+    if true:
+        titles["true_angles"] = joints("output angle", "rad")
+    titles["torques"] = joints("torque", "N m")
+    titles["holds"] = tuple(f"{limb} hold" for limb in limbs)
+    titles["carries"] = tuple(f"{limb} carries" for limb in limbs)
+    return titles
+
+
+def limb_notes(limbs: tuple[str, ...]) -> dict[str, str]:
+    """What a climb's log says of itself from its start."""
+    return {"limbs": json.dumps(limbs)}
+
+
+def report_notes(notes: Json) -> dict[str, str]:
+    """What it says at its end: the report."""
+    return {"report": json.dumps(notes)}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -65,32 +105,22 @@ class ClimbTrace:
 
     def to_log(self) -> Log:
         """Columns by name, with `notes` as JSON."""
-        columns: dict[str, Floats] = {"time": self.time, "step": self.step.astype(float)}
-        units = {"time": "s"}
-        for word, poses in (("believed", self.believed), ("aim", self.aim), ("true", self.true_pose)):
-            for k, (axis, unit) in enumerate(POSE):
-                if poses is not None:
-                    columns[f"body {axis} {word}"], units[f"body {axis} {word}"] = poses[:, k], unit
-        for i, limb in enumerate(self.limbs):
-            for word, values, unit in (
-                ("angle", self.angles, "rad"),
-                ("output angle", self.true_angles, "rad"),
-                ("torque", self.torques, "N m"),
-            ):
-                for j, joint in enumerate(JOINTS):
-                    if values is not None:
-                        name = f"{limb} {joint} {word}"
-                        columns[name], units[name] = values[:, i, j], unit
-            columns[f"{limb} hold"] = self.holds[:, i].astype(float)
-            columns[f"{limb} carries"] = self.carries[:, i].astype(float)
-        notes = {"limbs": json.dumps(self.limbs)}
+        columns: dict[str, Floats] = {}
+        units: dict[str, str] = {}
+        for field, titles in climb_titles(self.limbs, true=self.true_pose is not None).items():
+            values = np.asarray(getattr(self, field), dtype=np.float64).reshape(len(self.time), -1)
+            for k, (name, unit) in enumerate(map(split_title, titles)):
+                columns[name] = values[:, k]
+                if unit is not None:
+                    units[name] = unit
+        notes = limb_notes(self.limbs)
         if self.notes is not None:
-            notes["report"] = json.dumps(self.notes)
+            notes |= report_notes(self.notes)
         return Log(columns, units, notes, "climb")
 
     @classmethod
     def from_log(cls, log: Log) -> "ClimbTrace":
-        """The trace that `to_log` made a log of.
+        """The trace of a climb's log; one that is cut has no notes.
 
         Raises:
             LogError: If it is no log of a climb.
@@ -98,25 +128,25 @@ class ClimbTrace:
         if "limbs" not in log.notes:
             raise LogError(log.label, None, None, None, "is no log of a climb: its notes name no limbs")
         limbs = tuple(json.loads(log.notes["limbs"]))
+        fields = climb_titles(limbs, true="body x true" in log.columns)
+        table = np.stack([log.column(split_title(title)[0]) for titles in fields.values() for title in titles], axis=1)
+        return cls.from_table(limbs, table, json.loads(log.notes["report"]) if "report" in log.notes else None)
 
-        def poses(word: str) -> Floats:
-            return np.stack([log.column(f"body {axis} {word}") for axis, _ in POSE], axis=1)
-
-        def joints(word: str) -> Floats:
-            every = [[log.column(f"{limb} {joint} {word}") for joint in JOINTS] for limb in limbs]
-            return np.moveaxis(np.array(every), 2, 0)
-
-        def marks(word: str) -> Ints:
-            return np.stack([log.column(f"{limb} {word}") for limb in limbs], axis=1).astype(np.int32)
-
-        true = "body x true" in log.columns
-        return cls(
-            limbs=limbs, time=np.asarray(log.column("time")), step=log.column("step").astype(np.int32),
-            believed=poses("believed"), aim=poses("aim"), angles=joints("angle"), torques=joints("torque"),
-            holds=marks("hold"), carries=marks("carries"), true_pose=poses("true") if true else None,
-            true_angles=joints("output angle") if true else None,
-            notes=json.loads(log.notes["report"]) if "report" in log.notes else None,
-        )  # fmt: skip
+    @classmethod
+    def from_table(cls, limbs: tuple[str, ...], table: Floats, notes: Json | None) -> "ClimbTrace":
+        """The trace of samples under `climb_titles`, shape (rows, columns)."""
+        n = len(limbs)
+        true = table.shape[1] > sum(map(len, climb_titles(limbs, true=False).values()))
+        parts: dict[str, Any] = {}
+        start = 0
+        for field, titles in climb_titles(limbs, true=true).items():
+            values = np.ascontiguousarray(table[:, start : start + len(titles)])
+            start += len(titles)
+            if field in WHOLE:
+                values = values.astype(np.int32)
+            shape = {"time": (-1,), "step": (-1,)}.get(field, (-1, n, 2) if field in JOINTWISE else values.shape)
+            parts[field] = values.reshape(shape)
+        return cls(limbs=limbs, notes=notes, **parts)
 
 
 class TracedClimber(Climber):
@@ -134,8 +164,22 @@ class TracedClimber(Climber):
         self.truth, self._every = truth, every
         self.step = 0
         """Number of the action that is carried out."""
-        self._rows: list[tuple[Any, ...]] = []
+        self.told: Callable[[Floats], None] | None = None
+        """Is told each sample when the next one is taken; the last one, `last`, may still be taken again."""
+        self._rows: list[Floats] = []
         self._kept = -1
+        self._width = len(self.titles)
+
+    @property
+    def limbs(self) -> tuple[str, ...]:
+        """Names of the limbs."""
+        return tuple(limb.name for limb in self.robot.limbs)
+
+    @property
+    def titles(self) -> tuple[str, ...]:
+        """Of a sample's numbers."""
+        fields = climb_titles(self.limbs, true=self.truth is not None)
+        return tuple(title for titles in fields.values() for title in titles)
 
     def tick(self) -> None:
         """As a climber's, kept; the tick of a fall is, too."""
@@ -149,24 +193,32 @@ class TracedClimber(Climber):
 
     def keep(self) -> None:
         """Take a sample of now, in place of one that there is."""
-        if self._kept == self.ticks:
-            self._rows.pop()
-        self._kept = self.ticks
-        body, true = self.body, None if self.truth is None else self.truth()
-        self._rows.append((
-            self.time, self.step, body.settled.copy(), body.aim.copy(), body.q.copy(), body.torques.copy(),
+        body = self.body
+        true = None if self.truth is None else self.truth()
+        parts = (
+            (self.time, self.step), body.settled, body.aim, () if true is None else true.pose,
+            body.q.ravel(), () if true is None else true.q.ravel(), body.torques.ravel(),
             [task.hold for task in body.tasks], [task.doing == "hold" for task in body.tasks],
-            None if true is None else true.pose, None if true is None else true.q,
-        ))  # fmt: skip
+        )  # fmt: skip
+        row = np.empty(self._width)
+        start = 0
+        for part in parts:
+            row[start : start + len(part)] = part
+            start += len(part)
+        if self._kept == self.ticks:
+            self._rows[-1] = row
+            return
+        if self._rows and self.told is not None:
+            self.told(self._rows[-1])
+        self._kept = self.ticks
+        self._rows.append(row)
+
+    def last(self) -> Floats:
+        """A sample of now."""
+        self.keep()
+        return self._rows[-1]
 
     def trace(self, notes: Json | None = None) -> ClimbTrace:
         """All samples so far."""
         self.keep()
-        time, step, believed, aim, q, torques, holds, carries, pose, true_q = zip(*self._rows, strict=True)
-        known = self.truth is not None
-        return ClimbTrace(
-            limbs=tuple(limb.name for limb in self.robot.limbs), time=np.array(time), step=np.array(step, np.int32),
-            believed=np.array(believed), aim=np.array(aim), angles=np.array(q), torques=np.array(torques),
-            holds=np.array(holds, np.int32), carries=np.array(carries, np.int32),
-            true_pose=np.array(pose) if known else None, true_angles=np.array(true_q) if known else None, notes=notes,
-        )  # fmt: skip
+        return ClimbTrace.from_table(self.limbs, np.array(self._rows), notes)

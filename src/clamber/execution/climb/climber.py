@@ -3,14 +3,16 @@
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Final, Protocol
+from typing import Final
 
 import numpy as np
 
 from ...robots.limbed import LimbedRobot
 from ...types import Floats
 from ...worlds.board import Board
+from ..plant import BodyPlant
 from .approach import Approaches, rank
+from .fall import FallWatch
 from .hold_map import HoldMap
 from .postures import postures
 from .whole_body import BodyGains, LimbTask, WholeBody
@@ -21,44 +23,6 @@ TURNED: Final = 0.6
 """Likewise turned this far from it [rad]."""
 STRAINED: Final = 0.03
 """Two holding tips whose distance differs that much from that of their holds are not both on them [m]."""
-
-
-class BodySenses(Protocol):
-    """What a plant's sensors say at a tick."""
-
-    @property
-    def q(self) -> Floats:
-        """Joint angles, shape (limbs, 2) [rad]."""
-
-    @property
-    def qd(self) -> Floats:
-        """Joint speeds, shape (limbs, 2) [rad/s]."""
-
-    @property
-    def angle(self) -> float:
-        """Of the body [rad]."""
-
-    @property
-    def angle_speed(self) -> float:
-        """[rad/s]."""
-
-
-class BodyPlant(Protocol):
-    """A climber that can be driven: simulated, or real."""
-
-    period: float
-
-    def reset(self, pose: Floats, q: Floats) -> None:
-        """Put the body at a pose with joint angles q, at rest."""
-
-    def sense(self) -> BodySenses:
-        """Read the sensors, once a tick."""
-
-    def actuate(self, torques: Floats) -> None:
-        """Set the motors' torques, shape (limbs, 2) [N m]."""
-
-    def step(self) -> None:
-        """Let one control period pass."""
 
 
 class FallenError(Exception):
@@ -101,6 +65,7 @@ class Climber:
     ) -> None:
         self.robot, self.plant, self.map_error = robot, plant, map_error
         self.body = WholeBody(robot, period=plant.period, gains=gains, backlash=backlash)
+        self.fall = FallWatch(self.body)
         self.holds = {hold.number: np.array((hold.x, hold.y)) for hold in board.holds}
         self.map = HoldMap(self.holds, map_error)
         self.peg_radius = max(hold.radius for hold in board.holds)
@@ -139,21 +104,25 @@ class Climber:
         self.body.pose[:], self.body.settled[:], self.body.aim[:] = pose, pose, pose
         self.body.aim_speed[:] = 0.0
         self.ticks = self._strained = 0
+        self.fall.reset()
 
     def tick(self) -> None:
         """Sense, command, step.
 
         Raises:
-            FallenError: If no limb holds, a hook has come off, or the body is far from its aim or turned away from it.
+            FallenError: If no limb holds, nothing carries the robot, a hook has come off, or the body is far or turned from its aim.
         """
         sensed = self.plant.sense()
         self.body.see(sensed.q, sensed.qd, sensed.angle, sensed.angle_speed)
+        falls = self.fall.see()
         self.plant.actuate(self.body.command())
         self.plant.step()
         self.ticks += 1
         holding = [i for i, task in enumerate(self.body.tasks) if task.doing == "hold"]
         if not holding:
             raise FallenError("no limb holds the body")
+        if falls:
+            raise FallenError(f"nothing carries the robot: all tips together feel {self.fall.carried:.0f} N")
         # Hooks that slip off are not felt, but two tips can then not both be on their holds
         strain = self.body.strain(holding[0], holding[-1])
         self._strained = self._strained + 1 if strain > STRAINED else 0

@@ -2,22 +2,25 @@
 
 import time
 from collections.abc import Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
 from ...actions.plan import Plan
 from ...errors import SpecError
-from ...execution.climb.climb_trace import ClimbTrace, TracedClimber
+from ...execution.climb.climb_trace import TOPIC, ClimbTrace, TracedClimber, limb_notes, report_notes
 from ...execution.climb.course import climbable, lay_course
 from ...execution.climb.sequencer import ClimbReport, Progress, Replan, Sequencer
-from ...sim.climber_plant import ClimberPlant
+from ...execution.log_stream import LogStream
 from ...sim.limb_flaws import LimbFlaws, PlantError
 from ...tasks import Task
 from ...tasks.limbed import LimbedTask
 from ...types import Floats, Json
 from ...units import parse_quantity
 from ..limb.flaw_texts import named_flaws, read_flaws
+from .plants import climbing_plant, truth_of
 
 PLANT: str = "plant."
 """First word of settings that change the plant."""
@@ -102,6 +105,8 @@ def run_plan(
     replan: Replan | None = None,
     progress: Progress | None = None,
     label: str = "plan",
+    log: Path | None = None,
+    plant: str = "torques",
 ) -> ClimbRun:
     """Carry a plan out.
 
@@ -115,17 +120,28 @@ def run_plan(
         replan: What plans again where a hold cannot be had.
         progress: Told before each action.
         label: What errors call the plan.
+        log: An .mcap file that grows as the robot climbs (`execution.log_stream`).
+        plant: By name or address, see `climbing_plant`.
 
     Raises:
+        FileError: If the log cannot be written.
         PlanRefusedError: If something speaks against the plan and it is not forced.
         SpecError: If an action is none that the task's robot and board have.
         StartError: If the start violates a hard check.
     """
     began = time.perf_counter()
     course = lay_course(task, plan, label)
-    plant = ClimberPlant(task.robot, task.world, flaws, pegs=true_pegs(task, peg_error, seed))
-    climber = TracedClimber(task.robot, task.world, plant, map_error=LEAST_MAP_ERROR + peg_error, truth=plant.truth)
-    sequencer = Sequencer(climber, course, replan=replan, force=force, progress=progress)
-    report = sequencer.run()
-    notes = report.to_json() | {"task": task.name, "peg_error": peg_error, "seed": seed}
+    with climbing_plant(plant, task, flaws, true_pegs(task, peg_error, seed)) as moved:
+        climber = TracedClimber(
+            task.robot, task.world, moved, map_error=LEAST_MAP_ERROR + peg_error, truth=truth_of(moved)
+        )
+        sequencer = Sequencer(climber, course, replan=replan, force=force, progress=progress)
+        stream = None if log is None else LogStream(log, climber.titles, limb_notes(climber.limbs), TOPIC)
+        with nullcontext() if stream is None else stream:
+            climber.told = None if stream is None else stream.add
+            report = sequencer.run()
+            notes = report.to_json() | {"task": task.name, "peg_error": peg_error, "seed": seed}
+            if stream is not None:
+                stream.add(climber.last())
+                stream.finish(report_notes(notes))
     return ClimbRun(task, plan, report, climber.trace(notes), time.perf_counter() - began)

@@ -1,0 +1,65 @@
+"""A fall told before the body is seen to leave: motors and encoders say when nothing carries the robot any more."""
+
+from typing import Final
+
+import numpy as np
+
+from ...control.felt_force import feel_forces
+from .whole_body import WholeBody
+
+BORNE: Final = 0.45
+"""Tips that press on the world with less than this part of the weight, all together, do not carry it."""
+LOOSE: Final = 0.08
+"""They do so for that long when nothing holds the robot; a hook that settles bounces for less [s]."""
+SMOOTHED: Final = 0.03
+"""Time constant of the felt forces [s]."""
+
+
+class FallWatch:
+    """Adds up what the tips of a climber feel, tick by tick.
+
+    What holds is taken for granted by the estimate of the body: with every hook off its hold the estimate stays where it was, while the
+    robot drops. The sum of the forces that the tips feel drops at once. A limb that is stretched or folded feels nothing along itself;
+    while one that holds is, nothing is told.
+
+    Args:
+        body: What knows the limbs and their tasks.
+    """
+
+    def __init__(self, body: WholeBody) -> None:
+        self._body = body
+        joints = [chain.joints for chain in body.chains]
+        self._rotors = np.array([each["rotor"] for each in joints])
+        self._damping = np.array([each["damping"] for each in joints])
+        self._rate = min(1.0, body.period / SMOOTHED)
+        self._before, self._felt = np.zeros((body.n, 2)), np.zeros((body.n, 2))
+        self.forces = np.zeros((body.n, 2))
+        """Of the tips on what they touch, world frame, shape (limbs, 2) [N]; infinite where they cannot be told."""
+        self.loose = 0.0
+        """How long the tips have been carrying too little [s]."""
+
+    def reset(self) -> None:
+        """Begin anew, as if all were well."""
+        self._before[:] = self._felt[:] = 0.0
+        self.loose = -LOOSE  # what the tips feel has to settle first
+
+    @property
+    def carried(self) -> float:
+        """Sum of the sizes of what the tips feel [N]; infinite where a limb that holds cannot tell; others that cannot count as none."""
+        total = 0.0
+        for task, (x, y) in zip(self._body.tasks, self.forces.tolist(), strict=True):
+            if task.doing == "hold" or np.isfinite(x):
+                total += float(np.hypot(x, y))
+        return total
+
+    def see(self) -> bool:
+        """Take in the tick whose measurements the body has just seen; whether nothing carries the robot."""
+        body = self._body
+        feel_forces(
+            body.legs, self._rotors, self._damping, body.q, body.qd, self._before, body.torques, body.pose[2],
+            body.period, self._rate, self._felt, self.forces,
+        )  # fmt: skip
+        little = self.carried < BORNE * body.robot.weight
+        # a torque that jumps for a tick looks like a force, so one tick that says otherwise does not start the time anew
+        self.loose = self.loose + body.period if little else max(self.loose - 2.0 * body.period, 0.0)
+        return self.loose > LOOSE

@@ -1,0 +1,102 @@
+"""Falls are told within 0.2 s of the truth, and nothing else is called one."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from clamber.execution.climb.climb_trace import TracedClimber
+from clamber.execution.climb.climber import ASTRAY, TURNED, FallenError
+from clamber.execution.climb.motions import grab
+from clamber.robots.library import load_robot
+from clamber.robots.limbed import LimbedRobot
+from clamber.sim.climber_model import HookShape
+from clamber.sim.climber_plant import ClimberPlant
+from clamber.sim.limb_flaws import LimbFlaws
+from clamber.worlds.library import load_board
+
+NOMINAL = LimbFlaws(backlash=np.radians(2.0), physics_rate=1000.0, encoder_counts=400, delay=1)
+START = np.array((0.2286, 0.1374, 0.0))
+OFF = HookShape().depth + HookShape().flare
+"""A tip that far from every peg has none in its hook [m]."""
+
+
+def on_the_ladder() -> tuple[TracedClimber, ClimberPlant]:
+    robot, board = load_robot("libra"), load_board("ladder")
+    assert isinstance(robot, LimbedRobot)
+    plant = ClimberPlant(robot, board, NOMINAL)
+    climber = TracedClimber(robot, board, plant, map_error=0.006, truth=plant.truth)
+    climber.start(START, {"right": 4, "left": 3, "bottom": 2}, idle="bottom", elbows={"right": -1, "left": 1})
+    return climber, plant
+
+
+def without_pegs(plant: ClimberPlant) -> None:
+    plant.model.geom_contype[:] = plant.model.geom_conaffinity[:] = 0
+
+
+def pushed(x: float, y: float) -> Callable[[ClimberPlant], None]:
+    return lambda plant: plant.push((x, y))
+
+
+def has_fallen(climber: TracedClimber, plant: ClimberPlant) -> bool:
+    """Whether in truth no hook has a peg, or the body is as far from its aim as no climbing robot's is."""
+    true, aim = plant.truth(), climber.body.aim
+    pegs = plant.board.positions()
+    free = np.hypot(*(true.tips[:, None] - pegs).transpose(2, 0, 1)).min() > OFF
+    astray = np.hypot(*(true.pose[:2] - aim[:2])) > ASTRAY or abs(true.pose[2] - aim[2]) > TURNED
+    return bool(free or astray)
+
+
+@pytest.mark.parametrize("after", [0.6, 1.3, 2.1])
+@pytest.mark.parametrize(
+    "spoil",
+    [without_pegs, pushed(0.0, 400.0), pushed(0.0, -600.0), pushed(-300.0, 0.0), pushed(200.0, 100.0)],
+    ids=["no pegs", "up", "down", "left", "right and up"],
+)
+def test_a_fall_is_told_within_a_fifth_of_a_second_and_the_log_goes_up_to_it(
+    spoil: Callable[[ClimberPlant], None], after: float
+) -> None:
+    climber, plant = on_the_ladder()
+    climber.wait(after)
+    spoil(plant)
+    fell: float | None = None
+    with pytest.raises(FallenError):
+        while climber.time < after + 3.0:
+            climber.tick()
+            if fell is None and has_fallen(climber, plant):
+                fell = climber.time
+    assert fell is None or climber.time - fell <= 0.2  # told before the truth is as good
+    trace = climber.trace()
+    assert trace.time[-1] == climber.time
+    np.testing.assert_allclose(np.diff(trace.time)[:-1], 0.02)
+    assert trace.true_pose is not None
+    np.testing.assert_array_equal(trace.true_pose[-1], plant.truth().pose)
+
+
+@pytest.mark.parametrize("push", [(0.0, 0.0), (0.0, 20.0), (0.0, 40.0), (0.0, 60.0), (60.0, 0.0), (0.0, -60.0)])
+def test_a_robot_that_is_pushed_or_lifted_but_not_off_its_holds_has_not_fallen(push: tuple[float, float]) -> None:
+    climber, plant = on_the_ladder()
+    climber.wait(0.6)
+    plant.push(push)
+    climber.wait(0.5)
+    plant.push((0.0, 0.0))
+    climber.wait(1.0)
+    assert climber.fall.carried > 0.5 * climber.robot.weight
+
+
+def test_the_tips_feel_the_weight_and_so_they_do_while_a_limb_climbs() -> None:
+    climber, _ = on_the_ladder()
+    climber.wait(0.6)
+    up = -climber.fall.forces[:2, 1].sum()
+    assert up == pytest.approx(climber.robot.weight, rel=0.25)  # dry friction of four joints bears the rest
+    least: list[float] = []
+    see = climber.fall.see
+
+    def noted() -> bool:
+        falls = see()
+        least.append(climber.fall.loose)
+        return falls
+
+    climber.fall.see = noted  # type: ignore[method-assign]
+    assert grab(climber, 0, 6, elbow=-1).held
+    assert max(least) < 0.02
