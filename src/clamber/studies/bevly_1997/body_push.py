@@ -164,8 +164,8 @@ def _deviations(ratio: dict[str, float], needed: float, stiffer: float) -> tuple
         f"10 Kpx {ratio['Kpy = 10 Kpx']:.2g} times; ten times takes Kpy = {needed:.0f} Kpx. The verdict is holds only if hooks stay on "
         "in all pushes and the ratio with Kpy = 10 Kpx is above 5.",
         f"The slow pushes are {SLOW:g} N along each axis; for the ratio with tips fixed and no friction, so that the springs alone "
-        "decide. On hooks, friction and the limit of the pulls bear part of it, and soft bodies sway (`section-4-4-4`), so that a mean over "
-        "the push may have either sign.",
+        "decide. On hooks, friction and the limit of the pulls bear part of it, and soft bodies sway (`section-4-4-4`), so that a mean "
+        "over the push may have either sign.",
         f"The hard push is half a sine of {HARD:g} N and {SHORT:g} s at the body's centre from either side, with friction +-30 %, "
         f"weight +-10 %, height +-5 mm and force +-10 % drawn for each of {SEEDS} seeds; a hook is off when its peg is more than 8 mm "
         "from its seat. `clamber body push --limit thesis --kd 5,2.5,0.5 -c scct --trials 100` takes a hundred.",
