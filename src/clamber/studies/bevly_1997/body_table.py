@@ -83,8 +83,8 @@ def count_lost_pegs(
         deviations=(
             *PLANT,
             "The thesis prints no such table; it tells of the controls in words. A rung: leg 1 up, leg 3 over, leg 2 up, leg 3 off, "
-            "body up, from the ladder's start, by the same sequencer for all. Drawn for each seed: pegs off by up to "
-            f"{PEG_ERROR * 1e3:g} mm an axis (but for the three that the robot is put on), friction +-{FRICTION:.0%}, weight "
+            "body up, from the ladder's start, with the same grabs for all, elbows above the hooks. Drawn for each seed: pegs off by "
+            f"up to {PEG_ERROR * 1e3:g} mm an axis (but for the three that the robot is put on), friction +-{FRICTION:.0%}, weight "
             f"+-{WEIGHT:.0%}; 2 deg of backlash, 400 counts, a sample of delay.",
             "A hook came off if the tip of a limb that carries was more than 8 mm from its peg at any tick. The verdict is holds if "
             "joint PD loses pegs on more than half of the rungs and every Cartesian control climbs all of them without, open if only "
