@@ -119,7 +119,7 @@ def _climb(climber: Climber) -> str:
             if not grab(climber, names.index(limb), number, elbow=elbow).held:
                 return f"the {limb} limb missed {number}"
         release(climber, names.index("bottom"))
-        move_body(climber, start + (0.0, 6 * INCH, 0.0))
+        move_body(climber, start + np.array((0.0, 6 * INCH, 0.0)))
         climber.wait(0.5)
     except FallenError as error:
         return f"fell: {error}"

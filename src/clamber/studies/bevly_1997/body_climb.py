@@ -49,6 +49,7 @@ def show_gait() -> StudyResult:
     """One rung, action by action."""
     run = climbed(2)
     actions = run.report.actions
+    sides = _elbows(run)
     first = [action for action in actions if action.first > 6]
 
     def stages(path: Path) -> None:
@@ -62,19 +63,22 @@ def show_gait() -> StudyResult:
         claim="Figure 4.15, section 4.5: LIBRA climbs by the gait 191, 392, 291, 300, 3 of the action module planner; leg 3 switches "
         "its elbow as "
         "it changes sides, and follows the body once it has let go.",
-        verdict="holds" if run.report.done else "differs",
+        verdict="differs" if not run.report.done else "holds" if " " in sides else "open",
         compared=(
             Compared("actions carried out", sum(action.outcome == "ok" for action in actions)),
             Compared("actions in the plan", len(actions)),
             Compared("modules of the gait", " ".join(map(str, GAIT)), " ".join(map(str, GAIT))),
             *(Compared(f"{action.title}: time [s]", action.seconds) for action in first),
-            Compared("sides of leg 3's elbow that it holds with", _elbows(run)),
+            Compared("sides of leg 3's elbow that it holds with", sides),
         ),
         deviations=(
             *PLANT,
             "Modules 191, 392, 291 name pegs by where they are; ours are grabbed in the order right, bottom to the left, left, bottom "
             "off, body up, with leg 3 on the lower right before leg 1 moves, for a swing needs two other legs on pegs (the planner's "
             "model lets leg 3 hang in the air then, see `nominal-gait`). One module 003 is 3 in, so there are two a rung.",
+            "Which side an elbow takes is chosen for a whole stay by what hooks and motors can then bear, with few changes; the thesis "
+            "switches leg 3's with its side, so that its hook is on top. The verdict is open where the gait is climbed and leg 3 keeps "
+            "one side.",
             "2 deg of backlash, 400 counts, pegs where the map says; the robot's own control at its defaults.",
         ),
         table=Table(
