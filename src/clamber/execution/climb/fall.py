@@ -48,7 +48,7 @@ class FallWatch:
         """Sum of the sizes of what the tips feel [N]; infinite where a limb that holds cannot tell; others that cannot count as none."""
         total = 0.0
         for task, (x, y) in zip(self._body.tasks, self.forces.tolist(), strict=True):
-            if task.doing == "hold" or np.isfinite(x):
+            if task.holds or np.isfinite(x):
                 total += float(np.hypot(x, y))
         return total
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Final, Literal, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
 from ...control.body import (
     KINEMATIC,
@@ -22,16 +23,18 @@ from ...control.body import (
 from ...control.body_estimate import estimate_body
 from ...control.chain import chain_of_limb
 from ...control.controller import Controller, still_aim
-from ...control.hook_forces import MOST_CUTS
+from ...control.hook_forces import MOST_CUTS, pair_forces
 from ...control.law_settings import LawSettings
-from ...control.play import follow_play, pull_torques
+from ...control.play import follow_play, pull_torques, weight_loads, weight_moment
 from ...robots.limbed import LimbedRobot
-from ...types import Floats, Ints
+from ...types import Floats
 from .body_schemes import SCHEMES
 from .legs import legs_of
+from .postures import postures
 
-Doing: TypeAlias = Literal["hold", "cling", "tip", "joints", "pull"]
-"""A limb holds the body, clings to its hold without carrying, brings its tip or its joints somewhere, or pulls along a direction."""
+Doing: TypeAlias = Literal["hold", "hang", "cling", "tip", "joints", "pull"]
+"""A limb holds the body, holds it alone while it swings as it will, clings to its hold without carrying, brings its tip or its joints
+somewhere, or pulls along a direction."""
 MAPPINGS: Final = {"thesis": THESIS, "kinematic": KINEMATIC, "wrench": WRENCH}
 PLAY_TIME: Final = 0.2
 """Time in which the believed side of the play follows the load [s]."""
@@ -50,6 +53,8 @@ LIMITS: Final = {
     "shared": LIMIT_SHARED,
     "feasible": LIMIT_FEASIBLE,
 }
+STRETCHED: Final = math.radians(15.0)
+"""An elbow nearer to straight than this is soft and may pass to the other side [rad]."""
 HANDING_OVER: Final = 0.5
 """Time in which the load passes from the limbs that carried to those that will [s]."""
 
@@ -104,8 +109,10 @@ class LimbTask:
     speed: Floats = field(default_factory=lambda: np.zeros(2))
     """Of the aim [m/s]."""
     angles: Floats = field(default_factory=lambda: np.zeros(2))
-    """Of "joints" [rad]."""
+    """Of "joints" and "hang" [rad]."""
     rates: Floats = field(default_factory=lambda: np.zeros(2))
+    loads: Floats = field(default_factory=lambda: np.zeros(2))
+    """Of "hang": torques that bear the weight [N m]."""
     force: Floats = field(default_factory=lambda: np.zeros(2))
     """Of "pull": what the tip does to what it meets, world frame [N]."""
     tug: Floats = field(default_factory=lambda: np.zeros(2))
@@ -114,6 +121,11 @@ class LimbTask:
     """Of "pull": of the tip's motion in the world [N s/m]."""
     pressed: bool = False
     """Of "pull": whether the tip has stopped against something, which then loads the joints."""
+
+    @property
+    def holds(self) -> bool:
+        """Whether the limb carries the body."""
+        return self.doing in ("hold", "hang")
 
 
 class WholeBody:
@@ -140,8 +152,8 @@ class WholeBody:
         self.n = n
         self.chains = [chain_of_limb(robot, limb.name) for limb in robot.limbs]
         self.legs = legs_of(robot)
-        unit = LawSettings(law=gains.law, kp=1.0, kd=0.0, joint_kd=1.0)
-        free = LawSettings(law=gains.law, kp=gains.limb_kp, kd=gains.limb_kd)
+        unit = LawSettings(law=gains.law, kp=1.0, kd=0.0, joint_kd=1.0, feed_gravity=False)
+        free = LawSettings(law=gains.law, kp=gains.limb_kp, kd=gains.limb_kd, feed_gravity=False)
         self._pullers = [Controller(chain, unit, period=period) for chain in self.chains]
         self._reachers = [Controller(chain, free, period=period) for chain in self.chains]
         self._aim = still_aim((0.0, 0.0))
@@ -170,6 +182,7 @@ class WholeBody:
         self._unused_speeds, self._unused_twist = np.zeros((n, 2)), np.zeros(3)
         self._pulls, self._forces = np.zeros((n, 2)), np.zeros((n, 2))
         self._old_pulls, self._old_forces = np.zeros((n, 2)), np.zeros((n, 2))
+        self._own = np.zeros(2)
         self._cuts, self._drags = np.zeros((MOST_CUTS, 2)), np.zeros((n, 2))
         self._least = np.full(n, gains.least_pull)
         self._ports = [
@@ -184,8 +197,8 @@ class WholeBody:
         """Take in a tick's measurements and estimate where the body is."""
         self.q[:], self.qd[:] = q, qd
         for i, task in enumerate(self.tasks):
-            self._held[i] = task.doing == "hold"
-            if task.doing == "hold":
+            self._held[i] = task.holds
+            if task.holds:
                 self._holds[i] = task.place
         self._pass_load()
         estimate_body(
@@ -207,6 +220,28 @@ class WholeBody:
         for row, limbs in zip(self._carriers, (now, carriers), strict=True):
             row[:] = [i in limbs for i in range(self.n)]
         self._handed = 0.0
+
+    def stands(self, pose: Floats) -> float:
+        """How well the limbs that hold now would at another pose of the body, in newtons of the worst wish; -inf out of reach."""
+        carriers = [i for i, task in enumerate(self.tasks) if task.doing == "hold"]
+        q, arms, forces = self.q.copy(), np.zeros((self.n, 2)), np.zeros((self.n, 2))
+        for i in carriers:
+            side = self.q[i, 1] - self.play[i, 1]
+            found = [
+                one
+                for one in postures(self.robot.limbs[i], pose, self.tasks[i].place)
+                if one.inside and one.angles[1] * side > 0.0 and abs(one.angles[1]) > STRETCHED
+            ]
+            if not found:
+                return -math.inf
+            q[i], arms[i] = found[0].angles, self.tasks[i].place - pose[:2]
+        if len(carriers) != 2:
+            return 0.0
+        wrench = np.array((0.0, self.robot.weight, weight_moment(self.legs, q, pose[2])))
+        margin, _ = pair_forces(
+            self.legs, q, carriers[0], carriers[1], pose, arms, wrench, np.zeros(3), self._cuts, forces
+        )
+        return float(margin)
 
     @property
     def handing_over(self) -> bool:
@@ -303,6 +338,8 @@ class WholeBody:
                 self.torques[i] = shares * (
                     gains.joint_kp * (task.angles - self.q[i]) + gains.joint_kd * (task.rates - self.qd[i])
                 )
+                if task.doing == "hang":
+                    self.torques[i] += task.loads
             self._pressed[i] = task.doing == "cling" or (task.doing == "pull" and task.pressed)
             if task.doing in ("tip", "pull", "cling"):
                 most = gains.firm if task.pressed else gains.gentle
@@ -312,7 +349,9 @@ class WholeBody:
         )
         return self.torques
 
-    def _command_tips(self, held: Ints, wanted: Floats, fed: Floats, pulls: Floats, forces: Floats) -> None:
+    def _command_tips(
+        self, held: npt.NDArray[np.int64], wanted: Floats, fed: Floats, pulls: Floats, forces: Floats
+    ) -> None:
         gains = self.gains
         pulls[:] = 0.0
         command_tips(
@@ -322,7 +361,7 @@ class WholeBody:
 
     def _fed(self) -> Floats:
         """The wrench on the body that the holding limbs bring in any case: the weight, less what tugging limbs already carry."""
-        fed = np.array((0.0, self.gains.weight_fed * self.robot.weight, 0.0))
+        fed = self.gains.weight_fed * np.array((0.0, self.robot.weight, weight_moment(self.legs, self.q, self.pose[2])))
         for i, task in enumerate(self.tasks):
             if task.doing == "pull" and task.tug.any():
                 arm = self.tip(i) - self.settled[:2]
@@ -346,7 +385,7 @@ class WholeBody:
         aim["twist"][0] = 0.0
         aim["wrench"][0, :2] = force
         self._state(i)
-        self.torques[i] = self._pullers[i].command(aim, self._states)[0]
+        self.torques[i] = self._pullers[i].command(aim, self._states)[0] + self._own_weight(i)
 
     def _towards(self, off: Floats) -> Floats:
         """Pull of a limb that clings, towards a hold that far off [N]."""
@@ -365,13 +404,18 @@ class WholeBody:
         aim["twist"][0, :2] = self._into_port(i, task.speed - still)
         aim["wrench"][0] = 0.0
         self._state(i)
-        self.torques[i] = self._reachers[i].command(aim, self._states)[0]
+        self.torques[i] = self._reachers[i].command(aim, self._states)[0] + self._own_weight(i)
 
     def _turned_back(self, i: int) -> Floats:
         """Speed of the tip relative to the body, world axes."""
         c, s = math.cos(self.pose[2]), math.sin(self.pose[2])
         vx, vy = self.tip_speeds[i]
         return np.array((c * vx - s * vy, s * vx + c * vy))
+
+    def _own_weight(self, i: int) -> Floats:
+        """Torques that carry a limb's own weight, however the body is turned [N m]."""
+        weight_loads(self.legs[i], self.q[i], self.pose[2], self._own)
+        return self._own
 
     def _state(self, i: int) -> None:
         self._states[0, 0], self._states[0, 1] = self.q[i], self.qd[i]

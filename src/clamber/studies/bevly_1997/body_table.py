@@ -92,7 +92,7 @@ def count_lost_pegs(
             "The printed limit on the hooks' accelerations (4.4.2) looks at what the body's springs ask alone, not at the weight that "
             "is fed forward: each correction becomes a pull, the body sways, turns, and falls. Counted with the weight, as our limit "
             "is, the same gains climb. Section 4.4.5 says of the earlier scheme only that legs must push and that the risk of falling "
-            "is greater: on this stretch it loses nothing, pushed by 60 N it loses pegs (`fig-4-19`).",
+            "is greater: that shows when the body is pushed (`fig-4-19`).",
             f'"{NOW}" is our own control at its defaults; "{PRINTED}" the printed gains (Kd twice the table\'s), map and limit, '
             f'"{SHARED}" the same but for the limit, which counts what the weight does to the tip. J^T holds '
             "the body as stiffly along each direction, joint PD and the earlier scheme in the mean of x and y; the earlier scheme "
