@@ -9,6 +9,7 @@ from typing import Final, Literal, TypeAlias
 
 import numpy as np
 
+from ...control.play import weight_loads
 from ...execution.climb.whole_body import BodyGains, LimbTask, WholeBody
 from ...types import Floats
 from .body_stand import BodyStand
@@ -51,10 +52,12 @@ def _wrench(stand: BodyStand, gains: BodyGains, aim: Floats, pose: Floats) -> Fl
         body.pose[:] = seen
         body.see(stand.angles(seen), still, float(seen[2]), 0.0)
         torques = body.command()
-    total = np.zeros(3)
+    total, own = np.zeros(3), np.zeros(2)
     for i, task in enumerate(body.tasks):
         if task.doing == "hold":
-            total += tip_wrench(body, i, torques[i])
+            if gains.scheme == "body":  # which feeds each limb's own weight, too
+                weight_loads(body.legs[i], body.q[i], body.pose[2], own)
+            total += tip_wrench(body, i, torques[i] - own)
     return total
 
 
