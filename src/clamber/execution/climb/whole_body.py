@@ -28,6 +28,7 @@ from ...control.law_settings import LawSettings
 from ...control.play import follow_play, pull_torques, weight_loads, weight_moment
 from ...robots.limbed import LimbedRobot
 from ...types import Floats
+from .body_schemes import SCHEMES
 from .legs import legs_of
 from .postures import postures
 
@@ -87,6 +88,15 @@ class BodyGains:
     mapping: str = "wrench"
     limit: str = "feasible"
     law: str = "scct"
+    scheme: str = "body"
+    """How the holding limbs carry the body: "body" as in the thesis's 4.4, or one of `SCHEMES`."""
+    leg_kp: float = 200.0
+    """Of a holding limb in those schemes, in the units of its law; "coordinated": of the pressing tip [N/m]."""
+    leg_kd: float = 10.0
+    inside: float = 8.0
+    """"coordinated": with how much the pressing tip is to pull at its hold [N]."""
+    hold_stiffness: float = 20_000.0
+    """"coordinated": that the holds are believed to have [N/m]."""
 
 
 @dataclass(slots=True)
@@ -183,6 +193,7 @@ class WholeBody:
         self._kp, self._kd, self._stiffness = np.array(gains.kp), np.array(gains.kd), np.array(gains.stiffness)
         self._pressed, self._loads, self._loads_now = np.zeros(n, np.int64), np.zeros((n, 2)), np.zeros(2)
         self._lag = np.array((period / PLAY_TIME, self.backlash / 2))
+        self._scheme = None if gains.scheme == "body" else SCHEMES[gains.scheme](self)
 
     def see(self, q: Floats, qd: Floats, angle: float, angle_speed: float, *, with_encoder: bool = True) -> None:
         """Take in a tick's measurements and estimate where the body is."""
@@ -314,9 +325,13 @@ class WholeBody:
             self._forces += (1.0 - part) * (self._old_forces - self._forces)
         else:
             self._command_tips(self._held, wanted, fed, self._pulls, self._forces)
+        if self._scheme is not None:
+            self._scheme.hold(self, [i for i, task in enumerate(self.tasks) if task.doing == "hold"])
         for i, task in enumerate(self.tasks):
-            if task.doing == "hold":
+            if task.doing == "hold" and self._scheme is None:
                 self._pull(i, self._pulls[i], self._forces[i])
+            elif task.doing == "hold":
+                continue
             elif task.doing == "cling":
                 self._press(
                     i, gains.cling * self.grab_direction(i) + self._towards(task.place - self.tip(i)), CLING_DAMPING
