@@ -81,8 +81,8 @@ class Approaches:
 
     def __init__(self, robot: LimbedRobot, legs: Records, peg_radius: Callable[[int], float]) -> None:
         self.robot, self.legs, self.peg_radius = robot, legs, peg_radius
-        self._wall = wall_of(robot)
-        self._path = np.zeros((MOST_POINTS, 2))
+        self.wall = wall_of(robot)
+        self.path = np.zeros((MOST_POINTS, 2))
 
     def find(
         self,
@@ -147,11 +147,11 @@ class Approaches:
                         if not posture.inside or posture.angles[1] * final.angles[1] < 0.0:
                             continue
                         count = find_way(
-                            self.legs[i], lower, upper, CELLS, angles, posture.angles, discs, self._wall,
-                            self.robot.link_radius, HOOK, LEAST_CLEARANCE, self._path,
+                            self.legs[i], lower, upper, CELLS, angles, posture.angles, discs, self.wall,
+                            self.robot.link_radius, HOOK, LEAST_CLEARANCE, self.path,
                         )  # fmt: skip
                         if count:
-                            return final.grab, self._path[:count].copy(), part * stand_off
+                            return final.grab, self.path[:count].copy(), part * stand_off
         return None
 
 

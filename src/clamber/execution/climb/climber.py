@@ -178,10 +178,10 @@ class Climber:
             self.tick()
 
     def carry_with_all(self, but: int) -> None:
-        """Let every limb on a hold carry, but one that is about to leave."""
-        for i, task in enumerate(self.body.tasks):
-            if i != but and task.hold:
-                task.doing = "hold"
+        """Let every limb on a hold carry, but one that is about to leave; the load passes while all are still on their holds."""
+        self.body.hand_over([i for i, task in enumerate(self.body.tasks) if i != but and task.hold])
+        while self.body.handing_over:
+            self.tick()
 
     def learn(self, number: int, i: int, others: Iterable[int]) -> None:
         """Correct the map: limb `i` is on a hold, and so are others, all of them loaded.

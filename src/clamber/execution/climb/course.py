@@ -13,19 +13,10 @@ from ...errors import ClamberError
 from ...tasks.library import change_task
 from ...tasks.limbed import LimbedTask
 from ...types import Floats, Ints, Records
+from .elbows import choose_elbows
 
 PARTS: Final = ("robot", "board")
 """Of a task, what a plan is bound to."""
-GRAB_Y: Final = 5
-"""Place of the grab direction's y in a stance's solution of a limb, for branch 0."""
-SOLVED: Final = 5
-"""Numbers of one branch there."""
-CHANGE: Final = 0.4
-"""What a change of side counts, where 1 is a hook that pulls sideways instead of down [-]."""
-SIDEWAYS: Final = 0.15
-"""A hook whose pull is less downwards than this holds no weight that hangs straight down [-]."""
-BARRED, POOR = 1e3, 10.0
-"""What counts a side that the plan's checks forbid, and one that holds no such weight."""
 HANGING: Final = 1e-9
 """A body that turns by more than this in an action which is no turn swings to hang [rad]."""
 
@@ -125,52 +116,8 @@ def lay_course(task: LimbedTask, plan: Plan, label: str = "plan") -> Course:
             unit = "" if check.unit == "1" else f" {check.unit}"
             words = f"{plan.actions[step - 1].title}: {check.name} is {margin:.4g}{unit} ({check.meaning})"
             objections.append(PlanRefusedError(label, step, words))
-    elbows = _elbows(replay.stances, len(task.robot.limbs))
+    elbows = choose_elbows(task.robot, task.world, replay.stances)
     return Course(strict, plan.actions, replay.stances, elbows, tuple(objections))
-
-
-def _elbows(stances: Records, limbs: int) -> Ints:
-    """A side for each stay on a hold that serves all of it: as few changes as can be, then hooks on top.
-
-    An elbow that passes to the other side throws the body about, so a limb changes only where it must, or gains much by it.
-    """
-    sides: Ints = np.zeros((len(stances), limbs), np.int32)
-    for i in range(limbs):
-        runs = _runs(stances["hold"][:, i])
-        best = np.zeros((len(runs) + 1, 2))
-        taken = np.zeros((len(runs), 2), np.int32)
-        for k in range(len(runs) - 1, -1, -1):  # from the last stay back
-            for branch in (0, 1):
-                onward = [best[k + 1, after] + (CHANGE if after != branch else 0.0) for after in (0, 1)]
-                taken[k, branch] = int(np.argmin(onward))
-                best[k, branch] = _drawback(stances, i, runs[k], branch) + min(onward)
-        branch = int(np.argmin(best[0]))
-        for k, (first, last) in enumerate(runs):
-            sides[first : last + 1, i] = 1 if branch == 0 else -1
-            branch = int(taken[k, branch])
-    return sides
-
-
-def _drawback(stances: Records, i: int, run: tuple[int, int], branch: int) -> float:
-    """What speaks against a side for a stay: that it is not open to the end, or how little its hook is on top at the worst."""
-    first, last = run
-    if not int(stances["open"][last, i]) >> branch & 1:
-        return BARRED
-    down = -float(np.max(stances["solved"][first : last + 1, i, GRAB_Y + SOLVED * branch]))
-    return 1.0 - down + (POOR if down < SIDEWAYS else 0.0)
-
-
-def _runs(holds: Ints) -> list[tuple[int, int]]:
-    """First and last stance of each stay on one hold."""
-    runs: list[tuple[int, int]] = []
-    for step, hold in enumerate(holds):
-        if hold < 0:
-            continue
-        if step and runs and holds[step - 1] == hold:
-            runs[-1] = runs[-1][0], step
-        else:
-            runs.append((step, step))
-    return runs
 
 
 def swings(course: Course, step: int) -> bool:

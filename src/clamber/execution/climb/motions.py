@@ -8,6 +8,7 @@ import numpy as np
 from ...types import Floats
 from .approach import Approach, free_distance
 from .climber import Climber, Grabbed
+from .parking import park, poses_between
 
 BODY_SPEED: Final = 0.08
 """Of the body's aim, at most [m/s]."""
@@ -50,7 +51,10 @@ SLACK: Final = 0.006
 
 
 def move_body(climber: Climber, pose: Floats, *, speed: float = BODY_SPEED) -> None:
-    """Bring the body to a pose (x, y, theta) along a straight smooth way."""
+    """Bring the body to a pose (x, y, theta) along a straight smooth way; free limbs first go to where they meet no hold on it."""
+    for i, task in enumerate(climber.body.tasks):
+        if not task.hold:
+            _park(climber, i, pose)
     body, period = climber.body, climber.plant.period
     start = body.aim.copy()
     change = pose - start
@@ -62,6 +66,13 @@ def move_body(climber: Climber, pose: Floats, *, speed: float = BODY_SPEED) -> N
         body.aim_speed[:] = 6 * u * (1 - u) / seconds * change
         climber.tick()
     body.aim_speed[:] = 0.0
+
+
+def _park(climber: Climber, i: int, pose: Floats) -> None:
+    body = climber.body
+    way = park(climber.approaches, i, body.q[i] - body.play[i], poses_between(body.settled, pose), climber.holds)
+    if way is not None:
+        follow(climber, i, way)
 
 
 def move_tip(climber: Climber, i: int, place: Floats, seconds: float) -> None:

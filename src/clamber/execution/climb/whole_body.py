@@ -1,6 +1,7 @@
 """The climber's controller: what each limb is doing, where the body is to be, and the torques of one tick."""
 
 import math
+from collections.abc import Collection
 from dataclasses import dataclass, field
 from typing import Final, Literal, TypeAlias
 
@@ -8,47 +9,66 @@ import numpy as np
 
 from ...control.body import (
     KINEMATIC,
-    LEG,
     LIMIT_COUNTED,
+    LIMIT_FEASIBLE,
     LIMIT_NONE,
     LIMIT_SHARED,
     LIMIT_THESIS,
     THESIS,
+    WRENCH,
     command_tips,
-    estimate_body,
-    follow_play,
-    pull_torques,
+    drag_tips,
 )
+from ...control.body_estimate import estimate_body
 from ...control.chain import chain_of_limb
 from ...control.controller import Controller, still_aim
+from ...control.hook_forces import MOST_CUTS
 from ...control.law_settings import LawSettings
+from ...control.play import follow_play, pull_torques
 from ...robots.limbed import LimbedRobot
-from ...types import Floats
-from ...units import GRAVITY
+from ...types import Floats, Ints
+from .legs import legs_of
 
 Doing: TypeAlias = Literal["hold", "cling", "tip", "joints", "pull"]
 """A limb holds the body, clings to its hold without carrying, brings its tip or its joints somewhere, or pulls along a direction."""
-MAPPINGS: Final = {"thesis": THESIS, "kinematic": KINEMATIC}
+MAPPINGS: Final = {"thesis": THESIS, "kinematic": KINEMATIC, "wrench": WRENCH}
 PLAY_TIME: Final = 0.2
 """Time in which the believed side of the play follows the load [s]."""
-CLING_DAMPING: Final = 25.0
-"""Of a limb that clings, in the units of the limb's gains."""
-LIMITS: Final = {"none": LIMIT_NONE, "thesis": LIMIT_THESIS, "counted": LIMIT_COUNTED, "shared": LIMIT_SHARED}
+CLING_DAMPING: Final = 60.0
+"""Of the tip of a limb that clings [N s/m]."""
+CLING_STIFFNESS: Final = 1500.0
+"""Towards its hold from where it is more than `CLING_SLACK` off, so that friction does not leave it behind a moving body [N/m]."""
+CLING_SLACK: Final = 0.003
+"""What a map and the play of joints make of a tip that is on its hold [m]."""
+CLING_MOST: Final = 15.0
+"""Of that pull [N]."""
+LIMITS: Final = {
+    "none": LIMIT_NONE,
+    "thesis": LIMIT_THESIS,
+    "counted": LIMIT_COUNTED,
+    "shared": LIMIT_SHARED,
+    "feasible": LIMIT_FEASIBLE,
+}
+HANDING_OVER: Final = 0.5
+"""Time in which the load passes from the limbs that carried to those that will [s]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BodyGains:
-    """Gains of body and limbs; those of the thesis's Table 4.1 unless said."""
+    """Gains of body and limbs."""
 
     kp: tuple[float, float, float] = (100.0, 50.0, 10.0)
+    """Of the maps "thesis" and "kinematic"; those of the thesis's Table 4.1."""
     kd: tuple[float, float, float] = (10.0, 5.0, 1.0)
-    """Twice the table's: with delay and backlash its own let the body swing (ours)."""
+    """Twice the table's: with delay and backlash its own let the body swing (ours). The map "wrench" takes that of x for all."""
+    stiffness: tuple[float, float, float] = (3000.0, 3000.0, 200.0)
+    """Of the map "wrench" [N/m], [N m/rad]; ours."""
     limb_kp: float = 500.0
     limb_kd: float = 25.0
     joint_kp: float = 400.0
     joint_kd: float = 20.0
-    cling: float = 0.1
-    """Acceleration with which a limb that carries nothing keeps to its hold."""
+    cling: float = 3.0
+    """Pull with which a limb that carries nothing keeps to its hold [N]."""
     gentle: float = 3.0
     """Most torque of a limb near a hold, so that what it meets is not thrown off [N m]."""
     firm: float = 8.0
@@ -57,8 +77,8 @@ class BodyGains:
     """alpha of the hook limit."""
     weight_fed: float = 0.95
     """Part of the weight that is fed forward."""
-    mapping: str = "thesis"
-    limit: str = "shared"
+    mapping: str = "wrench"
+    limit: str = "feasible"
     law: str = "scct"
 
 
@@ -109,17 +129,7 @@ class WholeBody:
         n = len(robot.limbs)
         self.n = n
         self.chains = [chain_of_limb(robot, limb.name) for limb in robot.limbs]
-        self.legs = np.zeros(n, LEG)
-        for i, (limb, chain) in enumerate(zip(robot.limbs, self.chains, strict=True)):
-            hooked = limb.end.kind == "hook"
-            joints, masses = chain.joints, chain.joints["mass"]
-            centres = joints["centre"][:, 0]
-            self.legs[i] = (
-                *(limb.port_x, limb.port_y, limb.port_angle, limb.l1, limb.l2_effective, limb.hook_beta),
-                *(limb.end.angle, hooked, *joints["share"]),
-                *(GRAVITY * (masses[0] * centres[0] + masses[1] * limb.l1), GRAVITY * masses[1] * centres[1]),
-                *joints["friction"],
-            )
+        self.legs = legs_of(robot)
         unit = LawSettings(law=gains.law, kp=1.0, kd=0.0, joint_kd=1.0)
         free = LawSettings(law=gains.law, kp=gains.limb_kp, kd=gains.limb_kd)
         self._pullers = [Controller(chain, unit, period=period) for chain in self.chains]
@@ -142,15 +152,20 @@ class WholeBody:
         self.settled = np.zeros(3)
         """The pose with the play counted: for maps and aims, never for the fast loop, which it would set swinging."""
         self._held = np.zeros(n, np.int64)
+        self._carriers = np.zeros((2, n), np.int64)
+        """1 for those that carry: who did until now, and who will once the load has been handed over."""
+        self._weights = np.zeros(n)
+        self._handed = 1.0
         self._holds, self._arms = np.zeros((n, 2)), np.zeros((n, 2))
         self._unused_speeds, self._unused_twist = np.zeros((n, 2)), np.zeros(3)
         self._pulls, self._forces = np.zeros((n, 2)), np.zeros((n, 2))
+        self._old_pulls, self._old_forces = np.zeros((n, 2)), np.zeros((n, 2))
+        self._cuts, self._drags = np.zeros((MOST_CUTS, 2)), np.zeros((n, 2))
         self._least = np.full(n, gains.least_pull)
         self._ports = [
             (limb.port_x, limb.port_y, math.cos(limb.port_angle), math.sin(limb.port_angle)) for limb in robot.limbs
         ]
-        self._kp, self._kd = np.array(gains.kp), np.array(gains.kd)
-        self._no_force = np.zeros(2)
+        self._kp, self._kd, self._stiffness = np.array(gains.kp), np.array(gains.kd), np.array(gains.stiffness)
         self._pressed, self._loads = np.zeros(n, np.int64), np.zeros((n, 2))
         self._lag = np.array((period / PLAY_TIME, self.backlash / 2))
 
@@ -161,14 +176,51 @@ class WholeBody:
             self._held[i] = task.doing == "hold"
             if task.doing == "hold":
                 self._holds[i] = task.place
+        self._pass_load()
         estimate_body(
-            self.legs, self.q, self.qd, self._held, self._holds, angle, angle_speed, with_encoder,
+            self.legs, self.q, self.qd, self._weights, self._holds, angle, angle_speed, with_encoder,
             self.tips, self.tip_speeds, self.pose, self.twist,
         )  # fmt: skip
         estimate_body(
-            self.legs, self.q - self.play, self.qd, self._held, self._holds, angle, angle_speed, with_encoder,
+            self.legs, self.q - self.play, self.qd, self._weights, self._holds, angle, angle_speed, with_encoder,
             self.settled_tips, self._unused_speeds, self.settled, self._unused_twist,
         )  # fmt: skip
+
+    def hand_over(self, carriers: Collection[int]) -> None:
+        """Let the load pass to these limbs, each of them on a hold; it does while `handing_over`, then the others cling."""
+        now = [i for i in range(self.n) if self.tasks[i].doing == "hold"]
+        for i in carriers:
+            self.tasks[i].doing = "hold"
+        if not now or set(now) == set(carriers):
+            return
+        for row, limbs in zip(self._carriers, (now, carriers), strict=True):
+            row[:] = [i in limbs for i in range(self.n)]
+        self._handed = 0.0
+
+    @property
+    def handing_over(self) -> bool:
+        """Whether the load is passing from limbs to others."""
+        return self._handed < 1.0
+
+    def _pass_load(self) -> None:
+        """One tick of a hand-over; how much each limb that holds says about where the body is."""
+        if self.handing_over:
+            self._handed = min(1.0, self._handed + self.period / HANDING_OVER)
+            if self._handed == 1.0:
+                for i, task in enumerate(self.tasks):
+                    if self._held[i] and not self._carriers[1, i]:
+                        task.doing, self._held[i] = "cling", 0
+        if self.handing_over:
+            part = self._part()
+            before, after = self._carriers
+            np.add((1.0 - part) / before.sum() * before, part / after.sum() * after, out=self._weights)
+        else:
+            self._weights[:] = self._held
+
+    def _part(self) -> float:
+        """Of the load that has passed, smooth at both ends [-]."""
+        u = self._handed
+        return u * u * (3.0 - 2.0 * u)
 
     def tip(self, i: int) -> Floats:
         """A limb's tip in the world by encoders and estimate, the play counted [m]."""
@@ -204,24 +256,29 @@ class WholeBody:
     def command(self) -> Floats:
         """Torques of this tick, shape (limbs, 2) [N m]."""
         gains = self.gains
-        wanted = self._kp * (self.aim - self.pose) + self._kd * (self.aim_speed - self.twist)
         np.subtract(self._holds, self.pose[:2], out=self._arms)
+        if gains.mapping == "wrench":
+            wanted = self._stiffness * (self.aim - self.pose)
+            drag_tips(self.tip_speeds, self.pose[2], self._arms, self.aim_speed, gains.kd[0], self._drags)
+        else:
+            wanted = self._kp * (self.aim - self.pose) + self._kd * (self.aim_speed - self.twist)
         fed = self._fed()
-        command_tips(
-            self.legs, self.q, self._held, self.pose, self._arms, wanted, fed,
-            MAPPINGS[gains.mapping], LIMITS[gains.limit], self._least, self._pulls, self._forces,
-        )  # fmt: skip
+        if self.handing_over:
+            self._command_tips(self._carriers[0], wanted, fed, self._old_pulls, self._old_forces)
+            self._command_tips(self._carriers[1], wanted, fed, self._pulls, self._forces)
+            part = self._part()
+            # cones are convex: between two loads that keep a hook on, all do
+            self._pulls += (1.0 - part) * (self._old_pulls - self._pulls)
+            self._forces += (1.0 - part) * (self._old_forces - self._forces)
+        else:
+            self._command_tips(self._held, wanted, fed, self._pulls, self._forces)
         for i, task in enumerate(self.tasks):
             if task.doing == "hold":
                 self._pull(i, self._pulls[i], self._forces[i])
             elif task.doing == "cling":
-                turned = self._into_port(i, gains.cling * self.grab_direction(i) - CLING_DAMPING * self.tip_speed(i))
-                self._pull(i, turned, self._no_force)
+                self._press(i, gains.cling * self.grab_direction(i) + self._towards(task.place - self.tip(i)), CLING_DAMPING)
             elif task.doing == "pull":
-                pull_torques(
-                    self.legs[i], self.q[i], self.qd[i], self.pose, self.twist, task.force, task.damping,
-                    self.torques[i], self._loads[i],
-                )  # fmt: skip
+                self._press(i, task.force, task.damping)
             elif task.doing == "tip":
                 self._reach(i, task)
             else:
@@ -229,14 +286,22 @@ class WholeBody:
                 self.torques[i] = shares * (
                     gains.joint_kp * (task.angles - self.q[i]) + gains.joint_kd * (task.rates - self.qd[i])
                 )
-            self._pressed[i] = task.doing == "pull" and task.pressed
+            self._pressed[i] = task.doing == "cling" or (task.doing == "pull" and task.pressed)
             if task.doing in ("tip", "pull", "cling"):
-                most = gains.firm if self._pressed[i] else gains.gentle
+                most = gains.firm if task.pressed else gains.gentle
                 np.clip(self.torques[i], -most, most, out=self.torques[i])
         follow_play(
             self.legs, self.q, self._held, self._forces, self.pose[2], self._pressed, self._loads, self._lag, self.play
         )
         return self.torques
+
+    def _command_tips(self, held: Ints, wanted: Floats, fed: Floats, pulls: Floats, forces: Floats) -> None:
+        gains = self.gains
+        pulls[:] = 0.0
+        command_tips(
+            self.legs, self.q, held, self.pose, self._arms, wanted, fed,
+            MAPPINGS[gains.mapping], LIMITS[gains.limit], self._least, self._drags, self._cuts, pulls, forces,
+        )  # fmt: skip
 
     def _fed(self) -> Floats:
         """The wrench on the body that the holding limbs bring in any case: the weight, less what tugging limbs already carry."""
@@ -265,6 +330,16 @@ class WholeBody:
         aim["wrench"][0, :2] = force
         self._state(i)
         self.torques[i] = self._pullers[i].command(aim, self._states)[0]
+
+    def _towards(self, off: Floats) -> Floats:
+        """Pull of a limb that clings, towards a hold that far off [N]."""
+        far = math.hypot(*off)
+        return off * (min(CLING_STIFFNESS * max(far - CLING_SLACK, 0.0), CLING_MOST) / max(far, 1e-9))
+
+    def _press(self, i: int, force: Floats, damping: float) -> None:
+        pull_torques(
+            self.legs[i], self.q[i], self.qd[i], self.pose, self.twist, force, damping, self.torques[i], self._loads[i]
+        )
 
     def _reach(self, i: int, task: LimbTask) -> None:
         aim = self._aim

@@ -1,0 +1,86 @@
+"""What loads a limb's joints, and so which side of its play each rests on; how a free limb pulls. Kernels."""
+
+import math
+
+import numpy as np
+
+from ..compiled import inlined, kernel
+
+SURE = 0.05
+"""A load well above this puts a joint at one end of its play [N m]."""
+RESTS = 0.1
+"""Friction fed forward is full where a joint is to bring well above this [N m]."""
+
+
+@kernel
+def pull_torques(leg, q, qd, pose, twist, force, damping, torques, loads):
+    """Torques with which a free limb pulls at what its tip meets: J^T F, its own weight and friction fed forward.
+
+    Args:
+        leg: A record of `LEG`.
+        q, qd: Its joint angles and speeds, shape (2,).
+        pose, twist: Of the body, shape (3,).
+        force: Of the tip on what it meets, world frame, shape (2,) [N].
+        damping: Of the tip's motion in the world [N s/m].
+        torques: Filled, shape (2,) [N m].
+        loads: Filled with the part that reaches the joints' outputs while the tip stands still, shape (2,) [N m].
+    """
+    first = pose[2] + leg.port_angle + q[0]
+    second = first + q[1] + leg.beta
+    j00 = -leg.l1 * math.sin(first) - leg.l2 * math.sin(second)
+    j10 = leg.l1 * math.cos(first) + leg.l2 * math.cos(second)
+    j01 = -leg.l2 * math.sin(second)
+    j11 = leg.l2 * math.cos(second)
+    c = math.cos(pose[2])
+    s = math.sin(pose[2])
+    px = c * leg.port_x - s * leg.port_y
+    py = s * leg.port_x + c * leg.port_y
+    vx = twist[0] + twist[2] * (j00 - py) + j00 * qd[0] + j01 * qd[1]
+    vy = twist[1] + twist[2] * (j10 + px) + j10 * qd[0] + j11 * qd[1]
+    push0 = j00 * force[0] + j10 * force[1]
+    push1 = j01 * force[0] + j11 * force[1]
+    weight_loads(leg, q, pose[2], loads)
+    loads[0] += push0
+    loads[1] += push1
+    # friction is fed the way the tip is to go, whichever way the limb's own weight pulls
+    torques[0] = loads[0] - damping * (j00 * vx + j10 * vy) + leg.friction1 * math.tanh(push0 / RESTS)
+    torques[1] = loads[1] - damping * (j01 * vx + j11 * vy) + leg.friction2 * math.tanh(push1 / RESTS)
+
+
+@inlined
+def weight_loads(leg, q, angle, loads):
+    """Torques that carry a free limb's own weight, shape (2,) [N m]; `angle` is the body's."""
+    first = angle + leg.port_angle + q[0]
+    loads[1] = leg.heft2 * math.cos(first + q[1])
+    loads[0] = leg.heft1 * math.cos(first) + loads[1]
+
+
+@kernel
+def follow_play(legs, q, held, forces, angle, pressed, loads, rate, play):
+    """Let each joint's believed side of its play follow what loads it.
+
+    Args:
+        legs: Records of `LEG`, shape (n,).
+        q: Joint angles, shape (n, 2).
+        held: 1 for limbs that hold, loaded by `forces`, shape (n,).
+        forces: Of the tips on their holds, port frame, shape (n, 2) [N].
+        angle: Of the body [rad].
+        pressed: 1 for limbs that press against something with `loads`; others bear their own weight, shape (n,).
+        loads: Torques at the joints' outputs, shape (n, 2) [N m].
+        rate: Part of the rest of the way that it goes at a tick, and half the whole play [rad], shape (2,).
+        play: Changed, shape (n, 2) [rad].
+    """
+    load = np.empty(2)
+    for i in range(legs.size):
+        leg = legs[i]
+        if held[i]:
+            first = q[i, 0]
+            second = q[i, 0] + q[i, 1] + leg.beta
+            load[1] = leg.l2 * (math.cos(second) * forces[i, 1] - math.sin(second) * forces[i, 0])
+            load[0] = load[1] + leg.l1 * (math.cos(first) * forces[i, 1] - math.sin(first) * forces[i, 0])
+        elif pressed[i]:
+            load[:] = loads[i]
+        else:
+            weight_loads(leg, q[i], angle, load)
+        for k in range(2):
+            play[i, k] += rate[0] * (rate[1] * math.tanh(load[k] / SURE) - play[i, k])

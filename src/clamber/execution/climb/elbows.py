@@ -1,0 +1,84 @@
+"""The side of every elbow for a plan that is to be carried out: one that serves until the limb leaves, and hooks that can bear it."""
+
+from itertools import product
+from typing import Final
+
+import numpy as np
+
+from ...control.hook_forces import MOST_CUTS, pair_forces
+from ...robots.limbed import LimbedRobot
+from ...types import Floats, Ints, Records
+from ...worlds.board import Board
+from .legs import legs_of
+from .postures import postures
+
+CHANGE: Final = 0.4
+"""What a change of side counts, where 1 is a hook that pulls sideways instead of down [-]."""
+BARRED: Final = 1e3
+"""What counts a side that the plan's checks forbid."""
+LACKING: Final = 0.5
+"""What counts each newton that the worst of two carrying limbs lacks of what is wished, after each action [1/N]."""
+ON_TOP: Final = 0.05
+"""What a hook that pulls sideways instead of down counts after each action [-]."""
+
+
+def choose_elbows(robot: LimbedRobot, board: Board, stances: Records) -> Ints:
+    """A side for each stay on a hold, best for the whole plan: carriers that can bear it, hooks on top, few changes.
+
+    An elbow that passes to the other side throws the body about, so a limb changes only where it gains much by it.
+
+    Args:
+        robot: The climber.
+        board: Its holds.
+        stances: Of the plan, shape (n + 1,).
+
+    Returns:
+        +1, -1, or 0 where a limb is free, shape (n + 1, limbs).
+    """
+    n, limbs = len(stances), len(robot.limbs)
+    states = np.array(list(product((0, 1), repeat=limbs)))
+    costs = _costs(robot, board, stances, states)
+    changed = states[:, None, :] != states[None, :, :]
+    best, came = np.zeros((n, len(states))), np.zeros((n, len(states)), np.int64)
+    best[0] = costs[0]
+    for step in range(1, n):
+        before, now = stances["hold"][step - 1, :limbs], stances["hold"][step, :limbs]
+        free = (now >= 0) & (now != before)
+        step_costs = CHANGE * changed.sum(axis=2) + np.where((changed & ~free).any(axis=2), np.inf, 0.0)
+        total = best[step - 1][:, None] + step_costs
+        came[step] = np.argmin(total, axis=0)
+        best[step] = np.min(total, axis=0) + costs[step]
+    sides: Ints = np.zeros((n, limbs), np.int32)
+    at = int(np.argmin(best[-1]))
+    for step in range(n - 1, -1, -1):
+        sides[step] = np.where(stances["hold"][step, :limbs] >= 0, 1 - 2 * states[at], 0)
+        at = int(came[step, at])
+    return sides
+
+
+def _costs(robot: LimbedRobot, board: Board, stances: Records, states: Ints) -> Floats:
+    """What each choice of branches counts after each action, shape (n, states)."""
+    legs, limbs = legs_of(robot), len(robot.limbs)
+    cuts, forces, nothing = np.zeros((MOST_CUTS, 2)), np.zeros((limbs, 2)), np.zeros(3)
+    wrench = np.array((0.0, robot.weight, 0.0))
+    places = board.positions()
+    costs = np.zeros((len(stances), len(states)))
+    for step, stance in enumerate(stances):
+        pose = np.array((stance["x"], stance["y"], stance["angle"]))
+        held = [i for i in range(limbs) if stance["hold"][i] >= 0]
+        arms = np.array([places[hold] - pose[:2] if hold >= 0 else (0.0, 0.0) for hold in stance["hold"][:limbs]])
+        found = {i: postures(robot.limbs[i], pose, places[stance["hold"][i]]) for i in held}
+        carriers = [i for i in held if int(stance["carriers"]) >> i & 1]
+        for k, state in enumerate(states):
+            q = np.zeros((limbs, 2))
+            for i in held:
+                if not found[i] or not int(stance["open"][i]) >> int(state[i]) & 1:
+                    costs[step, k] += BARRED
+                    continue
+                posture = found[i][int(state[i])]
+                q[i] = posture.angles
+                costs[step, k] += ON_TOP * (1.0 - posture.on_top)
+            if len(carriers) == 2:
+                margin, _ = pair_forces(legs, q, *carriers, pose, arms, wrench, nothing, cuts, forces)
+                costs[step, k] += LACKING * max(0.0, -margin)
+    return costs
