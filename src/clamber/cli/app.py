@@ -19,6 +19,7 @@ from .limb import limb
 from .list import list_names
 from .new import new
 from .plan import plan
+from .plant import plant
 from .polish import polish
 from .reach import reach
 from .run import run
@@ -45,6 +46,7 @@ app.command("bench")(bench)
 app.command("sweep")(sweep)
 app.add_typer(limb, name="limb")
 app.add_typer(new, name="new")
+app.add_typer(plant, name="plant")
 app.command("reach")(reach)
 app.command("study")(study)
 

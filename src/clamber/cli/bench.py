@@ -41,7 +41,9 @@ def bench(
     if ray is not None:
         crew.executor.check()
     if ray is None:
-        announce_compilation({"boards": "simulate", "control": "drive_at"}.get(name or "", "rollout"))
+        announce_compilation(
+            {"boards": "simulate", "control": "drive_at", "plant": "drive_at"}.get(name or "", "rollout")
+        )
     if name == "boards":
         from .bench_boards import bench_boards
 

@@ -23,6 +23,9 @@ def run(
     ] = "0mm",
     seed: Annotated[int, typer.Option(min=0, help="Of planner and pegs.")] = 0,
     replan: Annotated[bool, typer.Option(help="Plan again where a hold cannot be had.")] = True,
+    plant: Annotated[
+        str, typer.Option(help="What moves: torques, volts, or the ADDRESS of `clamber plant serve`.")
+    ] = "torques",
     force: Annotated[
         bool, typer.Option("--force", help="Carry out a plan that its checks refuse; the log says so.")
     ] = False,
@@ -36,6 +39,9 @@ def run(
     animation (.gif, .html, .mp4) or a picture (.png, .svg, .pdf).
     """
     check_writable(output)
+    from ..experiments.climb.plants import check_plant, is_remote
+
+    check_plant(plant)
     from ..actions.plan_source import is_plan_file, open_plan
     from ..experiments.climb.planning import plan_to_climb, replanner
     from ..experiments.climb.run_plan import climbing_flaws, climbing_task, read_peg_error, run_plan, split_settings
@@ -49,6 +55,8 @@ def run(
     if planner not in PLANNERS:
         raise UnknownNameError("planner", planner, tuple(PLANNERS))
     for_task, for_plant = split_settings(overrides or ())
+    if for_plant and is_remote(plant):
+        raise typer.BadParameter(f"{for_plant[0].partition('=')[0]} is the server's to set", param_hint="--set plant.")
     error = read_peg_error(peg_error)
     announce_compilation(FIRST_LOOPS[planner], quiet=quiet)
     if is_plan_file(what):
@@ -70,7 +78,7 @@ def run(
     with ClimbLine(stderr(), quiet=quiet) as line:
         run = run_plan(
             chosen, plan, flaws, peg_error=error, seed=seed, force=force, replan=again, progress=line.update,
-            label=what, log=streamed,
+            label=what, log=streamed, plant=plant,
         )  # fmt: skip
     if output is not None and streamed is None:
         write_run(run, output)

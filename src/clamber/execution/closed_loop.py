@@ -2,12 +2,12 @@
 
 from ..control.controller import Controller, MeasurementError
 from ..types import Records
-from .plant import Plant
+from .plant import LimbPlant
 from .recorder import Recorder
 from .trace import LimbTrace, empty_trace
 
 
-def close_loop(plant: Plant, controller: Controller, aims: Records, *, keep: bool = False) -> LimbTrace:
+def close_loop(plant: LimbPlant, controller: Controller, aims: Records, *, keep: bool = False) -> LimbTrace:
     """Run `controller` on `plant`, from where it is, through `aims`.
 
     Args:

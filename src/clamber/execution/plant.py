@@ -1,14 +1,40 @@
-"""What carries a controller's torques out: a simulated limb or robot, or a real one. One protocol for all."""
+"""What carries a controller's commands out, simulated or real, here or in another process: one protocol, and what a kind adds."""
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, TypeVar
 
 from ..types import Floats
+
+SensedT_co = TypeVar("SensedT_co", covariant=True)
+TruthT_co = TypeVar("TruthT_co", covariant=True)
+
+
+class PlantStoppedError(Exception):
+    """The plant takes no more commands: lost, or stopped by its own side. A run ends with this reason; never a user's mistake."""
+
+
+class Plant(Protocol[SensedT_co, TruthT_co]):
+    """What moves for one control period at a time. Each kind adds its own `reset`, since not all start from the same things."""
+
+    period: float
+    """Between two ticks [s]."""
+
+    def sense(self) -> SensedT_co:
+        """Read the sensors, once a tick."""
+
+    def actuate(self, commands: Floats, /) -> None:
+        """Set the commands, held until the next call: torques [N m], or volts for `Hardware`."""
+
+    def step(self) -> None:
+        """Let one control period pass."""
+
+    def truth(self) -> TruthT_co:
+        """How things really are: for logs and tests, never for a controller."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sensed:
-    """What the sensors say; the arrays are the plant's own, the same for its whole life, and change with the next tick."""
+    """What the sensors of limbs say; the arrays are the plant's own, the same for its whole life, and change with the next tick."""
 
     states: Floats
     """Joint angles and speeds by the encoders, shape (batch, 2, n) [rad], [rad/s]."""
@@ -20,7 +46,7 @@ class Sensed:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Truth:
-    """What is really so: for logs and tests, never for a controller. The arrays are the plant's own as in `Sensed`."""
+    """What is really so of limbs. The arrays are the plant's own as in `Sensed`."""
 
     states: Floats
     """True joint angles and speeds at the output of the gears, shape (batch, 2, n)."""
@@ -30,24 +56,48 @@ class Truth:
     """True wrench of each limb on what it touches or is pushed by, base frame, shape (batch, 6)."""
 
 
-class Plant(Protocol):
-    """A batch of equal limbs that move for one control period at a time."""
+class LimbPlant(Plant[Sensed, Truth], Protocol):
+    """A batch of equal limbs; commands are torques, shape (batch, n) [N m]."""
 
-    period: float
-    """Between two ticks [s]."""
     batch: int
 
     def reset(self, q: Floats) -> None:
         """Put every limb at rest at the joint angles `q`, shape (n,) or (batch, n) [rad], at time 0."""
 
-    def sense(self) -> Sensed:
-        """Read the sensors, once a tick."""
 
-    def actuate(self, torques: Floats) -> None:
-        """Set the motors' torques, held until the next call, shape (batch, n) [N m]."""
+@dataclass(frozen=True, slots=True, eq=False)
+class BodySensed:
+    """What the sensors of a climber say at a tick; the arrays are the plant's own."""
 
-    def step(self) -> None:
-        """Let one control period pass."""
+    q: Floats
+    """Joint angles by the motors' encoders, shape (limbs, 2) [rad]."""
+    qd: Floats
+    """Their speeds, shape (limbs, 2) [rad/s]."""
+    angle: float
+    """Body angle by its own encoder [rad]."""
+    angle_speed: float
+    """[rad/s]."""
 
-    def truth(self) -> Truth:
-        """How things really are."""
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BodyTruth:
+    """How the climber really is."""
+
+    pose: Floats
+    """Body x, y [m], theta [rad], world frame."""
+    q: Floats
+    """Joint angles at the gears' outputs, shape (limbs, 2) [rad]."""
+    tips: Floats
+    """World frame, shape (limbs, 2) [m]."""
+    torques: Floats
+    """Of the motors over the last tick, shape (limbs, 2) [N m]."""
+
+
+class BodyPlant(Plant[BodySensed, BodyTruth | None], Protocol):
+    """A climber; commands are torques, shape (limbs, 2) [N m]. A real one knows no truth."""
+
+    def reset(self, pose: Floats, q: Floats) -> None:
+        """Put the body at a pose x, y [m], theta [rad] with joint angles q, shape (limbs, 2) [rad], at rest, at time 0."""
+
+    def pause(self) -> None:
+        """Hold the posture without commands until the next: the controller has to think for longer than a period."""

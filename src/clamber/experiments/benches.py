@@ -6,6 +6,7 @@ from typing import Final
 from .ablation import bench_ablation
 from .batches import batch_rows
 from .boards.bench import bench_boards
+from .climb.plant_bench import plant_rows
 from .climb.speed import climb_rows
 from .control_speed import control_rows
 from .gaps import bench_gaps
@@ -38,6 +39,7 @@ BENCHES: Final[dict[str, Callable[..., list[Row]]]] = {
     "boards": bench_boards,
     "control": control_rows,
     "climb": climb_rows,
+    "plant": plant_rows,
 }
 """Name -> benchmark; the command line's choices and the tests read it. Each can be called without arguments, or with `say`."""
 

@@ -1,48 +1,18 @@
 """The whole climber in MuJoCo as a plant: encoders of every joint and of the body's angle in, torques out, the truth for logs and tests."""
 
-from dataclasses import dataclass
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
 from ..control.chain import chain_of_limb
+from ..execution.plant import BodySensed, BodyTruth
+from ..execution.wiring import encoder_resolution
 from ..robots.limbed import LimbedRobot
 from ..types import Floats
 from ..worlds.board import Board
 from .climber_model import HookShape, climber_spec
 from .climber_wires import command_motors, sense_climber
 from .limb_flaws import LimbFlaws
-
-BODY_COUNTS: Final = 4000
-"""Of the body's own encoder, a turn; nobody prints it, so ours."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class BodySensed:
-    """What the sensors of a climber say at a tick; the arrays are the plant's own."""
-
-    q: Floats
-    """Joint angles by the motors' encoders, shape (limbs, 2) [rad]."""
-    qd: Floats
-    """Their speeds, shape (limbs, 2) [rad/s]."""
-    angle: float
-    """Body angle by the seventh encoder [rad]."""
-    angle_speed: float
-    """[rad/s]."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class BodyTruth:
-    """How the climber really is: for logs and tests."""
-
-    pose: Floats
-    """Body x, y [m], theta [rad], world frame."""
-    q: Floats
-    """Joint angles at the gears' outputs, shape (limbs, 2) [rad]."""
-    tips: Floats
-    """World frame, shape (limbs, 2) [m]."""
-    torques: Floats
-    """Of the motors over the last tick, shape (limbs, 2) [N m]."""
 
 
 class ClimberPlant:
@@ -85,9 +55,7 @@ class ClimberPlant:
         self._motors = np.array([self.model.actuator(name).id for name in names])
         self._sites = np.array([self.model.site(f"{limb.name} tip").id for limb in robot.limbs])
         records = np.concatenate([chain.joints for chain in chains])
-        gears = [joint.gear for limb in robot.limbs for joint in (limb.shoulder, limb.elbow)]
-        counts = flaws.encoder_counts * np.array([BODY_COUNTS / max(flaws.encoder_counts, 1), *gears]) / (2 * np.pi)
-        self._counts = counts
+        self._counts = np.roll(encoder_resolution(robot, flaws.encoder_counts), 1)  # the body's first, as in qpos
         n = len(names)
         self._limits, self._no_load = records["limit"].copy(), records["speed"].copy()
         self._agility = (
@@ -135,6 +103,9 @@ class ClimberPlant:
     def push(self, force: tuple[float, float]) -> None:
         """Push the body at its centre until the next call, world frame [N]."""
         self._pushed[:2] = force
+
+    def pause(self) -> None:
+        """See `BodyPlant`: nothing to do, as time stands still meanwhile."""
 
     def step(self) -> None:
         """Let one control period pass."""

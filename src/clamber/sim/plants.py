@@ -4,7 +4,7 @@ from typing import Final, Protocol
 
 from ..control.chain import Chain
 from ..errors import UnknownNameError
-from ..execution.plant import Plant
+from ..execution.plant import LimbPlant
 from ..types import Floats
 from .limb_flaws import LimbFlaws
 from .mujoco_limb import MujocoLimb
@@ -16,7 +16,7 @@ class MakePlant(Protocol):
 
     def __call__(
         self, chain: Chain, flaws: LimbFlaws, *, gears: Floats | None = None, batch: int = 1, threads: int = 0
-    ) -> Plant:
+    ) -> LimbPlant:
         """A plant that still needs a reset."""
 
 

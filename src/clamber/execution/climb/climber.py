@@ -3,13 +3,14 @@
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Final, Protocol
+from typing import Final
 
 import numpy as np
 
 from ...robots.limbed import LimbedRobot
 from ...types import Floats
 from ...worlds.board import Board
+from ..plant import BodyPlant
 from .approach import Approaches, rank
 from .fall import FallWatch
 from .hold_map import HoldMap
@@ -22,44 +23,6 @@ TURNED: Final = 0.6
 """Likewise turned this far from it [rad]."""
 STRAINED: Final = 0.03
 """Two holding tips whose distance differs that much from that of their holds are not both on them [m]."""
-
-
-class BodySenses(Protocol):
-    """What a plant's sensors say at a tick."""
-
-    @property
-    def q(self) -> Floats:
-        """Joint angles, shape (limbs, 2) [rad]."""
-
-    @property
-    def qd(self) -> Floats:
-        """Joint speeds, shape (limbs, 2) [rad/s]."""
-
-    @property
-    def angle(self) -> float:
-        """Of the body [rad]."""
-
-    @property
-    def angle_speed(self) -> float:
-        """[rad/s]."""
-
-
-class BodyPlant(Protocol):
-    """A climber that can be driven: simulated, or real."""
-
-    period: float
-
-    def reset(self, pose: Floats, q: Floats) -> None:
-        """Put the body at a pose with joint angles q, at rest."""
-
-    def sense(self) -> BodySenses:
-        """Read the sensors, once a tick."""
-
-    def actuate(self, torques: Floats) -> None:
-        """Set the motors' torques, shape (limbs, 2) [N m]."""
-
-    def step(self) -> None:
-        """Let one control period pass."""
 
 
 class FallenError(Exception):

@@ -10,13 +10,14 @@ import numpy as np
 from ...actions.plan import Plan
 from ...tasks.limbed import LimbedTask
 from ...types import Floats, Json
+from ..plant import PlantStoppedError
 from .climb_trace import TracedClimber
 from .climber import FallenError, Grabbed
 from .course import Course, PlanRefusedError, lay_course, names_of, swings
 from .here import task_from_here
 from .motions import grab, move_body, release
 
-Outcome: TypeAlias = Literal["ok", "stalled", "missed", "fell", "interrupted", "not supported"]
+Outcome: TypeAlias = Literal["ok", "stalled", "missed", "fell", "interrupted", "stopped", "not supported"]
 Replan: TypeAlias = Callable[[LimbedTask], Plan | None]
 """A plan for a task that starts where the robot is; None where there is none."""
 Progress: TypeAlias = Callable[[int, int, str, float], None]
@@ -145,7 +146,7 @@ class Sequencer:
             raise PlanRefusedError("plan", 0, "a limb has no posture for its hold at the start") from None
 
     def run(self) -> ClimbReport:
-        """Carry the plan out to its end, a fall, or Ctrl-C; what happened until then is in the report and the trace."""
+        """Carry the plan out to its end, a fall, a stopped plant, or Ctrl-C; what happened until then is in report and trace."""
         report, climber = self.report, self.climber
         try:
             self.start()
@@ -156,6 +157,8 @@ class Sequencer:
             report.reason = "interrupted"
         except FallenError as fall:
             report.reason = f"fell: {fall}"
+        except PlantStoppedError as stop:
+            report.reason = f"stopped: {stop}"
         report.seconds = climber.time
         report.pose = _tuple(climber.body.settled)
         pose = climber.body.settled
@@ -191,6 +194,9 @@ class Sequencer:
             outcome, tries, reason = self._motion(first, last)
         except FallenError as fall:
             outcome, reason = "fell", str(fall)
+            raise
+        except PlantStoppedError as stop:
+            outcome, reason = "stopped", str(stop)
             raise
         finally:
             title = action.title if last == first else f"{action.title}, {last - first + 1} times"
@@ -285,6 +291,7 @@ class Sequencer:
             return False
         held = {limb.name: self.climber.body.tasks[i].hold for i, limb in enumerate(self.climber.robot.limbs)}
         task = task_from_here(self.course, step, held, self._missed)
+        self.climber.plant.pause()
         plan = self._replan(task)
         if plan is None:
             return False

@@ -14,13 +14,13 @@ from ...execution.climb.climb_trace import TOPIC, ClimbTrace, TracedClimber, lim
 from ...execution.climb.course import climbable, lay_course
 from ...execution.climb.sequencer import ClimbReport, Progress, Replan, Sequencer
 from ...execution.log_stream import LogStream
-from ...sim.climber_plant import ClimberPlant
 from ...sim.limb_flaws import LimbFlaws, PlantError
 from ...tasks import Task
 from ...tasks.limbed import LimbedTask
 from ...types import Floats, Json
 from ...units import parse_quantity
 from ..limb.flaw_texts import named_flaws, read_flaws
+from .plants import climbing_plant, truth_of
 
 PLANT: str = "plant."
 """First word of settings that change the plant."""
@@ -106,6 +106,7 @@ def run_plan(
     progress: Progress | None = None,
     label: str = "plan",
     log: Path | None = None,
+    plant: str = "torques",
 ) -> ClimbRun:
     """Carry a plan out.
 
@@ -120,6 +121,7 @@ def run_plan(
         progress: Told before each action.
         label: What errors call the plan.
         log: An .mcap file that grows as the robot climbs (`execution.log_stream`).
+        plant: By name or address, see `climbing_plant`.
 
     Raises:
         FileError: If the log cannot be written.
@@ -129,15 +131,17 @@ def run_plan(
     """
     began = time.perf_counter()
     course = lay_course(task, plan, label)
-    plant = ClimberPlant(task.robot, task.world, flaws, pegs=true_pegs(task, peg_error, seed))
-    climber = TracedClimber(task.robot, task.world, plant, map_error=LEAST_MAP_ERROR + peg_error, truth=plant.truth)
-    sequencer = Sequencer(climber, course, replan=replan, force=force, progress=progress)
-    stream = None if log is None else LogStream(log, climber.titles, limb_notes(climber.limbs), TOPIC)
-    with nullcontext() if stream is None else stream:
-        climber.told = None if stream is None else stream.add
-        report = sequencer.run()
-        notes = report.to_json() | {"task": task.name, "peg_error": peg_error, "seed": seed}
-        if stream is not None:
-            stream.add(climber.last())
-            stream.finish(report_notes(notes))
+    with climbing_plant(plant, task, flaws, true_pegs(task, peg_error, seed)) as moved:
+        climber = TracedClimber(
+            task.robot, task.world, moved, map_error=LEAST_MAP_ERROR + peg_error, truth=truth_of(moved)
+        )
+        sequencer = Sequencer(climber, course, replan=replan, force=force, progress=progress)
+        stream = None if log is None else LogStream(log, climber.titles, limb_notes(climber.limbs), TOPIC)
+        with nullcontext() if stream is None else stream:
+            climber.told = None if stream is None else stream.add
+            report = sequencer.run()
+            notes = report.to_json() | {"task": task.name, "peg_error": peg_error, "seed": seed}
+            if stream is not None:
+                stream.add(climber.last())
+                stream.finish(report_notes(notes))
     return ClimbRun(task, plan, report, climber.trace(notes), time.perf_counter() - began)

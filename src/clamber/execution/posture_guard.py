@@ -1,0 +1,51 @@
+"""What holds a robot up when nobody commands it: without power the gearbox lets it fall, so a safe stop keeps every joint where it is."""
+
+from typing import Final
+
+import numpy as np
+
+from ..robots.limbed import LimbedRobot
+from ..types import Floats
+from .hardware import Decoder, Reading
+from .wiring import Wiring, joints_of
+
+RATE: Final = 25.0
+"""Natural frequency of a joint that moves its own motor alone: about what a climber's free limbs have [rad/s]."""
+DAMPING: Final = 0.7
+"""Damping ratio of the same [-]."""
+
+
+class PostureGuard:
+    """Joint PD about a posture, with the last command before it fed forward, so that loads that it carried do not let the robot sag.
+
+    Args:
+        wiring: Of the robot.
+        inertias: Of each joint with its motor and gear, shape (n_joints,) [kg m^2].
+        period: Of the control [s].
+    """
+
+    def __init__(self, wiring: Wiring, inertias: Floats, period: float) -> None:
+        self._wiring, self._n = wiring, wiring.n_joints
+        self._kp, self._kd = RATE**2 * inertias, 2 * DAMPING * RATE * inertias
+        self._decoder = Decoder(wiring, period)
+        self._posture, self._fed = np.zeros(self._n), np.zeros(self._n)
+
+    def hold(self, reading: Reading, volts: Floats) -> None:
+        """From now on, hold the posture of `reading`, in which `volts` were commanded, shape (n_joints,) [V]."""
+        self._decoder.reset()
+        self._posture = self._decoder.decode(reading)[0][: self._n]
+        self._fed = self._wiring.torques(volts)
+
+    def volts(self, reading: Reading) -> Floats:
+        """Commands of this tick, shape (n_joints,) [V]."""
+        angles, speeds = (values[: self._n] for values in self._decoder.decode(reading))
+        return self._wiring.volts(self._fed + self._kp * (self._posture - angles) - self._kd * speeds)
+
+    def moved(self, reading: Reading) -> float:
+        """How far the joint that has moved most is off the posture [rad]."""
+        return float(np.abs(self._wiring.angles(reading.counts)[: self._n] - self._posture).max())
+
+
+def guard_of(robot: LimbedRobot, wiring: Wiring, period: float) -> PostureGuard:
+    """The guard of a whole climber."""
+    return PostureGuard(wiring, np.array([joint.inertia for joint in joints_of(robot)]), period)

@@ -1,0 +1,105 @@
+"""What lies between a controller's units and those of a robot's wires: counts of encoders are angles, volts of amplifiers are torques."""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ..errors import SpecError
+from ..robots.limbed import Joint, LimbedRobot
+from ..types import Floats, Ints
+
+BODY_COUNTS: Final = 4000
+"""Of the body's own encoder, a turn; nobody prints it, so ours."""
+COMMAND_LIMIT: Final = 10.0
+"""Most volts that an amplifier takes, either way: inferred, as k_t is, from 10 V giving LIBRA's 3000 oz-in at a gear ratio of 574 [V]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Wiring:
+    """Encoders and amplifiers of a robot. The first `n_joints` encoders are those of its joints, in the order of its actuators."""
+
+    resolution: Floats
+    """Counts of each encoder per radian of what it measures, shape (n_encoders,)."""
+    torque_per_volt: Floats
+    """Of each joint: amplifier gain, times motor constant, times gear, shape (n_joints,) [N m/V]."""
+    most_volts: Floats
+    """Largest command of each joint, either way: by its torque limit or by its amplifier, shape (n_joints,) [V]."""
+
+    @property
+    def n_joints(self) -> int:
+        """Actuators."""
+        return len(self.torque_per_volt)
+
+    @property
+    def n_encoders(self) -> int:
+        """Of joints, and of whatever else turns."""
+        return len(self.resolution)
+
+    def angles(self, counts: Ints) -> Floats:
+        """What the encoders say, shape (n_encoders,) [rad]."""
+        return counts / self.resolution
+
+    def counts(self, angles: Floats) -> Ints:
+        """The nearest counts, shape (n_encoders,)."""
+        return np.floor(angles * self.resolution + 0.5).astype(np.int32)
+
+    def volts(self, torques: Floats) -> Floats:
+        """Commands that ask for torques, within the limits, shape (n_joints,) [V]."""
+        return within(torques / self.torque_per_volt, self.most_volts)
+
+    def torques(self, volts: Floats) -> Floats:
+        """What the amplifiers make of commands, before the motors' own limits, shape (n_joints,) [N m]."""
+        return within(volts, COMMAND_LIMIT) * self.torque_per_volt
+
+
+def within(values: Floats, most: Floats | float) -> Floats:
+    """Values cut at a limit either way; twice as fast as `numpy.clip` on the few joints of a robot."""
+    return np.minimum(np.maximum(values, -most), most)
+
+
+def joints_of(robot: LimbedRobot) -> list[Joint]:
+    """In the order of wires: limb by limb as the robot's file has them, shoulder before elbow."""
+    return [joint for limb in robot.limbs for joint in (limb.shoulder, limb.elbow)]
+
+
+def encoder_resolution(robot: LimbedRobot, counts: int) -> Floats:
+    """Counts per radian of every joint, on the motor's side of its gear, then of the body's angle, shape (2 limbs + 1,).
+
+    Args:
+        robot: The climber.
+        counts: Per motor turn; 0 for perfect encoders, whose resolution is told as 0.
+    """
+    gears = np.array([joint.gear for joint in joints_of(robot)])
+    return np.append(counts * gears, BODY_COUNTS if counts else 0) / (2 * np.pi)
+
+
+def wiring_of(robot: LimbedRobot, counts: int | None = None) -> Wiring:
+    """Wires of a climber: six joints and the body's angle make LIBRA's seven encoders.
+
+    Args:
+        robot: The climber.
+        counts: Per motor turn; None: as the robot's file says.
+
+    Raises:
+        SpecError: If its motors have no amplifiers, or its encoders no counts.
+    """
+    motor = robot.motor
+    counts = motor.encoder_counts if counts is None else counts
+    if motor.amplifier_gain is None:
+        raise SpecError(f"robot '{robot.name}'", "motor.amplifier_gain", None, "must be stated: commands are volts")
+    if not counts:
+        raise SpecError(
+            f"robot '{robot.name}'", "motor.encoder_counts", counts, "must be 1 or more: sensors are counted"
+        )
+    joints = joints_of(robot)
+    per_volt = motor.amplifier_gain * motor.torque_constant * np.array([joint.gear for joint in joints])
+    limits = np.array([joint.torque_limit or motor.torque_limit for joint in joints])
+    return Wiring(encoder_resolution(robot, counts), per_volt, np.minimum(limits / per_volt, COMMAND_LIMIT))
+
+
+def wiring_of_limb(robot: LimbedRobot, name: str, counts: int | None = None) -> Wiring:
+    """Wires of one limb alone: two encoders, two amplifiers. See `wiring_of`."""
+    whole, first = wiring_of(robot, counts), 2 * robot.limb_index(name)
+    two = slice(first, first + 2)
+    return Wiring(whole.resolution[two], whole.torque_per_volt[two], whole.most_volts[two])

@@ -1,0 +1,239 @@
+"""What a plant in another process costs and keeps: round trips, jitter of a real-time plant, and robots that stay up after a safe stop."""
+
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Final
+
+import numpy as np
+
+from ...actions.limbed_plans import thesis_code
+from ...actions.plan import Plan
+from ...execution.climb.climb_trace import TracedClimber
+from ...execution.climb.course import lay_course
+from ...execution.climb.sequencer import Sequencer
+from ...execution.hardware import Hardware, Reading, WiredClimber
+from ...execution.link.channel import read_address
+from ...execution.link.client import RemoteHardware
+from ...execution.plant import PlantStoppedError
+from ...execution.posture_guard import PostureGuard, guard_of
+from ...execution.wiring import wiring_of
+from ...sim.climber_plant import ClimberPlant
+from ...sim.limb_flaws import LimbFlaws
+from ...sim.wires import ClimberWires
+from ...tasks import load_task
+from ...tasks.limbed import LimbedTask
+from ...types import Floats
+from ..rows import Row, Say, keep_quiet
+from .run_plan import LEAST_MAP_ERROR, climbing_flaws, climbing_task, run_plan, true_pegs
+
+TASK: Final = "ladder"
+GAIT: Final = (191, 392, 291, 300, 3, 3)
+"""A rung by the thesis's gait, in its own numbers."""
+SECONDS: Final = 10.0
+"""Of each run over a link."""
+STOPS: Final = 40
+"""Safe stops at random moments of a rung."""
+RUNG_TICKS: Final = 4400
+"""About those of a rung."""
+PEG_ERROR: Final = 0.003
+"""[m]."""
+HOLD: Final = 3.0
+"""After each stop [s]."""
+FELL: Final = 0.05
+"""A body that has moved farther since the stop has fallen [m]."""
+RUNGS: Final = 3
+"""Climbed in real time."""
+REAL_TIME: Final = ("--real-time", "-q", "--set", "plant.delay=0")
+"""How they are served: the link brings the tick of delay that the nominal plant simulates."""
+SERVE: Final = "from clamber.cli import main; main()"
+
+
+@contextmanager
+def served(*words: str) -> Iterator[tuple["subprocess.Popen[str]", str]]:
+    """A process of `clamber plant serve` with these words, and its address; ended when the block ends."""
+    command = [sys.executable, "-c", SERVE, "plant", "serve", *words]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    try:
+        assert process.stdout is not None
+        yield process, process.stdout.readline().strip()
+    finally:
+        process.terminate()
+        process.communicate()
+
+
+def gait_of(task: LimbedTask) -> Plan:
+    """One rung."""
+    return Plan.of_codes(task, [thesis_code(task, number) for number in GAIT])
+
+
+class TimedHardware:
+    """Hardware whose steps are timed.
+
+    Args:
+        hardware: What is timed.
+    """
+
+    def __init__(self, hardware: Hardware) -> None:
+        self.hardware, self.period = hardware, hardware.period
+        self.ends: list[float] = []
+        """When each step ended [s]."""
+        self.took: list[float] = []
+        """How long each step took [s]."""
+
+    def reset(self, start: Floats) -> None:
+        """See `Hardware`."""
+        self.hardware.reset(start)
+
+    def sense(self) -> Reading:
+        """See `Hardware`."""
+        return self.hardware.sense()
+
+    def actuate(self, volts: Floats) -> None:
+        """See `Hardware`."""
+        self.hardware.actuate(volts)
+
+    def pause(self) -> None:
+        """See `Hardware`."""
+        self.hardware.pause()
+
+    def step(self) -> None:
+        """See `Hardware`."""
+        began = time.perf_counter()
+        self.hardware.step()
+        self.ends.append(time.perf_counter())
+        self.took.append(self.ends[-1] - began)
+
+    def truth(self) -> Floats:
+        """See `Hardware`."""
+        return self.hardware.truth()
+
+
+class StoppingHardware:
+    """Hardware that is taken over by its guard at some tick, as a server does.
+
+    Args:
+        hardware: What stops.
+        guard: Of the same robot.
+        at: Tick of the stop.
+    """
+
+    def __init__(self, hardware: Hardware, guard: PostureGuard, at: int) -> None:
+        self.hardware, self.guard, self.at, self.period = hardware, guard, at, hardware.period
+        self._reading, self._volts = Reading(np.zeros(0, np.int32), 0), np.zeros(0)
+
+    def reset(self, start: Floats) -> None:
+        """See `Hardware`."""
+        self.hardware.reset(start)
+        self._reading = self.hardware.sense()
+
+    def sense(self) -> Reading:
+        """See `Hardware`."""
+        return self._reading
+
+    def actuate(self, volts: Floats) -> None:
+        """See `Hardware`."""
+        self._volts = volts
+
+    def pause(self) -> None:
+        """See `Hardware`."""
+        self.hardware.pause()
+
+    def step(self) -> None:
+        """See `Hardware`.
+
+        Raises:
+            PlantStoppedError: At its tick.
+        """
+        if self._reading.tick >= self.at:
+            raise PlantStoppedError("its time has come")
+        self.hardware.actuate(self._volts)
+        self.hardware.step()
+        self._reading = self.hardware.sense()
+
+    def truth(self) -> Floats:
+        """See `Hardware`."""
+        return self.hardware.truth()
+
+    def hold(self, seconds: float, *, power: bool = True) -> float:
+        """Let the guard hold, or nobody, and tell how far the body has truly moved [m]."""
+        before = self.truth()[:2].copy()
+        self.guard.hold(self._reading, self._volts)
+        for _ in range(round(seconds / self.period)):
+            volts = self.guard.volts(self._reading)
+            self.hardware.actuate(volts if power else np.zeros_like(volts))
+            self.hardware.step()
+            self._reading = self.hardware.sense()
+        return float(np.hypot(*(self.truth()[:2] - before)))
+
+
+def stopped_at(task: LimbedTask, flaws: LimbFlaws, tick: int, seed: int) -> StoppingHardware:
+    """A robot that has climbed by the gait until a tick, where it was stopped, on pegs that a seed puts beside the map."""
+    wiring = wiring_of(task.robot, flaws.encoder_counts)
+    plant = ClimberPlant(task.robot, task.world, flaws, pegs=true_pegs(task, PEG_ERROR, seed))
+    hardware = ClimberWires(plant, wiring)
+    stopping = StoppingHardware(hardware, guard_of(task.robot, wiring, hardware.period), tick)
+    climber = TracedClimber(
+        task.robot, task.world, WiredClimber(stopping, wiring), map_error=LEAST_MAP_ERROR + PEG_ERROR
+    )
+    Sequencer(climber, lay_course(task, gait_of(task), "gait")).run()
+    return stopping
+
+
+def _wait_through(task: LimbedTask, timed: TimedHardware, seconds: float) -> None:
+    climber = TracedClimber(task.robot, task.world, WiredClimber(timed, wiring_of(task.robot)))
+    Sequencer(climber, lay_course(task, gait_of(task), "gait")).start()
+    climber.wait(seconds)
+
+
+def _climb_in_real_time(task: LimbedTask, flaws: LimbFlaws, seed: int) -> bool:
+    pegs = ("--peg-error", f"{PEG_ERROR} m", "--seed", str(seed))
+    with served(TASK, *REAL_TIME, *pegs) as (_, address):
+        return run_plan(task, gait_of(task), flaws, plant=address, peg_error=PEG_ERROR).report.done
+
+
+def plant_rows(*, say: Say = keep_quiet) -> list[Row]:
+    """Round trips and jitter at 200 Hz on this machine, and safe stops of a climbing robot."""
+    task = climbing_task(load_task(TASK))
+    flaws = climbing_flaws(task, ())
+    rows = []
+    say("plant here")
+    wiring = wiring_of(task.robot)
+    timed = TimedHardware(ClimberWires(ClimberPlant(task.robot, task.world, flaws), wiring))
+    _wait_through(task, timed, SECONDS)
+    rows.append(Row("a period of the plant, here", 1e6 * float(np.median(timed.took)), "us"))
+    say("plant in lock-step")
+    with served(TASK, "-q") as (_, address), RemoteHardware(read_address(address)) as remote:
+        timed = TimedHardware(remote)
+        _wait_through(task, timed, SECONDS)
+    took = 1e6 * np.array(timed.took)
+    rows.append(Row("over TCP in lock-step, median", float(np.median(took)), "us"))
+    rows.append(Row("over TCP in lock-step, 99 %", float(np.quantile(took, 0.99)), "us", "< 5000"))
+    say("plant in real time")
+    with (
+        served(TASK, *REAL_TIME) as (_, address),
+        RemoteHardware(read_address(address)) as remote,
+    ):
+        timed = TimedHardware(remote)
+        _wait_through(task, timed, SECONDS)
+    between = 1e6 * np.diff(timed.ends)
+    missed = np.maximum(np.rint(between / (1e6 * remote.period)) - 1, 0).sum()
+    off = np.abs(between - 1e6 * remote.period)
+    rows.append(Row("in real time, between samples, mean", float(between.mean()), "us", "5000"))
+    rows.append(Row("in real time, jitter, median", float(np.median(off)), "us"))
+    rows.append(Row("in real time, jitter, 99 %", float(np.quantile(off, 0.99)), "us"))
+    rows.append(Row("in real time, jitter, largest", float(off.max()), "us", "< 5000"))
+    rows.append(Row("in real time, samples that came too late", float(missed), "", "0"))
+    say("rungs in real time")
+    climbed = [_climb_in_real_time(task, flaws, seed) for seed in range(RUNGS)]
+    rows.append(Row("in real time, rungs climbed without a stop", sum(climbed), f"of {RUNGS}", f"{RUNGS}"))
+    say("safe stops")
+    moments = np.random.default_rng(0).integers(100, RUNG_TICKS, STOPS)
+    moved = [stopped_at(task, flaws, int(tick), seed).hold(HOLD) for seed, tick in enumerate(moments)]
+    rows.append(
+        Row("safe stops that the robot stays up after", sum(m < FELL for m in moved), f"of {STOPS}", f"{STOPS}")
+    )
+    rows.append(Row(f"body, farthest in {HOLD:g} s after one", 1e3 * max(moved), "mm"))
+    return rows

@@ -1,0 +1,132 @@
+"""Plants of a climb by name or address, and the server that lends one to another process."""
+
+import socket
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Final
+
+from ...errors import ClamberError, describe_choices
+from ...execution.hardware import WiredClimber
+from ...execution.link.channel import LinkError, read_address
+from ...execution.link.client import RemoteHardware
+from ...execution.link.messages import About
+from ...execution.link.server import PlantServer, Say
+from ...execution.plant import BodyPlant, BodyTruth
+from ...execution.posture_guard import guard_of
+from ...execution.wiring import wiring_of
+from ...sim.climber_plant import ClimberPlant
+from ...sim.limb_flaws import LimbFlaws
+from ...sim.wires import ClimberWires
+from ...tasks.limbed import LimbedTask
+from ...types import Floats
+
+HERE: Final = ("torques", "volts")
+"""Plants in this process: torques in and angles out, or through simulated amplifiers and counters."""
+
+
+class PlantChoiceError(ClamberError):
+    """A plant that is neither one of ours nor an address."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__(text)
+        self.text = text
+
+    def __str__(self) -> str:
+        return f"no plant is called {self.text!r}; there are {describe_choices(self.text, HERE)}, or the address of a server"
+
+
+def check_plant(text: str) -> None:
+    """Make sure that a text names a plant, before anything is planned for it.
+
+    Raises:
+        PlantChoiceError: If it does not.
+        LinkError: If it is an address that cannot be.
+    """
+    if is_remote(text):
+        read_address(text)
+    elif text not in HERE:
+        raise PlantChoiceError(text)
+
+
+def is_remote(text: str) -> bool:
+    """Whether a plant's text is an address."""
+    return ":" in text
+
+
+@contextmanager
+def climbing_plant(text: str, task: LimbedTask, flaws: LimbFlaws, pegs: Floats | None) -> Iterator[BodyPlant]:
+    """The plant that a text names, let go at the end.
+
+    Args:
+        text: One of `HERE`, or an address: there, flaws and pegs are the server's.
+        task: What is climbed.
+        flaws: Of a simulation here.
+        pegs: Where its holds truly are, shape (n_holds, 2) [m]; None: where the map says.
+
+    Raises:
+        PlantChoiceError: If there is no such plant.
+        LinkError: If nobody serves it, or another robot or task is served.
+        SpecError: If the robot has no amplifiers or encoders that its wires could carry.
+    """
+    check_plant(text)
+    if not is_remote(text):
+        plant = ClimberPlant(task.robot, task.world, flaws, pegs=pegs)
+        yield plant if text == "torques" else wired(task, plant, flaws)
+        return
+    with RemoteHardware(read_address(text)) as remote:
+        remote.check(task.robot.name, task.world.name)
+        wiring = wiring_of(task.robot)
+        for word, served, ours in (
+            ("encoders", remote.about.encoders, wiring.n_encoders),
+            ("joints", remote.about.joints, wiring.n_joints),
+        ):
+            if served != ours:
+                raise LinkError(text, f"it has {served} {word}", f"must have {ours}, as '{task.robot.name}' has")
+        yield WiredClimber(remote, wiring)
+
+
+def truth_of(plant: BodyPlant) -> Callable[[], BodyTruth] | None:
+    """What tells how a plant really is; None of one that nobody knows."""
+    if plant.truth() is None:
+        return None
+
+    def told() -> BodyTruth:
+        truth = plant.truth()
+        assert truth is not None
+        return truth
+
+    return told
+
+
+def wired(task: LimbedTask, plant: ClimberPlant, flaws: LimbFlaws) -> WiredClimber:
+    """A simulated climber through simulated wires in this process."""
+    wiring = wiring_of(task.robot, flaws.encoder_counts)
+    return WiredClimber(ClimberWires(plant, wiring), wiring)
+
+
+def climb_server(
+    task: LimbedTask,
+    flaws: LimbFlaws,
+    pegs: Floats | None,
+    listener: socket.socket,
+    *,
+    say: Say,
+    real_time: bool = False,
+    pace: float = 1.0,
+    once: bool = False,
+    dac_bits: int = 0,
+) -> PlantServer:
+    """A server of a task's simulated robot; see `PlantServer`.
+
+    Raises:
+        SpecError: If the robot has no amplifiers or encoders that its wires could carry.
+        PlantError: If the converters cannot be.
+    """
+    wiring = wiring_of(task.robot, flaws.encoder_counts)
+    hardware = ClimberWires(ClimberPlant(task.robot, task.world, flaws, pegs=pegs), wiring, dac_bits=dac_bits)
+    about = About(
+        task.robot.name, task.world.name, wiring.n_joints, wiring.n_encoders, 3 + wiring.n_joints,
+        len(hardware.truth()), real_time, hardware.period, pace,
+    )  # fmt: skip
+    guard = guard_of(task.robot, wiring, hardware.period)
+    return PlantServer(hardware, about, guard, listener, say=say, once=once)

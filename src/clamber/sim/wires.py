@@ -1,0 +1,120 @@
+"""Simulated plants as hardware has it: amplifiers between volts and torques, counters behind the encoders."""
+
+from typing import Final
+
+import numpy as np
+
+from ..execution.hardware import Reading, flat_body_truth, flat_limb_truth
+from ..execution.plant import BodyPlant, LimbPlant
+from ..execution.wiring import COMMAND_LIMIT, Wiring, within
+from ..types import Floats
+from .limb_flaws import PlantError
+
+MOST_DAC_BITS: Final = 24
+
+
+class Amplifiers:
+    """Converters and current amplifiers of all joints.
+
+    Args:
+        wiring: Their gains, and the motors' gears and constants.
+        dac_bits: Of the converters before them, which span both limits; 0: as fine as a float.
+
+    Raises:
+        PlantError: If there cannot be as many bits.
+    """
+
+    def __init__(self, wiring: Wiring, dac_bits: int = 0) -> None:
+        if not 0 <= dac_bits <= MOST_DAC_BITS:
+            raise PlantError("dac_bits", dac_bits, f"must be 0 to {MOST_DAC_BITS}")
+        self._wiring = wiring
+        self._step = 2 * COMMAND_LIMIT / 2**dac_bits if dac_bits else 0.0
+
+    def torques(self, volts: Floats) -> Floats:
+        """What the motors are driven to, shape (n_joints,) [N m]."""
+        if self._step:
+            volts = np.rint(within(volts, COMMAND_LIMIT) / self._step) * self._step
+        return self._wiring.torques(volts)
+
+
+class ClimberWires:
+    """A simulated climber as `Hardware`: encoders of its joints, limb by limb, then of its body; starts are pose and joint angles.
+
+    Args:
+        plant: With encoders that count as `wiring` says.
+        wiring: Of the robot.
+        dac_bits: See `Amplifiers`.
+    """
+
+    def __init__(self, plant: BodyPlant, wiring: Wiring, *, dac_bits: int = 0) -> None:
+        self.plant, self.wiring, self.period = plant, wiring, plant.period
+        self._amplifiers, self._tick = Amplifiers(wiring, dac_bits), 0
+        self._angles = np.zeros(wiring.n_encoders)
+
+    def reset(self, start: Floats) -> None:
+        """See `Hardware`."""
+        self.plant.reset(start[:3], start[3:].reshape(-1, 2))
+        self._tick = 0
+
+    def sense(self) -> Reading:
+        """See `Hardware`."""
+        sensed = self.plant.sense()
+        self._angles[:-1], self._angles[-1] = sensed.q.ravel(), sensed.angle
+        return Reading(self.wiring.counts(self._angles), self._tick)
+
+    def actuate(self, volts: Floats) -> None:
+        """See `Hardware`."""
+        self.plant.actuate(self._amplifiers.torques(volts).reshape(-1, 2))
+
+    def pause(self) -> None:
+        """See `Hardware`: nothing to do, as time stands still meanwhile."""
+
+    def step(self) -> None:
+        """See `Hardware`."""
+        self.plant.step()
+        self._tick += 1
+
+    def truth(self) -> Floats:
+        """See `Hardware`: pose, joint angles, tips, torques."""
+        truth = self.plant.truth()
+        return np.zeros(0) if truth is None else flat_body_truth(truth)
+
+
+class LimbWires:
+    """A simulated limb as `Hardware`; starts are joint angles.
+
+    Args:
+        plant: A batch of one, with encoders that count as `wiring` says.
+        wiring: Of the limb.
+        dac_bits: See `Amplifiers`.
+    """
+
+    def __init__(self, plant: LimbPlant, wiring: Wiring, *, dac_bits: int = 0) -> None:
+        assert plant.batch == 1
+        self.plant, self.wiring, self.period = plant, wiring, plant.period
+        self._amplifiers, self._tick = Amplifiers(wiring, dac_bits), 0
+
+    def reset(self, start: Floats) -> None:
+        """See `Hardware`."""
+        self.plant.reset(start)
+        self._tick = 0
+
+    def sense(self) -> Reading:
+        """See `Hardware`."""
+        return Reading(self.wiring.counts(self.plant.sense().states[0, 0]), self._tick)
+
+    def actuate(self, volts: Floats) -> None:
+        """See `Hardware`."""
+        self.plant.actuate(self._amplifiers.torques(volts)[None])
+
+    def pause(self) -> None:
+        """See `Hardware`: nothing to do, as time stands still meanwhile."""
+
+    def step(self) -> None:
+        """See `Hardware`."""
+        self.plant.step()
+        self._tick += 1
+
+    def truth(self) -> Floats:
+        """See `Hardware`: states, torques, wrench."""
+        return flat_limb_truth(self.plant.truth())

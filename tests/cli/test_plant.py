@@ -1,0 +1,196 @@
+"""A plant in another process: a climb through it, whoever dies, and what is refused."""
+
+import json
+import os
+import re
+import select
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from clamber.actions.limbed_plans import thesis_code
+from clamber.actions.plan import Plan
+from clamber.cli import main
+from clamber.execution.climb.climb_trace import ClimbTrace
+from clamber.execution.climb.course import climbable
+from clamber.execution.log_files import read_log
+from clamber.experiments.climb.plant_bench import SERVE, served
+from clamber.tasks import load_task
+from clamber.tasks.limbed import LimbedTask
+
+PEGS = ("--peg-error", "3mm", "--seed", "5")
+PATIENCE = 120.0  # a busy machine may compile first [s]
+
+
+@pytest.fixture
+def clamber(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Any:
+    monkeypatch.setenv("COLUMNS", "80")
+
+    def call(*words: str) -> tuple[int, str, str]:
+        capfd.readouterr()
+        with pytest.raises(SystemExit) as left:
+            main(words)
+        out, err = capfd.readouterr()
+        return int(left.value.code or 0), out, err
+
+    return call
+
+
+def plan_file(folder: Path, *numbers: int) -> str:
+    task = load_task("ladder", ())
+    assert isinstance(task, LimbedTask)
+    strict = climbable(task)
+    Plan.of_codes(strict, [thesis_code(strict, number) for number in numbers]).save(folder / "plan.json")
+    return str(folder / "plan.json")
+
+
+def client(*words: str) -> "subprocess.Popen[str]":
+    """`clamber run` in a process of its own that has begun to climb."""
+    command = [sys.executable, "-c", SERVE, "run", *words]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert process.stderr is not None
+    for line in process.stderr:
+        if line.startswith("action "):
+            return process
+    raise AssertionError(f"it never began: {process.communicate()}")
+
+
+def said_until(stream: Any, word: str) -> str:
+    """What a process says up to a line with a word."""
+    said, until = "", time.monotonic() + PATIENCE
+    while word not in said and time.monotonic() < until:
+        if select.select([stream], [], [], 1.0)[0]:
+            said += os.read(stream.fileno(), 4096).decode()
+    return said
+
+
+def moved(said: str) -> float:
+    """How far a joint has moved in the hold that a server tells of [deg]."""
+    match = re.search(r"held for 2 s: no joint has moved by more than ([0-9.]+) deg", said)
+    assert match is not None, said
+    return float(match[1])
+
+
+def test_a_climb_through_a_socket_is_the_same_climb_to_the_last_bit(clamber: Any, tmp_path: Path) -> None:
+    plan, logs = plan_file(tmp_path, 191, 300), [tmp_path / "here.csv", tmp_path / "there.csv"]
+    assert clamber("run", plan, "--plant", "volts", *PEGS, "-o", str(logs[0]), "-q")[0] == 0
+    with served("ladder", *PEGS, "--once") as (server, address):
+        code, out, _ = clamber("run", plan, "--plant", address, *PEGS, "-o", str(logs[1]), "-q", "--json")
+        _, said = server.communicate(timeout=PATIENCE)
+        assert server.returncode == 0, said
+    assert code == 0
+    report = json.loads(out)
+    assert [action["outcome"] for action in report["actions"]] == ["ok", "ok"]
+    here, there = (ClimbTrace.from_log(read_log(log)) for log in logs)
+    assert len(here.time) > 200
+    for key in ("time", "step", "believed", "aim", "angles", "torques", "holds", "carries", "true_pose", "true_angles"):
+        assert np.array_equal(getattr(here, key), getattr(there, key)), key
+
+
+def test_a_client_that_is_killed_leaves_the_robot_on_its_pegs_and_the_next_one_climbs(
+    clamber: Any, tmp_path: Path
+) -> None:
+    plan = plan_file(tmp_path, 191, 300)
+    with served("ladder", *PEGS, "--socket", str(tmp_path / "robot")) as (server, address):
+        first = client(plan, "--plant", address)
+        first.send_signal(signal.SIGKILL)
+        first.communicate()
+        said = said_until(server.stderr, "held for")
+        assert re.search(r"safe stop at tick \d+: its client is gone", said), said
+        assert moved(said) < 1.0
+        assert clamber("run", plan_file(tmp_path, 300), "--plant", address, *PEGS, "-q")[0] == 0
+
+
+def test_a_client_of_a_real_time_plant_that_is_killed_leaves_the_robot_on_its_pegs(tmp_path: Path) -> None:
+    plan = plan_file(tmp_path, 300, 3)
+    slowly = ("--real-time", "--pace", "0.4", "--set", "plant.delay=0", "--once")
+    with served("ladder", *slowly) as (server, address):
+        first = client(plan, "--plant", address)
+        first.send_signal(signal.SIGKILL)
+        first.communicate()
+        _, said = server.communicate(timeout=PATIENCE)
+        assert server.returncode == 1, "it tells that it had to stop"
+        assert re.search(r"safe stop at tick \d+: (its client is gone|no command came for two ticks)", said), said
+        assert moved(said) < 1.0
+
+
+def test_a_client_that_stalls_finds_a_real_time_plant_stopped(tmp_path: Path) -> None:
+    plan, log = plan_file(tmp_path, 300, 3), tmp_path / "run.csv"
+    with served("ladder", "--real-time", "--pace", "0.4", "--set", "plant.delay=0") as (server, address):
+        stalled = client(plan, "--plant", address, "-o", str(log), "--json")
+        stalled.send_signal(signal.SIGSTOP)
+        said = said_until(server.stderr, "held for")
+        assert "no command came for two ticks" in said and moved(said) < 1.0
+        stalled.send_signal(signal.SIGCONT)
+        out, _ = stalled.communicate(timeout=PATIENCE)
+    assert stalled.returncode == 1
+    report = json.loads(out)
+    assert report["reason"] == "stopped: the plant has made a safe stop: no command came for two ticks"
+    assert ClimbTrace.from_log(read_log(log)).time[-1] == pytest.approx(report["seconds"])
+
+
+def test_a_server_that_is_killed_ends_the_run_with_a_reason_and_a_whole_log(tmp_path: Path) -> None:
+    plan, log = plan_file(tmp_path, 191, 300), tmp_path / "run.csv"
+    with served("ladder", *PEGS, "-q") as (server, address):
+        climbing = client(plan, "--plant", address, *PEGS, "-o", str(log), "--json")
+        server.send_signal(signal.SIGKILL)
+        out, err = climbing.communicate(timeout=PATIENCE)
+    assert climbing.returncode == 1
+    report = json.loads(out)
+    assert report["reason"].startswith("stopped: the plant's server is lost")
+    assert report["actions"][-1]["outcome"] == "stopped"
+    assert "Traceback" not in err
+    trace = ClimbTrace.from_log(read_log(log))
+    assert trace.time[-1] == pytest.approx(report["seconds"])
+    assert trace.notes is not None and trace.notes["reason"] == report["reason"]
+
+
+def test_a_served_plant_of_another_board_is_refused(clamber: Any, tmp_path: Path) -> None:
+    with served("h", "-q") as (_, address):
+        code, out, err = clamber("run", plan_file(tmp_path, 300), "--plant", address, "-q")
+        assert (code, out) == (2, "")
+        assert "its place is 'h'; must be 'ladder'" in err and "Traceback" not in err
+
+
+def test_ctrl_c_ends_a_server_and_its_socket(tmp_path: Path) -> None:
+    path = tmp_path / "robot"
+    with served("ladder", "--socket", str(path)) as (server, address):
+        assert address == f"unix:{path}" and path.exists()
+        server.send_signal(signal.SIGINT)
+        _, said = server.communicate(timeout=PATIENCE)
+        assert server.returncode == 130 and "nothing holds the robot any more" in said
+        assert not path.exists()
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("run", "ladder", "--plant", "banana"), "torques, volts"),
+        (("run", "ladder", "--plant", "tcp://10.0.0.1:4000"), "their own machine only"),
+        (("run", "ladder", "--plant", "tcp://127.0.0.1:1", "--set", "plant.backlash=1deg"), "server's to set"),
+        (("plant", "serve", "nowhere"), "ladder"),
+        (("plant", "serve", "patch-walk"), "climber"),
+        (("plant", "serve", "ladder", "--set", "plant.encoder_counts=0"), "encoder_counts"),
+        (("plant", "serve", "ladder", "--pace", "2"), "--real-time"),
+        (("plant", "serve", "ladder", "--socket", "a", "--port", "4000"), "--port"),
+        (("plant", "serve", "ladder", "--socket", "/nowhere/at/all"), "cannot listen there"),
+        (("plant", "serve", "ladder", "--dac-bits", "99"), "24"),
+        (("plant", "serve", "ladder", "--peg-error", "3"), "unit"),
+    ],
+)
+def test_bad_input_is_one_message(clamber: Any, words: tuple[str, ...], said: str) -> None:
+    code, out, err = clamber(*words)
+    assert (code, out) == (2, "")
+    assert said in err and "Traceback" not in err
+
+
+def test_a_plan_for_a_plant_that_nobody_serves_moves_nothing(clamber: Any, tmp_path: Path) -> None:
+    code, out, err = clamber("run", plan_file(tmp_path, 300), "--plant", "tcp://127.0.0.1:1", "-q")
+    assert (code, out) == (2, "")
+    assert "nothing answers there" in err
