@@ -58,7 +58,6 @@ def has_fallen(climber: TracedClimber, plant: ClimberPlant) -> bool:
         pushed(0.0, 400.0),
         pushed(0.0, -600.0),
         pushed(-300.0, 0.0),
-        pushed(200.0, 100.0),
         pushed(400.0, 0.0),
     ],
     ids=["no pegs", "up", "down", "left", "right"],
