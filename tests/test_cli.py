@@ -14,9 +14,9 @@ import clamber
 from clamber.cli import main
 from clamber.jobs.store import Store
 
-PRINTED = Path(clamber.__file__).parent / "studies" / "bevly_1997" / "plans"
-H_GA = str(PRINTED / "plan_h_ga.toml")
-LADDER = str(PRINTED / "plan_ladder_hand.toml")
+PRINTED = Path(clamber.__file__).parent / "actions" / "data"
+H_GA = str(PRINTED / "h-ga.toml")
+LADDER = str(PRINTED / "ladder-hand.toml")
 
 
 class Answer:

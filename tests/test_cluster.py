@@ -17,9 +17,17 @@ from typing import Any
 import pytest
 
 import clamber
-from clamber.jobs import ClusterError, Outcome, RayCluster, cluster, map_items
+from clamber.actions.limbed_plans import thesis_code
+from clamber.actions.plan import Plan
+from clamber.execution.climb.course import climbable
+from clamber.experiments.climb.noise import named_noise
+from clamber.experiments.climb.trial import TrialSetup
+from clamber.experiments.climb.trials import run_trials
+from clamber.jobs import ClusterError, LocalProcesses, Outcome, RayCluster, cluster, map_items
 from clamber.planning.axes import range_axis
 from clamber.planning.sweep import run_sweep
+from clamber.tasks import load_task
+from clamber.tasks.limbed import LimbedTask
 from jobs_by_hand import batch, square
 from test_jobs import ran, rows_of, start_batch
 from test_sweep import numbers
@@ -134,6 +142,21 @@ def test_a_thousand_points_are_the_same_on_one_two_and_four_workers_and_on_two_n
         "ladder", axes, executor=there, store=tmp_path / "store.db", progress=kill_in_the_middle, **settings
     )
     assert numbers(lost) == tables[0]
+
+
+@needs_ray
+@pytest.mark.slow
+def test_climbs_are_the_same_on_a_cluster(nodes: tuple[RayCluster, Callable[[], None]], tmp_path: Path) -> None:
+    there, _ = nodes
+    task = load_task("ladder")
+    assert isinstance(task, LimbedTask)
+    strict = climbable(task)
+    plan = Plan.of_codes(strict, [thesis_code(strict, number) for number in (300, 3)])
+    setup = TrialSetup(task=strict, plan=plan, noise=named_noise("usual"))
+    here = run_trials(setup, range(6), executor=LocalProcesses(2))
+    told = run_trials(setup, range(6), executor=there, store=tmp_path / "store.db")
+    assert len(told.ended) == 6
+    assert told.ended == here.ended
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 import clamber
-from clamber.jobs import StoreError, map_items
+from clamber.jobs import StoreError, look_into, map_items
 from jobs_by_hand import batch, square
 
 
@@ -171,3 +171,17 @@ def test_two_runs_at_once_on_one_store_are_refused(tmp_path: Path) -> None:
     with pytest.raises(StoreError, match="is in use by another process"):
         map_items(square, [{"n": 1}], store=store)
     other.close()
+
+
+def test_a_store_keeps_its_first_note_and_shows_what_is_in_it(tmp_path: Path) -> None:
+    store, batch_one = tmp_path / "store.db", {"about": {"a": 1}, "title": "batch one"}
+    assert look_into(store, square, **batch_one) is None
+    assert not store.exists()
+    map_items(square, [{"n": 2}], store=store, note={"plan": 1}, **batch_one)
+    map_items(square, [{"n": 2}, {"n": 3}], store=store, note={"plan": 2}, resume=True, **batch_one)
+    kept = look_into(store, square, **batch_one)
+    assert kept is not None
+    assert kept.note == {"plan": 1}
+    assert sorted(result["square"] for result in kept.results) == [4, 9]
+    with pytest.raises(StoreError, match="holds the results of batch one"):
+        look_into(store, square, about={"a": 2}, title="batch two")

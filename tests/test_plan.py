@@ -11,22 +11,23 @@ import pytest
 import clamber
 from clamber.actions.codes import MOVE, NEAREST, RANDOM, RELEASE, Code, pack
 from clamber.actions.plan import Plan, load_plan
-from clamber.actions.plan_source import is_plan_file, open_plan
+from clamber.actions.plan_source import is_plan, open_plan, plan_names
 from clamber.actions.planned import PlannedAction
 from clamber.actions.thesis_plan import load_thesis_plan
 from clamber.actions.verdict import Verdict, check_plan
 from clamber.errors import ClamberError, FileError, SpecError, UnknownNameError
 from clamber.tasks import Task, load_task
+from clamber.tasks.library import task_names
 from clamber.units import OZ_IN
 
-PRINTED = Path(clamber.__file__).parent / "studies" / "bevly_1997" / "plans"
-H_GA = PRINTED / "plan_h_ga.toml"
-LADDER = PRINTED / "plan_ladder_hand.toml"
+PRINTED = Path(clamber.__file__).parent / "actions" / "data"
+H_GA = PRINTED / "h-ga.toml"
+LADDER = PRINTED / "ladder-hand.toml"
 UP = PlannedAction(kind="move", delta=(0.0, 0.0762, 0.0))
 
 
 def verdict(name: str, *overrides: str, go_on: bool = False) -> Verdict:
-    return open_plan(PRINTED / f"plan_{name}.toml", None, overrides).check(go_on=go_on)
+    return open_plan(PRINTED / f"{name}.toml", None, overrides).check(go_on=go_on)
 
 
 def ladder_plan(*actions: PlannedAction) -> tuple[Task, Plan]:
@@ -42,12 +43,12 @@ def ladder() -> Plan:
 @pytest.mark.parametrize(
     ("name", "overrides", "steps", "length", "torque"),
     [
-        ("ladder_hand", (), 63, 63, 648),
-        ("h_hand", (), 69, 69, 1871),
-        ("h_ga", ("start.y=6.2in",), 119, 120, 1067),
-        ("modladder_ga", (), 60, 60, 1157),
-        ("across_hand", (), 214, 214, 1155),
-        ("circle_hand", (), 201, 201, 789),
+        ("ladder-hand", (), 63, 63, 648),
+        ("h-hand", (), 69, 69, 1871),
+        ("h-ga", ("start.y=6.2in",), 119, 120, 1067),
+        ("modified-ladder-ga", (), 60, 60, 1157),
+        ("across-hand", (), 214, 214, 1155),
+        ("circle-hand", (), 201, 201, 789),
     ],
 )
 def test_printed_plans_hold_with_the_torques_of_the_record(
@@ -60,7 +61,7 @@ def test_printed_plans_hold_with_the_torques_of_the_record(
 
 
 def test_the_h_hand_plan_has_its_largest_torque_where_the_thesis_has_it() -> None:
-    rows = verdict("h_hand").per_step
+    rows = verdict("h-hand").per_step
     top = max(row.max_torque or 0.0 for row in rows)
     assert [row.step for row in rows if (row.max_torque or 0.0) > top - 1e-9] == [45, 46, 47]
     x, y, theta = rows[45].pose
@@ -68,7 +69,7 @@ def test_the_h_hand_plan_has_its_largest_torque_where_the_thesis_has_it() -> Non
 
 
 def test_the_last_step_of_the_h_ga_plan_is_out_of_reach_by_the_known_amount() -> None:
-    first = verdict("h_ga", "start.y=6.2in").first_violation
+    first = verdict("h-ga", "start.y=6.2in").first_violation
     assert first is not None
     assert (first.step, first.check) == (120, "reach")
     assert first.margins["reach"] == pytest.approx((12.24 - 12.29) * 0.0254, abs=0.02 * 0.0254)
@@ -78,10 +79,10 @@ def test_the_last_step_of_the_h_ga_plan_is_out_of_reach_by_the_known_amount() ->
 @pytest.mark.parametrize(
     ("name", "overrides", "agree"),
     [
-        ("h_ga", ("start.y=6.2in",), (32, 32)),
-        ("h_ga", ("start.y=6.0in",), (31, 32)),
-        ("modladder_ga", (), (10, 11)),
-        ("ladder_hand", (), None),
+        ("h-ga", ("start.y=6.2in",), (32, 32)),
+        ("h-ga", ("start.y=6.0in",), (31, 32)),
+        ("modified-ladder-ga", (), (10, 11)),
+        ("ladder-hand", (), None),
     ],
 )
 def test_the_nearest_rule_is_held_against_the_printed_pegs(
@@ -91,15 +92,15 @@ def test_the_nearest_rule_is_held_against_the_printed_pegs(
 
 
 def test_a_shared_peg_is_a_warning_of_the_circle_plan() -> None:
-    found = verdict("circle_hand")
+    found = verdict("circle-hand")
     assert found.ok and found.reached
     assert len(found.warnings()["shared"]) == 1
     assert found.to_json()["warnings"]["shared"] == list(found.warnings()["shared"])
 
 
 def test_stopping_and_going_on_agree_up_to_the_first_violation() -> None:
-    stopped = verdict("h_ga", "motor.torque_limit=900oz-in", "start.y=6.2in")
-    went_on = verdict("h_ga", "motor.torque_limit=900oz-in", "start.y=6.2in", go_on=True)
+    stopped = verdict("h-ga", "motor.torque_limit=900oz-in", "start.y=6.2in")
+    went_on = verdict("h-ga", "motor.torque_limit=900oz-in", "start.y=6.2in", go_on=True)
     assert not stopped.ok and len(went_on.per_step) == 120
     assert [row.to_json() for row in stopped.per_step] == [
         row.to_json() for row in went_on.per_step[: len(stopped.per_step)]
@@ -283,10 +284,10 @@ def test_a_plan_in_another_task_names_the_hold_that_is_not_there(ladder: Plan, t
 
 
 def test_step_sizes_come_from_the_plan_file_unless_overridden() -> None:
-    opened = open_plan(PRINTED / "plan_h_hand.toml")
+    opened = open_plan(PRINTED / "h-hand.toml")
     assert opened.task.step.length == pytest.approx(3 * 0.0254)  # type: ignore[union-attr]
     assert opened.notes == ("step sizes as the plan file says: step.length=3in, step.angle=15deg",)
-    chosen = open_plan(PRINTED / "plan_h_hand.toml", None, ("step.length=1in",))
+    chosen = open_plan(PRINTED / "h-hand.toml", None, ("step.length=1in",))
     assert chosen.task.step.length == pytest.approx(0.0254)  # type: ignore[union-attr]
     assert chosen.notes == ("step sizes as the plan file says: step.angle=15deg",)
 
@@ -320,6 +321,13 @@ def test_a_corrupt_printed_plan_names_file_and_key(tmp_path: Path, before: str, 
     assert str(path) in str(caught.value) and words in str(caught.value)
 
 
+@pytest.mark.parametrize("name", plan_names())
+def test_a_shipped_plan_is_known_by_its_name(name: str) -> None:
+    assert is_plan(name)
+    assert name not in task_names()
+    assert open_plan(name).plan == open_plan(PRINTED / f"{name}.toml").plan
+
+
 def test_a_printed_plan_for_an_unknown_task_is_named(tmp_path: Path) -> None:
     path = tmp_path / "plan.toml"
     path.write_text(H_GA.read_text().replace('task="h"', 'task="hh"'))
@@ -329,8 +337,8 @@ def test_a_printed_plan_for_an_unknown_task_is_named(tmp_path: Path) -> None:
 
 
 def test_plan_files_are_told_from_task_files(tmp_path: Path) -> None:
-    assert is_plan_file(str(H_GA)) and is_plan_file("some/where.json")
-    assert not is_plan_file("ladder") and not is_plan_file("missing.toml")
+    assert is_plan(str(H_GA)) and is_plan("some/where.json")
+    assert not is_plan("ladder") and not is_plan("missing.toml")
     task = tmp_path / "task.toml"
     task.write_text('schema = "clamber-task-1"\nname = "actions"\n')
-    assert not is_plan_file(str(task))
+    assert not is_plan(str(task))

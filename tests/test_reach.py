@@ -29,7 +29,7 @@ from clamber.tasks import Task, load_task
 from clamber.viewing.margins import all_limiting
 from clamber.viewing.reach_plot import WORLDS, draw_reach
 
-PRINTED = Path(clamber.__file__).parent / "studies" / "bevly_1997" / "plans"
+PRINTED = Path(clamber.__file__).parent / "actions" / "data"
 NO_HANGS = "rules.max_hangs=0"
 NONE = np.array([pack(0)], np.int32)
 SMALL = {
@@ -224,7 +224,7 @@ def test_margins_are_shares_of_the_same_yardsticks_as_in_pictures() -> None:
 
 
 def test_every_pose_of_a_printed_plan_without_hangs_is_on_the_map(ladder: Reach) -> None:
-    task, printed = open_replay(str(PRINTED / "plan_ladder_hand.toml"), None, ())
+    task, printed = open_replay(str(PRINTED / "ladder-hand.toml"), None, ())
     assert printed.ok and task.step == ladder.task.step
     free = np.flatnonzero(np.diff(printed.stances["hangs"], prepend=0) > 0)
     stances = printed.stances[: free[0]] if len(free) else printed.stances

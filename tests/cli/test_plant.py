@@ -24,7 +24,7 @@ from clamber.experiments.climb.plant_bench import SERVE, served
 from clamber.tasks import load_task
 from clamber.tasks.limbed import LimbedTask
 
-PEGS = ("--peg-error", "3mm", "--seed", "5")
+PEGS = ("--noise", "peg_error=3mm", "--seed", "5")
 PATIENCE = 120.0  # a busy machine may compile first [s]
 
 
@@ -181,7 +181,7 @@ def test_ctrl_c_ends_a_server_and_its_socket(tmp_path: Path) -> None:
         (("plant", "serve", "ladder", "--socket", "a", "--port", "4000"), "--port"),
         (("plant", "serve", "ladder", "--socket", "/nowhere/at/all"), "cannot listen there"),
         (("plant", "serve", "ladder", "--dac-bits", "99"), "24"),
-        (("plant", "serve", "ladder", "--peg-error", "3"), "unit"),
+        (("plant", "serve", "ladder", "--noise", "peg_error=3"), "unit"),
     ],
 )
 def test_bad_input_is_one_message(clamber: Any, words: tuple[str, ...], said: str) -> None:

@@ -16,10 +16,11 @@ from clamber.control.body import (
     THESIS,
     along_grab,
     command_tips,
-    estimate_body,
     share_wrench,
 )
+from clamber.control.body_estimate import estimate_body
 from clamber.control.chain import chain_of_limb
+from clamber.control.hook_forces import MOST_CUTS
 from clamber.execution.climb.postures import postures
 from clamber.execution.climb.whole_body import WholeBody
 from clamber.robots.library import load_robot
@@ -91,7 +92,9 @@ def _command(limit: int, wanted: Floats, *, mapping: int = THESIS) -> tuple[Floa
     q = on_holds(pose, HOLDS)
     pulls, forces = np.zeros((3, 2)), np.zeros((3, 2))
     fed = np.array((0.0, 38.0, 0.0))
-    command_tips(LEGS, q, BOTH, pose, HOLDS, wanted, fed, mapping, limit, np.full(3, 0.3), pulls, forces)
+    drags, cuts = np.zeros((3, 2)), np.zeros((MOST_CUTS, 2))
+    least = np.full(3, 0.3)
+    command_tips(LEGS, q, BOTH, pose, HOLDS, wanted, fed, mapping, limit, least, drags, cuts, pulls, forces)
     return q, pulls, forces
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from clamber.control.body import follow_play, pull_torques
+from clamber.control.play import follow_play, pull_torques
 from clamber.control.chain import chain_of_limb
 from clamber.execution.climb.whole_body import WholeBody
 from clamber.robots.library import load_robot

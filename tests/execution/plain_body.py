@@ -9,7 +9,7 @@ from clamber.control.body import command_tips, drag_tips
 from clamber.control.body_estimate import estimate_body
 from clamber.control.controller import still_aim
 from clamber.control.hook_forces import MOST_CUTS
-from clamber.control.play import follow_play, pull_torques
+from clamber.control.play import follow_play, pull_torques, weight_moment
 from clamber.execution.climb.whole_body import LIMITS, MAPPINGS, LimbTask, WholeBody
 from clamber.types import Floats
 
@@ -41,7 +41,7 @@ class PlainBody(WholeBody):
             drag_tips(self.tip_speeds, self.pose[2], arms, self.aim_speed, gains.kd[0], drags)
         else:
             wanted = np.array(gains.kp) * (self.aim - self.pose) + np.array(gains.kd) * (self.aim_speed - self.twist)
-        fed = np.array((0.0, gains.weight_fed * self.robot.weight, 0.0))
+        fed = gains.weight_fed * np.array((0.0, self.robot.weight, weight_moment(self.legs, self.q, self.pose[2])))
         for i, task in enumerate(self.tasks):
             if task.doing == "pull":
                 arm = self.tip(i) - self.settled[:2]
@@ -104,6 +104,12 @@ class PlainBody(WholeBody):
         follow_play(self.legs, self.q, self.held, forces, self.pose[2], pressed, loads, self._lag, self.play)
         return self.torques
 
+    def _own_weight(self, i: int) -> Floats:
+        """What a pull of nothing takes, by the weight alone."""
+        nothing, loads = np.zeros(2), np.zeros(2)
+        pull_torques(self.legs[i], self.q[i], nothing, self.pose, np.zeros(3), nothing, 0.0, np.zeros(2), loads)
+        return loads
+
     def _towards(self, off: Floats) -> Floats:
         far = float(np.linalg.norm(off))
         return off * min(at.CLING_STIFFNESS * max(far - at.CLING_SLACK, 0.0), at.CLING_MOST) / max(far, 1e-9)
@@ -122,10 +128,14 @@ class PlainBody(WholeBody):
     def _pull(self, i: int, pull: Floats, force: Floats) -> None:
         aim = still_aim(self._own_tip(i) + pull)
         aim["wrench"][0, :2] = force
-        self.torques[i] = self._pullers[i].command(aim, np.stack([self.q[i], self.qd[i]])[None])[0]
+        self.torques[i] = self._pullers[i].command(aim, np.stack([self.q[i], self.qd[i]])[None])[0] + self._own_weight(
+            i
+        )
 
     def _reach(self, i: int, task: LimbTask) -> None:
         aim = still_aim(self._own_tip(i) + self._into_port(i, task.place - self.tip(i)))
         by_joints = self._turned(float(self.pose[2]), self.tip_speeds[i])
         aim["twist"][0, :2] = self._into_port(i, task.speed - (self.tip_speed(i) - by_joints))
-        self.torques[i] = self._reachers[i].command(aim, np.stack([self.q[i], self.qd[i]])[None])[0]
+        self.torques[i] = self._reachers[i].command(aim, np.stack([self.q[i], self.qd[i]])[None])[0] + self._own_weight(
+            i
+        )

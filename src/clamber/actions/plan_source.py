@@ -1,13 +1,14 @@
-"""Plans from files of either kind, each with the task that it is for: what `clamber plan` wrote, and printed plans."""
+"""Plans by name or from files of either kind, each with the task that it is for: what `clamber plan` wrote, and printed plans."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Final
 
 import numpy as np
 
 from ..errors import SpecError
-from ..files import Document, read_toml
+from ..files import Document, data_names, read_toml
 from ..robots.library import family_of
 from ..tasks import Task, load_task
 from ..tasks.library import TASK_FAMILIES
@@ -19,6 +20,8 @@ from .plan_families import plan_family
 from .problem import Replay
 from .thesis_plan import load_thesis_plan
 from .verdict import Verdict, check_plan
+
+DATA: Final = Path(__file__).parent / "data"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,19 +42,24 @@ class OpenedPlan:
         return check_plan(self.task, self.plan, go_on=go_on, asked=self.asked, notes=self.notes, label=self.label)
 
 
-def is_plan_file(name_or_path: str) -> bool:
-    """Whether a text names a plan rather than a task: a JSON file, or a TOML file with a list of actions."""
+def plan_names() -> tuple[str, ...]:
+    """Names of the printed plans that come with Clamber."""
+    return data_names(DATA)
+
+
+def is_plan(name_or_path: str) -> bool:
+    """Whether a text means a plan rather than a task: a shipped plan's name, a JSON file, or a TOML file with a list of actions."""
     path = Path(name_or_path)
-    if path.suffix == ".json":
+    if path.suffix == ".json" or name_or_path in plan_names():
         return True
     return path.suffix == ".toml" and path.is_file() and "actions" in read_toml(path).data
 
 
-def open_plan(path: Path, task: str | None = None, overrides: Sequence[str] = ()) -> OpenedPlan:
-    """A plan from its file, with its task.
+def open_plan(name_or_path: str | Path, task: str | None = None, overrides: Sequence[str] = ()) -> OpenedPlan:
+    """A plan by its shipped name or from its file, with its task.
 
     Args:
-        path: JSON as `Plan.save` writes it, or TOML with the thesis's numbers.
+        name_or_path: A name such as "ladder-hand", JSON as `Plan.save` writes it, or TOML with the thesis's numbers.
         task: Name or path of a task in place of the one that the plan names.
         overrides: Texts "key=value" that change the task.
 
@@ -60,6 +68,7 @@ def open_plan(path: Path, task: str | None = None, overrides: Sequence[str] = ()
         SpecError: If the file, the task or an override says something that cannot be used.
         UnknownNameError: If there is no such task.
     """
+    path = DATA / f"{name_or_path}.toml" if str(name_or_path) in plan_names() else Path(name_or_path)
     if path.suffix == ".toml":
         return _open_thesis_plan(path, task, tuple(overrides))
     label = str(path)
@@ -74,17 +83,17 @@ def open_replay(name_or_path: str, task: str | None = None, overrides: Sequence[
     """A task and a plan carried out in it, violations and all; of a task alone, its start.
 
     Args:
-        name_or_path: A plan's file, or a task's name or file.
+        name_or_path: A plan's or a task's name or file.
         task: Name or path of a task in place of the one that the plan names.
         overrides: Texts "key=value" that change the task.
 
     Raises:
         ClamberError: As `open_plan` and `load_task`.
     """
-    if not is_plan_file(name_or_path):
+    if not is_plan(name_or_path):
         shown = load_task(name_or_path, overrides)
         return shown, plan_family(shown).problem(shown).replay(np.zeros(0, np.int32))
-    opened = open_plan(Path(name_or_path), task, overrides)
+    opened = open_plan(name_or_path, task, overrides)
     codes = opened.plan.codes(opened.task, opened.label)
     return opened.task, plan_family(opened.task).problem(opened.task).replay(codes, go_on=True)
 

@@ -26,6 +26,7 @@ from .run import run
 from .show import show
 from .study import study
 from .sweep import sweep
+from .trials import trials
 
 app = typer.Typer(
     name="clamber",
@@ -41,6 +42,7 @@ app.command("learn")(learn)
 app.command("inventory")(inventory)
 app.command("check")(check)
 app.command("run")(run)
+app.command("trials")(trials)
 app.command("show")(show)
 app.command("bench")(bench)
 app.command("sweep")(sweep)

@@ -15,6 +15,14 @@ def _shipped(folder: str) -> list[tuple[str, str]]:
     return [(name, str(read_toml(data / f"{name}.toml").data.get("title", ""))) for name in data_names(data)]
 
 
+def _plans() -> list[tuple[str, str]]:
+    from ..actions.plan_source import DATA, plan_names
+    from ..actions.thesis_plan import load_thesis_plan
+
+    plans = {name: load_thesis_plan(DATA / f"{name}.toml") for name in plan_names()}
+    return [(name, f"{plan.n_steps} actions for {plan.task}: {plan.source}") for name, plan in plans.items()]
+
+
 def _planners() -> list[tuple[str, str]]:
     from ..planning.planners import PLANNERS
 
@@ -47,6 +55,7 @@ ENTRIES: Final[dict[str, Callable[[], list[tuple[str, str]]]]] = {
     "robots": lambda: _shipped("robots"),
     "boards": lambda: _shipped("worlds"),
     "tasks": lambda: _shipped("tasks"),
+    "plans": _plans,
     "planners": _planners,
     "controllers": _controllers,
     "plants": _plants,

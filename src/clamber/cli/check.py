@@ -10,7 +10,12 @@ from .output import announce_compilation, print_json, stdout
 
 
 def check(
-    plan: Annotated[Path, typer.Argument(help="A plan: JSON of `clamber plan -o`, or TOML in the thesis's numbers.")],
+    plan: Annotated[
+        Path,
+        typer.Argument(
+            help="JSON of `clamber plan -o`, TOML in the thesis's numbers, or a name (`clamber list plans`)."
+        ),
+    ],
     task: Annotated[str | None, typer.Option(help="Check it in this task, in place of its own.")] = None,
     overrides: Overrides = None,
     everything: Annotated[bool, typer.Option("--all", help="Go on past a violation, and print every step.")] = False,

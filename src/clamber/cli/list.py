@@ -15,6 +15,7 @@ class Listed(StrEnum):
     robots = "robots"
     boards = "boards"
     tasks = "tasks"
+    plans = "plans"
     planners = "planners"
     controllers = "controllers"
     plants = "plants"
@@ -25,7 +26,7 @@ def list_names(
     what: Annotated[Listed | None, typer.Argument(help="One kind; all kinds unless given.")] = None,
     as_json: AsJson = False,
 ) -> None:
-    """List robots, boards, tasks, planners, controllers, plants and studies by name."""
+    """List robots, boards, tasks, plans, planners, controllers, plants and studies by name."""
     from .catalogue import entries
 
     if as_json:

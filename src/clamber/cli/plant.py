@@ -6,7 +6,7 @@ from typing import Annotated, NoReturn
 
 import typer
 
-from .options import Overrides, Quiet
+from .options import NoiseTexts, Overrides, Quiet
 from .output import stderr
 
 plant = typer.Typer(no_args_is_help=True, help="A robot in its own process, driven over a local socket.")
@@ -30,10 +30,8 @@ def serve(
         bool, typer.Option("--once", help="End when the first client has gone; 1 after a safe stop.")
     ] = False,
     overrides: Overrides = None,
-    peg_error: Annotated[
-        str, typer.Option(help="Pegs are off the map by up to this along each axis, such as 3mm.")
-    ] = "0mm",
-    seed: Annotated[int, typer.Option(min=0, help="Of the pegs.")] = 0,
+    noise: NoiseTexts = None,
+    seed: Annotated[int, typer.Option(min=0, help="Of the noise.")] = 0,
     dac_bits: Annotated[
         int, typer.Option(min=0, max=24, help="Of the converters before the amplifiers; 0: as fine as a float.")
     ] = 0,
@@ -44,14 +42,9 @@ def serve(
     `clamber run TASK --plant ADDRESS` climbs through it. The address is the one line on stdout.
     """
     from ..execution.link.channel import Address, listen, read_address, unlink
-    from ..experiments.climb.plants import climb_server
-    from ..experiments.climb.run_plan import (
-        climbing_flaws,
-        climbing_task,
-        read_peg_error,
-        split_settings,
-        true_pegs,
-    )
+    from ..experiments.climb.noise import NO_NOISE, check_noise, draw_for, read_noise
+    from ..experiments.climb.plants import climb_server, drawn_plant
+    from ..experiments.climb.run_plan import climbing_flaws, climbing_task, split_settings
     from ..tasks import load_task
 
     if pace != 1.0 and not real_time:
@@ -61,7 +54,9 @@ def serve(
     for_task, for_plant = split_settings(overrides or ())
     chosen = climbing_task(load_task(task, for_task))
     flaws = climbing_flaws(chosen, for_plant)
-    pegs = true_pegs(chosen, read_peg_error(peg_error), seed)
+    deviations = read_noise(NO_NOISE, noise or ())
+    check_noise(deviations, chosen.robot, flaws)
+    drawn = draw_for(chosen, deviations, seed)
     wished = Address("tcp", "127.0.0.1", port) if socket is None else read_address(f"unix:{socket}")
 
     def say(words: str) -> None:
@@ -72,7 +67,14 @@ def serve(
     listener, address = listen(wished)
     try:
         server = climb_server(
-            chosen, flaws, pegs, listener, say=say, real_time=real_time, pace=pace, once=once, dac_bits=dac_bits
+            chosen,
+            drawn_plant(chosen, flaws, drawn),
+            listener,
+            say=say,
+            real_time=real_time,
+            pace=pace,
+            once=once,
+            dac_bits=dac_bits,
         )
         print(address, flush=True)
         say(

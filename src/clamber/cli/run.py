@@ -1,27 +1,25 @@
 """`clamber run`: carry a plan out in contact dynamics."""
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from ..errors import UnknownNameError
-from .options import AsJson, Output, Overrides, Quiet
+from .options import AsJson, NoiseTexts, Output, Overrides, Quiet
 from .output import announce_compilation, check_writable, print_json, stderr, stdout
 
 
 def run(
     what: Annotated[
-        str, typer.Argument(metavar="TASK|PLAN", help="A task's name or file, to be planned first, or a plan's file.")
+        str, typer.Argument(metavar="TASK|PLAN", help="A task, to be planned first, or a plan: names or files.")
     ],
     task: Annotated[str | None, typer.Option(help="Carry the plan out in this task, in place of its own.")] = None,
     planner: Annotated[str, typer.Option(help="How to search (`clamber list planners`).")] = "auto",
     seconds: Annotated[float, typer.Option(min=0.0, help="Most time for each plan.")] = 60.0,
     overrides: Overrides = None,
-    peg_error: Annotated[
-        str, typer.Option(help="Pegs are off the map by up to this along each axis, such as 3mm.")
-    ] = "0mm",
-    seed: Annotated[int, typer.Option(min=0, help="Of planner and pegs.")] = 0,
+    noise: NoiseTexts = None,
+    peg_error: Annotated[str | None, typer.Option(help="Short for --noise peg_error=..., such as 3mm.")] = None,
+    seed: Annotated[int, typer.Option(min=0, help="Of planner and noise.")] = 0,
     replan: Annotated[bool, typer.Option(help="Plan again where a hold cannot be had.")] = True,
     plant: Annotated[
         str, typer.Option(help="What moves: torques, volts, or the ADDRESS of `clamber plant serve`.")
@@ -35,18 +33,19 @@ def run(
 ) -> None:
     """Carry a plan out on a simulated robot: every action, what became of it, and where it ended.
 
-    `--set plant.backlash=1deg` changes the plant, other keys the task. The file of `-o` is a log (.mcap, .csv), an
+    `--set plant.backlash=1deg` changes the plant, other keys the task; `--noise usual` lets the plant differ from what is believed
+    (docs/climbing.md). The file of `-o` is a log (.mcap, .csv), an
     animation (.gif, .html, .mp4) or a picture (.png, .svg, .pdf).
     """
     check_writable(output)
     from ..experiments.climb.plants import check_plant, is_remote
 
     check_plant(plant)
-    from ..actions.plan_source import is_plan_file, open_plan
+    from ..actions.plan_source import is_plan
+    from ..experiments.climb.noise import NO_NOISE, check_noise, read_noise
     from ..experiments.climb.planning import plan_to_climb, replanner
-    from ..experiments.climb.run_plan import climbing_flaws, climbing_task, read_peg_error, run_plan, split_settings
+    from ..experiments.climb.run_plan import climbing_flaws, open_climb, run_plan
     from ..planning.planners import FIRST_LOOPS, PLANNERS
-    from ..tasks import load_task
     from ..viewing.climb_run_view import check_run_suffix, write_run
     from .run_text import ClimbLine, print_run
 
@@ -54,30 +53,23 @@ def run(
         check_run_suffix(output)
     if planner not in PLANNERS:
         raise UnknownNameError("planner", planner, tuple(PLANNERS))
-    for_task, for_plant = split_settings(overrides or ())
+    deviations = read_noise(NO_NOISE, [*(noise or ()), *(() if peg_error is None else (f"peg_error={peg_error}",))])
+    announce_compilation("replay" if is_plan(what) else FIRST_LOOPS[planner], quiet=quiet)
+    chosen, plan, for_plant = open_climb(what, task, overrides or ())
     if for_plant and is_remote(plant):
         raise typer.BadParameter(f"{for_plant[0].partition('=')[0]} is the server's to set", param_hint="--set plant.")
-    error = read_peg_error(peg_error)
-    announce_compilation(FIRST_LOOPS[planner], quiet=quiet)
-    if is_plan_file(what):
-        opened = open_plan(Path(what), task, for_task)
-        chosen, plan = climbing_task(opened.task), opened.plan
-        flaws = climbing_flaws(chosen, for_plant)
-    else:
-        if task is not None:
-            raise typer.BadParameter("is for a plan's file", param_hint="--task")
-        chosen = climbing_task(load_task(what, for_task))
-        flaws = climbing_flaws(chosen, for_plant)
-        found = plan_to_climb(chosen, planner, seconds=seconds, seed=seed)
-        if found is None:
-            stderr().print(f"no plan for '{chosen.name}' that hooks can be trusted with; nothing has moved")
-            raise typer.Exit(1)
-        plan = found
+    flaws = climbing_flaws(chosen, for_plant)
+    check_noise(deviations, chosen.robot, flaws)
+    if plan is None:
+        plan = plan_to_climb(chosen, planner, seconds=seconds, seed=seed)
+    if plan is None:
+        stderr().print(f"no plan for '{chosen.name}' that hooks can be trusted with; nothing has moved")
+        raise typer.Exit(1)
     again = replanner(planner, seconds=seconds, seed=seed) if replan else None
     streamed = output if output is not None and output.suffix.lower() == ".mcap" else None
     with ClimbLine(stderr(), quiet=quiet) as line:
         run = run_plan(
-            chosen, plan, flaws, peg_error=error, seed=seed, force=force, replan=again, progress=line.update,
+            chosen, plan, flaws, noise=deviations, seed=seed, force=force, replan=again, progress=line.update,
             label=what, log=streamed, plant=plant,
         )  # fmt: skip
     if output is not None and streamed is None:

@@ -14,7 +14,7 @@ from .body_estimate import estimate_body
 from .desk import DESK, DESK_TORQUES, drive_at
 from .hook_forces import MOST_CUTS
 from .leg import LEG
-from .play import follow_play, pull_torques
+from .play import follow_play, pull_torques, weight_loads, weight_moment
 from .records import AIM, AXES
 
 HOLD, CLING, TIP, JOINTS, PULL = range(5)
@@ -40,7 +40,8 @@ BODY = np.dtype(
         ("cling", "f8"),
         ("gentle", "f8"),
         ("firm", "f8"),
-        ("weight", "f8"),  # that is fed forward [N]
+        ("weight", "f8"),  # of the whole robot [N]
+        ("weight_fed", "f8"),  # part of it that is fed forward
     ],
     align=True,
 )
@@ -127,11 +128,11 @@ def _into_port(leg, pose, x, y):
 
 
 @inlined
-def _feed(jobs, tips, settled, weight, fed):
+def _feed(jobs, tips, settled, gains, moment, fed):
     """The wrench on the body that the holding limbs bring in any case: the weight, less what tugging limbs already carry."""
     fed[0] = 0.0
-    fed[1] = weight
-    fed[2] = 0.0
+    fed[1] = gains.weight_fed * gains.weight
+    fed[2] = gains.weight_fed * moment
     for i in range(jobs.size):
         job = jobs[i]
         if job.doing == PULL:
@@ -242,7 +243,7 @@ def command_tick(table, handed):
             wanted[k] = gains.kp[k] * (aimed[k] - pose[k]) + gains.kd[k] * (aim_speed[k] - twist[k])
     if gains.mapping == WRENCH:
         drag_tips(tip_speeds, pose[2], arms, aim_speed, gains.kd[0], drags)
-    _feed(jobs, settled_tips, settled, gains.weight, fed)
+    _feed(jobs, settled_tips, settled, gains, weight_moment(legs, q, pose[2]), fed)
     if handed < 1.0:
         old_pulls = _rows(table, OLD_PULLS, 2)
         old_forces = _rows(table, OLD_FORCES, 2)
@@ -278,8 +279,10 @@ def command_tick(table, handed):
             if drive_at(drives[law, i], aims, states, felt, felt) >= 0 and bad < 0:
                 bad = i
             given = carray(pointer(drives[law, i, DESK_TORQUES]), 2, np.float64)
-            torques[i, 0] = given[0]
-            torques[i, 1] = given[1]
+            # carried however the body is turned, which the law does not know
+            shoulder, elbow = weight_loads(leg, q[i], pose[2])
+            torques[i, 0] = given[0] + shoulder
+            torques[i, 1] = given[1] + elbow
         elif job.doing == CLING:
             force = _clinging(job, leg, q[i], settled_tips[i], pose, settled, gains.cling)
             pull_torques(leg, q[i], qd[i], pose, twist, force, CLING_DAMPING, torques[i], loads[i])

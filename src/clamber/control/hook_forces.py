@@ -234,4 +234,3 @@ def _least_cut(cuts, count, lam):
             least = value
             best = k
     return best
-

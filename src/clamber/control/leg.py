@@ -23,6 +23,7 @@ LEG = np.dtype(
         ("share2", "f8"),
         ("heft1", "f8"),  # torque of its own weight about the shoulder with the first link level [N m]
         ("heft2", "f8"),  # and about the elbow with the second link level
+        ("weight", "f8"),  # of its links [N]
         ("friction1", "f8"),  # Coulomb friction of shoulder and elbow [N m]
         ("friction2", "f8"),
         ("limit1", "f8"),  # largest torque of their motors [N m]

@@ -54,6 +54,26 @@ def weight_loads(leg, q, angle):
 
 
 @kernel
+def weight_moment(legs, q, angle):
+    """Moment about the body's origin with which its holds carry the limbs' own weight, counterclockwise [N m].
+
+    Args:
+        legs: Records of `LEG`, shape (n,).
+        q: Joint angles, shape (n, 2) [rad].
+        angle: Of the body [rad].
+    """
+    c = math.cos(angle)
+    s = math.sin(angle)
+    total = 0.0
+    for i in range(legs.size):
+        leg = legs[i]
+        first = angle + leg.port_angle + q[i, 0]
+        total += leg.weight * (c * leg.port_x - s * leg.port_y)
+        total += leg.heft1 * math.cos(first) + leg.heft2 * math.cos(first + q[i, 1])
+    return total
+
+
+@kernel
 def follow_play(legs, q, held, forces, angle, pressed, loads, rate, play):
     """Let each joint's believed side of its play follow what loads it.
 

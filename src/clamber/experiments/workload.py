@@ -1,14 +1,12 @@
 """The plans that speed is measured on: last generations of searches on the five boards, and the plans that the thesis prints."""
 
 from dataclasses import dataclass
-from importlib import resources
-from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 
 from ..actions.limbed_problem import FEATURE_NAMES, LimbedProblem
-from ..actions.plan_source import open_plan
+from ..actions.plan_source import open_plan, plan_names
 from ..actions.problem import CompiledProblem, Records
 from ..actions.problems import pose_problem
 from ..actions.table import ActionTable
@@ -64,23 +62,15 @@ def evolved_load(board: str, *, generations: int = GENERATIONS, copies: int = CO
     )
 
 
-def printed_plans() -> tuple[Path, ...]:
-    """Files of the thesis's plans: data of the study, read by path."""
-    folder = Path(str(resources.files("clamber") / "studies" / "bevly_1997" / "plans"))
-    return tuple(sorted(folder.glob("plan_*.toml")))
-
-
-def printed_load(path: Path, *, copies: int = PRINTED_COPIES) -> Load:
+def printed_load(name: str, *, copies: int = PRINTED_COPIES) -> Load:
     """A printed plan, many times, up to where it stops holding."""
-    opened = open_plan(path)
+    opened = open_plan(name)
     codes = opened.plan.codes(opened.task)
     table = ActionTable.build([(str(i), [int(code)], False) for i, code in enumerate(codes)])
     genes = np.tile(np.arange(len(codes), dtype=np.int32), (copies, 1))
-    return Load(
-        path.stem, opened.task, table, genes, np.full(copies, len(codes), np.int32), np.zeros(len(FEATURE_NAMES))
-    )
+    return Load(name, opened.task, table, genes, np.full(copies, len(codes), np.int32), np.zeros(len(FEATURE_NAMES)))
 
 
 def whole_load() -> list[Load]:
     """The mix: every board's evolved plans and every printed plan."""
-    return [evolved_load(board) for board in BOARDS] + [printed_load(path) for path in printed_plans()]
+    return [evolved_load(board) for board in BOARDS] + [printed_load(name) for name in plan_names()]

@@ -1,6 +1,8 @@
 """Many independent items of work over local processes or a cluster; it knows no robots."""
 
+from .batch import Kept as Kept
 from .batch import Outcome as Outcome
+from .batch import look_into as look_into
 from .batch import map_items as map_items
 from .cluster import ClusterError as ClusterError
 from .cluster import RayCluster as RayCluster

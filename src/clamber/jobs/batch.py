@@ -34,6 +34,43 @@ Progress = Callable[[int, int, Outcome], None]
 """Called at each end with the number of items that ended, of all, and the outcome."""
 
 
+@dataclass(frozen=True, slots=True)
+class Kept:
+    """What the store of a batch holds."""
+
+    note: Json | None
+    """What was noted when it was made."""
+    results: tuple[Json, ...]
+    """Of the items that ended without an error."""
+
+
+def look_into(store: Path, function: Callable[[Json], Json], *, about: Json | None = None, title: str) -> Kept | None:
+    """What is in the store of a batch; None where there is no such file yet.
+
+    Args:
+        store: The file.
+        function: As for `map_items`, which wrote it.
+        about: Likewise.
+        title: Likewise.
+
+    Raises:
+        StoreError: If the file can't be the store of this batch.
+    """
+    if not store.exists():
+        return None
+    with Store(store, _identity(function, about), title, resume=True) as kept:
+        note = json.loads(kept.note) if kept.note else None
+        return Kept(note, tuple(result for _, result, _, _ in kept.finished()))
+
+
+def _identity(function: Callable[[Json], Json], about: Json | None) -> str:
+    return content_hash([_name(function), about])
+
+
+def _name(function: Callable[[Json], Json]) -> str:
+    return f"{function.__module__}:{function.__qualname__}"
+
+
 def map_items(
     function: Callable[[Json], Json],
     items: Sequence[Json],
@@ -43,6 +80,7 @@ def map_items(
     store: Path | None = None,
     about: Json | None = None,
     title: str = "another batch",
+    note: Json | None = None,
     resume: bool = False,
     progress: Progress | None = None,
 ) -> list[Outcome]:
@@ -59,6 +97,7 @@ def map_items(
         store: SQLite file that gets each end at once; None keeps nothing.
         about: Plain data that says what the batch is; a store of another batch is refused.
         title: The same in words.
+        note: Plain data that a new store keeps beside its items, for `look_into`; it tells no batch from another.
         resume: Whether to go on with the store: finished items are not run again, those with an error are.
         progress: Told of each end.
 
@@ -70,7 +109,7 @@ def map_items(
         ClusterError: If there is no cluster to run on, or it is lost.
         KeyboardInterrupt: After Ctrl-C; the store then holds all that had ended.
     """
-    name = f"{function.__module__}:{function.__qualname__}"
+    name = _name(function)
     assert find_function(name) is function, f"{name} must lie at the top of its module"
     texts = [json.dumps(item, sort_keys=True, allow_nan=False) for item in items]
     keys = [content_hash(text) for text in texts]
@@ -78,8 +117,9 @@ def map_items(
     total = len(left)
     ends: dict[str, Outcome] = {}
     crew = executor or LocalProcesses(workers)
-    identity = content_hash([name, about])
-    with nullcontext() if store is None else Store(store, identity, title, resume=resume) as kept:
+    noted = "" if note is None else json.dumps(note, sort_keys=True, allow_nan=False)
+    opened = None if store is None else Store(store, _identity(function, about), title, resume=resume, note=noted)
+    with nullcontext() if opened is None else opened as kept:
         if kept is not None:
             for key, result, seconds, tries in kept.finished():
                 if left.pop(key, None) is not None:

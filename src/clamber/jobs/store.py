@@ -28,7 +28,7 @@ class StoreError(ClamberError):
 class Store:
     """Items and their results by key; a result is either there whole or not at all. Used in a `with` block."""
 
-    def __init__(self, path: Path, identity: str, title: str, *, resume: bool) -> None:
+    def __init__(self, path: Path, identity: str, title: str, *, resume: bool, note: str = "") -> None:
         """Open it, or make it if there is no such file.
 
         Args:
@@ -36,11 +36,14 @@ class Store:
             identity: Hash of what the batch is about; a store of another one is refused.
             title: What the batch is about, for the error that refuses it later.
             resume: Whether finished items may be there already.
+            note: Kept beside the items, unless something is already.
 
         Raises:
             StoreError: If the file is no store, belongs to another batch, is in use, or has results and `resume` is off.
         """
         self._path = path
+        self.note = ""
+        """What was noted beside the items first."""
         if not path.absolute().parent.is_dir():
             raise self._refuse(f"the folder {path.absolute().parent} does not exist", "make it first")
         try:
@@ -52,6 +55,7 @@ class Store:
         self._file = sqlite3.connect(path, timeout=1.0, isolation_level=None)
         try:
             self._open(identity, title, resume=resume)
+            self._keep_note(note)
         except sqlite3.Error as error:
             self._close()
             if "locked" in str(error):
@@ -89,6 +93,14 @@ class Store:
         (finished,) = self._file.execute("SELECT count(*) FROM items WHERE error IS NULL").fetchone()
         if finished and not resume:
             raise self._refuse(f"has {finished} finished items of this batch", "resume it, or name another file")
+
+    def _keep_note(self, note: str) -> None:
+        for (kept,) in self._file.execute("SELECT value FROM about WHERE key = 'note'"):
+            self.note = kept
+            return
+        self.note = note
+        if note:
+            self._file.execute("INSERT INTO about VALUES ('note', ?)", (note,))
 
     def _refuse(self, problem: str, allowed: str) -> StoreError:
         return StoreError(str(self._path), problem, allowed)

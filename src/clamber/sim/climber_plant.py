@@ -24,6 +24,7 @@ class ClimberPlant:
         flaws: Of joints, motors and sensors.
         pegs: Where the holds truly are, shape (n_holds, 2) [m]; None: as believed.
         shape: Of the hooks.
+        offsets: What every encoder tells too much: the body's, then the joints', shape (1 + 2 limbs,) [rad]; None: nothing.
     """
 
     def __init__(
@@ -34,6 +35,7 @@ class ClimberPlant:
         *,
         pegs: Floats | None = None,
         shape: HookShape = HookShape(),  # noqa: B008  # frozen
+        offsets: Floats | None = None,
     ) -> None:
         import mujoco
 
@@ -55,7 +57,9 @@ class ClimberPlant:
         self._motors = np.array([self.model.actuator(name).id for name in names])
         self._sites = np.array([self.model.site(f"{limb.name} tip").id for limb in robot.limbs])
         records = np.concatenate([chain.joints for chain in chains])
-        self._counts = np.roll(encoder_resolution(robot, flaws.encoder_counts), 1)  # the body's first, as in qpos
+        # the body's first, as in qpos
+        self._counts = np.roll(encoder_resolution(robot, flaws.encoder_counts), 1)
+        self._offsets = np.zeros(1 + len(names)) if offsets is None else offsets
         n = len(names)
         self._limits, self._no_load = records["limit"].copy(), records["speed"].copy()
         self._agility = (
@@ -91,7 +95,7 @@ class ClimberPlant:
     def sense(self) -> BodySensed:
         """Read the sensors, once a tick."""
         sense_climber(
-            self._qpos, self._qvel, self._at, self._speed_at, self._angles, self._speeds, self._counts, self.period,
+            self._qpos, self._qvel, self._at, self._speed_at, self._offsets, self._angles, self._speeds, self._counts, self.period,
             self.tick, self._ring, self._before, self._states,
         )  # fmt: skip
         return BodySensed(self._q, self._qd, self._states.item(0, 0, 0), self._states.item(0, 1, 0))

@@ -5,17 +5,20 @@ from .electronics import limit_torques, read_encoders
 
 
 @kernel
-def sense_climber(qpos, qvel, at, speed_at, angles, speeds, counts, period, tick, ring, before, states):
+def sense_climber(
+    qpos, qvel, at, speed_at, offsets, angles, speeds, counts, period, tick, ring, before, states
+):  # fmt: skip
     """Read the encoders of the body's angle and of all joints.
 
     Args:
         qpos, qvel: Coordinates and speeds of the model.
         at, speed_at: Where those of the encoders are in them, shape (n,).
-        angles, speeds: Filled with what is there, shape (1, n).
+        offsets: What the encoders say too much, shape (n,) [rad].
+        angles, speeds: Filled with what is there, offsets included, shape (1, n).
         counts, period, tick, ring, before, states: As in `read_encoders`.
     """
     for k in range(at.size):
-        angles[0, k] = qpos[at[k]]
+        angles[0, k] = qpos[at[k]] + offsets[k]
         speeds[0, k] = qvel[speed_at[k]]
     read_encoders(angles, speeds, counts, period, tick, ring, before, states)
 

@@ -47,12 +47,15 @@ class ClimbRunView(View[Snapshot]):
         task: Robot and board.
         trace: What happened, with the truth if that is told.
         actions: What was reported, in order.
+        pegs: Where the holds truly were, where that is not where the map says, shape (n_holds, 2) [m].
     """
 
     rows = ("Time", "Pose", "Holds")
     script = SCRIPT
 
-    def __init__(self, task: LimbedTask, trace: ClimbTrace, actions: list[ActionReport]) -> None:
+    def __init__(
+        self, task: LimbedTask, trace: ClimbTrace, actions: list[ActionReport], pegs: Floats | None = None
+    ) -> None:
         self.task, self.trace, self.actions = task, trace, actions
         self._poses = trace.believed if trace.true_pose is None else trace.true_pose
         self._angles = trace.angles if trace.true_angles is None else trace.true_angles
@@ -63,6 +66,8 @@ class ClimbRunView(View[Snapshot]):
         super().__init__(task, _no_replay(len(actions)), bounds, torque_gauges(task), climber_yardsticks(task))
         self.heads[-1].set_text("Outcome")
         draw_scene(self.wall, task, bounds)
+        if pegs is not None:
+            self.wall.plot(pegs[:, 0], pegs[:, 1], ls="none", marker="x", ms=3.0, mew=0.7, color=style.ALERT, zorder=9)
         self.robot = ClimberArtists(self.wall, task, bounds)
 
     def make_strip(self, place: Place) -> StepStrip:
@@ -155,7 +160,7 @@ def check_run_suffix(path: Path) -> str:
 
 
 def write_run(run: ClimbRun, path: Path) -> None:
-    """Write what happened in a climb as the file's suffix says.
+    """Write what happened in a climb as the file's suffix says; red crosses are pegs as they truly are.
 
     Raises:
         SuffixError: If the suffix names no format.
@@ -167,7 +172,8 @@ def write_run(run: ClimbRun, path: Path) -> None:
         write_log(run.trace.to_log(), path, TOPIC)
         return
     with styled():
-        view = ClimbRunView(run.task, run.trace, run.report.actions)
+        pegs = run.task.world.positions() + run.drawn.pegs if run.drawn.pegs.any() else None
+        view = ClimbRunView(run.task, run.trace, run.report.actions, pegs)
         if suffix in WRITERS:
             WRITERS[suffix](view, path)
         else:

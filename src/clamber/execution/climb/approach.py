@@ -75,7 +75,7 @@ class Approaches:
 
     Args:
         robot: The climber.
-        legs: Records of `control.body.LEG`, one per limb.
+        legs: Records of `control.leg.LEG`, one per limb.
         peg_radius: Of a hold by its number, its place's doubt included [m].
     """
 
@@ -95,6 +95,7 @@ class Approaches:
         elbow: int = 0,
         stand_off: float = 0.028,
         near: float = 0.016,
+        stands: Callable[[Floats], bool] = lambda pose: True,
     ) -> Approach | None:
         """A way for limb `i` from joint angles `angles` to a stand-off before `hold`; None where there is none.
 
@@ -107,12 +108,15 @@ class Approaches:
             elbow: Side of the elbow to hold with: +1, -1, or 0 for whichever has the hook more on top.
             stand_off: Wished distance from the hold before the way in [m].
             near: Distance straight before the hold, against the grab direction, that the limb must also reach [m].
+            stands: Whether the other limbs can hold the body at another pose.
         """
         side = float(np.sign(hold[0] - pose[0]))
         for slants in SLANTS:
             for x, y in SHIFTS:
                 shift = np.array((x * side, y))
                 moved = pose + np.array((*shift, 0.0))
+                if shift.any() and not stands(moved):
+                    continue
                 found = self._stand_off(i, angles, moved, hold, holds, elbow, (stand_off, near), slants)
                 if found is not None:
                     grab, way, distance = found

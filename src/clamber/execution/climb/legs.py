@@ -19,6 +19,7 @@ def legs_of(robot: LimbedRobot) -> Records:
             *(limb.port_x, limb.port_y, limb.port_angle, limb.l1, limb.l2_effective, limb.hook_beta),
             *(limb.end.angle, limb.end.kind == "hook", *joints["share"]),
             *(GRAVITY * (masses[0] * centres[0] + masses[1] * limb.l1), GRAVITY * masses[1] * centres[1]),
+            GRAVITY * masses.sum(),
             *joints["friction"],
             *joints["limit"],
         )

@@ -46,6 +46,8 @@ PATIENCE: Final = 5.0
 """For one push [s]."""
 ASIDE: Final = (0.0, 0.8, -0.8, 1.4, -1.4, 0.0)
 """Across the hook, where each try aims, in errors of the map [-]."""
+WEAKER: Final = 3.0
+"""By how much the worst of the holding limbs may be worse off where the body makes room for a grab [N]."""
 SLACK: Final = 0.006
 """Beyond the map's error, how far a seated hook may be from where it should be: play and backlash [m]."""
 
@@ -70,6 +72,7 @@ def move_body(climber: Climber, pose: Floats, *, speed: float = BODY_SPEED) -> N
 
 def _park(climber: Climber, i: int, pose: Floats) -> None:
     body = climber.body
+    climber.plant.pause()
     way = park(climber.approaches, i, body.q[i] - body.play[i], poses_between(body.settled, pose), climber.holds)
     if way is not None:
         follow(climber, i, way)
@@ -174,10 +177,12 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
 
 def _find(climber: Climber, i: int, hold: Floats, elbow: int, wished: float, near: float) -> Approach | None:
     body = climber.body
+    least = min(0.0, body.stands(body.settled)) - WEAKER
     climber.plant.pause()
     return climber.approaches.find(
-        i, body.q[i] - body.play[i], body.settled, hold, climber.holds, elbow=elbow, stand_off=wished, near=near
-    )
+        i, body.q[i] - body.play[i], body.settled, hold, climber.holds, elbow=elbow, stand_off=wished, near=near,
+        stands=lambda pose: body.stands(pose) >= least,
+    )  # fmt: skip
 
 
 def _push(climber: Climber, i: int, place: Floats, g: Floats) -> bool:

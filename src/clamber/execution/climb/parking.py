@@ -48,7 +48,9 @@ def park(
         return None
     lower = np.array((limb.shoulder.lower, limb.elbow.lower))
     upper = np.array((limb.shoulder.upper, limb.elbow.upper))
-    grid = [np.array((a, b)) for a in np.linspace(lower[0], upper[0], PITCH) for b in np.linspace(lower[1], upper[1], PITCH)]
+    grid = [
+        np.array((a, b)) for a in np.linspace(lower[0], upper[0], PITCH) for b in np.linspace(lower[1], upper[1], PITCH)
+    ]
     rooms = [room(q) for q in grid]
     enough = min(SPARE, max(rooms))
     if enough <= here:

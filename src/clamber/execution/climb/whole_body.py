@@ -21,12 +21,14 @@ from ...control.body import (
 from ...control.body_tick import BODY, JOB, TABLE, command_tick, see_tick
 from ...control.chain import chain_of_limb
 from ...control.controller import Controller, still_aim
-from ...control.hook_forces import MOST_CUTS
+from ...control.hook_forces import MOST_CUTS, pair_forces
 from ...control.law_settings import LawSettings
+from ...control.play import weight_moment
 from ...control.records import AXES
 from ...robots.limbed import LimbedRobot
 from ...types import Floats, Records
 from .legs import legs_of
+from .postures import postures
 
 Doing: TypeAlias = Literal["hold", "cling", "tip", "joints", "pull"]
 """A limb holds the body, clings to its hold without carrying, brings its tip or its joints somewhere, or pulls along a direction."""
@@ -41,6 +43,8 @@ LIMITS: Final = {
     "shared": LIMIT_SHARED,
     "feasible": LIMIT_FEASIBLE,
 }
+STRETCHED: Final = math.radians(15.0)
+"""An elbow nearer to straight than this is soft and may pass to the other side [rad]."""
 HANDING_OVER: Final = 0.5
 """Time in which the load passes from the limbs that carried to those that will [s]."""
 
@@ -122,8 +126,8 @@ class WholeBody:
         self.n = n
         self.chains = [chain_of_limb(robot, limb.name) for limb in robot.limbs]
         self.legs = legs_of(robot)
-        unit = LawSettings(law=gains.law, kp=1.0, kd=0.0, joint_kd=1.0)
-        free = LawSettings(law=gains.law, kp=gains.limb_kp, kd=gains.limb_kd)
+        unit = LawSettings(law=gains.law, kp=1.0, kd=0.0, joint_kd=1.0, feed_gravity=False)
+        free = LawSettings(law=gains.law, kp=gains.limb_kp, kd=gains.limb_kd, feed_gravity=False)
         self._pullers = [Controller(chain, unit, period=period) for chain in self.chains]
         self._reachers = [Controller(chain, free, period=period) for chain in self.chains]
         self._aim = still_aim((0.0, 0.0))
@@ -149,7 +153,7 @@ class WholeBody:
         """1 for those that carry: who did until now, and who will once the load has been handed over."""
         self._weights = np.zeros(n)
         self._handed = 1.0
-        self._holds = np.zeros((n, 2))
+        self._holds, self._cuts = np.zeros((n, 2)), np.zeros((MOST_CUTS, 2))
         self._lag = np.array((period / PLAY_TIME, self.backlash / 2))
         self._jobs = np.zeros(n, JOB)
         self._job = {name: self._jobs[name] for name in JOB.names or ()}
@@ -164,7 +168,7 @@ class WholeBody:
             at.SPARE_SPEEDS: np.zeros((n, 2)), at.SPARE_TWIST: np.zeros(3), at.CARRIERS: self._carriers,
             at.PULLS: np.zeros((n, 2)), at.FORCES: np.zeros((n, 2)),
             at.OLD_PULLS: np.zeros((n, 2)), at.OLD_FORCES: np.zeros((n, 2)),
-            at.CUTS: np.zeros((MOST_CUTS, 2)), at.DRAGS: np.zeros((n, 2)), at.LEAST: np.full(n, gains.least_pull),
+            at.CUTS: self._cuts, at.DRAGS: np.zeros((n, 2)), at.LEAST: np.full(n, gains.least_pull),
             at.PRESSED: np.zeros(n, np.int64), at.LOADS: np.zeros((n, 2)), at.LAG: self._lag,
             at.WANTED: np.zeros(3), at.FED: np.zeros(3), at.LIMB_AIM: self._aim, at.STATES: self._states,
             at.FELT: np.zeros((1, AXES)), at.TORQUES: self.torques,
@@ -195,6 +199,26 @@ class WholeBody:
         for row, limbs in zip(self._carriers, (now, carriers), strict=True):
             row[:] = [i in limbs for i in range(self.n)]
         self._handed = 0.0
+
+    def stands(self, pose: Floats) -> float:
+        """How well the limbs that hold now would at another pose of the body, in newtons of the worst wish; -inf where one does not reach."""
+        carriers = [i for i, task in enumerate(self.tasks) if task.doing == "hold"]
+        q, arms, forces = self.q.copy(), np.zeros((self.n, 2)), np.zeros((self.n, 2))
+        for i in carriers:
+            side = self.q[i, 1] - self.play[i, 1]
+            found = [
+                one
+                for one in postures(self.robot.limbs[i], pose, self.tasks[i].place)
+                if one.inside and one.angles[1] * side > 0.0 and abs(one.angles[1]) > STRETCHED
+            ]
+            if not found:
+                return -math.inf
+            q[i], arms[i] = found[0].angles, self.tasks[i].place - pose[:2]
+        if len(carriers) != 2:
+            return 0.0
+        wrench = np.array((0.0, self.robot.weight, weight_moment(self.legs, q, pose[2])))
+        margin, _ = pair_forces(self.legs, q, *carriers, pose, arms, wrench, np.zeros(3), self._cuts, forces)
+        return float(margin)
 
     @property
     def handing_over(self) -> bool:
@@ -287,7 +311,7 @@ def _settings(gains: BodyGains, robot: LimbedRobot) -> Records:
     """The gains as the kernels read them, records of `BODY`, shape (1,)."""
     out = np.zeros(1, BODY)
     out["mapping"], out["limit"] = MAPPINGS[gains.mapping], LIMITS[gains.limit]
-    for name in ("kp", "kd", "stiffness", "joint_kp", "joint_kd", "cling", "gentle", "firm"):
+    for name in ("kp", "kd", "stiffness", "joint_kp", "joint_kd", "cling", "gentle", "firm", "weight_fed"):
         out[name] = getattr(gains, name)
-    out["weight"] = gains.weight_fed * robot.weight
+    out["weight"] = robot.weight
     return out

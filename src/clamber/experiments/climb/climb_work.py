@@ -9,12 +9,13 @@ from ...actions.plan import Plan
 from ...tasks import load_task
 from ...tasks.limbed import LimbedTask
 from ...types import Json
+from .noise import NO_NOISE, read_noise
 from .run_plan import climbing_flaws, climbing_task, run_plan
 
 RUNGS = (106, 301, 205, 300, 3, 3, 304, 108, 303, 207, 300, 3, 3)
 """Two rungs of the ladder by the gait of the thesis, its numbers of actions."""
-PEG_ERROR = 0.003
-"""Of the trials [m]."""
+NOISE = "peg_error=3mm"
+"""Of the trials."""
 
 
 @cache
@@ -44,6 +45,6 @@ def timed_trial(item: Json) -> Json:
     ready = _ready()
     task, plan = two_rungs()
     started, worked = time.monotonic(), time.process_time()
-    run_plan(task, plan, climbing_flaws(task, ()), peg_error=PEG_ERROR, seed=item["seed"])
+    run_plan(task, plan, climbing_flaws(task, ()), noise=read_noise(NO_NOISE, [NOISE]), seed=item["seed"])
     ended = time.monotonic() - started
     return {"process": os.getpid(), "ready": ready, "seconds": ended, "cpu": time.process_time() - worked}

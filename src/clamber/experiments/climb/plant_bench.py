@@ -27,7 +27,9 @@ from ...tasks import load_task
 from ...tasks.limbed import LimbedTask
 from ...types import Floats
 from ..rows import Row, Say, keep_quiet
-from .run_plan import LEAST_MAP_ERROR, climbing_flaws, climbing_task, run_plan, true_pegs
+from .noise import NO_NOISE, draw_for, read_noise
+from .plants import drawn_plant
+from .run_plan import believing_climber, climbing_flaws, climbing_task, run_plan
 
 TASK: Final = "ladder"
 GAIT: Final = (191, 392, 291, 300, 3, 3)
@@ -38,8 +40,8 @@ STOPS: Final = 40
 """Safe stops at random moments of a rung."""
 RUNG_TICKS: Final = 4400
 """About those of a rung."""
-PEG_ERROR: Final = 0.003
-"""[m]."""
+NOISE: Final = "peg_error=3mm"
+"""Of the pegs' places."""
 HOLD: Final = 3.0
 """After each stop [s]."""
 FELL: Final = 0.05
@@ -172,12 +174,12 @@ class StoppingHardware:
 def stopped_at(task: LimbedTask, flaws: LimbFlaws, tick: int, seed: int) -> StoppingHardware:
     """A robot that has climbed by the gait until a tick, where it was stopped, on pegs that a seed puts beside the map."""
     wiring = wiring_of(task.robot, flaws.encoder_counts)
-    plant = ClimberPlant(task.robot, task.world, flaws, pegs=true_pegs(task, PEG_ERROR, seed))
+    noise = read_noise(NO_NOISE, [NOISE])
+    drawn = draw_for(task, noise, seed)
+    plant = drawn_plant(task, flaws, drawn)
     hardware = ClimberWires(plant, wiring)
     stopping = StoppingHardware(hardware, guard_of(task.robot, wiring, hardware.period), tick)
-    climber = TracedClimber(
-        task.robot, task.world, WiredClimber(stopping, wiring), map_error=LEAST_MAP_ERROR + PEG_ERROR
-    )
+    climber = believing_climber(task, WiredClimber(stopping, wiring), noise, drawn)
     Sequencer(climber, lay_course(task, gait_of(task), "gait")).run()
     return stopping
 
@@ -189,9 +191,9 @@ def _wait_through(task: LimbedTask, timed: TimedHardware, seconds: float) -> Non
 
 
 def _climb_in_real_time(task: LimbedTask, flaws: LimbFlaws, seed: int) -> bool:
-    pegs = ("--peg-error", f"{PEG_ERROR} m", "--seed", str(seed))
-    with served(TASK, *REAL_TIME, *pegs) as (_, address):
-        return run_plan(task, gait_of(task), flaws, plant=address, peg_error=PEG_ERROR).report.done
+    with served(TASK, *REAL_TIME, "--noise", NOISE, "--seed", str(seed)) as (_, address):
+        noise = read_noise(NO_NOISE, [NOISE])
+        return run_plan(task, gait_of(task), flaws, plant=address, noise=noise, seed=seed).report.done
 
 
 def plant_rows(*, say: Say = keep_quiet) -> list[Row]:

@@ -18,7 +18,7 @@ from ...sim.climber_plant import ClimberPlant
 from ...sim.limb_flaws import LimbFlaws
 from ...sim.wires import ClimberWires
 from ...tasks.limbed import LimbedTask
-from ...types import Floats
+from .noise import Drawn, drawn_flaws, drawn_hook, drawn_robot, encoder_offsets
 
 HERE: Final = ("torques", "volts")
 """Plants in this process: torques in and angles out, or through simulated amplifiers and counters."""
@@ -54,14 +54,13 @@ def is_remote(text: str) -> bool:
 
 
 @contextmanager
-def climbing_plant(text: str, task: LimbedTask, flaws: LimbFlaws, pegs: Floats | None) -> Iterator[BodyPlant]:
+def climbing_plant(text: str, task: LimbedTask, simulate: Callable[[], ClimberPlant]) -> Iterator[BodyPlant]:
     """The plant that a text names, let go at the end.
 
     Args:
-        text: One of `HERE`, or an address: there, flaws and pegs are the server's.
+        text: One of `HERE`, or an address: there, the robot and its flaws are the server's.
         task: What is climbed.
-        flaws: Of a simulation here.
-        pegs: Where its holds truly are, shape (n_holds, 2) [m]; None: where the map says.
+        simulate: Makes the plant of a simulation here.
 
     Raises:
         PlantChoiceError: If there is no such plant.
@@ -70,8 +69,8 @@ def climbing_plant(text: str, task: LimbedTask, flaws: LimbFlaws, pegs: Floats |
     """
     check_plant(text)
     if not is_remote(text):
-        plant = ClimberPlant(task.robot, task.world, flaws, pegs=pegs)
-        yield plant if text == "torques" else wired(task, plant, flaws)
+        plant = simulate()
+        yield plant if text == "torques" else wired(plant)
         return
     with RemoteHardware(read_address(text)) as remote:
         remote.check(task.robot.name, task.world.name)
@@ -98,16 +97,27 @@ def truth_of(plant: BodyPlant) -> Callable[[], BodyTruth] | None:
     return told
 
 
-def wired(task: LimbedTask, plant: ClimberPlant, flaws: LimbFlaws) -> WiredClimber:
+def drawn_plant(task: LimbedTask, flaws: LimbFlaws, drawn: Drawn) -> ClimberPlant:
+    """A task's robot on its board as they truly are."""
+    return ClimberPlant(
+        drawn_robot(task.robot, drawn),
+        task.world,
+        drawn_flaws(flaws, drawn),
+        pegs=task.world.positions() + drawn.pegs,
+        shape=drawn_hook(drawn),
+        offsets=encoder_offsets(drawn),
+    )
+
+
+def wired(plant: ClimberPlant) -> WiredClimber:
     """A simulated climber through simulated wires in this process."""
-    wiring = wiring_of(task.robot, flaws.encoder_counts)
+    wiring = wiring_of(plant.robot, plant.flaws.encoder_counts)
     return WiredClimber(ClimberWires(plant, wiring), wiring)
 
 
 def climb_server(
     task: LimbedTask,
-    flaws: LimbFlaws,
-    pegs: Floats | None,
+    plant: ClimberPlant,
     listener: socket.socket,
     *,
     say: Say,
@@ -122,8 +132,8 @@ def climb_server(
         SpecError: If the robot has no amplifiers or encoders that its wires could carry.
         PlantError: If the converters cannot be.
     """
-    wiring = wiring_of(task.robot, flaws.encoder_counts)
-    hardware = ClimberWires(ClimberPlant(task.robot, task.world, flaws, pegs=pegs), wiring, dac_bits=dac_bits)
+    wiring = wiring_of(task.robot, plant.flaws.encoder_counts)
+    hardware = ClimberWires(plant, wiring, dac_bits=dac_bits)
     about = About(
         task.robot.name, task.world.name, wiring.n_joints, wiring.n_encoders, 3 + wiring.n_joints,
         len(hardware.truth()), real_time, hardware.period, pace,

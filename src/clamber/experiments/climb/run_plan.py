@@ -6,21 +6,21 @@ from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from ...actions.plan import Plan
+from ...actions.plan_source import is_plan, open_plan
 from ...errors import SpecError
 from ...execution.climb.climb_trace import TOPIC, ClimbTrace, TracedClimber, limb_notes, report_notes
 from ...execution.climb.course import climbable, lay_course
 from ...execution.climb.sequencer import ClimbReport, Progress, Replan, Sequencer
 from ...execution.log_stream import LogStream
-from ...sim.limb_flaws import LimbFlaws, PlantError
-from ...tasks import Task
+from ...execution.plant import BodyPlant
+from ...sim.limb_flaws import LimbFlaws
+from ...tasks import Task, load_task
 from ...tasks.limbed import LimbedTask
-from ...types import Floats, Json
-from ...units import parse_quantity
+from ...types import Json
 from ..limb.flaw_texts import named_flaws, read_flaws
-from .plants import climbing_plant, truth_of
+from .noise import NO_NOISE, Drawn, Noise, assumed_backlash, check_noise, draw_for
+from .plants import climbing_plant, drawn_plant, truth_of
 
 PLANT: str = "plant."
 """First word of settings that change the plant."""
@@ -38,6 +38,8 @@ class ClimbRun:
     plan: Plan
     report: ClimbReport
     trace: ClimbTrace
+    drawn: Drawn
+    """How far things truly were from what was believed."""
     wall_seconds: float
     """That it took."""
 
@@ -50,6 +52,30 @@ def split_settings(settings: Sequence[str]) -> tuple[list[str], list[str]]:
     """Those of the task, and those of the plant without their "plant."."""
     plant = [text[len(PLANT) :] for text in settings if text.startswith(PLANT)]
     return [text for text in settings if not text.startswith(PLANT)], plant
+
+
+def open_climb(what: str, task: str | None, settings: Sequence[str]) -> tuple[LimbedTask, Plan | None, tuple[str, ...]]:
+    """A task, or a plan and its task, that can be carried out, and settings of its plant.
+
+    Args:
+        what: A task's name or file, or a plan's.
+        task: A task in place of the one that the plan names.
+        settings: Texts "key=value" for task and plant.
+
+    Returns:
+        The task under the rules that can be carried out, the plan if `what` is one, and settings of the plant such as "backlash=1deg".
+
+    Raises:
+        SpecError: If the task is none of a limbed climber, or a plan's task is given beside a task.
+        ClamberError: As `open_plan` and `load_task`.
+    """
+    for_task, for_plant = split_settings(settings)
+    if is_plan(what):
+        opened = open_plan(what, task, for_task)
+        return climbing_task(opened.task), opened.plan, tuple(for_plant)
+    if task is not None:
+        raise SpecError(what, "--task", task, "is for a plan; this is a task itself")
+    return climbing_task(load_task(what, for_task)), None, tuple(for_plant)
 
 
 def climbing_task(task: Task) -> LimbedTask:
@@ -73,33 +99,12 @@ def climbing_flaws(task: LimbedTask, settings: Sequence[str], seed: int | None =
     return read_flaws(nominal, settings, seed)
 
 
-def read_peg_error(text: str) -> float:
-    """The largest error of a peg's place along each axis, from a text such as "3mm" [m].
-
-    Raises:
-        UnitError: If it is no length.
-        PlantError: If it is less than nothing.
-    """
-    error = parse_quantity(text, "length")
-    if error < 0.0:
-        raise PlantError("peg error", text, "must be 0 mm or more")
-    return error
-
-
-def true_pegs(task: LimbedTask, error: float, seed: int) -> Floats | None:
-    """Where the pegs truly are: each coordinate off by up to `error` [m] either way, shape (n_holds, 2); None: as the map says."""
-    if error == 0.0:
-        return None
-    places = task.world.positions()
-    return places + np.random.default_rng(seed).uniform(-error, error, places.shape)
-
-
 def run_plan(
     task: LimbedTask,
     plan: Plan,
     flaws: LimbFlaws,
     *,
-    peg_error: float = 0.0,
+    noise: Noise = NO_NOISE,
     seed: int = 0,
     force: bool = False,
     replan: Replan | None = None,
@@ -113,9 +118,9 @@ def run_plan(
     Args:
         task: Robot, board and start.
         plan: The plan.
-        flaws: Of the plant.
-        peg_error: Largest error of a peg's place along each axis [m].
-        seed: Of the pegs' places.
+        flaws: Of the plant, as the controller believes them.
+        noise: By how much the plant may differ from that.
+        seed: Of how much it does.
         force: Whether to carry out a plan that something speaks against.
         replan: What plans again where a hold cannot be had.
         progress: Told before each action.
@@ -128,20 +133,33 @@ def run_plan(
         PlanRefusedError: If something speaks against the plan and it is not forced.
         SpecError: If an action is none that the task's robot and board have.
         StartError: If the start violates a hard check.
+        NoiseError: If a width is more than what there is of it.
     """
     began = time.perf_counter()
     course = lay_course(task, plan, label)
-    with climbing_plant(plant, task, flaws, true_pegs(task, peg_error, seed)) as moved:
-        climber = TracedClimber(
-            task.robot, task.world, moved, map_error=LEAST_MAP_ERROR + peg_error, truth=truth_of(moved)
-        )
+    check_noise(noise, task.robot, flaws)
+    drawn = draw_for(task, noise, seed)
+    with climbing_plant(plant, task, lambda: drawn_plant(task, flaws, drawn)) as moved:
+        climber = believing_climber(task, moved, noise, drawn)
         sequencer = Sequencer(climber, course, replan=replan, force=force, progress=progress)
         stream = None if log is None else LogStream(log, climber.titles, limb_notes(climber.limbs), TOPIC)
         with nullcontext() if stream is None else stream:
             climber.told = None if stream is None else stream.add
             report = sequencer.run()
-            notes = report.to_json() | {"task": task.name, "peg_error": peg_error, "seed": seed}
+            notes = report.to_json() | {"task": task.name, "noise": noise.to_json(), "seed": seed}
             if stream is not None:
                 stream.add(climber.last())
                 stream.finish(report_notes(notes))
-    return ClimbRun(task, plan, report, climber.trace(notes), time.perf_counter() - began)
+    return ClimbRun(task, plan, report, climber.trace(notes), drawn, time.perf_counter() - began)
+
+
+def believing_climber(task: LimbedTask, plant: BodyPlant, noise: Noise, drawn: Drawn) -> TracedClimber:
+    """The controller of a plant as it was drawn: it knows the nominal robot, and how far off its map may be."""
+    return TracedClimber(
+        task.robot,
+        task.world,
+        plant,
+        map_error=LEAST_MAP_ERROR + noise.widths["peg_error"],
+        backlash=assumed_backlash(task.robot, drawn),
+        truth=truth_of(plant),
+    )

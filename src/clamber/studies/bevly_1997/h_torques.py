@@ -14,7 +14,7 @@ LIMIT = 1500.0
 
 def compare_h_torques() -> StudyResult:
     """Largest torques of the two printed H plans, and a plan of ours under half the actuators' limit."""
-    hand, theirs = replay_printed("h_hand"), replay_printed("h_ga", H_START)
+    hand, theirs = replay_printed("h-hand"), replay_printed("h-ga", H_START)
     by_hand, by_planner = hand.verdict.max_torque / OZ_IN, theirs.verdict.max_torque / OZ_IN
     torques = hand.replay.stances["torque"]
     at = int(torques[1:].argmax()) + 1

@@ -7,12 +7,12 @@ from . import PAPER
 from .replayed import H_START, INFERRED, replay_printed
 
 PLANS: Final[dict[str, tuple[str, tuple[str, ...]]]] = {
-    "Table D.1, ladder": ("ladder_hand", ()),
-    "Table D.2, H by hand": ("h_hand", ()),
-    "Table 2.4, H by the planner": ("h_ga", H_START),
-    "Table 2.3, modified ladder": ("modladder_ga", ()),
-    "Table D.3, across": ("across_hand", ()),
-    "Table D.4, circle": ("circle_hand", ()),
+    "Table D.1, ladder": ("ladder-hand", ()),
+    "Table D.2, H by hand": ("h-hand", ()),
+    "Table 2.4, H by the planner": ("h-ga", H_START),
+    "Table 2.3, modified ladder": ("modified-ladder-ga", ()),
+    "Table D.3, across": ("across-hand", ()),
+    "Table D.4, circle": ("circle-hand", ()),
 }
 """Label -> plan and what its task needs."""
 

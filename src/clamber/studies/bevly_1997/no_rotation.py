@@ -27,7 +27,7 @@ def rotation_is_needed() -> StudyResult:
     """Search every stance without rotation, in the reading that fits the section."""
     without = exhaust(limbed_task("modified-ladder", (*OWN, WITHOUT_TURNS)))
     with_turns = exhaust(limbed_task("modified-ladder", OWN))
-    printed = replay_printed("modladder_ga", OWN).verdict
+    printed = replay_printed("modified-ladder-ga", OWN).verdict
     proved = without.codes is None and without.closed and with_turns.codes is not None
     return StudyResult(
         paper=PAPER,

@@ -50,7 +50,7 @@ def climb_with_gait() -> StudyResult:
     task, replay, met = repeat_gait(RUNG, "atomic")
     rungs = float(replay.stances["y"][len(GAIT)] - replay.stances["y"][0]) / (RUNG * INCH)
     power = float(replay.stances["power"][1:].mean())
-    hand = replay_printed("ladder_hand")
+    hand = replay_printed("ladder-hand")
     at_hand = float(hand.replay.stances["power"][1:].mean())
 
     def route(path: Path) -> None:

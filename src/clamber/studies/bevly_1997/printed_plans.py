@@ -29,9 +29,9 @@ class Printed:
 
 
 PRINTED: Final[dict[str, Printed]] = {
-    "ladder-plan": Printed("ladder_hand", "Table D.1: a hand-made plan of 63 actions climbs the ladder.", 63, 63),
+    "ladder-plan": Printed("ladder-hand", "Table D.1: a hand-made plan of 63 actions climbs the ladder.", 63, 63),
     "h-hand-plan": Printed(
-        "h_hand",
+        "h-hand",
         "Table D.2, section 2.5.3: a hand-made plan of 69 actions does the H task; its largest torque is about 1900 oz-in.",
         69,
         69,
@@ -42,7 +42,7 @@ PRINTED: Final[dict[str, Printed]] = {
         ),
     ),
     "h-planner-plan": Printed(
-        "h_ga",
+        "h-ga",
         "Table 2.4: the planner's plan of 120 actions does the H task with less than 1500 oz-in.",
         120,
         119,
@@ -55,15 +55,15 @@ PRINTED: Final[dict[str, Printed]] = {
         ),
     ),
     "modified-ladder-plan": Printed(
-        "modladder_ga",
+        "modified-ladder-ga",
         "Table 2.3, figure 2.15: the planner's plan of 60 actions passes the four missing pegs by rotating the body.",
         60,
         60,
         deviations=("The printed plan ends at y = 45 in; our task asks for 60 in, so its goal is not met.",),
     ),
-    "across-plan": Printed("across_hand", "Table D.3: a hand-made plan of 214 actions walks across.", 214, 214),
+    "across-plan": Printed("across-hand", "Table D.3: a hand-made plan of 214 actions walks across.", 214, 214),
     "circle-plan": Printed(
-        "circle_hand",
+        "circle-hand",
         "Table D.4: a hand-made plan of 201 actions goes once round the circle.",
         201,
         201,

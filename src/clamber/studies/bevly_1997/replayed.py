@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Final
 
 from ...actions.plan_families import plan_family
@@ -13,7 +12,6 @@ from ...errors import SpecError
 from ...tasks import load_task
 from ...tasks.limbed import LimbedTask
 
-PLANS: Final = Path(__file__).parent / "plans"
 H_START: Final = ("start.y=6.2in",)
 """The start that the printed pegs of Table 2.4 fit best."""
 START: Final = "The start of the plan is not printed; it is inferred from the plan and the board."
@@ -47,11 +45,11 @@ def replay_printed(name: str, overrides: Sequence[str] = (), *, go_on: bool = Fa
     """Carry out a printed plan.
 
     Args:
-        name: Of its file, such as "h_hand".
+        name: Its name, such as "h-hand".
         overrides: Texts "key=value" that change its task.
         go_on: Whether to go on past a violation.
     """
-    opened = open_plan(PLANS / f"plan_{name}.toml", None, overrides)
+    opened = open_plan(name, None, overrides)
     codes = opened.plan.codes(opened.task, opened.label)
     replay = plan_family(opened.task).problem(opened.task).replay(codes, go_on=go_on)
     return Replayed(opened, opened.check(go_on=go_on), replay)

@@ -12,11 +12,11 @@ from .boards import BOARDS, MODEL, NEVER_HANGS, TOLD
 from .proofs import Proof, prove_all
 
 PRINTED: Final[dict[str, tuple[str, str, tuple[str, ...]]]] = {
-    "ladder": ("ladder_hand", "Table D.1, by hand, 3 in steps", ()),
-    "modified-ladder": ("modladder_ga", "Table 2.3, genetic, ends at 45 of 60 in", ()),
-    "h": ("h_ga", "Table 2.4, genetic", H_START),
-    "across": ("across_hand", "Table D.3, by hand", ()),
-    "circle": ("circle_hand", "Table D.4, by hand", ()),
+    "ladder": ("ladder-hand", "Table D.1, by hand, 3 in steps", ()),
+    "modified-ladder": ("modified-ladder-ga", "Table 2.3, genetic, ends at 45 of 60 in", ()),
+    "h": ("h-ga", "Table 2.4, genetic", H_START),
+    "across": ("across-hand", "Table D.3, by hand", ()),
+    "circle": ("circle-hand", "Table D.4, by hand", ()),
 }
 """Board -> the printed plan, what it is, and what its task needs."""
 COARSE: Final = ("step.length=3in", *MODEL[1:])

@@ -1,0 +1,144 @@
+"""`clamber trials`: one plan carried out many times, each time with another robot and board than believed."""
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ..errors import UnknownNameError
+from .crew import check_resume, executor_of
+from .options import AsJson, NoiseTexts, Output, Overrides, Quiet, Ray, Resume, Store, Workers
+from .output import announce_compilation, check_writable, print_json, stderr, stdout
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from ..experiments.climb.trial import TrialSetup
+
+
+def trials(
+    what: Annotated[
+        str, typer.Argument(metavar="TASK|PLAN", help="A task, to be planned once, or a plan: names or files.")
+    ],
+    n: Annotated[int, typer.Option("-n", min=1, help="How many climbs.")] = 24,
+    seed: Annotated[int, typer.Option(min=0, help="Of the first climb; each further one has the next.")] = 0,
+    noise: NoiseTexts = None,
+    task: Annotated[str | None, typer.Option(help="Carry the plan out in this task, in place of its own.")] = None,
+    planner: Annotated[str, typer.Option(help="How to search (`clamber list planners`).")] = "auto",
+    seconds: Annotated[float, typer.Option(min=0.0, help="Most time for each plan.")] = 60.0,
+    overrides: Overrides = None,
+    replan: Annotated[bool, typer.Option(help="Plan again where a hold cannot be had.")] = True,
+    force: Annotated[bool, typer.Option("--force", help="Carry out a plan that its checks refuse.")] = False,
+    at_least: Annotated[
+        str | None, typer.Option(help="Leave with 0 only if success is at least this with 97.5 % confidence.")
+    ] = None,
+    replay: Annotated[
+        int | None, typer.Option(min=0, metavar="SEED", help="Climb this one trial again, for -o a log or a picture.")
+    ] = None,
+    workers: Workers = None,
+    ray: Ray = None,
+    store: Store = None,
+    resume: Resume = False,
+    output: Output = None,
+    as_json: AsJson = False,
+    quiet: Quiet = False,
+) -> None:
+    """Climb many times under noise: how often it succeeds, why it fails, how long it takes, what matters.
+
+    Each climb draws what is not as believed from its own seed (docs/climbing.md lists the keys and usual widths); `--noise none
+    --noise friction=30%` leaves one of them. `-o` writes a picture (.png, .svg, .pdf), or with `--replay` what `clamber run` writes.
+    """
+    check_writable(output)
+    check_resume(resume, store)
+    from ..actions.plan_source import is_plan
+    from ..experiments.climb.noise import named_noise, read_noise
+    from ..experiments.climb.run_plan import open_climb
+    from ..experiments.climb.trial import TrialSetup
+    from ..experiments.climb.trial_summary import sum_up
+    from ..experiments.climb.trials import NoPlanError, run_trials, with_plan
+    from ..planning.planners import FIRST_LOOPS, PLANNERS
+    from .trials_text import TrialsLine, print_trials
+
+    if output is not None:
+        _check_suffix(output, replay)
+    if planner not in PLANNERS:
+        raise UnknownNameError("planner", planner, tuple(PLANNERS))
+    least = _share(at_least)
+    widths = read_noise(named_noise("usual"), noise or ())
+    announce_compilation("replay" if is_plan(what) else FIRST_LOOPS[planner], quiet=quiet)
+    executor = executor_of(ray, workers)
+    if replay is None:
+        executor.check()  # before a minute is spent on a plan
+    chosen, plan, plant = open_climb(what, task, overrides or ())
+    asked = TrialSetup(
+        task=chosen, noise=widths, plan=plan, plant=plant, planner=planner, seconds=seconds, replan=replan, force=force
+    )
+    try:
+        setup = with_plan(asked, store, what)
+    except NoPlanError as none:
+        stderr().print(str(none))
+        raise typer.Exit(1) from None
+    if replay is not None:
+        raise typer.Exit(_replay(setup, replay, store, output, as_json=as_json, quiet=quiet))
+    with TrialsLine(stderr(), quiet=quiet) as line:
+        told = run_trials(
+            setup, range(seed, seed + n), executor=executor, store=store, resume=resume, told=line.update
+        )  # fmt: skip
+    summary = sum_up(told)
+    if output is not None:
+        from ..viewing.trials_plot import draw_trials
+
+        draw_trials(summary, output)
+    if as_json:
+        print_json(summary.to_json() | {"trials": [trial.to_json() for trial in told.ended]})
+    else:
+        print_trials(stdout(), summary, output)
+    if summary.n < summary.asked:
+        raise typer.Exit(130)
+    raise typer.Exit(0 if (summary.done == summary.n if least is None else summary.interval[0] >= least) else 1)
+
+
+def _check_suffix(output: "Path", replay: int | None) -> None:
+    from ..viewing.climb_run_view import check_run_suffix
+    from ..viewing.output import CANVASES, check_suffix
+
+    if replay is None:
+        check_suffix(output, CANVASES)
+    else:
+        check_run_suffix(output)
+
+
+def _share(text: str | None) -> float | None:
+    """A share such as 98% or 0.98."""
+    if text is None:
+        return None
+    from ..units import parse_quantity
+
+    share = parse_quantity(text, "ratio")
+    if not 0.0 <= share <= 1.0:
+        raise typer.BadParameter(f"{text} must be 0 to 100 %", param_hint="--at-least")
+    return share
+
+
+def _replay(
+    setup: "TrialSetup", seed: int, store: "Path | None", output: "Path | None", *, as_json: bool, quiet: bool
+) -> int:
+    """One trial again; the exit code."""
+    from ..experiments.climb.trial import climb_once
+    from ..experiments.climb.trials import stored_trial
+    from ..viewing.climb_run_view import write_run
+    from .run_text import ClimbLine, print_run
+
+    known, plans = stored_trial(setup, seed, store)
+    with ClimbLine(stderr(), quiet=quiet) as line:
+        run, trial, _ = climb_once(setup, seed, plans=plans, progress=line.update)
+    if output is not None:
+        write_run(run, output)
+    if known is not None and known != trial:
+        stderr().print(
+            f"the store's trial {seed} went otherwise: another machine or other code; it ended {known.outcome}"
+        )
+    if as_json:
+        print_json(run.to_json() | {"trial": trial.to_json()})
+    else:
+        print_run(stdout(), run, output)
+    return 130 if run.report.reason == "interrupted" else 0 if run.report.done else 1

@@ -1,0 +1,274 @@
+"""What a climb meets that nobody told its controller: ranges by name, and what a seed draws from them."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from ...errors import ClamberError, UnitError, describe_choices
+from ...robots.limbed import Limb, LimbedRobot
+from ...sim.climber_model import HookShape
+from ...sim.limb_flaws import LimbFlaws
+from ...tasks.limbed import LimbedTask
+from ...types import Floats, Ints, Json
+from ...units import DEGREE, GRAVITY, parse_quantity
+
+
+class NoiseError(ClamberError):
+    """A range that cannot be: names the key, the value and what is allowed."""
+
+    def __init__(self, key: str, value: object, allowed: str) -> None:
+        super().__init__(key, value, allowed)
+        self.key, self.value, self.allowed = key, value, allowed
+
+    def __str__(self) -> str:
+        return f"noise: {self.key} = {self.value}: {self.allowed}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NoiseKind:
+    """One property of robot or board that is not as believed."""
+
+    dimension: str
+    unit: str
+    """In which it is shown."""
+    scale: float
+    """Of that unit, in SI."""
+    width: float
+    """Usual largest deviation, either way, in SI."""
+    words: str
+    """What deviates."""
+    below_one: bool = False
+    """Whether it is a share that must not take all away."""
+    many: bool = False
+    """Whether each peg or joint has its own."""
+
+    def shown(self, value: float) -> str:
+        """A value in the unit, such as "6.35 mm"."""
+        return f"{value / self.scale:.4g} {self.unit}"
+
+
+NOISE: Final[dict[str, NoiseKind]] = {
+    "peg_error": NoiseKind(
+        dimension="length", unit="mm", scale=1e-3, width=0.00635, words="place of each peg, along each axis", many=True
+    ),
+    "backlash": NoiseKind(
+        dimension="angle", unit="deg", scale=DEGREE, width=0.5 * DEGREE, words="true play of all joints, about the file's"
+    ),
+    "assumed_backlash": NoiseKind(
+        dimension="angle", unit="deg", scale=DEGREE, width=0.5 * DEGREE, words="play that is reckoned with, about the file's"
+    ),
+    "friction": NoiseKind(
+        dimension="ratio", unit="%", scale=0.01, width=0.3, words="Coulomb friction of all joints alike", below_one=True
+    ),
+    "joint_friction": NoiseKind(
+        dimension="ratio", unit="%", scale=0.01, width=0.0, words="the same of each joint by itself", below_one=True, many=True
+    ),
+    "payload": NoiseKind(
+        dimension="ratio", unit="%", scale=0.01, width=0.1, words="mass on the body, of the whole weight", below_one=True
+    ),
+    "hook_play": NoiseKind(
+        dimension="length", unit="mm", scale=1e-3, width=0.0005, words="width of the hooks' slots, about 1 mm of play"
+    ),
+    "hook_friction": NoiseKind(
+        dimension="ratio", unit="%", scale=0.01, width=0.25, words="friction of hooks on pegs", below_one=True
+    ),
+    "body_angle": NoiseKind(
+        dimension="angle", unit="deg", scale=DEGREE, width=1.0 * DEGREE, words="zero of the body's encoder"
+    ),
+    "joint_angle": NoiseKind(
+        dimension="angle", unit="deg", scale=DEGREE, width=0.3 * DEGREE, words="zero of each joint's encoder", many=True
+    ),
+}  # fmt: skip
+"""Key -> what deviates, evenly spread over its width to either side. Zeros of encoders: half a turn of a motor at a joint, and what an
+inclinometer is off; hook friction: the 0.15 to 0.25 that are plausible. The rest as issue and thesis state it."""
+SETS: Final = ("usual", "none")
+"""Names of sets of widths."""
+
+
+@dataclass(frozen=True, slots=True)
+class Noise:
+    """A width for every key, either way, in SI."""
+
+    widths: Mapping[str, float]
+
+    def to_json(self) -> Json:
+        """Plain data."""
+        return {key: self.widths[key] for key in NOISE}
+
+    def words(self) -> str:
+        """What deviates, in one line."""
+        told = [f"{key} {kind.shown(self.widths[key])}" for key, kind in NOISE.items() if self.widths[key] > 0.0]
+        return ", ".join(told) or "none"
+
+
+def named_noise(name: str) -> Noise:
+    """A set of widths: "usual", or "none" of all."""
+    assert name in SETS
+    return Noise({key: kind.width if name == "usual" else 0.0 for key, kind in NOISE.items()})
+
+
+NO_NOISE: Final = named_noise("none")
+
+
+def read_noise(base: Noise, texts: Iterable[str]) -> Noise:
+    """`base` changed by texts such as "friction=30%", the last one winning; "none" and "usual" change all of it.
+
+    Raises:
+        NoiseError: If there is no such key, or its width cannot be.
+    """
+    widths = dict(base.widths)
+    for text in texts:
+        key, equals, said = (part.strip() for part in text.partition("="))
+        if not equals and key in SETS:
+            widths = dict(named_noise(key).widths)
+            continue
+        if key not in NOISE:
+            raise NoiseError(key, said, f"no such key; there are {describe_choices(key, (*NOISE, *SETS))}")
+        if not said:
+            raise NoiseError(key, said, f"needs a width, as in {key}={NOISE[key].shown(NOISE[key].width)}")
+        try:
+            widths[key] = parse_quantity(said, NOISE[key].dimension)
+        except UnitError as error:
+            raise NoiseError(key, said, f"{error.problem}; {error.allowed}") from None
+        if not widths[key] >= 0.0:
+            raise NoiseError(key, said, f"must be 0 {NOISE[key].unit} or more; it is meant either way")
+        if NOISE[key].below_one and not widths[key] < 1.0:
+            raise NoiseError(key, said, "must be less than 100 %")
+    return Noise(widths)
+
+
+def noise_of(document: Json) -> Noise:
+    """The noise that `Noise.to_json` described."""
+    return Noise({key: float(document[key]) for key in NOISE})
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Drawn:
+    """What a seed made of a noise: deviations from what is believed, in SI; ratios are shares of the nominal value."""
+
+    pegs: Floats
+    """Shape (n_holds, 2) [m]."""
+    backlash: float
+    assumed_backlash: float
+    friction: float
+    joint_friction: Floats
+    """Shape (limbs, 2) [-]."""
+    payload: float
+    hook_play: float
+    hook_friction: float
+    body_angle: float
+    joint_angle: Floats
+    """Shape (limbs, 2) [rad]."""
+
+    def to_json(self, pegs: Ints | None = None) -> Json:
+        """One number for each key: the deviation, and of many alike the largest: of pegs the distance, of joints the size.
+
+        Args:
+            pegs: Indices of those that count; None: all.
+        """
+        told = {key: getattr(self, key) for key in NOISE if key != "peg_error"}
+        told["joint_friction"] = float(np.abs(self.joint_friction).max())
+        told["joint_angle"] = float(np.abs(self.joint_angle).max())
+        off = np.hypot(self.pegs[:, 0], self.pegs[:, 1])
+        return {"peg_error": float((off if pegs is None else off[pegs]).max(initial=0.0))} | told
+
+
+def draw(noise: Noise, robot: LimbedRobot, known: npt.NDArray[np.bool_], seed: int) -> Drawn:
+    """What a seed makes of a noise.
+
+    Each key draws from a stream of its own, and its draw is a share of its width: whatever becomes of other keys, it stays.
+
+    Args:
+        noise: Widths.
+        robot: As believed.
+        known: Which holds the robot is put on at the start: the map is measured from there, so it is right about them, shape (n_holds,).
+        seed: Of all draws.
+    """
+    n = len(robot.limbs)
+
+    def share(key: str, *shape: int) -> Floats:
+        stream = np.random.default_rng([seed, *key.encode()])
+        return noise.widths[key] * stream.uniform(-1.0, 1.0, shape)
+
+    return Drawn(
+        pegs=np.where(known[:, None], 0.0, share("peg_error", len(known), 2)),
+        joint_friction=share("joint_friction", n, 2),
+        joint_angle=share("joint_angle", n, 2),
+        **{
+            key: float(share(key))
+            for key in (
+                "backlash",
+                "assumed_backlash",
+                "friction",
+                "payload",
+                "hook_play",
+                "hook_friction",
+                "body_angle",
+            )
+        },
+    )
+
+
+def draw_for(task: LimbedTask, noise: Noise, seed: int) -> Drawn:
+    """What a seed makes of a noise for a task, whose start's holds are known (`draw`)."""
+    started = set(task.start.holds.values())
+    known = np.array([hold.number in started for hold in task.world.holds])
+    return draw(noise, task.robot, known, seed)
+
+
+def check_noise(noise: Noise, robot: LimbedRobot, flaws: LimbFlaws) -> None:
+    """Make sure that whatever is drawn can be built.
+
+    Raises:
+        NoiseError: If a width is more than what there is of it.
+    """
+    links = GRAVITY * sum(sum(limb.link_masses) for limb in robot.limbs)
+    for key, most in (
+        ("backlash", flaws.backlash),
+        ("assumed_backlash", robot.motor.backlash),
+        ("hook_play", HookShape().side_play),
+        ("payload", 1.0 - links / robot.weight),
+    ):
+        if noise.widths[key] > most:
+            there = f"must be at most {NOISE[key].shown(most)}, all that there is"
+            raise NoiseError(key, NOISE[key].shown(noise.widths[key]), there)
+
+
+def drawn_robot(robot: LimbedRobot, drawn: Drawn) -> LimbedRobot:
+    """The robot as it truly is: its load spread over the body, the friction of its joints and hooks."""
+    limbs = tuple(_drawn_limb(limb, drawn, i) for i, limb in enumerate(robot.limbs))
+    return replace(robot, weight=robot.weight * (1.0 + drawn.payload), limbs=limbs)
+
+
+def _drawn_limb(limb: Limb, drawn: Drawn, i: int) -> Limb:
+    shoulder, elbow = (
+        replace(joint, friction=joint.friction * (1.0 + drawn.friction) * (1.0 + float(drawn.joint_friction[i, j])))
+        for j, joint in enumerate((limb.shoulder, limb.elbow))
+    )
+    end = limb.end
+    if end.friction is not None:
+        end = replace(end, friction=end.friction * (1.0 + drawn.hook_friction))
+    return replace(limb, shoulder=shoulder, elbow=elbow, end=end)
+
+
+def drawn_flaws(flaws: LimbFlaws, drawn: Drawn) -> LimbFlaws:
+    """The flaws with the true backlash."""
+    return flaws.with_changes(backlash=max(0.0, flaws.backlash + drawn.backlash))
+
+
+def drawn_hook(drawn: Drawn) -> HookShape:
+    """The hooks' slots as they truly are."""
+    return HookShape(side_play=max(0.0, HookShape().side_play + drawn.hook_play))
+
+
+def encoder_offsets(drawn: Drawn) -> Floats:
+    """What every encoder tells too much: the body's first, then each limb's joints, shape (1 + 2 limbs,) [rad]."""
+    return np.concatenate([[drawn.body_angle], drawn.joint_angle.ravel()])
+
+
+def assumed_backlash(robot: LimbedRobot, drawn: Drawn) -> float:
+    """The play that the controller reckons with [rad]."""
+    return max(0.0, robot.motor.backlash + drawn.assumed_backlash)

@@ -1,0 +1,198 @@
+"""What a seed draws from a noise, and that each deviation does to the plant what it says."""
+
+import mujoco
+import numpy as np
+import pytest
+
+from clamber.execution.climb.climber import Climber
+from clamber.experiments.climb.noise import (
+    NO_NOISE,
+    NOISE,
+    NoiseError,
+    assumed_backlash,
+    check_noise,
+    draw,
+    drawn_flaws,
+    drawn_hook,
+    drawn_robot,
+    encoder_offsets,
+    named_noise,
+    noise_of,
+    read_noise,
+)
+from clamber.robots.library import load_robot
+from clamber.robots.limbed import LimbedRobot
+from clamber.sim.climber_plant import ClimberPlant
+from clamber.sim.limb_flaws import LimbFlaws
+from clamber.units import DEGREE, GRAVITY
+from clamber.worlds.library import load_board
+
+FLAWS = LimbFlaws(backlash=2.0 * DEGREE, physics_rate=1000.0)
+BOARD = load_board("ladder")
+HOLDS = np.zeros(len(BOARD.holds), bool)
+"""None of them known."""
+START = np.array((0.2286, 0.1374, 0.0))
+ON = {"right": 4, "left": 3, "bottom": 2}
+
+
+def libra() -> LimbedRobot:
+    robot = load_robot("libra")
+    assert isinstance(robot, LimbedRobot)
+    return robot
+
+
+def test_each_key_draws_from_its_own_stream() -> None:
+    usual = read_noise(named_noise("usual"), ["joint_friction=10%"])
+    all_drawn = draw(usual, libra(), HOLDS, 7)
+    for off in NOISE:
+        nothing = f"{off}=0{'%' if NOISE[off].dimension == 'ratio' else NOISE[off].unit}"
+        without = draw(read_noise(usual, [nothing]), libra(), HOLDS, 7)
+        for key in NOISE:
+            name = "pegs" if key == "peg_error" else key
+            kept, left = np.asarray(getattr(all_drawn, name)), np.asarray(getattr(without, name))
+            np.testing.assert_array_equal(left, np.zeros_like(kept) if key == off else kept)
+            assert np.any(kept != 0.0)
+
+
+def test_draws_fill_their_widths_evenly_and_scale_with_them() -> None:
+    usual, robot = named_noise("usual"), libra()
+    shares = np.array([draw(usual, robot, HOLDS, seed).friction for seed in range(600)]) / usual.widths["friction"]
+    assert np.abs(shares).max() <= 1.0
+    quarters = np.histogram(shares, bins=4, range=(-1.0, 1.0))[0]
+    assert np.abs(quarters - 150).max() < 4 * (600 * 0.25 * 0.75) ** 0.5  # four standard deviations
+    half = read_noise(usual, ["friction=15%"])
+    assert draw(half, robot, HOLDS, 3).friction == pytest.approx(draw(usual, robot, HOLDS, 3).friction / 2)
+    pegs = draw(usual, robot, HOLDS, 3).pegs
+    assert 0.004 < np.abs(pegs).max() <= 0.00635
+
+
+def test_holds_that_the_robot_is_put_on_are_where_the_map_says() -> None:
+    usual, known = named_noise("usual"), HOLDS.copy()
+    known[1:4] = True
+    drawn, free = draw(usual, libra(), known, 3), draw(usual, libra(), HOLDS, 3)
+    np.testing.assert_array_equal(drawn.pegs[known], 0.0)
+    np.testing.assert_array_equal(drawn.pegs[~known], free.pegs[~known])
+    far = np.hypot(*free.pegs.T)
+    assert free.to_json()["peg_error"] == far.max()
+    assert drawn.to_json(np.array([1, 6, 8], np.int32))["peg_error"] == max(far[6], far[8])
+
+
+def test_no_noise_leaves_the_nominal_plant() -> None:
+    robot, nothing = libra(), draw(NO_NOISE, libra(), HOLDS, 5)
+    assert drawn_robot(robot, nothing) == robot
+    assert drawn_flaws(FLAWS, nothing) == FLAWS
+    assert assumed_backlash(robot, nothing) == robot.motor.backlash
+    assert not encoder_offsets(nothing).any()
+    assert not any(nothing.to_json().values())
+
+
+def test_a_payload_raises_the_weight_on_the_pegs_by_that_much() -> None:
+    robot, noise = libra(), read_noise(NO_NOISE, ["payload=10%"])
+    forces = {}
+    for seed in (0, 1):
+        drawn = draw(noise, robot, HOLDS, seed)
+        plant = ClimberPlant(drawn_robot(robot, drawn), BOARD, FLAWS)
+        assert plant.model.body_mass.sum() * GRAVITY == pytest.approx(robot.weight * (1.0 + drawn.payload))
+        climber = Climber(robot, BOARD, plant)
+        climber.start(START, ON, idle="bottom", elbows={"right": -1, "left": 1})
+        climber.wait(2.0)
+        felt = []
+        for _ in range(100):
+            climber.tick()
+            felt.append(upward_on_robot(plant))
+        forces[drawn.payload] = float(np.mean(felt))
+    assert len(forces) == 2
+    for payload, force in forces.items():
+        assert force == pytest.approx(robot.weight * (1.0 + payload), rel=5e-3)
+
+
+def upward_on_robot(plant: ClimberPlant) -> float:
+    """Sum of what pegs do to hooks, upwards [N]."""
+    total, wrench = 0.0, np.zeros(6)
+    for k in range(plant._data.ncon):
+        contact = plant._data.contact[k]
+        mujoco.mj_contactForce(plant.model, plant._data, k, wrench)
+        force = contact.frame.reshape(3, 3).T @ wrench[:3]  # on the second geom
+        first_is_peg = plant.model.geom(contact.geom1).name.startswith("peg")
+        total += float(force[1]) * (1.0 if first_is_peg else -1.0)
+    return total
+
+
+def test_friction_of_joints_and_hooks_is_scaled() -> None:
+    robot = libra()
+    noise = read_noise(NO_NOISE, ["friction=30%", "joint_friction=20%", "hook_friction=25%"])
+    drawn = draw(noise, robot, HOLDS, 4)
+    nominal, plant = ClimberPlant(robot, BOARD, FLAWS), ClimberPlant(drawn_robot(robot, drawn), BOARD, FLAWS)
+    for i, limb in enumerate(robot.limbs):
+        for j, joint in enumerate(("shoulder", "elbow")):
+            at = plant.model.joint(f"{limb.name} {joint}").dofadr[0]
+            ratio = plant.model.dof_frictionloss[at] / nominal.model.dof_frictionloss[at]
+            assert ratio == pytest.approx((1.0 + drawn.friction) * (1.0 + drawn.joint_friction[i, j]))
+    hooks = plant.model.geom_contype == 1
+    np.testing.assert_allclose(
+        plant.model.geom_friction[hooks, 0], (1.0 + drawn.hook_friction) * nominal.model.geom_friction[hooks, 0]
+    )
+
+
+def test_backlash_and_slots_are_as_wide_as_drawn() -> None:
+    robot, noise = libra(), read_noise(NO_NOISE, ["backlash=0.5deg", "assumed_backlash=0.5deg", "hook_play=0.5mm"])
+    drawn = draw(noise, robot, HOLDS, 2)
+    plant = ClimberPlant(robot, BOARD, drawn_flaws(FLAWS, drawn), shape=drawn_hook(drawn))
+    low, high = plant.model.joint("left elbow play").range
+    assert high - low == pytest.approx(2.0 * DEGREE + drawn.backlash)
+    assert assumed_backlash(robot, drawn) == pytest.approx(2.0 * DEGREE + drawn.assumed_backlash)
+    assert drawn.backlash != drawn.assumed_backlash
+    nominal = ClimberPlant(robot, BOARD, FLAWS)
+    assert slot(plant) - slot(nominal) == pytest.approx(drawn.hook_play)
+
+
+def slot(plant: ClimberPlant) -> float:
+    """Distance of the walls of the first hook: its parallel strokes of equal length along the grab direction [m]."""
+    geoms = np.flatnonzero(plant.model.geom_contype == 1)[:5]  # bottom, then wall and lip on either side
+    return float(np.linalg.norm(plant.model.geom_pos[geoms[1]] - plant.model.geom_pos[geoms[3]]))
+
+
+def test_encoders_read_too_much_by_their_offsets() -> None:
+    robot = libra()
+    drawn = draw(read_noise(NO_NOISE, ["body_angle=1deg", "joint_angle=0.3deg"]), robot, HOLDS, 6)
+    plant = ClimberPlant(robot, BOARD, LimbFlaws(physics_rate=1000.0), offsets=encoder_offsets(drawn))
+    q = np.array([[0.3, -0.4], [-0.2, 0.5], [0.1, -0.1]])
+    plant.reset(np.array((0.2, 0.3, 0.05)), q)
+    sensed = plant.sense()
+    np.testing.assert_allclose(sensed.q - q, drawn.joint_angle, atol=1e-12)
+    assert sensed.angle - 0.05 == pytest.approx(drawn.body_angle)
+    np.testing.assert_allclose(plant.truth().q, q, atol=1e-12)
+    np.testing.assert_array_equal(sensed.qd, 0.0)
+
+
+def test_a_noise_comes_back_from_plain_data() -> None:
+    noise = read_noise(named_noise("usual"), ["friction = 12.5 %", "peg_error=0.25in"])
+    assert noise_of(noise.to_json()) == noise
+    assert noise.widths["peg_error"] == pytest.approx(0.00635)
+    assert "friction 12.5 %" in noise.words() and "6.35 mm" in noise.words()
+    assert read_noise(noise, ["none"]) == NO_NOISE
+    assert read_noise(NO_NOISE, ["usual", "payload=0%"]).widths["payload"] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("frction=30%", "did you mean 'friction'|friction"),
+        ("friction", "needs a width, as in friction=30 %"),
+        ("friction=30mm", "friction = 30mm: .*unit"),
+        ("friction=-3%", "must be 0 % or more"),
+        ("payload=100%", "less than 100 %"),
+        ("peg_error=3", "lacks its unit"),
+    ],
+)
+def test_a_wrong_width_is_told(text: str, message: str) -> None:
+    with pytest.raises(NoiseError, match=message):
+        read_noise(NO_NOISE, [text])
+
+
+@pytest.mark.parametrize(
+    "text", ["backlash=2.1deg", "assumed_backlash=3deg", "hook_play=1.1mm", "payload=70%"]
+)  # the links alone weigh a third
+def test_what_there_is_not_cannot_be_taken_away(text: str) -> None:
+    with pytest.raises(NoiseError, match="all that there is"):
+        check_noise(read_noise(NO_NOISE, [text]), libra(), FLAWS)
