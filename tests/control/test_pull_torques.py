@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from clamber.control.play import follow_play, pull_torques
 from clamber.control.chain import chain_of_limb
+from clamber.control.play import follow_play, pull_torques
 from clamber.execution.climb.whole_body import WholeBody
 from clamber.robots.library import load_robot
 from clamber.robots.limbed import LimbedRobot

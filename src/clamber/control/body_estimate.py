@@ -11,8 +11,8 @@ def estimate_body(legs, q, qd, weights, holds, angle, angle_speed, with_encoder,
     """Body pose and speed from the holding limbs.
 
     The angle is that of the seventh encoder, or that of the line between the tips of the first two holding limbs against the line of their
-    holds (exact for any pair that is apart). The place is the mean over the holding limbs of hold less tip, by weight: a limb that takes over
-    from another comes in little by little, and the pose does not jump.
+    holds (exact for any pair that is apart). The place is the mean over the holding limbs of hold less tip, by weight: a limb that takes
+    over from another comes in little by little, and the pose does not jump.
 
     Args:
         legs: Records of `LEG`, shape (n,).

@@ -1,9 +1,10 @@
 r"""How two limbs share what the body needs so that their hooks stay on: the internal force along the line of their holds. Kernels.
 
-Two holds bring a wrench with forces F_a = P_a + lambda u and F_b = P_b - lambda u, u the direction from a's hold to b's: balance fixes the
-rest, and lambda is free. Each hook wants its own hold's force -F within a cone about its grab direction g, and some pull along g; each motor
-has its limit. All of these are cuts c + d lambda >= 0, kept as rows (c, d) in newtons. Of the lambdas that meet them all, the one with the
-least effort is taken; where none does, the one whose worst cut is best: so the forces never jump while the body moves.
+Two holds bring a wrench with forces F_a = P_a + lambda u and F_b = P_b - lambda u, u the direction from a's hold to b's: balance
+fixes the rest, and lambda is free. Each hook wants its own hold's force -F within a cone about its grab direction g, and some pull
+along g; each motor has its limit. All of these are cuts c + d lambda >= 0, kept as rows (c, d) in newtons. Of the lambdas that meet
+them all, the one with the least effort is taken; where none does, the one whose worst cut is best: so the forces never jump while the
+body moves.
 """
 
 import math
@@ -38,8 +39,8 @@ FLAT = 1e-9
 def pair_forces(legs, q, a, b, pose, arms, wrench, more, cuts, forces):
     """Forces of two holds on their limbs, added up to a wrench, within what hooks and motors can take if there is such a split.
 
-    First comes the steady wrench, as is wished of hooks and motors. What is asked for besides, to bring the body back to its aim, may go up to
-    their bounds; of more than these allow it gets a part.
+    First comes the steady wrench, as is wished of hooks and motors. What is asked for besides, to bring the body back to its aim, may go up
+    to their bounds; of more than these allow it gets a part.
 
     Args:
         legs: Records of `LEG`, shape (n,).
@@ -130,7 +131,7 @@ def _jacobian(leg, q, angle):
 
 @inlined
 def _add_cuts(leg, q, angle, force, ux, uy, size, wishes, cuts, count):
-    """Cuts of one limb with the force `force` + lambda (ux, uy) of its hold; and of its effort in lambda half the slope at 0, and the square.
+    """Cuts of one limb whose hold gives `force` + lambda (ux, uy); and of its effort in lambda half the slope at 0 and the square.
 
     `wishes`: sine and cosine of the cone's half angle, pull along the grab direction [N], part of the motors' torque.
     """
@@ -207,7 +208,7 @@ def best_within(cuts, count, wished):
                 break
             lam = (cuts[falling, 0] - cuts[rising, 0]) / slope
             k = _least_cut(cuts, count, lam)
-            if k == rising or k == falling:
+            if k in (rising, falling):
                 break
             if cuts[k, 1] > FLAT:
                 rising = k

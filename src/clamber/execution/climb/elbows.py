@@ -18,7 +18,7 @@ BARRED: Final = 1e3
 """What counts a side that the plan's checks forbid."""
 LACKING: Final = 0.5
 """What counts each newton that the worst of two carrying limbs lacks of what is wished, after each action [1/N]."""
-ON_TOP: Final = 0.05
+ON_TOP: Final = 0.3
 """What a hook that pulls sideways instead of down counts after each action [-]."""
 
 
@@ -79,6 +79,6 @@ def _costs(robot: LimbedRobot, board: Board, stances: Records, states: Ints) -> 
                 q[i] = posture.angles
                 costs[step, k] += ON_TOP * (1.0 - posture.on_top)
             if len(carriers) == 2:
-                margin, _ = pair_forces(legs, q, *carriers, pose, arms, wrench, nothing, cuts, forces)
+                margin, _ = pair_forces(legs, q, carriers[0], carriers[1], pose, arms, wrench, nothing, cuts, forces)
                 costs[step, k] += LACKING * max(0.0, -margin)
     return costs

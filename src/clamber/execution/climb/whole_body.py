@@ -201,7 +201,7 @@ class WholeBody:
         self._handed = 0.0
 
     def stands(self, pose: Floats) -> float:
-        """How well the limbs that hold now would at another pose of the body, in newtons of the worst wish; -inf where one does not reach."""
+        """How well the limbs that hold now would at another pose of the body, in newtons of the worst wish; -inf out of reach."""
         carriers = [i for i, task in enumerate(self.tasks) if task.doing == "hold"]
         q, arms, forces = self.q.copy(), np.zeros((self.n, 2)), np.zeros((self.n, 2))
         for i in carriers:
@@ -217,7 +217,9 @@ class WholeBody:
         if len(carriers) != 2:
             return 0.0
         wrench = np.array((0.0, self.robot.weight, weight_moment(self.legs, q, pose[2])))
-        margin, _ = pair_forces(self.legs, q, *carriers, pose, arms, wrench, np.zeros(3), self._cuts, forces)
+        margin, _ = pair_forces(
+            self.legs, q, carriers[0], carriers[1], pose, arms, wrench, np.zeros(3), self._cuts, forces
+        )
         return float(margin)
 
     @property
