@@ -20,8 +20,8 @@ class PlainBody(WholeBody):
     def see(self, q: Floats, qd: Floats, angle: float, angle_speed: float, *, with_encoder: bool = True) -> None:
         self.q[:], self.qd[:] = q, qd
         for i, task in enumerate(self.tasks):
-            self.held[i] = task.doing == "hold"
-            if task.doing == "hold":
+            self.held[i] = task.holds
+            if task.holds:
                 self._holds[i] = task.place
         self._pass_load()
         for angles, tips, speeds, pose, twist in (
@@ -97,6 +97,8 @@ class PlainBody(WholeBody):
                 torques[:] = self.chains[i].joints["share"] * (
                     gains.joint_kp * (task.angles - self.q[i]) + gains.joint_kd * (task.rates - self.qd[i])
                 )
+                if task.doing == "hang":
+                    torques += task.loads
             pressed[i] = task.doing == "cling" or (task.doing == "pull" and task.pressed)
             if task.doing in ("tip", "pull", "cling"):
                 most = gains.firm if task.pressed else gains.gentle

@@ -35,7 +35,19 @@ def busy_pair(robot: LimbedRobot, gains: BodyGains, rng: np.random.Generator) ->
         for i, doing in enumerate(doings):
             place, speed, angles, rates, force, tug = numbers[i] * np.array([[0.3], [0.1], [1.0], [1.0], [10.0], [5.0]])
             pressed = bool(numbers[i, 0, 0] > 0.0)
-            body.tasks[i] = LimbTask(doing, i + 1, place, speed, angles, rates, force, tug, pressed=pressed)
+            loads = numbers[i, 0] + numbers[i, 1]
+            body.tasks[i] = LimbTask(
+                doing,
+                i + 1,
+                place,
+                speed,
+                angles=angles,
+                rates=rates,
+                loads=loads,
+                force=force,
+                tug=tug,
+                pressed=pressed,
+            )
     return pair
 
 

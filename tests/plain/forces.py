@@ -11,7 +11,17 @@ from typing import Any
 import numpy as np
 from scipy.optimize import linprog
 
-from .carriers import Carrier, balance, best_option, general_split, placed, strength_rows, torque_rows, torques
+from .carriers import (
+    Carrier,
+    balance,
+    best_option,
+    general_split,
+    placed,
+    strength_of,
+    strength_rows,
+    torque_rows,
+    torques,
+)
 from .hook import BIG, EXACT, cone_cuts, force_cuts, lam_interval
 from .kinematics import Option, Point
 
@@ -97,7 +107,7 @@ def many_carrier_split(carriers: list[Carrier], options: list[Option], task: Any
         for cut in cone_cuts(c, o, task.rules.hook_cone):
             cuts.append([-x for x in placed(cut, i, n)])
             right.append(0.0)
-        normals, distance = strength_rows(c.hold)
+        normals, distance = strength_rows(strength_of(c.limb, c.hold))
         for normal in normals:
             cuts.append(placed(normal, i, n))
             right.append(distance)

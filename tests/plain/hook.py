@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import linprog
 
-from .carriers import Carrier, balance, general_split, placed, strength_rows, torque_rows
+from .carriers import Carrier, balance, general_split, placed, strength_of, strength_rows, torque_rows
 from .kinematics import EPS, Option, Point
 
 BIG = 1e6
@@ -53,20 +53,20 @@ def cone_cuts(carrier: Carrier, o: Option, hook_cone: float) -> list[Point]:
     return rows
 
 
-def strength_sides(hold: Any, const: Point, slope: Point) -> list[Cut]:
+def strength_sides(strength: float | None, const: Point, slope: Point) -> list[Cut]:
     """|const + slope lambda| <= strength as one cut from below and one from above, at the roots of the quadratic.
 
     Without real roots no lambda helps: then a constant, strength minus the least |F|.
     """
-    if hold.strength is None:
+    if strength is None:
         return []
     a = slope[0] ** 2 + slope[1] ** 2
     b = 2.0 * (const[0] * slope[0] + const[1] * slope[1])
-    c = const[0] ** 2 + const[1] ** 2 - hold.strength**2
+    c = const[0] ** 2 + const[1] ** 2 - strength**2
     nearest = -b / (2.0 * a)
     least = math.hypot(const[0] + nearest * slope[0], const[1] + nearest * slope[1])
-    if least > hold.strength:
-        return [Cut(hold.strength - least, 0.0)]
+    if least > strength:
+        return [Cut(strength - least, 0.0)]
     low, high = sorted(float(x.real) for x in np.roots([a, b, c]))
     return [Cut(-low, 1.0), Cut(high, -1.0)]
 
@@ -77,7 +77,7 @@ def force_cuts(pair: tuple[Carrier, ...], options: tuple[Option, ...], split: An
     for carrier, o, (const, slope) in zip(pair, options, split, strict=True):
         for cx, cy in cone_cuts(carrier, o, hook_cone):
             cuts.append(Cut(cx * const[0] + cy * const[1], cx * slope[0] + cy * slope[1]))
-        cuts.extend(strength_sides(carrier.hold, const, slope))
+        cuts.extend(strength_sides(strength_of(carrier.limb, carrier.hold), const, slope))
     return cuts
 
 
@@ -131,8 +131,9 @@ def hang_margins(carrier: Carrier, weight: float, turn: float, hook_cone: float)
                 terms.append(weight * (-math.sin(angle) - math.cos(half)))
         for direction, half in ends[len(ends) - on_hold :]:
             terms.append(weight * (-math.sin(direction) - math.cos(half)))
-        if carrier.hold.strength is not None:
-            terms.append(carrier.hold.strength - weight)
+        strength = strength_of(carrier.limb, carrier.hold)
+        if strength is not None:
+            terms.append(strength - weight)
         found[o.branch] = min(terms)
     return found
 
@@ -149,7 +150,7 @@ def many_margin(carriers: list[Carrier], options: list[Option], weight: float, h
         for row, sign in itertools.product(torque_rows(c, o), (1.0, -1.0)):
             rows.append([sign * x for x in placed(row, i, n)] + [0.0])
             right.append(1.0)
-        normals, distance = strength_rows(c.hold)
+        normals, distance = strength_rows(strength_of(c.limb, c.hold))
         for normal in normals:
             rows.append([*placed(normal, i, n), 0.0])
             right.append(distance)

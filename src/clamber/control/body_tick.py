@@ -17,7 +17,7 @@ from .leg import LEG
 from .play import follow_play, pull_torques, weight_loads, weight_moment
 from .records import AIM, AXES
 
-HOLD, CLING, TIP, JOINTS, PULL = range(5)
+HOLD, CLING, TIP, JOINTS, PULL, HANG = range(6)
 """What a limb is doing."""
 CLING_DAMPING = 60.0
 """Of the tip of a limb that clings [N s/m]."""
@@ -52,8 +52,9 @@ JOB = np.dtype(
         ("pressed", "i4"),  # of PULL: whether the tip has stopped against something
         ("place", "f8", (2,)),  # of CLING: the hold, of TIP: the aim, world frame
         ("speed", "f8", (2,)),  # of that aim
-        ("angles", "f8", (2,)),  # of JOINTS
+        ("angles", "f8", (2,)),  # of JOINTS and HANG
         ("rates", "f8", (2,)),
+        ("loads", "f8", (2,)),  # of HANG: torques besides
         ("force", "f8", (2,)),  # of PULL: of the tip on what it meets, world frame
         ("tug", "f8", (2,)),  # the steady part of that, which the body leans on
         ("damping", "f8"),
@@ -296,6 +297,9 @@ def command_tick(table, handed):
             torques[i, 1] = leg.share2 * (
                 gains.joint_kp * (job.angles[1] - q[i, 1]) + gains.joint_kd * (job.rates[1] - qd[i, 1])
             )
+            if job.doing == HANG:
+                torques[i, 0] += job.loads[0]
+                torques[i, 1] += job.loads[1]
         pressed[i] = job.doing == CLING or (job.doing == PULL and job.pressed != 0)
         if job.doing == TIP or job.doing == PULL or job.doing == CLING:
             most = gains.firm if job.pressed else gains.gentle

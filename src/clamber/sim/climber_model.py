@@ -1,10 +1,11 @@
-"""A climber on its board as a MuJoCo model: a planar floating body, limbs with play, hooks that pegs slide into, pegs where they truly are.
+"""A climber on its board as a MuJoCo model: a planar body, limbs with play, hooks that pegs slide into or grippers, true pegs.
 
 World frame: x right, y up, z out of the wall. All that touches lies in the plane z = 0, pegs as spheres and hooks as capsules in it, so
 each contact is one point and quick; a peg is a bolt, and nothing moves along it.
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -12,9 +13,11 @@ import numpy as np
 
 from ..control.chain import chain_of_limb
 from ..robots.limbed import Limb, LimbedRobot
+from ..robots.masses import body_inertia, body_mass
 from ..types import Floats
 from ..units import GRAVITY
 from ..worlds.board import Board
+from .gripper_model import add_gripper
 from .limb_flaws import LimbFlaws
 from .limb_model import add_link
 
@@ -95,28 +98,12 @@ def _contact(friction: float) -> dict[str, Any]:
 def _add_body(mujoco: Any, spec: Any, robot: LimbedRobot) -> Any:
     body = spec.worldbody.add_body(name="body")
     body.explicitinertial = True
-    links = sum(sum(limb.link_masses) for limb in robot.limbs)
-    body.mass = robot.weight / GRAVITY - links
-    body.inertia = (
-        body.mass * body_inertia(robot) / 2,
-        body.mass * body_inertia(robot) / 2,
-        body.mass * body_inertia(robot),
-    )
+    body.mass, inertia = body_mass(robot), body_inertia(robot)
+    body.inertia = (inertia / 2, inertia / 2, inertia)
     for name, axis in (("x", (1, 0, 0)), ("y", (0, 1, 0))):
         body.add_joint(name=name, type=mujoco.mjtJoint.mjJNT_SLIDE, axis=axis)
     body.add_joint(name="theta", type=mujoco.mjtJoint.mjJNT_HINGE, axis=(0, 0, 1))
     return body
-
-
-def body_inertia(robot: LimbedRobot) -> float:
-    """Inertia of the body about its origin per mass [m^2]: an even plate over the triangle, or polygon, of its ports."""
-    ports = sorted(((limb.port_x, limb.port_y) for limb in robot.limbs), key=lambda p: math.atan2(p[1], p[0]))
-    area = second = 0.0
-    for (x0, y0), (x1, y1) in zip(ports, ports[1:] + ports[:1], strict=True):
-        cross = x0 * y1 - x1 * y0
-        area += cross / 2
-        second += cross * (x0 * x0 + x0 * x1 + x1 * x1 + y0 * y0 + y0 * y1 + y1 * y1) / 12
-    return second / area if area > 0.0 else max(x * x + y * y for x, y in ports) / 2
 
 
 def _add_limb(
@@ -150,10 +137,19 @@ def _add_limb(
             )
     tip = chain.root["tip"][0]
     parent.add_site(name=f"{limb.name} tip", pos=tip)
-    _add_hook(mujoco, parent, limb, tip, shape, peg_radius)
+    END_MODELS[limb.end.kind](mujoco, spec, parent, limb, tip, shape, peg_radius)
 
 
-def _add_hook(mujoco: Any, link: Any, limb: Limb, tip: Floats, shape: HookShape, peg_radius: float) -> None:
+def _add_gripper(mujoco: Any, spec: Any, link: Any, limb: Limb, tip: Floats, _: HookShape, peg_radius: float) -> None:
+    add_gripper(mujoco, spec, link, limb, tip, peg_radius, _hook_touch(limb))
+
+
+def _hook_touch(limb: Limb) -> dict[str, Any]:
+    friction = 0.2 if limb.end.friction is None else limb.end.friction
+    return {"contype": HOOKS, "conaffinity": PEGS} | _contact(friction)
+
+
+def _add_hook(mujoco: Any, _: Any, link: Any, limb: Limb, tip: Floats, shape: HookShape, peg_radius: float) -> None:
     """Bottom, walls and lips about a peg that is seated with its centre at the tip; g is the grab direction, h across it."""
     g = np.array((math.cos(limb.end.angle), math.sin(limb.end.angle), 0.0))
     h = np.array((-g[1], g[0], 0.0))
@@ -166,14 +162,16 @@ def _add_hook(mujoco: Any, link: Any, limb: Limb, tip: Floats, shape: HookShape,
     for sign in (-1.0, 1.0):
         wall = edge + sign * side * h
         strokes += [(bottom + sign * side * h, wall), (wall, wall + lip + sign * out)]
-    friction = 0.2 if limb.end.friction is None else limb.end.friction
+    touch = _hook_touch(limb)
     for start, end in strokes:
         link.add_geom(
             type=mujoco.mjtGeom.mjGEOM_CAPSULE,
             fromto=(*start, *end),
             size=(shape.wire, 0.0, 0.0),
-            contype=HOOKS,
-            conaffinity=PEGS,
             mass=0.0,
-            **_contact(friction),
+            **touch,
         )
+
+
+END_MODELS: Final[dict[str, Callable[..., None]]] = {"hook": _add_hook, "foot": _add_hook, "gripper": _add_gripper}
+"""Kind of end effector -> what adds it to a limb's last link; a foot pushes with a hook's bottom."""

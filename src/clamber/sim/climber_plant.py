@@ -8,10 +8,11 @@ from ..control.chain import chain_of_limb
 from ..execution.plant import BodySensed, BodyTruth
 from ..execution.wiring import encoder_resolution
 from ..robots.limbed import LimbedRobot
-from ..types import Floats
+from ..types import Floats, Ints
 from ..worlds.board import Board
 from .climber_model import HookShape, climber_spec
 from .climber_wires import command_motors, sense_climber
+from .grippers import Grippers
 from .limb_flaws import LimbFlaws
 
 
@@ -73,6 +74,9 @@ class ClimberPlant:
         self._wanted_by_limb = self._wanted.reshape(-1, 2)
         self._motor_speeds = np.zeros((1, n))
         self._pushed = self._data.xfrc_applied[self.model.body("body").id]
+        radius, places = max(hold.radius for hold in board.holds), board.positions() if pegs is None else pegs
+        self.grippers = Grippers(robot, places, radius, self.model, self._data, self.period)
+        self._grips = np.zeros(len(robot.limbs), np.int32)
         self.tick = 0
 
     @property
@@ -89,6 +93,8 @@ class ClimberPlant:
         self._qpos[self._at[1:]] = np.ravel(q)
         mujoco.mj_forward(self.model, self._data)
         self._wanted[:] = 0.0
+        self._grips[:] = 0
+        self.grippers.reset()
         self._ring[:] = 0.0
         self.tick = 0
 
@@ -98,11 +104,14 @@ class ClimberPlant:
             self._qpos, self._qvel, self._at, self._speed_at, self._offsets, self._angles, self._speeds, self._counts, self.period,
             self.tick, self._ring, self._before, self._states,
         )  # fmt: skip
-        return BodySensed(self._q, self._qd, self._states.item(0, 0, 0), self._states.item(0, 1, 0))
+        return BodySensed(
+            self._q, self._qd, self._states.item(0, 0, 0), self._states.item(0, 1, 0), self.grippers.gripped
+        )
 
-    def actuate(self, torques: Floats) -> None:
-        """Set the motors' torques, held until the next call, shape (limbs, 2) [N m]."""
+    def actuate(self, torques: Floats, grips: Ints) -> None:
+        """Set the motors' torques, shape (limbs, 2) [N m], and the grippers that are shut, 1 or 0, shape (limbs,), until the next call."""
         self._wanted_by_limb[:] = torques
+        self._grips[:] = grips
 
     def push(self, force: tuple[float, float]) -> None:
         """Push the body at its centre until the next call, world frame [N]."""
@@ -113,6 +122,7 @@ class ClimberPlant:
 
     def step(self) -> None:
         """Let one control period pass."""
+        self.grippers.act(self._grips)
         steady = self._drive(self.period)
         if steady:
             self._step(self.model, self._data, self.flaws.steps)
@@ -120,6 +130,7 @@ class ClimberPlant:
             for _ in range(self.flaws.steps):
                 self._drive(0.0)
                 self._step(self.model, self._data, 1)
+        self.grippers.feel()
         self.tick += 1
 
     def _drive(self, time: float) -> bool:

@@ -31,8 +31,9 @@ def interval(limb, hold, solved, branch, px, py, f, with_torque):
         lo, hi, flat = cut_cone(lo, hi, flat, solved[at + 3], solved[at + 4], limb.c_cone, limb.s_cone, f)
     if hold.c_cone > -1.5:
         lo, hi, flat = cut_cone(lo, hi, flat, hold.dir_x, hold.dir_y, hold.c_cone, hold.s_cone, f)
-    if hold.strength < math.inf:
-        lo, hi, flat = cut_strength(lo, hi, flat, hold.strength, f)
+    strength = min(hold.strength, limb.strength)
+    if strength < math.inf:
+        lo, hi, flat = cut_strength(lo, hi, flat, strength, f)
     if with_torque:
         for joint in range(2):
             rx = hold.x - (px if joint == 0 else solved[at + 1])
@@ -83,8 +84,9 @@ def hang_margin(p, s, a, use):
     fixed = UNLIMITED
     if hold.c_cone > -1.5:
         fixed = min(fixed, weight * (-hold.dir_y - hold.c_cone))
-    if hold.strength < math.inf:
-        fixed = min(fixed, hold.strength - weight)
+    strength = min(hold.strength, limb.strength)
+    if strength < math.inf:
+        fixed = min(fixed, strength - weight)
     best = -math.inf
     good = 0
     for i in range(2):

@@ -38,6 +38,7 @@ LIMB = np.dtype(
         ("heat2", "f8"),
         ("c_cone", "f8"),  # cosine and sine of the end effector's cone; c_cone = -2 means any direction
         ("s_cone", "f8"),
+        ("strength", "f8"),  # of the end effector; inf: any force
     ],
     align=True,
 )

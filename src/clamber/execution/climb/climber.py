@@ -1,14 +1,14 @@
 """A climber that carries out actions: one tick of sensing and commanding at a time, falls seen, holds corrected as hooks feel them."""
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
 from ...robots.limbed import LimbedRobot
-from ...types import Floats
+from ...types import Floats, Ints
 from ...worlds.board import Board
 from ..plant import BodyPlant
 from .approach import Approaches, rank
@@ -70,8 +70,16 @@ class Climber:
         self.map = HoldMap(self.holds, map_error)
         self.peg_radius = max(hold.radius for hold in board.holds)
         self.approaches = Approaches(robot, self.body.legs, lambda number: self.peg_radius + self.map.error(number))
+        self.balance: Callable[[], None] | None = None
+        """Told at every tick between sensing and commanding, while the body hangs on one limb."""
+        n = len(robot.limbs)
+        self.grips: Ints = np.zeros(n, np.int32)
+        """1 for grippers that are to be shut, shape (limbs,); other ends don't care."""
+        self.gripped: Ints = np.zeros(n, np.int32)
+        """1 for grippers that are closed about something, as last sensed, shape (limbs,)."""
+        self._gripping = [i for i, limb in enumerate(robot.limbs) if limb.end.kind == "gripper"]
         self.ticks = 0
-        self._strained = 0
+        self._strained = self._slipped = 0
 
     @property
     def time(self) -> float:
@@ -98,27 +106,33 @@ class Climber:
                 q[i] = rank(postures(limb, pose, place), elbows.get(limb.name, 0))[0].angles
                 task = LimbTask("cling" if limb.name == idle else "hold", number, place.copy())
             task.angles = q[i].copy()
+            self.grips[i] = number > 0
             self.body.tasks[i] = task
         self.map.know(number for number in holds.values() if number)
         self.plant.reset(pose, q)
         self.body.pose[:], self.body.settled[:], self.body.aim[:] = pose, pose, pose
         self.body.aim_speed[:] = 0.0
-        self.ticks = self._strained = 0
+        self.balance = None
+        self.ticks = self._strained = self._slipped = 0
         self.fall.reset()
 
     def tick(self) -> None:
         """Sense, command, step.
 
         Raises:
-            FallenError: If no limb holds, nothing carries the robot, a hook has come off, or the body is far or turned from its aim.
+            FallenError: If no limb holds, nothing carries the robot, a hook has come off or a gripper slipped, or the body is far or turned
+                from its aim.
         """
         sensed = self.plant.sense()
         self.body.see(sensed.q, sensed.qd, sensed.angle, sensed.angle_speed)
+        if self.balance is not None:
+            self.balance()
+        self.gripped[:] = sensed.gripped
         falls = self.fall.see()
-        self.plant.actuate(self.body.command())
+        self.plant.actuate(self.body.command(), self.grips)
         self.plant.step()
         self.ticks += 1
-        holding = [i for i, task in enumerate(self.body.tasks) if task.doing == "hold"]
+        holding = [i for i, task in enumerate(self.body.tasks) if task.holds]
         if not holding:
             raise FallenError("no limb holds the body")
         if falls:
@@ -130,10 +144,21 @@ class Climber:
             raise FallenError(
                 f"a hook has come off: two holding tips are {1e3 * strain:.0f} mm off their holds' distance"
             )
+        if self.body.tasks[holding[0]].doing == "hang":
+            self.body.aim[:] = self.body.pose  # it swings where it will
+        lost = [i for i in self._gripping if self.body.tasks[i].doing == "hold" and not self.gripped[i]]
+        self._slipped = self._slipped + 1 if lost else 0
+        if self._slipped * self.plant.period > 0.1:
+            raise FallenError(f"the gripper of '{self.robot.limbs[lost[0]].name}' has slipped off its hold")
         off = math.dist(self.body.aim[:2], self.body.pose[:2])
         turned = abs(float(self.body.pose[2] - self.body.aim[2]))
         if off > ASTRAY or turned > TURNED:
             raise FallenError(f"the body is {1e3 * off:.0f} mm off its aim and turned by {np.degrees(turned):.0f} deg")
+
+    @property
+    def hangs(self) -> bool:
+        """Whether one limb holds the body, which swings as it will."""
+        return any(task.doing == "hang" for task in self.body.tasks)
 
     def wait(self, seconds: float) -> None:
         """Let time pass [s]."""
@@ -142,6 +167,8 @@ class Climber:
 
     def carry_with_all(self, but: int) -> None:
         """Let every limb on a hold carry, but one that is about to leave; the load passes while all are still on their holds."""
+        if self.hangs:
+            return
         self.body.hand_over([i for i, task in enumerate(self.body.tasks) if i != but and task.hold])
         while self.body.handing_over:
             self.tick()

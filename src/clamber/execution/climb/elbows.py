@@ -1,5 +1,6 @@
 """The side of every elbow for a plan that is to be carried out: one that serves until the limb leaves, and hooks that can bear it."""
 
+from collections.abc import Callable
 from itertools import product
 from typing import Final
 
@@ -10,7 +11,7 @@ from ...robots.limbed import LimbedRobot
 from ...types import Floats, Ints, Records
 from ...worlds.board import Board
 from .legs import legs_of
-from .postures import postures
+from .postures import Posture, postures
 
 CHANGE: Final = 0.4
 """What a change of side counts, where 1 is a hook that pulls sideways instead of down [-]."""
@@ -20,6 +21,8 @@ LACKING: Final = 0.5
 """What counts each newton that the worst of two carrying limbs lacks of what is wished, after each action [1/N]."""
 ON_TOP: Final = 0.3
 """What a hook that pulls sideways instead of down counts after each action [-]."""
+OFF_PLAN: Final = 0.2
+"""What counts after each action a side that is not the one whose links the plan's checks have looked at [-]."""
 
 
 def choose_elbows(robot: LimbedRobot, board: Board, stances: Records) -> Ints:
@@ -77,8 +80,25 @@ def _costs(robot: LimbedRobot, board: Board, stances: Records, states: Ints) -> 
                     continue
                 posture = found[i][int(state[i])]
                 q[i] = posture.angles
-                costs[step, k] += ON_TOP * (1.0 - posture.on_top)
+                off_plan = int(stance["branch"][i]) != int(state[i])
+                costs[step, k] += DRAWBACKS[robot.limbs[i].end.kind](posture, off_plan)
             if len(carriers) == 2:
                 margin, _ = pair_forces(legs, q, carriers[0], carriers[1], pose, arms, wrench, nothing, cuts, forces)
                 costs[step, k] += LACKING * max(0.0, -margin)
     return costs
+
+
+def _not_on_top(posture: Posture, _: bool) -> float:
+    return ON_TOP * (1.0 - posture.on_top)
+
+
+def _not_planned(_: Posture, off_plan: bool) -> float:
+    return OFF_PLAN * off_plan
+
+
+DRAWBACKS: Final[dict[str, Callable[[Posture, bool], float]]] = {
+    "hook": _not_on_top,
+    "foot": _not_on_top,
+    "gripper": _not_planned,
+}
+"""Kind of end effector -> what its posture, or one off the plan, counts after each action; a gripper may hold from anywhere."""

@@ -34,6 +34,8 @@ DITHER: Final = 8.0
 """Pull across, to and fro, so that friction lets the hook slide in [N]."""
 DITHER_RATE: Final = 5.0
 """[Hz]."""
+HANGING: Final = 0.4
+"""Part of these forces where the body hangs on one limb, which gives way [-]."""
 CENTRING: Final = 150.0
 """Pull towards the believed hold across the hook [N/m]."""
 ADVANCE: Final = 0.0015
@@ -54,9 +56,7 @@ SLACK: Final = 0.006
 
 def move_body(climber: Climber, pose: Floats, *, speed: float = BODY_SPEED) -> None:
     """Bring the body to a pose (x, y, theta) along a straight smooth way; free limbs first go to where they meet no hold on it."""
-    for i, task in enumerate(climber.body.tasks):
-        if not task.hold:
-            _park(climber, i, pose)
+    clear_the_way(climber, pose)
     body, period = climber.body, climber.plant.period
     start = body.aim.copy()
     change = pose - start
@@ -68,6 +68,13 @@ def move_body(climber: Climber, pose: Floats, *, speed: float = BODY_SPEED) -> N
         body.aim_speed[:] = 6 * u * (1 - u) / seconds * change
         climber.tick()
     body.aim_speed[:] = 0.0
+
+
+def clear_the_way(climber: Climber, pose: Floats) -> None:
+    """Bring free limbs to where they meet no hold while the body goes straight to a pose."""
+    for i, task in enumerate(climber.body.tasks):
+        if not task.hold:
+            _park(climber, i, pose)
 
 
 def _park(climber: Climber, i: int, pose: Floats) -> None:
@@ -150,7 +157,7 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
     found = _find(climber, i, hold, elbow, wished, near)
     if found is None:
         return Grabbed(False, 0, 0.0, 0.0)
-    if found.shift.any():
+    if found.shift.any() and not climber.hangs:
         move_body(climber, body.aim + np.array((*found.shift, 0.0)))
         found = _find(climber, i, hold, elbow, wished, near) or found
     follow(climber, i, found.way)
@@ -166,7 +173,7 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
         along, across = float(off @ g), float(off @ h)
         room = climber.map_error + SLACK
         if stopped and along > -room and abs(across) < room:
-            climber.learn(number, i, [j for j, other in enumerate(body.tasks) if other.doing == "hold"])
+            climber.learn(number, i, [j for j, other in enumerate(body.tasks) if other.holds])
             task.doing, task.hold, task.place = "cling", number, climber.holds[number].copy()
             climber.wait(0.1)
             return Grabbed(True, tries, along, across)
@@ -198,13 +205,14 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats) -> bool:
     still = tugged = 0.0
     tugging, seated, mark = False, False, -np.inf
     rested = body.pose[:2].copy()
+    part = HANGING if climber.hangs else 1.0
     for k in range(round(PATIENCE / period)):
         along = body.grab_direction(i)
         across = np.array((-along[1], along[0]))
         size = PUSH + (TUG - PUSH) * min(tugged / TUG_RISE, 1.0)
         lifted = float((rested - body.pose[:2]) @ g)
-        size *= np.interp(lifted, LIFT, (1.0, 1 / 3))
-        side = DITHER * np.sin(2 * np.pi * DITHER_RATE * k * period)
+        size *= part * np.interp(lifted, LIFT, (1.0, 1 / 3))
+        side = part * DITHER * np.sin(2 * np.pi * DITHER_RATE * k * period)
         if tugging:
             tugged += period
             task.tug = size * along

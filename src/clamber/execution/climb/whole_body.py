@@ -30,9 +30,12 @@ from ...types import Floats, Records
 from .legs import legs_of
 from .postures import postures
 
-Doing: TypeAlias = Literal["hold", "cling", "tip", "joints", "pull"]
-"""A limb holds the body, clings to its hold without carrying, brings its tip or its joints somewhere, or pulls along a direction."""
-DOING: Final = {"hold": at.HOLD, "cling": at.CLING, "tip": at.TIP, "joints": at.JOINTS, "pull": at.PULL}
+Doing: TypeAlias = Literal["hold", "hang", "cling", "tip", "joints", "pull"]
+"""A limb holds the body, holds it alone while it swings as it will, clings to its hold without carrying, brings its tip or its joints
+somewhere, or pulls along a direction."""
+DOING: Final = {
+    "hold": at.HOLD, "hang": at.HANG, "cling": at.CLING, "tip": at.TIP, "joints": at.JOINTS, "pull": at.PULL,
+}  # fmt: skip
 MAPPINGS: Final = {"thesis": THESIS, "kinematic": KINEMATIC, "wrench": WRENCH}
 PLAY_TIME: Final = 0.2
 """Time in which the believed side of the play follows the load [s]."""
@@ -90,8 +93,10 @@ class LimbTask:
     speed: Floats = field(default_factory=lambda: np.zeros(2))
     """Of the aim [m/s]."""
     angles: Floats = field(default_factory=lambda: np.zeros(2))
-    """Of "joints" [rad]."""
+    """Of "joints" and "hang" [rad]."""
     rates: Floats = field(default_factory=lambda: np.zeros(2))
+    loads: Floats = field(default_factory=lambda: np.zeros(2))
+    """Of "hang": torques that bear the weight [N m]."""
     force: Floats = field(default_factory=lambda: np.zeros(2))
     """Of "pull": what the tip does to what it meets, world frame [N]."""
     tug: Floats = field(default_factory=lambda: np.zeros(2))
@@ -100,6 +105,11 @@ class LimbTask:
     """Of "pull": of the tip's motion in the world [N s/m]."""
     pressed: bool = False
     """Of "pull": whether the tip has stopped against something, which then loads the joints."""
+
+    @property
+    def holds(self) -> bool:
+        """Whether the limb carries the body."""
+        return self.doing in ("hold", "hang")
 
 
 class WholeBody:
@@ -183,8 +193,8 @@ class WholeBody:
         """Take in a tick's measurements and estimate where the body is."""
         self.q[:], self.qd[:] = q, qd
         for i, task in enumerate(self.tasks):
-            self.held[i] = task.doing == "hold"
-            if task.doing == "hold":
+            self.held[i] = task.holds
+            if task.holds:
                 self._holds[i] = task.place
         self._pass_load()
         see_tick(self._table, angle, angle_speed, with_encoder)
@@ -294,8 +304,8 @@ class WholeBody:
                 job["place"][i], job["speed"][i] = task.place, task.speed
             elif doing == "pull":
                 job["force"][i], job["tug"][i], job["damping"][i] = task.force, task.tug, task.damping
-            elif doing == "joints":
-                job["angles"][i], job["rates"][i] = task.angles, task.rates
+            elif doing in ("joints", "hang"):
+                job["angles"][i], job["rates"][i], job["loads"][i] = task.angles, task.rates, task.loads
         bad = command_tick(self._table, self._part() if self.handing_over else 1.0)
         if bad >= 0:
             self._complain(bad)

@@ -50,8 +50,9 @@ def cautious(task: LimbedTask, share: float, spare: float) -> LimbedTask:
         spare: Reach that grabs leave, unless the task's rules leave more [in].
     """
     document = copy.deepcopy(task.document)
-    board = {key: value for key, value in document["board"].items() if key not in GENERATORS}
-    document["board"] = board | {"holds": [_pulled_down(hold) for hold in task.world.holds]}
+    if any(limb.end.kind != "gripper" for limb in task.robot.limbs):  # grippers may well push one against the other
+        board = {key: value for key, value in document["board"].items() if key not in GENERATORS}
+        document["board"] = board | {"holds": [_pulled_down(hold) for hold in task.world.holds]}
     changed = task_from_document(document, "cautious task")
     offset = max(task.rules.reach_offset, spare * INCH)
     limits = [f"rules.reach_offset={offset!r} m", f"motor.torque_limit={share * task.robot.motor.torque_limit!r} N m"]
