@@ -56,7 +56,7 @@ def _wrench(stand: BodyStand, gains: BodyGains, aim: Floats, pose: Floats) -> Fl
     for i, task in enumerate(body.tasks):
         if task.doing == "hold":
             if gains.scheme == "body":  # which feeds each limb's own weight, too
-                weight_loads(body.legs[i], body.q[i], body.pose[2], own)
+                own = np.array(weight_loads(body.legs[i], body.q[i], body.pose[2]))
             total += tip_wrench(body, i, torques[i] - own)
     return total
 
