@@ -67,9 +67,7 @@ def force(
         gap=read_number("gap", gap, "length"),
         tolerance=read_number("tolerance", tolerance, "force"),
     )
-    words = opt.BenchWords(
-        None, None, None, opt.MatchChoice.none, "scct", robot, limb, start, elbow, "mujoco", flaws, settings, seed, 1
-    )
+    words = opt.BenchWords(robot=robot, limb=limb, start=start, elbow=elbow, flaws=flaws, settings=settings, seed=seed)
     properties = words.build_plant()
     announce_compilation("drive", quiet=quiet)
     chosen = words.build_limb(properties)

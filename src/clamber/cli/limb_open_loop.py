@@ -42,7 +42,7 @@ def open_loop(
     from .open_loop_text import print_open_loop, write_open_loop
 
     words = opt.BenchWords(
-        None, None, None, opt.MatchChoice.none, "scct", robot, limb, start, elbow, plant, flaws, settings, seed, 1
+        robot=robot, limb=limb, start=start, elbow=elbow, plant=plant, flaws=flaws, settings=settings, seed=seed
     )
     properties = words.build_plant()
     chosen = words.build_limb(properties)

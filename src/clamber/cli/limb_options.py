@@ -11,6 +11,7 @@ import typer
 from rich.console import Console
 
 from .crew import EndsLine
+from .options import AsJson, Output, Quiet
 from .output import announce_compilation, check_writable, print_json, stderr, stdout
 
 if TYPE_CHECKING:
@@ -75,10 +76,6 @@ Settings: TypeAlias = Annotated[
 Seed: TypeAlias = Annotated[
     int | None, typer.Option(min=0, help="Draw play, encoder phase, noise and model error (0 where they need one).")
 ]
-Trials: TypeAlias = Annotated[int, typer.Option(min=1, help="Plants that are drawn, from the seed on.")]
-Workers: TypeAlias = Annotated[
-    int | None, typer.Option(min=1, help="Processes for the trials; one a core unless given, where there are many.")
-]
 Log: TypeAlias = Annotated[
     Path | None,
     typer.Option(
@@ -86,28 +83,43 @@ Log: TypeAlias = Annotated[
         help="Keep every tick of the first trial: .mcap, a channel a law; .csv, a file a law. `limb identify` reads both.",
     ),
 ]
-Everything: TypeAlias = Annotated[bool, typer.Option("--all", help="Print every measure, and the gains.")]
 
 
 @dataclass(frozen=True, slots=True)
 class BenchWords:
-    """What the shared options say, as they came."""
+    """Options of every command that compares laws by one motion of the limb, as they came."""
 
-    controllers: list[str] | None
-    kp: float | None
-    kd: float | None
-    match: MatchChoice
-    reference: str
-    robot: str
-    limb: str | None
-    start: str | None
-    elbow: str | None
-    plant: str
-    flaws: FlawsChoice
-    settings: list[str] | None
-    seed: int | None
-    trials: int
-    workers: int | None = None
+    controllers: Controllers = None
+    kp: Kp = None
+    kd: Kd = None
+    match: Matched = MatchChoice.yy
+    reference: Reference = "scct"
+    robot: Robot = "libra"
+    limb: LimbName = None
+    start: Start = None
+    elbow: Elbow = None
+    plant: Plant = "mujoco"
+    flaws: Flaws = FlawsChoice.ideal
+    settings: Settings = None
+    seed: Seed = None
+    trials: Annotated[int, typer.Option(min=1, help="Plants that are drawn, from the seed on.")] = 1
+    workers: Annotated[
+        int | None, typer.Option(min=1, help="Processes for the trials; one a core unless given, where there are many.")
+    ] = None
+    everything: Annotated[bool, typer.Option("--all", help="Print every measure, and the gains.")] = False
+    log: Log = None
+    output: Output = None
+    as_json: AsJson = False
+    quiet: Quiet = False
+
+    def check(self) -> None:
+        """Make sure that the files can be written before anything runs."""
+        self.telling.check(".json", ".csv")
+
+    @property
+    def telling(self) -> "Telling":
+        """How the comparison is to be told."""
+        return Telling(self.output, self.log, self.as_json, self.quiet, self.everything)
 
     @property
     def crew(self) -> int:
@@ -191,23 +203,23 @@ class Telling:
             console.print(f"written to {path}", soft_wrap=True)
 
 
-def run_bench(words: BenchWords, limb: "BenchLimb", scenario: "Scenario", flaws: "LimbFlaws", telling: Telling) -> None:
+def run_bench(words: BenchWords, limb: "BenchLimb", scenario: "Scenario", flaws: "LimbFlaws") -> None:
     """Run the laws, write and print what came out, and leave with the exit code."""
     from ..experiments.limb.entries import match_pose
     from ..experiments.limb.result import compare_laws
     from .limb_text import print_limb_result, write_limb_result
 
-    announce_compilation("drive", quiet=telling.quiet)  # gains are matched by the laws themselves
+    announce_compilation("drive", quiet=words.quiet)  # gains are matched by the laws themselves
     at = match_pose(limb, scenario)
     entries, reference = words.build_laws(limb, at)
-    line = EndsLine(stderr(), "trials", quiet=telling.quiet or words.trials == 1)
+    line = EndsLine(stderr(), "trials", quiet=words.quiet or words.trials == 1)
     result = compare_laws(
         limb, scenario, entries, flaws, plant=words.plant, trials=words.trials, workers=words.crew,
         match=words.match.value, reference=reference, match_at=at, progress=line.update,
     )  # fmt: skip
-    telling.tell(
+    words.telling.tell(
         result,
         lambda path: write_limb_result(result, path),
-        lambda console: print_limb_result(console, result, everything=telling.everything),
+        lambda console: print_limb_result(console, result, everything=words.everything),
     )
     raise typer.Exit(0 if result.stable else 1)
