@@ -1,26 +1,17 @@
 """`clamber body`: what it prints, writes and refuses."""
 
 import json
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from clamber.cli import main
-
 
 @pytest.fixture
-def run(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Any:
+def run(clamber: Any, monkeypatch: pytest.MonkeyPatch) -> Any:
     monkeypatch.setenv("COLUMNS", "120")
-
-    def call(*words: str) -> tuple[int, str, str]:
-        capfd.readouterr()
-        with pytest.raises(SystemExit) as left:
-            main(("body", *words))
-        out, err = capfd.readouterr()
-        return int(left.value.code or 0), out, err
-
-    return call
+    return partial(clamber, "body")
 
 
 def test_a_circle_is_compared_and_drawn(run: Any, tmp_path: Path) -> None:

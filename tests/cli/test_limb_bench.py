@@ -7,26 +7,7 @@ from typing import Any
 
 import pytest
 
-from clamber.cli import main
 from clamber.control.law_settings import LAWS
-
-
-@pytest.fixture
-def run(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Any:
-    monkeypatch.setenv("COLUMNS", "80")
-
-    def call(*words: str) -> tuple[int, str, str]:
-        capfd.readouterr()
-        try:
-            main(words)
-            code = 0
-        except SystemExit as left:
-            code = left.code if isinstance(left.code, int) else 0 if left.code is None else 1
-        out, err = capfd.readouterr()
-        return code, out, err
-
-    return call
-
 
 SHORT = {
     "step": ("--seconds", "1"),
@@ -37,8 +18,8 @@ SHORT = {
 
 @pytest.mark.parametrize("kind", SHORT)
 @pytest.mark.parametrize("flaws", ["ideal", "nominal"])
-def test_the_usual_laws_are_compared_within_80_columns(run: Any, kind: str, flaws: str) -> None:
-    code, out, _ = run("limb", kind, *SHORT[kind], "--flaws", flaws, "--all", "-q")
+def test_the_usual_laws_are_compared_within_80_columns(clamber: Any, kind: str, flaws: str) -> None:
+    code, out, _ = clamber("limb", kind, *SHORT[kind], "--flaws", flaws, "--all", "-q")
     assert code == 0
     assert max(map(len, out.splitlines())) <= 80
     for label in ("scct", "jacobian-transpose", "operational-space", "joint-pd", "resolved-rate"):
@@ -48,32 +29,32 @@ def test_the_usual_laws_are_compared_within_80_columns(run: Any, kind: str, flaw
 
 
 @pytest.mark.parametrize("match", ["yy", "mean", "diagonal", "none"])
-def test_the_table_says_what_was_matched(run: Any, match: str) -> None:
-    _, out, _ = run("limb", "step", "-c", "scct", *SHORT["step"], "--match", match)
+def test_the_table_says_what_was_matched(clamber: Any, match: str) -> None:
+    _, out, _ = clamber("limb", "step", "-c", "scct", *SHORT["step"], "--match", match)
     assert ("not matched" if match == "none" else f"matched by '{match}'") in out
 
 
-def test_trials_tell_mean_and_worst_and_how_far_they_are(run: Any) -> None:
+def test_trials_tell_mean_and_worst_and_how_far_they_are(clamber: Any) -> None:
     words = ("limb", "step", "-c", "scct", *SHORT["step"], "--flaws", "nominal", "--trials", "3")
-    code, out, err = run(*words)
+    code, out, err = clamber(*words)
     assert code == 0 and "3 trials, mean and worst" in " ".join(out.split()) and "  worst" in out
     assert "3 of 3 trials" in err
-    assert run(*words, "-q")[2] == ""
-    told = json.loads(run(*words, "-q", "--json")[1])
+    assert clamber(*words, "-q")[2] == ""
+    told = json.loads(clamber(*words, "-q", "--json")[1])
     assert told["trials"] == 3 and told["plant"]["seed"] == 0  # drawn though no seed was named
 
 
-def test_the_second_plant_agrees_on_where_a_step_ends(run: Any) -> None:
+def test_the_second_plant_agrees_on_where_a_step_ends(clamber: Any) -> None:
     ends = []
     for plant in ("mujoco", "ode"):
-        told = json.loads(run("limb", "step", "-c", "scct", *SHORT["step"], "--plant", plant, "--json")[1])
+        told = json.loads(clamber("limb", "step", "-c", "scct", *SHORT["step"], "--plant", plant, "--json")[1])
         ends.append(told["laws"][0]["trials"][0]["true"])
     assert ends[0]["across_max"] == pytest.approx(ends[1]["across_max"], abs=2e-5)
     assert ends[0]["rest"] == pytest.approx(ends[1]["rest"], abs=1e-4)
 
 
-def test_json_is_one_value_with_its_schema(run: Any) -> None:
-    code, out, _ = run("limb", "step", "-c", "scct", "-c", "joint-pd", *SHORT["step"], "--seed", "3", "--json")
+def test_json_is_one_value_with_its_schema(clamber: Any) -> None:
+    code, out, _ = clamber("limb", "step", "-c", "scct", "-c", "joint-pd", *SHORT["step"], "--seed", "3", "--json")
     told = json.loads(out)
     assert code == 0
     assert set(told) == {
@@ -83,21 +64,21 @@ def test_json_is_one_value_with_its_schema(run: Any) -> None:
     assert [law["label"] for law in told["laws"]] == ["scct", "joint-pd"]
 
 
-def test_results_are_written_as_picture_json_and_csv(run: Any, tmp_path: Path) -> None:
+def test_results_are_written_as_picture_json_and_csv(clamber: Any, tmp_path: Path) -> None:
     for suffix in ("png", "json", "csv"):
         path = tmp_path / f"laws.{suffix}"
-        code, out, _ = run("limb", "push", "-c", "scct", *SHORT["push"], "-o", str(path))
+        code, out, _ = clamber("limb", "push", "-c", "scct", *SHORT["push"], "-o", str(path))
         assert code == 0 and "written to" in out
     assert (tmp_path / "laws.png").read_bytes().startswith(b"\x89PNG")
     assert json.loads((tmp_path / "laws.json").read_text())["scenario"]["kind"] == "push"
     assert next(csv.DictReader((tmp_path / "laws.csv").read_text().splitlines()))["law"] == "scct"
 
 
-def test_one_comes_out_where_every_law_is_unstable(run: Any) -> None:
+def test_one_comes_out_where_every_law_is_unstable(clamber: Any) -> None:
     wild = ("-c", "scct:kp=4000,kd=0", "--set", "delay=6", *SHORT["step"])
-    code, out, _ = run("limb", "step", *wild)
+    code, out, _ = clamber("limb", "step", *wild)
     assert code == 1 and "unstable" in out
-    assert run("limb", "step", *wild, "-c", "scct")[0] == 0
+    assert clamber("limb", "step", *wild, "-c", "scct")[0] == 0
 
 
 @pytest.mark.parametrize(
@@ -125,23 +106,23 @@ def test_one_comes_out_where_every_law_is_unstable(run: Any) -> None:
     ],
 )
 def test_a_mistake_is_named_in_one_line_and_nothing_is_written(
-    run: Any, tmp_path: Path, words: tuple[str, ...], said: str
+    clamber: Any, tmp_path: Path, words: tuple[str, ...], said: str
 ) -> None:
     path = tmp_path / "laws.json"
-    code, out, err = run("limb", *words, "-o", str(path), "-q")
+    code, out, err = clamber("limb", *words, "-o", str(path), "-q")
     assert code == 2
     assert out == "" and said in err and err.count("\n") == 1
     assert err.startswith("clamber: ") and "Traceback" not in err
     assert not list(tmp_path.iterdir())
 
 
-def test_a_file_that_cannot_be_written_is_named_before_anything_runs(run: Any, tmp_path: Path) -> None:
-    assert run("limb", "step", "-o", str(tmp_path / "laws.xyz"))[0] == 2
-    assert run("limb", "step", "-o", str(tmp_path / "none" / "laws.png"))[0] == 2
+def test_a_file_that_cannot_be_written_is_named_before_anything_runs(clamber: Any, tmp_path: Path) -> None:
+    assert clamber("limb", "step", "-o", str(tmp_path / "laws.xyz"))[0] == 2
+    assert clamber("limb", "step", "-o", str(tmp_path / "none" / "laws.png"))[0] == 2
 
 
-def test_controllers_and_plants_are_listed(run: Any) -> None:
-    code, out, _ = run("list", "controllers", "--json")
+def test_controllers_and_plants_are_listed(clamber: Any) -> None:
+    code, out, _ = clamber("list", "controllers", "--json")
     assert code == 0
     assert [entry["name"] for entry in json.loads(out)["controllers"]] == list(LAWS)
-    assert "mujoco" in run("list", "plants")[1]
+    assert "mujoco" in clamber("list", "plants")[1]

@@ -7,26 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from clamber.cli import main
 from clamber.execution.log_files import read_log
-
-
-@pytest.fixture
-def run(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Any:
-    monkeypatch.setenv("COLUMNS", "80")
-
-    def call(*words: str) -> tuple[int, str, str]:
-        capfd.readouterr()
-        try:
-            main(words)
-            code = 0
-        except SystemExit as left:
-            code = left.code if isinstance(left.code, int) else 0 if left.code is None else 1
-        out, err = capfd.readouterr()
-        return code, out, err
-
-    return call
-
 
 RUNS = {
     "step": ("--seconds", "0.5", "-c", "scct", "-c", "joint-pd"),
@@ -39,10 +20,10 @@ RUNS = {
 
 @pytest.mark.parametrize("kind", RUNS)
 def test_a_log_is_one_mcap_with_a_channel_a_law_or_a_csv_a_law_with_the_same_numbers(
-    run: Any, kind: str, tmp_path: Path
+    clamber: Any, kind: str, tmp_path: Path
 ) -> None:
     for suffix in ("mcap", "csv"):
-        code, out, _ = run("limb", kind, *RUNS[kind], "-q", "--log", str(tmp_path / f"run.{suffix}"))
+        code, out, _ = clamber("limb", kind, *RUNS[kind], "-q", "--log", str(tmp_path / f"run.{suffix}"))
         assert code in (0, 1) and "written to" in out
     files = sorted(tmp_path.glob("run-*.csv"))
     assert len(files) == 2 and not (tmp_path / "run.csv").exists()
@@ -56,10 +37,10 @@ def test_a_log_is_one_mcap_with_a_channel_a_law_or_a_csv_a_law_with_the_same_num
 
 
 @pytest.mark.parametrize("suffix", ["mcap", "csv"])
-def test_identify_finds_the_friction_of_a_circle_in_its_log(run: Any, suffix: str, tmp_path: Path) -> None:
+def test_identify_finds_the_friction_of_a_circle_in_its_log(clamber: Any, suffix: str, tmp_path: Path) -> None:
     log = tmp_path / f"circle.{suffix}"
-    assert run("limb", "circle", "-c", "scct:kp=400,kd=20", "-q", "--log", str(log))[0] == 0
-    code, out, _ = run("limb", "identify", str(log), "--json")
+    assert clamber("limb", "circle", "-c", "scct:kp=400,kd=20", "-q", "--log", str(log))[0] == 0
+    code, out, _ = clamber("limb", "identify", str(log), "--json")
     told = json.loads(out)
     assert code == 0 and told["robot"] == "libra" and told["limb"] == "right"
     from clamber.experiments.limb.bench_limb import bench_limb
@@ -70,35 +51,35 @@ def test_identify_finds_the_friction_of_a_circle_in_its_log(run: Any, suffix: st
         assert found["friction"] == pytest.approx(float(record["friction"]), rel=0.05)
 
 
-def test_a_log_and_an_output_that_cannot_be_are_refused_before_anything_runs(run: Any, tmp_path: Path) -> None:
+def test_a_log_and_an_output_that_cannot_be_are_refused_before_anything_runs(clamber: Any, tmp_path: Path) -> None:
     for words in (
         ("--log", str(tmp_path / "a.txt")),
         ("--log", str(tmp_path / "nowhere" / "a.csv")),
         ("--log", str(tmp_path)),
         ("--log", str(tmp_path / "a.csv"), "--output", str(tmp_path / "a.csv")),
     ):
-        code, out, err = run("limb", "step", *words)
+        code, out, err = clamber("limb", "step", *words)
         assert code == 2 and out == "" and err and "Traceback" not in err
     assert not list(tmp_path.iterdir())
 
 
-def test_an_admittance_yields_to_a_push_as_its_spring_says_and_the_table_names_its_sensor(run: Any) -> None:
+def test_an_admittance_yields_to_a_push_as_its_spring_says_and_the_table_names_its_sensor(clamber: Any) -> None:
     law = "admittance:kp=400,kd=20,admittance_kp=1000,admittance_kd=100"
     words = ("limb", "push", "--force", "10N,0", "--from", "0.2", "--to", "2", "--seconds", "4", "-c", law)
-    _, out, _ = run(*words, "--json", "-q")
+    _, out, _ = clamber(*words, "--json", "-q")
     told = json.loads(out)
     assert told["plant"]["wrist"]["noise"] == 0.0 and told["plant"]["base"] is None
     # 10 N on 1000 N/m; what the servo leaves of friction is of the order of 0.2 mm
     assert told["laws"][0]["mean"]["true"]["along_max"] == pytest.approx(0.010, abs=0.0006)
-    assert "ideal force sensor at the wrist" in " ".join(run(*words, "-q")[1].split())
-    assert "force sensor" not in run("limb", "push", "-c", "scct", "-q")[1]
+    assert "ideal force sensor at the wrist" in " ".join(clamber(*words, "-q")[1].split())
+    assert "force sensor" not in clamber("limb", "push", "-c", "scct", "-q")[1]
 
 
-def test_trials_over_workers_give_the_same_bytes(run: Any) -> None:
+def test_trials_over_workers_give_the_same_bytes(clamber: Any) -> None:
     words = ("limb", "step", "-c", "scct", "--seconds", "1", "--flaws", "nominal", "--trials", "4", "--json", "-q")
     told = []
     for workers in ("1", "2", "3"):
-        code, out, _ = run(*words, "--workers", workers)
+        code, out, _ = clamber(*words, "--workers", workers)
         assert code == 0
         told.append([line for line in out.splitlines() if '"tick"' not in line])
     assert told[0] == told[1] == told[2]

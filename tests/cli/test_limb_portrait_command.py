@@ -1,29 +1,16 @@
 """`clamber limb portrait`: tables, pictures, JSON, and mistakes in one line."""
 
 import json
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from clamber.cli import main
-
 
 @pytest.fixture
-def run(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Any:
-    monkeypatch.setenv("COLUMNS", "80")
-
-    def call(*words: str) -> tuple[int, str, str]:
-        capfd.readouterr()
-        try:
-            main(("limb", "portrait", *words))
-            code = 0
-        except SystemExit as left:
-            code = left.code if isinstance(left.code, int) else 0 if left.code is None else 1
-        out, err = capfd.readouterr()
-        return code, out, err
-
-    return call
+def run(clamber: Any) -> Any:
+    return partial(clamber, "limb", "portrait")
 
 
 def test_tables_fit_80_columns_and_pictures_are_written(run: Any, tmp_path: Path) -> None:

@@ -6,25 +6,6 @@ from typing import Any
 
 import pytest
 
-from clamber.cli import main
-
-
-@pytest.fixture
-def run(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Any:
-    monkeypatch.setenv("COLUMNS", "80")
-
-    def call(*words: str) -> tuple[int, str, str]:
-        capfd.readouterr()
-        try:
-            main(words)
-            code = 0
-        except SystemExit as left:
-            code = left.code if isinstance(left.code, int) else 0 if left.code is None else 1
-        out, err = capfd.readouterr()
-        return code, out, err
-
-    return call
-
 
 @pytest.mark.parametrize(
     ("words", "told"),
@@ -42,8 +23,8 @@ def run(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> A
         (("tune", "scct", "--save", "nowhere/gains.toml"), "nowhere"),
     ],
 )
-def test_a_mistake_is_named_in_one_line(run: Any, words: tuple[str, ...], told: str) -> None:
-    code, out, err = run("limb", *words)
+def test_a_mistake_is_named_in_one_line(clamber: Any, words: tuple[str, ...], told: str) -> None:
+    code, out, err = clamber("limb", *words)
     assert code == 2
     assert out == ""
     assert told in err
@@ -51,7 +32,7 @@ def test_a_mistake_is_named_in_one_line(run: Any, words: tuple[str, ...], told: 
 
 
 @pytest.mark.slow
-def test_a_sweep_is_told_as_table_json_picture_and_csv(run: Any, tmp_path: Path) -> None:
+def test_a_sweep_is_told_as_table_json_picture_and_csv(clamber: Any, tmp_path: Path) -> None:
     words = (
         "limb",
         "sweep",
@@ -67,20 +48,20 @@ def test_a_sweep_is_told_as_table_json_picture_and_csv(run: Any, tmp_path: Path)
         "scct",
     )
     picture, table = tmp_path / "sweep.png", tmp_path / "sweep.csv"
-    code, out, _ = run(*words, "-o", str(picture), "-q", "--workers", "1")
+    code, out, _ = clamber(*words, "-o", str(picture), "-q", "--workers", "1")
     assert code == 0
     assert max(map(len, out.splitlines()[:-1])) <= 80
     assert "scct: stable below kp = " in out
     assert picture.read_bytes().startswith(b"\x89PNG")
-    code, out, _ = run(*words, "-o", str(table), "--json", "-q", "--workers", "1")
+    code, out, _ = clamber(*words, "-o", str(table), "--json", "-q", "--workers", "1")
     assert json.loads(out)["points"][0]["winner"] == "scct"
     assert len(table.read_text().splitlines()) == 4
 
 
 @pytest.mark.slow
-def test_a_tuning_is_saved_and_drawn(run: Any, tmp_path: Path) -> None:
+def test_a_tuning_is_saved_and_drawn(clamber: Any, tmp_path: Path) -> None:
     gains, picture = tmp_path / "gains.toml", tmp_path / "tune.png"
-    code, out, _ = run("limb", "tune", "scct", "--save", str(gains), "-o", str(picture), "-q")
+    code, out, _ = clamber("limb", "tune", "scct", "--save", str(gains), "-o", str(picture), "-q")
     assert code == 0
     assert max(len(line) for line in out.splitlines() if not line.startswith("written")) <= 80
     assert 'law = "scct"' in gains.read_text()

@@ -16,7 +16,6 @@ import pytest
 
 from clamber.actions.limbed_plans import thesis_code
 from clamber.actions.plan import Plan
-from clamber.cli import main
 from clamber.execution.climb.climb_trace import ClimbTrace
 from clamber.execution.climb.course import climbable
 from clamber.execution.log_files import read_log
@@ -26,20 +25,6 @@ from clamber.tasks.limbed import LimbedTask
 
 PEGS = ("--noise", "peg_error=3mm", "--seed", "5")
 PATIENCE = 120.0  # a busy machine may compile first [s]
-
-
-@pytest.fixture
-def clamber(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Any:
-    monkeypatch.setenv("COLUMNS", "80")
-
-    def call(*words: str) -> tuple[int, str, str]:
-        capfd.readouterr()
-        with pytest.raises(SystemExit) as left:
-            main(words)
-        out, err = capfd.readouterr()
-        return int(left.value.code or 0), out, err
-
-    return call
 
 
 def plan_file(folder: Path, *numbers: int) -> str:

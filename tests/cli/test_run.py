@@ -1,6 +1,7 @@
 """`clamber run`: what it prints, writes and refuses."""
 
 import json
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -8,7 +9,6 @@ import pytest
 
 from clamber.actions.limbed_plans import thesis_code
 from clamber.actions.plan import Plan, load_plan
-from clamber.cli import main
 from clamber.execution.climb.climb_trace import ClimbTrace
 from clamber.execution.climb.course import climbable
 from clamber.execution.log_files import read_log
@@ -17,17 +17,8 @@ from clamber.tasks.limbed import LimbedTask
 
 
 @pytest.fixture
-def run(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Any:
-    monkeypatch.setenv("COLUMNS", "80")
-
-    def call(*words: str) -> tuple[int, str, str]:
-        capfd.readouterr()
-        with pytest.raises(SystemExit) as left:
-            main(("run", *words))
-        out, err = capfd.readouterr()
-        return int(left.value.code or 0), out, err
-
-    return call
+def run(clamber: Any) -> Any:
+    return partial(clamber, "run")
 
 
 def plan_file(folder: Path, *numbers: int, changes: tuple[str, ...] = ()) -> str:

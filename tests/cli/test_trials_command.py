@@ -9,26 +9,11 @@ import pytest
 
 from clamber.actions.limbed_plans import thesis_code
 from clamber.actions.plan import Plan
-from clamber.cli import main
 from clamber.execution.climb.climb_trace import ClimbTrace
 from clamber.execution.climb.course import climbable
 from clamber.execution.log_files import read_log
 from clamber.tasks import load_task
 from clamber.tasks.limbed import LimbedTask
-
-
-@pytest.fixture
-def command(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Any:
-    monkeypatch.setenv("COLUMNS", "80")
-
-    def call(*words: str) -> tuple[int, str, str]:
-        capfd.readouterr()
-        with pytest.raises(SystemExit) as left:
-            main(words)
-        out, err = capfd.readouterr()
-        return int(left.value.code or 0), out, err
-
-    return call
 
 
 def plan_file(folder: Path, *numbers: int) -> str:
@@ -39,60 +24,60 @@ def plan_file(folder: Path, *numbers: int) -> str:
     return str(folder / "plan.json")
 
 
-def test_trials_are_counted_stored_drawn_and_any_of_them_climbed_again(command: Any, tmp_path: Path) -> None:
+def test_trials_are_counted_stored_drawn_and_any_of_them_climbed_again(clamber: Any, tmp_path: Path) -> None:
     plan, store = plan_file(tmp_path, 300, 3), str(tmp_path / "trials.db")
     words = ("trials", plan, "-n", "3", "--seed", "5", "--workers", "1", "--store", store)
-    code, out, err = command(*words, "-o", str(tmp_path / "trials.png"))
+    code, out, err = clamber(*words, "-o", str(tmp_path / "trials.png"))
     assert code == 0, out
     assert "3 of 3 climbs of 'ladder' succeeded: 100.0 % (43.9 to 100.0 %, 95 %)" in out
     assert "too few failures to tell" in out
     assert "1 of 3: 1 climbed" in err
     assert max(len(line) for line in out.splitlines() if not line.startswith("written")) <= 80
     assert (tmp_path / "trials.png").read_bytes().startswith(b"\x89PNG")
-    _, out, _ = command(*words, "--resume", "--json", "-q")
+    _, out, _ = clamber(*words, "--resume", "--json", "-q")
     stored = {trial["seed"]: trial for trial in json.loads(out)["trials"]}
     assert sorted(stored) == [5, 6, 7]
     log = tmp_path / "climb.mcap"
-    code, out, err = command("trials", plan, "--replay", "6", "--store", store, "-o", str(log), "--json", "-q")
+    code, out, err = clamber("trials", plan, "--replay", "6", "--store", store, "-o", str(log), "--json", "-q")
     assert (code, err) == (0, "")
     assert json.loads(out)["trial"] == stored[6]
     with sqlite3.connect(store) as file:
         file.execute("UPDATE items SET result = json_set(result, '$.seconds', 1.0)")
-    _, _, err = command("trials", plan, "--replay", "6", "--store", store, "-q")
+    _, _, err = clamber("trials", plan, "--replay", "6", "--store", store, "-q")
     assert "the store's trial 6 went otherwise" in err
     trace = ClimbTrace.from_log(read_log(log))
     assert trace.time[-1] == pytest.approx(stored[6]["seconds"])
     assert trace.notes is not None and trace.notes["seed"] == 6
 
 
-def test_a_run_with_the_noise_and_seed_of_a_trial_is_that_trial(command: Any, tmp_path: Path) -> None:
+def test_a_run_with_the_noise_and_seed_of_a_trial_is_that_trial(clamber: Any, tmp_path: Path) -> None:
     plan = plan_file(tmp_path, 300, 3)
-    _, trial, _ = command("trials", plan, "--replay", "9", "--json", "-q")
-    _, run, _ = command("run", plan, "--noise", "usual", "--seed", "9", "--json", "-q")
+    _, trial, _ = clamber("trials", plan, "--replay", "9", "--json", "-q")
+    _, run, _ = clamber("run", plan, "--noise", "usual", "--seed", "9", "--json", "-q")
     told, same = json.loads(trial), json.loads(run)
     assert told["true_pose"] == same["true_pose"]
     assert told["actions"] == same["actions"]
-    _, other, _ = command("run", plan, "--noise", "usual", "--seed", "10", "--json", "-q")
+    _, other, _ = clamber("run", plan, "--noise", "usual", "--seed", "10", "--json", "-q")
     assert json.loads(other)["true_pose"] != same["true_pose"]
 
 
-def test_failed_climbs_are_told_with_their_cause_and_leave_with_1(command: Any, tmp_path: Path) -> None:
+def test_failed_climbs_are_told_with_their_cause_and_leave_with_1(clamber: Any, tmp_path: Path) -> None:
     plan = plan_file(tmp_path, 300, *([3] * 8))
     words = ("trials", plan, "-n", "2", "--workers", "1", "-q")
-    code, out, err = command(*words)
+    code, out, err = clamber(*words)
     assert (code, out) == (2, "")
     assert "step" in err and "--force" in err
-    code, out, _ = command(*words, "--force")
+    code, out, _ = clamber(*words, "--force")
     assert code == 1
     assert "forced in spite of step" in out
     assert "0 of 2 climbs" in out and "fell: move" in out and "seed 0: fell: " in out
     assert max(map(len, out.splitlines())) <= 80
 
 
-def test_a_success_that_is_asked_for_decides_how_it_leaves(command: Any, tmp_path: Path) -> None:
+def test_a_success_that_is_asked_for_decides_how_it_leaves(clamber: Any, tmp_path: Path) -> None:
     words = ("trials", plan_file(tmp_path, 300), "-n", "2", "--workers", "1", "-q", "--json")
-    assert command(*words, "--at-least", "34%")[0] == 0  # Wilson's bound of 2 in 2 is 34.2 %
-    assert command(*words, "--at-least", "35%")[0] == 1
+    assert clamber(*words, "--at-least", "34%")[0] == 0  # Wilson's bound of 2 in 2 is 34.2 %
+    assert clamber(*words, "--at-least", "35%")[0] == 1
 
 
 @pytest.mark.parametrize(
@@ -113,19 +98,19 @@ def test_a_success_that_is_asked_for_decides_how_it_leaves(command: Any, tmp_pat
         (("ladder-hand", "--ray", "nowhere"), "--ray"),
     ],
 )
-def test_bad_input_is_one_message(command: Any, words: tuple[str, ...], said: str) -> None:
-    code, out, err = command("trials", *words, "-q")
+def test_bad_input_is_one_message(clamber: Any, words: tuple[str, ...], said: str) -> None:
+    code, out, err = clamber("trials", *words, "-q")
     assert (code, out) == (2, "")
     assert said in err and "Traceback" not in err
 
 
-def test_a_store_of_other_trials_is_refused(command: Any, tmp_path: Path) -> None:
+def test_a_store_of_other_trials_is_refused(clamber: Any, tmp_path: Path) -> None:
     plan, store = plan_file(tmp_path, 300), str(tmp_path / "trials.db")
     words = ("trials", plan, "-n", "1", "--workers", "1", "--store", store, "-q")
-    assert command(*words)[0] == 0
-    code, _, err = command(*words, "--resume", "--noise", "friction=10%")
+    assert clamber(*words)[0] == 0
+    code, _, err = clamber(*words, "--resume", "--noise", "friction=10%")
     assert code == 2
     assert "holds the results of trials of 'ladder' with noise" in err
-    code, _, err = command(*words)
+    code, _, err = clamber(*words)
     assert code == 2
     assert "resume" in err
