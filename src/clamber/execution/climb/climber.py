@@ -22,6 +22,8 @@ ASTRAY: Final = 0.08
 """A body this far from its aim has fallen, or is about to [m]."""
 TURNED: Final = 0.6
 """Likewise turned this far from it [rad]."""
+PINNED: Final = (0.05, 1.0)
+"""A body this far from its aim for so long is held there by what it cannot overcome [m], [s]."""
 STRAINED: Final = 0.03
 """Two holding tips whose distance differs that much from that of their holds are not both on them [m]."""
 
@@ -93,7 +95,7 @@ class Climber:
         self.ticks = 0
         self.latest = -1
         """Index of the limb that took its hold last."""
-        self._strained = self._slipped = 0
+        self._strained = self._slipped = self._pinned = 0
 
     @property
     def time(self) -> float:
@@ -127,7 +129,7 @@ class Climber:
         self.body.pose[:], self.body.settled[:], self.body.aim[:] = pose, pose, pose
         self.body.aim_speed[:] = 0.0
         self.balance = None
-        self.ticks = self._strained = self._slipped = 0
+        self.ticks = self._strained = self._slipped = self._pinned = 0
         self.fall.reset()
         self.slip.reset()
 
@@ -172,6 +174,9 @@ class Climber:
             raise FallenError(f"the gripper of '{self.robot.limbs[slack[0]].name}' has slipped off its hold")
         off = math.dist(self.body.aim[:2], self.body.pose[:2])
         turned = abs(float(self.body.pose[2] - self.body.aim[2]))
+        self._pinned = self._pinned + 1 if off > PINNED[0] else 0
+        if self._pinned * self.plant.period > PINNED[1]:
+            raise FallenError(f"the body stays {1e3 * off:.0f} mm off its aim")
         if off > ASTRAY or turned > TURNED:
             raise FallenError(f"the body is {1e3 * off:.0f} mm off its aim and turned by {np.degrees(turned):.0f} deg")
 
