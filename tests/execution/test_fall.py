@@ -120,7 +120,7 @@ def test_a_body_that_a_push_pins_far_from_its_aim_is_told_with_its_hooks_still_o
     climber, plant = on_the_ladder()
     climber.wait(0.6)
     plant.push((100.0, 200.0))
-    with pytest.raises(FallenError, match="stays .* off its aim"):
+    with pytest.raises(FallenError, match=r"stays .* off its aim"):
         climber.wait(4.0)
     pegs = plant.board.positions()[[3, 2, 1]]
     assert np.hypot(*(plant.truth().tips - pegs).T).max() < OFF
