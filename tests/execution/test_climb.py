@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from clamber.execution.climb.climber import Climber, FallenError
-from clamber.execution.climb.motions import JOINT_AGILITY, JOINT_SPEED, at_speed, grab, move_body, release
+from clamber.execution.climb.motions import JOINT_AGILITY, JOINT_SPEED, at_speed, eased, grab, move_body, release
 from clamber.robots.library import load_robot
 from clamber.robots.limbed import LimbedRobot
 from clamber.sim.climber_plant import BodySensed, ClimberPlant
@@ -69,6 +69,16 @@ def test_a_way_goes_from_rest_to_rest_within_speed_and_agility(length: float) ->
     assert speed.min() >= -1e-9
     assert speed.max() <= JOINT_SPEED + 1e-9
     assert np.abs(np.diff(np.concatenate(([0.0], speed, [0.0])))).max() <= 1.01 * JOINT_AGILITY * period
+
+
+@pytest.mark.parametrize(("length", "rise"), [(0.2, 0.1), (1.9, 0.3), (1.0, 1.0)])
+def test_an_eased_way_goes_from_rest_to_rest_and_its_speed_is_its_derivative(length: float, rise: float) -> None:
+    t = np.linspace(0.0, length + rise, 4001)
+    way, speed = np.array([eased(one, length, rise) for one in t]).T
+    np.testing.assert_allclose(way[[0, -1]], (0.0, length), atol=1e-12)
+    np.testing.assert_allclose(speed[[0, -1]], 0.0, atol=1e-12)
+    assert speed.max() <= 1.0 + 1e-12
+    np.testing.assert_allclose(np.gradient(way, t)[1:-1], speed[1:-1], atol=1e-4)
 
 
 def test_the_body_moves_up_on_its_hooks() -> None:

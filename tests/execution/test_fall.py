@@ -114,3 +114,13 @@ def test_the_tips_feel_the_weight_and_so_they_do_while_a_limb_climbs() -> None:
     climber.fall.see = noted  # type: ignore[method-assign]
     assert grab(climber, 0, 6, elbow=-1).held
     assert max(least) < 0.02
+
+
+def test_a_body_that_a_push_pins_far_from_its_aim_is_told_with_its_hooks_still_on() -> None:
+    climber, plant = on_the_ladder()
+    climber.wait(0.6)
+    plant.push((100.0, 200.0))
+    with pytest.raises(FallenError, match=r"stays .* off its aim"):
+        climber.wait(4.0)
+    pegs = plant.board.positions()[[3, 2, 1]]
+    assert np.hypot(*(plant.truth().tips - pegs).T).max() < OFF

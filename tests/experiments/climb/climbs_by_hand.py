@@ -32,6 +32,6 @@ def climb(seed: int, done: bool = True, **changes: Any) -> ClimbTrial:
     told: dict[str, Any] = {
         "seed": seed, "done": done, "outcome": "ok" if done else "fell", "step": 2, "kind": "move", "limb": "",
         "reason": "" if done else "fell: a hook has come off", "seconds": 100.0, "short": 0.0, "pushes": 3, "grabs": 2,
-        "stalled": 0, "replans": 0, "drawn": {key: float(chance.uniform(-1.0, 1.0)) for key in NOISE},
+        "stalled": 0, "replans": 0, "recovered": 0, "drawn": {key: float(chance.uniform(-1.0, 1.0)) for key in NOISE},
     }  # fmt: skip
     return ClimbTrial(**told | changes)

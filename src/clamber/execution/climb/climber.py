@@ -15,18 +15,32 @@ from .approach import Approaches, rank
 from .fall import FallWatch
 from .hold_map import HoldMap, TipDifference
 from .postures import postures
+from .slip import SlipWatch
 from .whole_body import BodyGains, LimbTask, WholeBody
 
 ASTRAY: Final = 0.08
 """A body this far from its aim has fallen, or is about to [m]."""
 TURNED: Final = 0.6
 """Likewise turned this far from it [rad]."""
+PINNED: Final = (0.05, 1.0)
+"""A body this far from its aim for so long is held there by what it cannot overcome [m], [s]."""
 STRAINED: Final = 0.03
 """Two holding tips whose distance differs that much from that of their holds are not both on them [m]."""
 
 
 class FallenError(Exception):
     """The robot has lost its holds; the run ends with this reason. Never a user's mistake."""
+
+
+class SlippedError(FallenError):
+    """A limb's hook has come off its hold: a fall, unless others catch it."""
+
+    def __init__(self, limb: int, reason: str) -> None:
+        super().__init__(limb, reason)
+        self.limb, self.reason = limb, reason
+
+    def __str__(self) -> str:
+        return self.reason
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +79,7 @@ class Climber:
     ) -> None:
         self.robot, self.plant, self.map_error = robot, plant, map_error
         self.body = WholeBody(robot, period=plant.period, gains=gains, backlash=backlash)
-        self.fall = FallWatch(self.body)
+        self.fall, self.slip = FallWatch(self.body), SlipWatch(self.body)
         self.holds = {hold.number: np.array((hold.x, hold.y)) for hold in board.holds}
         self.map = HoldMap(self.holds, map_error, backlash=self.body.backlash)
         self.peg_radius = max(hold.radius for hold in board.holds)
@@ -81,7 +95,7 @@ class Climber:
         self.ticks = 0
         self.latest = -1
         """Index of the limb that took its hold last."""
-        self._strained = self._slipped = 0
+        self._strained = self._slipped = self._pinned = 0
 
     @property
     def time(self) -> float:
@@ -115,22 +129,23 @@ class Climber:
         self.body.pose[:], self.body.settled[:], self.body.aim[:] = pose, pose, pose
         self.body.aim_speed[:] = 0.0
         self.balance = None
-        self.ticks = self._strained = self._slipped = 0
+        self.ticks = self._strained = self._slipped = self._pinned = 0
         self.fall.reset()
+        self.slip.reset()
 
     def tick(self) -> None:
         """Sense, command, step.
 
         Raises:
-            FallenError: If no limb holds, nothing carries the robot, a hook has come off or a gripper slipped, or the body is far or turned
-                from its aim.
+            SlippedError: If a hook has come off.
+            FallenError: If no limb holds, nothing carries the robot, a gripper has slipped, or the body is far or turned from its aim.
         """
         sensed = self.plant.sense()
         self.body.see(sensed.q, sensed.qd, sensed.angle - self.map.offset, sensed.angle_speed)
         if self.balance is not None:
             self.balance()
         self.gripped[:] = sensed.gripped
-        falls = self.fall.see()
+        falls, lost = self.fall.see(), self.slip.see()
         self.plant.actuate(self.body.command(), self.grips)
         self.plant.step()
         self.ticks += 1
@@ -139,7 +154,12 @@ class Climber:
             raise FallenError("no limb holds the body")
         if falls:
             raise FallenError(f"nothing carries the robot: all tips together feel {self.fall.carried:.0f} N")
-        # Hooks that slip off are not felt, but two tips can then not both be on their holds
+        if lost is not None:
+            name, hold = self.robot.limbs[lost].name, self.body.tasks[lost].hold
+            raise SlippedError(
+                lost, f"the hook of '{name}' has come off hold {hold}: it moved {1e3 * self.slip.moved:.0f} mm"
+            )
+        # A hook that comes off slowly is not seen to move, but two tips can then not both be on their holds
         strain = self.body.strain(holding[0], holding[-1])
         self._strained = self._strained + 1 if strain > STRAINED else 0
         if self._strained * self.plant.period > 0.1:
@@ -148,12 +168,15 @@ class Climber:
             )
         if self.body.tasks[holding[0]].doing == "hang":
             self.body.aim[:] = self.body.pose  # it swings where it will
-        lost = [i for i in self._gripping if self.body.tasks[i].doing == "hold" and not self.gripped[i]]
-        self._slipped = self._slipped + 1 if lost else 0
+        slack = [i for i in self._gripping if self.body.tasks[i].doing == "hold" and not self.gripped[i]]
+        self._slipped = self._slipped + 1 if slack else 0
         if self._slipped * self.plant.period > 0.1:
-            raise FallenError(f"the gripper of '{self.robot.limbs[lost[0]].name}' has slipped off its hold")
+            raise FallenError(f"the gripper of '{self.robot.limbs[slack[0]].name}' has slipped off its hold")
         off = math.dist(self.body.aim[:2], self.body.pose[:2])
         turned = abs(float(self.body.pose[2] - self.body.aim[2]))
+        self._pinned = self._pinned + 1 if off > PINNED[0] else 0
+        if self._pinned * self.plant.period > PINNED[1]:
+            raise FallenError(f"the body stays {1e3 * off:.0f} mm off its aim")
         if off > ASTRAY or turned > TURNED:
             raise FallenError(f"the body is {1e3 * off:.0f} mm off its aim and turned by {np.degrees(turned):.0f} deg")
 

@@ -13,13 +13,15 @@ from .parking import park, poses_between
 
 BODY_SPEED: Final = 0.08
 """Of the body's aim, at most [m/s]."""
+BODY_RISE: Final = 0.3
+"""In which it comes to that speed, at most; a short way is all rise [s]."""
 BODY_TURN: Final = 0.4
 """[rad/s]."""
-JOINT_SPEED: Final = 2.4
-"""Of a free limb's joints on their way, four fifths of what their motors can [rad/s]."""
-JOINT_AGILITY: Final = 8.0
+JOINT_SPEED: Final = 2.6
+"""Of a free limb's joints on their way, seven eighths of what their motors can [rad/s]."""
+JOINT_AGILITY: Final = 14.0
 """With which they come to it [rad/s^2]."""
-BLEND: Final = 0.3
+BLEND: Final = 0.2
 """Over which corners of a limb's way are rounded [s]."""
 WIDE_STAND_OFF: Final = 0.042
 """Least distance from a hold at which a hook that opens along its link turns towards it: nearer, its flare knocks the hold [m]."""
@@ -27,6 +29,10 @@ NEAR: Final = 0.022
 """From here on, and the hold's doubt farther off, the hook is pushed, not placed: nearer, its flare would meet the hold sideways [m]."""
 PUSH: Final = 10.0
 """Gentle pull along the grab direction until the hook stops [N]."""
+HASTE: Final = 8.0
+"""So much more while the hold, wherever it is, is still ahead: a stiff joint would creep there [N]."""
+FREE: Final = 0.005
+"""Least distance from the nearest place where the hold may be for all of that [m]."""
 TUG: Final = 10.0
 """Pull on a hook that has stopped: a quarter of LIBRA's weight; more would lift the limb below off its hold [N]."""
 LIFT: Final = (0.001, 0.003)
@@ -77,14 +83,24 @@ def move_body(climber: Climber, pose: Floats, *, speed: float = BODY_SPEED) -> N
     body, period = climber.body, climber.plant.period
     start = body.aim.copy()
     change = pose - start
-    seconds = 1.5 * max(float(np.hypot(change[0], change[1])) / speed, abs(float(change[2])) / BODY_TURN, 0.2)
-    count = max(1, round(seconds / period))
+    # the way in seconds at full speed
+    length = max(float(np.hypot(change[0], change[1])) / speed, abs(float(change[2])) / BODY_TURN, 0.2)
+    rise = min(BODY_RISE, 0.5 * length)
+    count = max(1, round((length + rise) / period))
     for k in range(1, count + 1):
-        u = k / count
-        body.aim[:] = start + u * u * (3 - 2 * u) * change
-        body.aim_speed[:] = 6 * u * (1 - u) / seconds * change
+        done, rate = eased(k / count * (length + rise), length, rise)
+        body.aim[:] = start + done / length * change
+        body.aim_speed[:] = rate / length * change
         climber.tick()
     body.aim_speed[:] = 0.0
+
+
+def eased(t: float, length: float, rise: float) -> tuple[float, float]:
+    """Way and speed at a time on a way at speed 1 that begins and ends gently within `rise` [s], at most `length`."""
+    left = length + rise - t
+    u = min(t, left, rise) / rise
+    way, speed = rise * u**3 * (1.0 - 0.5 * u) + max(0.0, min(t, left) - rise), u * u * (3.0 - 2.0 * u)
+    return (way if t < left else length - way), speed
 
 
 def clear_the_way(climber: Climber, pose: Floats) -> None:
@@ -248,6 +264,9 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bo
         size = PUSH + (TUG - PUSH) * min(tugged / TUG_RISE, 1.0)
         lifted = float((rested - body.pose[:2]) @ g)
         slid = math.dist(body.tip(first) - body.tip(last), apart)
+        if stage == "push":
+            free = float((place - body.tip(i)) @ g) - room
+            size += float(np.interp(free, (0.0, FREE), (0.0, HASTE)))
         size *= part * np.interp(lifted, LIFT, (1.0, 1 / 3)) * np.interp(slid, SLIDING, (1.0, 0.0))
         strength, rate = (WIDE_DITHER, WIDE_RATE) if stage == "coax" else (DITHER, DITHER_RATE)
         phase += 2 * np.pi * rate * period

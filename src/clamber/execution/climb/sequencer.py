@@ -12,13 +12,14 @@ from ...tasks.limbed import LimbedTask
 from ...types import Floats, Json
 from ..plant import PlantStoppedError
 from .climb_trace import TracedClimber
-from .climber import FallenError, Grabbed
+from .climber import FallenError, Grabbed, SlippedError
 from .course import Course, PlanRefusedError, lay_course, names_of, swings
 from .ends import grab, release
 from .hang import Hang
 from .here import task_from_here
 from .let_go import let_go
 from .motions import clear_the_way, move_body
+from .recover import recover
 
 Outcome: TypeAlias = Literal["ok", "stalled", "missed", "fell", "interrupted", "stopped", "not supported"]
 Replan: TypeAlias = Callable[[LimbedTask], Plan | None]
@@ -29,6 +30,8 @@ Progress: TypeAlias = Callable[[int, int, str, float], None]
 ELSEWHERE: Final = ((0.0, 0.0), (0.0, 0.02), (0.0, -0.02), (0.025, 0.0), (-0.025, 0.0))
 """Where the body goes for another approach after a miss, from the plan's pose [m]."""
 MOST_REPLANS: Final = 3
+MOST_RECOVERIES: Final = 3
+"""Of one action."""
 ARRIVED: Final = 0.02
 """A body nearer to its aim than this has come to it [m]."""
 TURNED: Final = math.radians(6.0)
@@ -63,6 +66,8 @@ class ActionReport:
     tip_error: float | None
     """The same of the tip of the limb that acted [m]."""
     reason: str = ""
+    recovered: int = 0
+    """Hooks that came off meanwhile and were brought back."""
 
     def to_json(self) -> Json:
         """Plain data."""
@@ -134,6 +139,8 @@ class Sequencer:
         self._replan, self._progress = replan, progress
         self._missed: set[int] = set()
         self._hanging: Hang | None = None
+        self._recovered = 0
+        """In the present action."""
         self.report = ClimbReport(forced=names_of(course.objections))
 
     def start(self) -> None:
@@ -194,8 +201,9 @@ class Sequencer:
         start, action = self.climber.time, self.course.actions[first - 1]
         outcome: Outcome = "interrupted"
         tries, reason = 0, ""
+        self._recovered = 0
         try:
-            outcome, tries, reason = self._motion(first, last)
+            outcome, tries, reason = self._surely(first, last)
         except FallenError as fall:
             outcome, reason = "fell", str(fall)
             raise
@@ -209,6 +217,27 @@ class Sequencer:
                 self._reported(first, last, action.kind, title, outcome, start, tries, limb, reason)
             )
         return outcome, reason
+
+    def _surely(self, first: int, last: int) -> tuple[Outcome, int, str]:
+        """Carry out one group, once more after each hook that comes off in it and is brought back."""
+        while True:
+            try:
+                return self._motion(first, last)
+            except SlippedError as slip:
+                if self._recovered == MOST_RECOVERIES:
+                    raise
+                why = self._recover(first, slip)
+                if why:
+                    return "missed", 0, why
+                self._recovered += 1
+
+    def _recover(self, step: int, slip: SlippedError) -> str:
+        """Back to the stance before a step, but for the limb that acts in it; why not, where that cannot be."""
+        self._hanging = None
+        acts = self.course.actions[step - 1].limb
+        held = {self._limb(name): hold for name, hold in self.course.holds(step - 1).items() if hold and name != acts}
+        elbows = {i: int(self.course.elbows[step - 1, i]) for i in held}
+        return recover(self.climber, slip, held, self._pose(step - 1), elbows)
 
     def _motion(self, first: int, last: int) -> tuple[Outcome, int, str]:
         action = self.course.actions[first - 1]
@@ -224,7 +253,8 @@ class Sequencer:
             return self._move(last)
         if action.kind == "release":
             assert action.limb is not None
-            release(self.climber, self._limb(action.limb))
+            if self.climber.body.tasks[self._limb(action.limb)].hold:  # a slip may have done it
+                release(self.climber, self._limb(action.limb))
             return "ok", 1, ""
         if action.kind == "grab":
             return self._grab(first)
@@ -348,7 +378,8 @@ class Sequencer:
             body_error = float(np.hypot(*(true.pose[:2] - climber.body.settled[:2])))
             tip_error = None if limb is None else float(np.hypot(*(true.tips[limb] - climber.body.tip(limb))))
         return ActionReport(
-            first, last, kind, title, outcome, start, climber.time - start, tries, self._off(), body_error, tip_error, reason
+            first, last, kind, title, outcome, start, climber.time - start, tries, self._off(), body_error, tip_error, reason,
+            self._recovered,
         )  # fmt: skip
 
 

@@ -230,6 +230,12 @@ class WholeBody:
             row[:] = [i in limbs for i in range(self.n)]
         self._handed = 0.0
 
+    def carry_at_once(self, carriers: Collection[int]) -> None:
+        """Let the load jump to these limbs: for where another has lost it already."""
+        for i in carriers:
+            self.tasks[i].doing = "hold"
+        self._handed = 1.0
+
     def stands(self, pose: Floats) -> float:
         """How well the limbs that hold now would at another pose of the body, in newtons of the worst wish; -inf out of reach."""
         carriers = [i for i, task in enumerate(self.tasks) if task.doing == "hold"]

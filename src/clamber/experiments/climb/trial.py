@@ -102,6 +102,8 @@ class ClimbTrial:
     """Moves of the body that did not arrive."""
     replans: int
     """New plans that were taken."""
+    recovered: int
+    """Hooks that came off and were brought back."""
     drawn: Json
     """Deviation of each key of the noise; of pegs, of those that the plan takes."""
 
@@ -119,7 +121,7 @@ def error_trial(seed: int, error: str) -> ClimbTrial:
     """A trial without an answer; it counts as a climb that failed."""
     return ClimbTrial(
         seed=seed, done=False, outcome=ERROR, step=0, kind="", limb="", reason=error, seconds=0.0, short=0.0, pushes=0,
-        grabs=0, stalled=0, replans=0, drawn={},
+        grabs=0, stalled=0, replans=0, recovered=0, drawn={},
     )  # fmt: skip
 
 
@@ -187,6 +189,7 @@ def _judged(setup: TrialSetup, seed: int, run: ClimbRun, told: list[Json | None]
         grabs=len(grabs),
         stalled=sum(action.outcome == "stalled" for action in report.actions),
         replans=len(report.replans),
+        recovered=sum(action.recovered for action in report.actions),
         drawn=run.drawn.to_json(np.array(taken, np.int32)),
     )
 

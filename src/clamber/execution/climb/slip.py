@@ -1,0 +1,68 @@
+"""A hook that has come off, told before the body is far: two tips that are on their holds do not move against each other."""
+
+import math
+from itertools import combinations
+from typing import Final
+
+from .whole_body import WholeBody
+
+MOVED: Final = 0.0115
+"""Two tips that have moved this far against each other are not both on their holds [m]. Joints that cross their play move them by less
+than 10 mm on LIBRA, a hook that slides in by 2 mm."""
+FORGOTTEN: Final = 0.2
+"""Time over which slower changes are forgotten: sinking in, what is learned of the sensors, play that a moving body crosses [s]."""
+
+
+class SlipWatch:
+    """Looks at how the tips of hooks on holds lie to each other, tick by tick.
+
+    Against where the holds are believed to be they are off by as much as the map is, the play and the sensors; against where they were a
+    moment ago by little. Of two that move apart, that one has come off which moves the way it pulled: its hold is no longer in the way.
+
+    Args:
+        body: What knows the limbs and their tasks.
+    """
+
+    def __init__(self, body: WholeBody) -> None:
+        self._body = body
+        hooked = [i for i, limb in enumerate(body.robot.limbs) if limb.end.kind != "gripper"]
+        self._pairs = list(combinations(hooked, 2))
+        self._rate = min(1.0, body.period / FORGOTTEN)
+        self._before: dict[tuple[int, int], tuple[int, int, float, float]] = {}
+        """Pair -> its holds, and the first tip less the second as it lately was, world frame [m]."""
+        self.moved = 0.0
+        """Farthest that two tips have moved against each other of late [m]."""
+
+    def reset(self) -> None:
+        """Begin anew, as if all were well."""
+        self._before.clear()
+        self.moved = 0.0
+
+    def see(self) -> int | None:
+        """Take in the tick whose measurements the body has just seen; index of the limb whose hook has come off."""
+        body, before = self._body, self._before
+        angle = body.pose.item(2)
+        c, s = math.cos(angle), math.sin(angle)
+        tips = body.tips.tolist()
+        lost, most = None, 0.0
+        for pair in self._pairs:
+            a, b = pair
+            one, other = body.tasks[a], body.tasks[b]
+            if one.doing not in ("hold", "cling") or other.doing not in ("hold", "cling"):
+                before.pop(pair, None)
+                continue
+            x, y = tips[a][0] - tips[b][0], tips[a][1] - tips[b][1]
+            x, y = c * x - s * y, s * x + c * y
+            known = before.get(pair)
+            if known is None or known[:2] != (one.hold, other.hold):
+                before[pair] = one.hold, other.hold, x, y
+                continue
+            dx, dy = x - known[2], y - known[3]
+            size = math.hypot(dx, dy)
+            if size > max(most, MOVED):
+                first, second = body.grab_direction(a), body.grab_direction(b)
+                lost = a if dx * (first[0] + second[0]) + dy * (first[1] + second[1]) > 0.0 else b
+            most = max(most, size)
+            before[pair] = one.hold, other.hold, known[2] + self._rate * dx, known[3] + self._rate * dy
+        self.moved = most
+        return lost

@@ -1,0 +1,165 @@
+"""A hook that comes off is told, and which one, within 0.2 s; nothing else is called a slip; the robot catches itself and climbs on."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+import pytest
+
+from clamber.execution.climb.climb_trace import TracedClimber
+from clamber.execution.climb.climber import FallenError, SlippedError
+from clamber.execution.climb.course import lay_course
+from clamber.execution.climb.sequencer import ClimbReport, Sequencer
+from clamber.execution.climb.slip import MOVED
+from clamber.experiments.climb.climb_work import two_rungs
+from clamber.experiments.climb.noise import draw_for, named_noise
+from clamber.experiments.climb.plants import drawn_plant
+from clamber.experiments.climb.run_plan import believing_climber, climbing_flaws
+from clamber.sim.climber_plant import ClimberPlant
+from clamber.types import Floats
+
+OFF = 0.012
+"""A tip that far from its peg is off it [m]."""
+GONE = 0.25
+"""Time for which a peg is not there, where it comes back [s]."""
+RIGHT, LEFT = 0, 1
+When = Callable[[TracedClimber], bool]
+
+
+@dataclass
+class Knocked:
+    """Two rungs of the ladder under the usual noise, on the way of which a limb's peg is suddenly not there."""
+
+    seed: int
+    limb: int = RIGHT
+    when: When = lambda climber: False
+    gone: float = GONE
+    others: bool = True
+    """Whether the other pegs stay."""
+    knocked: float | None = None
+    off: float | None = None
+    """When the tip was first off its peg [s]."""
+    told: float | None = None
+    said: FallenError | None = None
+    moved: list[float] = field(default_factory=list)
+    """Most that two tips moved against each other, at each tick before [m]."""
+
+    def __post_init__(self) -> None:
+        task, plan = two_rungs()
+        drawn = draw_for(task, named_noise("usual"), self.seed)
+        self.plant: ClimberPlant = drawn_plant(task, climbing_flaws(task, ()), drawn)
+        self.pegs: Floats = task.world.positions() + drawn.pegs
+        self.climber = believing_climber(task, self.plant, named_noise("usual"), drawn)
+        self.sequencer = Sequencer(self.climber, lay_course(task, plan))
+        self._tick, self.climber.tick = self.climber.tick, self.tick  # type: ignore[method-assign]
+        model = self.plant.model
+        self._there = model.geom_contype.copy(), model.geom_conaffinity.copy()
+        self.hold = 0
+
+    def climb(self) -> ClimbReport:
+        return self.sequencer.run()
+
+    def tick(self) -> None:
+        climber, model = self.climber, self.plant.model
+        if self.knocked is None and self.when(climber):
+            self.knocked, self.hold = climber.time, climber.body.tasks[self.limb].hold
+            which = model.geom(f"peg {self.hold}").id if self.others else slice(None)
+            model.geom_contype[which] = model.geom_conaffinity[which] = 0
+        elif self.knocked is not None and climber.time > self.knocked + self.gone:
+            model.geom_contype[:], model.geom_conaffinity[:] = self._there
+        try:
+            self._tick()
+        except FallenError as said:
+            if self.told is None:
+                self.told, self.said = climber.time, said
+            raise
+        finally:
+            if self.knocked is None:
+                self.moved.append(climber.slip.moved)
+            elif self.off is None:
+                apart = self.plant.truth().tips[self.limb] - self.pegs[self.hold - 1]
+                self.off = climber.time if float(np.hypot(*apart)) > OFF else None
+
+
+def on_two_limbs(step: int, ticks: int) -> When:
+    """Some ticks after a step has begun and two limbs carry while the third is free."""
+    return _after(step, ticks, lambda doing: doing.count("hold") == 2 and bool({"joints", "tip"} & set(doing)))
+
+
+def on_three_limbs(step: int, ticks: int) -> When:
+    """Likewise, while the third one clings."""
+    return _after(step, ticks, lambda doing: doing.count("hold") == 2 and "cling" in doing)
+
+
+def while_one_pushes(step: int, ticks: int) -> When:
+    """Likewise, while the third one pushes its hook onto a hold."""
+    return _after(step, ticks, lambda doing: doing.count("hold") == 2 and "pull" in doing)
+
+
+def _after(step: int, ticks: int, fits: Callable[[list[str]], bool]) -> When:
+    seen = [0]
+
+    def due(climber: TracedClimber) -> bool:
+        if climber.step >= step and fits([task.doing for task in climber.body.tasks]):
+            seen[0] += 1
+        return seen[0] > ticks
+
+    return due
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_no_slip_is_told_in_a_climb_without_one(seed: int) -> None:
+    climb = Knocked(seed)
+    report = climb.climb()
+    assert report.done, report.reason
+    assert climb.said is None
+    assert max(climb.moved) < 0.9 * MOVED
+    assert all(action.recovered == 0 for action in report.actions)
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("limb", [RIGHT, LEFT])
+@pytest.mark.parametrize(
+    ("when", "step", "ticks"),
+    [(on_two_limbs, 2, 60), (on_two_limbs, 5, 100), (on_three_limbs, 3, 10), (while_one_pushes, 2, 40)],
+    ids=["reaching", "body moves", "third clings", "third pushes"],
+)  # fmt: skip
+def test_a_lost_hook_is_told_and_named_within_a_fifth_of_a_second(
+    when: Callable[[int, int], When], step: int, ticks: int, limb: int, seed: int
+) -> None:
+    climb = Knocked(seed, limb, when(step, ticks), gone=60.0)
+    climb.climb()
+    assert climb.knocked is not None
+    if climb.off is None:  # another hook has taken the load before this one came down
+        assert climb.told is not None
+        return
+    assert climb.told is not None
+    assert climb.told - climb.off < 0.2
+    assert isinstance(climb.said, SlippedError)
+    assert climb.said.limb == limb
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_loss_of_all_hooks_is_told_within_a_fifth_of_a_second_and_is_a_fall(seed: int) -> None:
+    climb = Knocked(seed, RIGHT, on_two_limbs(2, 60), gone=60.0, others=False)
+    report = climb.climb()
+    assert climb.off is not None
+    assert climb.told is not None
+    assert climb.told - climb.off < 0.2
+    assert report.actions[-1].outcome == "fell"
+    assert "fell" in report.reason
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_clinging_hook_takes_the_load_and_the_climb_goes_on(seed: int) -> None:
+    climb = Knocked(seed, RIGHT, on_three_limbs(3, 10))
+    report = climb.climb()
+    assert climb.knocked is not None
+    assert report.done, report.reason
+    assert sum(action.recovered for action in report.actions) >= 1
+    assert all(action.outcome == "ok" for action in report.actions)
+    course = climb.sequencer.course
+    np.testing.assert_allclose(climb.plant.truth().pose[:2], course.pose(len(course.actions))[:2], atol=0.02)
+    told = report.to_json()["actions"]
+    assert isinstance(told, list)
+    assert sum(action["recovered"] for action in told) >= 1
