@@ -13,7 +13,7 @@ from ...worlds.board import Board
 from ..plant import BodyPlant
 from .approach import Approaches, rank
 from .fall import FallWatch
-from .hold_map import HoldMap
+from .hold_map import HoldMap, TipDifference
 from .postures import postures
 from .whole_body import BodyGains, LimbTask, WholeBody
 
@@ -49,8 +49,8 @@ class Climber:
         board: Its holds, as the map says.
         plant: What moves.
         gains: Of body and limbs.
-        map_error: Largest error of a hold's place in the map, each way [m]: how far a hook may stop from it and still count as seated.
-        backlash: Whole play of a joint that is reckoned with [rad]; None: that of the robot's file.
+        map_error: Largest error of a hold's place in the map, each way along each axis [m].
+        backlash: Whole play of a joint that is reckoned with at first [rad]; None: that of the robot's file.
     """
 
     def __init__(
@@ -67,7 +67,7 @@ class Climber:
         self.body = WholeBody(robot, period=plant.period, gains=gains, backlash=backlash)
         self.fall = FallWatch(self.body)
         self.holds = {hold.number: np.array((hold.x, hold.y)) for hold in board.holds}
-        self.map = HoldMap(self.holds, map_error)
+        self.map = HoldMap(self.holds, map_error, backlash=self.body.backlash)
         self.peg_radius = max(hold.radius for hold in board.holds)
         self.approaches = Approaches(robot, self.body.legs, lambda number: self.peg_radius + self.map.error(number))
         self.balance: Callable[[], None] | None = None
@@ -79,6 +79,8 @@ class Climber:
         """1 for grippers that are closed about something, as last sensed, shape (limbs,)."""
         self._gripping = [i for i, limb in enumerate(robot.limbs) if limb.end.kind == "gripper"]
         self.ticks = 0
+        self.latest = -1
+        """Index of the limb that took its hold last."""
         self._strained = self._slipped = 0
 
     @property
@@ -124,7 +126,7 @@ class Climber:
                 from its aim.
         """
         sensed = self.plant.sense()
-        self.body.see(sensed.q, sensed.qd, sensed.angle, sensed.angle_speed)
+        self.body.see(sensed.q, sensed.qd, sensed.angle - self.map.offset, sensed.angle_speed)
         if self.balance is not None:
             self.balance()
         self.gripped[:] = sensed.gripped
@@ -132,7 +134,7 @@ class Climber:
         self.plant.actuate(self.body.command(), self.grips)
         self.plant.step()
         self.ticks += 1
-        holding = [i for i, task in enumerate(self.body.tasks) if task.holds]
+        holding = self.holding()
         if not holding:
             raise FallenError("no limb holds the body")
         if falls:
@@ -173,22 +175,58 @@ class Climber:
         while self.body.handing_over:
             self.tick()
 
+    def doubt(self, number: int, i: int) -> float:
+        """How far off limb `i`'s tip may seem to be along each axis when it is on a hold, by what is known of the map and sensors [m]."""
+        return max(self.map.doubt(number, self.body.tasks[j].hold, self.seen(i, j)) for j in self.holding() if j != i)
+
+    def holding(self) -> list[int]:
+        """Indices of the limbs that carry the body."""
+        return [i for i, task in enumerate(self.body.tasks) if task.holds]
+
     def learn(self, number: int, i: int, others: Iterable[int]) -> None:
-        """Correct the map: limb `i` is on a hold, and so are others, all of them loaded.
+        """Correct the map and what is believed of the sensors: limb `i` is on a hold, and so are others, all of them loaded.
 
         Args:
             number: Of the hold of limb `i`.
             i: Index of that limb.
             others: Indices of limbs whose tips are on the holds of their tasks.
         """
-        tip, tasks = self.body.tip(i), self.body.tasks
-        self.map.learn(number, {tasks[j].hold: tip - self.body.tip(j) for j in others})
+        tasks = self.body.tasks
+        for j in others:
+            self.map.learn(number, tasks[j].hold, self.seen(i, j))
+        self.body.reckon_with(2.0 * self.map.half_play)
         for task in tasks:
             if task.hold:
                 task.place = self.holds[task.hold].copy()
 
     def learn_again(self) -> None:
         """Correct the map by the limbs that hold: their joints are loaded, and hooks that were not quite home have slid in."""
-        holding = [i for i, task in enumerate(self.body.tasks) if task.doing == "hold"]
+        holding = sorted(self.holding(), key=lambda i: i != self.latest)
         if len(holding) == 2:
             self.learn(self.body.tasks[holding[0]].hold, holding[0], holding[1:])
+
+    def seen(self, i: int, j: int) -> TipDifference:
+        """Where the tip of limb `i` is from that of limb `j`."""
+        c, s = math.cos(self.body.settled[2]), math.sin(self.body.settled[2])
+        place = self.body.tip(i) - self.body.tip(j)
+        turn = np.array(((c, -s), (s, c)))
+        by_play, unsure = np.zeros(2), np.zeros((2, 2))
+        for limb, sign in ((i, 1.0), (j, -1.0)):
+            sides, slopes = self._sides(limb), turn @ self._by_joint(limb)
+            by_play -= sign * slopes @ sides
+            loose = 0.5 * self.body.backlash * (1.0 - np.abs(sides)) * slopes
+            unsure += loose @ loose.T
+        return TipDifference(place, np.array((place[1], -place[0])), by_play, unsure)
+
+    def _sides(self, i: int) -> Floats:
+        """Which side of its play each joint of a limb rests on, -1 to 1, shape (2,)."""
+        half = 0.5 * self.body.backlash
+        return self.body.play[i] / half if half > 0.0 else np.ones(2)
+
+    def _by_joint(self, i: int) -> Floats:
+        """How a limb's tip moves with its joints, body frame, shape (2, 2) [m/rad]."""
+        body, limb = self.body, self.robot.limbs[i]
+        first = limb.port_angle + body.q[i, 0] - body.play[i, 0]
+        second = first + body.q[i, 1] - body.play[i, 1] + limb.hook_beta
+        x, y = -limb.l2_effective * math.sin(second), limb.l2_effective * math.cos(second)
+        return np.array(((x - limb.l1 * math.sin(first), x), (y + limb.l1 * math.cos(first), y)))

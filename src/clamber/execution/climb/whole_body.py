@@ -37,6 +37,8 @@ somewhere, or pulls along a direction."""
 MAPPINGS: Final = {"thesis": THESIS, "kinematic": KINEMATIC, "wrench": WRENCH}
 PLAY_TIME: Final = 0.2
 """Time in which the believed side of the play follows the load [s]."""
+LOAD_TIME: Final = 0.15
+"""Time over which the load of a limb that pulls is evened out: a dither's own load moves no joint through its play [s]."""
 CLING_DAMPING: Final = 60.0
 """Of the tip of a limb that clings [N s/m]."""
 CLING_STIFFNESS: Final = 1500.0
@@ -179,7 +181,7 @@ class WholeBody:
             (limb.port_x, limb.port_y, math.cos(limb.port_angle), math.sin(limb.port_angle)) for limb in robot.limbs
         ]
         self._kp, self._kd, self._stiffness = np.array(gains.kp), np.array(gains.kd), np.array(gains.stiffness)
-        self._pressed, self._loads = np.zeros(n, np.int64), np.zeros((n, 2))
+        self._pressed, self._loads, self._loads_now = np.zeros(n, np.int64), np.zeros((n, 2)), np.zeros(2)
         self._lag = np.array((period / PLAY_TIME, self.backlash / 2))
 
     def see(self, q: Floats, qd: Floats, angle: float, angle_speed: float, *, with_encoder: bool = True) -> None:
@@ -198,6 +200,11 @@ class WholeBody:
             self.legs, self.q - self.play, self.qd, self._weights, self._holds, angle, angle_speed, with_encoder,
             self.settled_tips, self._unused_speeds, self.settled, self._unused_twist,
         )  # fmt: skip
+
+    def reckon_with(self, backlash: float) -> None:
+        """Believe in another backlash of every joint from now on [rad]."""
+        self.backlash = backlash
+        self._lag[1] = backlash / 2
 
     def hand_over(self, carriers: Collection[int]) -> None:
         """Let the load pass to these limbs, each of them on a hold; it does while `handing_over`, then the others cling."""
@@ -379,8 +386,9 @@ class WholeBody:
 
     def _press(self, i: int, force: Floats, damping: float) -> None:
         pull_torques(
-            self.legs[i], self.q[i], self.qd[i], self.pose, self.twist, force, damping, self.torques[i], self._loads[i]
+            self.legs[i], self.q[i], self.qd[i], self.pose, self.twist, force, damping, self.torques[i], self._loads_now
         )
+        self._loads[i] += self.period / LOAD_TIME * (self._loads_now - self._loads[i])
 
     def _reach(self, i: int, task: LimbTask) -> None:
         aim = self._aim
