@@ -1,6 +1,7 @@
 """Motions: how each kind of action is carried out. Body moves on smooth ways, releases, and the grab of Bevly (1997), Fig. 4.14."""
 
 import math
+from collections.abc import Callable
 from itertools import pairwise
 from typing import Final
 
@@ -67,6 +68,8 @@ ASIDE: Final = (0.0, 0.8, -0.8, 1.4, -1.4, 0.0)
 """Across the hook, where each try aims, in doubts of the map [-]."""
 WEAKER: Final = 3.0
 """By how much the worst of the holding limbs may be worse off where the body makes room for a grab [N]."""
+MOST_SHIFTS: Final = 2
+"""That often the body makes room for one way: its limbs are elsewhere after the first [-]."""
 SLACK: Final = 0.004
 """Beyond its doubt, how far a seated hook may be from where it should be: play and backlash [m]."""
 
@@ -156,14 +159,34 @@ def release(climber: Climber, i: int) -> None:
     """Take a limb off its hold, against its grab direction, until its tip is clear of it; the others carry."""
     climber.carry_with_all(but=i)
     body, task = climber.body, climber.body.tasks[i]
-    start, g = body.tip(i), body.grab_direction(i)
     away = stand_off_of(climber, i, climber.map.error(task.hold)) + AWAY
+    _make_room_to_leave(climber, i, away)
+    start, g = body.tip(i), body.grab_direction(i)
     move_tip(climber, i, start - away * g, 0.35)
     for _ in range(round(LEAVING / climber.plant.period)):
         if (start - body.tip(i)) @ g > away - AWAY:
             break
         climber.tick()
     task.hold, task.doing, task.angles = 0, "joints", body.q[i].copy()
+
+
+def _make_room_to_leave(climber: Climber, i: int, away: float) -> None:
+    """Move the body to where a limb that reaches no farther can draw its hook back."""
+    if climber.hangs:
+        return
+    body = climber.body
+    climber.plant.pause()
+    side, back = float(np.sign(body.q[i, 1] - body.play[i, 1])), -away * body.grab_direction(i)
+    shift = climber.approaches.leave(i, side, body.settled, body.tip(i), back, climber.holds, stands=_stands(climber))
+    if shift is not None and shift.any():
+        move_body(climber, body.aim + np.array((*shift, 0.0)))
+
+
+def _stands(climber: Climber) -> Callable[[Floats], bool]:
+    """Whether the limbs that hold can at another pose of the body, hardly worse than here."""
+    body = climber.body
+    least = min(0.0, body.stands(body.settled)) - WEAKER
+    return lambda pose: body.stands(pose) >= least
 
 
 def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
@@ -185,12 +208,9 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
     doubt = climber.doubt(number, i)
     hold = climber.holds[number].copy()
     wished, near, room = stand_off_of(climber, i, doubt), NEAR + doubt, SLACK + doubt
-    found = _find(climber, i, hold, elbow, wished, near)
+    found = _come_near(climber, i, hold, elbow, wished, near)
     if found is None:
         return Grabbed(False, 0, 0.0, 0.0)
-    if found.shift.any() and not climber.hangs:
-        move_body(climber, body.aim + np.array((*found.shift, 0.0)))
-        found = _find(climber, i, hold, elbow, wished, near) or found
     follow(climber, i, found.way)
     climber.wait(0.15)
     climber.learn_again()
@@ -215,14 +235,23 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
     return Grabbed(False, len(ASIDE), along, across)
 
 
-def _find(climber: Climber, i: int, hold: Floats, elbow: int, wished: float, near: float) -> Approach | None:
+def _come_near(climber: Climber, i: int, hold: Floats, elbow: int, wished: float, near: float) -> Approach | None:
+    """Move the body to where there is a way for a limb, and find the way from there; None where there is none."""
     body = climber.body
-    least = min(0.0, body.stands(body.settled)) - WEAKER
-    climber.plant.pause()
-    return climber.approaches.find(
-        i, body.q[i] - body.play[i], body.settled, hold, climber.holds, elbow=elbow, stand_off=wished, near=near,
-        stands=lambda pose: body.stands(pose) >= least,
-    )  # fmt: skip
+    for left in reversed(range(MOST_SHIFTS + 1)):
+        climber.plant.pause()
+        found = climber.approaches.find(
+            i, body.q[i] - body.play[i], body.settled, hold, climber.holds, elbow=elbow, stand_off=wished, near=near,
+            stands=_stands(climber) if left and not climber.hangs else _stays,
+        )  # fmt: skip
+        if found is None or not found.shift.any():
+            return found
+        move_body(climber, body.aim + np.array((*found.shift, 0.0)))
+    return None
+
+
+def _stays(pose: Floats) -> bool:
+    return False
 
 
 def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bool:
