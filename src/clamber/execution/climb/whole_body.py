@@ -333,7 +333,7 @@ class WholeBody:
                 if task.doing == "hang":
                     self.torques[i] += task.loads
             self._pressed[i] = task.doing == "cling" or (task.doing == "pull" and task.pressed)
-            if task.doing in ("tip", "pull", "cling"):
+            if task.doing in ("pull", "cling"):
                 most = gains.firm if task.pressed else gains.gentle
                 np.clip(self.torques[i], -most, most, out=self.torques[i])
         follow_play(
@@ -397,7 +397,10 @@ class WholeBody:
         aim["twist"][0, :2] = self._into_port(i, task.speed - still)
         aim["wrench"][0] = 0.0
         self._state(i)
-        self.torques[i] = self._reachers[i].command(aim, self._states)[0] + self._own_weight(i)
+        torques = self._reachers[i].command(aim, self._states)[0]
+        # all in proportion: a joint clipped alone would turn the force at the tip, and wedge a hook on the hold it leaves
+        torques *= min(1.0, self.gains.gentle / max(float(np.abs(torques).max()), 1e-9))
+        self.torques[i] = torques + self._own_weight(i)
 
     def _turned_back(self, i: int) -> Floats:
         """Speed of the tip relative to the body, world axes."""
