@@ -9,7 +9,7 @@ from clamber.robots.limbed import LimbedRobot
 from clamber.sim.climber_plant import ClimberPlant
 from clamber.sim.gripper_model import capture_radius
 from clamber.sim.limb_flaws import LimbFlaws
-from clamber.types import Floats, Ints
+from clamber.types import Floats
 from clamber.worlds.library import load_board
 
 IDEAL = LimbFlaws(physics_rate=1000.0)
@@ -25,7 +25,7 @@ def robot() -> LimbedRobot:
 
 
 def placed(pegs: Floats | None = None) -> ClimberPlant:
-    """On the ladder, all three tips where the map has pegs, the jaws open; no motor brings a torque."""
+    """On the ladder, all three tips where the map has pegs, the jaws open."""
     board = load_board("ladder")
     plant = ClimberPlant(robot(), board, IDEAL, pegs=pegs)
     plant.model.opt.gravity[:] = 0.0  # what moves is moved by the grippers alone
@@ -37,22 +37,22 @@ def placed(pegs: Floats | None = None) -> ClimberPlant:
     return plant
 
 
-def ticks(plant: ClimberPlant, count: int, grips: Ints) -> None:
+def ticks(plant: ClimberPlant, count: int, grips: np.ndarray, torques: Floats | None = None) -> None:
     for _ in range(count):
-        plant.grip(grips)
+        plant.actuate(np.zeros((3, 2)) if torques is None else torques, grips)
         plant.step()
 
 
 def test_open_jaws_hold_nothing_and_closed_ones_keep_the_tip_on_the_peg() -> None:
     plant = placed()
     ticks(plant, 1, NONE)
-    assert not plant.grippers.gripped.any()
+    assert not plant.sense().gripped.any()
     ticks(plant, 20, ALL)
-    np.testing.assert_array_equal(plant.grippers.gripped, 1)
+    np.testing.assert_array_equal(plant.sense().gripped, 1)
     pegs = load_board("ladder").positions()[[3, 2, 1]]
     np.testing.assert_allclose(plant.truth().tips, pegs, atol=2e-4)  # [m]
     ticks(plant, 1, np.array((1, 1, 0), np.int32))
-    np.testing.assert_array_equal(plant.grippers.gripped, (1, 1, 0))
+    np.testing.assert_array_equal(plant.sense().gripped, (1, 1, 0))
 
 
 @pytest.mark.parametrize("share", [0.5, 0.97, 1.05, 1.5])
@@ -65,7 +65,7 @@ def test_jaws_catch_a_peg_within_their_circle_and_draw_it_to_the_tip(share: floa
     pegs[3] += share * radius * np.array((np.cos(towards), np.sin(towards)))
     plant = placed(pegs)
     ticks(plant, 1, ALL)
-    assert bool(plant.grippers.gripped[0]) is (share < 1.0)
+    assert bool(plant.sense().gripped[0]) is (share < 1.0)
     if share < 1.0:
         ticks(plant, 80, ALL)
         np.testing.assert_allclose(plant.truth().tips[0], pegs[3], atol=5e-4)  # [m]
@@ -86,10 +86,10 @@ def test_a_grip_bears_a_load_from_any_side_up_to_its_strength(share: float, angl
         x, y = plant.truth().tips[0] - data.xipos[link, :2]
         data.xfrc_applied[link] = (fx, fy, 0.0, 0.0, 0.0, x * fy - y * fx)
         ticks(plant, 1, only)
-        if part < 1.0 and plant.grippers.gripped[0]:
+        if part < 1.0 and plant.sense().gripped[0]:
             assert plant.grippers.forces[0] == pytest.approx(part * share * strength, abs=0.05 * strength)
     ticks(plant, 10, only)
-    assert bool(plant.grippers.gripped[0]) is (share < 1.0)
+    assert bool(plant.sense().gripped[0]) is (share < 1.0)
     assert plant.grippers.slips == (0 if share < 1.0 else 1)
 
 
@@ -99,7 +99,7 @@ def test_a_gripper_that_missed_stays_shut_on_nothing_until_it_is_opened() -> Non
     pegs[3] += 0.05
     plant = placed(pegs)
     ticks(plant, 5, ALL)
-    assert not plant.grippers.gripped[0]
+    assert not plant.sense().gripped[0]
     ticks(plant, 1, np.array((0, 1, 1), np.int32))
     ticks(plant, 1, ALL)
-    np.testing.assert_array_equal(plant.grippers.gripped[1:], 1)
+    np.testing.assert_array_equal(plant.sense().gripped[1:], 1)

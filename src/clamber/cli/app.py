@@ -12,6 +12,7 @@ import typer
 from .. import __version__
 from ..errors import ClamberError
 from .bench import bench
+from .body import body
 from .check import check
 from .inventory import inventory
 from .learn import learn
@@ -49,6 +50,7 @@ app.command("show")(show)
 app.command("bench")(bench)
 app.command("sweep")(sweep)
 app.add_typer(limb, name="limb")
+app.add_typer(body, name="body")
 app.add_typer(new, name="new")
 app.add_typer(plant, name="plant")
 app.command("reach")(reach)

@@ -1,5 +1,6 @@
 """The whole climber in MuJoCo as a plant: encoders of every joint and of the body's angle in, torques out, the truth for logs and tests."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from .climber_model import HookShape, climber_spec
 from .climber_wires import command_motors, sense_climber
 from .grippers import Grippers
 from .limb_flaws import ForceSensor, LimbFlaws
+from .pinned_tips import pin_tips
 from .wrench_reader import WrenchReader
 
 
@@ -26,6 +28,7 @@ class ClimberPlant:
         flaws: Of joints, motors and sensors.
         pegs: Where the holds truly are, shape (n_holds, 2) [m]; None: as believed.
         shape: Of the hooks.
+        pinned: Limb -> hold that its tip is fixed to; others only hook on.
         offsets: What every encoder tells too much: the body's, then the joints', shape (1 + 2 limbs,) [rad]; None: nothing.
         presser: The limb that presses against the wall of `flaws`, if it has one.
     """
@@ -38,13 +41,16 @@ class ClimberPlant:
         *,
         pegs: Floats | None = None,
         shape: HookShape = HookShape(),  # noqa: B008  # frozen
+        pinned: Mapping[str, int] | None = None,
         offsets: Floats | None = None,
         presser: str | None = None,
     ) -> None:
         import mujoco
 
         self.robot, self.board, self.flaws, self.period = robot, board, flaws, flaws.period
-        self.model: Any = climber_spec(robot, board, flaws, pegs=pegs, shape=shape, presser=presser).compile()
+        spec = climber_spec(robot, board, flaws, pegs=pegs, shape=shape, presser=presser)
+        pin_tips(spec, board, pinned or {}, pegs)
+        self.model: Any = spec.compile()
         # what pays for itself with hundreds of geoms and many robots costs a tenth of a step here
         self.model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_MIDPHASE | mujoco.mjtDisableBit.mjDSBL_ISLAND
         self._data: Any = mujoco.MjData(self.model)
