@@ -42,8 +42,10 @@ DITHER_RATE: Final = 5.0
 """[Hz]."""
 AWAY: Final = 0.006
 """A limb that leaves a hold aims this far beyond where it is clear of it: its tip lags its aim [m]."""
-LEAVING: Final = 1.0
+LEAVING: Final = 0.5
 """Most time that it then gets to come clear [s]."""
+SHAKING: Final = 2.0
+"""Most time for which a wedged hook is shaken [s]."""
 SHORT: Final = 0.004
 """A hook that stops this far before where its hold should be may have met it with its flare [m]."""
 WIDE_DITHER: Final = 14.0
@@ -156,18 +158,42 @@ def stand_off_of(climber: Climber, i: int, doubt: float) -> float:
 
 
 def release(climber: Climber, i: int) -> None:
-    """Take a limb off its hold, against its grab direction, until its tip is clear of it; the others carry."""
+    """Take a limb off its hold, against its grab direction, until its tip is clear of it; the others carry.
+
+    A hook that stays wedged clings to its hold as before.
+    """
     climber.carry_with_all(but=i)
     body, task = climber.body, climber.body.tasks[i]
     away = stand_off_of(climber, i, climber.map.error(task.hold)) + AWAY
     _make_room_to_leave(climber, i, away)
     start, g = body.tip(i), body.grab_direction(i)
+
+    def clear() -> bool:
+        return float((start - body.tip(i)) @ g) > away - AWAY
+
     move_tip(climber, i, start - away * g, 0.35)
     for _ in range(round(LEAVING / climber.plant.period)):
-        if (start - body.tip(i)) @ g > away - AWAY:
+        if clear():
             break
         climber.tick()
+    if not clear() and not _shake_off(climber, i, clear):
+        task.doing = "cling"
+        return
     task.hold, task.doing, task.angles = 0, "joints", body.q[i].copy()
+
+
+def _shake_off(climber: Climber, i: int, clear: Callable[[], bool]) -> bool:
+    """Pull a wedged hook back and to and fro, free to go where its walls let it; whether it comes clear."""
+    body, task, period = climber.body, climber.body.tasks[i], climber.plant.period
+    task.doing, task.pressed = "pull", True
+    for k in range(round(SHAKING / period)):
+        g = body.grab_direction(i)
+        task.force = -PUSH * g + WIDE_DITHER * np.sin(2 * np.pi * WIDE_RATE * k * period) * np.array((-g[1], g[0]))
+        climber.tick()
+        if clear():
+            break
+    task.pressed = False
+    return clear()
 
 
 def _make_room_to_leave(climber: Climber, i: int, away: float) -> None:
@@ -205,6 +231,8 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
     climber.carry_with_all(but=i)
     if task.hold:
         release(climber, i)
+    if task.hold:
+        return Grabbed(False, 0, 0.0, 0.0)
     doubt = climber.doubt(number, i)
     hold = climber.holds[number].copy()
     wished, near, room = stand_off_of(climber, i, doubt), NEAR + doubt, SLACK + doubt

@@ -225,6 +225,8 @@ class Sequencer:
         if action.kind == "release":
             assert action.limb is not None
             release(self.climber, self._limb(action.limb))
+            if self.climber.body.tasks[self._limb(action.limb)].hold:
+                return "missed", 1, "its hook stays wedged on its hold"
             return "ok", 1, ""
         if action.kind == "grab":
             return self._grab(first)
