@@ -6,11 +6,13 @@ from typing import Final
 import numpy as np
 
 from ...control.hook_forces import MOST_CUTS, pair_forces
+from ...control.swing_path import clearance
 from ...robots.limbed import LimbedRobot
 from ...types import Floats, Ints, Records
 from ...worlds.board import Board
+from .approach import HOOK, discs_near, wall_of
 from .legs import legs_of
-from .postures import postures
+from .postures import Posture, postures
 
 CHANGE: Final = 0.4
 """What a change of side counts, where 1 is a hook that pulls sideways instead of down [-]."""
@@ -20,6 +22,10 @@ LACKING: Final = 0.5
 """What counts each newton that the worst of two carrying limbs lacks of what is wished, after each action [1/N]."""
 ON_TOP: Final = 0.3
 """What a hook that pulls sideways instead of down counts after each action [-]."""
+BLOCKED: Final = 4.0
+"""What counts after each action a limb on a hold whose links touch another hold or the body, which then bend it off its way [-]."""
+CLEAR: Final = 0.008
+"""Clearance with which it counts nothing [m]."""
 
 
 def choose_elbows(robot: LimbedRobot, board: Board, stances: Records) -> Ints:
@@ -63,11 +69,13 @@ def _costs(robot: LimbedRobot, board: Board, stances: Records, states: Ints) -> 
     wrench = np.array((0.0, robot.weight, 0.0))
     places = board.positions()
     costs = np.zeros((len(stances), len(states)))
+    wall = wall_of(robot)
     for step, stance in enumerate(stances):
         pose = np.array((stance["x"], stance["y"], stance["angle"]))
         held = [i for i in range(limbs) if stance["hold"][i] >= 0]
         arms = np.array([places[hold] - pose[:2] if hold >= 0 else (0.0, 0.0) for hold in stance["hold"][:limbs]])
         found = {i: postures(robot.limbs[i], pose, places[stance["hold"][i]]) for i in held}
+        near = {i: _crowding(robot, board, legs, i, pose, int(stance["hold"][i]), found[i], wall) for i in held}
         carriers = [i for i in held if int(stance["carriers"]) >> i & 1]
         for k, state in enumerate(states):
             q = np.zeros((limbs, 2))
@@ -77,8 +85,22 @@ def _costs(robot: LimbedRobot, board: Board, stances: Records, states: Ints) -> 
                     continue
                 posture = found[i][int(state[i])]
                 q[i] = posture.angles
-                costs[step, k] += ON_TOP * (1.0 - posture.on_top)
+                costs[step, k] += ON_TOP * (1.0 - posture.on_top) + near[i][int(state[i])]
             if len(carriers) == 2:
                 margin, _ = pair_forces(legs, q, carriers[0], carriers[1], pose, arms, wrench, nothing, cuts, forces)
                 costs[step, k] += LACKING * max(0.0, -margin)
     return costs
+
+
+def _crowding(
+    robot: LimbedRobot, board: Board, legs: Records, i: int, pose: Floats, on: int, found: list[Posture], wall: Floats
+) -> list[float]:
+    """What each posture of a limb on hold number `on` of the board's list counts for being near other holds and the body."""
+    others = {hold.number: np.array((hold.x, hold.y)) for k, hold in enumerate(board.holds) if k != on}
+    radius = max(hold.radius for hold in board.holds)
+    discs = discs_near(others, pose, lambda _: radius)
+    out = []
+    for posture in found:
+        room = clearance(legs[i], posture.angles[0], posture.angles[1], discs, wall, robot.link_radius, HOOK)
+        out.append(BLOCKED * min(max(1.0 - room / CLEAR, 0.0), 1.0))
+    return out
