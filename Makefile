@@ -32,13 +32,15 @@ $(STAMP): requirements.txt pyproject.toml
 		$(BIN)/python -m pip install --quiet --no-deps --no-build-isolation -e .; \
 		touch $@'
 
-demo: setup  ## plan a climb up the ladder, check every step, draw it
+demo: setup  ## plan a climb up the ladder, climb it in contact dynamics, draw both
 	@mkdir -p out
-	$(BIN)/clamber plan ladder -o out/ladder.json
+	$(BIN)/clamber run ladder --peg-error 3mm --save-plan out/ladder.json -o out/climb.gif -o out/climb.mcap > out/climb.txt \
+		|| { cat out/climb.txt; exit 1; }
+	@cat out/climb.txt
 	$(BIN)/clamber check out/ladder.json
 	$(BIN)/clamber show out/ladder.json -o out/ladder.png
-	$(BIN)/clamber show out/ladder.json -o out/ladder.gif
-	@echo "Look at out/ladder.gif (the climb), out/ladder.png (one picture) and out/ladder.json (the plan)."
+	@echo "Look at out/climb.gif (the climb as it was), out/climb.txt (what became of every action), out/climb.mcap (its log),"
+	@echo "out/ladder.png (the plan in one picture) and out/ladder.json (the plan)."
 
 test: setup  ## fast tests
 	$(BIN)/python -m pytest -n $(JOBS) -m "not slow"

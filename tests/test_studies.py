@@ -13,14 +13,14 @@ from clamber.studies.bevly_1997.no_rotation import WITHOUT_TURNS
 from clamber.studies.bevly_1997.printed_plans import PRINTED
 from clamber.studies.bevly_1997.replayed import limbed_task
 from clamber.studies.exhaust import exhaust
-from clamber.studies.library import STUDIES
+from clamber.studies.library import ON_A_BODY, ON_ONE_LIMB, STUDIES
 from clamber.studies.report import write_report
 
 BEVLY = STUDIES["bevly-1997"]
 LONG = ("no-rotation-free", "step-size", "modified-ladder-evolution", "h-evolution", "planner-success")
 
 
-@pytest.mark.parametrize("name", [name for name in BEVLY if name not in LONG and not name.startswith("fig-3-")])
+@pytest.mark.parametrize("name", [name for name in BEVLY if name not in (*LONG, *ON_ONE_LIMB, *ON_A_BODY)])
 def test_quick_results_of_bevly_keep_their_verdicts(name: str) -> None:
     result = BEVLY[name]()
     assert result.result == name

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from clamber.actions.limbed_plans import thesis_code
-from clamber.actions.plan import Plan
+from clamber.actions.plan import Plan, load_plan
 from clamber.cli import main
 from clamber.execution.climb.climb_trace import ClimbTrace
 from clamber.execution.climb.course import climbable
@@ -57,6 +57,17 @@ def test_the_table_fits_and_names_every_kind_of_action(run: Any, tmp_path: Path)
     assert "climbed: 3 actions" in out
     assert "release" in out and "move" in out
     assert max(map(len, out.splitlines())) <= 80
+
+
+def test_one_run_leaves_log_picture_and_plan(run: Any, tmp_path: Path) -> None:
+    plan, kept = plan_file(tmp_path, 300, 3), tmp_path / "kept.json"
+    files = [tmp_path / name for name in ("run.mcap", "run.png", "run.csv")]
+    code, out, _ = run(plan, *(word for file in files for word in ("-o", str(file))), "--save-plan", str(kept), "-q")
+    assert code == 0
+    for file in files:
+        assert f"written: {file}" in out
+        assert file.stat().st_size > 1000
+    assert load_plan(kept).actions == load_plan(Path(plan)).actions
 
 
 def test_a_plan_that_is_refused_moves_nothing_and_leaves_with_2(run: Any, tmp_path: Path) -> None:

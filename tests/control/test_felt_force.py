@@ -59,7 +59,7 @@ def feel(body: WholeBody, q: Floats, qd: Floats, before: Floats, torques: Floats
     rotors = np.array([chain.joints["rotor"] for chain in body.chains])
     damping = np.array([chain.joints["damping"] for chain in body.chains])
     felt, forces = np.zeros((body.n, 2)), np.zeros((body.n, 2))
-    feel_forces(body.legs, rotors, damping, q, qd, before.copy(), torques, ANGLE, PERIOD, 1.0, felt, forces)
+    feel_forces(body.legs, rotors, damping, body.held, q, qd, before.copy(), torques, ANGLE, PERIOD, 1.0, felt, forces)
     return forces
 
 
@@ -102,13 +102,13 @@ def test_a_limb_that_holds_and_cannot_tell_keeps_the_watch_quiet() -> None:
     body = libra()
     watch = FallWatch(body)
     watch.reset()
-    body.tasks[0].doing = "hold"
+    body.held[0] = 1
     body.q[:, 1] = 1.0
     watch.see()
     assert watch.carried < 10.0
     body.q[0, 1] = -body.robot.limbs[0].hook_beta
     assert not any(watch.see() for _ in range(100))
     assert watch.carried == math.inf
-    body.tasks[0].doing = "tip"  # what swings does not carry, whether it can tell or not
+    body.held[0] = 0  # what swings does not carry, whether it can tell or not
     watch.see()
     assert watch.carried < 10.0

@@ -1,13 +1,15 @@
 """A climber in contact dynamics: it hangs on two hooks, moves its body, and climbs a rung."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from clamber.execution.climb.climber import Climber, FallenError
-from clamber.execution.climb.motions import grab, move_body, release
+from clamber.execution.climb.motions import JOINT_AGILITY, JOINT_SPEED, at_speed, grab, move_body, release
 from clamber.robots.library import load_robot
 from clamber.robots.limbed import LimbedRobot
-from clamber.sim.climber_plant import ClimberPlant
+from clamber.sim.climber_plant import BodySensed, ClimberPlant
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.types import Floats
 from clamber.worlds.library import load_board
@@ -18,11 +20,25 @@ RIGHT, LEFT, BOTTOM = 0, 1, 2
 START = np.array((0.2286, 0.1374, 0.0))  # 15 mm below the two pegs that carry
 
 
-def on_the_ladder(flaws: LimbFlaws = NOMINAL, pegs: Floats | None = None) -> tuple[Climber, ClimberPlant]:
+class TurnedEncoder:
+    """A plant whose body encoder tells an angle that is off by a constant [rad]."""
+
+    def __init__(self, plant: ClimberPlant, offset: float) -> None:
+        self.plant, self.offset, self.period = plant, offset, plant.period
+        self.reset, self.actuate, self.step, self.pause = plant.reset, plant.actuate, plant.step, plant.pause
+
+    def sense(self) -> BodySensed:
+        sensed = self.plant.sense()
+        return replace(sensed, angle=sensed.angle + self.offset)
+
+
+def on_the_ladder(
+    flaws: LimbFlaws = NOMINAL, pegs: Floats | None = None, *, offset: float = 0.0, backlash: float | None = None
+) -> tuple[Climber, ClimberPlant]:
     robot, board = load_robot("libra"), load_board("ladder")
     assert isinstance(robot, LimbedRobot)
     plant = ClimberPlant(robot, board, flaws, pegs=pegs)
-    climber = Climber(robot, board, plant, map_error=0.00635)
+    climber = Climber(robot, board, TurnedEncoder(plant, offset), map_error=0.00635, backlash=backlash)
     climber.start(START, {"right": 4, "left": 3, "bottom": 2}, idle="bottom", elbows=ELBOWS)
     return climber, plant
 
@@ -34,6 +50,25 @@ def test_the_robot_hangs_on_two_hooks_and_hardly_creeps() -> None:
     climber.wait(1.0)
     np.testing.assert_allclose(plant.truth().pose, before, atol=1e-3)  # within a second [m], [rad]
     np.testing.assert_allclose(climber.body.settled[:2], plant.truth().pose[:2], atol=2e-3)
+
+
+@pytest.mark.parametrize("friction", [0.7, 1.3])
+def test_a_hook_that_has_left_is_clear_of_its_peg(friction: float) -> None:
+    climber, plant = on_the_ladder(NOMINAL.with_changes(friction=friction))
+    climber.wait(0.5)
+    release(climber, BOTTOM)
+    # the flare's lips end 15 mm before the seat, the peg's far side is 5 mm beyond its centre
+    assert float(np.hypot(*(plant.truth().tips[BOTTOM] - climber.holds[2]))) > 0.020
+
+
+@pytest.mark.parametrize("length", [0.0, 0.05, 0.9, 4.0])
+def test_a_way_goes_from_rest_to_rest_within_speed_and_agility(length: float) -> None:
+    period = 0.001
+    done = np.concatenate(([0.0], at_speed(length, period), [length]))
+    speed = np.diff(done) / period
+    assert speed.min() >= -1e-9
+    assert speed.max() <= JOINT_SPEED + 1e-9
+    assert np.abs(np.diff(np.concatenate(([0.0], speed, [0.0])))).max() <= 1.01 * JOINT_AGILITY * period
 
 
 def test_the_body_moves_up_on_its_hooks() -> None:
@@ -60,6 +95,37 @@ def test_a_rung_is_climbed_and_every_hook_is_seated(seed: int, error: float, fri
     move_body(climber, START + np.array((0.0, 0.1524, 0.0)))
     climber.wait(0.3)
     np.testing.assert_allclose(plant.truth().pose[:2], START[:2] + np.array((0.0, 0.1524)), atol=0.015)
+
+
+@pytest.mark.parametrize(("offset", "believed"), [(0.4, 1.6), (-0.4, 2.4)])
+def test_a_rung_teaches_what_the_sensors_tell_wrong(offset: float, believed: float) -> None:
+    climber, plant = on_the_ladder(offset=np.radians(offset), backlash=np.radians(believed))
+    climber.wait(0.5)
+    for limb, number, elbow in ((RIGHT, 6, -1), (BOTTOM, 1, 1), (LEFT, 5, 1)):
+        assert grab(climber, limb, number, elbow=elbow).held
+        np.testing.assert_allclose(plant.truth().tips[limb], load_board("ladder").positions()[number - 1], atol=2e-3)
+    assert np.degrees(climber.map.offset) == pytest.approx(offset, abs=0.2)
+    assert abs(2 * climber.map.half_play - NOMINAL.backlash) < abs(np.radians(believed) - NOMINAL.backlash)
+
+
+def test_what_errors_of_the_sensors_do_to_a_difference_of_tips_is_its_derivative() -> None:
+    climber, plant = on_the_ladder(backlash=np.radians(1.8))
+    climber.wait(1.0)
+    body, small = climber.body, 1e-6
+    sensed = plant.sense()
+
+    def difference(turned: float, played: float) -> Floats:
+        play = body.play.copy()
+        body.play *= 1.0 + played / (0.5 * body.backlash)
+        body.see(sensed.q, sensed.qd, sensed.angle - turned, sensed.angle_speed)
+        body.play[:] = play
+        return body.tip(RIGHT) - body.tip(LEFT)
+
+    here = difference(0.0, 0.0)
+    seen = climber.seen(RIGHT, LEFT)
+    np.testing.assert_allclose(seen.place, here, atol=1e-12)
+    np.testing.assert_allclose(seen.by_angle, (difference(small, 0.0) - here) / small, atol=1e-5)
+    np.testing.assert_allclose(seen.by_play, (difference(0.0, small) - here) / small, atol=1e-5)
 
 
 def test_without_its_hooks_the_robot_falls_and_says_so() -> None:

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from clamber.errors import SpecError
 from clamber.execution.hardware import Decoder, Reading, WiredClimber, WiredLimb
-from clamber.execution.plant import BodyPlant, LimbPlant
+from clamber.execution.plant import BodyPlant, BodySensed, LimbPlant
 from clamber.execution.wiring import COMMAND_LIMIT, Wiring, wiring_of, wiring_of_limb
 from clamber.experiments.limb.bench_limb import bench_limb
 from clamber.robots.library import load_robot
@@ -18,7 +18,7 @@ from clamber.sim.climber_plant import ClimberPlant
 from clamber.sim.limb_flaws import LimbFlaws, PlantError
 from clamber.sim.plants import PLANTS
 from clamber.sim.wires import Amplifiers, ClimberWires, LimbWires
-from clamber.types import Floats
+from clamber.types import Floats, Ints
 from clamber.units import OZ_IN
 from clamber.worlds.library import load_board
 
@@ -117,7 +117,7 @@ def drive(plant: BodyPlant, q: Floats, torques: Floats) -> list[list[Floats]]:
     for torque in torques:
         sensed = plant.sense()
         seen.append([sensed.q.copy(), sensed.qd.copy(), np.array((sensed.angle, sensed.angle_speed))])
-        plant.actuate(torque)
+        plant.actuate(torque, np.array((1, 0, 1), np.int32))
         plant.step()
     truth = plant.truth()
     assert truth is not None
@@ -169,3 +169,46 @@ def test_wiring_of_a_limb_is_its_part_of_the_whole() -> None:
     parts: list[Wiring] = [wiring_of_limb(robot, name) for name in robot.limb_names]
     for key in ("torque_per_volt", "most_volts"):
         assert np.array_equal(np.concatenate([getattr(part, key) for part in parts]), getattr(WIRING, key))
+
+
+def test_grippers_are_switches_behind_volts_and_counts() -> None:
+    robot = load_robot("libra-grippers")
+    assert isinstance(robot, LimbedRobot)
+    wiring = wiring_of(robot)
+    whole = [i for i, limb in enumerate(robot.limbs) if limb.end.kind == "gripper"]
+    assert wiring.grippers == tuple(whole) and whole
+    assert (wiring.n_commands, wiring.n_readings) == (6 + len(whole), 7 + len(whole))
+    inner = GrippingPlant()
+    wired = WiredClimber(ClimberWires(inner, wiring), wiring)
+    for grips in ((1, 0, 1), (0, 1, 1)):
+        wired.actuate(np.zeros((3, 2)), np.array(grips, np.int32))
+        assert [inner.grips[i] for i in whole] == [grips[i] for i in whole]
+        inner.gripped[:] = grips
+        assert [int(wired.sense().gripped[i]) for i in whole] == [grips[i] for i in whole]
+
+
+class GrippingPlant:
+    """A climber that does nothing but grip."""
+
+    period = 0.005
+
+    def __init__(self) -> None:
+        self.grips, self.gripped = np.zeros(3, np.int32), np.zeros(3, np.int32)
+
+    def reset(self, pose: Floats, q: Floats) -> None:
+        pass
+
+    def sense(self) -> BodySensed:
+        return BodySensed(np.zeros((3, 2)), np.zeros((3, 2)), 0.0, 0.0, self.gripped)
+
+    def actuate(self, torques: Floats, grips: Ints) -> None:
+        self.grips[:] = grips
+
+    def step(self) -> None:
+        pass
+
+    def pause(self) -> None:
+        pass
+
+    def truth(self) -> None:
+        return None

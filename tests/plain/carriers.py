@@ -100,9 +100,15 @@ def placed(row: Any, carrier: int, n: int) -> list[float]:
     return wide
 
 
-def strength_rows(hold: Any) -> tuple[list[Point], float]:
+def strength_of(limb: Any, hold: Any) -> float | None:
+    """What end effector and hold both take [N], or None for any force."""
+    stated = [one for one in (limb.end.strength, hold.strength) if one is not None]
+    return min(stated) if stated else None
+
+
+def strength_rows(strength: float | None) -> tuple[list[Point], float]:
     """Sides of the 16-gon inscribed in |F| <= strength (first corner at angle 0): outward normals, distance."""
-    if hold.strength is None:
+    if strength is None:
         return [], math.inf
     normals = [(math.cos((k + 0.5) * math.pi / 8.0), math.sin((k + 0.5) * math.pi / 8.0)) for k in range(16)]
-    return normals, hold.strength * math.cos(math.pi / 16.0)
+    return normals, strength * math.cos(math.pi / 16.0)

@@ -11,7 +11,17 @@ from typing import Any
 import numpy as np
 from scipy.optimize import linprog
 
-from .carriers import Carrier, balance, best_option, general_split, placed, strength_rows, torque_rows, torques
+from .carriers import (
+    Carrier,
+    balance,
+    best_option,
+    general_split,
+    placed,
+    strength_of,
+    strength_rows,
+    torque_rows,
+    torques,
+)
 from .hook import BIG, EXACT, cone_cuts, force_cuts, lam_interval, pull_row
 from .kinematics import Option, Point
 
@@ -45,7 +55,9 @@ def two_carrier_split(a: Carrier, b: Carrier, task: Any, norm: bool) -> tuple[li
     if split is None:
         return None, []
     combos = list(itertools.product(a.options, b.options))
-    windows = [lam_interval(force_cuts((a, b), combo, split, task.rules.hook_cone, task.rules.hook_pull)) for combo in combos]
+    windows = [
+        lam_interval(force_cuts((a, b), combo, split, task.rules.hook_cone, task.rules.hook_pull)) for combo in combos
+    ]
     kept = [(combo, w) for combo, w in zip(combos, windows, strict=True) if w is not None]
     if not kept:
         kept = [(combo, (-BIG, BIG)) for combo in combos]
@@ -101,7 +113,7 @@ def many_carrier_split(carriers: list[Carrier], options: list[Option], task: Any
         if along is not None and task.rules.hook_pull > 0.0:
             cuts.append([-x for x in placed(along, i, n)])
             right.append(-task.rules.hook_pull)
-        normals, distance = strength_rows(c.hold)
+        normals, distance = strength_rows(strength_of(c.limb, c.hold))
         for normal in normals:
             cuts.append(placed(normal, i, n))
             right.append(distance)

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import linprog
 
-from .carriers import Carrier, balance, general_split, placed, strength_rows, torque_rows
+from .carriers import Carrier, balance, general_split, placed, strength_of, strength_rows, torque_rows
 from .kinematics import EPS, Option, Point
 
 BIG = 1e6
@@ -60,20 +60,20 @@ def pull_row(carrier: Carrier, o: Option) -> Point | None:
     return -math.cos(o.grab_angle), -math.sin(o.grab_angle)
 
 
-def strength_sides(hold: Any, const: Point, slope: Point) -> list[Cut]:
+def strength_sides(strength: float | None, const: Point, slope: Point) -> list[Cut]:
     """|const + slope lambda| <= strength as one cut from below and one from above, at the roots of the quadratic.
 
     Without real roots no lambda helps: then a constant, strength minus the least |F|.
     """
-    if hold.strength is None:
+    if strength is None:
         return []
     a = slope[0] ** 2 + slope[1] ** 2
     b = 2.0 * (const[0] * slope[0] + const[1] * slope[1])
-    c = const[0] ** 2 + const[1] ** 2 - hold.strength**2
+    c = const[0] ** 2 + const[1] ** 2 - strength**2
     nearest = -b / (2.0 * a)
     least = math.hypot(const[0] + nearest * slope[0], const[1] + nearest * slope[1])
-    if least > hold.strength:
-        return [Cut(hold.strength - least, 0.0)]
+    if least > strength:
+        return [Cut(strength - least, 0.0)]
     low, high = sorted(float(x.real) for x in np.roots([a, b, c]))
     return [Cut(-low, 1.0), Cut(high, -1.0)]
 
@@ -90,7 +90,7 @@ def force_cuts(
         if along is not None and pull > 0.0:
             still, per_lam = along[0] * const[0] + along[1] * const[1], along[0] * slope[0] + along[1] * slope[1]
             cuts.append(Cut(still - pull, per_lam))
-        cuts.extend(strength_sides(carrier.hold, const, slope))
+        cuts.extend(strength_sides(strength_of(carrier.limb, carrier.hold), const, slope))
     return cuts
 
 
@@ -113,7 +113,9 @@ def lam_interval(cuts: list[Cut]) -> tuple[float, float] | None:
     return (low, high) if low <= high else ((low + high) / 2.0,) * 2
 
 
-def pair_margins(a: Carrier, b: Carrier, weight: float, hook_cone: float, pull: float = 0.0) -> dict[tuple[int, int], float]:
+def pair_margins(
+    a: Carrier, b: Carrier, weight: float, hook_cone: float, pull: float = 0.0
+) -> dict[tuple[int, int], float]:
     """Margin [N] of two carriers for every combination of their branches."""
     split = general_split(a, b, weight)
     found: dict[tuple[int, int], float] = {}
@@ -145,8 +147,9 @@ def hang_margins(carrier: Carrier, weight: float, turn: float, hook_cone: float,
                 terms += [-weight * math.sin(angle) - pull] if pull > 0.0 else []
         for direction, half in ends[len(ends) - on_hold :]:
             terms.append(weight * (-math.sin(direction) - math.cos(half)))
-        if carrier.hold.strength is not None:
-            terms.append(carrier.hold.strength - weight)
+        strength = strength_of(carrier.limb, carrier.hold)
+        if strength is not None:
+            terms.append(strength - weight)
         found[o.branch] = min(terms)
     return found
 
@@ -167,7 +170,7 @@ def many_margin(carriers: list[Carrier], options: list[Option], weight: float, h
         for row, sign in itertools.product(torque_rows(c, o), (1.0, -1.0)):
             rows.append([sign * x for x in placed(row, i, n)] + [0.0])
             right.append(1.0)
-        normals, distance = strength_rows(c.hold)
+        normals, distance = strength_rows(strength_of(c.limb, c.hold))
         for normal in normals:
             rows.append([*placed(normal, i, n), 0.0])
             right.append(distance)

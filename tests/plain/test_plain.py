@@ -33,7 +33,7 @@ def limb(name: str, x: float, y: float, angle: float, lower: float, upper: float
         l2=0.150,
         shoulder=joint(lower, upper),
         elbow=joint(-110.0, 110.0),
-        end=SimpleNamespace(kind="hook", cone=None, offset=0.02, angle=hook),
+        end=SimpleNamespace(kind="hook", cone=None, offset=0.02, angle=hook, strength=None),
     )
 
 

@@ -1,5 +1,6 @@
 """Random variants of the shipped tasks: every rule, goal, hold and end effector that a task file can ask for, mixed."""
 
+import copy
 import math
 import random
 from dataclasses import replace
@@ -74,7 +75,12 @@ def varied_robot(rng: random.Random, task: LimbedTask) -> Any:
     kinds = [rng.choice((limb.end.kind, "hook", "gripper", "foot")) for limb in robot.limbs]
     cones = [rng.choice((None, None, math.radians(45.0))) for _ in robot.limbs]
     if rng.random() < 0.4:
-        ends = [replace(m.end, kind=k, cone=c) for m, k, c in zip(robot.limbs, kinds, cones, strict=True)]
+        aside = copy.deepcopy(rng)  # so that what is drawn later does not depend on the strengths
+        strong = [aside.choice((None, robot.weight * aside.uniform(0.4, 2.5))) for _ in robot.limbs]
+        ends = [
+            replace(m.end, kind=k, cone=c, strength=s)
+            for m, k, c, s in zip(robot.limbs, kinds, cones, strong, strict=True)
+        ]
         robot = replace(robot, limbs=tuple(replace(m, end=e) for m, e in zip(robot.limbs, ends, strict=True)))
     if rng.random() < 0.3:
         robot = replace(robot, opposed=())

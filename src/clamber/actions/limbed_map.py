@@ -42,7 +42,7 @@ def burden(p, s, spare, margins, row):
 
         f = min(1 / share, sqrt(max_power / power)),
 
-    where no hard check and no strength of a hold breaks the proportion; else f is found by bisection below that.
+    where no hard check and no strength of a hold or an end effector breaks the proportion; else f is found by bisection below that.
 
     Args:
         p: Parameters; the weight changes and is put back.
@@ -64,7 +64,7 @@ def burden(p, s, spare, margins, row):
             share = max(
                 share, max(abs(s.torques[i, 0]) / limbs(p)[i].limit1, abs(s.torques[i, 1]) / limbs(p)[i].limit2)
             )
-            strong = strong and holds(p)[s.hold[i]].strength == math.inf
+            strong = strong and min(holds(p)[s.hold[i]].strength, limbs(p)[i].strength) == math.inf
     factor = 1.0 / share if share > 0.0 else math.inf
     if p.hard & (1 << POWER) and s.power > 0.0:
         factor = min(factor, math.sqrt(p.max_power / s.power))

@@ -12,6 +12,7 @@ import typer
 from .. import __version__
 from ..errors import ClamberError
 from .bench import bench
+from .body import body
 from .check import check
 from .inventory import inventory
 from .learn import learn
@@ -21,6 +22,7 @@ from .new import new
 from .plan import plan
 from .plant import plant
 from .polish import polish
+from .press import press
 from .reach import reach
 from .run import run
 from .show import show
@@ -42,11 +44,13 @@ app.command("learn")(learn)
 app.command("inventory")(inventory)
 app.command("check")(check)
 app.command("run")(run)
+app.command("press")(press)
 app.command("trials")(trials)
 app.command("show")(show)
 app.command("bench")(bench)
 app.command("sweep")(sweep)
 app.add_typer(limb, name="limb")
+app.add_typer(body, name="body")
 app.add_typer(new, name="new")
 app.add_typer(plant, name="plant")
 app.command("reach")(reach)

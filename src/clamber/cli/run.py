@@ -1,11 +1,12 @@
 """`clamber run`: carry a plan out in contact dynamics."""
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from ..errors import UnknownNameError
-from .options import AsJson, NoiseTexts, Output, Overrides, Quiet
+from .options import AsJson, NoiseTexts, Overrides, Quiet
 from .output import announce_compilation, check_writable, print_json, stderr, stdout
 
 
@@ -27,17 +28,22 @@ def run(
     force: Annotated[
         bool, typer.Option("--force", help="Carry out a plan that its checks refuse; the log says so.")
     ] = False,
-    output: Output = None,
+    output: Annotated[
+        list[Path] | None,
+        typer.Option("--output", "-o", metavar="FILE", help="File to write; more than once for more."),
+    ] = None,
+    save_plan: Annotated[Path | None, typer.Option(metavar="FILE", help="Keep the plan (.json).")] = None,
     as_json: AsJson = False,
     quiet: Quiet = False,
 ) -> None:
     """Carry a plan out on a simulated robot: every action, what became of it, and where it ended.
 
     `--set plant.backlash=1deg` changes the plant, other keys the task; `--noise usual` lets the plant differ from what is believed
-    (docs/climbing.md). The file of `-o` is a log (.mcap, .csv), an
-    animation (.gif, .html, .mp4) or a picture (.png, .svg, .pdf).
+    (docs/climbing.md). A file of `-o` is a log (.mcap, .csv), an animation (.gif, .html, .mp4) or a picture (.png, .svg, .pdf).
     """
-    check_writable(output)
+    outputs = list(dict.fromkeys(output or ()))
+    for file in (*outputs, save_plan):
+        check_writable(file)
     from ..experiments.climb.plants import check_plant, is_remote
 
     check_plant(plant)
@@ -49,8 +55,8 @@ def run(
     from ..viewing.climb_run_view import check_run_suffix, write_run
     from .run_text import ClimbLine, print_run
 
-    if output is not None:
-        check_run_suffix(output)
+    for file in outputs:
+        check_run_suffix(file)
     if planner not in PLANNERS:
         raise UnknownNameError("planner", planner, tuple(PLANNERS))
     deviations = read_noise(NO_NOISE, [*(noise or ()), *(() if peg_error is None else (f"peg_error={peg_error}",))])
@@ -66,16 +72,19 @@ def run(
         stderr().print(f"no plan for '{chosen.name}' that hooks can be trusted with; nothing has moved")
         raise typer.Exit(1)
     again = replanner(planner, seconds=seconds, seed=seed) if replan else None
-    streamed = output if output is not None and output.suffix.lower() == ".mcap" else None
+    if save_plan is not None:
+        plan.save(save_plan)
+    streamed = next((file for file in outputs if file.suffix.lower() == ".mcap"), None)
     with ClimbLine(stderr(), quiet=quiet) as line:
         run = run_plan(
             chosen, plan, flaws, noise=deviations, seed=seed, force=force, replan=again, progress=line.update,
             label=what, log=streamed, plant=plant,
         )  # fmt: skip
-    if output is not None and streamed is None:
-        write_run(run, output)
+    for file in outputs:
+        if file != streamed:
+            write_run(run, file)
     if as_json:
         print_json(run.to_json())
     else:
-        print_run(stdout(), run, output)
+        print_run(stdout(), run, outputs)
     raise typer.Exit(130 if run.report.reason == "interrupted" else 0 if run.report.done else 1)

@@ -1,5 +1,6 @@
 """A climb that was carried out as people read it: a live line on the way, and a table of what became of the actions."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -19,7 +20,7 @@ class ClimbLine(LiveLine):
         self.show(f"action {step} of {steps}: {title}, at {time:.0f} s")
 
 
-def print_run(console: Console, run: ClimbRun, written: Path | None) -> None:
+def print_run(console: Console, run: ClimbRun, written: Sequence[Path] = ()) -> None:
     """Print how a climb ended, a row for each kind of action, and where it was close."""
     report = run.report
     if report.done:
@@ -46,8 +47,8 @@ def print_run(console: Console, run: ClimbRun, written: Path | None) -> None:
         )
     for objection in report.forced:
         console.print(f"forced in spite of {objection}")
-    if written is not None:
-        console.print(f"written: {written}", soft_wrap=True)
+    for path in written:
+        console.print(f"written: {path}", soft_wrap=True)
 
 
 def _row(kind: str, rows: list[ActionReport]) -> tuple[str, ...]:

@@ -140,5 +140,5 @@ def _replay(
     if as_json:
         print_json(run.to_json() | {"trial": trial.to_json()})
     else:
-        print_run(stdout(), run, output)
+        print_run(stdout(), run, () if output is None else (output,))
     return 130 if run.report.reason == "interrupted" else 0 if run.report.done else 1

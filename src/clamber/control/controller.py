@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from typing import Any, Final, NoReturn
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import ClamberError
 from ..types import Floats, Records
@@ -122,6 +123,11 @@ class Controller:
     def memory(self) -> Floats:
         """What the laws remember, shape (batch, `memory_length`): the controller's own array, for those who analyse a loop."""
         return self._memory
+
+    @property
+    def desk(self) -> NDArray[np.int64]:
+        """Addresses for `drive_at`, so that a kernel can call this controller: its own array, shape (DESK,), valid while it lives."""
+        return self._desk
 
     def command(
         self, aims: Records, states: Floats, wrenches: Floats | None = None, mounts: Floats | None = None

@@ -10,6 +10,8 @@ from .records import JOINT, REPORT, ROOT, SETTINGS
 
 ARRAYS = 9
 """Addresses in a desk: joints, root, settings, memory, frames, lines, squares, torques, reports; sizes follow."""
+DESK_TORQUES = 7
+"""The torques among them."""
 JOINTS = 9
 """Number of joints."""
 LAWS = 10

@@ -16,13 +16,14 @@ FLAT = 0.15
 
 
 @kernel
-def feel_forces(legs, rotors, damping, q, qd, before, torques, angle, period, rate, felt, forces):
+def feel_forces(legs, rotors, damping, held, q, qd, before, torques, angle, period, rate, felt, forces):
     """Forces of the tips on what they touch.
 
     Args:
         legs: Records of `LEG`, shape (n,).
         rotors: Inertia of motors and gears at the joints, shape (n, 2) [kg m^2].
         damping: Of the joints, shape (n, 2) [N m s/rad].
+        held: 1 for limbs that hold, shape (n,).
         q, qd: Joint angles and speeds now, shape (n, 2).
         before: Joint speeds at the tick before; set to those of now, shape (n, 2).
         torques: Of the motors since then, shape (n, 2) [N m].
@@ -31,7 +32,11 @@ def feel_forces(legs, rotors, damping, q, qd, before, torques, angle, period, ra
         rate: Part of the way to the newest value that the smoothed one goes at a tick.
         felt: Torques at the joints' outputs, smoothed; changed, shape (n, 2) [N m].
         forces: Filled, world frame, shape (n, 2) [N]; of a limb that is stretched or folded, infinite: nobody can tell.
+
+    Returns:
+        Sum of the forces' sizes [N]; infinite where a limb that holds cannot tell, others that cannot count as none.
     """
+    total = 0.0
     for i in range(legs.size):
         leg = legs[i]
         for k in range(2):
@@ -49,6 +54,8 @@ def feel_forces(legs, rotors, damping, q, qd, before, torques, angle, period, ra
         if abs(bend) < FLAT:
             forces[i, 0] = math.inf
             forces[i, 1] = math.inf
+            if held[i]:
+                total = math.inf
             continue
         j00 = -leg.l1 * math.sin(first) - leg.l2 * math.sin(second)
         j10 = leg.l1 * math.cos(first) + leg.l2 * math.cos(second)
@@ -57,3 +64,5 @@ def feel_forces(legs, rotors, damping, q, qd, before, torques, angle, period, ra
         det = leg.l1 * leg.l2 * bend
         forces[i, 0] = (j11 * t1 - j10 * t2) / det
         forces[i, 1] = (-j01 * t1 + j00 * t2) / det
+        total += math.hypot(forces[i, 0], forces[i, 1])
+    return total

@@ -2,8 +2,6 @@
 
 import math
 
-import numpy as np
-
 from ..compiled import inlined, kernel
 
 SURE = 0.05
@@ -39,20 +37,20 @@ def pull_torques(leg, q, qd, pose, twist, force, damping, torques, loads):
     vy = twist[1] + twist[2] * (j10 + px) + j10 * qd[0] + j11 * qd[1]
     push0 = j00 * force[0] + j10 * force[1]
     push1 = j01 * force[0] + j11 * force[1]
-    weight_loads(leg, q, pose[2], loads)
-    loads[0] += push0
-    loads[1] += push1
+    shoulder, elbow = weight_loads(leg, q, pose[2])
+    loads[0] = shoulder + push0
+    loads[1] = elbow + push1
     # friction is fed the way the tip is to go, whichever way the limb's own weight pulls
     torques[0] = loads[0] - damping * (j00 * vx + j10 * vy) + leg.friction1 * math.tanh(push0 / RESTS)
     torques[1] = loads[1] - damping * (j01 * vx + j11 * vy) + leg.friction2 * math.tanh(push1 / RESTS)
 
 
 @inlined
-def weight_loads(leg, q, angle, loads):
-    """Torques that carry a free limb's own weight, shape (2,) [N m]; `angle` is the body's."""
+def weight_loads(leg, q, angle):
+    """Torques of shoulder and elbow that carry a free limb's own weight [N m]; `angle` is the body's."""
     first = angle + leg.port_angle + q[0]
-    loads[1] = leg.heft2 * math.cos(first + q[1])
-    loads[0] = leg.heft1 * math.cos(first) + loads[1]
+    elbow = leg.heft2 * math.cos(first + q[1])
+    return leg.heft1 * math.cos(first) + elbow, elbow
 
 
 @kernel
@@ -87,20 +85,19 @@ def follow_play(legs, q, held, forces, angle, pressed, loads, rate, play):
         angle: Of the body [rad].
         pressed: 1 for limbs that press against something with `loads`; others bear their own weight, shape (n,).
         loads: Torques at the joints' outputs, shape (n, 2) [N m].
-        rate: Part of the rest of the way that it goes at a tick, and half the whole play [rad], shape (2,).
+        rate: Part of the rest of the way that it goes at a tick, and half the whole play [rad], shape (2,) or more.
         play: Changed, shape (n, 2) [rad].
     """
-    load = np.empty(2)
     for i in range(legs.size):
         leg = legs[i]
         if held[i]:
             first = q[i, 0]
             second = q[i, 0] + q[i, 1] + leg.beta
-            load[1] = leg.l2 * (math.cos(second) * forces[i, 1] - math.sin(second) * forces[i, 0])
-            load[0] = load[1] + leg.l1 * (math.cos(first) * forces[i, 1] - math.sin(first) * forces[i, 0])
+            outer = leg.l2 * (math.cos(second) * forces[i, 1] - math.sin(second) * forces[i, 0])
+            load = (outer + leg.l1 * (math.cos(first) * forces[i, 1] - math.sin(first) * forces[i, 0]), outer)
         elif pressed[i]:
-            load[:] = loads[i]
+            load = (loads[i, 0], loads[i, 1])
         else:
-            weight_loads(leg, q[i], angle, load)
+            load = weight_loads(leg, q[i], angle)
         for k in range(2):
             play[i, k] += rate[0] * (rate[1] * math.tanh(load[k] / SURE) - play[i, k])

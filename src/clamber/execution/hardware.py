@@ -15,13 +15,13 @@ class Reading:
     """What the encoders say at a tick."""
 
     counts: Ints
-    """Shape (n_encoders,)."""
+    """Of the encoders, then the switches of the grippers, shape (n_readings,)."""
     tick: int
     """Number of the tick since the reset; ticks that nobody read are skipped."""
 
 
 class Hardware(Plant[Reading, Floats], Protocol):
-    """A driver, a simulation of one, or the way to one in another process; commands are volts, shape (n_joints,) [V].
+    """A driver, a simulation of one, or the way to one in another process.
 
     `truth` is flat, as the kind of robot has it, and empty where nobody knows it. Without power a gearbox does not hold a robot up: whoever
     drives one keeps commanding, every period.
@@ -32,6 +32,9 @@ class Hardware(Plant[Reading, Floats], Protocol):
 
         A real robot has been put there by hand, and its counters are set.
         """
+
+    def actuate(self, commands: Floats) -> None:
+        """Set volts of the joints, then switches of the grippers, held until the next call, shape (n_commands,) [V]."""
 
     def pause(self) -> None:
         """Hold the posture without commands until the next."""
@@ -70,6 +73,8 @@ class WiredClimber:
     def __init__(self, hardware: Hardware, wiring: Wiring) -> None:
         self.hardware, self.wiring, self.period = hardware, wiring, hardware.period
         self._decoder = Decoder(wiring, hardware.period)
+        self._switches = list(wiring.grippers)
+        self._gripped = np.zeros(wiring.n_joints // 2, np.int32)
 
     def reset(self, pose: Floats, q: Floats) -> None:
         """See `BodyPlant`."""
@@ -78,12 +83,16 @@ class WiredClimber:
 
     def sense(self) -> BodySensed:
         """See `BodyPlant`."""
-        angles, speeds = self._decoder.decode(self.hardware.sense())
-        return BodySensed(angles[:-1].reshape(-1, 2), speeds[:-1].reshape(-1, 2), float(angles[-1]), float(speeds[-1]))
+        reading = self.hardware.sense()
+        angles, speeds = self._decoder.decode(reading)
+        self._gripped[self._switches] = reading.counts[self.wiring.n_encoders :]
+        return BodySensed(
+            angles[:-1].reshape(-1, 2), speeds[:-1].reshape(-1, 2), float(angles[-1]), float(speeds[-1]), self._gripped
+        )
 
-    def actuate(self, torques: Floats) -> None:
+    def actuate(self, torques: Floats, grips: Ints) -> None:
         """See `BodyPlant`."""
-        self.hardware.actuate(self.wiring.volts(np.ravel(torques)))
+        self.hardware.actuate(np.append(self.wiring.volts(np.ravel(torques)), grips[self._switches]))
 
     def pause(self) -> None:
         """See `BodyPlant`."""

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Protocol, TypeVar
 
-from ..types import Floats
+from ..types import Floats, Ints
 
 SensedT_co = TypeVar("SensedT_co", covariant=True)
 TruthT_co = TypeVar("TruthT_co", covariant=True)
@@ -14,16 +14,13 @@ class PlantStoppedError(Exception):
 
 
 class Plant(Protocol[SensedT_co, TruthT_co]):
-    """What moves for one control period at a time. Each kind adds its own `reset`, since not all start from the same things."""
+    """What moves for one control period at a time. Each kind has its own `reset` and `actuate`: starts and motors differ."""
 
     period: float
     """Between two ticks [s]."""
 
     def sense(self) -> SensedT_co:
         """Read the sensors, once a tick."""
-
-    def actuate(self, commands: Floats, /) -> None:
-        """Set the commands, held until the next call: torques [N m], or volts for `Hardware`."""
 
     def step(self) -> None:
         """Let one control period pass."""
@@ -57,9 +54,12 @@ class Truth:
 
 
 class LimbPlant(Plant[Sensed, Truth], Protocol):
-    """A batch of equal limbs; commands are torques, shape (batch, n) [N m]."""
+    """A batch of equal limbs."""
 
     batch: int
+
+    def actuate(self, torques: Floats) -> None:
+        """Set the motors' torques, held until the next call, shape (batch, n) [N m]."""
 
     def reset(self, q: Floats) -> None:
         """Put every limb at rest at the joint angles `q`, shape (n,) or (batch, n) [rad], at time 0."""
@@ -77,6 +77,8 @@ class BodySensed:
     """Body angle by its own encoder [rad]."""
     angle_speed: float
     """[rad/s]."""
+    gripped: Ints
+    """1 for grippers that are closed about something, by the gap of their jaws, shape (limbs,); 0 for other ends."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -94,7 +96,10 @@ class BodyTruth:
 
 
 class BodyPlant(Plant[BodySensed, BodyTruth | None], Protocol):
-    """A climber; commands are torques, shape (limbs, 2) [N m]. A real one knows no truth."""
+    """A climber. A real one knows no truth."""
+
+    def actuate(self, torques: Floats, grips: Ints) -> None:
+        """Set the motors' torques, shape (limbs, 2) [N m], and which grippers are shut, 1 or 0, shape (limbs,), until the next call."""
 
     def reset(self, pose: Floats, q: Floats) -> None:
         """Put the body at a pose x, y [m], theta [rad] with joint angles q, shape (limbs, 2) [rad], at rest, at time 0."""

@@ -29,17 +29,21 @@ class PostureGuard:
         self._kp, self._kd = RATE**2 * inertias, 2 * DAMPING * RATE * inertias
         self._decoder = Decoder(wiring, period)
         self._posture, self._fed = np.zeros(self._n), np.zeros(self._n)
+        self.at_rest: Floats = np.append(np.zeros(self._n), np.ones(len(wiring.grippers)))
+        """Commands before the first: no volts, and whatever grips is shut, shape (n_commands,)."""
+        self._switches = self.at_rest[self._n :]
 
-    def hold(self, reading: Reading, volts: Floats) -> None:
-        """From now on, hold the posture of `reading`, in which `volts` were commanded, shape (n_joints,) [V]."""
+    def hold(self, reading: Reading, commands: Floats) -> None:
+        """From now on, hold the posture of `reading`, in which `commands` were given, shape (n_commands,); grippers stay as they are."""
         self._decoder.reset()
         self._posture = self._decoder.decode(reading)[0][: self._n]
-        self._fed = self._wiring.torques(volts)
+        self._fed, self._switches = self._wiring.torques(commands[: self._n]), commands[self._n :]
 
-    def volts(self, reading: Reading) -> Floats:
-        """Commands of this tick, shape (n_joints,) [V]."""
+    def commands(self, reading: Reading) -> Floats:
+        """Of this tick, shape (n_commands,)."""
         angles, speeds = (values[: self._n] for values in self._decoder.decode(reading))
-        return self._wiring.volts(self._fed + self._kp * (self._posture - angles) - self._kd * speeds)
+        volts = self._wiring.volts(self._fed + self._kp * (self._posture - angles) - self._kd * speeds)
+        return np.append(volts, self._switches)
 
     def moved(self, reading: Reading) -> float:
         """How far the joint that has moved most is off the posture [rad]."""

@@ -25,6 +25,8 @@ class Wiring:
     """Of each joint: amplifier gain, times motor constant, times gear, shape (n_joints,) [N m/V]."""
     most_volts: Floats
     """Largest command of each joint, either way: by its torque limit or by its amplifier, shape (n_joints,) [V]."""
+    grippers: tuple[int, ...] = ()
+    """Indices of the limbs that end in one: each has a switch behind the volts, and one behind the counts."""
 
     @property
     def n_joints(self) -> int:
@@ -36,9 +38,19 @@ class Wiring:
         """Of joints, and of whatever else turns."""
         return len(self.resolution)
 
-    def angles(self, counts: Ints) -> Floats:
-        """What the encoders say, shape (n_encoders,) [rad]."""
-        return counts / self.resolution
+    @property
+    def n_commands(self) -> int:
+        """Volts of joints, then 1 or 0 for each gripper that is to be shut or open."""
+        return self.n_joints + len(self.grippers)
+
+    @property
+    def n_readings(self) -> int:
+        """Counts of encoders, then 1 or 0 for each gripper that is closed about something, or not."""
+        return self.n_encoders + len(self.grippers)
+
+    def angles(self, readings: Ints) -> Floats:
+        """What the encoders say, of readings of shape (n_readings,) or counts alone: shape (n_encoders,) [rad]."""
+        return readings[: self.n_encoders] / self.resolution
 
     def counts(self, angles: Floats) -> Ints:
         """The nearest counts, shape (n_encoders,)."""
@@ -95,7 +107,8 @@ def wiring_of(robot: LimbedRobot, counts: int | None = None) -> Wiring:
     joints = joints_of(robot)
     per_volt = motor.amplifier_gain * motor.torque_constant * np.array([joint.gear for joint in joints])
     limits = np.array([joint.torque_limit or motor.torque_limit for joint in joints])
-    return Wiring(encoder_resolution(robot, counts), per_volt, np.minimum(limits / per_volt, COMMAND_LIMIT))
+    grippers = tuple(i for i, limb in enumerate(robot.limbs) if limb.end.kind == "gripper")
+    return Wiring(encoder_resolution(robot, counts), per_volt, np.minimum(limits / per_volt, COMMAND_LIMIT), grippers)
 
 
 def wiring_of_limb(robot: LimbedRobot, name: str, counts: int | None = None) -> Wiring:

@@ -80,6 +80,10 @@ class EndEffector:
     """Direction of that offset, and of grabbing, from the second link's direction [rad]."""
     friction: NonNegativeRatio | None = None
     """Friction coefficient against a hold [-]; only simulations use it."""
+    strength: PositiveForce | None = None
+    """Largest force that it takes; a closed gripper slips off above it [N]; None: any."""
+    opening: PositiveLength | None = None
+    """Width between a gripper's open jaws [m]; only simulations use it; None: six times a hold's radius."""
 
 
 @spec

@@ -1,10 +1,11 @@
-"""A climber on its board as a MuJoCo model: a planar floating body, limbs with play, hooks that pegs slide into, pegs where they truly are.
+"""A climber on its board as a MuJoCo model: a planar body, limbs with play, hooks that pegs slide into or grippers, true pegs.
 
 World frame: x right, y up, z out of the wall. All that touches lies in the plane z = 0, pegs as spheres and hooks as capsules in it, so
 each contact is one point and quick; a peg is a bolt, and nothing moves along it.
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -12,17 +13,21 @@ import numpy as np
 
 from ..control.chain import chain_of_limb
 from ..robots.limbed import Limb, LimbedRobot
+from ..robots.masses import body_inertia, body_mass
 from ..types import Floats
 from ..units import GRAVITY
 from ..worlds.board import Board
+from .force_sensing import add_sensor
+from .gripper_model import add_gripper
 from .limb_flaws import LimbFlaws
 from .limb_model import add_link
+from .wall_model import add_wall
 
 PEG_SOLREF: Final = (0.004, 1.0)
 PEG_SOLIMP: Final = (0.95, 0.99, 0.0005, 0.5, 2.0)
 """Stiff contacts: under the robot's weight a peg sinks less than a tenth of a millimetre into a hook."""
-HOOKS, PEGS, LINKS = 1, 2, 4
-"""Bits of what may touch what: hooks and links touch pegs, nothing else touches."""
+HOOKS, PEGS, LINKS, WALL = 1, 2, 4, 8
+"""Bits of what may touch what: hooks and links touch pegs, a wall and the ball that presses it each other, nothing else touches."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,6 +53,7 @@ def climber_spec(
     *,
     pegs: Floats | None = None,
     shape: HookShape = HookShape(),  # frozen
+    presser: str | None = None,
 ) -> Any:
     """An `MjSpec` of the robot on the board.
 
@@ -60,6 +66,7 @@ def climber_spec(
         flaws: Of joints and motors; gravity always acts.
         pegs: Where the pegs truly are, shape (n_holds, 2) [m]; None: where the board says.
         shape: Of the hooks.
+        presser: The limb that presses against the wall of `flaws`: its tip has a ball and, last of all, a force sensor.
     """
     import mujoco
 
@@ -84,7 +91,13 @@ def climber_spec(
     body = _add_body(mujoco, spec, robot)
     peg_radius = max(hold.radius for hold in board.holds)
     for limb in robot.limbs:
-        _add_limb(mujoco, spec, body, robot, limb, flaws, shape, peg_radius)
+        link = _add_limb(mujoco, spec, body, robot, limb, flaws, shape, peg_radius)
+        if limb.name == presser and flaws.wall is not None:
+            hand = link.add_body(name="hand", pos=chain_of_limb(robot, limb.name).root["tip"][0])
+            hand.explicitinertial = True
+            hand.ipos = np.zeros(3)
+            add_sensor(mujoco, spec, "hand", hand)
+            add_wall(mujoco, spec, hand, flaws.wall, contype=WALL, conaffinity=WALL)
     return spec
 
 
@@ -95,28 +108,12 @@ def _contact(friction: float) -> dict[str, Any]:
 def _add_body(mujoco: Any, spec: Any, robot: LimbedRobot) -> Any:
     body = spec.worldbody.add_body(name="body")
     body.explicitinertial = True
-    links = sum(sum(limb.link_masses) for limb in robot.limbs)
-    body.mass = robot.weight / GRAVITY - links
-    body.inertia = (
-        body.mass * body_inertia(robot) / 2,
-        body.mass * body_inertia(robot) / 2,
-        body.mass * body_inertia(robot),
-    )
+    body.mass, inertia = body_mass(robot), body_inertia(robot)
+    body.inertia = (inertia / 2, inertia / 2, inertia)
     for name, axis in (("x", (1, 0, 0)), ("y", (0, 1, 0))):
         body.add_joint(name=name, type=mujoco.mjtJoint.mjJNT_SLIDE, axis=axis)
     body.add_joint(name="theta", type=mujoco.mjtJoint.mjJNT_HINGE, axis=(0, 0, 1))
     return body
-
-
-def body_inertia(robot: LimbedRobot) -> float:
-    """Inertia of the body about its origin per mass [m^2]: an even plate over the triangle, or polygon, of its ports."""
-    ports = sorted(((limb.port_x, limb.port_y) for limb in robot.limbs), key=lambda p: math.atan2(p[1], p[0]))
-    area = second = 0.0
-    for (x0, y0), (x1, y1) in zip(ports, ports[1:] + ports[:1], strict=True):
-        cross = x0 * y1 - x1 * y0
-        area += cross / 2
-        second += cross * (x0 * x0 + x0 * x1 + x1 * x1 + y0 * y0 + y0 * y1 + y1 * y1) / 12
-    return second / area if area > 0.0 else max(x * x + y * y for x, y in ports) / 2
 
 
 def _add_limb(
@@ -128,7 +125,7 @@ def _add_limb(
     flaws: LimbFlaws,
     shape: HookShape,
     peg_radius: float,
-) -> None:
+) -> Any:
     chain = chain_of_limb(robot, limb.name)
     half = limb.port_angle / 2
     port = body.add_frame(pos=(limb.port_x, limb.port_y, 0.0), quat=(math.cos(half), 0.0, 0.0, math.sin(half)))
@@ -150,10 +147,20 @@ def _add_limb(
             )
     tip = chain.root["tip"][0]
     parent.add_site(name=f"{limb.name} tip", pos=tip)
-    _add_hook(mujoco, parent, limb, tip, shape, peg_radius)
+    END_MODELS[limb.end.kind](mujoco, spec, parent, limb, tip, shape, peg_radius)
+    return parent
 
 
-def _add_hook(mujoco: Any, link: Any, limb: Limb, tip: Floats, shape: HookShape, peg_radius: float) -> None:
+def _add_gripper(mujoco: Any, spec: Any, link: Any, limb: Limb, tip: Floats, _: HookShape, peg_radius: float) -> None:
+    add_gripper(mujoco, spec, link, limb, tip, peg_radius, _hook_touch(limb))
+
+
+def _hook_touch(limb: Limb) -> dict[str, Any]:
+    friction = 0.2 if limb.end.friction is None else limb.end.friction
+    return {"contype": HOOKS, "conaffinity": PEGS} | _contact(friction)
+
+
+def _add_hook(mujoco: Any, _: Any, link: Any, limb: Limb, tip: Floats, shape: HookShape, peg_radius: float) -> None:
     """Bottom, walls and lips about a peg that is seated with its centre at the tip; g is the grab direction, h across it."""
     g = np.array((math.cos(limb.end.angle), math.sin(limb.end.angle), 0.0))
     h = np.array((-g[1], g[0], 0.0))
@@ -166,14 +173,16 @@ def _add_hook(mujoco: Any, link: Any, limb: Limb, tip: Floats, shape: HookShape,
     for sign in (-1.0, 1.0):
         wall = edge + sign * side * h
         strokes += [(bottom + sign * side * h, wall), (wall, wall + lip + sign * out)]
-    friction = 0.2 if limb.end.friction is None else limb.end.friction
+    touch = _hook_touch(limb)
     for start, end in strokes:
         link.add_geom(
             type=mujoco.mjtGeom.mjGEOM_CAPSULE,
             fromto=(*start, *end),
             size=(shape.wire, 0.0, 0.0),
-            contype=HOOKS,
-            conaffinity=PEGS,
             mass=0.0,
-            **_contact(friction),
+            **touch,
         )
+
+
+END_MODELS: Final[dict[str, Callable[..., None]]] = {"hook": _add_hook, "foot": _add_hook, "gripper": _add_gripper}
+"""Kind of end effector -> what adds it to a limb's last link; a foot pushes with a hook's bottom."""

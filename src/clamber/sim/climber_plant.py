@@ -1,5 +1,6 @@
 """The whole climber in MuJoCo as a plant: encoders of every joint and of the body's angle in, torques out, the truth for logs and tests."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -8,11 +9,14 @@ from ..control.chain import chain_of_limb
 from ..execution.plant import BodySensed, BodyTruth
 from ..execution.wiring import encoder_resolution
 from ..robots.limbed import LimbedRobot
-from ..types import Floats
+from ..types import Floats, Ints
 from ..worlds.board import Board
 from .climber_model import HookShape, climber_spec
 from .climber_wires import command_motors, sense_climber
-from .limb_flaws import LimbFlaws
+from .grippers import Grippers
+from .limb_flaws import ForceSensor, LimbFlaws
+from .pinned_tips import pin_tips
+from .wrench_reader import WrenchReader
 
 
 class ClimberPlant:
@@ -24,7 +28,9 @@ class ClimberPlant:
         flaws: Of joints, motors and sensors.
         pegs: Where the holds truly are, shape (n_holds, 2) [m]; None: as believed.
         shape: Of the hooks.
+        pinned: Limb -> hold that its tip is fixed to; others only hook on.
         offsets: What every encoder tells too much: the body's, then the joints', shape (1 + 2 limbs,) [rad]; None: nothing.
+        presser: The limb that presses against the wall of `flaws`, if it has one.
     """
 
     def __init__(
@@ -35,12 +41,16 @@ class ClimberPlant:
         *,
         pegs: Floats | None = None,
         shape: HookShape = HookShape(),  # noqa: B008  # frozen
+        pinned: Mapping[str, int] | None = None,
         offsets: Floats | None = None,
+        presser: str | None = None,
     ) -> None:
         import mujoco
 
         self.robot, self.board, self.flaws, self.period = robot, board, flaws, flaws.period
-        self.model: Any = climber_spec(robot, board, flaws, pegs=pegs, shape=shape).compile()
+        spec = climber_spec(robot, board, flaws, pegs=pegs, shape=shape, presser=presser)
+        pin_tips(spec, board, pinned or {}, pegs)
+        self.model: Any = spec.compile()
         # what pays for itself with hundreds of geoms and many robots costs a tenth of a step here
         self.model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_MIDPHASE | mujoco.mjtDisableBit.mjDSBL_ISLAND
         self._data: Any = mujoco.MjData(self.model)
@@ -73,6 +83,13 @@ class ClimberPlant:
         self._wanted_by_limb = self._wanted.reshape(-1, 2)
         self._motor_speeds = np.zeros((1, n))
         self._pushed = self._data.xfrc_applied[self.model.body("body").id]
+        radius, places = max(hold.radius for hold in board.holds), board.positions() if pegs is None else pegs
+        self.grippers = Grippers(robot, places, radius, self.model, self._data, self.period)
+        self._grips = np.zeros(len(robot.limbs), np.int32)
+        self._press: WrenchReader | None = None
+        if presser is not None and flaws.wall is not None:
+            sensor = ForceSensor() if flaws.wrist is None else flaws.wrist
+            self._press = WrenchReader(sensor, period=self.period, delay=flaws.delay, batch=1)
         self.tick = 0
 
     @property
@@ -89,6 +106,8 @@ class ClimberPlant:
         self._qpos[self._at[1:]] = np.ravel(q)
         mujoco.mj_forward(self.model, self._data)
         self._wanted[:] = 0.0
+        self._grips[:] = 0
+        self.grippers.reset()
         self._ring[:] = 0.0
         self.tick = 0
 
@@ -98,11 +117,29 @@ class ClimberPlant:
             self._qpos, self._qvel, self._at, self._speed_at, self._offsets, self._angles, self._speeds, self._counts, self.period,
             self.tick, self._ring, self._before, self._states,
         )  # fmt: skip
-        return BodySensed(self._q, self._qd, self._states.item(0, 0, 0), self._states.item(0, 1, 0))
+        return BodySensed(
+            self._q, self._qd, self._states.item(0, 0, 0), self._states.item(0, 1, 0), self.grippers.gripped
+        )
 
-    def actuate(self, torques: Floats) -> None:
-        """Set the motors' torques, held until the next call, shape (limbs, 2) [N m]."""
+    def actuate(self, torques: Floats, grips: Ints) -> None:
+        """Set the motors' torques, shape (limbs, 2) [N m], and the grippers that are shut, 1 or 0, shape (limbs,), until the next call."""
         self._wanted_by_limb[:] = torques
+        self._grips[:] = grips
+
+    def sense_press(self) -> Floats:
+        """Force of the pressing tip on the wall by its sensor, along the last link and across it, once a tick, shape (2,) [N].
+
+        Forces are those of the last physics step.
+        """
+        assert self._press is not None
+        return self._press.read(self._data.sensordata[None, -6:], self.tick)[0, :2]
+
+    def true_press(self) -> float:
+        """True force on the wall along its normal [N]."""
+        turn = self._data.site_xmat[self.model.site("hand").id].reshape(3, 3)
+        force = turn @ self._data.sensordata[-6:-3]
+        angle = self.flaws.wall.angle if self.flaws.wall is not None else 0.0
+        return float(np.cos(angle) * force[0] + np.sin(angle) * force[1])
 
     def push(self, force: tuple[float, float]) -> None:
         """Push the body at its centre until the next call, world frame [N]."""
@@ -113,6 +150,7 @@ class ClimberPlant:
 
     def step(self) -> None:
         """Let one control period pass."""
+        self.grippers.act(self._grips)
         steady = self._drive(self.period)
         if steady:
             self._step(self.model, self._data, self.flaws.steps)
@@ -120,6 +158,7 @@ class ClimberPlant:
             for _ in range(self.flaws.steps):
                 self._drive(0.0)
                 self._step(self.model, self._data, 1)
+        self.grippers.feel()
         self.tick += 1
 
     def _drive(self, time: float) -> bool:

@@ -23,10 +23,11 @@ def plate_mass(wall: Wall, timestep: float) -> float:
     return max(LEAST_MASS, wall.stiffness * (timestep / FASTEST) ** 2)
 
 
-def add_wall(mujoco: Any, spec: Any, hand: Any, wall: Wall) -> None:
+def add_wall(mujoco: Any, spec: Any, hand: Any, wall: Wall, **bits: int) -> None:
     """Put the wall into the world and the ball on `hand`, a body whose origin is the tip.
 
     The ball's front touches the plate when the tip is on the untouched surface, so places of the tip and of the surface are the same.
+    `bits`: what may touch what, as `add_geom` takes it.
     """
     normal = np.array((np.cos(wall.angle), np.sin(wall.angle), 0.0))
     half = wall.angle / 2
@@ -41,8 +42,14 @@ def add_wall(mujoco: Any, spec: Any, hand: Any, wall: Wall) -> None:
     spring.stiffness[0], spring.damping[0] = wall.stiffness, wall.damping
     friction = (wall.friction, 0.0, 0.0)
     plate.add_geom(
-        name="wall", type=mujoco.mjtGeom.mjGEOM_BOX, size=(HALF_THICK, 1.0, 0.1), friction=friction, **CONTACT
+        name="wall", type=mujoco.mjtGeom.mjGEOM_BOX, size=(HALF_THICK, 1.0, 0.1), friction=friction, **bits, **CONTACT
     )
     hand.add_geom(
-        name="tip", type=mujoco.mjtGeom.mjGEOM_SPHERE, size=(TIP_RADIUS, 0, 0), mass=0.0, friction=friction, **CONTACT
+        name="tip",
+        type=mujoco.mjtGeom.mjGEOM_SPHERE,
+        size=(TIP_RADIUS, 0, 0),
+        mass=0.0,
+        friction=friction,
+        **bits,
+        **CONTACT,
     )

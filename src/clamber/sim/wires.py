@@ -38,7 +38,9 @@ class Amplifiers:
 
 
 class ClimberWires:
-    """A simulated climber as `Hardware`: encoders of its joints, limb by limb, then of its body; starts are pose and joint angles.
+    """A simulated climber as `Hardware`: encoders of its joints, limb by limb, and of its body, then its grippers' switches.
+
+    Starts are pose and joint angles.
 
     Args:
         plant: With encoders that count as `wiring` says.
@@ -50,6 +52,8 @@ class ClimberWires:
         self.plant, self.wiring, self.period = plant, wiring, plant.period
         self._amplifiers, self._tick = Amplifiers(wiring, dac_bits), 0
         self._angles = np.zeros(wiring.n_encoders)
+        self._switches = list(wiring.grippers)
+        self._grips = np.zeros(wiring.n_joints // 2, np.int32)
 
     def reset(self, start: Floats) -> None:
         """See `Hardware`."""
@@ -60,11 +64,14 @@ class ClimberWires:
         """See `Hardware`."""
         sensed = self.plant.sense()
         self._angles[:-1], self._angles[-1] = sensed.q.ravel(), sensed.angle
-        return Reading(self.wiring.counts(self._angles), self._tick)
+        counts = self.wiring.counts(self._angles)
+        return Reading(np.append(counts, sensed.gripped[self._switches]), self._tick)
 
-    def actuate(self, volts: Floats) -> None:
+    def actuate(self, commands: Floats) -> None:
         """See `Hardware`."""
-        self.plant.actuate(self._amplifiers.torques(volts).reshape(-1, 2))
+        n = self.wiring.n_joints
+        self._grips[self._switches] = commands[n:] > 0.5
+        self.plant.actuate(self._amplifiers.torques(commands[:n]).reshape(-1, 2), self._grips)
 
     def pause(self) -> None:
         """See `Hardware`: nothing to do, as time stands still meanwhile."""

@@ -34,8 +34,9 @@ def interval(limb, hold, solved, branch, px, py, f, with_torque):
             lo, hi, flat = cut(lo, hi, flat, -(gx * f[0] + gy * f[1]) - limb.pull, -(gx * f[2] + gy * f[3]))
     if hold.c_cone > -1.5:
         lo, hi, flat = cut_cone(lo, hi, flat, hold.dir_x, hold.dir_y, hold.c_cone, hold.s_cone, f)
-    if hold.strength < math.inf:
-        lo, hi, flat = cut_strength(lo, hi, flat, hold.strength, f)
+    strength = min(hold.strength, limb.strength)
+    if strength < math.inf:
+        lo, hi, flat = cut_strength(lo, hi, flat, strength, f)
     if with_torque:
         for joint in range(2):
             rx = hold.x - (px if joint == 0 else solved[at + 1])
@@ -86,8 +87,9 @@ def hang_margin(p, s, a, use):
     fixed = UNLIMITED
     if hold.c_cone > -1.5:
         fixed = min(fixed, weight * (-hold.dir_y - hold.c_cone))
-    if hold.strength < math.inf:
-        fixed = min(fixed, hold.strength - weight)
+    strength = min(hold.strength, limb.strength)
+    if strength < math.inf:
+        fixed = min(fixed, strength - weight)
     best = -math.inf
     good = 0
     for i in range(2):

@@ -10,7 +10,7 @@ from .programme import maximise
 from .records import holds, limbs, work
 
 CORNERS = 16
-"""Sides of the polygon that stands for a hold's strength."""
+"""Sides of the polygon that stands for the strength of a hold or an end effector."""
 
 
 @kernel
@@ -111,12 +111,13 @@ def many_split(p, s, carriers, goal, forces):
                     row += 1
             if hold.c_cone > -1.5:
                 row = cone_rows(a, row, column, hold.dir_x, hold.dir_y, hold.c_cone, hold.s_cone, slack, last)
-            if hold.strength < math.inf:
+            strength = min(hold.strength, limb.strength)
+            if strength < math.inf:
                 for side in range(CORNERS):
                     angle = (2 * side + 1) * math.pi / CORNERS
                     a[row, column] = math.cos(angle)
                     a[row, column + 1] = math.sin(angle)
-                    b[row] = hold.strength / weight * math.cos(math.pi / CORNERS)
+                    b[row] = strength / weight * math.cos(math.pi / CORNERS)
                     row += 1
         column += 2
     if not maximise(a[:row], b[:row], c, table, basis, x):

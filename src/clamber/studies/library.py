@@ -5,6 +5,12 @@ from functools import partial
 from typing import Final, TypeAlias
 
 from .bevly_1997 import PAPER
+from .bevly_1997.body_circle import lead_body
+from .bevly_1997.body_climb import climb_two_steps, show_gait
+from .bevly_1997.body_cycle import sweep_stiffness
+from .bevly_1997.body_push import push_body
+from .bevly_1997.body_push_up import push_body_up
+from .bevly_1997.body_table import count_lost_pegs
 from .bevly_1997.evolution import follow_h, follow_modified_ladder
 from .bevly_1997.h_torques import compare_h_torques
 from .bevly_1997.hook_check import check_hooks
@@ -38,6 +44,18 @@ ON_ONE_LIMB: Final[dict[str, Repeat]] = {
     "fig-3-14": push_and_release,
 }
 """Chapter 3 of Bevly 1997: laws in closed loop."""
+SEEDED: Final = {"table-4-2": count_lost_pegs}
+"""Results of seeds, as many as one asks for."""
+ON_A_BODY: Final[dict[str, Repeat]] = {
+    "fig-4-15": show_gait,
+    "fig-4-16": climb_two_steps,
+    "fig-4-17": lead_body,
+    "fig-4-18": push_body_up,
+    "fig-4-19": push_body,
+    "section-4-4-4": sweep_stiffness,
+    **SEEDED,
+}
+"""Chapter 4 of Bevly 1997: the whole robot in contact dynamics."""
 STUDIES: Final[dict[str, dict[str, Repeat]]] = {
     PAPER: {
         "inventory-size": count_modules,
@@ -52,6 +70,7 @@ STUDIES: Final[dict[str, dict[str, Repeat]]] = {
         "h-evolution": follow_h,
         "planner-success": count_successes,
         **ON_ONE_LIMB,
+        **ON_A_BODY,
     },
     BOARDS_EXACT: {
         "optima": prove_optima,
@@ -67,5 +86,5 @@ STUDIES: Final[dict[str, dict[str, Repeat]]] = {
 
 
 def first_loop(result: Repeat) -> str:
-    """The kernel that a result runs first: plans are rolled out, laws on a limb are ticked."""
-    return "drive" if result in ON_ONE_LIMB.values() else "rollout"
+    """The kernel that a result runs first: plans are rolled out, laws on a limb or a body are ticked."""
+    return "drive" if result in (*ON_ONE_LIMB.values(), *ON_A_BODY.values()) else "rollout"

@@ -1,6 +1,7 @@
 """A climb as it truly was: a picture that can be set to any moment of it, animated or still."""
 
 import cmath
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
@@ -40,7 +41,15 @@ SHOWN: Final = 400
 """Samples that the picture's frame is made for, at most."""
 
 
-class ClimbRunView(View[Snapshot]):
+@dataclass(frozen=True, slots=True, eq=False)
+class Moment(Snapshot):
+    """A moment of a climb."""
+
+    time: float
+    """Since its start [s]."""
+
+
+class ClimbRunView(View[Moment]):
     """A picture of a climb that was carried out; forces of holds are not measured, so none are drawn.
 
     Args:
@@ -94,29 +103,29 @@ class ClimbRunView(View[Snapshot]):
         corners = np.stack([outline.real, outline.imag], axis=-1)
         return Posture(x, y, angle, corners, np.array(chains), np.array(grips), held)
 
-    def at_time(self, time: float) -> Snapshot:
+    def at_time(self, time: float) -> Moment:
         """The robot at a time [s]."""
         k = min(int(np.searchsorted(self.trace.time, time)), len(self.trace.time) - 1)
         torques = self.trace.torques[k]
-        return Snapshot(self.posture(k), np.zeros_like(torques), torques)
+        return Moment(self.posture(k), np.zeros_like(torques), torques, float(self.trace.time[k]))
 
-    def settled(self, step: int) -> Snapshot:
+    def settled(self, step: int) -> Moment:
         """When the report's action of that number ended; 0 is the start."""
         if step == 0:
             return self.at_time(0.0)
         return self.at_time(self.actions[step - 1].start + self.actions[step - 1].seconds)
 
-    def motion(self, step: int) -> list[Part[Snapshot]]:
+    def motion(self, step: int) -> list[Part[Moment]]:
         """The action in parts of equal time."""
         action = self.actions[step - 1]
         count = max(1, round(action.seconds / PART_SECONDS))
 
-        def part(k: int) -> Part[Snapshot]:
+        def part(k: int) -> Part[Moment]:
             return Part("move", lambda share, way: self.at_time(action.start + (k + share) / count * action.seconds))
 
         return [part(k) for k in range(count)]
 
-    def values(self, at: Snapshot) -> Floats:
+    def values(self, at: Moment) -> Floats:
         """Torques of shoulders and elbows [N m], shape (2 n_limbs,)."""
         return at.torques.ravel()
 
@@ -124,15 +133,14 @@ class ClimbRunView(View[Snapshot]):
         """An action in words."""
         return self.actions[step - 1].title
 
-    def facts(self, step: int, at: Snapshot) -> tuple[str, ...]:
-        """Time at the action's start, pose and holds."""
+    def facts(self, step: int, at: Moment) -> tuple[str, ...]:
+        """Time, pose and holds."""
         posture, names = at.posture, self.task.robot.limb_names
         numbers = [self.task.world.holds[k].number if k >= 0 else "free" for k in posture.held]
-        time = self.actions[step - 1].start if step else 0.0
         pose = describe_pose(self.task, posture.x, posture.y, posture.angle)
-        return f"{time:.0f} s", pose, ", ".join(f"{a} {b}" for a, b in zip(names, numbers, strict=True))
+        return f"{at.time:.0f} s", pose, ", ".join(f"{a} {b}" for a, b in zip(names, numbers, strict=True))
 
-    def show(self, step: int, at: Snapshot) -> None:
+    def show(self, step: int, at: Moment) -> None:
         """Set the picture to a moment of an action."""
         super().show(step, at)
         outcome = self.actions[step - 1].outcome if step else "at rest"
@@ -145,7 +153,7 @@ class ClimbRunView(View[Snapshot]):
         """Holds, keep-outs, goals and the shape of the robot."""
         return climb_world(self.task, self.bounds)
 
-    def spread(self, at: Snapshot) -> Spread:
+    def spread(self, at: Moment) -> Spread:
         """A moment for the player."""
         return spread_snapshot(at)
 

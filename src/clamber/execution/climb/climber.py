@@ -1,19 +1,19 @@
 """A climber that carries out actions: one tick of sensing and commanding at a time, falls seen, holds corrected as hooks feel them."""
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
 from ...robots.limbed import LimbedRobot
-from ...types import Floats
+from ...types import Floats, Ints
 from ...worlds.board import Board
 from ..plant import BodyPlant
 from .approach import Approaches, rank
 from .fall import FallWatch
-from .hold_map import HoldMap
+from .hold_map import HoldMap, TipDifference
 from .postures import postures
 from .whole_body import BodyGains, LimbTask, WholeBody
 
@@ -49,8 +49,8 @@ class Climber:
         board: Its holds, as the map says.
         plant: What moves.
         gains: Of body and limbs.
-        map_error: Largest error of a hold's place in the map, each way [m]: how far a hook may stop from it and still count as seated.
-        backlash: Whole play of a joint that is reckoned with [rad]; None: that of the robot's file.
+        map_error: Largest error of a hold's place in the map, each way along each axis [m].
+        backlash: Whole play of a joint that is reckoned with at first [rad]; None: that of the robot's file.
     """
 
     def __init__(
@@ -67,11 +67,21 @@ class Climber:
         self.body = WholeBody(robot, period=plant.period, gains=gains, backlash=backlash)
         self.fall = FallWatch(self.body)
         self.holds = {hold.number: np.array((hold.x, hold.y)) for hold in board.holds}
-        self.map = HoldMap(self.holds, map_error)
+        self.map = HoldMap(self.holds, map_error, backlash=self.body.backlash)
         self.peg_radius = max(hold.radius for hold in board.holds)
         self.approaches = Approaches(robot, self.body.legs, lambda number: self.peg_radius + self.map.error(number))
+        self.balance: Callable[[], None] | None = None
+        """Told at every tick between sensing and commanding, while the body hangs on one limb."""
+        n = len(robot.limbs)
+        self.grips: Ints = np.zeros(n, np.int32)
+        """1 for grippers that are to be shut, shape (limbs,); other ends don't care."""
+        self.gripped: Ints = np.zeros(n, np.int32)
+        """1 for grippers that are closed about something, as last sensed, shape (limbs,)."""
+        self._gripping = [i for i, limb in enumerate(robot.limbs) if limb.end.kind == "gripper"]
         self.ticks = 0
-        self._strained = 0
+        self.latest = -1
+        """Index of the limb that took its hold last."""
+        self._strained = self._slipped = 0
 
     @property
     def time(self) -> float:
@@ -98,27 +108,33 @@ class Climber:
                 q[i] = rank(postures(limb, pose, place), elbows.get(limb.name, 0))[0].angles
                 task = LimbTask("cling" if limb.name == idle else "hold", number, place.copy())
             task.angles = q[i].copy()
+            self.grips[i] = number > 0
             self.body.tasks[i] = task
         self.map.know(number for number in holds.values() if number)
         self.plant.reset(pose, q)
         self.body.pose[:], self.body.settled[:], self.body.aim[:] = pose, pose, pose
         self.body.aim_speed[:] = 0.0
-        self.ticks = self._strained = 0
+        self.balance = None
+        self.ticks = self._strained = self._slipped = 0
         self.fall.reset()
 
     def tick(self) -> None:
         """Sense, command, step.
 
         Raises:
-            FallenError: If no limb holds, nothing carries the robot, a hook has come off, or the body is far or turned from its aim.
+            FallenError: If no limb holds, nothing carries the robot, a hook has come off or a gripper slipped, or the body is far or turned
+                from its aim.
         """
         sensed = self.plant.sense()
-        self.body.see(sensed.q, sensed.qd, sensed.angle, sensed.angle_speed)
+        self.body.see(sensed.q, sensed.qd, sensed.angle - self.map.offset, sensed.angle_speed)
+        if self.balance is not None:
+            self.balance()
+        self.gripped[:] = sensed.gripped
         falls = self.fall.see()
-        self.plant.actuate(self.body.command())
+        self.plant.actuate(self.body.command(), self.grips)
         self.plant.step()
         self.ticks += 1
-        holding = [i for i, task in enumerate(self.body.tasks) if task.doing == "hold"]
+        holding = self.holding()
         if not holding:
             raise FallenError("no limb holds the body")
         if falls:
@@ -130,10 +146,21 @@ class Climber:
             raise FallenError(
                 f"a hook has come off: two holding tips are {1e3 * strain:.0f} mm off their holds' distance"
             )
+        if self.body.tasks[holding[0]].doing == "hang":
+            self.body.aim[:] = self.body.pose  # it swings where it will
+        lost = [i for i in self._gripping if self.body.tasks[i].doing == "hold" and not self.gripped[i]]
+        self._slipped = self._slipped + 1 if lost else 0
+        if self._slipped * self.plant.period > 0.1:
+            raise FallenError(f"the gripper of '{self.robot.limbs[lost[0]].name}' has slipped off its hold")
         off = math.dist(self.body.aim[:2], self.body.pose[:2])
         turned = abs(float(self.body.pose[2] - self.body.aim[2]))
         if off > ASTRAY or turned > TURNED:
             raise FallenError(f"the body is {1e3 * off:.0f} mm off its aim and turned by {np.degrees(turned):.0f} deg")
+
+    @property
+    def hangs(self) -> bool:
+        """Whether one limb holds the body, which swings as it will."""
+        return any(task.doing == "hang" for task in self.body.tasks)
 
     def wait(self, seconds: float) -> None:
         """Let time pass [s]."""
@@ -142,26 +169,64 @@ class Climber:
 
     def carry_with_all(self, but: int) -> None:
         """Let every limb on a hold carry, but one that is about to leave; the load passes while all are still on their holds."""
+        if self.hangs:
+            return
         self.body.hand_over([i for i, task in enumerate(self.body.tasks) if i != but and task.hold])
         while self.body.handing_over:
             self.tick()
 
+    def doubt(self, number: int, i: int) -> float:
+        """How far off limb `i`'s tip may seem to be along each axis when it is on a hold, by what is known of the map and sensors [m]."""
+        return max(self.map.doubt(number, self.body.tasks[j].hold, self.seen(i, j)) for j in self.holding() if j != i)
+
+    def holding(self) -> list[int]:
+        """Indices of the limbs that carry the body."""
+        return [i for i, task in enumerate(self.body.tasks) if task.holds]
+
     def learn(self, number: int, i: int, others: Iterable[int]) -> None:
-        """Correct the map: limb `i` is on a hold, and so are others, all of them loaded.
+        """Correct the map and what is believed of the sensors: limb `i` is on a hold, and so are others, all of them loaded.
 
         Args:
             number: Of the hold of limb `i`.
             i: Index of that limb.
             others: Indices of limbs whose tips are on the holds of their tasks.
         """
-        tip, tasks = self.body.tip(i), self.body.tasks
-        self.map.learn(number, {tasks[j].hold: tip - self.body.tip(j) for j in others})
+        tasks = self.body.tasks
+        for j in others:
+            self.map.learn(number, tasks[j].hold, self.seen(i, j))
+        self.body.reckon_with(2.0 * self.map.half_play)
         for task in tasks:
             if task.hold:
                 task.place = self.holds[task.hold].copy()
 
     def learn_again(self) -> None:
         """Correct the map by the limbs that hold: their joints are loaded, and hooks that were not quite home have slid in."""
-        holding = [i for i, task in enumerate(self.body.tasks) if task.doing == "hold"]
+        holding = sorted(self.holding(), key=lambda i: i != self.latest)
         if len(holding) == 2:
             self.learn(self.body.tasks[holding[0]].hold, holding[0], holding[1:])
+
+    def seen(self, i: int, j: int) -> TipDifference:
+        """Where the tip of limb `i` is from that of limb `j`."""
+        c, s = math.cos(self.body.settled[2]), math.sin(self.body.settled[2])
+        place = self.body.tip(i) - self.body.tip(j)
+        turn = np.array(((c, -s), (s, c)))
+        by_play, unsure = np.zeros(2), np.zeros((2, 2))
+        for limb, sign in ((i, 1.0), (j, -1.0)):
+            sides, slopes = self._sides(limb), turn @ self._by_joint(limb)
+            by_play -= sign * slopes @ sides
+            loose = 0.5 * self.body.backlash * (1.0 - np.abs(sides)) * slopes
+            unsure += loose @ loose.T
+        return TipDifference(place, np.array((place[1], -place[0])), by_play, unsure)
+
+    def _sides(self, i: int) -> Floats:
+        """Which side of its play each joint of a limb rests on, -1 to 1, shape (2,)."""
+        half = 0.5 * self.body.backlash
+        return self.body.play[i] / half if half > 0.0 else np.ones(2)
+
+    def _by_joint(self, i: int) -> Floats:
+        """How a limb's tip moves with its joints, body frame, shape (2, 2) [m/rad]."""
+        body, limb = self.body, self.robot.limbs[i]
+        first = limb.port_angle + body.q[i, 0] - body.play[i, 0]
+        second = first + body.q[i, 1] - body.play[i, 1] + limb.hook_beta
+        x, y = -limb.l2_effective * math.sin(second), limb.l2_effective * math.cos(second)
+        return np.array(((x - limb.l1 * math.sin(first), x), (y + limb.l1 * math.cos(first), y)))

@@ -76,14 +76,18 @@ class Course:
 
 
 def climbable(task: LimbedTask) -> LimbedTask:
-    """The task under the rules that can be carried out: hooks only pull, elbows keep their side while they hold, no swings.
+    """The task under the rules that can be carried out: hooks only pull, elbows keep their side while they hold.
+
+    The body may hang on one limb only as often as the task says in so many words: any number of hangs, the usual rule, becomes none.
 
     Raises:
         SpecError: If the task cannot have them.
     """
     hard = task.rules.hard if "hook" in task.rules.hard else (*task.rules.hard, "hook")
     names = ", ".join(f'"{name}"' for name in hard)
-    changed = change_task(task, [f"rules.hard=[{names}]", "rules.branch=kept", "rules.max_hangs=0"])
+    changed = change_task(
+        task, [f"rules.hard=[{names}]", "rules.branch=kept", f"rules.max_hangs={max(task.rules.max_hangs, 0)}"]
+    )
     assert isinstance(changed, LimbedTask)  # rules never change the family
     return changed
 
@@ -121,8 +125,14 @@ def lay_course(task: LimbedTask, plan: Plan, label: str = "plan") -> Course:
 
 
 def swings(course: Course, step: int) -> bool:
-    """Whether an action lets the body swing to hang on one limb."""
-    return abs(float(course.stances[step]["turned"])) > HANGING
+    """Whether an action leaves the body to one limb, or moves it while it hangs."""
+    return abs(float(course.stances[step]["turned"])) > HANGING or alone(course, step) is not None
+
+
+def alone(course: Course, step: int) -> int | None:
+    """Index of the limb that alone holds after a step; None where there are more."""
+    held = [i for i in range(len(course.task.robot.limbs)) if course.stances[step]["hold"][i] >= 0]
+    return held[0] if len(held) == 1 else None
 
 
 def names_of(objections: Sequence[PlanRefusedError]) -> list[str]:

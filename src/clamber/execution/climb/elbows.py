@@ -1,5 +1,6 @@
 """The side of every elbow for a plan that is to be carried out: one that serves until the limb leaves, and hooks that can bear it."""
 
+from collections.abc import Callable
 from itertools import product
 from typing import Final
 
@@ -26,6 +27,8 @@ BLOCKED: Final = 4.0
 """What counts after each action a limb on a hold whose links touch another hold or the body, which then bend it off its way [-]."""
 CLEAR: Final = 0.008
 """Clearance with which it counts nothing [m]."""
+OFF_PLAN: Final = 0.2
+"""What counts after each action a side that is not the one whose links the plan's checks have looked at [-]."""
 
 
 def choose_elbows(robot: LimbedRobot, board: Board, stances: Records) -> Ints:
@@ -85,11 +88,29 @@ def _costs(robot: LimbedRobot, board: Board, stances: Records, states: Ints) -> 
                     continue
                 posture = found[i][int(state[i])]
                 q[i] = posture.angles
-                costs[step, k] += ON_TOP * (1.0 - posture.on_top) + near[i][int(state[i])]
+                off_plan = int(stance["branch"][i]) != int(state[i])
+                costs[step, k] += DRAWBACKS[robot.limbs[i].end.kind](posture, off_plan)
+                costs[step, k] += near[i][int(state[i])]
             if len(carriers) == 2:
                 margin, _ = pair_forces(legs, q, carriers[0], carriers[1], pose, arms, wrench, nothing, cuts, forces)
                 costs[step, k] += LACKING * max(0.0, -margin)
     return costs
+
+
+def _not_on_top(posture: Posture, _: bool) -> float:
+    return ON_TOP * (1.0 - posture.on_top)
+
+
+def _not_planned(_: Posture, off_plan: bool) -> float:
+    return OFF_PLAN * off_plan
+
+
+DRAWBACKS: Final[dict[str, Callable[[Posture, bool], float]]] = {
+    "hook": _not_on_top,
+    "foot": _not_on_top,
+    "gripper": _not_planned,
+}
+"""Kind of end effector -> what its posture, or one off the plan, counts after each action; a gripper may hold from anywhere."""
 
 
 def _crowding(

@@ -31,10 +31,13 @@ class FallWatch:
         joints = [chain.joints for chain in body.chains]
         self._rotors = np.array([each["rotor"] for each in joints])
         self._damping = np.array([each["damping"] for each in joints])
+        self._least = BORNE * body.robot.weight
         self._rate = min(1.0, body.period / SMOOTHED)
         self._before, self._felt = np.zeros((body.n, 2)), np.zeros((body.n, 2))
         self.forces = np.zeros((body.n, 2))
         """Of the tips on what they touch, world frame, shape (limbs, 2) [N]; infinite where they cannot be told."""
+        self.carried = 0.0
+        """Sum of their sizes [N]; infinite where a limb that holds cannot tell; others that cannot count as none."""
         self.loose = 0.0
         """How long the tips have been carrying too little [s]."""
 
@@ -43,23 +46,14 @@ class FallWatch:
         self._before[:] = self._felt[:] = 0.0
         self.loose = -LOOSE  # what the tips feel has to settle first
 
-    @property
-    def carried(self) -> float:
-        """Sum of the sizes of what the tips feel [N]; infinite where a limb that holds cannot tell; others that cannot count as none."""
-        total = 0.0
-        for task, (x, y) in zip(self._body.tasks, self.forces.tolist(), strict=True):
-            if task.doing == "hold" or np.isfinite(x):
-                total += float(np.hypot(x, y))
-        return total
-
     def see(self) -> bool:
         """Take in the tick whose measurements the body has just seen; whether nothing carries the robot."""
         body = self._body
-        feel_forces(
-            body.legs, self._rotors, self._damping, body.q, body.qd, self._before, body.torques, body.pose[2],
-            body.period, self._rate, self._felt, self.forces,
+        self.carried = feel_forces(
+            body.legs, self._rotors, self._damping, body.held, body.q, body.qd, self._before, body.torques,
+            body.pose.item(2), body.period, self._rate, self._felt, self.forces,
         )  # fmt: skip
-        little = self.carried < BORNE * body.robot.weight
+        little = self.carried < self._least
         # a torque that jumps for a tick looks like a force, so one tick that says otherwise does not start the time anew
         self.loose = self.loose + body.period if little else max(self.loose - 2.0 * body.period, 0.0)
         return self.loose > LOOSE

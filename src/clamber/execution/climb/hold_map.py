@@ -1,55 +1,113 @@
-"""What the climber knows of its holds' places: a Kalman filter that learns from where its hooks are when they are on them."""
+"""What the climber knows of its holds' places and of its sensors' errors: an extended Kalman filter that learns from hooks on holds."""
 
-from collections.abc import Iterable, Mapping, MutableMapping
+import math
+from collections.abc import Iterable, MutableMapping
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
 from ...types import Floats
 
-TIP_ERROR: Final = 0.002
-"""Standard deviation of a difference of two tips that are on their holds, the play of their joints counted, along each axis [m]."""
+TIP_ERROR: Final = 0.001
+"""Standard deviation of a difference of two tips on their holds, each joint surely on one side of its play, along each axis [m]."""
 KNOWN: Final = 0.001
 """Standard deviation of the place of a hold that the robot was put on, along each axis [m]."""
+ODD: Final = 4.0
+"""What differs from what is expected by more than so many standard deviations was learned from a hook that was not home [-]."""
+ANGLE_ERROR: Final = math.radians(0.3)
+"""Standard deviation of the offset of the body's own encoder: half a degree either way, evenly spread [rad]."""
+PLAY_ERROR: Final = math.radians(0.15)
+"""Standard deviation of half the backlash that is reckoned with: a quarter of a degree either way, evenly spread [rad]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TipDifference:
+    """Where one tip is from another, world frame, and how that would change with what is wrong about the sensors."""
+
+    place: Floats
+    """Shape (2,) [m]."""
+    by_angle: Floats
+    """Change of `place` per offset of the body's encoder, shape (2,) [m/rad]."""
+    by_play: Floats
+    """Change of `place` per half backlash of every joint, shape (2,) [m/rad]."""
+    unsure: Floats
+    """Covariance of `place` where joints rest on no side of their play for sure, shape (2, 2) [m^2]."""
 
 
 class HoldMap:
-    """Places of the holds with their uncertainty, which is the same along both axes.
+    """Places of the holds, the offset of the body's encoder and the joints' half backlash, with their common uncertainty.
+
+    The state holds every place's x and y, then the offset, then the half backlash.
 
     Args:
         places: Number -> believed place, world frame, shape (2,) [m]; changed as the map learns, also by others.
         error: Largest error of a place before anything is learned, each way along each axis, evenly spread [m].
+        backlash: Whole play of a joint as it is believed [rad].
     """
 
-    def __init__(self, places: MutableMapping[int, Floats], error: float) -> None:
-        self.places = places
-        self._row = {number: k for k, number in enumerate(places)}
-        self._variance = np.eye(len(places)) * max(error, 1e-6) ** 2 / 3.0
+    def __init__(self, places: MutableMapping[int, Floats], error: float, *, backlash: float = 0.0) -> None:
+        self.places, self._error = places, error
+        self.offset = 0.0
+        """What the body's encoder tells too much [rad]."""
+        self.half_play = backlash / 2
+        """Half the backlash, the same at every joint [rad]."""
+        self._row = {number: 2 * k for k, number in enumerate(places)}
+        own = np.full(2 * len(places) + 2, max(error, 1e-6) ** 2 / 3.0)
+        own[-2], own[-1] = ANGLE_ERROR**2, PLAY_ERROR**2 if backlash > 0.0 else 0.0
+        self._variance = np.diag(own)
 
     def know(self, numbers: Iterable[int]) -> None:
         """Count some holds as known: the robot has been put on them."""
         for number in numbers:
-            k = self._row[number]
-            self._variance[k], self._variance[:, k] = 0.0, 0.0
-            self._variance[k, k] = KNOWN**2
+            for k in (self._row[number], self._row[number] + 1):
+                self._variance[k], self._variance[:, k] = 0.0, 0.0
+                self._variance[k, k] = KNOWN**2
 
-    def learn(self, number: int, others: Mapping[int, Floats]) -> None:
-        """Two or more hooks are on their holds: their tips' differences correct all holds that hang together with them.
+    def learn(self, number: int, other: int, seen: TipDifference) -> None:
+        """Two hooks are on their holds: the difference of their tips corrects all that hangs together with it.
+
+        Where it is too odd for what is known, the place of the first hold counts as little known again.
 
         Args:
-            number: Of a hold.
-            others: Number of another hold -> measured place of the first less this one, world frame, shape (2,) [m].
+            number: Of the hold of the one tip, the one that was taken last.
+            other: Of that of the other.
+            seen: Place of the one tip less that of the other, by the sensors as they are believed now.
         """
-        for other, difference in others.items():
-            a, b = self._row[number], self._row[other]
-            towards = self._variance[:, a] - self._variance[:, b]
-            gain = towards / (towards[a] - towards[b] + TIP_ERROR**2)
-            lack = difference - (self.places[number] - self.places[other])
-            for one, k in self._row.items():
-                self.places[one] = self.places[one] + gain[k] * lack
-            self._variance -= np.outer(gain, towards)
+        slope = self._slope(number, other, seen)
+        lack = seen.place - (self.places[number] - self.places[other])
+        noise = seen.unsure + TIP_ERROR**2 * np.eye(2)
+        if lack @ np.linalg.solve(slope @ self._variance @ slope.T + noise, lack) > ODD**2:
+            for k in (self._row[number], self._row[number] + 1):
+                self._variance[k, k] += self._error**2 / 3.0
+        towards = self._variance @ slope.T
+        gain = towards @ np.linalg.inv(slope @ towards + noise)
+        change = gain @ lack
+        for one, k in self._row.items():
+            self.places[one] = self.places[one] + change[k : k + 2]
+        self.offset += float(change[-2])
+        self.half_play = max(0.0, self.half_play + float(change[-1]))
+        self._variance -= gain @ towards.T
+        self._variance = 0.5 * (self._variance + self._variance.T)
 
     def error(self, number: int) -> float:
         """How far off a hold's place may be along each axis: the map's error, less what has been learned [m]."""
         k = self._row[number]
-        return float(np.sqrt(3.0 * self._variance[k, k]))
+        return math.sqrt(3.0 * max(self._variance[k, k], self._variance[k + 1, k + 1]))
+
+    def doubt(self, number: int, other: int, seen: TipDifference) -> float:
+        """How far off a tip that is on a hold may seem to be along each axis, by another tip that is on its own [m].
+
+        As an even spread has it: at first twice the map's error where neither hold is known.
+        """
+        slope = self._slope(number, other, seen)
+        return math.sqrt(3.0 * float(np.linalg.eigvalsh(slope @ self._variance @ slope.T + seen.unsure)[-1]))
+
+    def _slope(self, number: int, other: int, seen: TipDifference) -> Floats:
+        """How the difference of two holds, less that of the tips on them, changes with the state, shape (2, n)."""
+        slope = np.zeros((2, len(self._variance)))
+        a, b = self._row[number], self._row[other]
+        slope[:, a : a + 2] += np.eye(2)
+        slope[:, b : b + 2] -= np.eye(2)
+        slope[:, -2], slope[:, -1] = -seen.by_angle, -seen.by_play
+        return slope

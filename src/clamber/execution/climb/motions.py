@@ -1,5 +1,6 @@
 """Motions: how each kind of action is carried out. Body moves on smooth ways, releases, and the grab of Bevly (1997), Fig. 4.14."""
 
+import math
 from itertools import pairwise
 from typing import Final
 
@@ -14,53 +15,71 @@ BODY_SPEED: Final = 0.08
 """Of the body's aim, at most [m/s]."""
 BODY_TURN: Final = 0.4
 """[rad/s]."""
-JOINT_SPEED: Final = 1.6
-"""Of a free limb's joints on their way [rad/s]."""
+JOINT_SPEED: Final = 2.4
+"""Of a free limb's joints on their way, four fifths of what their motors can [rad/s]."""
+JOINT_AGILITY: Final = 8.0
+"""With which they come to it [rad/s^2]."""
 BLEND: Final = 0.3
 """Over which corners of a limb's way are rounded [s]."""
 WIDE_STAND_OFF: Final = 0.042
 """Least distance from a hold at which a hook that opens along its link turns towards it: nearer, its flare knocks the hold [m]."""
 NEAR: Final = 0.022
-"""From here on, and the map's error farther off, the hook is pushed, not placed: nearer, its flare would meet the hold sideways [m]."""
+"""From here on, and the hold's doubt farther off, the hook is pushed, not placed: nearer, its flare would meet the hold sideways [m]."""
 PUSH: Final = 10.0
 """Gentle pull along the grab direction until the hook stops [N]."""
 TUG: Final = 10.0
 """Pull on a hook that has stopped: a quarter of LIBRA's weight; more would lift the limb below off its hold [N]."""
 LIFT: Final = (0.001, 0.003)
 """A push that lifts the body this far weakens, to a third at the second: it bears already, and other hooks would come off [m]."""
-TUG_RISE: Final = 0.2
+SLIDING: Final = (0.003, 0.006)
+"""A push under which the tips of holding limbs come apart this far weakens, to nothing at the second: a hook is coming off [m]."""
+TUG_RISE: Final = 0.1
 """In which the tug grows to its full size [s]."""
 DITHER: Final = 8.0
 """Pull across, to and fro, so that friction lets the hook slide in [N]."""
 DITHER_RATE: Final = 5.0
 """[Hz]."""
+AWAY: Final = 0.006
+"""A limb that leaves a hold aims this far beyond where it is clear of it: its tip lags its aim [m]."""
+LEAVING: Final = 1.0
+"""Most time that it then gets to come clear [s]."""
+SHORT: Final = 0.004
+"""A hook that stops this far before where its hold should be may have met it with its flare [m]."""
+WIDE_DITHER: Final = 14.0
+"""Then the dither is so strong [N] ..."""
+WIDE_RATE: Final = 2.5
+"""... and so slow that it moves the hook across by millimetres [Hz]."""
+STUCK: Final = 0.8
+"""At most for that long without an advance [s]."""
+HANGING: Final = 0.4
+"""Part of these forces where the body hangs on one limb, which gives way [-]."""
 CENTRING: Final = 150.0
 """Pull towards the believed hold across the hook [N/m]."""
 ADVANCE: Final = 0.0015
 """A tip that advances less than this along the grab direction has stopped [m]."""
 STOPPED: Final = 0.2
 """For that long, a period of the dither, before the tug begins [s]."""
-STILL: Final = 0.3
+STILL: Final = 0.25
 """For that long under the full tug before a hook counts as seated [s]."""
 PATIENCE: Final = 5.0
 """For one push [s]."""
 ASIDE: Final = (0.0, 0.8, -0.8, 1.4, -1.4, 0.0)
-"""Across the hook, where each try aims, in errors of the map [-]."""
+"""Across the hook, where each try aims, in doubts of the map [-]."""
 WEAKER: Final = 3.0
 """By how much the worst of the holding limbs may be worse off where the body makes room for a grab [N]."""
-SLACK: Final = 0.006
-"""Beyond the map's error, how far a seated hook may be from where it should be: play and backlash [m]."""
+SLACK: Final = 0.004
+"""Beyond its doubt, how far a seated hook may be from where it should be: play and backlash [m]."""
 
 
 def move_body(climber: Climber, pose: Floats, *, speed: float = BODY_SPEED) -> None:
     """Bring the body to a pose (x, y, theta) along a straight smooth way; free limbs first go to where they meet no hold on it."""
-    for i, task in enumerate(climber.body.tasks):
-        if not task.hold:
-            _park(climber, i, pose)
+    clear_the_way(climber, pose)
     body, period = climber.body, climber.plant.period
     start = body.aim.copy()
     change = pose - start
-    seconds = 1.5 * max(float(np.hypot(change[0], change[1])) / speed, abs(float(change[2])) / (BODY_TURN * speed / BODY_SPEED), 0.2)
+    seconds = 1.5 * max(
+        float(np.hypot(change[0], change[1])) / speed, abs(float(change[2])) / (BODY_TURN * speed / BODY_SPEED), 0.2
+    )
     count = max(1, round(seconds / period))
     for k in range(1, count + 1):
         u = k / count
@@ -68,6 +87,13 @@ def move_body(climber: Climber, pose: Floats, *, speed: float = BODY_SPEED) -> N
         body.aim_speed[:] = 6 * u * (1 - u) / seconds * change
         climber.tick()
     body.aim_speed[:] = 0.0
+
+
+def clear_the_way(climber: Climber, pose: Floats) -> None:
+    """Bring free limbs to where they meet no hold while the body goes straight to a pose."""
+    for i, task in enumerate(climber.body.tasks):
+        if not task.hold:
+            _park(climber, i, pose)
 
 
 def _park(climber: Climber, i: int, pose: Floats) -> None:
@@ -96,10 +122,8 @@ def follow(climber: Climber, i: int, way: Floats) -> None:
     task, period = climber.body.tasks[i], climber.plant.period
     lengths = np.abs(np.diff(way, axis=0)).max(axis=1)
     along = np.concatenate(([0.0], np.cumsum(lengths)))
-    seconds = max(1.5 * along[-1] / JOINT_SPEED, 0.2)
-    count, blend = round(seconds / period), max(2, round(BLEND / period))
-    u = np.arange(1, count + 1) / count
-    done = u * u * (3 - 2 * u) * along[-1]
+    blend = max(2, round(BLEND / period))
+    done = at_speed(along[-1], period)
     angles = np.stack([np.interp(done, along, way[:, j]) for j in range(2)], axis=1)
     # rounded corners: a turn on the spot throws the body about
     window = np.hanning(blend + 2)[1:-1]
@@ -112,20 +136,36 @@ def follow(climber: Climber, i: int, way: Floats) -> None:
     task.angles, task.rates = way[-1].copy(), np.zeros(2)
 
 
-def stand_off_of(climber: Climber, i: int) -> float:
-    """How far from a hold a limb's hook turns towards it [m]."""
-    free = free_distance(climber.peg_radius, climber.map_error)
+def at_speed(length: float, period: float) -> Floats:
+    """How far along a way of some length one is at each tick, from rest to rest, at most JOINT_SPEED fast; shape (ticks,)."""
+    speed = min(JOINT_SPEED, float(np.sqrt(length * JOINT_AGILITY)))
+    rise = speed / JOINT_AGILITY
+    seconds = length / speed + rise if speed > 0.0 else 0.0
+    t = period * np.arange(1, int(np.ceil(seconds / period)) + 1)
+    left = np.maximum(seconds - t, 0.0)
+    up, down = 0.5 * JOINT_AGILITY * t**2, length - 0.5 * JOINT_AGILITY * left**2
+    done: Floats = np.where(t < rise, up, np.where(left < rise, down, speed * (t - 0.5 * rise)))
+    return done
+
+
+def stand_off_of(climber: Climber, i: int, doubt: float) -> float:
+    """How far from a hold a limb's hook turns towards it, the hold's place in doubt by so much [m]."""
+    free = free_distance(climber.peg_radius, doubt)
     return free if climber.robot.limbs[i].end.offset > 0.0 else max(WIDE_STAND_OFF, free)
 
 
 def release(climber: Climber, i: int) -> None:
-    """Take a limb off its hold, against its grab direction; the others carry."""
+    """Take a limb off its hold, against its grab direction, until its tip is clear of it; the others carry."""
     climber.carry_with_all(but=i)
-    task = climber.body.tasks[i]
-    place = climber.body.tip(i) - stand_off_of(climber, i) * climber.body.grab_direction(i)
-    move_tip(climber, i, place, 0.4)
-    climber.learn_again()
-    task.hold, task.doing, task.angles = 0, "joints", climber.body.q[i].copy()
+    body, task = climber.body, climber.body.tasks[i]
+    start, g = body.tip(i), body.grab_direction(i)
+    away = stand_off_of(climber, i, climber.map.error(task.hold)) + AWAY
+    move_tip(climber, i, start - away * g, 0.35)
+    for _ in range(round(LEAVING / climber.plant.period)):
+        if (start - body.tip(i)) @ g > away - AWAY:
+            break
+        climber.tick()
+    task.hold, task.doing, task.angles = 0, "joints", body.q[i].copy()
 
 
 def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
@@ -144,29 +184,31 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
     climber.carry_with_all(but=i)
     if task.hold:
         release(climber, i)
-    hold = climber.holds[number]
-    wished = stand_off_of(climber, i)
-    near = NEAR + climber.map_error
+    doubt = climber.doubt(number, i)
+    hold = climber.holds[number].copy()
+    wished, near, room = stand_off_of(climber, i, doubt), NEAR + doubt, SLACK + doubt
     found = _find(climber, i, hold, elbow, wished, near)
     if found is None:
         return Grabbed(False, 0, 0.0, 0.0)
-    if found.shift.any():
+    if found.shift.any() and not climber.hangs:
         move_body(climber, body.aim + np.array((*found.shift, 0.0)))
         found = _find(climber, i, hold, elbow, wished, near) or found
     follow(climber, i, found.way)
     climber.wait(0.15)
+    climber.learn_again()
+    hold = climber.holds[number].copy()
     along = across = 0.0
     g = found.grab
     h = np.array((-g[1], g[0]))
     for tries, part in enumerate(ASIDE, 1):
-        aside = part * climber.map_error
-        move_tip(climber, i, hold - near * g + aside * h, 0.5)
-        stopped = _push(climber, i, hold + aside * h, g)
+        aside = part * doubt
+        move_tip(climber, i, hold - near * g + aside * h, 0.5 if tries > 1 else 0.2)
+        stopped = _push(climber, i, hold + aside * h, g, room)
         off = body.tip(i) - hold
         along, across = float(off @ g), float(off @ h)
-        room = climber.map_error + SLACK
         if stopped and along > -room and abs(across) < room:
-            climber.learn(number, i, [j for j, other in enumerate(body.tasks) if other.doing == "hold"])
+            climber.learn(number, i, climber.holding())
+            climber.latest = i
             task.doing, task.hold, task.place = "cling", number, climber.holds[number].copy()
             climber.wait(0.1)
             return Grabbed(True, tries, along, across)
@@ -185,8 +227,10 @@ def _find(climber: Climber, i: int, hold: Floats, elbow: int, wished: float, nea
     )  # fmt: skip
 
 
-def _push(climber: Climber, i: int, place: Floats, g: Floats) -> bool:
+def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bool:
     """Push a hook along its grab direction until it stops, then tug as hard as it will have to carry, until it no longer advances.
+
+    One that stops short of where its hold should be is coaxed across under the tug, as its flare may have met the hold.
 
     Returns:
         Whether it came to rest under the tug, not farther in than a hold could be.
@@ -194,33 +238,42 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats) -> bool:
     body, task, period = climber.body, climber.body.tasks[i], climber.plant.period
     # believed to press from the start: in free air the tip is then farther in than believed, never less far
     task.doing, task.pressed, task.tug = "pull", True, np.zeros(2)
-    room = climber.map_error + SLACK
-    still = tugged = 0.0
-    tugging, seated, mark = False, False, -np.inf
+    stage, still, tugged, phase = "push", 0.0, 0.0, 0.0
+    seated, marks = False, np.full(2, -np.inf)
     rested = body.pose[:2].copy()
-    for k in range(round(PATIENCE / period)):
+    first, last = climber.holding()[0], climber.holding()[-1]
+    apart = body.tip(first) - body.tip(last)
+    part = HANGING if climber.hangs else 1.0
+    for _ in range(round(PATIENCE / period)):
         along = body.grab_direction(i)
         across = np.array((-along[1], along[0]))
         size = PUSH + (TUG - PUSH) * min(tugged / TUG_RISE, 1.0)
         lifted = float((rested - body.pose[:2]) @ g)
-        size *= np.interp(lifted, LIFT, (1.0, 1 / 3))
-        side = DITHER * np.sin(2 * np.pi * DITHER_RATE * k * period)
-        if tugging:
+        slid = math.dist(body.tip(first) - body.tip(last), apart)
+        size *= part * np.interp(lifted, LIFT, (1.0, 1 / 3)) * np.interp(slid, SLIDING, (1.0, 0.0))
+        strength, rate = (WIDE_DITHER, WIDE_RATE) if stage == "coax" else (DITHER, DITHER_RATE)
+        phase += 2 * np.pi * rate * period
+        side = part * strength * np.sin(phase)
+        if stage == "push":
+            side += CENTRING * float(across @ (place - body.tip(i)))
+        else:
             tugged += period
             task.tug = size * along
-        else:
-            side += CENTRING * float(across @ (place - body.tip(i)))
         task.force = size * along + side * across
         climber.tick()
-        reached = float(body.felt_tip(i) @ g)
-        still += period
-        if reached > mark + ADVANCE:
-            mark, still = reached, 0.0
-        if not tugging and still > STOPPED:
-            tugging, still = True, 0.0
-        if (body.tip(i) - place) @ g > room:
+        # the play is crossed without a motor that turns, and the belief about it lags: both must have come to rest
+        reached = np.array((body.felt_tip(i) @ g, body.tip(i) @ g))
+        advanced = reached > marks + ADVANCE
+        marks = np.where(advanced, reached, marks)
+        still = 0.0 if advanced.any() else still + period
+        ahead = float((place - body.tip(i)) @ g)
+        if ahead < -room:
             break
-        if tugged > TUG_RISE and still > STILL:
+        if stage == "push" and still > STOPPED:
+            stage, still = "coax" if ahead > SHORT else "tug", 0.0
+        elif stage == "coax" and (still > STUCK or ahead < 0.5 * SHORT):
+            stage, still = "tug", 0.0
+        elif stage == "tug" and tugged > TUG_RISE and still > STILL:
             seated = True
             break
     task.pressed, task.tug = False, np.zeros(2)

@@ -14,8 +14,11 @@ from ..plant import PlantStoppedError
 from .climb_trace import TracedClimber
 from .climber import FallenError, Grabbed
 from .course import Course, PlanRefusedError, lay_course, names_of, swings
+from .ends import grab, release
+from .hang import Hang
 from .here import task_from_here
-from .motions import grab, move_body, release
+from .let_go import let_go
+from .motions import clear_the_way, move_body
 
 Outcome: TypeAlias = Literal["ok", "stalled", "missed", "fell", "interrupted", "stopped", "not supported"]
 Replan: TypeAlias = Callable[[LimbedTask], Plan | None]
@@ -132,6 +135,7 @@ class Sequencer:
         self.climber, self.course = climber, course
         self._replan, self._progress = replan, progress
         self._missed: set[int] = set()
+        self._hanging: Hang | None = None
         self.report = ClimbReport(forced=names_of(course.objections))
 
     def start(self) -> None:
@@ -210,8 +214,14 @@ class Sequencer:
 
     def _motion(self, first: int, last: int) -> tuple[Outcome, int, str]:
         action = self.course.actions[first - 1]
-        if any(swings(self.course, step) for step in range(first, last + 1)):
-            return "not supported", 0, "the body would swing to hang on one limb"
+        if action.limb is not None and self._hanging is not None and self._hanging.i == self._limb(action.limb):
+            return "not supported", 0, "it is the last limb that holds"
+        if swings(self.course, last):
+            refused = self._hang(last)
+            if refused:
+                return "not supported", 0, refused
+            if action.kind != "grab":
+                return "ok", 1, ""
         if action.kind == "move":
             return self._move(last)
         if action.kind == "release":
@@ -221,6 +231,25 @@ class Sequencer:
         if action.kind == "grab":
             return self._grab(first)
         return "ok", 0, ""
+
+    def _hang(self, step: int) -> str:
+        """The body comes to hang, or moves as it hangs, as the plan has it after a step; why not, where that cannot be."""
+        climber, tasks = self.climber, self.climber.body.tasks
+        if not climber.hangs:
+            acts = self.course.actions[step - 1].limb
+            leaving = None if acts is None else self._limb(acts)
+            stay = [i for i, task in enumerate(tasks) if task.hold and i != leaving]
+            if leaving is None or len(stay) != 1:
+                return "more than one limb would have to let go"
+            self._hanging = let_go(climber, leaving, stay[0])
+            if self._hanging is None:
+                return "the weight cannot be brought below the hold that is to carry it alone"
+        hanging = self._hanging
+        assert hanging is not None
+        clear_the_way(climber, self._pose(step))
+        hanging.bring(self._pose(step))
+        hanging.calm()
+        return ""
 
     def _move(self, step: int) -> tuple[Outcome, int, str]:
         """The body goes to the plan's pose; once more where it does not come there."""
@@ -240,12 +269,17 @@ class Sequencer:
         result = Grabbed(False, 0, 0.0, 0.0)
         for x, y in ELSEWHERE:
             place = self._pose(step) + np.array((side * x, y, 0.0))
-            if float(np.abs(place - self.climber.body.aim).max()) > SHIFTED:  # also by the approach to the hold before
+            if (
+                not self.climber.hangs and float(np.abs(place - self.climber.body.aim).max()) > SHIFTED
+            ):  # also by the approach to the hold before
                 move_body(self.climber, place)
             result = grab(self.climber, i, action.hold, elbow=elbow)
             tries += max(1, result.tries)
             if result.held:
                 self._keep_in_map(i, action.hold)
+                if self._hanging is not None:
+                    self._hanging.end()
+                    self._hanging = None
                 return "ok", tries, ""
         self._missed.add(action.hold)
         if not result.tries:

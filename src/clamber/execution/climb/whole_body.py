@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from typing import Final, Literal, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
+from ...control import body_tick as at
 from ...control.body import (
     KINEMATIC,
     LIMIT_COUNTED,
@@ -17,33 +17,31 @@ from ...control.body import (
     LIMIT_THESIS,
     THESIS,
     WRENCH,
-    command_tips,
-    drag_tips,
 )
-from ...control.body_estimate import estimate_body
+from ...control.body_tick import BODY, JOB, TABLE, command_tick, see_tick
 from ...control.chain import chain_of_limb
 from ...control.controller import Controller, still_aim
 from ...control.hook_forces import MOST_CUTS, pair_forces
 from ...control.law_settings import LawSettings
-from ...control.play import follow_play, pull_torques, weight_loads, weight_moment
+from ...control.play import weight_moment
+from ...control.records import AXES
 from ...robots.limbed import LimbedRobot
-from ...types import Floats
+from ...types import Floats, Records
+from .body_schemes import SCHEMES
 from .legs import legs_of
 from .postures import postures
 
-Doing: TypeAlias = Literal["hold", "cling", "tip", "joints", "pull"]
-"""A limb holds the body, clings to its hold without carrying, brings its tip or its joints somewhere, or pulls along a direction."""
+Doing: TypeAlias = Literal["hold", "hang", "cling", "tip", "joints", "pull"]
+"""A limb holds the body, holds it alone while it swings as it will, clings to its hold without carrying, brings its tip or its joints
+somewhere, or pulls along a direction."""
+DOING: Final = {
+    "hold": at.HOLD, "hang": at.HANG, "cling": at.CLING, "tip": at.TIP, "joints": at.JOINTS, "pull": at.PULL,
+}  # fmt: skip
 MAPPINGS: Final = {"thesis": THESIS, "kinematic": KINEMATIC, "wrench": WRENCH}
 PLAY_TIME: Final = 0.2
 """Time in which the believed side of the play follows the load [s]."""
-CLING_DAMPING: Final = 60.0
-"""Of the tip of a limb that clings [N s/m]."""
-CLING_STIFFNESS: Final = 1500.0
-"""Towards its hold from where it is more than `CLING_SLACK` off, so that friction does not leave it behind a moving body [N/m]."""
-CLING_SLACK: Final = 0.003
-"""What a map and the play of joints make of a tip that is on its hold [m]."""
-CLING_MOST: Final = 15.0
-"""Of that pull [N]."""
+LOAD_TIME: Final = 0.15
+"""Time over which the load of a limb that pulls is evened out: a dither's own load moves no joint through its play [s]."""
 LIMITS: Final = {
     "none": LIMIT_NONE,
     "thesis": LIMIT_THESIS,
@@ -84,6 +82,15 @@ class BodyGains:
     mapping: str = "wrench"
     limit: str = "feasible"
     law: str = "scct"
+    scheme: str = "body"
+    """How the holding limbs carry the body: "body" as in the thesis's 4.4, or one of `SCHEMES`."""
+    leg_kp: float = 200.0
+    """Of a holding limb in those schemes, in the units of its law; "coordinated": of the pressing tip [N/m]."""
+    leg_kd: float = 10.0
+    inside: float = 8.0
+    """"coordinated": with how much the pressing tip is to pull at its hold [N]."""
+    hold_stiffness: float = 20_000.0
+    """"coordinated": that the holds are believed to have [N/m]."""
 
 
 @dataclass(slots=True)
@@ -98,8 +105,10 @@ class LimbTask:
     speed: Floats = field(default_factory=lambda: np.zeros(2))
     """Of the aim [m/s]."""
     angles: Floats = field(default_factory=lambda: np.zeros(2))
-    """Of "joints" [rad]."""
+    """Of "joints" and "hang" [rad]."""
     rates: Floats = field(default_factory=lambda: np.zeros(2))
+    loads: Floats = field(default_factory=lambda: np.zeros(2))
+    """Of "hang": torques that bear the weight [N m]."""
     force: Floats = field(default_factory=lambda: np.zeros(2))
     """Of "pull": what the tip does to what it meets, world frame [N]."""
     tug: Floats = field(default_factory=lambda: np.zeros(2))
@@ -108,6 +117,11 @@ class LimbTask:
     """Of "pull": of the tip's motion in the world [N s/m]."""
     pressed: bool = False
     """Of "pull": whether the tip has stopped against something, which then loads the joints."""
+
+    @property
+    def holds(self) -> bool:
+        """Whether the limb carries the body."""
+        return self.doing in ("hold", "hang")
 
 
 class WholeBody:
@@ -155,41 +169,53 @@ class WholeBody:
         """Tips in the body frame with the play counted."""
         self.settled = np.zeros(3)
         """The pose with the play counted: for maps and aims, never for the fast loop, which it would set swinging."""
-        self._held = np.zeros(n, np.int64)
+        self.held = np.zeros(n, np.int64)
+        """1 for limbs that hold, as of the last measurement."""
         self._carriers = np.zeros((2, n), np.int64)
         """1 for those that carry: who did until now, and who will once the load has been handed over."""
         self._weights = np.zeros(n)
         self._handed = 1.0
-        self._holds, self._arms = np.zeros((n, 2)), np.zeros((n, 2))
-        self._unused_speeds, self._unused_twist = np.zeros((n, 2)), np.zeros(3)
-        self._pulls, self._forces = np.zeros((n, 2)), np.zeros((n, 2))
-        self._old_pulls, self._old_forces = np.zeros((n, 2)), np.zeros((n, 2))
-        self._own = np.zeros(2)
-        self._cuts, self._drags = np.zeros((MOST_CUTS, 2)), np.zeros((n, 2))
-        self._least = np.full(n, gains.least_pull)
-        self._ports = [
-            (limb.port_x, limb.port_y, math.cos(limb.port_angle), math.sin(limb.port_angle)) for limb in robot.limbs
-        ]
-        self._kp, self._kd, self._stiffness = np.array(gains.kp), np.array(gains.kd), np.array(gains.stiffness)
-        self._pressed, self._loads = np.zeros(n, np.int64), np.zeros((n, 2))
-        self._lag = np.array((period / PLAY_TIME, self.backlash / 2))
+        self._holds, self._cuts = np.zeros((n, 2)), np.zeros((MOST_CUTS, 2))
+        self._lag = np.array((period / PLAY_TIME, self.backlash / 2, period / LOAD_TIME))
+        self._jobs = np.zeros(n, JOB)
+        self._job = {name: self._jobs[name] for name in JOB.names or ()}
+        drives = np.array([[law.desk for law in laws] for laws in (self._pullers, self._reachers)])
+        self._arrays = {
+            at.LEGS: self.legs, at.SETTINGS: _settings(gains, robot), at.JOBS: self._jobs, at.DRIVES: drives,
+            at.Q: self.q, at.QD: self.qd, at.LAGGED: np.zeros((n, 2)), at.HELD: self.held,
+            at.WEIGHTS: self._weights, at.HOLDS: self._holds, at.ARMS: np.zeros((n, 2)),
+            at.TIPS: self.tips, at.TIP_SPEEDS: self.tip_speeds, at.POSE: self.pose, at.TWIST: self.twist,
+            at.AIMED: self.aim, at.AIM_SPEED: self.aim_speed, at.PLAY: self.play,
+            at.SETTLED_TIPS: self.settled_tips, at.SETTLED: self.settled,
+            at.SPARE_SPEEDS: np.zeros((n, 2)), at.SPARE_TWIST: np.zeros(3), at.CARRIERS: self._carriers,
+            at.PULLS: np.zeros((n, 2)), at.FORCES: np.zeros((n, 2)),
+            at.OLD_PULLS: np.zeros((n, 2)), at.OLD_FORCES: np.zeros((n, 2)),
+            at.CUTS: self._cuts, at.DRAGS: np.zeros((n, 2)), at.LEAST: np.full(n, gains.least_pull),
+            at.PRESSED: np.zeros(n, np.int64), at.LOADS: np.zeros((n, 2)), at.LAG: self._lag, at.LOADS_NOW: np.zeros(2),
+            at.WANTED: np.zeros(3), at.FED: np.zeros(3), at.LIMB_AIM: self._aim, at.STATES: self._states,
+            at.FELT: np.zeros((1, AXES)), at.TORQUES: self.torques,
+        }  # fmt: skip
+        self._table = np.zeros(TABLE, np.int64)
+        for place, array in self._arrays.items():
+            assert array.flags.c_contiguous
+            self._table[place] = array.ctypes.data
+        self._table[at.LIMBS] = n
+        self._scheme = None if gains.scheme == "body" else SCHEMES[gains.scheme](self)
 
     def see(self, q: Floats, qd: Floats, angle: float, angle_speed: float, *, with_encoder: bool = True) -> None:
         """Take in a tick's measurements and estimate where the body is."""
         self.q[:], self.qd[:] = q, qd
         for i, task in enumerate(self.tasks):
-            self._held[i] = task.doing == "hold"
-            if task.doing == "hold":
+            self.held[i] = task.holds
+            if task.holds:
                 self._holds[i] = task.place
         self._pass_load()
-        estimate_body(
-            self.legs, self.q, self.qd, self._weights, self._holds, angle, angle_speed, with_encoder,
-            self.tips, self.tip_speeds, self.pose, self.twist,
-        )  # fmt: skip
-        estimate_body(
-            self.legs, self.q - self.play, self.qd, self._weights, self._holds, angle, angle_speed, with_encoder,
-            self.settled_tips, self._unused_speeds, self.settled, self._unused_twist,
-        )  # fmt: skip
+        see_tick(self._table, angle, angle_speed, with_encoder)
+
+    def reckon_with(self, backlash: float) -> None:
+        """Believe in another backlash of every joint from now on [rad]."""
+        self.backlash = backlash
+        self._lag[1] = backlash / 2
 
     def hand_over(self, carriers: Collection[int]) -> None:
         """Let the load pass to these limbs, each of them on a hold; it does while `handing_over`, then the others cling."""
@@ -235,14 +261,14 @@ class WholeBody:
             self._handed = min(1.0, self._handed + self.period / HANDING_OVER)
             if self._handed == 1.0:
                 for i, task in enumerate(self.tasks):
-                    if self._held[i] and not self._carriers[1, i]:
-                        task.doing, self._held[i] = "cling", 0
+                    if self.held[i] and not self._carriers[1, i]:
+                        task.doing, self.held[i] = "cling", 0
         if self.handing_over:
             part = self._part()
             before, after = self._carriers
             np.add((1.0 - part) / before.sum() * before, part / after.sum() * after, out=self._weights)
         else:
-            self._weights[:] = self._held
+            self._weights[:] = self.held
 
     def _part(self) -> float:
         """Of the load that has passed, smooth at both ends [-]."""
@@ -272,7 +298,8 @@ class WholeBody:
 
     def strain(self, i: int, j: int) -> float:
         """How far the distance of two holding tips is from that of their holds [m]."""
-        return abs(math.dist(self.tips[i], self.tips[j]) - math.dist(self.tasks[i].place, self.tasks[j].place))
+        apart = math.dist(self.tips[i].tolist(), self.tips[j].tolist())
+        return abs(apart - math.dist(self.tasks[i].place.tolist(), self.tasks[j].place.tolist()))
 
     def grab_direction(self, i: int) -> Floats:
         """Where a limb's hook pulls, world frame, unit vector."""
@@ -281,116 +308,42 @@ class WholeBody:
         return np.array((math.cos(angle), math.sin(angle)))
 
     def command(self) -> Floats:
-        """Torques of this tick, shape (limbs, 2) [N m]."""
-        gains = self.gains
-        np.subtract(self._holds, self.pose[:2], out=self._arms)
-        if gains.mapping == "wrench":
-            wanted = self._stiffness * (self.aim - self.pose)
-            drag_tips(self.tip_speeds, self.pose[2], self._arms, self.aim_speed, gains.kd[0], self._drags)
-        else:
-            wanted = self._kp * (self.aim - self.pose) + self._kd * (self.aim_speed - self.twist)
-        fed = self._fed()
-        if self.handing_over:
-            self._command_tips(self._carriers[0], wanted, fed, self._old_pulls, self._old_forces)
-            self._command_tips(self._carriers[1], wanted, fed, self._pulls, self._forces)
-            part = self._part()
-            # cones are convex: between two loads that keep a hook on, all do
-            self._pulls += (1.0 - part) * (self._old_pulls - self._pulls)
-            self._forces += (1.0 - part) * (self._old_forces - self._forces)
-        else:
-            self._command_tips(self._held, wanted, fed, self._pulls, self._forces)
+        """Torques of this tick, shape (limbs, 2) [N m].
+
+        Raises:
+            MeasurementError: If a measurement is not finite.
+            AimError: Likewise of an aim.
+        """
+        job = self._job
         for i, task in enumerate(self.tasks):
-            if task.doing == "hold":
-                self._pull(i, self._pulls[i], self._forces[i])
-            elif task.doing == "cling":
-                self._press(
-                    i, gains.cling * self.grab_direction(i) + self._towards(task.place - self.tip(i)), CLING_DAMPING
-                )
-            elif task.doing == "pull":
-                self._press(i, task.force, task.damping)
-            elif task.doing == "tip":
-                self._reach(i, task)
-            else:
-                shares = self.chains[i].joints["share"]
-                self.torques[i] = shares * (
-                    gains.joint_kp * (task.angles - self.q[i]) + gains.joint_kd * (task.rates - self.qd[i])
-                )
-            self._pressed[i] = task.doing == "cling" or (task.doing == "pull" and task.pressed)
-            if task.doing in ("tip", "pull", "cling"):
-                most = gains.firm if task.pressed else gains.gentle
-                np.clip(self.torques[i], -most, most, out=self.torques[i])
-        follow_play(
-            self.legs, self.q, self._held, self._forces, self.pose[2], self._pressed, self._loads, self._lag, self.play
-        )
+            doing = task.doing
+            job["doing"][i], job["pressed"][i] = DOING[doing], task.pressed
+            if doing in ("tip", "cling"):
+                job["place"][i], job["speed"][i] = task.place, task.speed
+            elif doing == "pull":
+                job["force"][i], job["tug"][i], job["damping"][i] = task.force, task.tug, task.damping
+            elif doing in ("joints", "hang"):
+                job["angles"][i], job["rates"][i], job["loads"][i] = task.angles, task.rates, task.loads
+        bad = command_tick(self._table, self._part() if self.handing_over else 1.0)
+        if bad >= 0:
+            self._complain(bad)
+        if self._scheme is not None:
+            self._scheme.hold(self, [i for i, task in enumerate(self.tasks) if task.doing == "hold"])
         return self.torques
 
-    def _command_tips(
-        self, held: npt.NDArray[np.int64], wanted: Floats, fed: Floats, pulls: Floats, forces: Floats
-    ) -> None:
-        gains = self.gains
-        pulls[:] = 0.0
-        command_tips(
-            self.legs, self.q, held, self.pose, self._arms, wanted, fed,
-            MAPPINGS[gains.mapping], LIMITS[gains.limit], self._least, self._drags, self._cuts, pulls, forces,
-        )  # fmt: skip
+    def _complain(self, bad: int) -> None:
+        """Let a limb's controller say what is not finite: a measurement of any limb, else the aim of limb `bad`."""
+        own = self._aim.copy()
+        for i, aim in [*((i, still_aim((0.0, 0.0))) for i in range(self.n)), (bad, own)]:
+            self._states[0] = self.q[i], self.qd[i]
+            (self._pullers if self.tasks[i].doing == "hold" else self._reachers)[i].command(aim, self._states)
 
-    def _fed(self) -> Floats:
-        """The wrench on the body that the holding limbs bring in any case: the weight, less what tugging limbs already carry."""
-        fed = self.gains.weight_fed * np.array((0.0, self.robot.weight, weight_moment(self.legs, self.q, self.pose[2])))
-        for i, task in enumerate(self.tasks):
-            if task.doing == "pull" and task.tug.any():
-                arm = self.tip(i) - self.settled[:2]
-                fed += (*task.tug, arm[0] * task.tug[1] - arm[1] * task.tug[0])
-        return fed
 
-    def _into_port(self, i: int, vector: Floats) -> Floats:
-        angle = -(self.pose[2] + self.robot.limbs[i].port_angle)
-        c, s = math.cos(angle), math.sin(angle)
-        return np.array((c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]))
-
-    def _own_tip(self, i: int) -> Floats:
-        port_x, port_y, c, s = self._ports[i]
-        x, y = self.tips[i, 0] - port_x, self.tips[i, 1] - port_y
-        return np.array((c * x + s * y, -s * x + c * y))
-
-    def _pull(self, i: int, pull: Floats, force: Floats) -> None:
-        """A law with a gain of one, aimed one pull away, turns exactly that pull into torques."""
-        aim = self._aim
-        aim["place"][0, :2] = self._own_tip(i) + pull
-        aim["twist"][0] = 0.0
-        aim["wrench"][0, :2] = force
-        self._state(i)
-        self.torques[i] = self._pullers[i].command(aim, self._states)[0] + self._own_weight(i)
-
-    def _towards(self, off: Floats) -> Floats:
-        """Pull of a limb that clings, towards a hold that far off [N]."""
-        far = math.hypot(*off)
-        return off * (min(CLING_STIFFNESS * max(far - CLING_SLACK, 0.0), CLING_MOST) / max(far, 1e-9))
-
-    def _press(self, i: int, force: Floats, damping: float) -> None:
-        pull_torques(
-            self.legs[i], self.q[i], self.qd[i], self.pose, self.twist, force, damping, self.torques[i], self._loads[i]
-        )
-
-    def _reach(self, i: int, task: LimbTask) -> None:
-        aim = self._aim
-        aim["place"][0, :2] = self._own_tip(i) + self._into_port(i, task.place - self.tip(i))
-        still = self.tip_speed(i) - self._turned_back(i)
-        aim["twist"][0, :2] = self._into_port(i, task.speed - still)
-        aim["wrench"][0] = 0.0
-        self._state(i)
-        self.torques[i] = self._reachers[i].command(aim, self._states)[0] + self._own_weight(i)
-
-    def _turned_back(self, i: int) -> Floats:
-        """Speed of the tip relative to the body, world axes."""
-        c, s = math.cos(self.pose[2]), math.sin(self.pose[2])
-        vx, vy = self.tip_speeds[i]
-        return np.array((c * vx - s * vy, s * vx + c * vy))
-
-    def _own_weight(self, i: int) -> Floats:
-        """Torques that carry a limb's own weight, however the body is turned [N m]."""
-        weight_loads(self.legs[i], self.q[i], self.pose[2], self._own)
-        return self._own
-
-    def _state(self, i: int) -> None:
-        self._states[0, 0], self._states[0, 1] = self.q[i], self.qd[i]
+def _settings(gains: BodyGains, robot: LimbedRobot) -> Records:
+    """The gains as the kernels read them, records of `BODY`, shape (1,)."""
+    out = np.zeros(1, BODY)
+    out["mapping"], out["limit"] = MAPPINGS[gains.mapping], LIMITS[gains.limit]
+    for name in ("kp", "kd", "stiffness", "joint_kp", "joint_kd", "cling", "gentle", "firm", "weight_fed"):
+        out[name] = getattr(gains, name)
+    out["weight"] = robot.weight
+    return out

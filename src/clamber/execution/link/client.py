@@ -52,9 +52,9 @@ class RemoteHardware:
             self._channel.hang_up()
             raise self._no_link(str(error)) from None
         self.period = self.about.period
-        self._volts = np.zeros(self.about.joints)
+        self._commands = np.zeros(self.about.commands)
         none = np.zeros(self.about.truths)
-        self.sample = Sample(0, 0, Stop.NONE, np.zeros(self.about.encoders, np.int32), none)
+        self.sample = Sample(0, 0, Stop.NONE, np.zeros(self.about.readings, np.int32), none)
         """The latest."""
 
     def __enter__(self) -> Self:
@@ -101,9 +101,9 @@ class RemoteHardware:
             self._catch_up()
         return Reading(self.sample.counts, self.sample.tick)
 
-    def actuate(self, volts: Floats) -> None:
+    def actuate(self, commands: Floats) -> None:
         """See `Hardware`; sent with the next step."""
-        self._volts = volts
+        self._commands = commands
 
     def pause(self) -> None:
         """See `Hardware`: the server's guard holds until the next step."""
@@ -115,7 +115,7 @@ class RemoteHardware:
         Raises:
             PlantStoppedError: If the server is gone, refuses, or has made a safe stop.
         """
-        number = self._send(Kind.COMMAND, self._volts)
+        number = self._send(Kind.COMMAND, self._commands)
         sample = self._sample()
         if not self.about.real_time and sample.answers != number:
             raise PlantStoppedError("the plant's server answers another command")

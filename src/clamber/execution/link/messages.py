@@ -14,7 +14,7 @@ from ...types import Floats, Ints
 MAGIC: Final = b"CLMB"
 VERSION: Final = 1
 MOST_JOINTS: Final = 64
-"""Most joints, encoders and numbers of a start that a plant may tell of."""
+"""Most commands, readings and numbers of a start that a plant may tell of."""
 MOST_TRUTHS: Final = 1024
 FARTHEST: Final = 1000.0
 """No number of a start is larger, either way [m], [rad]."""
@@ -79,10 +79,10 @@ class About:
     """Its name, cut to 32 bytes of UTF-8."""
     place: str
     """Name of its task or board, likewise."""
-    joints: int
-    """Numbers of a command."""
-    encoders: int
-    """Counts of a sample."""
+    commands: int
+    """Numbers of a command: volts of joints, then switches of grippers."""
+    readings: int
+    """Whole numbers of a sample: counts of encoders, then switches of grippers."""
     starts: int
     """Numbers of a start."""
     truths: int
@@ -105,7 +105,7 @@ class Sample:
     """Number of the client's last message that it knows of."""
     stop: Stop
     counts: Ints
-    """Of the encoders, shape (encoders,)."""
+    """Of the encoders, then the switches of the grippers, shape (readings,)."""
     truth: Floats
     """For logs, shape (truths,)."""
 
@@ -197,7 +197,7 @@ def _foreign(start: bytearray) -> MessageError:
 def pack_about(about: About) -> bytes:
     """Payload of a WELCOME."""
     return _WELCOME.pack(
-        about.joints, about.encoders, about.starts, about.truths, about.real_time, 0, about.period, about.pace,
+        about.commands, about.readings, about.starts, about.truths, about.real_time, 0, about.period, about.pace,
         cut(about.robot, 32), cut(about.place, 32),
     )  # fmt: skip
 
@@ -209,9 +209,9 @@ def unpack_about(payload: bytes) -> About:
         MessageError: If it says what cannot be.
     """
     _check_size(Kind.WELCOME, payload, _WELCOME.size)
-    joints, encoders, starts, truths, mode, spare, period, pace, robot, place = _WELCOME.unpack(payload)
+    commands, readings, starts, truths, mode, spare, period, pace, robot, place = _WELCOME.unpack(payload)
     for word, value, low, high in (
-        ("joints", joints, 1, MOST_JOINTS), ("encoders", encoders, joints, MOST_JOINTS), ("starts", starts, 1, MOST_JOINTS),
+        ("commands", commands, 1, MOST_JOINTS), ("readings", readings, commands, MOST_JOINTS), ("starts", starts, 1, MOST_JOINTS),
         ("truths", truths, 0, MOST_TRUTHS), ("mode", mode, 0, 1), ("spare", spare, 0, 0),
     ):  # fmt: skip
         if not low <= value <= high:
@@ -220,7 +220,7 @@ def unpack_about(payload: bytes) -> About:
         if not 1e-6 <= seconds <= 1e6:
             raise MessageError(f"'{word}' of a WELCOME", seconds, "must be 1e-6 to 1e6")
     return About(
-        _text(robot, "robot"), _text(place, "place"), joints, encoders, starts, truths, bool(mode), period, pace
+        _text(robot, "robot"), _text(place, "place"), commands, readings, starts, truths, bool(mode), period, pace
     )
 
 
@@ -236,7 +236,7 @@ def unpack_sample(payload: bytes, about: About) -> Sample:
     Raises:
         MessageError: If it is none of such a plant, or says what cannot be.
     """
-    _check_size(Kind.SAMPLE, payload, _SAMPLE.size + 4 * about.encoders + 8 * about.truths)
+    _check_size(Kind.SAMPLE, payload, _SAMPLE.size + 4 * about.readings + 8 * about.truths)
     tick, answers, code, spare = _SAMPLE.unpack_from(payload)
     try:
         stop = Stop(code)
@@ -244,8 +244,8 @@ def unpack_sample(payload: bytes, about: About) -> Sample:
         raise MessageError("'stop' of a SAMPLE", code, f"must be 0 to {max(Stop)}") from None
     if spare:
         raise MessageError("'spare' of a SAMPLE", spare, "must be 0")
-    counts = np.frombuffer(payload, "<i4", about.encoders, _SAMPLE.size).astype(np.int32)
-    truth = np.frombuffer(payload, "<f8", about.truths, _SAMPLE.size + 4 * about.encoders).astype(np.float64)
+    counts = np.frombuffer(payload, "<i4", about.readings, _SAMPLE.size).astype(np.int32)
+    truth = np.frombuffer(payload, "<f8", about.truths, _SAMPLE.size + 4 * about.readings).astype(np.float64)
     if not np.isfinite(truth).all():
         raise MessageError("the truth of a SAMPLE", truth[~np.isfinite(truth)][0], "must be finite numbers")
     return Sample(tick, answers, stop, counts, truth)

@@ -108,8 +108,8 @@ class PlantServer:
         """Those that have been let go, and until when."""
         self._welcomed, self._since = False, 0.0
         self._placed = self._driven = self._paused = False
-        self._reading = Reading(np.zeros(about.encoders, np.int32), 0)
-        self._volts = np.zeros(about.joints)
+        self._reading = Reading(np.zeros(about.readings, np.int32), 0)
+        self._commands = guard.at_rest.copy()
         self._fresh, self._silent, self._answers = False, 0, 0
         self._next, self._held_until = 0.0, 0
         self._over = False
@@ -205,15 +205,15 @@ class PlantServer:
         start = unpack_numbers(message.kind, message.payload, self.about.starts)
         self.hardware.reset(start)
         self._reading, self._answers = self.hardware.sense(), message.number
-        self._volts = np.zeros(self.about.joints)
-        self.guard.hold(self._reading, self._volts)
+        self._commands = self.guard.at_rest.copy()
+        self.guard.hold(self._reading, self._commands)
         self.stop, self._placed, self._driven = Stop.NONE, True, False
         self._fresh, self._silent, self._held_until, self._paused = False, 0, 0, False
         self._next = self._clock.now() + self._wall_period
         self._send_sample(channel)
 
     def _command(self, channel: Channel, message: Message) -> None:
-        volts = unpack_numbers(message.kind, message.payload, self.about.joints)
+        commands = unpack_numbers(message.kind, message.payload, self.about.commands)
         if not self._placed:
             raise MessageError("a COMMAND", "the first", "must follow a START")
         self._answers = message.number
@@ -221,10 +221,10 @@ class PlantServer:
             if not self.about.real_time:
                 self._send_sample(channel)
             return
-        self._volts, self._fresh, self._driven, self._silent = volts, True, True, 0
+        self._commands, self._fresh, self._driven, self._silent = commands, True, True, 0
         self._paused = False
         if not self.about.real_time:
-            self._advance(volts)
+            self._advance(commands)
             self._send_sample(channel)
 
     def _pause(self, message: Message) -> None:
@@ -232,7 +232,7 @@ class PlantServer:
         self._answers = message.number
         if self._driven and not self.stop and not self._paused:
             self._paused, self._silent = True, 0
-            self.guard.hold(self._reading, self._volts)
+            self.guard.hold(self._reading, self._commands)
 
     def _tick(self, late: float) -> None:
         """One period by the clock."""
@@ -246,7 +246,7 @@ class PlantServer:
                 self._make_stop(Stop.SILENT, "")
         self._fresh = False
         if self._driven and not self.stop and not self._paused:
-            self._advance(self._volts)
+            self._advance(self._commands)
         else:
             self._hold()
         if self._channel is not None and self._welcomed:
@@ -255,8 +255,8 @@ class PlantServer:
             except ConnectionEndedError as end:
                 self._let_go(Stop.LOST, str(end))
 
-    def _advance(self, volts: np.ndarray) -> None:
-        self.hardware.actuate(volts)
+    def _advance(self, commands: np.ndarray) -> None:
+        self.hardware.actuate(commands)
         self.hardware.step()
         self._reading = self.hardware.sense()
 
@@ -271,7 +271,7 @@ class PlantServer:
         """From now on the guard holds the posture."""
         self.stop = stop
         self.stops.append(stop)
-        self.guard.hold(self._reading, self._volts)
+        self.guard.hold(self._reading, self._commands)
         self._say(
             f"safe stop at tick {self._reading.tick}: {STOPS[stop]}{f' ({why})' if why else ''}; the posture is held"
         )
@@ -281,7 +281,7 @@ class PlantServer:
 
     def _hold(self) -> None:
         """One period with the guard; told, some time after a safe stop, how still the robot stays."""
-        self._advance(self.guard.volts(self._reading))
+        self._advance(self.guard.commands(self._reading))
         if self._held_until and self._reading.tick >= self._held_until:
             self._held_until = 0
             moved = np.degrees(self.guard.moved(self._reading))
@@ -322,7 +322,7 @@ class PlantServer:
             if stop:
                 self._make_stop(stop, why)
             else:
-                self.guard.hold(self._reading, self._volts)
+                self.guard.hold(self._reading, self._commands)
                 self._say("the client has ended; the posture is held")
         elif stop:
             self._say(f"the client is let go: {why}")

@@ -71,8 +71,10 @@ def plan_to_climb(task: LimbedTask, planner: str, *, seconds: float, seed: int) 
 def cautious(task: LimbedTask, caution: Caution) -> LimbedTask:
     """A task that asks for more than its checks do, so that what holds in it can bear to be carried out."""
     document = copy.deepcopy(task.document)
-    board = {key: value for key, value in document["board"].items() if key not in GENERATORS}
-    document["board"] = board | {"holds": [_spared(hold, task.robot.weight, caution) for hold in task.world.holds]}
+    hooked = any(limb.end.kind != "gripper" for limb in task.robot.limbs)
+    if hooked:  # grippers may well push one against the other
+        board = {key: value for key, value in document["board"].items() if key not in GENERATORS}
+        document["board"] = board | {"holds": [_spared(hold, task.robot.weight, caution) for hold in task.world.holds]}
     changed = task_from_document(document, "cautious task")
     rules = task.rules
     cautious_task = change_task(
@@ -81,7 +83,7 @@ def cautious(task: LimbedTask, caution: Caution) -> LimbedTask:
             f"rules.hook_cone={min(rules.hook_cone / DEGREE, caution.hook_cone)!r} deg",
             f"rules.hook_pull={max(rules.hook_pull, caution.pull * task.robot.weight)!r} N",
             f"rules.reach_offset={max(rules.reach_offset, caution.spare * INCH)!r} m",
-            "rules.offset_while_holding=true",
+            f"rules.offset_while_holding={str(hooked or rules.offset_while_holding).lower()}",
             f"motor.torque_limit={caution.share * task.robot.motor.torque_limit!r} N m",
         ],
     )

@@ -93,9 +93,9 @@ class TimedHardware:
         """See `Hardware`."""
         return self.hardware.sense()
 
-    def actuate(self, volts: Floats) -> None:
+    def actuate(self, commands: Floats) -> None:
         """See `Hardware`."""
-        self.hardware.actuate(volts)
+        self.hardware.actuate(commands)
 
     def pause(self) -> None:
         """See `Hardware`."""
@@ -124,7 +124,7 @@ class StoppingHardware:
 
     def __init__(self, hardware: Hardware, guard: PostureGuard, at: int) -> None:
         self.hardware, self.guard, self.at, self.period = hardware, guard, at, hardware.period
-        self._reading, self._volts = Reading(np.zeros(0, np.int32), 0), np.zeros(0)
+        self._reading, self._commands = Reading(np.zeros(0, np.int32), 0), np.zeros(0)
 
     def reset(self, start: Floats) -> None:
         """See `Hardware`."""
@@ -135,9 +135,9 @@ class StoppingHardware:
         """See `Hardware`."""
         return self._reading
 
-    def actuate(self, volts: Floats) -> None:
+    def actuate(self, commands: Floats) -> None:
         """See `Hardware`."""
-        self._volts = volts
+        self._commands = commands
 
     def pause(self) -> None:
         """See `Hardware`."""
@@ -151,7 +151,7 @@ class StoppingHardware:
         """
         if self._reading.tick >= self.at:
             raise PlantStoppedError("its time has come")
-        self.hardware.actuate(self._volts)
+        self.hardware.actuate(self._commands)
         self.hardware.step()
         self._reading = self.hardware.sense()
 
@@ -162,10 +162,10 @@ class StoppingHardware:
     def hold(self, seconds: float, *, power: bool = True) -> float:
         """Let the guard hold, or nobody, and tell how far the body has truly moved [m]."""
         before = self.truth()[:2].copy()
-        self.guard.hold(self._reading, self._volts)
+        self.guard.hold(self._reading, self._commands)
         for _ in range(round(seconds / self.period)):
-            volts = self.guard.volts(self._reading)
-            self.hardware.actuate(volts if power else np.zeros_like(volts))
+            commands = self.guard.commands(self._reading)
+            self.hardware.actuate(commands if power else np.zeros_like(commands))
             self.hardware.step()
             self._reading = self.hardware.sense()
         return float(np.hypot(*(self.truth()[:2] - before)))

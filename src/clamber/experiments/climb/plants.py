@@ -76,8 +76,8 @@ def climbing_plant(text: str, task: LimbedTask, simulate: Callable[[], ClimberPl
         remote.check(task.robot.name, task.world.name)
         wiring = wiring_of(task.robot)
         for word, served, ours in (
-            ("encoders", remote.about.encoders, wiring.n_encoders),
-            ("joints", remote.about.joints, wiring.n_joints),
+            ("readings", remote.about.readings, wiring.n_readings),
+            ("commands", remote.about.commands, wiring.n_commands),
         ):
             if served != ours:
                 raise LinkError(text, f"it has {served} {word}", f"must have {ours}, as '{task.robot.name}' has")
@@ -135,7 +135,7 @@ def climb_server(
     wiring = wiring_of(task.robot, plant.flaws.encoder_counts)
     hardware = ClimberWires(plant, wiring, dac_bits=dac_bits)
     about = About(
-        task.robot.name, task.world.name, wiring.n_joints, wiring.n_encoders, 3 + wiring.n_joints,
+        task.robot.name, task.world.name, wiring.n_commands, wiring.n_readings, 3 + wiring.n_joints,
         len(hardware.truth()), real_time, hardware.period, pace,
     )  # fmt: skip
     guard = guard_of(task.robot, wiring, hardware.period)

@@ -1,3 +1,3 @@
-"""Bevly, *Action Module Planning and Cartesian Based Control of an Experimental Climbing Robot*, MIT, 1997: chapter 2."""
+"""Bevly, *Action Module Planning and Cartesian Based Control of an Experimental Climbing Robot*, MIT, 1997: chapters 2 to 4."""
 
 PAPER = "bevly-1997"

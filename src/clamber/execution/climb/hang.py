@@ -1,0 +1,152 @@
+"""Hanging on one limb: the swing damped by the limb's own joints, the body's height and angle kept and changed."""
+
+import math
+from typing import Final
+
+import numpy as np
+
+from ...types import Floats
+from .climber import Climber, FallenError
+from .pendulum import Pendulum
+
+DAMPING: Final = 0.5
+"""kappa of the damping, 0 .. 1 [-]."""
+LAG: Final = 0.5
+"""T of the damping: the less, the more of what the joints do goes against the swing; the joints must follow twice as fast [-]."""
+WIDEST: Final = 0.25
+"""Most that the joints go aside for damping: at LIBRA's swings half their no-load speed [rad]."""
+TRACKING: Final = 40.0
+"""Of the observer of the swing [rad/s]."""
+OVER: Final = math.radians(100.0)
+"""A centre of gravity that is farther than this from straight below does not hang on anything [rad]."""
+SPEED: Final = 0.05
+"""With which the body rises and sinks [m/s]."""
+TURN: Final = 0.25
+"""[rad/s]."""
+JOINT_SPEED: Final = 0.8
+"""Most of the holding limb's joints, but for the damping [rad/s]."""
+CALM: Final = math.radians(1.0)
+"""Amplitude below which a swing no longer matters [rad]."""
+PATIENCE: Final = 12.0
+"""Most time for a swing to calm down [s]."""
+
+
+class Hang:
+    r"""A body that hangs on one limb: keeps the limb's joints at angles, and its swing damped.
+
+    The pivot at the hold is passive, so damping has to come from the joints' inertia c (`Pendulum`): along n = c / |c| they go aside by u,
+
+        tau u' = -(k phi' + u),    tau = T / omega,    k = kappa I tau / |c|
+
+    With z = s / omega the swing then obeys (1 - kappa) T z^3 + z^2 + T z + 1 = 0: damped for 0 < kappa < 1 (Routh), with the ratio
+    kappa T / (2 + 2 T^2) for small ones. phi' is an observer's, as differences of an encoder's counts are rough.
+
+    Args:
+        climber: The robot; limb `i` is on a hold.
+        i: The limb that holds.
+        damping: kappa.
+    """
+
+    def __init__(self, climber: Climber, i: int, damping: float = DAMPING) -> None:
+        self.climber, self.i, self.damping = climber, i, damping
+        self.pendulum = Pendulum(climber.robot, i)
+        body = climber.body
+        self.angles = body.q[i].copy()
+        """That the holding limb's joints keep to, but for the damping [rad]."""
+        self.rates = np.zeros(2)
+        self.phi = self.pendulum.swing(body.q, float(body.pose[2]))
+        """Swing as observed [rad]."""
+        self.speed = 0.0
+        """[rad/s]."""
+        self.aside = 0.0
+        """u [rad]."""
+        limb = climber.robot.limbs[i]
+        self._lower = np.array((limb.shoulder.lower, limb.elbow.lower))
+        self._upper = np.array((limb.shoulder.upper, limb.elbow.upper))
+        self.tune()
+        task = body.tasks[i]
+        task.doing = "hang"
+        pose = self.pendulum.pose(body.q, task.place)
+        self.wish = np.array((task.place[1] - pose[1], pose[2]))
+        """Depth of the body below the hold [m] and its angle [rad], at rest."""
+        self._set(0.0)
+        climber.balance = self.balance
+
+    def tune(self) -> None:
+        """Reckon the damping anew for the joints' angles."""
+        q = self.climber.body.q.copy()
+        q[self.i] = self.angles
+        c = self.pendulum.momentum(q)
+        size = float(np.hypot(*c))
+        self.omega = self.pendulum.frequency(q)
+        """Of the swing [rad/s]."""
+        self._along = c / size
+        self._gain = self.damping * self.pendulum.inertia(q) * LAG / (size * self.omega)
+
+    def balance(self) -> None:
+        """After sensing, before commanding: what the holding limb is to do at this tick.
+
+        Raises:
+            FallenError: If the body is where nothing that hangs can be.
+        """
+        body, period = self.climber.body, self.climber.plant.period
+        seen = self.pendulum.swing(body.q, float(body.pose[2]))
+        if abs(seen) > OVER:
+            raise FallenError(f"the body hangs {np.degrees(seen):.0f} deg from straight below its hold")
+        off = seen - self.phi
+        self.phi += period * (self.speed + 2.0 * TRACKING * off)
+        self.speed += period * TRACKING**2 * off
+        pushing = any(task.doing == "pull" for task in body.tasks)  # against a hold the body is no pendulum
+        wished = 0.0 if pushing else float(np.clip(self._gain * self.speed, -WIDEST, WIDEST))
+        rate = -self.omega / LAG * (wished + self.aside)
+        self.aside += period * rate
+        self._follow()
+        self._set(rate)
+
+    def _follow(self) -> None:
+        """One step of the joints towards the wish, whatever the free limbs have done to the centre of gravity."""
+        q, most = self.climber.body.q.copy(), JOINT_SPEED * self.climber.plant.period
+        q[self.i] = self.angles
+        change = np.clip(self.pendulum.angles_for(q, *self.wish) - self.angles, -most, most)
+        self.angles = np.clip(self.angles + change, self._lower, self._upper)
+        self.rates = change / self.climber.plant.period
+
+    def _set(self, rate: float) -> None:
+        body = self.climber.body
+        task = body.tasks[self.i]
+        task.angles = np.clip(self.angles + self.aside * self._along, self._lower, self._upper)
+        task.rates = self.rates + rate * self._along
+        task.loads = self.pendulum.loads(body.q, float(body.pose[2]))
+
+    def bring(self, pose: Floats) -> None:
+        """Bring the body to a pose's height and angle, shape (3,); its x is what the weight makes of it."""
+        start, period = self.wish.copy(), self.climber.plant.period
+        depth = float(self.climber.body.tasks[self.i].place[1] - pose[1])
+        change = np.array((depth - start[0], math.remainder(pose[2] - start[1], math.tau)))
+        seconds = 1.5 * max(abs(change[0]) / SPEED, abs(change[1]) / TURN, 0.2)
+        count = round(seconds / period)
+        for k in range(1, count + 1):
+            u = k / count
+            self.wish = start + u * u * (3 - 2 * u) * change
+            self.climber.tick()
+        self.tune()
+
+    def calm(self, seconds: float = PATIENCE) -> bool:
+        """Wait until the body hardly swings, for a whole period of it; whether it does."""
+        period = self.climber.plant.period
+        quiet = 0.0
+        for _ in range(round(seconds / period)):
+            self.climber.tick()
+            quiet = quiet + period if abs(self.speed) < CALM * self.omega else 0.0
+            if quiet > math.tau / self.omega:
+                return True
+        return False
+
+    def end(self) -> None:
+        """Let every limb on a hold carry the body where it is."""
+        body = self.climber.body
+        self.climber.balance = None
+        body.tasks[self.i].doing = "hold"
+        body.aim[:] = body.pose
+        body.aim_speed[:] = 0.0
+        self.climber.carry_with_all(but=-1)

@@ -1,0 +1,54 @@
+"""What chapter 4 compares on the body: SCCT, J^T held as stiffly in every sense, joint PD and the scheme of 4.4.5."""
+
+from collections.abc import Mapping
+from typing import Final
+
+from ...execution.climb.whole_body import BodyGains
+from ...experiments.climb.body_bench import BodyEntry
+from ...experiments.climb.body_entries import COORDINATED, read_gains
+from ...experiments.climb.body_stand import BodyStand
+from ...experiments.climb.body_stiffness import BodyMatch
+from ..result import Verdict
+
+SCCT: Final = "SCCT"
+JOINT_PD: Final = "joint PD"
+EARLIER: Final = "scheme of 4.4.5"
+MATCHED: Final[tuple[BodyMatch, ...]] = ("yy", "mean", "diagonal")
+"""The senses of "as stiffly" that decide."""
+TABLE_4_1: Final = BodyGains(
+    kp=(100.0, 50.0, 10.0), kd=(5.0, 2.5, 0.5), mapping="thesis", limit="thesis", weight_fed=0.95
+)
+"""The printed gains, the printed map T, the printed limit of the hooks' accelerations."""
+PLANT: Final = (
+    "The plant is our simulation, not the robot: contact dynamics of MuJoCo, hooks and pegs as drawn for it (their sizes are not "
+    "printed).",
+    "T is the printed one with its mistakes mended (section 4.4.1: rows swapped, signs, the moment of the x forces left out).",
+)
+
+
+def transpose(match: BodyMatch) -> str:
+    """Label of J^T matched to SCCT in a sense."""
+    return f"J^T, {match}"
+
+
+def scct_and_transposes(stand: BodyStand, reference: BodyGains) -> list[BodyEntry]:
+    """SCCT as `reference`, J^T in every sense as stiff at the stand's start, and with the same numbers."""
+    senses: tuple[BodyMatch, ...] = (*MATCHED, "none")
+    return [
+        BodyEntry(SCCT, reference),
+        *(BodyEntry(transpose(m), read_gains("jacobian-transpose", reference, stand, m)) for m in senses),
+    ]
+
+
+def rivals(stand: BodyStand, reference: BodyGains) -> list[BodyEntry]:
+    """Joint PD in the mean as stiff as `reference`, and the scheme of 4.4.5, as stiff in each direction, the weight not fed."""
+    return [
+        BodyEntry(JOINT_PD, read_gains("leg-by-leg:joint-pd", reference, stand, "mean")),
+        BodyEntry(EARLIER, read_gains(COORDINATED, reference, stand, "diagonal")),
+    ]
+
+
+def judged(better: Mapping[BodyMatch, bool]) -> Verdict:
+    """holds: SCCT is better in every sense of the same stiffness; differs: in none; open: the sense decides."""
+    won = [better[match] for match in MATCHED]
+    return "holds" if all(won) else "open" if any(won) else "differs"

@@ -1,0 +1,145 @@
+"""A climber's control of one tick in plain NumPy, limb by limb through the controllers' own faces: what the compiled tick has to be."""
+
+import math
+
+import numpy as np
+
+from clamber.control import body_tick as at
+from clamber.control.body import command_tips, drag_tips
+from clamber.control.body_estimate import estimate_body
+from clamber.control.controller import still_aim
+from clamber.control.hook_forces import MOST_CUTS
+from clamber.control.play import follow_play, pull_torques, weight_moment
+from clamber.execution.climb.whole_body import LIMITS, LOAD_TIME, MAPPINGS, LimbTask, WholeBody
+from clamber.types import Floats
+
+
+class PlainBody(WholeBody):
+    """As `WholeBody`, by formulas."""
+
+    def see(self, q: Floats, qd: Floats, angle: float, angle_speed: float, *, with_encoder: bool = True) -> None:
+        self.q[:], self.qd[:] = q, qd
+        for i, task in enumerate(self.tasks):
+            self.held[i] = task.holds
+            if task.holds:
+                self._holds[i] = task.place
+        self._pass_load()
+        for angles, tips, speeds, pose, twist in (
+            (self.q, self.tips, self.tip_speeds, self.pose, self.twist),
+            (self.q - self.play, self.settled_tips, np.zeros((self.n, 2)), self.settled, np.zeros(3)),
+        ):
+            estimate_body(
+                self.legs, angles, self.qd, self._weights, self._holds, angle, angle_speed, with_encoder,
+                tips, speeds, pose, twist,
+            )  # fmt: skip
+
+    def command(self) -> Floats:
+        gains, n = self.gains, self.n
+        arms, drags = self._holds - self.pose[:2], np.zeros((n, 2))
+        if gains.mapping == "wrench":
+            wanted = np.array(gains.stiffness) * (self.aim - self.pose)
+            drag_tips(self.tip_speeds, self.pose[2], arms, self.aim_speed, gains.kd[0], drags)
+        else:
+            wanted = np.array(gains.kp) * (self.aim - self.pose) + np.array(gains.kd) * (self.aim_speed - self.twist)
+        fed = gains.weight_fed * np.array((0.0, self.robot.weight, weight_moment(self.legs, self.q, self.pose[2])))
+        for i, task in enumerate(self.tasks):
+            if task.doing == "pull":
+                arm = self.tip(i) - self.settled[:2]
+                fed += (*task.tug, arm[0] * task.tug[1] - arm[1] * task.tug[0])
+
+        def share(held: Floats) -> tuple[Floats, Floats]:
+            pulls, forces = np.zeros((n, 2)), np.zeros((n, 2))
+            command_tips(
+                self.legs, self.q, held, self.pose, arms, wanted, fed, MAPPINGS[gains.mapping], LIMITS[gains.limit],
+                np.full(n, gains.least_pull), drags, np.zeros((MOST_CUTS, 2)), pulls, forces,
+            )  # fmt: skip
+            return pulls, forces
+
+        if self.handing_over:
+            part = self._part()
+            both = zip(share(self._carriers[0]), share(self._carriers[1]), strict=True)
+            pulls, forces = (part * after + (1.0 - part) * before for before, after in both)
+        else:
+            pulls, forces = share(self.held)
+        pressed, loads = np.zeros(n, np.int64), self._arrays[at.LOADS]
+        for i, task in enumerate(self.tasks):
+            torques, now = self.torques[i], np.zeros(2)
+            if task.doing == "hold":
+                self._pull(i, pulls[i], forces[i])
+            elif task.doing == "cling":
+                force = gains.cling * self.grab_direction(i) + self._towards(task.place - self.tip(i))
+                pull_torques(
+                    self.legs[i],
+                    self.q[i],
+                    self.qd[i],
+                    self.pose,
+                    self.twist,
+                    force,
+                    at.CLING_DAMPING,
+                    torques,
+                    now,
+                )
+                loads[i] += self.period / LOAD_TIME * (now - loads[i])
+            elif task.doing == "pull":
+                pull_torques(
+                    self.legs[i],
+                    self.q[i],
+                    self.qd[i],
+                    self.pose,
+                    self.twist,
+                    task.force,
+                    task.damping,
+                    torques,
+                    now,
+                )
+                loads[i] += self.period / LOAD_TIME * (now - loads[i])
+            elif task.doing == "tip":
+                self._reach(i, task)
+            else:
+                torques[:] = self.chains[i].joints["share"] * (
+                    gains.joint_kp * (task.angles - self.q[i]) + gains.joint_kd * (task.rates - self.qd[i])
+                )
+                if task.doing == "hang":
+                    torques += task.loads
+            pressed[i] = task.doing == "cling" or (task.doing == "pull" and task.pressed)
+            if task.doing in ("tip", "pull", "cling"):
+                most = gains.firm if task.pressed else gains.gentle
+                np.clip(torques, -most, most, out=torques)
+        follow_play(self.legs, self.q, self.held, forces, self.pose[2], pressed, loads, self._lag, self.play)
+        return self.torques
+
+    def _own_weight(self, i: int) -> Floats:
+        """What a pull of nothing takes, by the weight alone."""
+        nothing, loads = np.zeros(2), np.zeros(2)
+        pull_torques(self.legs[i], self.q[i], nothing, self.pose, np.zeros(3), nothing, 0.0, np.zeros(2), loads)
+        return loads
+
+    def _towards(self, off: Floats) -> Floats:
+        far = float(np.linalg.norm(off))
+        return off * min(at.CLING_STIFFNESS * max(far - at.CLING_SLACK, 0.0), at.CLING_MOST) / max(far, 1e-9)
+
+    def _turned(self, angle: float, vector: Floats) -> Floats:
+        c, s = math.cos(angle), math.sin(angle)
+        return np.array(((c, -s), (s, c))) @ vector
+
+    def _into_port(self, i: int, vector: Floats) -> Floats:
+        return self._turned(-(self.pose[2] + self.robot.limbs[i].port_angle), vector)
+
+    def _own_tip(self, i: int) -> Floats:
+        limb = self.robot.limbs[i]
+        return self._turned(-limb.port_angle, self.tips[i] - (limb.port_x, limb.port_y))
+
+    def _pull(self, i: int, pull: Floats, force: Floats) -> None:
+        aim = still_aim(self._own_tip(i) + pull)
+        aim["wrench"][0, :2] = force
+        self.torques[i] = self._pullers[i].command(aim, np.stack([self.q[i], self.qd[i]])[None])[0] + self._own_weight(
+            i
+        )
+
+    def _reach(self, i: int, task: LimbTask) -> None:
+        aim = still_aim(self._own_tip(i) + self._into_port(i, task.place - self.tip(i)))
+        by_joints = self._turned(float(self.pose[2]), self.tip_speeds[i])
+        aim["twist"][0, :2] = self._into_port(i, task.speed - (self.tip_speed(i) - by_joints))
+        self.torques[i] = self._reachers[i].command(aim, np.stack([self.q[i], self.qd[i]])[None])[0] + self._own_weight(
+            i
+        )

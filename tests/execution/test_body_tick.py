@@ -1,0 +1,159 @@
+"""The compiled tick of a climber's control does what the plain formulas say, for every law, map and limit, and allocates nothing."""
+
+from collections.abc import Callable
+from typing import Any, get_args
+
+import numpy as np
+import pytest
+from numba import njit
+from numba.core.runtime import _nrt_python, rtsys
+from plain_body import PlainBody
+
+from clamber.control.body_tick import command_tick, see_tick
+from clamber.control.controller import MeasurementError
+from clamber.control.law_settings import LAWS
+from clamber.execution.climb.whole_body import LIMITS, MAPPINGS, BodyGains, Doing, LimbTask, WholeBody
+from clamber.robots.library import load_robot
+from clamber.robots.limbed import LimbedRobot
+
+PERIOD = 0.005
+
+
+def robot_named(name: str) -> LimbedRobot:
+    robot = load_robot(name)
+    assert isinstance(robot, LimbedRobot)
+    return robot
+
+
+def busy_pair(robot: LimbedRobot, gains: BodyGains, rng: np.random.Generator) -> tuple[WholeBody, PlainBody]:
+    """Two bodies that are to do the same things: each limb something else, two of them holding where they can."""
+    pair = WholeBody(robot, period=PERIOD, gains=gains), PlainBody(robot, period=PERIOD, gains=gains)
+    doings = ["hold", "hold", *rng.choice(get_args(Doing), pair[0].n - 2)]
+    rng.shuffle(doings)
+    numbers = rng.normal(size=(pair[0].n, 6, 2))
+    for body in pair:
+        for i, doing in enumerate(doings):
+            place, speed, angles, rates, force, tug = numbers[i] * np.array([[0.3], [0.1], [1.0], [1.0], [10.0], [5.0]])
+            pressed = bool(numbers[i, 0, 0] > 0.0)
+            loads = numbers[i, 0] + numbers[i, 1]
+            body.tasks[i] = LimbTask(
+                doing,
+                i + 1,
+                place,
+                speed,
+                angles=angles,
+                rates=rates,
+                loads=loads,
+                force=force,
+                tug=tug,
+                pressed=pressed,
+            )
+    return pair
+
+
+def tick_both(pair: tuple[WholeBody, PlainBody], rng: np.random.Generator, *, with_encoder: bool = True) -> None:
+    n = pair[0].n
+    q, qd = rng.uniform(-1.0, 1.0, (n, 2)) + np.array((0.0, 1.5)), rng.normal(0.0, 0.5, (n, 2))
+    angle, angle_speed = rng.normal(0.0, 0.1, 2)
+    aim, aim_speed = rng.normal(0.0, 0.1, (2, 3))
+    for body in pair:
+        body.aim[:], body.aim_speed[:] = aim, aim_speed
+        body.see(q, qd, angle, angle_speed, with_encoder=with_encoder)
+        body.command()
+
+
+def assert_alike(pair: tuple[WholeBody, PlainBody]) -> None:
+    compiled, plain = pair
+    for name in ("pose", "twist", "settled", "tips", "tip_speeds", "settled_tips", "torques", "play"):
+        np.testing.assert_allclose(getattr(compiled, name), getattr(plain, name), rtol=1e-9, atol=1e-10, err_msg=name)
+
+
+@pytest.mark.parametrize("name", ["libra", "gecko4"])
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("mapping", MAPPINGS)
+@pytest.mark.parametrize("limit", LIMITS)
+def test_every_map_and_limit_gives_the_torques_of_the_plain_formulas(
+    name: str, seed: int, mapping: str, limit: str
+) -> None:
+    rng = np.random.default_rng(seed)
+    pair = busy_pair(robot_named(name), BodyGains(mapping=mapping, limit=limit), rng)
+    for k in range(5):
+        tick_both(pair, rng, with_encoder=k % 2 == 0)
+        assert_alike(pair)
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_every_law_of_the_limb_bench_serves_the_body(law: str) -> None:
+    rng = np.random.default_rng(5)
+    pair = busy_pair(robot_named("libra"), BodyGains(law=law), rng)
+    for _ in range(5):  # laws that remember, too
+        tick_both(pair, rng)
+        assert_alike(pair)
+
+
+@pytest.mark.parametrize("doing", get_args(Doing))
+def test_so_do_limbs_that_all_do_the_same(doing: Doing) -> None:
+    rng = np.random.default_rng(6)
+    pair = busy_pair(robot_named("libra"), BodyGains(), rng)
+    for body in pair:
+        for task in body.tasks:
+            task.doing = doing
+    for _ in range(3):
+        tick_both(pair, rng)
+        assert_alike(pair)
+
+
+def test_so_it_does_while_the_load_passes_on() -> None:
+    rng = np.random.default_rng(7)
+    pair = busy_pair(robot_named("libra"), BodyGains(), rng)
+    for body in pair:
+        for task, doing in zip(body.tasks, ("hold", "hold", "cling"), strict=True):
+            task.doing = doing  # type: ignore[assignment]
+    tick_both(pair, rng)
+    for body in pair:
+        body.hand_over({1, 2})
+    parts = 0
+    while pair[0].handing_over:
+        tick_both(pair, rng)
+        assert_alike(pair)
+        parts += 1
+    assert parts > 50
+    assert [task.doing for task in pair[0].tasks] == ["cling", "hold", "hold"]
+
+
+@njit
+def hand_over_alone(table: Any) -> Any:
+    return table[0]
+
+
+def allocations(call: Callable[..., Any], *args: object) -> int:
+    before = rtsys.get_allocation_stats().alloc
+    call(*args)
+    return int(rtsys.get_allocation_stats().alloc - before)
+
+
+def test_a_tick_allocates_nothing() -> None:
+    rng = np.random.default_rng(8)
+    body, plain = busy_pair(robot_named("libra"), BodyGains(), rng)
+    tick_both((body, plain), rng)
+    hand_over_alone(body._table)
+    _nrt_python.memsys_enable_stats()
+    alone = allocations(hand_over_alone, body._table)
+    assert alone > 0  # so they are counted: the array that is handed over has a counter
+    assert allocations(see_tick, body._table, 0.1, 0.0, True) == alone
+    for doing in get_args(Doing):
+        body.tasks[2].doing = doing
+        body.command()  # notes what the limb is doing
+        assert allocations(command_tick, body._table, 1.0) == alone
+        assert allocations(command_tick, body._table, 0.5) == alone
+
+
+def test_a_measurement_that_is_not_finite_is_named() -> None:
+    body, _ = busy_pair(robot_named("libra"), BodyGains(), np.random.default_rng(9))
+    for task in body.tasks:
+        task.doing = "hold"
+    q = np.ones((3, 2))
+    q[1, 1] = np.nan
+    body.see(q, np.zeros((3, 2)), 0.0, 0.0)
+    with pytest.raises(MeasurementError):
+        body.command()
