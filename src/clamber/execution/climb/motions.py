@@ -82,7 +82,9 @@ def move_body(climber: Climber, pose: Floats, *, speed: float = BODY_SPEED) -> N
     body, period = climber.body, climber.plant.period
     start = body.aim.copy()
     change = pose - start
-    seconds = 1.5 * max(float(np.hypot(change[0], change[1])) / speed, abs(float(change[2])) / BODY_TURN, 0.2)
+    seconds = 1.5 * max(
+        float(np.hypot(change[0], change[1])) / speed, abs(float(change[2])) / (BODY_TURN * speed / BODY_SPEED), 0.2
+    )
     count = max(1, round(seconds / period))
     for k in range(1, count + 1):
         u = k / count
