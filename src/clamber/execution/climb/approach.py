@@ -25,8 +25,13 @@ SLANTS: Final = ((0, 15, -15), (30, -30), (45, -45))
 """Angles between the way in and the grab direction, in groups: a straight way with a moved body comes before a slanted one [deg]."""
 HEADINGS: Final = ((0, 1), (-1, 1), (-1, 0), (1, 1), (1, 0), (0, -1), (-1, -1), (1, -1))
 """Of the body as it makes room, x towards the hold's side, y up. Up and away come first: there the hooks that hold stay steeper."""
-SHIFTS: Final = ((0.0, 0.0),) + tuple(
-    (size * x / math.hypot(x, y), size * y / math.hypot(x, y)) for size in (0.02, 0.035, 0.05, 0.07) for x, y in HEADINGS
+SHIFTS: Final = (
+    (0.0, 0.0),
+    *(
+        (size * x / math.hypot(x, y), size * y / math.hypot(x, y))
+        for size in (0.02, 0.035, 0.05, 0.07)
+        for x, y in HEADINGS
+    ),
 )
 """Moves of the body that make room, the least first [m]."""
 BENT: Final = math.radians(20.0)
@@ -141,7 +146,7 @@ class Approaches:
         *,
         stands: Callable[[Floats], bool] = lambda pose: True,
     ) -> Floats | None:
-        """The least move of the body, shape (2,) [m], after which a limb can draw its hook straight back off its hold; None where none does.
+        """The least move of the body after which a limb can draw its hook straight back off its hold, shape (2,) [m]; None if none does.
 
         Args:
             i: Index of the limb.
@@ -159,9 +164,9 @@ class Approaches:
             if shift.any() and not stands(moved):
                 continue
             discs = discs_near(holds, moved, self.peg_radius)
-            if all(
-                _bent(self.robot.limbs[i], moved, tip + part * back, side) for part in (0.0, 0.5)
-            ) and any(self._room(i, one.angles, discs) >= 0.0 for one in _bent(self.robot.limbs[i], moved, tip + back, side)):
+            if all(_bent(self.robot.limbs[i], moved, tip + part * back, side) for part in (0.0, 0.5)) and any(
+                self._room(i, one.angles, discs) >= 0.0 for one in _bent(self.robot.limbs[i], moved, tip + back, side)
+            ):
                 return shift
         return None
 

@@ -72,7 +72,7 @@ class BodyGains:
     cling: float = 3.0
     """Pull with which a limb that carries nothing keeps to its hold [N]."""
     gentle: float = 3.0
-    """Most torque of a limb near a hold, its own weight besides while its tip is brought somewhere: what it meets is not thrown off [N m]."""
+    """Most torque of a limb near a hold, so that what it meets is not thrown off; a tip on its way gets its weight besides [N m]."""
     firm: float = 8.0
     """Likewise of a limb that tugs at its hold: enough to carry half the weight at arm's length [N m]."""
     least_pull: float = 0.3
@@ -218,7 +218,11 @@ class WholeBody:
         self._lag[1] = backlash / 2
 
     def hand_over(self, carriers: Collection[int]) -> None:
-        """Let the load pass to these limbs, each of them on a hold; it does while `handing_over`, then the others cling."""
+        """Let the load pass to these limbs, each of them on a hold; it does while `handing_over`, then the others cling.
+
+        A hand-over that is still going on is over: all its limbs carry when this one begins.
+        """
+        self._handed = 1.0
         now = [i for i in range(self.n) if self.tasks[i].doing == "hold"]
         for i in carriers:
             self.tasks[i].doing = "hold"
