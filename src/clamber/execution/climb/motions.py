@@ -8,12 +8,14 @@ from typing import Final
 import numpy as np
 
 from ...types import Floats
-from .approach import Approach, free_distance
+from .approach import SHIFTS, Approach, free_distance
 from .climber import Climber, Grabbed
 from .parking import park, poses_between
 
 BODY_SPEED: Final = 0.08
 """Of the body's aim, at most [m/s]."""
+SLOW: Final = 0.04
+"""Likewise with three limbs on holds [m/s]."""
 BODY_TURN: Final = 0.4
 """[rad/s]."""
 JOINT_SPEED: Final = 2.4
@@ -164,6 +166,7 @@ def release(climber: Climber, i: int) -> None:
 
     A hook that stays wedged clings to its hold as before.
     """
+    _lean_on_the_others(climber, i)
     climber.carry_with_all(but=i)
     body, task = climber.body, climber.body.tasks[i]
     away = stand_off_of(climber, i, climber.map.error(task.hold)) + AWAY
@@ -198,6 +201,25 @@ def _shake_off(climber: Climber, i: int, clear: Callable[[], bool]) -> bool:
     return clear()
 
 
+def _lean_on_the_others(climber: Climber, i: int) -> None:
+    """Move the body to where the two others can carry it, if they cannot here, while limb `i` is still on its hold."""
+    body = climber.body
+    others = [j for j, task in enumerate(body.tasks) if j != i and task.hold]
+    if climber.hangs or len(others) != 2:
+        return
+    climber.plant.pause()
+    margins, stands = [], _stands(climber)
+    for x, y in SHIFTS:
+        pose = body.settled + np.array((x, y, 0.0))
+        margin = body.stands(pose, others)
+        margins.append(margin if body.stands(pose, [i]) >= 0.0 and stands(pose) else -np.inf)
+        if margin >= 0.0 and margins[-1] == margin:
+            break
+    best = int(np.argmax(margins))
+    if margins[best] > body.stands(body.settled, others) + WEAKER:
+        move_body(climber, body.aim + np.array((*SHIFTS[best], 0.0)), speed=SLOW)
+
+
 def _make_room_to_leave(climber: Climber, i: int, away: float) -> None:
     """Move the body to where a limb that reaches no farther can draw its hook back."""
     if climber.hangs:
@@ -230,9 +252,10 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
         FallenError: If the robot falls.
     """
     body, task = climber.body, climber.body.tasks[i]
-    climber.carry_with_all(but=i)
     if task.hold:
         release(climber, i)
+    else:
+        climber.carry_with_all(but=i)
     if task.hold:
         return Grabbed(False, 0, 0.0, 0.0)
     doubt = climber.doubt(number, i)

@@ -1,7 +1,7 @@
 """The climber's controller: what each limb is doing, where the body is to be, and the torques of one tick."""
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from typing import Final, Literal, TypeAlias
 
@@ -232,9 +232,15 @@ class WholeBody:
             row[:] = [i in limbs for i in range(self.n)]
         self._handed = 0.0
 
-    def stands(self, pose: Floats) -> float:
-        """How well the limbs that hold now would at another pose of the body, in newtons of the worst wish; -inf out of reach."""
-        carriers = [i for i, task in enumerate(self.tasks) if task.doing == "hold"]
+    def stands(self, pose: Floats, carriers: Sequence[int] | None = None) -> float:
+        """How well limbs would hold at a pose of the body, in newtons of the worst wish; -inf out of reach.
+
+        Args:
+            pose: Shape (3,).
+            carriers: Limbs on holds; None: those that carry now.
+        """
+        if carriers is None:
+            carriers = [i for i, task in enumerate(self.tasks) if task.doing == "hold"]
         q, arms, forces = self.q.copy(), np.zeros((self.n, 2)), np.zeros((self.n, 2))
         for i in carriers:
             side = self.q[i, 1] - self.play[i, 1]
