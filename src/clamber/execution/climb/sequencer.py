@@ -40,6 +40,8 @@ SHIFTED: Final = 0.005
 """A body's aim farther from the plan's pose than this is brought back before a grab [m], [rad]."""
 SETTLING: Final = 1.0
 """Most time that it gets to come there after its way [s]."""
+SPEED: Final = 0.04
+"""Of the body's aim, at most, with a limb that clings to its hold along: inertia and friction of its joints pull it off, faster [m/s]."""
 PAUSE: Final = 0.1
 """Between two looks at that [s]."""
 
@@ -253,8 +255,11 @@ class Sequencer:
             return self._move(last)
         if action.kind == "release":
             assert action.limb is not None
-            if self.climber.body.tasks[self._limb(action.limb)].hold:  # a slip may have done it
-                release(self.climber, self._limb(action.limb))
+            i = self._limb(action.limb)
+            if self.climber.body.tasks[i].hold:  # a slip may have done it
+                release(self.climber, i)
+            if self.climber.body.tasks[i].hold:
+                return "missed", 1, "its hook stays wedged on its hold"
             return "ok", 1, ""
         if action.kind == "grab":
             return self._grab(first)
@@ -282,7 +287,7 @@ class Sequencer:
     def _move(self, step: int) -> tuple[Outcome, int, str]:
         """The body goes to the plan's pose; once more where it does not come there."""
         for tries in (1, 2):
-            move_body(self.climber, self._pose(step))
+            move_body(self.climber, self._pose(step), speed=SPEED)
             if self._settle():
                 return "ok", tries, ""
         return "stalled", 2, f"the body stays {1e3 * self._off():.0f} mm off its aim"
