@@ -33,6 +33,8 @@ LIFT: Final = (0.001, 0.003)
 """A push that lifts the body this far weakens, to a third at the second: it bears already, and other hooks would come off [m]."""
 SLIDING: Final = (0.003, 0.006)
 """A push under which the tips of holding limbs come apart this far weakens, to nothing at the second: a hook is coming off [m]."""
+WEAK: Final = 0.25
+"""A push weakened to less than this part says nothing of a hook that has stopped [-]."""
 TUG_RISE: Final = 0.1
 """In which the tug grows to its full size [s]."""
 DITHER: Final = 8.0
@@ -265,7 +267,8 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bo
         reached = np.array((body.felt_tip(i) @ g, body.tip(i) @ g))
         advanced = reached > marks + ADVANCE
         marks = np.where(advanced, reached, marks)
-        still = 0.0 if advanced.any() else still + period
+        # what does not pull does not seat
+        still = 0.0 if advanced.any() or size < WEAK * part * PUSH else still + period
         ahead = float((place - body.tip(i)) @ g)
         if ahead < -room:
             break

@@ -48,6 +48,8 @@ CAUTIONS: Final = (
     Caution(hook_cone=70.0, hold_cone=90.0, strength=5.0, pull=0.0, share=0.8, spare=0.0),
 )
 """The next where there is no plan that is easy in every stance; then the easiest."""
+INCAUTIOUS: Final = 10.0
+"""What being less cautious counts in one that is not."""
 EASY: Final = 3.5
 """What may count against a stance that is easy to hold: no link on a hold, no hook or motor much beyond what is wished."""
 
@@ -63,7 +65,7 @@ def plan_to_climb(task: LimbedTask, planner: str, *, seconds: float, seed: int) 
     """
     options = {name: value for name, value in (("seconds", seconds), ("seed", seed)) if accepts(planner, name)}
     best, least = None, math.inf
-    for caution in CAUTIONS:
+    for rank, caution in enumerate(CAUTIONS):
         try:
             result = PLANNERS[planner](cautious(task, caution), **options)
         except StartError:  # it stands where a cautious plan would not take it
@@ -74,6 +76,7 @@ def plan_to_climb(task: LimbedTask, planner: str, *, seconds: float, seed: int) 
         plan = Plan.of_codes(task, result.plan.codes(task), seed=seed, planner=result.plan.planner)
         course = lay_course(task, plan)
         hardship = math.inf if course.objections else float(np.maximum(course.against - EASY, 0.0).sum())
+        hardship += INCAUTIOUS * rank if hardship > 0.0 else 0.0
         if best is None or hardship < least:
             best, least = plan, hardship
         if least == 0.0:
