@@ -19,6 +19,10 @@ JOINT_SPEED: Final = 2.4
 """Of a free limb's joints on their way, four fifths of what their motors can [rad/s]."""
 JOINT_AGILITY: Final = 8.0
 """With which they come to it [rad/s^2]."""
+LAG: Final = 0.06
+"""A limb this far behind on its way is waited for: its motors give all they can [rad]."""
+WAITING: Final = 1.5
+"""For that long in all, on one way [s]."""
 BLEND: Final = 0.3
 """Over which corners of a limb's way are rounded [s]."""
 WIDE_STAND_OFF: Final = 0.042
@@ -132,7 +136,13 @@ def follow(climber: Climber, i: int, way: Floats) -> None:
     padded = np.concatenate((np.repeat(way[:1], blend, axis=0), angles, np.repeat(way[-1:], blend, axis=0)))
     smooth = np.stack([np.convolve(padded[:, j], window / window.sum(), "valid") for j in range(2)], axis=1)
     task.doing = "joints"
+    q, waited = climber.body.q[i], 0.0
     for before, after in pairwise(smooth):
+        # a limb that lags cuts the corners of its way, and knocks against what it was to go round
+        while np.abs(before - q).max() > LAG and waited < WAITING:
+            task.rates = np.zeros(2)
+            climber.tick()
+            waited += period
         task.angles, task.rates = after, (after - before) / period
         climber.tick()
     task.angles, task.rates = way[-1].copy(), np.zeros(2)
