@@ -38,7 +38,7 @@ class PlainBody(WholeBody):
         arms, drags = self._holds - self.pose[:2], np.zeros((n, 2))
         if gains.mapping == "wrench":
             wanted = np.array(gains.stiffness) * (self.aim - self.pose)
-            drag_tips(self.tip_speeds, self.pose[2], arms, self.aim_speed, gains.kd[0], drags)
+            drag_tips(self.tip_speeds, self.pose[2], arms, self.aim_speed, gains.damping, drags)
         else:
             wanted = np.array(gains.kp) * (self.aim - self.pose) + np.array(gains.kd) * (self.aim_speed - self.twist)
         fed = gains.weight_fed * np.array((0.0, self.robot.weight, weight_moment(self.legs, self.q, self.pose[2])))

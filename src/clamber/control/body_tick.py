@@ -35,6 +35,7 @@ BODY = np.dtype(
         ("kp", "f8", (3,)),
         ("kd", "f8", (3,)),
         ("stiffness", "f8", (3,)),
+        ("damping", "f8"),
         ("joint_kp", "f8"),
         ("joint_kd", "f8"),
         ("cling", "f8"),
@@ -252,7 +253,7 @@ def command_tick(table, handed):
         else:
             wanted[k] = gains.kp[k] * (aimed[k] - pose[k]) + gains.kd[k] * (aim_speed[k] - twist[k])
     if gains.mapping == WRENCH:
-        drag_tips(tip_speeds, pose[2], arms, aim_speed, gains.kd[0], drags)
+        drag_tips(tip_speeds, pose[2], arms, aim_speed, gains.damping, drags)
     _feed(jobs, settled_tips, settled, gains, weight_moment(legs, q, pose[2]), fed)
     if handed < 1.0:
         old_pulls = _rows(table, OLD_PULLS, 2)

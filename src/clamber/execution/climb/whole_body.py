@@ -62,9 +62,11 @@ class BodyGains:
     kp: tuple[float, float, float] = (100.0, 50.0, 10.0)
     """Of the maps "thesis" and "kinematic"; those of the thesis's Table 4.1."""
     kd: tuple[float, float, float] = (10.0, 5.0, 1.0)
-    """Twice the table's: with delay and backlash its own let the body swing (ours). The map "wrench" takes that of x for all."""
+    """Twice the table's: with delay and backlash its own let the body swing (ours)."""
     stiffness: tuple[float, float, float] = (3000.0, 3000.0, 200.0)
     """Of the map "wrench" [N/m], [N m/rad]; ours."""
+    damping: float = 20.0
+    """Of the map "wrench": each tip's acceleration for its speed [1/s]; at half of it a body on grippers cycles through its play."""
     limb_kp: float = 500.0
     limb_kd: float = 25.0
     joint_kp: float = 400.0
@@ -343,7 +345,7 @@ def _settings(gains: BodyGains, robot: LimbedRobot) -> Records:
     """The gains as the kernels read them, records of `BODY`, shape (1,)."""
     out = np.zeros(1, BODY)
     out["mapping"], out["limit"] = MAPPINGS[gains.mapping], LIMITS[gains.limit]
-    for name in ("kp", "kd", "stiffness", "joint_kp", "joint_kd", "cling", "gentle", "firm", "weight_fed"):
+    for name in ("kp", "kd", "stiffness", "damping", "joint_kp", "joint_kd", "cling", "gentle", "firm", "weight_fed"):
         out[name] = getattr(gains, name)
     out["weight"] = robot.weight
     return out
