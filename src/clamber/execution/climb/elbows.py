@@ -31,7 +31,7 @@ OFF_PLAN: Final = 0.2
 """What counts after each action a side that is not the one whose links the plan's checks have looked at [-]."""
 
 
-def choose_elbows(robot: LimbedRobot, board: Board, stances: Records) -> Ints:
+def choose_elbows(robot: LimbedRobot, board: Board, stances: Records) -> tuple[Ints, Floats]:
     """A side for each stay on a hold, best for the whole plan: carriers that can bear it, hooks on top, few changes.
 
     An elbow that passes to the other side throws the body about, so a limb changes only where it gains much by it.
@@ -42,7 +42,7 @@ def choose_elbows(robot: LimbedRobot, board: Board, stances: Records) -> Ints:
         stances: Of the plan, shape (n + 1,).
 
     Returns:
-        +1, -1, or 0 where a limb is free, shape (n + 1, limbs).
+        +1, -1, or 0 where a limb is free, shape (n + 1, limbs); and what counts against them after each action, shape (n + 1,).
     """
     n, limbs = len(stances), len(robot.limbs)
     states = np.array(list(product((0, 1), repeat=limbs)))
@@ -58,11 +58,13 @@ def choose_elbows(robot: LimbedRobot, board: Board, stances: Records) -> Ints:
         came[step] = np.argmin(total, axis=0)
         best[step] = np.min(total, axis=0) + costs[step]
     sides: Ints = np.zeros((n, limbs), np.int32)
+    against: Floats = np.zeros(n)
     at = int(np.argmin(best[-1]))
     for step in range(n - 1, -1, -1):
         sides[step] = np.where(stances["hold"][step, :limbs] >= 0, 1 - 2 * states[at], 0)
+        against[step] = costs[step, at]
         at = int(came[step, at])
-    return sides
+    return sides, against
 
 
 def _costs(robot: LimbedRobot, board: Board, stances: Records, states: Ints) -> Floats:

@@ -17,13 +17,17 @@ BODY_SPEED: Final = 0.08
 BODY_RISE: Final = 0.3
 """In which it comes to that speed, at most; a short way is all rise [s]."""
 SLOW: Final = 0.04
-"""Likewise with three limbs on holds [m/s]."""
+"""Likewise while a limb clings to its hold, which its rotors' inertia would drag off [m/s]."""
 BODY_TURN: Final = 0.4
 """[rad/s]."""
 JOINT_SPEED: Final = 2.6
 """Of a free limb's joints on their way, seven eighths of what their motors can [rad/s]."""
 JOINT_AGILITY: Final = 14.0
 """With which they come to it [rad/s^2]."""
+LAG: Final = 0.06
+"""A limb this far behind on its way is waited for: its motors give all they can [rad]."""
+WAITING: Final = 1.5
+"""For that long in all, on one way [s]."""
 BLEND: Final = 0.2
 """Over which corners of a limb's way are rounded [s]."""
 WIDE_STAND_OFF: Final = 0.042
@@ -42,6 +46,8 @@ LIFT: Final = (0.001, 0.003)
 """A push that lifts the body this far weakens, to a third at the second: it bears already, and other hooks would come off [m]."""
 SLIDING: Final = (0.003, 0.006)
 """A push under which the tips of holding limbs come apart this far weakens, to nothing at the second: a hook is coming off [m]."""
+WEAK: Final = 0.25
+"""A push weakened to less than this part says nothing of a hook that has stopped [-]."""
 TUG_RISE: Final = 0.1
 """In which the tug grows to its full size [s]."""
 DITHER: Final = 8.0
@@ -84,10 +90,11 @@ SLACK: Final = 0.004
 """Beyond its doubt, how far a seated hook may be from where it should be: play and backlash [m]."""
 
 
-def move_body(climber: Climber, pose: Floats, *, speed: float = BODY_SPEED) -> None:
+def move_body(climber: Climber, pose: Floats) -> None:
     """Bring the body to a pose (x, y, theta) along a straight smooth way; free limbs first go to where they meet no hold on it."""
     clear_the_way(climber, pose)
     body, period = climber.body, climber.plant.period
+    speed = SLOW if any(task.doing == "cling" for task in body.tasks) else BODY_SPEED
     start = body.aim.copy()
     change = pose - start
     # the way in seconds at full speed
@@ -153,7 +160,13 @@ def follow(climber: Climber, i: int, way: Floats) -> None:
     padded = np.concatenate((np.repeat(way[:1], blend, axis=0), angles, np.repeat(way[-1:], blend, axis=0)))
     smooth = np.stack([np.convolve(padded[:, j], window / window.sum(), "valid") for j in range(2)], axis=1)
     task.doing = "joints"
+    q, waited = climber.body.q[i], 0.0
     for before, after in pairwise(smooth):
+        # a limb that lags cuts the corners of its way, and knocks against what it was to go round
+        while np.abs(before - q).max() > LAG and waited < WAITING:
+            task.rates = np.zeros(2)
+            climber.tick()
+            waited += period
         task.angles, task.rates = after, (after - before) / period
         climber.tick()
     task.angles, task.rates = way[-1].copy(), np.zeros(2)
@@ -233,7 +246,7 @@ def _lean_on_the_others(climber: Climber, i: int) -> None:
             break
     best = int(np.argmax(margins))
     if margins[best] > body.stands(body.settled, others) + WEAKER:
-        move_body(climber, body.aim + np.array((*SHIFTS[best], 0.0)), speed=SLOW)
+        move_body(climber, body.aim + np.array((*SHIFTS[best], 0.0)))
 
 
 def _make_room_to_leave(climber: Climber, i: int, away: float) -> None:
@@ -364,7 +377,8 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bo
         reached = np.array((body.felt_tip(i) @ g, body.tip(i) @ g))
         advanced = reached > marks + ADVANCE
         marks = np.where(advanced, reached, marks)
-        still = 0.0 if advanced.any() else still + period
+        # what does not pull does not seat
+        still = 0.0 if advanced.any() or size < WEAK * part * PUSH else still + period
         ahead = float((place - body.tip(i)) @ g)
         if ahead < -room:
             break

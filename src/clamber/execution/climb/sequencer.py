@@ -29,6 +29,10 @@ Progress: TypeAlias = Callable[[int, int, str, float], None]
 
 ELSEWHERE: Final = ((0.0, 0.0), (0.0, 0.02), (0.0, -0.02), (0.025, 0.0), (-0.025, 0.0))
 """Where the body goes for another approach after a miss, from the plan's pose [m]."""
+FARTHER: Final = ((0.0, 0.045), (0.0, -0.045), (0.05, 0.0), (-0.05, 0.0))
+"""Likewise where a limb has found no way from any of these [m]."""
+WORST: Final = -8.0
+"""How badly off the worst of hooks and motors may be where the body goes for that [N]."""
 MOST_REPLANS: Final = 3
 MOST_RECOVERIES: Final = 3
 """Of one action."""
@@ -40,8 +44,6 @@ SHIFTED: Final = 0.005
 """A body's aim farther from the plan's pose than this is brought back before a grab [m], [rad]."""
 SETTLING: Final = 1.0
 """Most time that it gets to come there after its way [s]."""
-SPEED: Final = 0.04
-"""Of the body's aim, at most, with a limb that clings to its hold along: inertia and friction of its joints pull it off, faster [m/s]."""
 PAUSE: Final = 0.1
 """Between two looks at that [s]."""
 
@@ -287,7 +289,7 @@ class Sequencer:
     def _move(self, step: int) -> tuple[Outcome, int, str]:
         """The body goes to the plan's pose; once more where it does not come there."""
         for tries in (1, 2):
-            move_body(self.climber, self._pose(step), speed=SPEED)
+            move_body(self.climber, self._pose(step))
             if self._settle():
                 return "ok", tries, ""
         return "stalled", 2, f"the body stays {1e3 * self._off():.0f} mm off its aim"
@@ -300,20 +302,28 @@ class Sequencer:
         elbow = int(self.course.elbows[step, i])
         side = math.copysign(1.0, self.climber.holds[action.hold][0] - self._pose(step)[0])
         result = Grabbed(False, 0, 0.0, 0.0)
-        for x, y in ELSEWHERE:
-            place = self._pose(step) + np.array((side * x, y, 0.0))
-            if (
-                not self.climber.hangs and float(np.abs(place - self.climber.body.aim).max()) > SHIFTED
-            ):  # also by the approach to the hold before
-                move_body(self.climber, place)
-            result = grab(self.climber, i, action.hold, elbow=elbow)
-            tries += max(1, result.tries)
-            if result.held:
-                self._keep_in_map(i, action.hold)
-                if self._hanging is not None:
-                    self._hanging.end()
-                    self._hanging = None
-                return "ok", tries, ""
+        sides = [elbow, -elbow] if self.course.serves(i, step, -elbow) else [elbow]
+        for elbow in sides:
+            for x, y in (*ELSEWHERE, *FARTHER):
+                if result.tries and (x, y) in FARTHER:
+                    break
+                place = self._pose(step) + np.array((side * x, y, 0.0))
+                off = float(np.abs(place - self.climber.body.aim).max())
+                if not self.climber.hangs and off > SHIFTED:  # also by the approach to the hold before
+                    if (x or y) and self.climber.body.stands(place) < WORST:
+                        continue
+                    move_body(self.climber, place)
+                result = grab(self.climber, i, action.hold, elbow=elbow)
+                tries += max(1, result.tries)
+                if result.held:
+                    self._keep_in_map(i, action.hold)
+                    self.course.elbows[self.course.stays(i, step), i] = elbow
+                    if self._hanging is not None:
+                        self._hanging.end()
+                        self._hanging = None
+                    return "ok", tries, ""
+            if result.tries:
+                break  # there is a way; the hook does not take
         self._missed.add(action.hold)
         if not result.tries:
             return "missed", tries, "the limb finds no way there"

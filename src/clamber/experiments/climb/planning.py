@@ -1,11 +1,15 @@
 """Plans that are to be carried out: joints and hooks keep something back for what no plan foresees."""
 
 import copy
+import math
 from dataclasses import dataclass
 from typing import Final
 
+import numpy as np
+
 from ...actions.plan import Plan
 from ...errors import StartError
+from ...execution.climb.course import lay_course
 from ...execution.climb.here import GENERATORS, hold_document
 from ...execution.climb.sequencer import Replan
 from ...planning.budgets import accepts
@@ -43,11 +47,15 @@ CAUTIONS: Final = (
     Caution(hook_cone=65.0, hold_cone=75.0, strength=3.0, pull=0.05, share=0.6, spare=0.3),
     Caution(hook_cone=70.0, hold_cone=90.0, strength=5.0, pull=0.0, share=0.8, spare=0.0),
 )
-"""The next where there is no plan."""
+"""The next where there is no plan that is easy in every stance; then the easiest."""
+INCAUTIOUS: Final = 10.0
+"""What being less cautious counts in one that is not."""
+EASY: Final = 3.5
+"""What may count against a stance that is easy to hold: no link on a hold, no hook or motor much beyond what is wished."""
 
 
 def plan_to_climb(task: LimbedTask, planner: str, *, seconds: float, seed: int) -> Plan | None:
-    """A cautious plan, or the least incautious one that there is.
+    """The most cautious plan that is easy to carry out, or the easiest of the cautious ones, or any.
 
     Args:
         task: Under the rules that can be carried out.
@@ -56,16 +64,27 @@ def plan_to_climb(task: LimbedTask, planner: str, *, seconds: float, seed: int) 
         seed: Of the planner.
     """
     options = {name: value for name, value in (("seconds", seconds), ("seed", seed)) if accepts(planner, name)}
-    for caution in CAUTIONS:
+    best, least = None, math.inf
+    for rank, caution in enumerate(CAUTIONS):
         try:
             result = PLANNERS[planner](cautious(task, caution), **options)
         except StartError:  # it stands where a cautious plan would not take it
             continue
-        if result.has_plan:
-            # the same actions, for the robot and the board as they are
-            return Plan.of_codes(task, result.plan.codes(task), seed=seed, planner=result.plan.planner)
-    result = PLANNERS[planner](task, **options)
-    return result.plan if result.has_plan else None
+        if not result.has_plan:
+            continue
+        # the same actions, for the robot and the board as they are
+        plan = Plan.of_codes(task, result.plan.codes(task), seed=seed, planner=result.plan.planner)
+        course = lay_course(task, plan)
+        hardship = math.inf if course.objections else float(np.maximum(course.against - EASY, 0.0).sum())
+        hardship += INCAUTIOUS * rank if hardship > 0.0 else 0.0
+        if best is None or hardship < least:
+            best, least = plan, hardship
+        if least == 0.0:
+            break
+    if best is None:
+        result = PLANNERS[planner](task, **options)
+        best = result.plan if result.has_plan else None
+    return best
 
 
 def cautious(task: LimbedTask, caution: Caution) -> LimbedTask:
