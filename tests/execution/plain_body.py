@@ -102,7 +102,7 @@ class PlainBody(WholeBody):
                 if task.doing == "hang":
                     torques += task.loads
             pressed[i] = task.doing == "cling" or (task.doing == "pull" and task.pressed)
-            if task.doing in ("tip", "pull", "cling"):
+            if task.doing in ("pull", "cling"):
                 most = gains.firm if task.pressed else gains.gentle
                 np.clip(torques, -most, most, out=torques)
         follow_play(self.legs, self.q, self.held, forces, self.pose[2], pressed, loads, self._lag, self.play)
@@ -140,6 +140,6 @@ class PlainBody(WholeBody):
         aim = still_aim(self._own_tip(i) + self._into_port(i, task.place - self.tip(i)))
         by_joints = self._turned(float(self.pose[2]), self.tip_speeds[i])
         aim["twist"][0, :2] = self._into_port(i, task.speed - (self.tip_speed(i) - by_joints))
-        self.torques[i] = self._reachers[i].command(aim, np.stack([self.q[i], self.qd[i]])[None])[0] + self._own_weight(
-            i
-        )
+        torques = self._reachers[i].command(aim, np.stack([self.q[i], self.qd[i]])[None])[0]
+        most = float(np.abs(torques).max())
+        self.torques[i] = torques * min(1.0, self.gains.gentle / most if most else 1.0) + self._own_weight(i)

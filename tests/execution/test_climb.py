@@ -153,3 +153,15 @@ def test_a_hook_that_slips_off_is_noticed() -> None:
     with pytest.raises(FallenError, match=r"come off|off its aim"):
         climber.wait(3.0)
     assert climber.time < 2.0
+
+
+def test_limbs_are_asked_whether_they_would_hold_before_they_do() -> None:
+    climber, _ = on_the_ladder()
+    climber.wait(0.2)
+    body = climber.body
+    assert body.stands(START, [RIGHT, LEFT]) == pytest.approx(body.stands(START))
+    assert body.stands(START, [RIGHT, LEFT]) == pytest.approx(body.stands(START, [LEFT, RIGHT]), abs=1e-6)
+    assert body.stands(START - np.array((0.0, 0.5, 0.0)), [RIGHT, LEFT]) == -np.inf  # out of reach
+    before = body.stands(START, [RIGHT, BOTTOM])
+    climber.carry_with_all(but=LEFT)
+    assert body.stands(START) == pytest.approx(before, abs=2.0)  # the body sways and the joints' play turns round [N]

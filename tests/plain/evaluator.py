@@ -426,16 +426,16 @@ class PlainEvaluator:
 
     def hook(self, carriers: list[Carrier], taken: list[Option], turn: float) -> tuple[float, dict[int, set[int]]]:
         """Margin [N], and per carrier the branches that are in a good combination."""
-        W, cone = self.robot.weight, self.rules.hook_cone
+        W, cone, pull = self.robot.weight, self.rules.hook_cone, self.rules.hook_pull
         if len(carriers) == 1:
-            by_branch = hang_margins(carriers[0], W, turn, cone)
+            by_branch = hang_margins(carriers[0], W, turn, cone, pull)
             good = {b for b, margin in by_branch.items() if margin >= -EPS}
             return max(by_branch.values()), {carriers[0].index: good}
         if len(carriers) == 2:
-            by_pair = pair_margins(carriers[0], carriers[1], W, cone)
+            by_pair = pair_margins(carriers[0], carriers[1], W, cone, pull)
             pairs = [pair for pair, margin in by_pair.items() if margin >= -EPS]
             return max(by_pair.values()), {c.index: {p[j] for p in pairs} for j, c in enumerate(carriers)}
-        return many_margin(carriers, [taken[c.index] for c in carriers], W, cone), {}
+        return many_margin(carriers, [taken[c.index] for c in carriers], W, cone, pull), {}
 
     def still_open(
         self,

@@ -22,7 +22,7 @@ from .carriers import (
     torque_rows,
     torques,
 )
-from .hook import BIG, EXACT, cone_cuts, force_cuts, lam_interval
+from .hook import BIG, EXACT, cone_cuts, force_cuts, lam_interval, pull_row
 from .kinematics import Option, Point
 
 NO_SPLIT_TORQUE = 1e6
@@ -55,7 +55,9 @@ def two_carrier_split(a: Carrier, b: Carrier, task: Any, norm: bool) -> tuple[li
     if split is None:
         return None, []
     combos = list(itertools.product(a.options, b.options))
-    windows = [lam_interval(force_cuts((a, b), combo, split, task.rules.hook_cone)) for combo in combos]
+    windows = [
+        lam_interval(force_cuts((a, b), combo, split, task.rules.hook_cone, task.rules.hook_pull)) for combo in combos
+    ]
     kept = [(combo, w) for combo, w in zip(combos, windows, strict=True) if w is not None]
     if not kept:
         kept = [(combo, (-BIG, BIG)) for combo in combos]
@@ -107,6 +109,10 @@ def many_carrier_split(carriers: list[Carrier], options: list[Option], task: Any
         for cut in cone_cuts(c, o, task.rules.hook_cone):
             cuts.append([-x for x in placed(cut, i, n)])
             right.append(0.0)
+        along = pull_row(c, o)
+        if along is not None and task.rules.hook_pull > 0.0:
+            cuts.append([-x for x in placed(along, i, n)])
+            right.append(-task.rules.hook_pull)
         normals, distance = strength_rows(strength_of(c.limb, c.hold))
         for normal in normals:
             cuts.append(placed(normal, i, n))

@@ -53,6 +53,13 @@ def cone_cuts(carrier: Carrier, o: Option, hook_cone: float) -> list[Point]:
     return rows
 
 
+def pull_row(carrier: Carrier, o: Option) -> Point | None:
+    """Row c over (Fx, Fy) with c . F the pull along the grab direction [N]; None for an end that pulls any way."""
+    if carrier.limb.end.kind == "gripper":
+        return None
+    return -math.cos(o.grab_angle), -math.sin(o.grab_angle)
+
+
 def strength_sides(strength: float | None, const: Point, slope: Point) -> list[Cut]:
     """|const + slope lambda| <= strength as one cut from below and one from above, at the roots of the quadratic.
 
@@ -71,12 +78,18 @@ def strength_sides(strength: float | None, const: Point, slope: Point) -> list[C
     return [Cut(-low, 1.0), Cut(high, -1.0)]
 
 
-def force_cuts(pair: tuple[Carrier, ...], options: tuple[Option, ...], split: Any, hook_cone: float) -> list[Cut]:
-    """Cones of ends and holds, and strengths, as cuts along lambda; torque limits are not among them."""
+def force_cuts(
+    pair: tuple[Carrier, ...], options: tuple[Option, ...], split: Any, hook_cone: float, pull: float
+) -> list[Cut]:
+    """Cones of ends and holds, least pulls and strengths, as cuts along lambda; torque limits are not among them."""
     cuts: list[Cut] = []
     for carrier, o, (const, slope) in zip(pair, options, split, strict=True):
         for cx, cy in cone_cuts(carrier, o, hook_cone):
             cuts.append(Cut(cx * const[0] + cy * const[1], cx * slope[0] + cy * slope[1]))
+        along = pull_row(carrier, o)
+        if along is not None and pull > 0.0:
+            still, per_lam = along[0] * const[0] + along[1] * const[1], along[0] * slope[0] + along[1] * slope[1]
+            cuts.append(Cut(still - pull, per_lam))
         cuts.extend(strength_sides(strength_of(carrier.limb, carrier.hold), const, slope))
     return cuts
 
@@ -100,7 +113,9 @@ def lam_interval(cuts: list[Cut]) -> tuple[float, float] | None:
     return (low, high) if low <= high else ((low + high) / 2.0,) * 2
 
 
-def pair_margins(a: Carrier, b: Carrier, weight: float, hook_cone: float) -> dict[tuple[int, int], float]:
+def pair_margins(
+    a: Carrier, b: Carrier, weight: float, hook_cone: float, pull: float = 0.0
+) -> dict[tuple[int, int], float]:
     """Margin [N] of two carriers for every combination of their branches."""
     split = general_split(a, b, weight)
     found: dict[tuple[int, int], float] = {}
@@ -109,7 +124,7 @@ def pair_margins(a: Carrier, b: Carrier, weight: float, hook_cone: float) -> dic
         if split is None:
             found[key] = -FREE
             continue
-        cuts = force_cuts((a, b), combo, split, hook_cone)
+        cuts = force_cuts((a, b), combo, split, hook_cone, pull)
         for carrier, o, (const, slope) in zip((a, b), combo, split, strict=True):
             for row, limit in zip(torque_rows(carrier, o), carrier.limits, strict=True):
                 still = limit * (row[0] * const[0] + row[1] * const[1])
@@ -119,7 +134,7 @@ def pair_margins(a: Carrier, b: Carrier, weight: float, hook_cone: float) -> dic
     return found
 
 
-def hang_margins(carrier: Carrier, weight: float, turn: float, hook_cone: float) -> dict[int, float]:
+def hang_margins(carrier: Carrier, weight: float, turn: float, hook_cone: float, pull: float) -> dict[int, float]:
     """Margin [N] of the one carrier for every branch; `turn` is what the hang has just turned the robot by [rad]."""
     found: dict[int, float] = {}
     for o in carrier.options:
@@ -129,6 +144,7 @@ def hang_margins(carrier: Carrier, weight: float, turn: float, hook_cone: float)
         for direction, half in ends[: len(ends) - on_hold]:
             for angle in (direction, direction - turn):
                 terms.append(weight * (-math.sin(angle) - math.cos(half)))
+                terms += [-weight * math.sin(angle) - pull] if pull > 0.0 else []
         for direction, half in ends[len(ends) - on_hold :]:
             terms.append(weight * (-math.sin(direction) - math.cos(half)))
         strength = strength_of(carrier.limb, carrier.hold)
@@ -138,8 +154,8 @@ def hang_margins(carrier: Carrier, weight: float, turn: float, hook_cone: float)
     return found
 
 
-def many_margin(carriers: list[Carrier], options: list[Option], weight: float, hook_cone: float) -> float:
-    """The largest s [N] with every cone cut at s or more, torques and strengths met, in the given branches."""
+def many_margin(carriers: list[Carrier], options: list[Option], weight: float, hook_cone: float, pull: float) -> float:
+    """The largest s [N] with every cone cut at s or more, pulls s above the least, torques and strengths met, in the given branches."""
     n = len(carriers)
     rows: list[list[float]] = []
     right: list[float] = []
@@ -147,6 +163,10 @@ def many_margin(carriers: list[Carrier], options: list[Option], weight: float, h
         for cut in cone_cuts(c, o, hook_cone):
             rows.append([-x for x in placed(cut, i, n)] + [1.0])
             right.append(0.0)
+        along = pull_row(c, o)
+        if along is not None and pull > 0.0:
+            rows.append([-x for x in placed(along, i, n)] + [1.0])
+            right.append(-pull)
         for row, sign in itertools.product(torque_rows(c, o), (1.0, -1.0)):
             rows.append([sign * x for x in placed(row, i, n)] + [0.0])
             right.append(1.0)

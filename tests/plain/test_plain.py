@@ -61,6 +61,7 @@ def make_task(holds: list[Any], held: dict[str, int], at: Point = (0.0, 0.0), **
         "clearance": 0.02,
         "max_power": None,
         "hook_cone": math.pi / 2.0,
+        "hook_pull": 0.0,
         "hard": ("reach", "joint", "support", "hangs", "torque"),
         "keep": (),
     }

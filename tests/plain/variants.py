@@ -56,6 +56,7 @@ def varied_rules(rng: random.Random, task: LimbedTask) -> Any:
         clearance=rng.choice((0.0, 2 * INCH, 6 * INCH)),
         max_power=rng.choice((None, None, 5.0, 50.0)),
         hook_cone=math.radians(rng.choice((90.0, 90.0, 60.0, 30.0))),
+        hook_pull=rng.choice((0.0, 0.0, 2.0, 8.0)),
         hard=rng.choice(hard),
         keep=tuple(random_keep(rng, task) for _ in range(rng.choice((0, 0, 1, 2)))),
     )

@@ -130,6 +130,7 @@ def _limb(task: LimbedTask, limb: Limb) -> tuple[float, ...]:
         heats[1],
         ANY_DIRECTION if free else math.cos(cone),
         0.0 if free else math.sin(cone),
+        0.0 if free else task.rules.hook_pull,
         math.inf if limb.end.strength is None else limb.end.strength,
     )
 

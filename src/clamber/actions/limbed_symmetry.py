@@ -14,7 +14,7 @@ NEAR: Final = 1e-9
 """Lengths and angles that differ by less are the same [m], [rad]."""
 LIMB_FIELDS: Final = (
     "l1", "l2", "length", "half1", "half2", "limit1", "limit2", "heat1", "heat2", "c_cone", "s_cone",
-    "strength",
+    "pull", "strength",
 )  # fmt: skip
 """What limbs on opposite sides have in common."""
 TURNED: Final = (("c_hook", "s_hook"), ("c_centre1", "s_centre1"), ("c_centre2", "s_centre2"))

@@ -290,10 +290,14 @@ def command_tick(table, handed):
             if drive_at(drives[law, i], aims, states, felt, felt) >= 0 and bad < 0:
                 bad = i
             given = carray(pointer(drives[law, i, DESK_TORQUES]), 2, np.float64)
+            part = 1.0
+            if job.doing == TIP:
+                # a joint cut alone would turn the force at the tip, and wedge a hook on the hold that it leaves
+                part = min(1.0, gains.gentle / max(abs(given[0]), abs(given[1]), 1e-9))
             # carried however the body is turned, which the law does not know
             shoulder, elbow = weight_loads(leg, q[i], pose[2])
-            torques[i, 0] = given[0] + shoulder
-            torques[i, 1] = given[1] + elbow
+            torques[i, 0] = part * given[0] + shoulder
+            torques[i, 1] = part * given[1] + elbow
         elif job.doing == CLING:
             force = _clinging(job, leg, q[i], settled_tips[i], pose, settled, gains.cling)
             pull_torques(leg, q[i], qd[i], pose, twist, force, CLING_DAMPING, torques[i], loads_now)
@@ -313,7 +317,7 @@ def command_tick(table, handed):
                 torques[i, 0] += job.loads[0]
                 torques[i, 1] += job.loads[1]
         pressed[i] = job.doing == CLING or (job.doing == PULL and job.pressed != 0)
-        if job.doing == TIP or job.doing == PULL or job.doing == CLING:
+        if job.doing == PULL or job.doing == CLING:
             most = gains.firm if job.pressed else gains.gentle
             for k in range(2):
                 torques[i, k] = min(max(torques[i, k], -most), most)

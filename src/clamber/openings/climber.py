@@ -45,6 +45,8 @@ def _rules(task: LimbedTask) -> Iterator[Relaxation]:
     if "hook" in rules.hard and coned and rules.hook_cone < 90.0 * DEGREE - 1e-9:
         present = rules.hook_cone / DEGREE
         yield key_dial("rules.hook_cone", present, most=90.0, unit="deg", per_unit=10, nested=one_split(task))
+    if "hook" in rules.hard and any(limb.end.kind != "gripper" for limb in task.robot.limbs) and rules.hook_pull > 0.0:
+        yield key_dial("rules.hook_pull", rules.hook_pull, most=0.0, unit="N", per_unit=10, nested=one_split(task))
     if "support" in rules.hard and rules.min_supports > 1:
         fewer = rules.min_supports - 1
         key = "rules.min_supports"

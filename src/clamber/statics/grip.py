@@ -28,7 +28,10 @@ def interval(limb, hold, solved, branch, px, py, f, with_torque):
     flat = math.inf
     at = 1 + 5 * branch
     if limb.c_cone > -1.5:
-        lo, hi, flat = cut_cone(lo, hi, flat, solved[at + 3], solved[at + 4], limb.c_cone, limb.s_cone, f)
+        gx, gy = solved[at + 3], solved[at + 4]
+        lo, hi, flat = cut_cone(lo, hi, flat, gx, gy, limb.c_cone, limb.s_cone, f)
+        if limb.pull > 0.0:
+            lo, hi, flat = cut(lo, hi, flat, -(gx * f[0] + gy * f[1]) - limb.pull, -(gx * f[2] + gy * f[3]))
     if hold.c_cone > -1.5:
         lo, hi, flat = cut_cone(lo, hi, flat, hold.dir_x, hold.dir_y, hold.c_cone, hold.s_cone, f)
     strength = min(hold.strength, limb.strength)
@@ -99,6 +102,8 @@ def hang_margin(p, s, a, use):
             start = gy * math.cos(s.turned) - gx * math.sin(s.turned)
             margin = min(margin, weight * (-gy - limb.c_cone))
             margin = min(margin, weight * (-start - limb.c_cone))
+            if limb.pull > 0.0:
+                margin = min(margin, -weight * max(gy, start) - limb.pull)
         best = max(best, margin)
         if margin >= -TOLERANCE:
             good |= 1 << i

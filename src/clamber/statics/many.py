@@ -47,7 +47,7 @@ def many_split(p, s, carriers, goal, forces):
             k += 1
     d = 2 * k + 1
     last = 2 * k
-    most = 6 + k * (8 + CORNERS)
+    most = 6 + k * (9 + CORNERS)
     at = 32
     a = work(p)[at : at + most * d].reshape((most, d))
     at += most * d
@@ -103,6 +103,12 @@ def many_split(p, s, carriers, goal, forces):
                 gx = s.solved[i, branch_at + 3]
                 gy = s.solved[i, branch_at + 4]
                 row = cone_rows(a, row, column, gx, gy, limb.c_cone, limb.s_cone, slack, last)
+                if limb.pull > 0.0:
+                    a[row, column] = gx
+                    a[row, column + 1] = gy
+                    a[row, last] = slack
+                    b[row] = -limb.pull / weight
+                    row += 1
             if hold.c_cone > -1.5:
                 row = cone_rows(a, row, column, hold.dir_x, hold.dir_y, hold.c_cone, hold.s_cone, slack, last)
             strength = min(hold.strength, limb.strength)
@@ -190,5 +196,5 @@ def many_least_norm(p, s, carriers, forces):
 def work_size(n_limbs: int, n_ports: int) -> int:
     """Floats of scratch that the kernels of a robot with `n_limbs` limbs need."""
     d = 2 * n_limbs + 3
-    most = 6 + n_limbs * (8 + CORNERS)
+    most = 6 + n_limbs * (9 + CORNERS)
     return int(64 + 2 * n_ports + most * d + most + 3 * d + (d + 1) * (most + 2 * d + 1) + np.int64(d * (d + 1)))

@@ -38,6 +38,7 @@ LIMB = np.dtype(
         ("heat2", "f8"),
         ("c_cone", "f8"),  # cosine and sine of the end effector's cone; c_cone = -2 means any direction
         ("s_cone", "f8"),
+        ("pull", "f8"),  # least along the grab direction, with a cone; 0: any
         ("strength", "f8"),  # of the end effector; inf: any force
     ],
     align=True,

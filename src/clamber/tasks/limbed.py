@@ -19,6 +19,7 @@ from ..units import (
     Angle,
     ConeAngle,
     Length,
+    NonNegativeForce,
     NonNegativeLength,
     Point,
     Polygon,
@@ -112,6 +113,8 @@ class Rules:
     """Largest electrical power of the joints that carry weight [W]; None: any."""
     hook_cone: ConeAngle = math.pi / 2
     """Half angle of end effectors that state none [rad]."""
+    hook_pull: NonNegativeForce = 0.0
+    """Pull along its grab direction that every end effector with a cone can be given [N]: a hook with less slips off."""
     hard: tuple[StrictStr, ...] = DEFAULT_HARD
     """Names of the checks that forbid an action; the others only report."""
     allowed: tuple[StrictStr, ...] | None = None

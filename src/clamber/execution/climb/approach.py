@@ -1,12 +1,13 @@
 """How a free limb comes to a hold: the posture to hold with, a place to stand off, the way there, and where the body should be."""
 
+import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
-from ...control.swing_path import find_way
+from ...control.swing_path import clearance, find_way
 from ...robots.limbed import Limb, LimbedRobot
 from ...types import Floats, Records
 from .postures import Posture, postures
@@ -22,8 +23,19 @@ STAND_OFFS: Final = (1.0, 0.85)
 """Parts of the wished stand-off that are tried in turn."""
 SLANTS: Final = ((0, 15, -15), (30, -30), (45, -45))
 """Angles between the way in and the grab direction, in groups: a straight way with a moved body comes before a slanted one [deg]."""
-SHIFTS: Final = ((0.0, 0.0), (0.0, 0.02), (0.0, 0.035), (0.0, 0.05), (-0.03, 0.035), (0.0, 0.07), (-0.06, 0.035))
-"""Moves of the body that make room: x towards the hold's side, y up [m]. Away from it the hook that holds on that side stays steeper."""
+HEADINGS: Final = ((0, 1), (-1, 1), (-1, 0), (1, 1), (1, 0), (0, -1), (-1, -1), (1, -1))
+"""Of the body as it makes room, x towards the hold's side, y up. Up and away come first: there the hooks that hold stay steeper."""
+SHIFTS: Final = (
+    (0.0, 0.0),
+    *(
+        (size * x / math.hypot(x, y), size * y / math.hypot(x, y))
+        for size in (0.02, 0.035, 0.05, 0.07)
+        for x, y in HEADINGS
+    ),
+)
+"""Moves of the body that make room, the least first [m]."""
+BENT: Final = math.radians(20.0)
+"""An elbow nearer to straight than this brings its tip no farther, and nowhere on a straight way [rad]."""
 NEARBY: Final = 0.6
 """Holds farther from the body are in no limb's way [m]."""
 
@@ -123,6 +135,44 @@ class Approaches:
                     return Approach(shift, way, grab, distance)
         return None
 
+    def leave(
+        self,
+        i: int,
+        side: float,
+        pose: Floats,
+        tip: Floats,
+        back: Floats,
+        holds: Mapping[int, Floats],
+        *,
+        stands: Callable[[Floats], bool] = lambda pose: True,
+    ) -> Floats | None:
+        """The least move of the body after which a limb can draw its hook straight back off its hold, shape (2,) [m]; None if none does.
+
+        Args:
+            i: Index of the limb.
+            side: Of its elbow, +1 or -1.
+            pose: Body pose, shape (3,).
+            tip: Of the limb, on its hold, world frame [m].
+            back: How far it draws back, world frame, shape (2,) [m].
+            holds: All holds by number, as obstacles.
+            stands: Whether the other limbs can hold the body at another pose.
+        """
+        inwards = float(np.sign(tip[0] - pose[0]))
+        for x, y in SHIFTS:
+            shift = np.array((x * inwards, y))
+            moved = pose + np.array((*shift, 0.0))
+            if shift.any() and not stands(moved):
+                continue
+            discs = discs_near(holds, moved, self.peg_radius)
+            if all(_bent(self.robot.limbs[i], moved, tip + part * back, side) for part in (0.0, 0.5)) and any(
+                self._room(i, one.angles, discs) >= 0.0 for one in _bent(self.robot.limbs[i], moved, tip + back, side)
+            ):
+                return shift
+        return None
+
+    def _room(self, i: int, angles: Floats, discs: Floats) -> float:
+        return float(clearance(self.legs[i], angles[0], angles[1], discs, self.wall, self.robot.link_radius, HOOK))
+
     def _stand_off(
         self,
         i: int,
@@ -150,6 +200,8 @@ class Approaches:
                     for posture in postures(limb, pose, place):
                         if not posture.inside or posture.angles[1] * final.angles[1] < 0.0:
                             continue
+                        if self._room(i, posture.angles, discs) < 0.0:
+                            continue
                         count = find_way(
                             self.legs[i], lower, upper, CELLS, angles, posture.angles, discs, self.wall,
                             self.robot.link_radius, HOOK, LEAST_CLEARANCE, self.path,
@@ -162,3 +214,8 @@ class Approaches:
 def _within(limb: Limb, pose: Floats, place: Floats, like: Posture) -> bool:
     """Whether a limb reaches a place within its joint limits, its elbow on the same side as in another posture."""
     return any(one.inside and one.angles[1] * like.angles[1] > 0.0 for one in postures(limb, pose, place))
+
+
+def _bent(limb: Limb, pose: Floats, place: Floats, side: float) -> list[Posture]:
+    """The posture with the tip at a place and the elbow well on a side, within the joints' limits; none where there is none."""
+    return [one for one in postures(limb, pose, place) if one.inside and side * one.angles[1] > BENT]

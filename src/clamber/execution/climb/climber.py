@@ -124,6 +124,7 @@ class Climber:
             task.angles = q[i].copy()
             self.grips[i] = number > 0
             self.body.tasks[i] = task
+        self.body.hand_over([i for i, task in enumerate(self.body.tasks) if task.doing == "hold"])
         self.map.know(number for number in holds.values() if number)
         self.plant.reset(pose, q)
         self.body.pose[:], self.body.settled[:], self.body.aim[:] = pose, pose, pose

@@ -43,6 +43,8 @@ class Course:
     """The start, and the stance after every action, shape (n + 1,)."""
     elbows: Ints
     """Side of each limb's elbow that serves until it leaves its hold, +1, -1, or 0 where it is free, shape (n + 1, limbs)."""
+    against: Floats
+    """What counts against each stance: hooks and motors that lack newtons, links that touch holds, shape (n + 1,); see `elbows`."""
     objections: tuple[PlanRefusedError, ...] = ()
     """What speaks against it, the first step first."""
 
@@ -62,6 +64,19 @@ class Course:
             if stance["hold"][i] >= 0 and not int(stance["carriers"]) >> i & 1:
                 return limb.name
         return None
+
+    def stays(self, i: int, step: int) -> range:
+        """The steps, from one after which a limb is on a hold, until it leaves that hold."""
+        holds = self.stances["hold"][:, i]
+        end = step
+        while end < len(holds) and holds[end] == holds[step]:
+            end += 1
+        return range(step, end)
+
+    def serves(self, i: int, step: int, elbow: int) -> bool:
+        """Whether a limb that takes a hold at a step could keep its elbow on a side (+1, -1) until it leaves, by the plan's checks."""
+        bit = 1 if elbow > 0 else 2
+        return all(int(self.stances[k]["open"][i]) & bit for k in self.stays(i, step))
 
     def groups(self) -> list[tuple[int, int]]:
         """First and last step, from 1, of what is carried out in one go: like moves of the body in a row, else one action."""
@@ -120,8 +135,8 @@ def lay_course(task: LimbedTask, plan: Plan, label: str = "plan") -> Course:
             unit = "" if check.unit == "1" else f" {check.unit}"
             words = f"{plan.actions[step - 1].title}: {check.name} is {margin:.4g}{unit} ({check.meaning})"
             objections.append(PlanRefusedError(label, step, words))
-    elbows = choose_elbows(task.robot, task.world, replay.stances)
-    return Course(strict, plan.actions, replay.stances, elbows, tuple(objections))
+    elbows, against = choose_elbows(task.robot, task.world, replay.stances)
+    return Course(strict, plan.actions, replay.stances, elbows, against, tuple(objections))
 
 
 def swings(course: Course, step: int) -> bool:

@@ -7,9 +7,11 @@ from typing import Final
 import numpy as np
 
 from ...control.hook_forces import MOST_CUTS, pair_forces
+from ...control.swing_path import clearance
 from ...robots.limbed import LimbedRobot
 from ...types import Floats, Ints, Records
 from ...worlds.board import Board
+from .approach import HOOK, discs_near, wall_of
 from .legs import legs_of
 from .postures import Posture, postures
 
@@ -21,11 +23,15 @@ LACKING: Final = 0.5
 """What counts each newton that the worst of two carrying limbs lacks of what is wished, after each action [1/N]."""
 ON_TOP: Final = 0.3
 """What a hook that pulls sideways instead of down counts after each action [-]."""
+BLOCKED: Final = 4.0
+"""What counts after each action a limb on a hold whose links touch another hold or the body, which then bend it off its way [-]."""
+CLEAR: Final = 0.008
+"""Clearance with which it counts nothing [m]."""
 OFF_PLAN: Final = 0.2
 """What counts after each action a side that is not the one whose links the plan's checks have looked at [-]."""
 
 
-def choose_elbows(robot: LimbedRobot, board: Board, stances: Records) -> Ints:
+def choose_elbows(robot: LimbedRobot, board: Board, stances: Records) -> tuple[Ints, Floats]:
     """A side for each stay on a hold, best for the whole plan: carriers that can bear it, hooks on top, few changes.
 
     An elbow that passes to the other side throws the body about, so a limb changes only where it gains much by it.
@@ -36,7 +42,7 @@ def choose_elbows(robot: LimbedRobot, board: Board, stances: Records) -> Ints:
         stances: Of the plan, shape (n + 1,).
 
     Returns:
-        +1, -1, or 0 where a limb is free, shape (n + 1, limbs).
+        +1, -1, or 0 where a limb is free, shape (n + 1, limbs); and what counts against them after each action, shape (n + 1,).
     """
     n, limbs = len(stances), len(robot.limbs)
     states = np.array(list(product((0, 1), repeat=limbs)))
@@ -52,11 +58,13 @@ def choose_elbows(robot: LimbedRobot, board: Board, stances: Records) -> Ints:
         came[step] = np.argmin(total, axis=0)
         best[step] = np.min(total, axis=0) + costs[step]
     sides: Ints = np.zeros((n, limbs), np.int32)
+    against: Floats = np.zeros(n)
     at = int(np.argmin(best[-1]))
     for step in range(n - 1, -1, -1):
         sides[step] = np.where(stances["hold"][step, :limbs] >= 0, 1 - 2 * states[at], 0)
+        against[step] = costs[step, at]
         at = int(came[step, at])
-    return sides
+    return sides, against
 
 
 def _costs(robot: LimbedRobot, board: Board, stances: Records, states: Ints) -> Floats:
@@ -66,11 +74,13 @@ def _costs(robot: LimbedRobot, board: Board, stances: Records, states: Ints) -> 
     wrench = np.array((0.0, robot.weight, 0.0))
     places = board.positions()
     costs = np.zeros((len(stances), len(states)))
+    wall = wall_of(robot)
     for step, stance in enumerate(stances):
         pose = np.array((stance["x"], stance["y"], stance["angle"]))
         held = [i for i in range(limbs) if stance["hold"][i] >= 0]
         arms = np.array([places[hold] - pose[:2] if hold >= 0 else (0.0, 0.0) for hold in stance["hold"][:limbs]])
         found = {i: postures(robot.limbs[i], pose, places[stance["hold"][i]]) for i in held}
+        near = {i: _crowding(robot, board, legs, i, pose, int(stance["hold"][i]), found[i], wall) for i in held}
         carriers = [i for i in held if int(stance["carriers"]) >> i & 1]
         for k, state in enumerate(states):
             q = np.zeros((limbs, 2))
@@ -82,6 +92,7 @@ def _costs(robot: LimbedRobot, board: Board, stances: Records, states: Ints) -> 
                 q[i] = posture.angles
                 off_plan = int(stance["branch"][i]) != int(state[i])
                 costs[step, k] += DRAWBACKS[robot.limbs[i].end.kind](posture, off_plan)
+                costs[step, k] += near[i][int(state[i])]
             if len(carriers) == 2:
                 margin, _ = pair_forces(legs, q, carriers[0], carriers[1], pose, arms, wrench, nothing, cuts, forces)
                 costs[step, k] += LACKING * max(0.0, -margin)
@@ -102,3 +113,17 @@ DRAWBACKS: Final[dict[str, Callable[[Posture, bool], float]]] = {
     "gripper": _not_planned,
 }
 """Kind of end effector -> what its posture, or one off the plan, counts after each action; a gripper may hold from anywhere."""
+
+
+def _crowding(
+    robot: LimbedRobot, board: Board, legs: Records, i: int, pose: Floats, on: int, found: list[Posture], wall: Floats
+) -> list[float]:
+    """What each posture of a limb on hold number `on` of the board's list counts for being near other holds and the body."""
+    others = {hold.number: np.array((hold.x, hold.y)) for k, hold in enumerate(board.holds) if k != on}
+    radius = max(hold.radius for hold in board.holds)
+    discs = discs_near(others, pose, lambda _: radius)
+    out = []
+    for posture in found:
+        room = clearance(legs[i], posture.angles[0], posture.angles[1], discs, wall, robot.link_radius, HOOK)
+        out.append(BLOCKED * min(max(1.0 - room / CLEAR, 0.0), 1.0))
+    return out

@@ -1,13 +1,14 @@
 """Motions: how each kind of action is carried out. Body moves on smooth ways, releases, and the grab of Bevly (1997), Fig. 4.14."""
 
 import math
+from collections.abc import Callable
 from itertools import pairwise
 from typing import Final
 
 import numpy as np
 
 from ...types import Floats
-from .approach import Approach, free_distance
+from .approach import SHIFTS, Approach, free_distance
 from .climber import Climber, Grabbed
 from .parking import park, poses_between
 
@@ -15,12 +16,18 @@ BODY_SPEED: Final = 0.08
 """Of the body's aim, at most [m/s]."""
 BODY_RISE: Final = 0.3
 """In which it comes to that speed, at most; a short way is all rise [s]."""
+SLOW: Final = 0.04
+"""Likewise while a limb clings to its hold, which its rotors' inertia would drag off [m/s]."""
 BODY_TURN: Final = 0.4
 """[rad/s]."""
 JOINT_SPEED: Final = 2.6
 """Of a free limb's joints on their way, seven eighths of what their motors can [rad/s]."""
 JOINT_AGILITY: Final = 14.0
 """With which they come to it [rad/s^2]."""
+LAG: Final = 0.06
+"""A limb this far behind on its way is waited for: its motors give all they can [rad]."""
+WAITING: Final = 1.5
+"""For that long in all, on one way [s]."""
 BLEND: Final = 0.2
 """Over which corners of a limb's way are rounded [s]."""
 WIDE_STAND_OFF: Final = 0.042
@@ -39,6 +46,8 @@ LIFT: Final = (0.001, 0.003)
 """A push that lifts the body this far weakens, to a third at the second: it bears already, and other hooks would come off [m]."""
 SLIDING: Final = (0.003, 0.006)
 """A push under which the tips of holding limbs come apart this far weakens, to nothing at the second: a hook is coming off [m]."""
+WEAK: Final = 0.25
+"""A push weakened to less than this part says nothing of a hook that has stopped [-]."""
 TUG_RISE: Final = 0.1
 """In which the tug grows to its full size [s]."""
 DITHER: Final = 8.0
@@ -47,8 +56,10 @@ DITHER_RATE: Final = 5.0
 """[Hz]."""
 AWAY: Final = 0.006
 """A limb that leaves a hold aims this far beyond where it is clear of it: its tip lags its aim [m]."""
-LEAVING: Final = 1.0
+LEAVING: Final = 0.5
 """Most time that it then gets to come clear [s]."""
+SHAKING: Final = 2.0
+"""Most time for which a wedged hook is shaken [s]."""
 SHORT: Final = 0.004
 """A hook that stops this far before where its hold should be may have met it with its flare [m]."""
 WIDE_DITHER: Final = 14.0
@@ -73,18 +84,23 @@ ASIDE: Final = (0.0, 0.8, -0.8, 1.4, -1.4, 0.0)
 """Across the hook, where each try aims, in doubts of the map [-]."""
 WEAKER: Final = 3.0
 """By how much the worst of the holding limbs may be worse off where the body makes room for a grab [N]."""
+MOST_SHIFTS: Final = 2
+"""That often the body makes room for one way: its limbs are elsewhere after the first [-]."""
 SLACK: Final = 0.004
 """Beyond its doubt, how far a seated hook may be from where it should be: play and backlash [m]."""
 
 
-def move_body(climber: Climber, pose: Floats, *, speed: float = BODY_SPEED) -> None:
+def move_body(climber: Climber, pose: Floats) -> None:
     """Bring the body to a pose (x, y, theta) along a straight smooth way; free limbs first go to where they meet no hold on it."""
     clear_the_way(climber, pose)
     body, period = climber.body, climber.plant.period
+    speed = SLOW if any(task.doing == "cling" for task in body.tasks) else BODY_SPEED
     start = body.aim.copy()
     change = pose - start
     # the way in seconds at full speed
-    length = max(float(np.hypot(change[0], change[1])) / speed, abs(float(change[2])) / BODY_TURN, 0.2)
+    length = max(
+        float(np.hypot(change[0], change[1])) / speed, abs(float(change[2])) / (BODY_TURN * speed / BODY_SPEED), 0.2
+    )
     rise = min(BODY_RISE, 0.5 * length)
     count = max(1, round((length + rise) / period))
     for k in range(1, count + 1):
@@ -144,7 +160,13 @@ def follow(climber: Climber, i: int, way: Floats) -> None:
     padded = np.concatenate((np.repeat(way[:1], blend, axis=0), angles, np.repeat(way[-1:], blend, axis=0)))
     smooth = np.stack([np.convolve(padded[:, j], window / window.sum(), "valid") for j in range(2)], axis=1)
     task.doing = "joints"
+    q, waited = climber.body.q[i], 0.0
     for before, after in pairwise(smooth):
+        # a limb that lags cuts the corners of its way, and knocks against what it was to go round
+        while np.abs(before - q).max() > LAG and waited < WAITING:
+            task.rates = np.zeros(2)
+            climber.tick()
+            waited += period
         task.angles, task.rates = after, (after - before) / period
         climber.tick()
     task.angles, task.rates = way[-1].copy(), np.zeros(2)
@@ -169,17 +191,81 @@ def stand_off_of(climber: Climber, i: int, doubt: float) -> float:
 
 
 def release(climber: Climber, i: int) -> None:
-    """Take a limb off its hold, against its grab direction, until its tip is clear of it; the others carry."""
+    """Take a limb off its hold, against its grab direction, until its tip is clear of it; the others carry.
+
+    A hook that stays wedged clings to its hold as before.
+    """
+    _lean_on_the_others(climber, i)
     climber.carry_with_all(but=i)
     body, task = climber.body, climber.body.tasks[i]
-    start, g = body.tip(i), body.grab_direction(i)
     away = stand_off_of(climber, i, climber.map.error(task.hold)) + AWAY
+    _make_room_to_leave(climber, i, away)
+    start, g = body.tip(i), body.grab_direction(i)
+
+    def clear() -> bool:
+        return float((start - body.tip(i)) @ g) > away - AWAY
+
     move_tip(climber, i, start - away * g, 0.35)
     for _ in range(round(LEAVING / climber.plant.period)):
-        if (start - body.tip(i)) @ g > away - AWAY:
+        if clear():
             break
         climber.tick()
+    if not clear() and not _shake_off(climber, i, clear):
+        task.doing = "cling"
+        return
     task.hold, task.doing, task.angles = 0, "joints", body.q[i].copy()
+
+
+def _shake_off(climber: Climber, i: int, clear: Callable[[], bool]) -> bool:
+    """Pull a wedged hook back and to and fro, free to go where its walls let it; whether it comes clear."""
+    body, task, period = climber.body, climber.body.tasks[i], climber.plant.period
+    task.doing, task.pressed = "pull", True
+    for k in range(round(SHAKING / period)):
+        g = body.grab_direction(i)
+        task.force = -PUSH * g + WIDE_DITHER * np.sin(2 * np.pi * WIDE_RATE * k * period) * np.array((-g[1], g[0]))
+        climber.tick()
+        if clear():
+            break
+    task.pressed = False
+    return clear()
+
+
+def _lean_on_the_others(climber: Climber, i: int) -> None:
+    """Move the body to where the two others can carry it, if they cannot here, while limb `i` is still on its hold."""
+    body = climber.body
+    others = [j for j, task in enumerate(body.tasks) if j != i and task.hold]
+    if climber.hangs or len(others) != 2:
+        return
+    climber.plant.pause()
+    margins, stands = [], _stands(climber)
+    for x, y in SHIFTS:
+        pose = body.settled + np.array((x, y, 0.0))
+        margin = body.stands(pose, others)
+        margins.append(margin if body.stands(pose, [i]) >= 0.0 and stands(pose) else -np.inf)
+        if margin >= 0.0 and margins[-1] == margin:
+            break
+    best = int(np.argmax(margins))
+    if margins[best] > body.stands(body.settled, others) + WEAKER:
+        move_body(climber, body.aim + np.array((*SHIFTS[best], 0.0)))
+
+
+def _make_room_to_leave(climber: Climber, i: int, away: float) -> None:
+    """Move the body to where a limb that reaches no farther can draw its hook back."""
+    if climber.hangs:
+        return
+    body = climber.body
+    climber.plant.pause()
+    side, back = float(np.sign(body.q[i, 1] - body.play[i, 1])), -away * body.grab_direction(i)
+    shift = climber.approaches.leave(i, side, body.settled, body.tip(i), back, climber.holds, stands=_stands(climber))
+    if shift is not None and shift.any():
+        move_body(climber, body.aim + np.array((*shift, 0.0)))
+
+
+def _stands(climber: Climber) -> Callable[[Floats], bool]:
+    """Whether the limbs that hold can at another pose of the body, hardly worse than here."""
+    body = climber.body
+    least = min(0.0, body.stands(body.settled)) - WEAKER
+    return lambda pose: body.stands(pose) >= least
 
 
 def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
@@ -195,18 +281,18 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
         FallenError: If the robot falls.
     """
     body, task = climber.body, climber.body.tasks[i]
-    climber.carry_with_all(but=i)
     if task.hold:
         release(climber, i)
+    else:
+        climber.carry_with_all(but=i)
+    if task.hold:
+        return Grabbed(False, 0, 0.0, 0.0)
     doubt = climber.doubt(number, i)
     hold = climber.holds[number].copy()
     wished, near, room = stand_off_of(climber, i, doubt), NEAR + doubt, SLACK + doubt
-    found = _find(climber, i, hold, elbow, wished, near)
+    found = _come_near(climber, i, hold, elbow, wished, near)
     if found is None:
         return Grabbed(False, 0, 0.0, 0.0)
-    if found.shift.any() and not climber.hangs:
-        move_body(climber, body.aim + np.array((*found.shift, 0.0)))
-        found = _find(climber, i, hold, elbow, wished, near) or found
     follow(climber, i, found.way)
     climber.wait(0.15)
     climber.learn_again()
@@ -231,14 +317,23 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
     return Grabbed(False, len(ASIDE), along, across)
 
 
-def _find(climber: Climber, i: int, hold: Floats, elbow: int, wished: float, near: float) -> Approach | None:
+def _come_near(climber: Climber, i: int, hold: Floats, elbow: int, wished: float, near: float) -> Approach | None:
+    """Move the body to where there is a way for a limb, and find the way from there; None where there is none."""
     body = climber.body
-    least = min(0.0, body.stands(body.settled)) - WEAKER
-    climber.plant.pause()
-    return climber.approaches.find(
-        i, body.q[i] - body.play[i], body.settled, hold, climber.holds, elbow=elbow, stand_off=wished, near=near,
-        stands=lambda pose: body.stands(pose) >= least,
-    )  # fmt: skip
+    for left in reversed(range(MOST_SHIFTS + 1)):
+        climber.plant.pause()
+        found = climber.approaches.find(
+            i, body.q[i] - body.play[i], body.settled, hold, climber.holds, elbow=elbow, stand_off=wished, near=near,
+            stands=_stands(climber) if left and not climber.hangs else _stays,
+        )  # fmt: skip
+        if found is None or not found.shift.any():
+            return found
+        move_body(climber, body.aim + np.array((*found.shift, 0.0)))
+    return None
+
+
+def _stays(pose: Floats) -> bool:
+    return False
 
 
 def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bool:
@@ -282,7 +377,8 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bo
         reached = np.array((body.felt_tip(i) @ g, body.tip(i) @ g))
         advanced = reached > marks + ADVANCE
         marks = np.where(advanced, reached, marks)
-        still = 0.0 if advanced.any() else still + period
+        # what does not pull does not seat
+        still = 0.0 if advanced.any() or size < WEAK * part * PUSH else still + period
         ahead = float((place - body.tip(i)) @ g)
         if ahead < -room:
             break

@@ -19,7 +19,7 @@ BRAKING: Final = 0.15
 """Time in which the body is only slowed down, wherever that takes it [s]."""
 RESTING: Final = 0.3
 """Before the lost hold is taken again [s]."""
-AT_HOLD: Final = 0.02
+AT_HOLD: Final = 0.035
 """A hook that is pushed on and is nearer to its hold takes the load, whether it is seated or not [m]."""
 TOUCHES: Final = 3.0
 """A limb that feels more than this there has caught it [N]."""

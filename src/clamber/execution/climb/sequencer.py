@@ -29,6 +29,10 @@ Progress: TypeAlias = Callable[[int, int, str, float], None]
 
 ELSEWHERE: Final = ((0.0, 0.0), (0.0, 0.02), (0.0, -0.02), (0.025, 0.0), (-0.025, 0.0))
 """Where the body goes for another approach after a miss, from the plan's pose [m]."""
+FARTHER: Final = ((0.0, 0.045), (0.0, -0.045), (0.05, 0.0), (-0.05, 0.0))
+"""Likewise where a limb has found no way from any of these [m]."""
+WORST: Final = -8.0
+"""How badly off the worst of hooks and motors may be where the body goes for that [N]."""
 MOST_REPLANS: Final = 3
 MOST_RECOVERIES: Final = 3
 """Of one action."""
@@ -253,8 +257,11 @@ class Sequencer:
             return self._move(last)
         if action.kind == "release":
             assert action.limb is not None
-            if self.climber.body.tasks[self._limb(action.limb)].hold:  # a slip may have done it
-                release(self.climber, self._limb(action.limb))
+            i = self._limb(action.limb)
+            if self.climber.body.tasks[i].hold:  # a slip may have done it
+                release(self.climber, i)
+            if self.climber.body.tasks[i].hold:
+                return "missed", 1, "its hook stays wedged on its hold"
             return "ok", 1, ""
         if action.kind == "grab":
             return self._grab(first)
@@ -295,20 +302,28 @@ class Sequencer:
         elbow = int(self.course.elbows[step, i])
         side = math.copysign(1.0, self.climber.holds[action.hold][0] - self._pose(step)[0])
         result = Grabbed(False, 0, 0.0, 0.0)
-        for x, y in ELSEWHERE:
-            place = self._pose(step) + np.array((side * x, y, 0.0))
-            if (
-                not self.climber.hangs and float(np.abs(place - self.climber.body.aim).max()) > SHIFTED
-            ):  # also by the approach to the hold before
-                move_body(self.climber, place)
-            result = grab(self.climber, i, action.hold, elbow=elbow)
-            tries += max(1, result.tries)
-            if result.held:
-                self._keep_in_map(i, action.hold)
-                if self._hanging is not None:
-                    self._hanging.end()
-                    self._hanging = None
-                return "ok", tries, ""
+        sides = [elbow, -elbow] if self.course.serves(i, step, -elbow) else [elbow]
+        for elbow in sides:
+            for x, y in (*ELSEWHERE, *FARTHER):
+                if result.tries and (x, y) in FARTHER:
+                    break
+                place = self._pose(step) + np.array((side * x, y, 0.0))
+                off = float(np.abs(place - self.climber.body.aim).max())
+                if not self.climber.hangs and off > SHIFTED:  # also by the approach to the hold before
+                    if (x or y) and self.climber.body.stands(place) < WORST:
+                        continue
+                    move_body(self.climber, place)
+                result = grab(self.climber, i, action.hold, elbow=elbow)
+                tries += max(1, result.tries)
+                if result.held:
+                    self._keep_in_map(i, action.hold)
+                    self.course.elbows[self.course.stays(i, step), i] = elbow
+                    if self._hanging is not None:
+                        self._hanging.end()
+                        self._hanging = None
+                    return "ok", tries, ""
+            if result.tries:
+                break  # there is a way; the hook does not take
         self._missed.add(action.hold)
         if not result.tries:
             return "missed", tries, "the limb finds no way there"

@@ -1,7 +1,7 @@
 """The climber's controller: what each limb is doing, where the body is to be, and the torques of one tick."""
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from typing import Final, Literal, TypeAlias
 
@@ -74,7 +74,7 @@ class BodyGains:
     cling: float = 3.0
     """Pull with which a limb that carries nothing keeps to its hold [N]."""
     gentle: float = 3.0
-    """Most torque of a limb near a hold, so that what it meets is not thrown off [N m]."""
+    """Most torque of a limb near a hold, so that what it meets is not thrown off; a tip on its way gets its weight besides [N m]."""
     firm: float = 8.0
     """Likewise of a limb that tugs at its hold: enough to carry half the weight at arm's length [N m]."""
     least_pull: float = 0.3
@@ -220,7 +220,11 @@ class WholeBody:
         self._lag[1] = backlash / 2
 
     def hand_over(self, carriers: Collection[int]) -> None:
-        """Let the load pass to these limbs, each of them on a hold; it does while `handing_over`, then the others cling."""
+        """Let the load pass to these limbs, each of them on a hold; it does while `handing_over`, then the others cling.
+
+        A hand-over that is still going on is over: all its limbs carry when this one begins.
+        """
+        self._handed = 1.0
         now = [i for i in range(self.n) if self.tasks[i].doing == "hold"]
         for i in carriers:
             self.tasks[i].doing = "hold"
@@ -236,9 +240,15 @@ class WholeBody:
             self.tasks[i].doing = "hold"
         self._handed = 1.0
 
-    def stands(self, pose: Floats) -> float:
-        """How well the limbs that hold now would at another pose of the body, in newtons of the worst wish; -inf out of reach."""
-        carriers = [i for i, task in enumerate(self.tasks) if task.doing == "hold"]
+    def stands(self, pose: Floats, carriers: Sequence[int] | None = None) -> float:
+        """How well limbs would hold at a pose of the body, in newtons of the worst wish; -inf out of reach.
+
+        Args:
+            pose: Shape (3,).
+            carriers: Limbs on holds; None: those that carry now.
+        """
+        if carriers is None:
+            carriers = [i for i, task in enumerate(self.tasks) if task.doing == "hold"]
         q, arms, forces = self.q.copy(), np.zeros((self.n, 2)), np.zeros((self.n, 2))
         for i in carriers:
             side = self.q[i, 1] - self.play[i, 1]

@@ -1,9 +1,15 @@
 """Plans that are to be carried out: joints and hooks keep something back for what no plan foresees."""
 
 import copy
+import math
+from dataclasses import dataclass
 from typing import Final
 
+import numpy as np
+
 from ...actions.plan import Plan
+from ...errors import StartError
+from ...execution.climb.course import lay_course
 from ...execution.climb.here import GENERATORS, hold_document
 from ...execution.climb.sequencer import Replan
 from ...planning.budgets import accepts
@@ -14,16 +20,42 @@ from ...types import Json
 from ...units import DEGREE, INCH
 from ...worlds.board import Hold
 
-CAUTIONS: Final = ((0.22, 2.0), (0.4, 2.0), (0.4, 0.0), (1.0, 0.0))
-"""Share of the motors' torque that a plan may use [-], and reach that its grabs leave [in]; the next where there is no plan."""
-PULL_CONE: Final = 10.0
-"""Holds that state no direction are pulled down, within this of straight [deg]: limbs carry side by side, not one against the other."""
-HOOK_CONE: Final = 58.0
-"""Hooks pull within this of their grab direction [deg]."""
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Caution:
+    """What a plan keeps back."""
+
+    hook_cone: float = 55.0
+    """Hooks pull within this of their grab direction [deg]."""
+    hold_cone: float = 60.0
+    """Holds that state no direction are pulled within this of straight down [deg]: limbs carry, they don't pull one against the other."""
+    strength: float = 1.5
+    """Most force on a hold that states no strength, of the robot's weight [-]."""
+    pull: float = 0.15
+    """Least pull of every hook that carries, of the robot's weight [-]: with less, the joints' friction lets it slip off."""
+    share: float = 0.4
+    """Of the motors' torque that a plan may use [-]."""
+    spare: float = 1.0
+    """Reach that limbs leave, also while they hold: a stretched elbow is soft, and may pass to the other side [in]."""
+
+
+CAUTIONS: Final = (
+    Caution(),
+    Caution(spare=0.5),
+    Caution(hook_cone=60.0, pull=0.1, spare=0.7),
+    Caution(hook_cone=60.0, hold_cone=75.0, pull=0.1, share=0.5, spare=0.5),
+    Caution(hook_cone=65.0, hold_cone=75.0, strength=3.0, pull=0.05, share=0.6, spare=0.3),
+    Caution(hook_cone=70.0, hold_cone=90.0, strength=5.0, pull=0.0, share=0.8, spare=0.0),
+)
+"""The next where there is no plan that is easy in every stance; then the easiest."""
+INCAUTIOUS: Final = 10.0
+"""What being less cautious counts in one that is not."""
+EASY: Final = 3.5
+"""What may count against a stance that is easy to hold: no link on a hold, no hook or motor much beyond what is wished."""
 
 
 def plan_to_climb(task: LimbedTask, planner: str, *, seconds: float, seed: int) -> Plan | None:
-    """A cautious plan, or the least incautious one that there is.
+    """The most cautious plan that is easy to carry out, or the easiest of the cautious ones, or any.
 
     Args:
         task: Under the rules that can be carried out.
@@ -32,39 +64,58 @@ def plan_to_climb(task: LimbedTask, planner: str, *, seconds: float, seed: int) 
         seed: Of the planner.
     """
     options = {name: value for name, value in (("seconds", seconds), ("seed", seed)) if accepts(planner, name)}
-    for share, spare in CAUTIONS:
-        result = PLANNERS[planner](cautious(task, share, spare), **options)
-        if result.has_plan:
-            # the same actions, for the robot and the board as they are
-            return Plan.of_codes(task, result.plan.codes(task), seed=seed, planner=result.plan.planner)
-    result = PLANNERS[planner](task, **options)
-    return result.plan if result.has_plan else None
+    best, least = None, math.inf
+    for rank, caution in enumerate(CAUTIONS):
+        try:
+            result = PLANNERS[planner](cautious(task, caution), **options)
+        except StartError:  # it stands where a cautious plan would not take it
+            continue
+        if not result.has_plan:
+            continue
+        # the same actions, for the robot and the board as they are
+        plan = Plan.of_codes(task, result.plan.codes(task), seed=seed, planner=result.plan.planner)
+        course = lay_course(task, plan)
+        hardship = math.inf if course.objections else float(np.maximum(course.against - EASY, 0.0).sum())
+        hardship += INCAUTIOUS * rank if hardship > 0.0 else 0.0
+        if best is None or hardship < least:
+            best, least = plan, hardship
+        if least == 0.0:
+            break
+    if best is None:
+        result = PLANNERS[planner](task, **options)
+        best = result.plan if result.has_plan else None
+    return best
 
 
-def cautious(task: LimbedTask, share: float, spare: float) -> LimbedTask:
-    """A task that asks for more than its checks do, so that what holds in it can bear to be carried out.
-
-    Args:
-        task: The task.
-        share: Of the motors' torque limit that may be used.
-        spare: Reach that grabs leave, unless the task's rules leave more [in].
-    """
+def cautious(task: LimbedTask, caution: Caution) -> LimbedTask:
+    """A task that asks for more than its checks do, so that what holds in it can bear to be carried out."""
     document = copy.deepcopy(task.document)
-    if any(limb.end.kind != "gripper" for limb in task.robot.limbs):  # grippers may well push one against the other
+    hooked = any(limb.end.kind != "gripper" for limb in task.robot.limbs)
+    if hooked:  # grippers may well push one against the other
         board = {key: value for key, value in document["board"].items() if key not in GENERATORS}
-        document["board"] = board | {"holds": [_pulled_down(hold) for hold in task.world.holds]}
+        document["board"] = board | {"holds": [_spared(hold, task.robot.weight, caution) for hold in task.world.holds]}
     changed = task_from_document(document, "cautious task")
-    offset = max(task.rules.reach_offset, spare * INCH)
-    limits = [f"rules.reach_offset={offset!r} m", f"motor.torque_limit={share * task.robot.motor.torque_limit!r} N m"]
-    cautious_task = change_task(changed, [f"rules.hook_cone={HOOK_CONE} deg", *limits])
+    rules = task.rules
+    cautious_task = change_task(
+        changed,
+        [
+            f"rules.hook_cone={min(rules.hook_cone / DEGREE, caution.hook_cone)!r} deg",
+            f"rules.hook_pull={max(rules.hook_pull, caution.pull * task.robot.weight)!r} N",
+            f"rules.reach_offset={max(rules.reach_offset, caution.spare * INCH)!r} m",
+            f"rules.offset_while_holding={str(hooked or rules.offset_while_holding).lower()}",
+            f"motor.torque_limit={caution.share * task.robot.motor.torque_limit!r} N m",
+        ],
+    )
     assert isinstance(cautious_task, LimbedTask)  # the robot stays what it is
     return cautious_task
 
 
-def _pulled_down(hold: Hold) -> Json:
-    if hold.direction is not None:
-        return hold_document(hold, hold.direction, hold.cone)
-    return hold_document(hold, -90.0 * DEGREE, PULL_CONE * DEGREE)
+def _spared(hold: Hold, weight: float, caution: Caution) -> Json:
+    if hold.direction is None:
+        made = hold_document(hold, -90.0 * DEGREE, caution.hold_cone * DEGREE)
+    else:
+        made = hold_document(hold, hold.direction, hold.cone)
+    return {"strength": f"{caution.strength * weight!r} N"} | made
 
 
 def replanner(planner: str, *, seconds: float, seed: int) -> Replan:

@@ -1,0 +1,173 @@
+"""Ways of free limbs: where one waits while the body moves, where one leaves its hold, and who carries meanwhile."""
+
+from collections.abc import Mapping
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from clamber.execution.climb.approach import HOOK, LEAST_CLEARANCE, Approaches
+from clamber.execution.climb.legs import legs_of
+from clamber.execution.climb.parking import SPARE, park, poses_between
+from clamber.execution.climb.postures import postures
+from clamber.execution.climb.whole_body import LimbTask, WholeBody
+from clamber.robots.library import load_robot
+from clamber.robots.limbed import LimbedRobot
+from clamber.types import Floats
+from clamber.worlds.library import load_board
+
+PEG = 0.006
+RIGHT, LEFT, BOTTOM = 0, 1, 2
+
+
+def libra() -> LimbedRobot:
+    robot = load_robot("libra")
+    assert isinstance(robot, LimbedRobot)
+    return robot
+
+
+def approaches() -> Approaches:
+    robot = libra()
+    return Approaches(robot, legs_of(robot), lambda number: PEG)
+
+
+def places_of(board: str) -> dict[int, Floats]:
+    return {hold.number: np.array((hold.x, hold.y)) for hold in load_board(board).holds}
+
+
+def least_room(robot: LimbedRobot, i: int, q: Floats, pose: Floats, holds: Mapping[int, Floats]) -> float:
+    """Of a limb from all pegs [m]: its links and its hook as points a millimetre apart, in the world."""
+    limb = robot.limbs[i]
+
+    def turned(angle: float, x: float, y: float) -> Floats:
+        c, s = np.cos(angle), np.sin(angle)
+        return np.array((c * x - s * y, s * x + c * y))
+
+    port = pose[:2] + turned(pose[2], limb.port_x, limb.port_y)
+    first = pose[2] + limb.port_angle + q[0]
+    elbow = port + turned(first, limb.l1, 0.0)
+    second = first + q[1]
+    tip = elbow + turned(second + limb.hook_beta, limb.l2_effective, 0.0)
+    hook = tip + turned(second + limb.end.angle, HOOK[1], 0.0)
+    along = np.linspace(0.0, 1.0, 250)[:, None]
+    links = np.concatenate((port + along * (elbow - port), elbow + along * (tip - elbow)))
+    pegs = np.array(list(holds.values()))
+    to_links = np.hypot(*(links[:, None] - pegs[None]).transpose(2, 0, 1)).min() - robot.link_radius
+    return float(min(to_links, np.hypot(*(pegs - hook).T).min() - HOOK[0]) - PEG)
+
+
+def blocked(board: str, seed: int) -> tuple[int, Floats, list[Floats]]:
+    """A limb in whose way a peg comes as the body moves, the body's ports clear of all: limb, joint angles, poses."""
+    robot, holds, rng = libra(), places_of(board), np.random.default_rng(seed)
+    centre = np.mean(list(holds.values()), axis=0)
+    while True:
+        start = np.array((*(centre + rng.uniform(-0.2, 0.2, 2)), rng.uniform(-0.5, 0.5)))
+        poses = poses_between(start, start + rng.uniform(-1.0, 1.0, 3) * (0.05, 0.1, 0.3))
+        i, angles = int(rng.integers(3)), rng.uniform(-1.5, 1.5, 2)
+        body_room = min(float(np.hypot(*(place - pose[:2]))) for place in holds.values() for pose in poses)
+        room = [least_room(robot, i, angles, pose, holds) for pose in poses]
+        if body_room > 0.15 and min(room) < 0.005 < room[0]:
+            return i, angles, poses
+
+
+@pytest.mark.parametrize("board", ["modified-ladder", "circle"])
+@pytest.mark.parametrize("seed", range(6))
+def test_a_parked_limb_meets_no_peg_along_the_way_of_the_body(board: str, seed: int) -> None:
+    ways, holds = approaches(), places_of(board)
+    i, angles, poses = blocked(board, seed)
+    way = park(ways, i, angles, poses, holds)
+    assert way is not None
+    np.testing.assert_allclose(way[0], angles)
+    assert min(least_room(ways.robot, i, way[-1], pose, holds) for pose in poses) > SPARE - 0.001
+    for a, b in pairwise(way):
+        for u in np.linspace(0.0, 1.0, 20):
+            assert least_room(ways.robot, i, a + u * (b - a), poses[0], holds) > LEAST_CLEARANCE - 0.003
+
+
+def test_a_limb_with_room_stays_where_it_is() -> None:
+    ways, pose = approaches(), np.zeros(3)
+    assert park(ways, RIGHT, np.array((0.2, 0.5)), [pose], {1: np.array((-0.5, 0.5))}) is None
+
+
+def on_a_hold(bend: float) -> tuple[Floats, Floats, Floats]:
+    """Tip and grab direction of the right limb with that much bend in its elbow, and the pose of the body."""
+    ways, pose = approaches(), np.array((0.0, 0.0, 0.0))
+    limb, q = ways.robot.limbs[RIGHT], np.radians((-20.0, bend))
+    reach = np.array(
+        (
+            limb.l1 * np.cos(q[0]) + limb.l2_effective * np.cos(q.sum() + limb.hook_beta),
+            limb.l1 * np.sin(q[0]) + limb.l2_effective * np.sin(q.sum() + limb.hook_beta),
+        )
+    )
+    c, s = np.cos(limb.port_angle), np.sin(limb.port_angle)
+    tip = np.array((limb.port_x + c * reach[0] - s * reach[1], limb.port_y + s * reach[0] + c * reach[1]))
+    angle = limb.port_angle + q.sum() + limb.end.angle
+    return tip, np.array((np.cos(angle), np.sin(angle))), pose
+
+
+def test_a_bent_limb_leaves_without_a_move_of_the_body() -> None:
+    tip, grab, pose = on_a_hold(60.0)
+    shift = approaches().leave(RIGHT, 1.0, pose, tip, -0.03 * grab, {})
+    assert shift is not None
+    assert not shift.any()
+
+
+@pytest.mark.parametrize("away", [(0.03, 0.0), (0.0, 0.03), (0.02, 0.02)])
+def test_a_stretched_limb_leaves_where_the_body_has_made_it_bend(away: tuple[float, float]) -> None:
+    ways = approaches()
+    tip, _, pose = on_a_hold(8.0)
+    back = np.array(away)
+    shift = ways.leave(RIGHT, 1.0, pose, tip, back, {})
+    assert shift is not None
+    assert shift.any()
+    moved = pose + np.array((*shift, 0.0))
+    for place in (tip, tip + back):
+        bends = [one.angles[1] for one in postures(ways.robot.limbs[RIGHT], moved, place) if one.inside]
+        assert any(bend > np.radians(20.0) for bend in bends)
+
+
+def test_no_move_of_the_body_is_made_that_the_others_cannot_bear() -> None:
+    tip, grab, pose = on_a_hold(8.0)
+    assert approaches().leave(RIGHT, 1.0, pose, tip, -0.03 * grab, {}, stands=lambda pose: False) is None
+
+
+def on_three_holds() -> WholeBody:
+    """A body whose limbs all carry."""
+    body = WholeBody(libra(), period=0.005)
+    for i in range(3):
+        body.tasks[i] = LimbTask("hold", i + 1, np.zeros(2))
+    body.see(np.full((3, 2), 0.5), np.zeros((3, 2)), 0.0, 0.0)
+    return body
+
+
+def pass_time(body: WholeBody, seconds: float) -> None:
+    for _ in range(round(seconds / body.period)):
+        body.see(body.q.copy(), body.qd.copy(), 0.0, 0.0)
+
+
+def test_a_hand_over_leaves_the_others_clinging() -> None:
+    body = on_three_holds()
+    body.hand_over([LEFT, BOTTOM])
+    pass_time(body, 1.0)
+    assert [task.doing for task in body.tasks] == ["cling", "hold", "hold"]
+
+
+def test_a_hand_over_that_is_started_again_begins_anew() -> None:
+    body = on_three_holds()
+    body.hand_over([LEFT, BOTTOM])
+    pass_time(body, 0.3)
+    body.hand_over([RIGHT, BOTTOM])
+    pass_time(body, 0.3)
+    assert body.handing_over
+    pass_time(body, 0.7)
+    assert [task.doing for task in body.tasks] == ["hold", "cling", "hold"]
+
+
+def test_a_hand_over_to_all_that_hold_ends_the_one_before() -> None:
+    body = on_three_holds()
+    body.hand_over([LEFT, BOTTOM])
+    pass_time(body, 0.3)
+    body.hand_over([RIGHT, LEFT, BOTTOM])
+    assert not body.handing_over
+    pass_time(body, 1.0)
+    assert [task.doing for task in body.tasks] == ["hold", "hold", "hold"]
