@@ -129,6 +129,7 @@ class Climber:
         self.plant.reset(pose, q)
         self.body.pose[:], self.body.settled[:], self.body.aim[:] = pose, pose, pose
         self.body.aim_speed[:] = 0.0
+        self.body.see(q, np.zeros_like(q), pose[2], 0.0)  # a motion may begin before the first tick
         self.balance = None
         self.ticks = self._strained = self._slipped = self._pinned = 0
         self.fall.reset()

@@ -88,7 +88,7 @@ class ClimbReport:
     forced: list[str] = field(default_factory=list)
     """Objections to the plan that were overridden."""
     done: bool = False
-    """Whether every action of the plan, or of those that took its place, was carried out."""
+    """Whether every action of the plan, or of those that took its place, was carried out, and the body came to the goal with it."""
     seconds: float = 0.0
     """Simulated, or on the robot's clock."""
     reason: str = ""
@@ -181,6 +181,12 @@ class Sequencer:
             pose = climber.truth().pose
             report.true_pose = _tuple(pose)
         report.short = _beyond(self.course.task, pose)
+        planned = _beyond(self.course.task, self.course.pose(len(self.course.actions)))
+        if report.done and report.short > planned + ARRIVED:
+            report.done = False
+            report.reason = (
+                f"short: every action was carried out, but the body ends {1e3 * report.short:.0f} mm short of the goal"
+            )
         return report
 
     def _carry_out(self) -> bool:
