@@ -27,6 +27,8 @@ class Arm:
     """Upper ends [rad], shape (n + 1,)."""
     fastest: tuple[PositiveAngularSpeed, ...]
     """Largest joint speeds [rad/s], shape (n + 1,)."""
+    rest: tuple[Angle, ...]
+    """Joint angles while the robot walks, unless a task says otherwise [rad], shape (n + 1,)."""
 
     @property
     def n_joints(self) -> int:
@@ -40,7 +42,7 @@ def check_arm(arm: Arm, document: Document) -> None:
         raise document.problem("arm.links", "must name one link or more")
     if len(arm.masses) != len(arm.links):
         raise document.problem("arm.masses", f"must have {len(arm.links)} entries, one for each link")
-    for key in ("lowest", "highest", "fastest"):
+    for key in ("lowest", "highest", "fastest", "rest"):
         if len(getattr(arm, key)) != arm.n_joints:
             raise document.problem(
                 f"arm.{key}",
@@ -49,3 +51,5 @@ def check_arm(arm: Arm, document: Document) -> None:
     for joint, (low, high) in enumerate(zip(arm.lowest, arm.highest, strict=True)):
         if not low < high:
             raise document.problem(f"arm.lowest.{joint}", "must be less than its entry of highest")
+        if not low <= arm.rest[joint] <= high:
+            raise document.problem(f"arm.rest.{joint}", f"must be in the joint's range, {low:.6g} to {high:.6g} rad")
