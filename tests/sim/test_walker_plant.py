@@ -1,11 +1,13 @@
 """The walker's plant: aims, sensors, truth, and that it keeps its protocol's word."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 from walker_by_hand import LEVEL, POSE, hoshino, legs_with, lengths, let_pass, standing
 
+from clamber.execution.plant import PlantStoppedError
 from clamber.execution.walk.plant import WalkerPlant
 from clamber.sim.limb_flaws import PlantError
 from clamber.sim.walker_flaws import Inclinometers, WalkerFlaws
@@ -168,3 +170,11 @@ def test_angles_of_a_posture_come_back(seed: int) -> None:
     sim._qpos[:] = 0.0
     sim._qpos[3:7] = plate_quaternion(*angles)
     np.testing.assert_allclose(plate_angles(sim._axes()), angles, atol=1e-12)
+
+
+def test_a_simulation_that_loses_its_numbers_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)  # MuJoCo writes its warnings into a file there
+    sim = standing()
+    sim._qvel[0] = math.nan
+    with pytest.raises(PlantStoppedError, match="lost its numbers"):
+        sim.step()
