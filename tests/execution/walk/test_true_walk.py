@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
 from clamber.execution.walk.plant import WalkerPlant, WalkerSensed, WalkerTruth
-from clamber.execution.walk.walk_trace import ROWS, TracedPlant, hull_margins
+from clamber.execution.walk.true_walk import ROWS, TracedPlant, hull_margins
 
 
 class Counted:

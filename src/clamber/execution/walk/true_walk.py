@@ -12,7 +12,7 @@ from ...types import Floats, Ints, Json
 from ..log import Log
 from .plant import WalkerPlant, WalkerSensed, WalkerTruth
 
-TOPIC: Final = "walk"
+TOPIC: Final = "true walk"
 """Channel of its log."""
 ROWS: Final = 4096
 """Room for so many ticks is made at a time."""
@@ -36,7 +36,7 @@ SHAPES: Final = {"time": (), "feet": (2, 3, 3), "forces": (2, 3, 3)}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class WalkTrace:
+class TrueWalk:
     """A walk as it truly was, world frame, a row a tick."""
 
     time: Floats
@@ -133,7 +133,7 @@ class TracedPlant:
         """See `WalkerPlant`."""
         return self._plant.truth()
 
-    def trace(self) -> WalkTrace:
+    def trace(self) -> TrueWalk:
         """All ticks since the reset."""
         parts: dict[str, Floats] = {}
         start = 0
@@ -141,7 +141,7 @@ class TracedPlant:
             values = self._table[: self._rows, start : start + len(titles)]
             start += len(titles)
             parts[field] = values.reshape(self._rows, *SHAPES.get(field, (len(titles),))).copy()
-        return WalkTrace(**parts)
+        return TrueWalk(**parts)
 
     def _keep(self) -> None:
         true = self._plant.truth()
