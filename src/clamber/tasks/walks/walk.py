@@ -109,7 +109,7 @@ class Walk:
         return np.array((start.x, start.y, 0.0, start.heading, math.atan2(nx, nz), -math.asin(ny)))
 
     def start_legs(self) -> Floats:
-        """Lengths of the legs with which all feet reach the ground, about the nominal one, shape (2, 3) [m]; infinite where there is none."""
+        """Lengths of the legs with which all feet reach the ground, about nominal, shape (2, 3) [m]; inf where there is none."""
         legs, start = self.robot.legs, self.start
         if start.plate == "ground":
             return np.full((2, 3), legs.nominal)
