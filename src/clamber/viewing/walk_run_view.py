@@ -15,7 +15,8 @@ from matplotlib.patches import Polygon
 
 from ..execution.log_files import SUFFIXES as LOGS
 from ..execution.log_files import write_log
-from ..execution.walk.true_walk import TOPIC, TrueWalk
+from ..execution.walk.true_walk import TrueWalk
+from ..experiments.walk.run_walk import WalkRun
 from ..robots.walker import WalkerRobot
 from ..types import Floats
 from ..units import DEGREE
@@ -32,13 +33,20 @@ COLOURS: Final = (style.PARTS[0], style.PARTS[1])
 """Of the Delta-frame and the Y-frame."""
 ROOM: Final = 0.45
 """About the plate's way, that is shown [m]."""
+SIDE: Final = 3.1
+"""Width of the side view over its height [-]."""
 GHOSTS: Final = 5
 FRAMES: Final = 300
 """Of an animation, at most."""
 SECONDS: Final = 1.0
 """Of the walk between two frames, at least."""
-LOG_EVERY: Final = 5
-"""Rows of the trace between two of a log."""
+TOPIC: Final = "walk"
+"""Channel of a walk's log."""
+MOVING: Final[dict[str, Callable[["WalkRunView", list[Frame[int]], Path], None]]] = {
+    ".gif": write_gif_frames,
+    ".mp4": write_mp4_frames,
+}
+"""Suffix -> what writes an animation."""
 FEW: Final = 4000
 """Samples of a curve."""
 RELIEF: Final = LinearSegmentedColormap.from_list("relief", ["#8FA3B5", "#F7F8FA", "#C9B28F"])
@@ -108,7 +116,11 @@ class WalkRunView:
     def _set_side(self) -> None:
         trace, axes = self.trace, self.side
         along = trace.pose[:, :2] @ self._along
-        low, high = along.min() - ROOM, along.max() + ROOM
+        bottom = float(np.nanmin(trace.feet[..., 2])) - 0.12
+        top = float(np.fmax(trace.pose[:, 2], trace.tool[:, 2]).max()) + 0.15
+        middle, half = 0.5 * (along.min() + along.max()), 0.5 * (along.max() - along.min()) + ROOM
+        half = max(half, 0.5 * SIDE * (top - bottom))
+        low, high = middle - half, middle + half
         across = np.array((-self._along[1], self._along[0]))
         ways = np.linspace(low, high, 600)
         offsets = trace.pose[0, :2] @ across + np.linspace(-0.3, 0.3, 7)
@@ -117,8 +129,7 @@ class WalkRunView:
         axes.fill_between(ways, np.nanmin(heights, axis=1), np.nanmax(heights, axis=1), color=style.FAINT, lw=0)
         axes.plot(ways, heights[:, 3], color=style.QUIET, lw=1.2)
         axes.set_xlim(low, high)
-        bottom = float(np.nanmin(trace.feet[..., 2])) - 0.12
-        axes.set_ylim(bottom, float(np.fmax(trace.pose[:, 2], trace.tool[:, 2]).max()) + 0.15)
+        axes.set_ylim(bottom, top)
         axes.set_aspect("equal", anchor="W")
         axes.set_ylabel("height [m]")
         axes.set_title("from the side, along its way [m]", fontsize=9, weight="normal")
@@ -150,7 +161,8 @@ class WalkRunView:
             dx, dy = 0.09 * math.cos(ground.uphill), 0.09 * math.sin(ground.uphill)
             arrow = {"arrowstyle": "->", "color": style.QUIET}
             axes.annotate("", (x + dx, y + dy), (x - dx, y - dy), arrowprops=arrow)
-            axes.text(x, y - 0.17, f"up {ground.slope / DEGREE:.0f}°", fontsize=7.5, ha="center", color=style.QUIET)
+            words = f"up {ground.slope / DEGREE:.0f}°"
+            axes.text(x, y - 0.1, words, fontsize=7.5, ha="center", va="top", color=style.QUIET)
         axes.set_aspect("equal")
         axes.set_title("from above [m]", fontsize=9, weight="normal")
         bare(axes)
@@ -238,10 +250,10 @@ def check_walk_suffix(path: Path) -> str:
     Raises:
         SuffixError: If it is no such suffix.
     """
-    return check_suffix(path, (*LOGS, ".gif", ".mp4", *CANVASES))
+    return check_suffix(path, (*LOGS, *MOVING, *CANVASES))
 
 
-def write_walk(robot: WalkerRobot, ground: Ground, trace: TrueWalk, title: str, path: Path) -> None:
+def write_walk(run: WalkRun, path: Path) -> None:
     """Write what happened in a walk as the file's suffix says.
 
     Raises:
@@ -249,10 +261,21 @@ def write_walk(robot: WalkerRobot, ground: Ground, trace: TrueWalk, title: str, 
         MissingExtraError: If .mp4 is asked for without the extra `video`.
         FileError: If the file cannot be written.
     """
-    suffix = check_walk_suffix(path)
-    if suffix in LOGS:
-        write_log(trace.to_log(every=LOG_EVERY), path, TOPIC)
+    if check_walk_suffix(path) in LOGS:
+        write_log(run.trace.to_log(), path, TOPIC)
         return
+    draw_walk(run.walk.robot, run.walk.ground, run.true, run.walk.title or run.walk.name, path)
+
+
+def draw_walk(robot: WalkerRobot, ground: Ground, trace: TrueWalk, title: str, path: Path) -> None:
+    """Draw a walk, still or moving.
+
+    Raises:
+        SuffixError: If the suffix names no format of pictures.
+        MissingExtraError: If .mp4 is asked for without the extra `video`.
+        FileError: If the file cannot be written.
+    """
+    suffix = check_suffix(path, (*MOVING, *CANVASES))
     with styled():
         view = WalkRunView(robot, ground, trace, title)
         if suffix in CANVASES:
@@ -261,5 +284,4 @@ def write_walk(robot: WalkerRobot, ground: Ground, trace: TrueWalk, title: str, 
             return
         count = int(min(FRAMES, max(2.0, trace.time[-1] / SECONDS)))
         rows = np.linspace(0, len(trace.time) - 1, count).astype(int)
-        frames = [Frame(0, int(k), 1.0) for k in rows]
-        (write_gif_frames if suffix == ".gif" else write_mp4_frames)(view, frames, path)
+        MOVING[suffix](view, [Frame(0, int(k), 1.0) for k in rows], path)

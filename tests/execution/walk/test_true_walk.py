@@ -67,19 +67,8 @@ def test_every_tick_is_kept_as_it_truly_was() -> None:
     np.testing.assert_array_equal(trace.tool[:, 1], 4 * ticks)
     np.testing.assert_array_equal(trace.inclines[1:, 0], 0.5 * (ticks[1:] - 1))
     np.testing.assert_array_equal(trace.touching[3], [[1, 1, 1], [0, 0, 0]])
-    log = trace.to_log({"done": True}, every=10)
-    assert log.column("plate x").tolist() == [*ticks[::10], ticks[-1]]
-    assert log.units["alpha"] == "rad"
     plant.reset(np.zeros(6), np.zeros(3), np.zeros((2, 3)), np.zeros(0))
     assert len(plant.trace().time) == 1
-
-
-def test_a_robot_without_an_arm_has_no_tool_in_its_log() -> None:
-    plant = TracedPlant(Counted())
-    plant.reset(np.zeros(6), np.zeros(3), np.zeros((2, 3)), np.zeros(0))
-    trace = plant.trace()
-    trace.tool[:] = math.nan
-    assert not any("tool" in name for name in trace.to_log().columns)
 
 
 @given(seed=st.integers(0, 1000), n=st.integers(3, 6))

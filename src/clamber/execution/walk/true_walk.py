@@ -1,6 +1,5 @@
 """What truly happens in a walk, tick by tick: a plant that writes itself down, and what follows from what was written."""
 
-import json
 import math
 from dataclasses import dataclass
 from itertools import permutations
@@ -8,31 +7,16 @@ from typing import Final
 
 import numpy as np
 
-from ...types import Floats, Ints, Json
-from ..log import Log
+from ...types import Floats, Ints
 from .plant import WalkerPlant, WalkerSensed, WalkerTruth
 
-TOPIC: Final = "true walk"
-"""Channel of its log."""
 ROWS: Final = 4096
 """Room for so many ticks is made at a time."""
-COLUMNS: Final[dict[str, tuple[str, ...]]] = {
-    "time": ("time [s]",),
-    "pose": ("plate x [m]", "plate y [m]", "plate z [m]", "alpha [rad]", "beta [rad]", "gamma [rad]"),
-    "place": ("Y-frame x [m]", "Y-frame y [m]", "theta [rad]"),
-    "feet": tuple(
-        f"{frame} foot {i + 1} {axis} [m]" for frame in ("Delta", "Y") for i in range(3) for axis in ("x", "y", "z")
-    ),
-    "forces": tuple(
-        f"{frame} foot {i + 1} force {axis} [N]" for frame in ("Delta", "Y") for i in range(3) for axis in ("x", "y", "z")
-    ),
-    "centre": ("centre of mass x [m]", "centre of mass y [m]", "centre of mass z [m]"),
-    "tool": ("tool x [m]", "tool y [m]", "tool z [m]"),
-    "inclines": ("incline x sensed [rad]", "incline y sensed [rad]"),
+SHAPES: Final[dict[str, tuple[int, ...]]] = {
+    "time": (), "pose": (6,), "place": (3,), "feet": (2, 3, 3), "forces": (2, 3, 3), "centre": (3,), "tool": (3,), "inclines": (2,),
 }  # fmt: skip
-"""Field of a trace -> titles of its columns in a log."""
-SHAPES: Final = {"time": (), "feet": (2, 3, 3), "forces": (2, 3, 3)}
-"""Of a sample of a field, where it is not its number of columns."""
+"""Of a row of each field of a walk, in the order in which a tick is kept."""
+WIDTH: Final = sum(map(math.prod, SHAPES.values()))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -74,20 +58,6 @@ class TrueWalk:
         rows = len(self.time)
         return hull_margins(self.feet.reshape(rows, 6, 3), self.touching.reshape(rows, 6), self.centre)
 
-    def to_log(self, notes: Json | None = None, every: int = 1) -> Log:
-        """Columns by name; every so many rows, and the last one."""
-        picked = np.unique(np.append(np.arange(0, len(self.time), every), len(self.time) - 1))
-        columns: dict[str, Floats] = {}
-        units: dict[str, str] = {}
-        for field, titles in COLUMNS.items():
-            values = getattr(self, field)[picked].reshape(len(picked), -1)
-            if np.isnan(values).any():
-                continue  # no arm, no tool
-            for k, title in enumerate(titles):
-                name, _, unit = title.rpartition(" [")
-                columns[name], units[name] = values[:, k], unit[:-1]
-        return Log(columns, units, {} if notes is None else {"report": json.dumps(notes)}, "walk")
-
 
 class TracedPlant:
     """A walker's plant that keeps what truly happens; a `WalkerPlant` itself.
@@ -98,7 +68,7 @@ class TracedPlant:
 
     def __init__(self, plant: WalkerPlant) -> None:
         self._plant, self.period = plant, plant.period
-        self._table = np.empty((ROWS, sum(map(len, COLUMNS.values()))))
+        self._table = np.empty((ROWS, WIDTH))
         self._rows = self._ticks = 0
         self._inclines = np.zeros(2)
 
@@ -137,10 +107,10 @@ class TracedPlant:
         """All ticks since the reset."""
         parts: dict[str, Floats] = {}
         start = 0
-        for field, titles in COLUMNS.items():
-            values = self._table[: self._rows, start : start + len(titles)]
-            start += len(titles)
-            parts[field] = values.reshape(self._rows, *SHAPES.get(field, (len(titles),))).copy()
+        for field, shape in SHAPES.items():
+            end = start + math.prod(shape)
+            parts[field] = self._table[: self._rows, start:end].reshape(self._rows, *shape).copy()
+            start = end
         return TrueWalk(**parts)
 
     def _keep(self) -> None:
