@@ -78,10 +78,11 @@ def run_to(
     judge = Judge(robot, stance, speeds, settings.period)
     q, worst, still = START.copy(), -np.inf, np.zeros(3)
     for k in range(steps):
-        after = made.step(q, target, still, weights).q
+        step = made.step(q, target, still, weights)
+        assert step.solved
         if k % 5 == 0 or k < 20:
-            worst = max(worst, judge.excess(q, after))
-        q = after
+            worst = max(worst, judge.excess(q, step.q))
+        q = step.q
     return worst, made.place(q)
 
 

@@ -17,6 +17,9 @@ from .workspace import make_workspace, see_bounds, see_tool
 
 SOLVED: Final = 1
 """DAQP's word for an optimum."""
+CONTRADICTED: Final = -1
+"""DAQP's word for rows that contradict each other."""
+ATTEMPTS: Final = 4
 TIGHT: Final = 1e-7
 """A multiplier of the programme above this marks a limit that holds the motion back [-]."""
 
@@ -35,6 +38,8 @@ class Step:
     """Of the programme's motion that was carried out [-]; less than 1 where a curved limit was nearer than its tangent."""
     tight: tuple[int, ...]
     """Limits that held the motion back, ranges and speeds, as places in `limit_names`."""
+    solved: bool = True
+    """Whether the programme was solved; if not, the robot rests for this step."""
 
 
 class Cooperator:
@@ -149,23 +154,28 @@ class Cooperator:
             self._law, self._speeds, self._velocity, w, p.f, p.rows, p.lower, p.upper,
             p.which,
         )  # fmt: skip
-        x, multipliers = self._solve(count)
+        x, multipliers, solved = self._solve(count)
         place = w.place.copy()
         share = finish(
             self.chain, self._record, q, x, multipliers, count, self._speeds, p.lower, p.upper, p.which, s.period,
             self._tight, w,
         )  # fmt: skip
-        return Step(w.after.copy(), place, measure, share, tuple(np.flatnonzero(self._tight > TIGHT).tolist()))
+        tight = tuple(np.flatnonzero(self._tight > TIGHT).tolist())
+        return Step(w.after.copy(), place, measure, share, tight, solved)
 
-    def _solve(self, count: int) -> tuple[Floats, Floats]:
+    def _solve(self, count: int) -> tuple[Floats, Floats, bool]:
+        """Solution, multipliers, and whether there is one; else rest, which every limit allows."""
         import daqp
 
         p, m = self._programme, self._m
-        for _ in range(2):
+        for _ in range(ATTEMPTS):
             x, _, flag, info = daqp.solve(
                 p.weights, p.f, p.rows[:count], p.upper[: m + count], p.lower[: m + count], p.sense[: m + count].copy()
             )
             if flag == SOLVED:
-                return x, info["lam"]
-            let_rest(count, m, p.lower, p.upper)
-        raise AssertionError(f"rest satisfies every row, yet DAQP answers {flag}")
+                return x, info["lam"], True
+            if flag == CONTRADICTED:
+                let_rest(count, m, p.lower, p.upper)
+            else:  # the method cycles where a tool's motion that cannot be had outweighs the rest by too many digits
+                p.rows[:3, m:] *= 10.0
+        return np.zeros(m + 3), np.zeros(m + count), False

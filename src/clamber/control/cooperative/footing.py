@@ -14,6 +14,7 @@ from .planted import heading_of, turn_of
 Support = Literal["delta", "y", "both"]
 SUPPORTS: Final[tuple[Support, ...]] = ("delta", "y", "both")
 """Which feet stand; the place of each is its code in the record."""
+SUPPORT_WORDS: Final[dict[Support, str]] = {"delta": "Delta-frame", "y": "Y-frame", "both": "both frames"}
 MOST_EDGES: Final = 6
 ACTUATOR, GUARD, LEG, BALANCE = 0, 3, 4, 10
 """First row of each kind of bound: three actuators, the singularity, six legs (Delta-frame first), the support's edges."""

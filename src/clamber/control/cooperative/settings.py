@@ -49,7 +49,7 @@ class Cooperation:
     """By how much the programme stays inside the limits of the plate's pose, which are curved [m]."""
     balance: float = 0.0
     """Least distance of the centre of mass from the edges of the support [m]."""
-    least_damping: float = 1e-4
+    least_damping: float = 1e-3
     """lambda of the programme far from singular [-]."""
     largest_damping: float = 0.1
     """lambda where the chain is singular [-]."""
