@@ -72,7 +72,7 @@ def follow(
         print_json(told)
     else:
         table = plain_table("", "", right=("",))
-        name, margin, time = run.closest_range()
+        name, margin, time, unit = run.closest_range()
         table.add_row("result", run.reason)
         table.add_row("stands on", f"the {SUPPORT_WORDS[run.footing.support]}")
         table.add_row("took", f"{told['seconds']:.1f} s, {1e3 * tool_path.length:.0f} mm of path")
@@ -82,12 +82,7 @@ def follow(
         table.add_row(
             "manipulability", f"{told['mean_manipulability']:.4f} mean, {told['least_manipulability']:.4f} least"
         )
-        unit = "rad" if name.startswith("joint") else "mm"
-        table.add_row(
-            "closest limit", f"{name}, {margin if unit == 'rad' else 1e3 * margin:.3g} {unit} left at {time:.1f} s"
-        )
-        for limit, share in list(run.held.items())[:5]:
-            table.add_row("held back by", f"{limit}, {100 * share:.1f} % of the time")
+        table.add_row("closest limit", f"{name}, {margin:.3g} {unit} left at {time:.1f} s")
         if run.unreachable:
             table.add_row("out of reach", f"{len(run.unreachable)} of the points looked at beforehand")
         stdout().print(table)

@@ -12,8 +12,11 @@ from clamber.control.cooperative.footing import N_ROWS, Footing, FootingError
 from clamber.control.cooperative.limits import chain_of
 from clamber.control.cooperative.planted import follow_feet, heading_of, stand
 from clamber.control.cooperative.plate_bounds import bound_gradients, bound_values
+from clamber.control.cooperative.singular_guard import guard_room
 from clamber.control.cooperative.workspace import Workspace, make_workspace, see_bounds, see_measure, see_tool
 from clamber.robots import WalkerRobot
+from clamber.robots.walker.geometry import TwoFrames
+from clamber.robots.walker.two_frames import singular_measure
 from clamber.types import Floats
 
 SEEDS = range(6)
@@ -63,7 +66,8 @@ def plain_values(stance: Footing, robot: WalkerRobot, q: Floats) -> Floats:
     out = np.full(N_ROWS, np.nan)
     arms = attach[1] @ inner.T + offset - attach[0]
     out[:3] = np.linalg.norm(arms, axis=1)
-    out[3] = robot.mechanism.guard * robot.mechanism.singular_distance(twist) - np.linalg.norm(offset)
+    nearness = TwoFrames.of(robot.mechanism).nearness((*offset, twist))
+    out[3] = robot.mechanism.guard**2 - nearness**2
     feet = robot.feet()
     feet[1] = feet[1] @ inner.T + offset
     for frame in range(2):
@@ -151,12 +155,27 @@ def test_a_free_plates_gradients_are_those_of_central_differences(seed: int) -> 
     def values(p: Floats) -> Floats:
         v = seen(stance, robot, p)
         out = np.empty(N_ROWS)
-        bound_values(record, p, v.turn, v.s, v.y_place, out)
+        bound_values(record, p, v.turn, v.s, v.y_place, v.slope, out)
         return out
 
     out = np.empty((N_ROWS, q.size))
-    bound_gradients(record, q, w.turn, w.turn_1, w.s, w.ds, w.y_place, w.moved, out)
+    bound_gradients(record, q, w.turn, w.turn_1, w.s, w.ds, w.y_place, w.moved, w.slope, w.lengths, w.by_place, out)
     np.testing.assert_allclose(out[:13], differences(values, q).T[:13], atol=1e-7, rtol=0)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_guard_of_any_mechanism_has_its_slope(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    delta, y, pose = rng.normal(size=(3, 2)), rng.normal(size=(3, 2)), rng.normal(size=3)
+    slope = np.empty(3)
+
+    def room(p: Floats) -> float:
+        return float(guard_room(delta, y, p, 0.9, np.empty(3)))
+
+    value = guard_room(delta, y, pose, 0.9, slope)
+    ratio = singular_measure(delta, y, *pose) / singular_measure(delta, y, 0.0, 0.0, pose[2])
+    assert value == pytest.approx(ratio - 1.0 + 0.81)
+    np.testing.assert_allclose(slope, differences(room, pose), rtol=1e-6, atol=1e-7)
 
 
 @pytest.mark.parametrize("seed", SEEDS)

@@ -21,10 +21,11 @@ ACTUATOR, GUARD, LEG, BALANCE = 0, 3, 4, 10
 N_ROWS: Final = BALANCE + MOST_EDGES
 ROW_NAMES: Final = (
     *(f"length of actuator {i}" for i in range(3)),
-    "distance from the singularity",
+    "room to the singularity's guard",
     *(f"length of leg {i} of the {frame}-frame" for frame in ("Delta", "Y") for i in range(3)),
     *(f"balance over edge {i} of the support" for i in range(MOST_EDGES)),
 )
+ROW_UNITS: Final = tuple("1" if row == GUARD else "m" for row in range(N_ROWS))
 
 FOOTING: Final = np.dtype(
     [
@@ -38,9 +39,6 @@ FOOTING: Final = np.dtype(
         ("offset", "f8", (2,)),  # of the Y-frame in the Delta-frame while the mechanism does not move [m]
         ("twist", "f8"),  # likewise its angle [rad]
         ("guard", "f8"),
-        ("radius_delta", "f8"),
-        ("radius_y", "f8"),
-        ("between", "f8"),  # direction of the Y-frame's first attachment less that of the Delta-frame's [rad]
         ("mass_frames", "f8"),
         ("share_y", "f8"),
         ("mass_height", "f8"),
@@ -117,9 +115,7 @@ class Footing:
         root["anchor"] = feet[frame].mean(axis=0)
         root["heading"] = heading_of(self.pose[3:6]) + (self.twist if frame == 1 else 0.0)
         root["offset"], root["twist"] = self.offset, self.twist
-        mechanism = robot.mechanism
-        root["guard"], root["between"] = mechanism.guard, mechanism.offset
-        root["radius_delta"], root["radius_y"] = mechanism.radius_delta, mechanism.radius_y
+        root["guard"] = robot.mechanism.guard
         root["mass_frames"], root["mass_height"] = robot.mass.frames, robot.mass.height
         root["share_y"] = 1.0 - robot.mass.share_delta
         moment = arm_moment(robot, self.payload)

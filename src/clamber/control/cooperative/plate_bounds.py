@@ -3,8 +3,10 @@
 import math
 
 from ...compiled import inlined, kernel
+from ...robots.walker.two_frames import actuator_lengths, length_jacobian
 from .footing import ACTUATOR, BALANCE, GUARD, LEG
 from .planted import ALPHA, BETA, GAMMA, Z, heading_change
+from .singular_guard import guard_room
 
 DELTA_STANDS, Y_STANDS, BOTH_STAND = 0, 1, 2
 
@@ -26,7 +28,7 @@ def y_in_delta(footing, q, turn, place):
 
 
 @kernel
-def bound_values(footing, q, turn, s, place, values):
+def bound_values(footing, q, turn, s, place, slope, values):
     """Every bounded quantity at a configuration.
 
     Args:
@@ -35,19 +37,14 @@ def bound_values(footing, q, turn, s, place, values):
         turn: R from `plate_turn`.
         s: First moment of the arm, plate frame [kg m], shape (3,).
         place: Scratch, left with the Y-frame's offset and twist in the Delta-frame, shape (3,).
-        values: Filled, shape (N_ROWS,): lengths [m]; guarded distance less the origins' [m]; distances inside the support's edges [m].
+        slope: Scratch, shape (3,).
+        values: Filled, shape (N_ROWS,): lengths [m]; room to the singularity's guard [-]; distances inside the support's edges [m].
     """
     y_in_delta(footing, q, turn, place)
     px, py = place[0], place[1]
     c, sine = math.cos(place[2]), math.sin(place[2])
-    for i in range(3):
-        bx, by = footing.attachments[1, i, 0], footing.attachments[1, i, 1]
-        ex = px + c * bx - sine * by - footing.attachments[0, i, 0]
-        ey = py + sine * bx + c * by - footing.attachments[0, i, 1]
-        values[ACTUATOR + i] = math.sqrt(ex * ex + ey * ey)
-    a, b = footing.radius_delta, footing.radius_y
-    rho = math.sqrt(max(0.0, a * a + b * b - 2.0 * a * b * math.cos(footing.between + place[2])))
-    values[GUARD] = footing.guard * rho - math.sqrt(px * px + py * py)
+    actuator_lengths(footing.attachments[0], footing.attachments[1], px, py, place[2], values)
+    values[GUARD] = guard_room(footing.attachments[0], footing.attachments[1], place, footing.guard, slope)
     cb, sb, cg, sg = math.cos(q[BETA]), math.sin(q[BETA]), math.cos(q[GAMMA]), math.sin(q[GAMMA])
     for frame in range(2):
         for i in range(3):
@@ -66,7 +63,7 @@ def bound_values(footing, q, turn, s, place, values):
 
 
 @kernel
-def bound_gradients(footing, q, turn, turn_1, s, ds, place, moved, gradients):
+def bound_gradients(footing, q, turn, turn_1, s, ds, place, moved, slope, lengths, by_place, gradients):
     """Derivatives of `bound_values` by the freedoms of a plate that moves freely (`along_feet` makes those of a planted one).
 
     Args:
@@ -75,6 +72,7 @@ def bound_gradients(footing, q, turn, turn_1, s, ds, place, moved, gradients):
         ds: Derivatives of s by the arm's joints, shape (joints, 3).
         place: As `bound_values` left it, shape (3,).
         moved: Scratch for the derivatives of `place`, shape (3, 6).
+        slope, lengths, by_place: Scratch, shapes (3,), (3,), (3, 3).
         gradients: Filled, shape (N_ROWS, m).
     """
     m = q.size
@@ -92,21 +90,14 @@ def bound_gradients(footing, q, turn, turn_1, s, ds, place, moved, gradients):
         moved[2, GAMMA] = sb / (1.0 + cb * cg)
     px, py = place[0], place[1]
     c, sine = math.cos(place[2]), math.sin(place[2])
-    for i in range(3):
-        bx, by = footing.attachments[1, i, 0], footing.attachments[1, i, 1]
-        tx, ty = c * bx - sine * by, sine * bx + c * by
-        ex, ey = px + tx - footing.attachments[0, i, 0], py + ty - footing.attachments[0, i, 1]
-        length = math.sqrt(ex * ex + ey * ey)
-        for k in range(6):
-            along = ex * (moved[0, k] - ty * moved[2, k]) + ey * (moved[1, k] + tx * moved[2, k])
-            gradients[ACTUATOR + i, k] = along / length
-    a, b = footing.radius_delta, footing.radius_y
-    rho = math.sqrt(max(1e-30, a * a + b * b - 2.0 * a * b * math.cos(footing.between + place[2])))
-    slope = a * b * math.sin(footing.between + place[2]) / rho
-    apart = math.sqrt(px * px + py * py)
+    delta, y_points = footing.attachments[0], footing.attachments[1]
+    length_jacobian(delta, y_points, px, py, place[2], lengths, by_place)
+    guard_room(delta, y_points, place, footing.guard, slope)
     for k in range(6):
-        away = (px * moved[0, k] + py * moved[1, k]) / apart if apart > 0.0 else 0.0
-        gradients[GUARD, k] = footing.guard * slope * moved[2, k] - away
+        for i in range(3):
+            for j in range(3):
+                gradients[ACTUATOR + i, k] += by_place[i, j] * moved[j, k]
+            gradients[GUARD, k] += slope[i] * moved[i, k]
     for frame in range(2):
         for i in range(3):
             row = LEG + 3 * frame + i

@@ -63,6 +63,9 @@ class Workspace(NamedTuple):
     follow_1: Floats
     y_place: Floats
     moved: Floats
+    slope: Floats
+    lengths: Floats
+    by_place: Floats
     values: Floats
     """Of `plate_bounds`, shape (N_ROWS,)."""
     gradients: Floats
@@ -102,6 +105,9 @@ def make_workspace(n_joints: int) -> Workspace:
         follow_1=np.zeros((3, 3, 3)),
         y_place=np.zeros(3),
         moved=np.zeros((3, POSE)),
+        slope=np.zeros(3),
+        lengths=np.zeros(3),
+        by_place=np.zeros((3, 3)),
         values=np.zeros(N_ROWS),
         gradients=np.zeros((N_ROWS, m)),
         ahead=np.zeros(N_ROWS),
@@ -140,8 +146,10 @@ def see_bounds(chain, footing, q, w):
         w: A `Workspace`.
     """
     arm_vector(chain.moment_links, footing.moment_out, footing.moment_up, q[POSE:], w.s, w.ds, w.dds)
-    bound_values(footing, q, w.turn, w.s, w.y_place, w.values)
-    bound_gradients(footing, q, w.turn, w.turn_1, w.s, w.ds, w.y_place, w.moved, w.gradients)
+    bound_values(footing, q, w.turn, w.s, w.y_place, w.slope, w.values)
+    bound_gradients(
+        footing, q, w.turn, w.turn_1, w.s, w.ds, w.y_place, w.moved, w.slope, w.lengths, w.by_place, w.gradients
+    )
     if footing.support != Y_STANDS:
         follow_feet(q, footing.anchor, w.follow, w.follow_1)
         curve_along_feet(w.jacobian, w.follow, w.follow_1, w.curvature)
@@ -215,7 +223,7 @@ def share_within(chain, footing, q, rates, time, w):
 def _holds(chain, footing, time, w):
     plate_turn(w.after[3:POSE], w.turn, w.turn_1, w.turn_2)
     arm_vector(chain.moment_links, footing.moment_out, footing.moment_up, w.after[POSE:], w.s, w.ds, w.dds)
-    bound_values(footing, w.after, w.turn, w.s, w.y_place, w.ahead)
+    bound_values(footing, w.after, w.turn, w.s, w.y_place, w.slope, w.ahead)
     for row in range(BALANCE + footing.n_edges):
         if not chain.row_lowest[row] <= w.ahead[row] <= chain.row_highest[row]:
             return False

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...control.cooperative.closest import Reach, ReachSearch
 from ...control.cooperative.cooperator import Cooperator
-from ...control.cooperative.footing import N_ROWS, Footing
+from ...control.cooperative.footing import N_ROWS, ROW_UNITS, Footing
 from ...control.cooperative.freedoms import SUPPORT, Freedoms, freedoms_of, weights_of
 from ...control.cooperative.limits import freedom_names
 from ...control.cooperative.settings import Cooperation, CooperationError, own_speeds
@@ -112,8 +112,8 @@ class FollowRun:
             return f"its end is {self.end.reason}"
         return f"the tool ended {1e3 * self.off_end:.1f} mm off, though the end can be reached: the tool was stuck on the way"
 
-    def closest_range(self) -> tuple[str, float, float]:
-        """The limit that the run came nearest to, relative to its range: name, margin in its own unit, and time [s].
+    def closest_range(self) -> tuple[str, float, float, str]:
+        """The limit that the run came nearest to, relative to its range: name, margin, time [s], and the margin's unit.
 
         Limits on one side count relative to their largest margin in the run.
         """
@@ -127,11 +127,13 @@ class FollowRun:
         shares = margins[:, columns] / spans[columns]
         row, place = np.unravel_index(int(np.argmin(shares)), shares.shape)
         column = int(columns[place])
-        return self.names[column], float(margins[row, column]), float(self.time[row])
+        joints = len(low) - N_ROWS
+        unit = "rad" if column < joints else ROW_UNITS[column - joints]
+        return self.names[column], float(margins[row, column]), float(self.time[row]), unit
 
     def to_json(self) -> Json:
         """Plain data, as `clamber follow --json` prints it."""
-        name, margin, time = self.closest_range()
+        name, margin, time, unit = self.closest_range()
         return {
             "robot": self.robot.name,
             "path": self.path.label,
@@ -145,7 +147,7 @@ class FollowRun:
             "end_error_m": self.off_end,
             "mean_manipulability": float(self.measure[self.on_path > 0.0].mean()),
             "least_manipulability": float(self.measure[self.on_path > 0.0].min()),
-            "closest_limit": {"name": name, "margin": margin, "time": time},
+            "closest_limit": {"name": name, "margin": margin, "unit": unit, "time": time},
             "held_by": self.held,
             "unreachable_points": [
                 {"point": k, "distance_m": reach.distance, "reason": reach.reason} for k, reach in self.unreachable
@@ -164,10 +166,10 @@ class FollowRun:
             columns[f"tool {axis}"], columns[f"wanted {axis}"] = self.places[:, k], self.wanted[:, k]
             units[f"tool {axis}"] = units[f"wanted {axis}"] = "m"
         columns["on path"], columns["manipulability"] = self.on_path, self.measure
-        for k in range(len(self.limits[0]) - N_ROWS, len(self.limits[0])):
+        for k, unit in enumerate(ROW_UNITS, start=len(self.limits[0]) - N_ROWS):
             if (np.abs(self.values[:, k]) < 1e8).all():
                 columns[self.names[k]] = self.values[:, k]
-                units[self.names[k]] = "m"
+                units[self.names[k]] = unit
         notes = {"robot": self.robot.name, "path": self.path.label, "dof": str(self.options.dof), "end": self.reason}
         return Log(columns, units, notes, self.path.label)
 
