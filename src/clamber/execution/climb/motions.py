@@ -90,8 +90,14 @@ SLACK: Final = 0.004
 """Beyond its doubt, how far a seated hook may be from where it should be: play and backlash [m]."""
 
 
-def move_body(climber: Climber, pose: Floats) -> None:
-    """Bring the body to a pose (x, y, theta) along a straight smooth way; free limbs first go to where they meet no hold on it."""
+def move_body(climber: Climber, pose: Floats, *, drawn: tuple[int, Floats, Floats] | None = None) -> None:
+    """Bring the body to a pose (x, y, theta) along a straight smooth way; free limbs first go to where they meet no hold on it.
+
+    Args:
+        climber: The robot.
+        pose: Shape (3,).
+        drawn: A limb whose tip is drawn along in step, where from, and how far [m].
+    """
     clear_the_way(climber, pose)
     body, period = climber.body, climber.plant.period
     speed = SLOW if any(task.doing == "cling" for task in body.tasks) else BODY_SPEED
@@ -107,8 +113,13 @@ def move_body(climber: Climber, pose: Floats) -> None:
         done, rate = eased(k / count * (length + rise), length, rise)
         body.aim[:] = start + done / length * change
         body.aim_speed[:] = rate / length * change
+        if drawn is not None:
+            i, start_tip, way = drawn
+            body.tasks[i].place, body.tasks[i].speed = start_tip + done / length * way, rate / length * way
         climber.tick()
     body.aim_speed[:] = 0.0
+    if drawn is not None:
+        body.tasks[drawn[0]].speed = np.zeros(2)
 
 
 def eased(t: float, length: float, rise: float) -> tuple[float, float]:
@@ -199,13 +210,11 @@ def release(climber: Climber, i: int) -> None:
     climber.carry_with_all(but=i)
     body, task = climber.body, climber.body.tasks[i]
     away = stand_off_of(climber, i, climber.map.error(task.hold)) + AWAY
-    _make_room_to_leave(climber, i, away)
-    start, g = body.tip(i), body.grab_direction(i)
+    start, g = _draw_back(climber, i, away)
 
     def clear() -> bool:
         return float((start - body.tip(i)) @ g) > away - AWAY
 
-    move_tip(climber, i, start - away * g, 0.35)
     for _ in range(round(LEAVING / climber.plant.period)):
         if clear():
             break
@@ -249,16 +258,30 @@ def _lean_on_the_others(climber: Climber, i: int) -> None:
         move_body(climber, body.aim + np.array((*SHIFTS[best], 0.0)))
 
 
-def _make_room_to_leave(climber: Climber, i: int, away: float) -> None:
-    """Move the body to where a limb that reaches no farther can draw its hook back."""
-    if climber.hangs:
-        return
+def _draw_back(climber: Climber, i: int, away: float) -> tuple[Floats, Floats]:
+    """Draw a hook straight back off its hold, the body moved to where the limb can if it reaches no farther.
+
+    The body moves at the same time where the elbow stays well bent on all of the way, before it otherwise.
+
+    Returns:
+        The tip's place and the grab direction from which it was drawn back.
+    """
     body = climber.body
-    climber.plant.pause()
-    side, back = float(np.sign(body.q[i, 1] - body.play[i, 1])), -away * body.grab_direction(i)
-    shift = climber.approaches.leave(i, side, body.settled, body.tip(i), back, climber.holds, stands=_stands(climber))
-    if shift is not None and shift.any():
+    shift = np.zeros(2)
+    if not climber.hangs:
+        climber.plant.pause()
+        side, start, back = float(np.sign(body.q[i, 1] - body.play[i, 1])), body.tip(i), -away * body.grab_direction(i)
+        found = climber.approaches.leave(i, side, body.settled, start, back, climber.holds, stands=_stands(climber))
+        shift = shift if found is None else found
+        if shift.any() and climber.approaches.bends(i, side, body.settled, start, back, shift):
+            body.tasks[i].doing = "tip"
+            move_body(climber, body.aim + np.array((*shift, 0.0)), drawn=(i, start, back))
+            return start, -back / away
+    if shift.any():
         move_body(climber, body.aim + np.array((*shift, 0.0)))
+    start, g = body.tip(i), body.grab_direction(i)
+    move_tip(climber, i, start - away * g, 0.35)
+    return start, g
 
 
 def _stands(climber: Climber) -> Callable[[Floats], bool]:
