@@ -86,6 +86,8 @@ WEAKER: Final = 3.0
 """By how much the worst of the holding limbs may be worse off where the body makes room for a grab [N]."""
 MOST_SHIFTS: Final = 2
 """That often the body makes room for one way: its limbs are elsewhere after the first [-]."""
+ASTRAY: Final = 0.05
+"""A body may be as far from where a plan has it when a limb takes a hold, if the others hold no worse there [m], [rad]."""
 SLACK: Final = 0.004
 """Beyond its doubt, how far a seated hook may be from where it should be: play and backlash [m]."""
 
@@ -353,6 +355,15 @@ def _come_near(climber: Climber, i: int, hold: Floats, elbow: int, wished: float
             return found
         move_body(climber, body.aim + np.array((*found.shift, 0.0)))
     return None
+
+
+def may_stay(climber: Climber, i: int, pose: Floats) -> bool:
+    """Whether limb `i` may take a hold from where the body is, near another pose: the limbs that then carry hold no worse here."""
+    body = climber.body
+    if climber.hangs or float(np.abs(pose - body.aim).max()) > ASTRAY:
+        return False
+    others = [j for j, task in enumerate(body.tasks) if j != i and task.hold]
+    return body.stands(body.aim, others) >= min(0.0, body.stands(pose, others))
 
 
 def _stays(pose: Floats) -> bool:

@@ -18,7 +18,7 @@ from .ends import grab, release
 from .hang import Hang
 from .here import task_from_here
 from .let_go import let_go
-from .motions import clear_the_way, move_body
+from .motions import clear_the_way, may_stay, move_body
 from .recover import recover
 
 Outcome: TypeAlias = Literal["ok", "stalled", "missed", "fell", "interrupted", "stopped", "not supported"]
@@ -310,7 +310,7 @@ class Sequencer:
         result = Grabbed(False, 0, 0.0, 0.0)
         sides = [elbow, -elbow] if self.course.serves(i, step, -elbow) else [elbow]
         for elbow in sides:
-            for x, y in (*ELSEWHERE, *FARTHER):
+            for x, y in (*self._strayed(i, step, side), *ELSEWHERE, *FARTHER):
                 if result.tries and (x, y) in FARTHER:
                     break
                 place = self._pose(step) + np.array((side * x, y, 0.0))
@@ -338,6 +338,14 @@ class Sequencer:
             tries,
             f"the hook stopped {1e3 * result.along:+.0f}, {1e3 * result.across:+.0f} mm from the hold",
         )
+
+    def _strayed(self, i: int, step: int, side: float) -> list[tuple[float, float]]:
+        """How far the body is from the plan's pose, x towards a side [m], if a limb may take its hold from there; else nothing."""
+        pose = self._pose(step)
+        off = self.climber.body.aim - pose
+        if float(np.abs(off).max()) <= SHIFTED or not may_stay(self.climber, i, pose):
+            return []
+        return [(side * float(off[0]), float(off[1]))]
 
     def _keep_in_map(self, i: int, number: int) -> None:
         """What a hook felt corrects the map, but never by more than the map can be wrong: a bias would add up from grab to grab."""
