@@ -293,7 +293,7 @@ def _stands(climber: Climber) -> Callable[[Floats], bool]:
     return lambda pose: body.stands(pose) >= least
 
 
-def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
+def grab(climber: Climber, i: int, number: int, *, elbow: int = 0, home: Floats | None = None) -> Grabbed:
     """Bring a limb to a hold and hook on: off the old one, round to the new, push until it stops, tug; try again beside where it misses.
 
     Args:
@@ -301,6 +301,7 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
         i: Index of the limb.
         number: Of the hold.
         elbow: Side of the elbow to hold with: +1, -1, or 0 for the hook most on top.
+        home: Pose to which the body goes where there is no way from where it is, before it makes room; None: it is there.
 
     Raises:
         FallenError: If the robot falls.
@@ -315,7 +316,7 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
     doubt = climber.doubt(number, i)
     hold = climber.holds[number].copy()
     wished, near, room = stand_off_of(climber, i, doubt), NEAR + doubt, SLACK + doubt
-    found = _come_near(climber, i, hold, elbow, wished, near)
+    found = _come_near(climber, i, hold, elbow, home, wished, near)
     if found is None:
         return Grabbed(False, 0, 0.0, 0.0)
     follow(climber, i, found.way)
@@ -342,15 +343,26 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
     return Grabbed(False, len(ASIDE), along, across)
 
 
-def _come_near(climber: Climber, i: int, hold: Floats, elbow: int, wished: float, near: float) -> Approach | None:
+def _come_near(
+    climber: Climber, i: int, hold: Floats, elbow: int, home: Floats | None, wished: float, near: float
+) -> Approach | None:
     """Move the body to where there is a way for a limb, and find the way from there; None where there is none."""
     body = climber.body
-    for left in reversed(range(MOST_SHIFTS + 1)):
+
+    def way(stands: Callable[[Floats], bool]) -> Approach | None:
         climber.plant.pause()
-        found = climber.approaches.find(
+        return climber.approaches.find(
             i, body.q[i] - body.play[i], body.settled, hold, climber.holds, elbow=elbow, stand_off=wished, near=near,
-            stands=_stands(climber) if left and not climber.hangs else _stays,
+            stands=stands,
         )  # fmt: skip
+
+    if home is not None:
+        found = way(_stays)
+        if found is not None:
+            return found
+        move_body(climber, home)
+    for left in reversed(range(MOST_SHIFTS + 1)):
+        found = way(_stands(climber) if left and not climber.hangs else _stays)
         if found is None or not found.shift.any():
             return found
         move_body(climber, body.aim + np.array((*found.shift, 0.0)))

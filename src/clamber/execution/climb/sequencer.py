@@ -310,16 +310,20 @@ class Sequencer:
         result = Grabbed(False, 0, 0.0, 0.0)
         sides = [elbow, -elbow] if self.course.serves(i, step, -elbow) else [elbow]
         for elbow in sides:
-            for x, y in (*self._strayed(i, step, side), *ELSEWHERE, *FARTHER):
+            for x, y in (*ELSEWHERE, *FARTHER):
                 if result.tries and (x, y) in FARTHER:
                     break
                 place = self._pose(step) + np.array((side * x, y, 0.0))
                 off = float(np.abs(place - self.climber.body.aim).max())
+                home = None
                 if not self.climber.hangs and off > SHIFTED:  # also by the approach to the hold before
                     if (x or y) and self.climber.body.stands(place) < WORST:
                         continue
-                    move_body(self.climber, place)
-                result = grab(self.climber, i, action.hold, elbow=elbow)
+                    if not (x or y) and may_stay(self.climber, i, place):
+                        home = place
+                    else:
+                        move_body(self.climber, place)
+                result = grab(self.climber, i, action.hold, elbow=elbow, home=home)
                 tries += max(1, result.tries)
                 if result.held:
                     self._keep_in_map(i, action.hold)
@@ -338,14 +342,6 @@ class Sequencer:
             tries,
             f"the hook stopped {1e3 * result.along:+.0f}, {1e3 * result.across:+.0f} mm from the hold",
         )
-
-    def _strayed(self, i: int, step: int, side: float) -> list[tuple[float, float]]:
-        """How far the body is from the plan's pose, x towards a side [m], if a limb may take its hold from there; else nothing."""
-        pose = self._pose(step)
-        off = self.climber.body.aim - pose
-        if float(np.abs(off).max()) <= SHIFTED or not may_stay(self.climber, i, pose):
-            return []
-        return [(side * float(off[0]), float(off[1]))]
 
     def _keep_in_map(self, i: int, number: int) -> None:
         """What a hook felt corrects the map, but never by more than the map can be wrong: a bias would add up from grab to grab."""
