@@ -97,7 +97,7 @@ class PlainWalker:
         if patches:
             foothold = min([UNLIMITED, *(signed_distance(foot, patch) for foot in feet for patch in patches)])
             foothold -= robot.legs.pad_radius + rules.clearance
-        mass = robot.share_delta * delta + (1.0 - robot.share_delta) * y
+        mass = robot.mass.share_delta * delta + (1.0 - robot.mass.share_delta) * y
         sides = zip(feet, feet[1:] + feet[:1], strict=True)
         balance = min(cross(b - a, mass - a) / abs(b - a) for a, b in sides) - rules.balance
         return {

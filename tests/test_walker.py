@@ -141,7 +141,7 @@ def random_task(rng: random.Random) -> WalkerTask:
         f"rules.clearance={rng.choice((0, 1))} cm",
         f"rules.balance={rng.choice((0, 1, 4))} cm",
         f"rules.hard=[{hard}]",
-        f"share_delta={rng.random()}",
+        f"mass.share_delta={rng.random()}",
         f"legs.radius_y={rng.uniform(20, 28)} cm",
         f"mechanism.radius_y={rng.uniform(21, 26)} cm",
         f"legs.pad_radius={rng.choice((0, 2))} cm",

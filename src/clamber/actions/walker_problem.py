@@ -124,7 +124,7 @@ def walker_params(task: WalkerTask) -> Params:
     row["foot_radius"] = robot.legs.radius_delta, robot.legs.radius_y
     row["shortest"], row["longest"] = robot.mechanism.shortest, robot.mechanism.longest
     row["guard"] = robot.mechanism.guard
-    row["share_delta"] = robot.share_delta
+    row["share_delta"] = robot.mass.share_delta
     row["clearance"] = rules.clearance + robot.legs.pad_radius
     row["least_balance"] = rules.balance
     row["apart"] = farthest_apart(task)

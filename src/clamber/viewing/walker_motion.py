@@ -71,7 +71,7 @@ def posed_moment(task: WalkerTask, stance: np.void, poses: Floats) -> WalkerMome
         x, y, angle = poses[f]
         c, s = math.cos(angle), math.sin(angle)
         at["foot"][f] = (x, y) + feet @ np.array([[c, s], [-s, c]])
-    share = task.robot.share_delta
+    share = task.robot.mass.share_delta
     at["mass_x"], at["mass_y"] = share * poses[0, :2] + (1.0 - share) * poses[1, :2]
     return settled_moment(task, at)
 

@@ -35,7 +35,7 @@ def walker_world(task: WalkerTask, bounds: Bounds) -> Json:
         "joints": task.robot.attachments().tolist(),
         "feet": task.robot.feet().tolist(),
         "foot": foot_radius(task, bounds),
-        "share": task.robot.share_delta,
+        "share": task.robot.mass.share_delta,
     }
 
 
