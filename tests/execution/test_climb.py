@@ -68,7 +68,6 @@ def test_a_hook_drawn_back_while_the_body_moves_goes_straight_in_the_world() -> 
     body, start, before = climber.body, climber.body.tip(BOTTOM), plant.truth().pose
     way, move = -0.045 * body.grab_direction(BOTTOM), np.array((0.0, 0.03, 0.0))
     true = plant.truth().tips[BOTTOM]
-    body.tasks[BOTTOM].doing = "tip"
     move_body(climber, body.aim + move, drawn=(BOTTOM, start, way))
     climber.wait(0.3)
     # a peg in its slot, a tip that lags, and play of two degrees: millimetres

@@ -98,10 +98,12 @@ def move_body(climber: Climber, pose: Floats, *, drawn: tuple[int, Floats, Float
     Args:
         climber: The robot.
         pose: Shape (3,).
-        drawn: A limb whose tip is drawn along in step, where from, and how far [m].
+        drawn: A limb whose tip goes straight in the world in step with the body, where from, and its way, both shape (2,) [m].
     """
     clear_the_way(climber, pose)
     body, period = climber.body, climber.plant.period
+    if drawn is not None:
+        body.tasks[drawn[0]].doing = "tip"
     speed = SLOW if any(task.doing == "cling" for task in body.tasks) else BODY_SPEED
     start = body.aim.copy()
     change = pose - start
@@ -261,7 +263,7 @@ def _lean_on_the_others(climber: Climber, i: int) -> None:
 
 
 def _draw_back(climber: Climber, i: int, away: float) -> tuple[Floats, Floats]:
-    """Draw a hook straight back off its hold, the body moved to where the limb can if it reaches no farther.
+    """Draw a hook straight back off its hold by a distance [m], the body moved to where the limb can if it reaches no farther.
 
     The body moves at the same time where the elbow stays well bent on all of the way, before it otherwise.
 
@@ -269,21 +271,30 @@ def _draw_back(climber: Climber, i: int, away: float) -> tuple[Floats, Floats]:
         The tip's place and the grab direction from which it was drawn back.
     """
     body = climber.body
-    shift = np.zeros(2)
-    if not climber.hangs:
-        climber.plant.pause()
-        side, start, back = float(np.sign(body.q[i, 1] - body.play[i, 1])), body.tip(i), -away * body.grab_direction(i)
-        found = climber.approaches.leave(i, side, body.settled, start, back, climber.holds, stands=_stands(climber))
-        shift = shift if found is None else found
-        if shift.any() and climber.approaches.bends(i, side, body.settled, start, back, shift):
-            body.tasks[i].doing = "tip"
-            move_body(climber, body.aim + np.array((*shift, 0.0)), drawn=(i, start, back))
-            return start, -back / away
-    if shift.any():
-        move_body(climber, body.aim + np.array((*shift, 0.0)))
     start, g = body.tip(i), body.grab_direction(i)
+    shift, in_step = _room_to_leave(climber, i, start, -away * g)
+    pose = body.aim + np.array((*shift, 0.0))
+    if in_step:
+        move_body(climber, pose, drawn=(i, start, -away * g))
+        return start, g
+    if shift.any():
+        move_body(climber, pose)
+        start, g = body.tip(i), body.grab_direction(i)
     move_tip(climber, i, start - away * g, 0.35)
     return start, g
+
+
+def _room_to_leave(climber: Climber, i: int, start: Floats, back: Floats) -> tuple[Floats, bool]:
+    """How the body moves so that a limb can draw its hook back, shape (2,) [m], and whether both may move in step."""
+    if climber.hangs:
+        return np.zeros(2), False
+    body, ways = climber.body, climber.approaches
+    climber.plant.pause()
+    side = float(np.sign(body.q[i, 1] - body.play[i, 1]))
+    shift = ways.leave(i, side, body.settled, start, back, climber.holds, stands=_stands(climber))
+    if shift is None or not shift.any():
+        return np.zeros(2), False
+    return shift, ways.bends(i, side, body.settled, start, back, shift)
 
 
 def _stands(climber: Climber) -> Callable[[Floats], bool]:
