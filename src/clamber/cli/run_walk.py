@@ -67,17 +67,17 @@ def run_walk_file(
         print_json(run.to_json())
     else:
         print_walk(stdout(), run, outputs)
-    raise typer.Exit(130 if run.report.reason == "interrupted" else 0 if run.report.done else 1)
+    raise typer.Exit(130 if run.report.reason == "interrupted" else 0 if run.done else 1)
 
 
 def print_walk(console: Console, run: WalkRun, written: Sequence[Path] = ()) -> None:
     """Print how a walk ended, a row for each step, and where it was close."""
     report = run.report
-    if report.done:
+    if run.done:
         console.print(f"walked: {len(report.steps)} steps of '{run.walk.name}'", style="bold green")
     else:
         console.print(f"not walked: '{run.walk.name}'", style="bold red")
-        console.print(report.reason)
+        console.print(run.reason)
     console.print(_steps(report))
     speed = report.seconds / run.wall_seconds if run.wall_seconds > 0.0 else 0.0
     console.print(f"{report.seconds:.0f} s in {run.wall_seconds:.1f} s ({speed:.0f} times as fast as it happens)")

@@ -22,7 +22,7 @@ def walked(name: str, *changes: str, **options: object) -> WalkRun:
 
 def test_a_short_walk_over_level_ground_ends_where_it_should() -> None:
     run = walked("level-walk")
-    assert run.report.done, run.report.reason
+    assert run.done, run.reason
     assert run.report.missed is not None
     assert run.report.missed[0] < 2e-3
     gone = run.true.pose[-1, :2] - run.true.pose[run.walking][0, :2]
@@ -34,7 +34,7 @@ def test_a_short_walk_over_level_ground_ends_where_it_should() -> None:
 @pytest.mark.parametrize("uphill", [0.0, 90.0, 180.0])
 def test_the_plate_stays_level_on_a_slope(uphill: float) -> None:
     run = walked("slope-walk", f"ground.uphill={uphill}deg")
-    assert run.report.done, run.report.reason
+    assert run.done, run.reason
     climbed = 0.15 * math.tan(math.radians(10.0)) * math.cos(math.radians(uphill))
     # the height over the feet may differ by where the legs have room
     assert run.true.feet[-1, ..., 2].mean() - run.true.feet[0, ..., 2].mean() == pytest.approx(climbed, abs=4e-3)
@@ -46,8 +46,8 @@ def test_without_levelling_a_slope_downhill_topples_it() -> None:
     """The centre of mass lies 70 mm downhill of where it is on level ground, and the margin there is 66 mm."""
     changes = ("level=false", "start.plate=ground", "ground.uphill=180deg", "way.0.distance=1m")
     run = walked("slope-walk", *changes)
-    assert not run.report.done
-    assert run.report.reason.startswith("fell")
+    assert not run.done
+    assert run.reason.startswith("fell")
     assert run.margin < 0.0
 
 
@@ -82,3 +82,22 @@ def test_settings_of_the_plant_are_split_and_read() -> None:
         walk_flaws(walk, ["phisics_rate=1kHz"])
     with pytest.raises(PlantError, match="mass"):
         walk_flaws(walk, ["payload=1m"])
+
+
+def test_a_robot_that_cannot_stand_falls_at_the_start() -> None:
+    walk = load_walk("level-walk", ["arm=['0 deg', '0 deg', '0 deg', '0 deg']"])
+    run = run_walk(walk, walk_flaws(walk, ["payload=40kg"]))
+    assert not run.done
+    assert run.reason.startswith("fell")
+    assert not run.report.steps
+    assert run.to_json()["steps"] == []
+
+
+@pytest.mark.slow
+def test_a_robot_that_is_held_by_a_step_it_does_not_know_of_is_lost() -> None:
+    """A step higher than feet are lifted: they push against it, and the robot reckons on."""
+    changes = ("start.x=35cm", "way.0.distance=30cm", "ground.blocks.0.height=7cm", "ground.blocks.1.height=7cm")
+    walk = load_walk("step-walk", changes)
+    run = run_walk(walk, walk_flaws(walk, ()))
+    assert not run.done
+    assert run.true.pose[-1, 0] < 0.6

@@ -9,10 +9,12 @@ import numpy as np
 
 from ...control.track import Track
 from ...errors import UnitError, describe_choices
+from ...execution.plant import PlantStoppedError
 from ...execution.walk.sequencer import Progress, WalkReport, WalkSequencer
 from ...execution.walk.settings import WalkSettings
 from ...execution.walk.true_walk import TracedPlant, TrueWalk
 from ...execution.walk.walk_trace import TracedWalker, WalkTrace
+from ...execution.walk.walker import FallenError
 from ...sim.limb_flaws import PlantError
 from ...sim.walker_flaws import WalkerFlaws
 from ...sim.walker_plant import WalkerSim
@@ -23,6 +25,8 @@ from .noise import WalkNoise, named_walk_noise
 
 SETTINGS: Final[dict[str, str]] = {"friction": "ratio", "payload": "mass", "physics_rate": "frequency"}
 """Settings of the plant that a user may change -> dimension. The payload is one that the robot does not know of."""
+ARRIVED: Final = 0.02
+"""A walk whose plate truly ends farther from the end of its way has not come there, whatever the robot believes [m]."""
 PLANT: Final = "plant."
 """First word of settings that change the plant."""
 
@@ -39,6 +43,22 @@ class WalkRun:
     """As it was."""
     wall_seconds: float
     """That it took."""
+
+    @property
+    def done(self) -> bool:
+        """Whether it came to the end of its way, truly."""
+        return not self.reason
+
+    @property
+    def reason(self) -> str:
+        """Why not; empty where it did."""
+        report = self.report
+        if not report.done:
+            return report.reason
+        off = 0.0 if report.missed is None else report.missed[0]
+        if off <= ARRIVED:
+            return ""
+        return f"lost: it believes that it has arrived, and is {1e3 * off:.0f} mm from there"
 
     @property
     def walking(self) -> slice:
@@ -58,7 +78,14 @@ class WalkRun:
 
     def to_json(self) -> Json:
         """Plain data."""
-        told = {"walk": self.walk.name, "tilt": self.tilt, "margin": self.margin, "wall_seconds": self.wall_seconds}
+        told = {
+            "done": self.done,
+            "reason": self.reason,
+            "walk": self.walk.name,
+            "tilt": self.tilt,
+            "margin": self.margin,
+            "wall_seconds": self.wall_seconds,
+        }
         return self.report.to_json() | told
 
 
@@ -125,7 +152,12 @@ def run_walk(
         calibrated=noise.widths["inclinometer_offset"] == 0.0,
         progress=progress,
     )
-    walker.start(walk.start_pose(), walk.start_place(), walk.start_legs(), np.array(walk.arm))
-    report = sequencer.run()
+    try:
+        walker.start(walk.start_pose(), walk.start_place(), walk.start_legs(), np.array(walk.arm))
+        report = sequencer.run()
+    except (FallenError, PlantStoppedError) as fall:  # before the first tick
+        report = WalkReport(
+            reason=f"fell: {fall}", seconds=walker.time, true_pose=tuple(map(float, plant.trace().pose[-1]))
+        )
     notes = report.to_json() | {"walk": walk.name, "noise": noise.to_json(), "seed": seed}
     return WalkRun(walk, report, walker.trace(notes), plant.trace(), time.perf_counter() - began)

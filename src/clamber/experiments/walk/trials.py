@@ -110,7 +110,7 @@ def run_walk_trial(item: Json) -> Json:
     report, margin = run.report, run.margin
     off, turned = (None, None) if report.missed is None else report.missed
     return WalkTrial(
-        seed=item["seed"], done=report.done, reason=report.reason, seconds=report.seconds, steps=len(report.steps),
+        seed=item["seed"], done=run.done, reason=run.reason, seconds=report.seconds, steps=len(report.steps),
         tilt=run.tilt, margin=margin if np.isfinite(margin) else None, off=off, turned=turned, kicks=report.kicks,
     ).to_json()  # fmt: skip
 
