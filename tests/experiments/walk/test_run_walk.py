@@ -49,6 +49,10 @@ def test_without_levelling_a_slope_downhill_topples_it() -> None:
     assert not run.done
     assert run.reason.startswith("fell")
     assert run.margin < 0.0
+    # it is told long before the robot lies: within a second of balance lost, while it has tilted by less than 2 deg
+    lost = run.true.time[np.flatnonzero(run.true.margins > 0.0)[-1]]
+    assert run.report.seconds - lost < 1.0
+    assert abs(run.true.tilts[-1] - run.true.tilts[run.walking][0]) < math.radians(2.0)
 
 
 def test_noise_is_drawn_key_by_key() -> None:

@@ -1,5 +1,6 @@
 """One walk carried out in contact dynamics: the plant with its flaws, and what truly happened."""
 
+import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -83,7 +84,7 @@ class WalkRun:
             "reason": self.reason,
             "walk": self.walk.name,
             "tilt": self.tilt,
-            "margin": self.margin,
+            "margin": self.margin if math.isfinite(self.margin) else None,
             "wall_seconds": self.wall_seconds,
         }
         return self.report.to_json() | told
