@@ -10,6 +10,7 @@ from clamber.execution.walk.walk_trace import WalkTrace
 
 from clamber.execution.log_files import read_log
 
+TINY = ("--set", "way.0.distance=3cm")
 SHORT = ("--set", "way.0.distance=5cm")
 
 
@@ -61,3 +62,13 @@ def test_bad_input_is_one_message(run: Any, words: tuple[str, ...], said: str) -
     code, out, err = run(*words, "-q")
     assert (code, out) == (2, "")
     assert said in err and "Traceback" not in err
+
+
+@pytest.mark.slow
+def test_the_command_prints_what_walks_say_together(clamber: Any) -> None:
+    words = ("trials", "level-walk", *TINY, "-n", "2", "--workers", "1", "--noise", "none", "-q")
+    code, out, _ = clamber(*words)
+    assert code == 0
+    assert "2 of 2 walks" in out and "tilt [deg]" in out
+    code, _, err = clamber("trials", "level-walk", "--replay", "3", "-q")
+    assert code == 2 and "climbs" in err
