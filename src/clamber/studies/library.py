@@ -32,6 +32,11 @@ from .boards_exact.no_rotation import forbid_rotation
 from .boards_exact.optima import prove_optima
 from .boards_exact.peg_spacing import vary_spacing
 from .boards_exact.torque_front import trade_length_for_torque
+from .hoshino_1995 import PAPER as HOSHINO
+from .hoshino_1995.equation_19 import check_second_term
+from .hoshino_1995.fig_10 import compare_freedoms
+from .hoshino_1995.fig_11 import vary_gain
+from .hoshino_1995.section_6_2 import count_freedoms
 from .result import StudyResult
 
 Repeat: TypeAlias = Callable[[], StudyResult]
@@ -72,6 +77,12 @@ STUDIES: Final[dict[str, dict[str, Repeat]]] = {
         **ON_ONE_LIMB,
         **ON_A_BODY,
     },
+    HOSHINO: {
+        "fig-10": compare_freedoms,
+        "fig-11": vary_gain,
+        "section-6-2": count_freedoms,
+        "equation-19": check_second_term,
+    },
     BOARDS_EXACT: {
         "optima": prove_optima,
         "h-torque-front": trade_length_for_torque,
@@ -86,5 +97,7 @@ STUDIES: Final[dict[str, dict[str, Repeat]]] = {
 
 
 def first_loop(result: Repeat) -> str:
-    """The kernel that a result runs first: plans are rolled out, laws on a limb or a body are ticked."""
+    """The kernel that a result runs first: plans are rolled out, laws on a limb or a body are ticked, tools are moved."""
+    if result in STUDIES[HOSHINO].values():
+        return "move_freely"
     return "drive" if result in (*ON_ONE_LIMB.values(), *ON_A_BODY.values()) else "rollout"

@@ -1,0 +1,5 @@
+"""Hoshino, Fukuda, Adachi and Muro, *Posture Control of Six-legged Integrated Locomotion and Manipulation Robot*: its published results."""
+
+from typing import Final
+
+PAPER: Final = "hoshino-1995"
