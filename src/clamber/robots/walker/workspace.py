@@ -57,6 +57,16 @@ class Arc:
         angles = first + np.linspace(0.0, self.swept, 2 + int(abs(self.swept) / step))
         return np.array(self.centre) + self.radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
 
+    def farthest(self, direction: float) -> float:
+        """Largest p . d of its points, for the unit vector d of a direction [m]."""
+        d = math.cos(direction), math.sin(direction)
+        ends = max(self.start[0] * d[0] + self.start[1] * d[1], self.end[0] * d[0] + self.end[1] * d[1])
+        if self.centre is None:
+            return ends
+        first = math.atan2(self.start[1] - self.centre[1], self.start[0] - self.centre[0])
+        passes = math.copysign(1.0, self.swept) * (direction - first) % math.tau <= abs(self.swept)
+        return self.centre[0] * d[0] + self.centre[1] * d[1] + self.radius if passes else ends
+
 
 @dataclass(frozen=True, slots=True)
 class Part:
@@ -95,6 +105,19 @@ class Workspace:
         """Signed distance of a place from the nearest curve, positive inside the region [m]."""
         x, y = np.asarray(place, np.float64)
         return float(depth(self.curves, len(self.curves), x, y))
+
+    def chord(self, direction: float) -> tuple[float, float]:
+        """Range of s for which s along a direction is reached straight from the centre [m]; both 0 if the centre is outside."""
+        dx, dy = math.cos(direction), math.sin(direction)
+        n = len(self.curves)
+        return -float(ray(self.curves, n, 0.0, 0.0, -dx, -dy)), float(ray(self.curves, n, 0.0, 0.0, dx, dy))
+
+    def extent(self, direction: float) -> tuple[float, float]:
+        """Range of p . d over the part around the centre, for the unit vector d of a direction [m]; both 0 without such a part."""
+        if self.central is None:
+            return 0.0, 0.0
+        outer = self.central.loops[0]
+        return -max(arc.farthest(direction + math.pi) for arc in outer), max(arc.farthest(direction) for arc in outer)
 
 
 @dataclass(frozen=True, slots=True)
