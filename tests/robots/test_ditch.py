@@ -228,7 +228,7 @@ def test_where_no_way_leads_over_the_reason_is_told() -> None:
 def test_footing_names_what_means_nothing(what: str, value: float) -> None:
     with pytest.raises(FootingError, match=f"{what} = .*: must be finite and 0 or more"):
         Footing.of(robot(), **{what: value})
-    with pytest.raises(FootingError, match="width = -0.1"):
+    with pytest.raises(FootingError, match=r"width = -0\.1"):
         cross_ditch(Footing.of(robot()), -0.1, before=0.4)
 
 
