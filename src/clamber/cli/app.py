@@ -13,6 +13,7 @@ from .. import __version__
 from ..errors import ClamberError
 from .bench import bench
 from .body import body
+from .calibrate import calibrate
 from .check import check
 from .follow import follow
 from .inventory import inventory
@@ -56,6 +57,7 @@ app.add_typer(body, name="body")
 app.add_typer(new, name="new")
 app.add_typer(plant, name="plant")
 app.command("reach")(reach)
+app.command("calibrate")(calibrate)
 app.command("study")(study)
 
 

@@ -11,7 +11,8 @@ from ...control.cooperative.settings import Cooperation, Form, own_speeds
 from ...types import Floats
 from ..result import Compared, StudyResult, Table, Value
 from . import PAPER
-from .tool_runs import BALANCED, CHOSEN, DOFS, START, TOOL_SPEEDS, hoshino
+from .tool_runs import BALANCED, CHOSEN, DOFS, START, TOOL_SPEEDS
+from .walker import hoshino
 
 POSTURES: Final = 2000
 INSTANT: Final = 1e-5

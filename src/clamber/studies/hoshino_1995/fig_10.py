@@ -9,7 +9,8 @@ from ...control.cooperative.limits import freedom_names
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import PAPER
-from .tool_runs import BALANCED, CHOSEN, DOFS, ToolRun, go, hoshino
+from .tool_runs import BALANCED, CHOSEN, DOFS, ToolRun, go
+from .walker import hoshino
 
 GAIN: Final = 1.0
 SHOWN: Final = (4, 5, 10)

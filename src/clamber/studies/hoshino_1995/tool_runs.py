@@ -1,7 +1,6 @@
 """Runs of section 6: the tool goes straight to a target by equation 19, with some of the freedoms."""
 
 from dataclasses import dataclass
-from functools import cache
 from typing import Final
 
 import numpy as np
@@ -10,9 +9,8 @@ from ...control.cooperative.cooperator import Cooperator
 from ...control.cooperative.footing import SUPPORT_WORDS, Footing
 from ...control.cooperative.freedoms import SUPPORT, freedoms_of, weights_of
 from ...control.cooperative.settings import Cooperation, Form, own_speeds
-from ...robots.library import load_robot
-from ...robots.walker import WalkerRobot
 from ...types import Floats
+from .walker import hoshino
 
 START: Final = np.array([0.0, 0.0, 0.40, 0.0, 0.0, 0.0, 0.2, 1.1, -1.0, -0.9])
 """Freedoms at the start [m, rad]; the paper prints none."""
@@ -38,14 +36,6 @@ CHOSEN: Final = (
     "Equation 19 is taken in its right form: V and its gradient are those of the normalised Jacobian, and a freedom is switched off by "
     "a largest speed of 0 in both places of T_q^-1.",
 )
-
-
-@cache
-def hoshino() -> WalkerRobot:
-    """The robot, from its file."""
-    robot = load_robot("hoshino")
-    assert isinstance(robot, WalkerRobot)
-    return robot
 
 
 @dataclass(frozen=True, slots=True, eq=False)
