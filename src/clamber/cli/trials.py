@@ -6,8 +6,20 @@ import typer
 
 from ..errors import UnknownNameError
 from .crew import check_resume, executor_of
-from .options import AsJson, NoiseTexts, Output, Overrides, Quiet, Ray, Resume, Store, Workers
-from .output import announce_compilation, check_writable, print_json, stderr, stdout
+from .options import (
+    PLAN_SECONDS,
+    AsJson,
+    NoiseTexts,
+    Output,
+    Overrides,
+    PlanSeconds,
+    Quiet,
+    Ray,
+    Resume,
+    Store,
+    Workers,
+)
+from .output import announce_compilation, check_writable, print_json, stderr, stdout, tell_cuts
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -24,7 +36,7 @@ def trials(
     noise: NoiseTexts = None,
     task: Annotated[str | None, typer.Option(help="Carry the plan out in this task, in place of its own.")] = None,
     planner: Annotated[str, typer.Option(help="How to search (`clamber list planners`).")] = "auto",
-    seconds: Annotated[float, typer.Option(min=0.0, help="Most time for each plan.")] = 60.0,
+    seconds: PlanSeconds = PLAN_SECONDS,
     overrides: Overrides = None,
     replan: Annotated[bool, typer.Option(help="Plan again where a hold cannot be had.")] = True,
     force: Annotated[bool, typer.Option("--force", help="Carry out a plan that its checks refuse.")] = False,
@@ -72,11 +84,14 @@ def trials(
     asked = TrialSetup(
         task=chosen, noise=widths, plan=plan, plant=plant, planner=planner, seconds=seconds, replan=replan, force=force
     )
+    cuts: list[None] = []
     try:
-        setup = with_plan(asked, store, what)
+        setup = with_plan(asked, store, what, cut=lambda: cuts.append(None))
     except NoPlanError as none:
+        tell_cuts(len(cuts))
         stderr().print(str(none))
         raise typer.Exit(1) from None
+    tell_cuts(len(cuts))
     if replay is not None:
         raise typer.Exit(_replay(setup, replay, store, output, as_json=as_json, quiet=quiet))
     with TrialsLine(stderr(), quiet=quiet) as line:

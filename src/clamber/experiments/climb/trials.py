@@ -28,8 +28,10 @@ class NoPlanError(ClamberError):
         return f"no plan for '{self.task}' that hooks can be trusted with; nothing has moved"
 
 
-def with_plan(setup: TrialSetup, store: Path | None = None, label: str = "plan") -> TrialSetup:
-    """The setup with its plan: its own, that of the store, or a new one; errors call it `label`.
+def with_plan(
+    setup: TrialSetup, store: Path | None = None, label: str = "plan", cut: Callable[[], None] = lambda: None
+) -> TrialSetup:
+    """The setup with its plan: its own, that of the store, or a new one; errors call it `label`, `cut` is as in `plan_to_climb`.
 
     Raises:
         NoPlanError: If there is none.
@@ -43,7 +45,7 @@ def with_plan(setup: TrialSetup, store: Path | None = None, label: str = "plan")
     if plan is None and kept is not None and kept.note is not None:
         plan = Plan.from_json(kept.note, "plan of the store")
     if plan is None:
-        plan = plan_to_climb(setup.task, setup.planner, seconds=setup.seconds, seed=PLAN_SEED)
+        plan = plan_to_climb(setup.task, setup.planner, seconds=setup.seconds, seed=PLAN_SEED, cut=cut)
     if plan is None:
         raise NoPlanError(setup.task.name)
     course = lay_course(setup.task, plan, label)
