@@ -7,7 +7,7 @@ import pytest
 from clamber.cli.output import stdout
 from clamber.cli.run_text import print_run
 from clamber.cli.trials_text import print_trials
-from clamber.execution.climb.sequencer import ActionReport, ClimbReport
+from clamber.execution.climb.climb_report import ActionReport, ClimbReport
 from clamber.experiments.climb.run_plan import ClimbRun
 from clamber.experiments.climb.trial_summary import TrialSummary
 from clamber.tasks import load_task

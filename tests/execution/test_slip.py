@@ -6,10 +6,11 @@ from dataclasses import dataclass, field
 import numpy as np
 import pytest
 
+from clamber.execution.climb.climb_report import ClimbReport
 from clamber.execution.climb.climb_trace import TracedClimber
 from clamber.execution.climb.climber import FallenError, SlippedError
 from clamber.execution.climb.course import lay_course
-from clamber.execution.climb.sequencer import ClimbReport, Sequencer
+from clamber.execution.climb.sequencer import Sequencer
 from clamber.execution.climb.slip import MOVED
 from clamber.experiments.climb.climb_work import two_rungs
 from clamber.experiments.climb.noise import draw_for, named_noise

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 from rich.console import Console
 
-from ..execution.climb.sequencer import ActionReport
+from ..execution.climb.climb_report import ActionReport
 from ..experiments.climb.run_plan import ClimbRun
 from .live_line import LiveLine
 from .output import plain_table

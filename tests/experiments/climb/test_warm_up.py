@@ -6,7 +6,8 @@ import sys
 import pytest
 
 from clamber.actions.plan import Plan
-from clamber.execution.climb.sequencer import ClimbReport, Sequencer
+from clamber.execution.climb.climb_report import ClimbReport
+from clamber.execution.climb.sequencer import Sequencer
 from clamber.experiments.climb import run_plan as running
 from clamber.experiments.climb.climb_work import two_rungs
 from clamber.experiments.climb.run_plan import climbing_flaws, run_plan

@@ -9,9 +9,10 @@ from pathlib import Path
 from ...actions.plan import Plan
 from ...actions.plan_source import is_plan, open_plan
 from ...errors import SpecError
+from ...execution.climb.climb_report import ClimbReport
 from ...execution.climb.climb_trace import TOPIC, ClimbTrace, TracedClimber, limb_notes, report_notes
 from ...execution.climb.course import climbable, lay_course
-from ...execution.climb.sequencer import ClimbReport, Progress, Replan, Sequencer
+from ...execution.climb.sequencer import Progress, Replan, Sequencer
 from ...execution.log_stream import LogStream
 from ...execution.plant import BodyPlant
 from ...sim.limb_flaws import LimbFlaws
