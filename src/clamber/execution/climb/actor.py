@@ -129,7 +129,6 @@ class Actor:
                 result = grab(self.climber, i, action.hold, elbow=elbow)
                 tries += max(1, result.tries)
                 if result.held:
-                    self._keep_in_map(i, action.hold)
                     self.course.elbows[self.course.stays(i, step), i] = elbow
                     if self.hanging is not None:
                         self.hanging.end()
@@ -145,13 +144,6 @@ class Actor:
             tries,
             f"the hook stopped {1e3 * result.along:+.0f}, {1e3 * result.across:+.0f} mm from the hold",
         )
-
-    def _keep_in_map(self, i: int, number: int) -> None:
-        """What a hook felt corrects the map, but never by more than the map can be wrong: a bias would add up from grab to grab."""
-        hold, climber = self.course.task.world.by_number(number), self.climber
-        place, most = np.array((hold.x, hold.y)), climber.map_error
-        climber.holds[number] = place + np.clip(climber.holds[number] - place, -most, most)
-        climber.body.tasks[i].place = climber.holds[number].copy()
 
     def _settle(self) -> bool:
         for _ in range(round(SETTLING / PAUSE)):

@@ -28,8 +28,6 @@ PLANT: str = "plant."
 """First word of settings that change the plant."""
 PHYSICS_RATE: float = 1000.0
 """Of the contact dynamics [Hz]."""
-LEAST_MAP_ERROR: float = 0.004
-"""What a hook may stop from its hold's place however exact the map is [m]."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -172,7 +170,7 @@ def believing_climber(task: LimbedTask, plant: BodyPlant, noise: Noise, drawn: D
         task.robot,
         task.world,
         plant,
-        map_error=LEAST_MAP_ERROR + noise.widths["peg_error"],
+        map_error=noise.widths["peg_error"],
         backlash=assumed_backlash(task.robot, drawn),
         truth=truth_of(plant),
     )
