@@ -13,7 +13,9 @@ from .. import __version__
 from ..errors import ClamberError
 from .bench import bench
 from .body import body
+from .calibrate import calibrate
 from .check import check
+from .follow import follow
 from .help_text import command_of
 from .inventory import inventory
 from .learn import learn
@@ -46,6 +48,7 @@ app.command("inventory")(inventory)
 app.command("check")(check)
 app.command("run")(run)
 app.command("press")(press)
+app.command("follow")(follow)
 app.command("trials")(trials)
 app.command("show")(show)
 app.command("bench")(bench)
@@ -55,6 +58,7 @@ app.add_typer(body, name="body")
 app.add_typer(new, name="new")
 app.add_typer(plant, name="plant")
 app.command("reach")(reach)
+app.command("calibrate")(calibrate)
 app.command("study")(study)
 
 

@@ -12,7 +12,7 @@ from .course import Course, swings
 from .ends import grab, release
 from .hang import Hang
 from .let_go import let_go
-from .motions import clear_the_way, move_body
+from .motions import clear_the_way, may_stay, move_body
 
 ELSEWHERE: Final = ((0.0, 0.0), (0.0, 0.02), (0.0, -0.02), (0.025, 0.0), (-0.025, 0.0))
 """Where the body goes for another approach after a miss, from the plan's pose [m]."""
@@ -122,11 +122,15 @@ class Actor:
                     break
                 place = self.pose(step) + np.array((side * x, y, 0.0))
                 off = float(np.abs(place - self.climber.body.aim).max())
+                home = None
                 if not self.climber.hangs and off > SHIFTED:  # also by the approach to the hold before
                     if (x or y) and self.climber.body.stands(place) < WORST:
                         continue
-                    move_body(self.climber, place)
-                result = grab(self.climber, i, action.hold, elbow=elbow)
+                    if not (x or y) and may_stay(self.climber, i, place):
+                        home = place
+                    else:
+                        move_body(self.climber, place)
+                result = grab(self.climber, i, action.hold, elbow=elbow, home=home)
                 tries += max(1, result.tries)
                 if result.held:
                     self.course.elbows[self.course.stays(i, step), i] = elbow
