@@ -43,7 +43,7 @@ def test_a_plate_may_lie_as_the_ground(heading: float, uphill: float) -> None:
     walk = load_walk("slope-walk", changes)
     sim = WalkerSim(walk.robot, walk.ground, WalkerFlaws())
     sim.reset(walk.start_pose(), walk.start_place(), walk.start_legs(), np.array(walk.arm))
-    normal = sim._axes()[:, 2]
+    normal = sim._axes[:, 2]
     assert math.degrees(math.acos(normal @ walk.ground.axes()[:, 2])) < 0.3
     assert sim.truth().touching.sum() == 6
     assert sim.truth().pose[3] == pytest.approx(math.radians(heading), abs=1e-2)

@@ -1,15 +1,14 @@
 """`clamber trials` of a walk: many seeds, and what they say together."""
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 
 import numpy as np
 import typer
 from rich.console import Console
 
 from ..experiments.walk.trials import WalkTrials
-from ..jobs import Executor
 from ..units import DEGREE
+from .crew import CrewWords
 from .live_line import LiveLine
 from .output import plain_table, print_json, stderr, stdout
 
@@ -27,14 +26,9 @@ def walk_trials_of(
     settings: Sequence[str],
     noise: Sequence[str],
     seeds: Sequence[int],
-    executor: Executor,
-    store: Path | None,
     least: float | None,
     climbs_only: Mapping[str, bool],
-    *,
-    resume: bool,
-    as_json: bool,
-    quiet: bool,
+    words: CrewWords,
 ) -> None:
     """Walk with every seed and print what came of it; leaves with 1 where a walk failed, or fewer than `least` for sure succeed.
 
@@ -43,13 +37,9 @@ def walk_trials_of(
         settings: Texts "key=value" of walk and plant.
         noise: Texts "key=size", on top of the usual ones.
         seeds: One walk each.
-        executor: Who runs them.
-        store: Where trials are kept.
         least: Share of success that is asked for; None: all.
         climbs_only: Options that only climbs have -> whether they are given.
-        resume: Whether to go on with the store.
-        as_json: Whether to print JSON alone.
-        quiet: Whether to tell nothing on the way.
+        words: Who runs them, where they are kept, how they are told.
     """
     from ..experiments.walk.noise import named_walk_noise, read_walk_noise
     from ..experiments.walk.run_walk import split_walk_settings, walk_flaws
@@ -63,12 +53,20 @@ def walk_trials_of(
     for_walk, for_plant = split_walk_settings(settings)
     walk = load_walk(what, for_walk)
     walk_flaws(walk, for_plant)  # what cannot be is told before workers start
+    executor = words.executor
     executor.check()
-    with WalkTrialsLine(stderr(), quiet=quiet) as line:
+    with WalkTrialsLine(stderr(), quiet=words.quiet) as line:
         trials = run_walk_trials(
-            walk, sizes, seeds, executor=executor, plant=for_plant, store=store, resume=resume, told=line.update
+            walk,
+            sizes,
+            seeds,
+            executor=executor,
+            plant=for_plant,
+            store=words.store,
+            resume=words.resume,
+            told=line.update,
         )
-    if as_json:
+    if words.as_json:
         print_json(trials.to_json())
     else:
         print_walk_trials(stdout(), trials)
