@@ -138,13 +138,13 @@ def run_walk(
         flaws: Of the plant, before noise.
         noise: What deviates from what the robot believes. With an offset of the inclinometers they are calibrated first.
         seed: Of how much it does.
-        settings: How it walks; None: as usual, level or not as the walk says.
+        settings: How it walks; None: as usual, level and probing as the walk says.
         progress: Told before each step.
     """
     began = time.perf_counter()
     drawn = noise.flaws(flaws, seed) if any(noise.widths.values()) else flaws
     plant = TracedPlant(WalkerSim(walk.robot, walk.ground, drawn))
-    how = WalkSettings(level=walk.level) if settings is None else settings
+    how = WalkSettings(level=walk.level, probe=walk.probe) if settings is None else settings
     walker = TracedWalker(walk.robot, plant, settings=how, payload=walk.payload)
     sequencer = WalkSequencer(
         walker,

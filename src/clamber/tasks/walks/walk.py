@@ -12,7 +12,7 @@ from ...files import Document, check_schema
 from ...robots.walker import WalkerRobot, build_walker
 from ...specs import Name, build_spec, field_names, spec
 from ...types import Floats, Json
-from ...units import Angle, Length, NonNegativeMass, Point, PositiveLength
+from ...units import Angle, Length, NonNegativeLength, NonNegativeMass, Point, PositiveLength
 from ...worlds.ground import Ground, build_ground
 
 SCHEMA: Final = "clamber-walk-1"
@@ -71,6 +71,8 @@ class WalkSpec:
     """In order; one or more."""
     level: StrictBool = True
     """Whether the plate is kept level; if not, it keeps the tilt that it has at the start."""
+    probe: NonNegativeLength = 0.0
+    """Distance from a foothold at which the ground is felt for edges before a foot stands there [m]; 0: it is not."""
     arm: tuple[Angle, ...] | None = None
     """Joint angles of the arm [rad]; those of the robot's file unless given."""
     payload: NonNegativeMass = 0.0
@@ -88,6 +90,8 @@ class Walk:
     start: WalkStart
     way: tuple[Piece, ...]
     level: bool
+    probe: float
+    """[m]."""
     arm: tuple[float, ...]
     """Joint angles [rad]; none without an arm."""
     payload: float
@@ -153,6 +157,7 @@ def build_walk(document: Document) -> Walk:
         start=stated.start,
         way=stated.way,
         level=stated.level,
+        probe=stated.probe,
         arm=rest if stated.arm is None else stated.arm,
         payload=stated.payload,
         document=document.data,
