@@ -108,7 +108,7 @@ def balance_curves(delta_feet, y_feet, theta, share, load_x, load_y, margin, cur
         share: Of the whole mass, at the Y-frame's origin; the rest is with the Delta-frame [-].
         load_x, load_y: The mass with the Delta-frame times its centre's place there, over the whole mass [m].
         margin: How far inside [m].
-        curves: Shape (MOST_CURVES, 4).
+        curves: Shape (MOST_CURVES, CURVE_NUMBERS).
         n: Curves in use.
     """
     c = math.cos(theta)

@@ -8,13 +8,11 @@ import numpy.typing as npt
 
 from ...errors import ClamberError
 from ...types import Floats
-from .arcs import COLUMNS, MOST_ARCS, MOST_CURVES
-from .assemblies import are_similar
+from .arcs import COLUMNS, CURVE_NUMBERS, MOST_ARCS, MOST_CURVES, ROOM
 from .crossing import SIDES, balance_curves, widest_map
 from .geometry import TwoFrames
 from .robot import WalkerRobot
 from .weight import Weight, weight_of
-from .workspace import GuardError
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -46,7 +44,6 @@ class Footing:
 
         Raises:
             FootingError: If the margin is negative or not finite, or the guard is, or is above 1.
-            GuardError: If there is a guard and the attachments are no directly similar triangles.
         """
         frames = TwoFrames.of(robot.mechanism)
         guard = frames.guard if guard is None else guard
@@ -54,14 +51,12 @@ class Footing:
             raise FootingError("margin", margin)
         if not 0.0 <= guard <= 1.0:
             raise FootingError("guard", guard, "from 0 to 1")
-        if guard > 0.0 and not are_similar(frames.delta, frames.y):
-            raise GuardError
         weight = weight_of(robot) if weight is None else weight
         return cls(frames, robot.feet(), robot.legs.pad_radius, weight, guard, margin)
 
     def balance_curves(self, theta: float) -> Floats:
-        """The lines between which both frames can carry the robot, as rows for `workspace`, shape (6, 4)."""
-        curves = np.zeros((MOST_CURVES, 4))
+        """The lines between which both frames can carry the robot, as rows for `workspace`, shape (6, CURVE_NUMBERS)."""
+        curves = np.zeros((MOST_CURVES, CURVE_NUMBERS))
         load_x, load_y = self.weight.load
         share = self.weight.share[1]
         n = balance_curves(self.feet[0], self.feet[1], theta, share, load_x, load_y, self.margin, curves, 0)
@@ -113,8 +108,8 @@ def ditch_map(footing: Footing, thetas: npt.ArrayLike, directions: npt.ArrayLike
     widest_map(
         frames.delta, frames.y, frames.shortest, frames.longest, footing.guard,
         footing.feet[0], footing.feet[1], footing.weight.share[1], load_x, load_y, footing.margin, aside, thetas, directions, out,
-        np.zeros((MOST_CURVES, 4)), np.empty((MOST_ARCS, COLUMNS)), np.empty(MOST_ARCS), np.empty(MOST_ARCS, np.int64),
-        np.empty(2 * MOST_CURVES + 3), np.empty((SIDES, SIDES), np.bool_), np.empty((SIDES * SIDES, 2), np.int64),
+        np.zeros((MOST_CURVES, CURVE_NUMBERS)), np.empty((MOST_ARCS, COLUMNS)), np.empty(MOST_ARCS), np.empty(MOST_ARCS, np.int64),
+        np.empty(ROOM), np.empty((SIDES, SIDES), np.bool_), np.empty((SIDES * SIDES, 2), np.int64),
         np.empty((2, 3)),
     )  # fmt: skip
     widths: Floats = np.maximum(0.0, out - 2.0 * footing.pad_radius)
