@@ -14,6 +14,7 @@ from ..errors import ClamberError
 from .bench import bench
 from .body import body
 from .check import check
+from .follow import follow
 from .inventory import inventory
 from .learn import learn
 from .limb import limb
@@ -45,6 +46,7 @@ app.command("inventory")(inventory)
 app.command("check")(check)
 app.command("run")(run)
 app.command("press")(press)
+app.command("follow")(follow)
 app.command("trials")(trials)
 app.command("show")(show)
 app.command("bench")(bench)
