@@ -66,6 +66,15 @@ def test_overrides_reach_walk_robot_and_ground() -> None:
     assert load_walk("slope-walk", ["ground=level"]).ground.name == "level"
 
 
+def test_another_seed_is_another_rough_ground() -> None:
+    walk = load_walk("rough-walk")
+    places = np.random.default_rng(0).uniform(-0.5, 0.8, (50, 2))
+    np.testing.assert_array_equal(walk.with_seed(0).ground.heights(places), walk.ground.heights(places))
+    assert (walk.with_seed(1).ground.heights(places) != walk.ground.heights(places)).all()
+    level = load_walk("level-walk")
+    assert level.with_seed(3).ground == level.ground
+
+
 def test_a_walk_may_be_the_user_s_own_file(tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
     path.write_text(FILE, encoding="utf-8")

@@ -16,12 +16,11 @@ def _shipped(folder: str) -> list[tuple[str, str]]:
 
 
 def _worlds(kind: str) -> list[tuple[str, str]]:
-    """Those of one kind: boards with fields, or grounds."""
+    """Those of one kind: boards, or grounds."""
     from .. import worlds
     from ..worlds.library import DATA
 
-    names = worlds.ground_names() if kind == "grounds" else (*worlds.board_names(), *worlds.patch_field_names())
-    return _titled(DATA, sorted(names))
+    return _titled(DATA, worlds.ground_names() if kind == "grounds" else worlds.board_names())
 
 
 def _walks() -> list[tuple[str, str]]:

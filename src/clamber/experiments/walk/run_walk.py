@@ -26,8 +26,8 @@ from .noise import WalkNoise, named_walk_noise
 
 SETTINGS: Final[dict[str, str]] = {"friction": "ratio", "payload": "mass", "physics_rate": "frequency"}
 """Settings of the plant that a user may change -> dimension. The payload is one that the robot does not know of."""
-ARRIVED: Final = 0.02
-"""A walk whose plate truly ends farther from the end of its way has not come there, whatever the robot believes [m]."""
+LOST: Final = 0.02
+"""A robot that ends farther from where it believes to be has not come to the end of its way [m]."""
 PLANT: Final = "plant."
 """First word of settings that change the plant."""
 
@@ -56,10 +56,8 @@ class WalkRun:
         report = self.report
         if not report.done:
             return report.reason
-        off = 0.0 if report.missed is None else report.missed[0]
-        if off <= ARRIVED:
-            return ""
-        return f"lost: it believes that it has arrived, and is {1e3 * off:.0f} mm from there"
+        off = math.dist(self.true.pose[-1, :2], report.pose[:2])
+        return "" if off <= LOST else f"lost: the robot is {1e3 * off:.0f} mm from where it believes to be"
 
     @property
     def walking(self) -> slice:
@@ -137,11 +135,12 @@ def run_walk(
         walk: Robot, ground, start and way.
         flaws: Of the plant, before noise.
         noise: What deviates from what the robot believes. With an offset of the inclinometers they are calibrated first.
-        seed: Of how much it does.
+        seed: Of how much it does, and of rough ground.
         settings: How it walks; None: as usual, level and probing as the walk says.
         progress: Told before each step.
     """
     began = time.perf_counter()
+    walk = walk.with_seed(seed)
     drawn = noise.flaws(flaws, seed) if any(noise.widths.values()) else flaws
     plant = TracedPlant(WalkerSim(walk.robot, walk.ground, drawn))
     how = WalkSettings(level=walk.level, probe=walk.probe) if settings is None else settings

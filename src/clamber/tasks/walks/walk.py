@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import field, replace
 from typing import Final, Literal
 
 import numpy as np
@@ -98,6 +98,11 @@ class Walk:
     """[kg]."""
     document: Json = field(default_factory=dict)
     """Robot, ground and walk as read, with overrides applied: a worker rebuilds the walk from it."""
+
+    def with_seed(self, seed: int) -> "Walk":
+        """The same walk with other tiles where the ground is rough: `seed` is added to the seeds that its file states."""
+        rough = tuple(replace(patch, seed=patch.seed + seed) for patch in self.ground.rough)
+        return replace(self, ground=replace(self.ground, rough=rough))
 
     def start_place(self) -> Floats:
         """Pose of the Y-frame in the Delta-frame: x, y [m], theta [rad], shape (3,)."""
