@@ -100,8 +100,8 @@ def test_lengths_and_plate_undo_each_other(beta: float, gamma: float, seed: int)
     np.testing.assert_allclose(plate, (0.4, beta, gamma), atol=1e-9)
 
 
-def test_heights_that_are_taken_as_equal_put_the_plate_out_by_a_fifth_of_a_degree() -> None:
-    """The figure of the specification: uneven footholds need the quadratic."""
+def test_a_linear_solve_for_uneven_footholds_is_out_by_more_than_the_levelling_may_be() -> None:
+    """The quadratic is needed: 0.24 deg here, where 0.1 is asked for."""
     places = 0.2384 * np.array([[0.0, 1.0], [-math.sqrt(0.75), -0.5], [math.sqrt(0.75), -0.5]])
     heights, lengths = np.array([0.05, -0.05, 0.05]), np.empty(3)
     worst = 0.0
@@ -111,7 +111,7 @@ def test_heights_that_are_taken_as_equal_put_the_plate_out_by_a_fifth_of_a_degre
         _, _, beta, gamma = plate_on_legs(places, lengths + heights, np.zeros(3), ALL)  # s taken as 1
         exact, seen = turned(*tilt)[:, 2], turned(beta, gamma)[:, 2]
         worst = max(worst, math.degrees(math.acos(min(1.0, exact @ seen))))
-    assert 0.1 < worst < 0.3
+    assert 0.2 < worst < 0.3
 
 
 @pytest.mark.parametrize("seed", SEEDS)
@@ -162,13 +162,17 @@ def test_legs_that_move_together_end_together_and_none_is_too_fast(start: list[f
 
 
 @given(st.floats(0.2, 0.5), st.floats(0.2, 0.5))
-def test_motors_go_by_whole_steps_inside_their_stroke(start: float, wanted: float) -> None:
-    steps = np.array([1e-4 * round(min(0.45, max(0.25, start)) / 1e-4)])
-    whole_steps(np.array([wanted]), 1e-4, 0.25, 0.45, steps)
-    assert steps[0] / 1e-4 == pytest.approx(round(steps[0] / 1e-4), abs=1e-6)
-    assert 0.25 - 1e-9 <= steps[0] <= 0.45 + 1e-9
-    if 0.25 <= wanted <= 0.45:
-        assert abs(steps[0] - wanted) <= 0.75e-4 + 1e-9
+def test_motors_go_by_whole_steps_inside_their_stroke_and_no_faster_than_they_can(start: float, wanted: float) -> None:
+    steps, most = np.array([1e-4 * round(min(0.45, max(0.25, start)) / 1e-4)]), 3e-4
+    for _ in range(1000):
+        before = steps[0]
+        whole_steps(np.array([wanted]), 1e-4, 0.25, 0.45, most, steps)
+        assert steps[0] / 1e-4 == pytest.approx(round(steps[0] / 1e-4), abs=1e-6)
+        assert 0.25 - 1e-9 <= steps[0] <= 0.45 + 1e-9
+        assert abs(steps[0] - before) <= most + 1e-9
+        if steps[0] == before:
+            break
+    assert abs(steps[0] - min(0.45, max(0.25, wanted))) <= 0.75e-4 + 1e-9
 
 
 @pytest.mark.parametrize("seed", SEEDS)

@@ -157,20 +157,26 @@ def move_together(lengths, targets, moving, most):
 
 
 @kernel
-def whole_steps(lengths, resolution, shortest, longest, steps):
+def whole_steps(lengths, resolution, shortest, longest, most, steps):
     """Turn lengths into whole steps of the legs' motors, inside their stroke; a motor stays where it is while that is near enough.
+
+    A motor makes one step at least, or as many as fit into `most`.
 
     Args:
         lengths: Wanted, shape (n,) [m].
         resolution: One step [m].
         shortest, longest: Ends of the stroke [m].
+        most: Largest change of a leg [m].
         steps: Lengths in whole steps as they are, changed, shape (n,) [m].
     """
     low = math.ceil(shortest / resolution - 1e-6)
     high = math.floor(longest / resolution + 1e-6)
+    fast = max(1.0, math.floor(most / resolution + 1e-6))
     for i in range(lengths.shape[0]):
         if abs(lengths[i] - steps[i]) > 0.75 * resolution:
-            steps[i] = resolution * min(high, max(low, math.floor(lengths[i] / resolution + 0.5)))
+            now = math.floor(steps[i] / resolution + 0.5)
+            change = math.floor(lengths[i] / resolution + 0.5) - now
+            steps[i] = resolution * min(high, max(low, now + min(fast, max(-fast, change))))
 
 
 @kernel
