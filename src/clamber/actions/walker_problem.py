@@ -108,8 +108,15 @@ def start_stance(task: WalkerTask, params: Params) -> Records:
 
 
 def walker_params(task: WalkerTask) -> Params:
-    """The arrays that the kernels read."""
+    """The arrays that the kernels read.
+
+    Raises:
+        SpecError: If the robot's attachments are on no circles: the checks know those only.
+    """
     robot, rules, start = task.robot, task.rules, task.start
+    if robot.mechanism.points_delta is not None:
+        allowed = "fields are planned for attachments on circles; state radius_delta and radius_y instead"
+        raise SpecError(f"robot '{robot.name}'", "mechanism.points_delta", MISSING, allowed)
     record = np.zeros(1, WALKER_PARAMS)
     row = record[0]
     c, s = math.cos(start.theta), math.sin(start.theta)

@@ -1,11 +1,9 @@
 """The two-frame walker: a Delta-frame and a Y-frame of three legs each, joined in a plane by three linear actuators."""
 
-import math
 from collections.abc import Mapping
 from dataclasses import field, replace
 from typing import Final
 
-import numpy as np
 from pydantic import StrictStr
 
 from ...files import Document, check_schema
@@ -14,17 +12,16 @@ from ...types import Floats
 from .arm import Arm, check_arm
 from .legs import Legs
 from .mass import Mass
-from .mechanism import Mechanism
+from .mechanism import Mechanism, check_mechanism
 
 SCHEMA: Final = "clamber-robot-1"
 FRAMES: Final = ("delta", "y")
 """Names of the frames, in the order of every array: the Delta-frame carries the body."""
-THIRD: Final = math.tau / 3.0
 
 
 @spec
 class WalkerRobot:
-    """A two-frame walker in SI units. Both frames have their origin in the middle of their attachments."""
+    """A two-frame walker in SI units. Both frames have their origin in the middle of their feet."""
 
     name: Name
     title: StrictStr
@@ -38,17 +35,11 @@ class WalkerRobot:
 
     def attachments(self) -> Floats:
         """Attachments of both frames, each in its own frame [m], shape (2, 3, 2)."""
-        return self._circles(self.mechanism.radius_delta, self.mechanism.radius_y)
+        return self.mechanism.attachments()
 
     def feet(self) -> Floats:
         """Feet of both frames, each in its own frame [m], shape (2, 3, 2); anticlockwise."""
-        return self._circles(self.legs.radius_delta, self.legs.radius_y)
-
-    def _circles(self, radius_delta: float, radius_y: float) -> Floats:
-        starts = (self.mechanism.first, self.mechanism.first + self.mechanism.offset)
-        angles = np.array([[start + THIRD * i for i in range(3)] for start in starts])
-        radii = np.array([[radius_delta], [radius_y]])
-        return np.stack([radii * np.cos(angles), radii * np.sin(angles)], axis=-1)
+        return self.mechanism.spread(self.legs.radius_delta, self.legs.radius_y)
 
 
 def build_walker(document: Document) -> WalkerRobot:
@@ -61,6 +52,7 @@ def build_walker(document: Document) -> WalkerRobot:
     if "sources" in document.data:
         raise document.problem("sources", "unknown key; state a number's source as { value, unit, source }")
     robot = build_spec(WalkerRobot, document, without=("schema", "family", "sources"))
+    check_mechanism(robot.mechanism, document)
     if not robot.legs.shortest < robot.legs.nominal < robot.legs.longest:
         raise document.problem("legs.nominal", "must be between legs.shortest and legs.shortest + legs.stroke")
     if robot.arm is not None:
