@@ -9,9 +9,6 @@ from ..compiled import kernel
 from ..robots.kinematics import wrap
 from .posture import plate_on_legs
 
-NEWTON = 20
-"""Steps of Newton's method at most; from one tick to the next two are enough."""
-
 
 @kernel
 def orient(alpha, beta, gamma, matrix):
@@ -31,82 +28,6 @@ def orient(alpha, beta, gamma, matrix):
     matrix[2, 0] = -sb
     matrix[2, 1] = cb * sg
     matrix[2, 2] = cb * cg
-
-
-@kernel
-def actuator_lengths(delta, y, place, lengths):
-    """Write the actuators' lengths |p + R(theta) B_i - A_i|, shape (3,) [m].
-
-    Args:
-        delta, y: Attachments of both frames, each in its own frame, shape (3, 2) [m].
-        place: Of the Y-frame in the Delta-frame: x, y [m], theta [rad], shape (3,).
-        lengths: Output.
-    """
-    c = math.cos(place[2])
-    s = math.sin(place[2])
-    for i in range(3):
-        across = place[0] + c * y[i, 0] - s * y[i, 1] - delta[i, 0]
-        up = place[1] + s * y[i, 0] + c * y[i, 1] - delta[i, 1]
-        lengths[i] = math.hypot(across, up)
-
-
-@kernel
-def follow_place(delta, y, lengths, place):
-    """Move `place` to where the actuators have these lengths, near where it is: Newton's method; whether that was found.
-
-    Args:
-        delta, y: Attachments of both frames, each in its own frame, shape (3, 2) [m].
-        lengths: Of the actuators, shape (3,) [m].
-        place: Of the Y-frame in the Delta-frame, changed, shape (3,) [m], [rad].
-    """
-    size = math.hypot(y[0, 0], y[0, 1])
-    for _ in range(NEWTON):
-        c = math.cos(place[2])
-        s = math.sin(place[2])
-        a0 = 0.0
-        a1 = 0.0
-        a2 = 0.0
-        b0 = 0.0
-        b1 = 0.0
-        b2 = 0.0
-        m0 = 0.0
-        m1 = 0.0
-        m2 = 0.0
-        e0 = 0.0
-        e1 = 0.0
-        e2 = 0.0
-        for i in range(3):
-            arm_x = c * y[i, 0] - s * y[i, 1]
-            arm_y = s * y[i, 0] + c * y[i, 1]
-            across = place[0] + arm_x - delta[i, 0]
-            up = place[1] + arm_y - delta[i, 1]
-            length = math.hypot(across, up)
-            if length <= 0.0:
-                return False
-            ux = across / length
-            uy = up / length
-            moment = (arm_x * uy - arm_y * ux) / size
-            if i == 0:
-                a0, b0, m0, e0 = ux, uy, moment, lengths[0] - length
-            elif i == 1:
-                a1, b1, m1, e1 = ux, uy, moment, lengths[1] - length
-            else:
-                a2, b2, m2, e2 = ux, uy, moment, lengths[2] - length
-        p0 = b1 * m2 - b2 * m1
-        p1 = b2 * m0 - b0 * m2
-        p2 = b0 * m1 - b1 * m0
-        determinant = a0 * p0 + a1 * p1 + a2 * p2
-        if abs(determinant) < 1e-6:
-            return False
-        dx = (e0 * p0 + e1 * p1 + e2 * p2) / determinant
-        dy = (a0 * (e1 * m2 - e2 * m1) + a1 * (e2 * m0 - e0 * m2) + a2 * (e0 * m1 - e1 * m0)) / determinant
-        turn = (a0 * (b1 * e2 - b2 * e1) + a1 * (b2 * e0 - b0 * e2) + a2 * (b0 * e1 - b1 * e0)) / determinant
-        place[0] += dx
-        place[1] += dy
-        place[2] += turn / size
-        if abs(dx) + abs(dy) + abs(turn) < 1e-13:
-            return True
-    return False
 
 
 @kernel

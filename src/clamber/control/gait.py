@@ -144,10 +144,13 @@ def farthest_step(
         limits: What is left free.
         longest: A step goes no farther than this along the track [m].
     """
+    # dead reckoning may put a robot that stands at the end of its room a little beyond: it can still come back
+    start_place = slide_places(poses[1 - swing], poses[swing], poses[swing], swing, np.zeros(1))
+    least = max(-limits.reserve, min(0.0, float(room_at(robot, start_place, limits)[0]) - 1e-9))
 
     def look(way: float) -> Step | None:
         step = look_at_step(robot, poses, swing, way, target_of(track, way, swing, neutral), arm, payload, limits)
-        return step if step.room >= 0.0 and step.balance >= limits.balance else None
+        return step if step.room >= least and step.balance >= limits.balance else None
 
     start, last = float(ways[swing]), min(track.length, float(ways[swing]) + longest)
     best, coarse = None, 0.01

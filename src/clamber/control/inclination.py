@@ -1,8 +1,8 @@
 """What two noisy inclinometers say of the tilt that a walker's legs tell: a filter whose trust in both is stated.
 
 The legs' lengths over believed footholds tell every change of the tilt at once, but not the tilt of the ground; inclinometers tell the
-whole, but noisily, late, and wrongly while the plate is accelerated. A Kalman filter of one state an axis, the error of what the legs say,
-joins them.
+whole, but noisily, late, and wrongly while the plate is accelerated. And a foot that takes load sinks in, by as much as its load cell says
+times a give that nobody has measured. A Kalman filter joins them. Its state is the error of the tilt along both axes, and the give.
 """
 
 import math
@@ -11,7 +11,7 @@ from typing import Final
 
 import numpy as np
 
-from ..types import Floats
+from ..types import Floats, Ints
 from .posture import inclines_of_tilt, tilt_of_inclines
 
 DEGREE: Final = math.pi / 180.0
@@ -19,7 +19,7 @@ DEGREE: Final = math.pi / 180.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InclinometerTrust:
-    """What is believed of the inclinometers and of the legs."""
+    """What is believed of the inclinometers, the legs and the feet."""
 
     noise: float = 0.05 * DEGREE
     """Standard deviation of a reading [rad]."""
@@ -29,9 +29,13 @@ class InclinometerTrust:
     """How far the tilt that the legs say strays from the true one in a second: feet settle [rad/sqrt(s)]."""
     start: float = 0.1 * DEGREE
     """How unsure the tilt is at first [rad]."""
+    give: float = 1e-5
+    """By how much a foot sinks in under load, with the ground [m/N] ..."""
+    give_doubt: float = 1e-5
+    """... and how unsure that is at first [m/N]."""
 
     def __post_init__(self) -> None:
-        for key in ("noise", "time_constant", "drift", "start"):
+        for key in ("noise", "time_constant", "drift", "start", "give", "give_doubt"):
             if not 0.0 <= getattr(self, key) < math.inf:
                 raise ValueError(f"{key} = {getattr(self, key)}: must be 0 or more, and finite")
 
@@ -54,27 +58,36 @@ class Inclination:
         """What the inclinometers read too much [rad]."""
         self.frozen = False
         """Whether readings are left out: while a slide speeds up, accelerations look like tilt."""
-        self._variance = trust.start**2
+        self.give = trust.give
+        """By how much a foot sinks in under load, as learned [m/N]."""
+        self._covariance = np.diag((trust.start**2, trust.start**2, trust.give_doubt**2))
         self._lagged: Floats | None = None
         """The believed readings, late as those of the inclinometers are, shape (2,) [rad]."""
 
     @property
     def unsure(self) -> float:
-        """Standard deviation of the tilt along each axis, offsets aside [rad]."""
-        return math.sqrt(self._variance)
+        """Standard deviation of the tilt along the axis where it is larger, offsets aside [rad]."""
+        return math.sqrt(max(self._covariance[0, 0], self._covariance[1, 1]))
 
     def doubt(self, size: float) -> None:
-        """Something may have tilted the plate by `size` [rad] that the legs do not tell."""
-        self._variance = max(self._variance, size * size)
+        """Something may have tilted the plate by `size` [rad] that nothing else tells."""
+        for k in range(2):
+            self._covariance[k, k] = max(self._covariance[k, k], size * size)
+
+    def sink(self, change: Floats) -> None:
+        """Feet have taken or lost load, and the plate has tilted by `give` times this along its axes, shape (2,) [rad N/m]."""
+        moves = np.eye(3)
+        moves[:2, 2] = change
+        self._covariance = moves @ self._covariance @ moves.T
 
     def off(self, readings: Floats) -> float:
         """How far these readings differ from what was believed when they were taken [rad]."""
         if self._lagged is None:
             return 0.0
-        return float(np.linalg.norm(readings - self.offsets - self._lagged))
+        return float(np.hypot(*(readings - self.offsets - self._lagged)))
 
     def see(self, readings: Floats, beta: float, gamma: float) -> tuple[float, float]:
-        """By how much the tilt differs from what the legs say, as far as this reading is worth it: changes of beta and gamma [rad].
+        """By how much the tilt differs from what is believed, as far as this reading is worth it: changes of beta and gamma [rad].
 
         Args:
             readings: Of both inclinometers, shape (2,) [rad].
@@ -84,13 +97,40 @@ class Inclination:
         if self._lagged is None:
             self._lagged = believed
         self._lagged += self._lag * (believed - self._lagged)
-        self._variance += self.trust.drift**2 * self._period
+        self._covariance[0, 0] += self.trust.drift**2 * self._period
+        self._covariance[1, 1] += self.trust.drift**2 * self._period
         if self.frozen:
             return 0.0, 0.0
-        gain = self._variance / (self._variance + self._noise) if self._variance > 0.0 else 0.0
-        self._variance *= 1.0 - gain
-        along, across = believed + gain * (readings - self.offsets - self._lagged)
-        seen_beta, seen_gamma = tilt_of_inclines(along, across)
-        # the believed readings follow what is believed now, not late
-        self._lagged += np.array((along, across)) - believed
+        seen = self._covariance[:2, :2].copy()
+        seen[0, 0] += self._noise
+        seen[1, 1] += self._noise
+        if seen[0, 0] * seen[1, 1] <= 0.0:  # exact sensors and no doubt at all
+            return 0.0, 0.0
+        gain = np.linalg.solve(seen, self._covariance[:2]).T
+        move = gain @ (readings - self.offsets - self._lagged)
+        self._covariance -= gain @ self._covariance[:2]
+        self._covariance = 0.5 * (self._covariance + self._covariance.T)
+        self.give = max(0.0, self.give + float(move[2]))
+        # the late readings follow what is believed now, not late
+        self._lagged += move[:2]
+        seen_beta, seen_gamma = tilt_of_inclines(believed[0] + move[0], believed[1] + move[1])
         return seen_beta - beta, seen_gamma - gamma
+
+
+def load_slope(places: Floats, loads: Floats, stands: Ints) -> Floats:
+    """Slope of the plane that fits loads of legs best, along the plate's axes, shape (2,) [N/m]; 0 with fewer than three.
+
+    Args:
+        places: Of the legs in the plate, shape (n, 2) [m].
+        loads: Of the feet, shape (n,) [N].
+        stands: 1 for legs that count, shape (n,).
+    """
+    here = stands > 0
+    if here.sum() < 3:
+        return np.zeros(2)
+    about = places[here] - places[here].mean(axis=0)
+    x, y = about[:, 0], about[:, 1]
+    by_x, by_y, xy = float(x @ loads[here]), float(y @ loads[here]), float(x @ y)
+    xx, yy = float(x @ x), float(y @ y)
+    spread = xx * yy - xy * xy
+    return np.array((yy * by_x - xy * by_y, xx * by_y - xy * by_x)) / spread if spread > 0.0 else np.zeros(2)

@@ -15,7 +15,7 @@ from ...types import Floats
 from . import motions
 from .walker import Walker
 
-LOOK: Final = 8.0
+LOOK: Final = 15.0
 """For which readings are averaged at each heading [s]."""
 REST: Final = 3.0
 """Before that, until the legs have taken the load [s]."""

@@ -21,14 +21,15 @@ from ...control.gait import (
 )
 from ...control.track import seen_from
 from ...types import Floats, Ints
+from .falls import LIGHT
 from .walker import LEGS, RefusedError, Walker, leg_name
 
 ROOM: Final = 0.004
 """What is left of a leg's stroke at either end where there is a choice [m]."""
 PATIENCE: Final = 60.0
 """For levelling, at most [s]."""
-SETTLED: Final = 0.3
-"""After a slide, until the inclinometers have forgotten its end [s]."""
+SETTLED: Final = 0.6
+"""After a slide has sped up or slowed down, until the inclinometers have forgotten it [s]."""
 LOOSE: Final = 0.25
 """A standing foot that feels less than this part of what counts as touching is lowered again before it has to carry [-]."""
 
@@ -197,7 +198,7 @@ def lift(walker: Walker, frame: int, ahead: Floats | None = None, *, by: float |
         walker.leave(i)
         walker.free_speeds[i] = settings.ease_speed
         walker.free_aims[i] = max(spec.shortest, walker.lengths[i] - settings.ease)
-    _until_there(walker, mine)
+    _ease(walker, mine)
     for i in mine:
         walker.free_speeds[i] = spec.speed
         walker.free_aims[i] = aims[i]
@@ -208,13 +209,18 @@ def lift(walker: Walker, frame: int, ahead: Floats | None = None, *, by: float |
             break
 
 
-def _until_there(walker: Walker, legs: list[int]) -> None:
-    while np.abs(walker.lengths[legs] - walker.free_aims[legs]).max() > 1e-6:
+def _ease(walker: Walker, legs: list[int]) -> None:
+    """Wait until feet that are being lifted slowly feel no load, or are where they go."""
+    free = 0
+    while free < walker.settings.touches and np.abs(walker.lengths[legs] - walker.free_aims[legs]).max() > 1e-6:
         walker.tick()
+        free = free + 1 if walker.forces[legs].max() < LIGHT else 0
 
 
 def slide(walker: Walker, swing: int, end: Floats) -> None:
     """Bring the lifted frame to a pose in the world, straight, over the frame that stands.
+
+    Inclinometers are not heard while it speeds up or slows down.
 
     Args:
         walker: The robot.
@@ -245,12 +251,16 @@ def slide(walker: Walker, swing: int, end: Floats) -> None:
     if walker.settings.level and step.balance < 0.0:
         raise RefusedError(f"the slide would tip the robot by {-1e3 * step.balance:.0f} mm", step.balance)
     seconds = slide_seconds(robot, places, settings.ramp)
-    before, walker.inclination.frozen = walker.inclination.frozen, True
+    before = walker.inclination.frozen
+    late = settings.ramp + SETTLED
     for k in range(1, max(1, math.ceil(seconds / walker.period)) + 1):
-        share = eased_share(k * walker.period, seconds, settings.ramp)
+        time = k * walker.period
+        walker.inclination.frozen = before or time < late or time > seconds - settings.ramp
+        share = eased_share(time, seconds, settings.ramp)
         place = slide_places(still, first, last, swing, np.array([share]))
         walker.actuators[:] = lengths_at(robot, place)[0]
         walker.tick()
+    walker.inclination.frozen = True
     walker.wait(SETTLED)
     walker.inclination.frozen = before
     walker.inclination.doubt(settings.landing_doubt)

@@ -26,11 +26,11 @@ class WalkSettings:
     """For which the robot stands on six feet and levels, before a frame is lifted [s]."""
     ramp: float = 0.5
     """In which a slide comes to its speed [s]; shorter ones break the feet's friction."""
-    ease: float = 0.0012
-    """For the first so far a standing foot is lifted slowly, so that the others take its load one after another [m] ..."""
     ease_speed: float = 0.0005
-    """... at this speed [m/s]."""
-    trim: float = 2.0
+    """At which standing feet are lifted until the ground pushes them no more, so that the others take their load in time [m/s] ..."""
+    ease: float = 0.006
+    """... at most so far [m]: feet, ground and legs give way by a millimetre or two."""
+    trim: float = 4.0
     """Part of a standing leg's error of length that is made up for in a second: a loaded leg gives way by half a millimetre [1/s]."""
     deepest: float = 0.06
     """A foot that finds no ground so far below the expected has none [m]."""

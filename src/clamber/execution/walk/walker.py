@@ -5,11 +5,12 @@ from typing import Final
 
 import numpy as np
 
-from ...control.dead_reckoning import follow_place, leg_places, reckon, soles_in_world
-from ...control.inclination import Inclination, InclinometerTrust
+from ...control.dead_reckoning import leg_places, reckon, soles_in_world
+from ...control.inclination import Inclination, InclinometerTrust, load_slope
 from ...control.posture import leg_lengths, level_heights, move_together, rise, tilt_of_inclines, whole_steps
 from ...control.walker_balance import mass_centre, support_margin, weight_of
 from ...robots.walker import WalkerRobot
+from ...robots.walker.two_frames import FOUND, follow_branch
 from ...types import Floats, Ints
 from .falls import FallWatch
 from .plant import WalkerPlant
@@ -20,6 +21,8 @@ STILL: Final = 0.2
 """A leg whose aim moves by less than this share of its speed is at rest: its error of length is no lag [-]."""
 SLACK: Final = 0.6
 """Errors of a leg's length below this part of its motor's step stay [-]."""
+SMOOTHED: Final = 0.3
+"""Time constant of the loads that tell how deep feet sink in [s]."""
 KICKED: Final = math.radians(0.5)
 """Inclinometers that differ so far from the legs tell of a foot that has slipped off something [rad] ..."""
 KICK: Final = 0.3
@@ -79,6 +82,7 @@ class Walker:
         self.falls = FallWatch(weight_of(robot, payload), plant.period)
         self._delta, self._y = robot.attachments()
         self._rest = robot.feet()
+        self._room = np.empty((9, 3))
         self.pose, self.place = np.zeros(6), np.zeros(3)
         """Believed: of the plate in the world; of the Y-frame in the Delta-frame."""
         self.stands: Ints = np.zeros(LEGS, np.int32)
@@ -105,6 +109,7 @@ class Walker:
         """For how many samples on end each foot has felt the ground."""
         self.ticks = self.kicks = 0
         self._kicked = 0.0
+        self._slope = np.zeros(2)
         self.left = 0.0
         """The longest way that a standing leg has still to go [m]."""
 
@@ -159,6 +164,7 @@ class Walker:
         self.heights += self.pose[2]
         soles_in_world(self.pose, self.places, self.sensed, self.soles, self.matrix)
         self.anchors[:] = self.soles[:, :2]
+        self._slope = load_slope(self.places, self.forces, self.stands)
         self.wanted[:] = self.pose[2], self.pose[4], self.pose[5]
         self._trims[:] = np.where(self.stands, self.commanded - self.sensed, 0.0)
         self.lengths[:] = np.where(self.stands, self.sensed, self.commanded)
@@ -170,9 +176,8 @@ class Walker:
             FallenError: If the robot falls.
         """
         self._take_in()
-        if not reckon(
-            self.places, self.sensed, self.anchors, self.heights, self.stands, self.pose, self.soles, self.matrix
-        ):
+        self._sink(min(1.0, self.period / SMOOTHED))
+        if not self._reckon():
             raise FallenError(f"only {self.stands.sum()} feet stand")
         self._see_inclines()
         self._hold_posture()
@@ -192,17 +197,15 @@ class Walker:
 
     def land(self, i: int) -> None:
         """A foot is on the ground and stays where it is."""
-        self.stands[i] = 1
+        self._stand_on(i, 1)
         self.anchors[i], self.heights[i] = self.soles[i, :2], self.soles[i, 2]
         self._trims[i], self.lengths[i] = self.commanded[i] - self.sensed[i], self.sensed[i]
-        self.inclination.doubt(self.settings.landing_doubt)
 
     def leave(self, i: int) -> None:
         """A foot no longer counts as standing; its leg stays as long as it is until `free_aims` says otherwise."""
-        self.stands[i] = 0
+        self._stand_on(i, 0)
         self.lengths[i] = self.free_aims[i] = self.commanded[i]
         self._trims[i] = 0.0
-        self.inclination.doubt(self.settings.landing_doubt)
 
     def frames(self) -> Floats:
         """Both frames seen from above, as believed: x, y [m] and heading [rad], shape (2, 3)."""
@@ -241,9 +244,36 @@ class Walker:
         self.sensed[:], self.forces[:] = sensed.legs.ravel(), sensed.forces.ravel()
         self.readings[:] = sensed.inclines
         self.touched[:] = np.where(self.forces > self.settings.touch, self.touched + 1, 0)
-        if not follow_place(self._delta, self._y, sensed.actuators, self.place):
+        if follow_branch(self._delta, self._y, sensed.actuators, self.place, self._room) != FOUND:
             raise FallenError("the actuators' lengths belong to no posture of the mechanism near the last one")
         leg_places(self._rest, self.place, self.places)
+
+    def _sink(self, share: float) -> None:
+        """Standing feet sink in as they take load; a share of what they have not yet is made up for.
+
+        Only the plane through the loads counts. The weight alone decides that; the rest is how six legs strain against each other, and
+        legs that answered to it would strain the more. It is smoothed, or it would answer to the robot's rocking on its feet.
+        """
+        here = self.stands > 0
+        change = share * (load_slope(self.places, self.forces, self.stands) - self._slope)
+        self._slope = self._slope + change
+        self.heights[here] -= self.inclination.give * (self.places[here] - self.places[here].mean(axis=0)) @ change
+        self.inclination.sink(-change)
+
+    def _stand_on(self, i: int, stands: int) -> None:
+        """A foot stands from now on, or does no longer."""
+        self._sink(1.0)
+        self._reckon()
+        self.stands[i] = stands
+        self._slope = load_slope(self.places, self.forces, self.stands)
+        self.inclination.doubt(self.settings.landing_doubt)
+
+    def _reckon(self) -> bool:
+        return bool(
+            reckon(
+                self.places, self.sensed, self.anchors, self.heights, self.stands, self.pose, self.soles, self.matrix
+            )
+        )
 
     def _see_inclines(self) -> None:
         beta, gamma = self.pose[4], self.pose[5]
