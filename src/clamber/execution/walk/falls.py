@@ -1,9 +1,11 @@
-"""A walker's fall told from its own sensors: nothing carries it, a foot of three leaves the ground, or the plate tilts."""
+"""A walker's fall told from its own sensors: nothing carries it, only two feet feel the ground, or the plate tilts."""
 
 import math
 from typing import Final
 
-from ...types import Floats, Ints
+import numpy as np
+
+from ...types import Floats
 
 BORNE: Final = 0.5
 """Feet that feel less than this part of the weight, all together, do not carry the robot."""
@@ -12,7 +14,7 @@ LOOSE: Final = 0.3
 LIGHT: Final = 5.0
 """A foot that feels less is off the ground [N]."""
 LIFTED: Final = 1.0
-"""One of the last three feet is off the ground for that long only if the robot tips [s]."""
+"""Fewer than three feet feel the ground for that long only if the robot tips [s]."""
 TILTED: Final = math.radians(6.0)
 """A plate that tilts so far from what its legs say is falling [rad]."""
 
@@ -29,17 +31,15 @@ class FallWatch:
         self._least, self._period = BORNE * weight, period
         self._loose = self._lifted = self._tilted = 0.0
 
-    def see(self, forces: Floats, stands: Ints, tilted: float) -> str:
+    def see(self, forces: Floats, tilted: float) -> str:
         """Take in a tick; why this is a fall, empty if it is none.
 
         Args:
             forces: Along the legs, shape (6,) [N].
-            stands: 1 for feet that stand, shape (6,).
             tilted: How far the inclinometers differ from what the legs say [rad].
         """
-        standing = forces[stands > 0]
         self._loose = self._loose + self._period if forces.sum() < self._least else 0.0
-        off = len(standing) == 3 and float(standing.min()) < LIGHT
+        off = int(np.count_nonzero(forces > LIGHT)) < 3
         self._lifted = self._lifted + self._period if off else 0.0
         self._tilted = self._tilted + self._period if tilted > TILTED else 0.0
         if self._loose > LOOSE:
@@ -47,5 +47,5 @@ class FallWatch:
         if self._tilted > LOOSE:
             return f"the plate is tilted by {math.degrees(tilted):.1f} deg from what its legs say"
         if self._lifted > LIFTED:
-            return "the robot tips: one of the three feet that stand is off the ground"
+            return "the robot tips: fewer than three of its feet feel the ground"
         return ""

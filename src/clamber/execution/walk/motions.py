@@ -47,8 +47,8 @@ def level(walker: Walker) -> None:
         FallenError: If the robot falls.
     """
     walker.wanted[1:] = 0.0
-    walker.wanted[0] = height_for(walker, walker.heights, walker.heights, np.zeros(LEGS))
-    check_stroke(walker, walker.wanted, walker.stands)
+    walker.height = height_for(walker, walker.heights, walker.heights, np.zeros(LEGS))
+    check_stroke(walker, np.array((walker.height, 0.0, 0.0)), walker.stands)
     waited = 0.0
     while waited < PATIENCE:
         walker.tick()
@@ -172,6 +172,7 @@ def lift(walker: Walker, frame: int, ahead: Floats | None = None, *, by: float |
         FallenError: If the robot falls.
     """
     settings, robot = walker.settings, walker.robot
+    lower(walker, walker.of_frame(1 - frame))  # those that hang loose
     others: Ints = np.zeros(LEGS, np.int32)
     others[walker.of_frame(1 - frame)] = walker.stands[walker.of_frame(1 - frame)]
     if others.sum() < 3:
@@ -192,8 +193,8 @@ def lift(walker: Walker, frame: int, ahead: Floats | None = None, *, by: float |
     low[mine] += rise
     high[mine] += max(0.0, rise)
     lifts[mine] = clear
-    walker.wanted[0] = height_for(walker, low, high, lifts)
-    aims = np.clip(walker.targets(walker.wanted, high + lifts), spec.shortest, spec.longest)
+    height = height_for(walker, low, high, lifts)
+    aims = np.clip(walker.targets(np.array((height, *walker.wanted[1:])), high + lifts), spec.shortest, spec.longest)
     for i in mine:
         walker.leave(i)
         walker.free_speeds[i] = settings.ease_speed
@@ -202,10 +203,11 @@ def lift(walker: Walker, frame: int, ahead: Floats | None = None, *, by: float |
     for i in mine:
         walker.free_speeds[i] = spec.speed
         walker.free_aims[i] = aims[i]
+    walker.height = height
     need = clear if settings.clear is None else min(clear, settings.clear)
     while walker.left > 1e-5 or np.abs(walker.lengths[mine] - aims[mine]).max() > 1e-6:
         walker.tick()
-        if need < clear and float((walker.soles[mine, 2] - high[mine]).min()) > need:
+        if float((walker.soles[mine, 2] - high[mine]).min()) > need - 2.0 * spec.resolution:
             break
 
 
@@ -262,6 +264,8 @@ def slide(walker: Walker, swing: int, end: Floats) -> None:
         walker.tick()
     walker.inclination.frozen = True
     walker.wait(SETTLED)
+    while walker.left > 1e-5:
+        walker.tick()
     walker.inclination.frozen = before
     walker.inclination.doubt(settings.landing_doubt)
 

@@ -19,6 +19,8 @@ from .settings import WalkSettings
 LEGS: Final = 6
 STILL: Final = 0.2
 """A leg whose aim moves by less than this share of its speed is at rest: its error of length is no lag [-]."""
+GENTLY: Final = 0.4
+"""Share of its legs' speed at which the plate rises and sinks: feet that are lifted would else not come off the ground [-]."""
 SLACK: Final = 0.6
 """Errors of a leg's length below this part of its motor's step stay [-]."""
 SMOOTHED: Final = 0.3
@@ -97,6 +99,8 @@ class Walker:
         self._trims, self._targets = np.zeros(LEGS), np.zeros(LEGS)
         self.free_aims, self.free_speeds = np.zeros(LEGS), np.full(LEGS, robot.legs.speed)
         """Where the legs that do not stand go, and how fast [m], [m/s]."""
+        self.height = 0.0
+        """Where the plate's height goes [m], slower than the legs can, so that levelling keeps up."""
         self.wanted = np.zeros(3)
         """Height, beta and gamma of the plate that are kept [m], [rad]."""
         self.actuators = np.zeros(3)
@@ -166,6 +170,7 @@ class Walker:
         self.anchors[:] = self.soles[:, :2]
         self._slope = load_slope(self.places, self.forces, self.stands)
         self.wanted[:] = self.pose[2], self.pose[4], self.pose[5]
+        self.height = self.wanted[0]
         self._trims[:] = np.where(self.stands, self.commanded - self.sensed, 0.0)
         self.lengths[:] = np.where(self.stands, self.sensed, self.commanded)
 
@@ -283,7 +288,7 @@ class Walker:
             level_heights(beta, gamma, self.places, self.sensed, self.stands, *turn, self.heights)
             self.pose[4] += turn[0]
             self.pose[5] += turn[1]
-        why = self.falls.see(self.forces, self.stands, tilted)
+        why = self.falls.see(self.forces, tilted)
         if why:
             raise FallenError(why)
         self._kicked = self._kicked + self.period if tilted > KICKED else 0.0
@@ -297,9 +302,11 @@ class Walker:
         z, beta, gamma = self.wanted
         leg_lengths(z, beta, gamma, self.places, self.heights, self._targets)
         most = self.robot.legs.speed * self.period
+        rise = self.height - self.wanted[0]
+        self.wanted[0] += min(GENTLY * most, max(-GENTLY * most, rise))
         before = self.lengths.copy()
-        self.left = move_together(self.lengths, self._targets, self.stands, most)
-        still = (np.abs(self.lengths - before) < STILL * most) & (self.stands > 0)
+        self.left = abs(rise) + move_together(self.lengths, self._targets, self.stands, most)
+        still = (np.abs(self.lengths - before - (self.wanted[0] - z)) < STILL * most) & (self.stands > 0)
         short = self.lengths - self.sensed
         short[np.abs(short) < SLACK * self.robot.legs.resolution] = 0.0
         self._trims += np.where(still, self.settings.trim * self.period * short, 0.0)
