@@ -60,6 +60,7 @@ class SpringsWalker:
         noise: Standard deviation of an inclinometer's reading [rad].
         offsets: What they read too much [rad].
         payload: At the tool point [kg].
+        give: By how much the ground gives way to a foot [m/N]; legs give way, too, but that is sensed.
         seed: Of the noise.
     """
 
@@ -67,9 +68,12 @@ class SpringsWalker:
 
     def __init__(
         self, robot: WalkerRobot, ground: Ground = flat, *, noise: float = 0.0, offsets: tuple[float, float] = (0.0, 0.0),
-        payload: float = 0.0, seed: int = 0,
+        payload: float = 0.0, give: float = 7e-6, seed: int = 0,
     ) -> None:  # fmt: skip
         self.robot, self.ground, self.payload = robot, ground, payload
+        self.stiffness = 1.0 / (1.0 / STIFFNESS + give)
+        self.places = robot.attachments()
+        self.rest = robot.feet()
         self.noise, self.offsets = noise, np.array(offsets)
         self.random = np.random.default_rng(seed)
         self.actuators, self.legs, self.arm = np.zeros(3), np.zeros(6), np.zeros(0)
@@ -159,7 +163,7 @@ class SpringsWalker:
         return math.acos(min(1.0, self.turn[2, 2]))
 
     def _lengths(self, place: Floats) -> Floats:
-        a, b = self.robot.attachments()
+        a, b = self.places
         turned = b @ rotation(2, place[2])[:2, :2].T
         return np.asarray(np.linalg.norm(place[:2] + turned - a, axis=1))
 
@@ -174,7 +178,7 @@ class SpringsWalker:
 
     def _feet(self) -> Floats:
         """Soles of the legs as long as they would be without load, world."""
-        rest = self.robot.feet()
+        rest = self.rest
         on_y = self.place[:2] + rest[1] @ rotation(2, self.place[2])[:2, :2].T
         inside = np.column_stack([np.concatenate([rest[0], on_y]), -self.legs])
         return np.asarray(self.at + inside @ self.turn.T)
@@ -187,22 +191,22 @@ class SpringsWalker:
         for _ in range(30):
             feet = self._feet()
             under = np.array([self.ground(*self.anchors.get(i, feet[i])[:2]) for i in range(6)])
-            press = np.maximum(0.0, under - feet[:, 2])
+            press = np.maximum(0.0, under - feet[:, 2])  # by leg and ground together
             arms, centre = feet - self.at, self.centre() - self.at
             rows = np.stack([np.ones(6), arms[:, 1], -arms[:, 0]])
-            wrench = STIFFNESS * rows @ press - self.weight * np.array((1.0, centre[1], -centre[0]))
+            wrench = self.stiffness * rows @ press - self.weight * np.array((1.0, centre[1], -centre[0]))
             active = rows[:, press > 0.0]
-            stiff = STIFFNESS * active @ active.T + 1e-3 * STIFFNESS * np.diag((1.0, 0.05, 0.05))
+            stiff = self.stiffness * active @ active.T + 1e-3 * self.stiffness * np.diag((1.0, 0.05, 0.05))
             move = np.linalg.solve(stiff, wrench)
             size = max(abs(move[0]) / 0.003, float(np.abs(move[1:]).max()) / 0.01, 1.0)
             self.at[2] += move[0] / size
             self.turn = rotation(0, move[1] / size) @ rotation(1, move[2] / size) @ self.turn
-            if self.tilt() > 0.4:
+            if self.tilt() > 0.6:
                 self.fallen = True
                 return
             if np.abs(move).max() < 1e-9:
                 break
-        self.forces = STIFFNESS * press
+        self.forces = self.stiffness * press
         feet = self._feet()
         self.anchors = {i: self.anchors.get(i, feet[i, :2].copy()) for i in range(6) if self.forces[i] > 0.0}
 

@@ -1,5 +1,6 @@
-"""Offsets of the inclinometers, told by turning them: the plate turns in its own plane over the Y-frame, on ground of any slope.
+"""What a walker finds out about itself before it walks: its inclinometers' offsets, and how far its feet sink in.
 
+Offsets are told by turning the inclinometers: the plate turns in its own plane over the Y-frame, on ground of any slope.
 The plane stays as it is in the world while the sensors turn with the plate, so that a reading is offset + Rz(-heading) slope. Three
 headings give both by least squares. The arm turns back as far, so that it weighs on the same legs.
 """
@@ -19,6 +20,8 @@ LOOK: Final = 15.0
 """For which readings are averaged at each heading [s]."""
 REST: Final = 3.0
 """Before that, until the legs have taken the load [s]."""
+SWINGS: Final = (1.5, -1.5)
+"""Of the arm's first joint, from where it is, to shift the load [rad]."""
 STEP: Final = math.radians(0.5)
 """To which the range of the turn is found [rad]."""
 
@@ -59,6 +62,22 @@ def calibrate(walker: Walker) -> Floats:
     return off
 
 
+def feel_give(walker: Walker) -> None:
+    """Swing the arm to and fro, so that the filter learns how far feet sink in under load; nothing without an arm.
+
+    Raises:
+        FallenError: If the robot falls.
+    """
+    spec = walker.robot.arm
+    if spec is None:
+        return
+    home = float(walker.arm[0])
+    for turn in (*SWINGS, 0.0):
+        walker.arm_aims[0] = min(spec.highest[0], max(spec.lowest[0], home + turn))
+        _until_arm_is_there(walker)
+        walker.wait(REST)
+
+
 def offsets_from(readings: Sequence[Floats], headings: Sequence[float]) -> Floats:
     """Offsets of two inclinometers along x and y of a plane that turns in itself, about level, shape (2,) [rad].
 
@@ -95,5 +114,9 @@ def _turn_to(walker: Walker, home: Floats, turn: float, arm: Floats) -> None:
         aim = min(spec.highest[0], max(spec.lowest[0], arm[0] - turn))
         walker.arm_aims[0] = aim
     motions.slide(walker, DELTA, home + np.array((0.0, 0.0, turn)))
+    _until_arm_is_there(walker)
+
+
+def _until_arm_is_there(walker: Walker) -> None:
     while np.abs(walker.arm - walker.arm_aims).max(initial=0.0) > 1e-9:
         walker.tick()

@@ -12,7 +12,7 @@ from ...control.track import Track
 from ...types import Floats, Json
 from ..plant import PlantStoppedError
 from . import motions
-from .calibrate import calibrate
+from .calibrate import calibrate, feel_give
 from .footholds import choose_footing
 from .walk_trace import PHASES, TracedWalker
 from .walker import FallenError, RefusedError, leg_name
@@ -157,6 +157,7 @@ class WalkSequencer:
             raise RefusedError(f"{leg_name(none[0])} finds no ground")
         if walker.settings.level:
             motions.level(walker)
+        feel_give(walker)
         if not self._calibrated:
             calibrate(walker)
             if walker.settings.level:

@@ -168,7 +168,7 @@ class Walker:
         self.heights += self.pose[2]
         soles_in_world(self.pose, self.places, self.sensed, self.soles, self.matrix)
         self.anchors[:] = self.soles[:, :2]
-        self._slope = load_slope(self.places, self.forces, self.stands)
+        self._slope = self._load_slope()
         self.wanted[:] = self.pose[2], self.pose[4], self.pose[5]
         self.height = self.wanted[0]
         self._trims[:] = np.where(self.stands, self.commanded - self.sensed, 0.0)
@@ -260,17 +260,25 @@ class Walker:
         legs that answered to it would strain the more. It is smoothed, or it would answer to the robot's rocking on its feet.
         """
         here = self.stands > 0
-        change = share * (load_slope(self.places, self.forces, self.stands) - self._slope)
-        self._slope = self._slope + change
+        more = share * (self._load_slope() - self._slope)
+        self._slope = self._slope + more
+        c, s = math.cos(self.pose[3]), math.sin(self.pose[3])
+        change = np.array((c * more[0] + s * more[1], c * more[1] - s * more[0]))
         self.heights[here] -= self.inclination.give * (self.places[here] - self.places[here].mean(axis=0)) @ change
         self.inclination.sink(-change)
+
+    def _load_slope(self) -> Floats:
+        """Of the plane through the loads, along the world's axes, for the plate's turn, shape (2,) [N/m]."""
+        x, y = load_slope(self.places, self.forces, self.stands)
+        c, s = math.cos(self.pose[3]), math.sin(self.pose[3])
+        return np.array((c * x - s * y, s * x + c * y))
 
     def _stand_on(self, i: int, stands: int) -> None:
         """A foot stands from now on, or does no longer."""
         self._sink(1.0)
         self._reckon()
         self.stands[i] = stands
-        self._slope = load_slope(self.places, self.forces, self.stands)
+        self._slope = self._load_slope()
         self.inclination.doubt(self.settings.landing_doubt)
 
     def _reckon(self) -> bool:
