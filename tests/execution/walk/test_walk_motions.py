@@ -119,11 +119,14 @@ def test_a_lift_that_would_tip_the_robot_is_refused_before_anything_moves() -> N
 
 
 def test_a_posture_beyond_the_legs_is_refused_and_names_the_leg() -> None:
-    tilt = math.radians(25.0)
-    walker, _ = stood(slope(tilt, BEST), tilt=tilt, uphill=BEST, noise=0.0)
-    with pytest.raises(RefusedError, match=r"leg \d of the .*-frame would have to be") as caught:
-        motions.level(walker)
-    assert caught.value.margin < 0.0
+    walker, _ = stood(noise=0.0)
+    motions.check_stroke(walker, np.array((0.44, 0.0, 0.0)), walker.stands)
+    with pytest.raises(
+        RefusedError, match=r"leg \d of the .*-frame would have to be .* can be 250 to 450 mm"
+    ) as caught:
+        motions.check_stroke(walker, np.array((0.44, 0.0, math.radians(12.0))), walker.stands)
+    longest = 0.44 / math.cos(math.radians(12.0)) + RADIUS * math.tan(math.radians(12.0))
+    assert caught.value.margin == pytest.approx(0.45 - longest, abs=1e-3)
 
 
 @pytest.mark.parametrize("seed", range(3))
