@@ -22,7 +22,7 @@ OFF = 0.012
 """A tip that far from its peg is off it [m]."""
 GONE = 0.25
 """Time for which a peg is not there, where it comes back [s]."""
-RIGHT, LEFT = 0, 1
+RIGHT, LEFT, BOTTOM = 0, 1, 2
 When = Callable[[TracedClimber], bool]
 
 
@@ -87,8 +87,8 @@ def on_two_limbs(step: int, ticks: int) -> When:
 
 
 def on_three_limbs(step: int, ticks: int) -> When:
-    """Likewise, while the third one clings."""
-    return _after(step, ticks, lambda doing: doing.count("hold") == 2 and "cling" in doing)
+    """Likewise, while the third one, the bottom limb, clings."""
+    return _after(step, ticks, lambda doing: doing.count("hold") == 2 and doing[BOTTOM] == "cling")
 
 
 def while_one_pushes(step: int, ticks: int) -> When:

@@ -13,7 +13,9 @@ from .. import __version__
 from ..errors import ClamberError
 from .bench import bench
 from .body import body
+from .calibrate import calibrate
 from .check import check
+from .follow import follow
 from .inventory import inventory
 from .learn import learn
 from .limb import limb
@@ -45,6 +47,7 @@ app.command("inventory")(inventory)
 app.command("check")(check)
 app.command("run")(run)
 app.command("press")(press)
+app.command("follow")(follow)
 app.command("trials")(trials)
 app.command("show")(show)
 app.command("bench")(bench)
@@ -54,6 +57,7 @@ app.add_typer(body, name="body")
 app.add_typer(new, name="new")
 app.add_typer(plant, name="plant")
 app.command("reach")(reach)
+app.command("calibrate")(calibrate)
 app.command("study")(study)
 
 

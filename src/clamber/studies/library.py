@@ -32,6 +32,10 @@ from .boards_exact.no_rotation import forbid_rotation
 from .boards_exact.optima import prove_optima
 from .boards_exact.peg_spacing import vary_spacing
 from .boards_exact.torque_front import trade_length_for_torque
+from .hoshino_1995 import PAPER as HOSHINO
+from .hoshino_1995.ditches import draw_figure_5
+from .hoshino_1995.printed_numbers import compare_numbers
+from .hoshino_1995.regions import draw_figure_4
 from .result import StudyResult
 
 Repeat: TypeAlias = Callable[[], StudyResult]
@@ -56,6 +60,8 @@ ON_A_BODY: Final[dict[str, Repeat]] = {
     **SEEDED,
 }
 """Chapter 4 of Bevly 1997: the whole robot in contact dynamics."""
+OF_FRAMES: Final[dict[str, Repeat]] = {"table": compare_numbers, "fig-4": draw_figure_4, "fig-5": draw_figure_5}
+"""Sections 2 and 3 of Hoshino 1995: geometry of the two frames."""
 STUDIES: Final[dict[str, dict[str, Repeat]]] = {
     PAPER: {
         "inventory-size": count_modules,
@@ -81,10 +87,13 @@ STUDIES: Final[dict[str, dict[str, Repeat]]] = {
         "narrowest-cone": narrow_cones,
         "peg-spacing": vary_spacing,
     },
+    HOSHINO: {**OF_FRAMES},
 }
 """Paper or subject -> result -> what repeats it; the command line, the pages and the tests read it."""
 
 
 def first_loop(result: Repeat) -> str:
-    """The kernel that a result runs first: plans are rolled out, laws on a limb or a body are ticked."""
+    """The kernel that a result runs first: plans are rolled out, laws on a limb or a body are ticked, frames' regions outlined."""
+    if result in OF_FRAMES.values():
+        return "outline"
     return "drive" if result in (*ON_ONE_LIMB.values(), *ON_A_BODY.values()) else "rollout"

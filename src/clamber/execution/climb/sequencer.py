@@ -18,7 +18,7 @@ from .ends import grab, release
 from .hang import Hang
 from .here import task_from_here
 from .let_go import let_go
-from .motions import clear_the_way, move_body
+from .motions import clear_the_way, may_stay, move_body
 from .recover import recover
 
 Outcome: TypeAlias = Literal["ok", "stalled", "missed", "fell", "interrupted", "stopped", "not supported"]
@@ -315,11 +315,15 @@ class Sequencer:
                     break
                 place = self._pose(step) + np.array((side * x, y, 0.0))
                 off = float(np.abs(place - self.climber.body.aim).max())
+                home = None
                 if not self.climber.hangs and off > SHIFTED:  # also by the approach to the hold before
                     if (x or y) and self.climber.body.stands(place) < WORST:
                         continue
-                    move_body(self.climber, place)
-                result = grab(self.climber, i, action.hold, elbow=elbow)
+                    if not (x or y) and may_stay(self.climber, i, place):
+                        home = place
+                    else:
+                        move_body(self.climber, place)
+                result = grab(self.climber, i, action.hold, elbow=elbow, home=home)
                 tries += max(1, result.tries)
                 if result.held:
                     self._keep_in_map(i, action.hold)

@@ -135,6 +135,8 @@ def lower(walker: Walker, legs: range) -> list[int]:
     while seeking:
         walker.tick()
         for i in list(seeking):
+            near = 0.0 < walker.soles[i, 2] - expected[i] < settings.near
+            walker.free_speeds[i] = min(spec.speed, settings.near_speed) if near else spec.speed
             ended = walker.sensed[i] > spec.longest - 2.0 * spec.resolution
             if walker.touched[i] >= settings.touches:
                 walker.land(i)

@@ -32,6 +32,10 @@ class WalkSettings:
     """... at most so far [m]: feet, ground and legs give way by a millimetre or two."""
     trim: float = 4.0
     """Part of a standing leg's error of length that is made up for in a second: a loaded leg gives way by half a millimetre [1/s]."""
+    near: float = 0.004
+    """From so far above the ground as it is expected, feet go down more slowly [m] ..."""
+    near_speed: float = 0.0025
+    """... at this speed [m/s]: what a leg goes on until it is stopped tilts the plate."""
     deepest: float = 0.06
     """A foot that finds no ground so far below the expected has none [m]."""
     landing_doubt: float = math.radians(0.03)
@@ -48,10 +52,21 @@ class WalkSettings:
     """A step goes no farther than this [m]."""
 
     def __post_init__(self) -> None:
-        for key in ("touch", "settling", "ease", "deepest", "level_within", "ramp", "ease_speed", "longest", "even"):
+        for key in (
+            "touch",
+            "settling",
+            "ease",
+            "deepest",
+            "level_within",
+            "ramp",
+            "ease_speed",
+            "near_speed",
+            "longest",
+            "even",
+        ):
             if not getattr(self, key) > 0.0:
                 raise ValueError(f"{key} = {getattr(self, key)}: must be more than 0")
-        for key in ("trim", "landing_doubt", "probe"):
+        for key in ("trim", "landing_doubt", "probe", "near"):
             if not 0.0 <= getattr(self, key) < math.inf:
                 raise ValueError(f"{key} = {getattr(self, key)}: must be 0 or more, and finite")
         for key in ("touches", "most_probes"):
