@@ -134,3 +134,17 @@ def load_slope(places: Floats, loads: Floats, stands: Ints) -> Floats:
     xx, yy = float(x @ x), float(y @ y)
     spread = xx * yy - xy * xy
     return np.array((yy * by_x - xy * by_y, xx * by_y - xy * by_x)) / spread if spread > 0.0 else np.zeros(2)
+
+
+def strain_of(places: Floats, loads: Floats, stands: Ints) -> Floats:
+    """By how much each standing leg carries more than its even share, shape (n,) [N]; 0 for others.
+
+    The even shares are the plane through the loads: of all loads that carry the same weight at the same place they have the smallest
+    sum of squares. What is over adds up to no force and no moment: so six legs strain against each other.
+    """
+    here = stands > 0
+    strain = np.zeros(len(loads))
+    if here.sum() > 3:
+        about = places[here] - places[here].mean(axis=0)
+        strain[here] = loads[here] - loads[here].mean() - about @ load_slope(places, loads, stands)
+    return strain

@@ -32,6 +32,8 @@ class WalkSettings:
     """... at most so far [m]: feet, ground and legs give way by a millimetre or two."""
     trim: float = 4.0
     """Part of a standing leg's error of length that is made up for in a second: a loaded leg gives way by half a millimetre [1/s]."""
+    share: float = 1.0
+    """Part of what a leg carries beyond its even share that is passed on in a second while more than three stand [1/s]."""
     near: float = 0.004
     """From so far above the ground as it is expected, feet go down more slowly [m] ..."""
     near_speed: float = 0.0025
@@ -66,7 +68,7 @@ class WalkSettings:
         ):
             if not getattr(self, key) > 0.0:
                 raise ValueError(f"{key} = {getattr(self, key)}: must be more than 0")
-        for key in ("trim", "landing_doubt", "probe", "near"):
+        for key in ("trim", "share", "landing_doubt", "probe", "near"):
             if not 0.0 <= getattr(self, key) < math.inf:
                 raise ValueError(f"{key} = {getattr(self, key)}: must be 0 or more, and finite")
         for key in ("touches", "most_probes"):

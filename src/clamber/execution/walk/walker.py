@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 
 from ...control.dead_reckoning import leg_places, reckon, soles_in_world
-from ...control.inclination import Inclination, InclinometerTrust, load_slope
+from ...control.inclination import Inclination, InclinometerTrust, load_slope, strain_of
 from ...control.posture import leg_lengths, level_heights, move_together, rise, tilt_of_inclines, whole_steps
 from ...control.walker_balance import mass_centre, support_margin, weight_of
 from ...robots.walker import WalkerRobot
@@ -25,6 +25,8 @@ SLACK: Final = 0.6
 """Errors of a leg's length below this part of its motor's step stay [-]."""
 SMOOTHED: Final = 0.3
 """Time constant of the loads that tell how deep feet sink in [s]."""
+LEAST_GIVE: Final = 2e-6
+"""A foot and its leg sink in by so much at least, where loads are shared [m/N]."""
 KICKED: Final = math.radians(0.5)
 """Inclinometers that differ so far from the legs tell of a foot that has slipped off something [rad] ..."""
 KICK: Final = 0.3
@@ -185,6 +187,7 @@ class Walker:
         if not self._reckon():
             raise FallenError(f"only {self.stands.sum()} feet stand")
         self._see_inclines()
+        self._share_load()
         self._hold_posture()
         self._move_free_legs()
         self._move_arm()
@@ -305,6 +308,12 @@ class Walker:
             self._kicked = 0.0
             self.inclination.frozen = False
             self.inclination.doubt(tilted)
+
+    def _share_load(self) -> None:
+        """Legs that carry too much while more than three stand are drawn in, others pushed out; the plane through the feet stays."""
+        over = strain_of(self.places, self.forces, self.stands)
+        give = max(self.inclination.give, LEAST_GIVE)
+        self.heights += self.settings.share * self.period * give * over
 
     def _hold_posture(self) -> None:
         z, beta, gamma = self.wanted
