@@ -73,6 +73,7 @@ def test_frozen_readings_change_nothing_and_doubt_makes_the_next_ones_count() ->
 @pytest.mark.parametrize("give", [0.0, 7e-6, 2e-5])
 def test_how_far_feet_sink_in_is_learned_from_loads_that_shift(give: float) -> None:
     inclination, sensor = Inclination(InclinometerTrust(), PERIOD), Readings(3)
+    inclination.learns = True
     true, believed, slope = np.zeros(2), np.zeros(2), np.zeros(2)
     for k in range(round(60.0 / PERIOD)):
         now = 200.0 * np.array((math.sin(0.3 * k * PERIOD), math.cos(0.2 * k * PERIOD) - 1.0))  # [N/m]
@@ -86,6 +87,19 @@ def test_how_far_feet_sink_in_is_learned_from_loads_that_shift(give: float) -> N
     assert np.abs(believed - true).max() < 0.05 * DEGREE
 
 
+def test_a_foot_that_slips_off_something_is_believed_within_seconds_even_by_a_sure_filter() -> None:
+    def error_after(seconds: float, trust: InclinometerTrust) -> float:
+        inclination, sensor, believed = Inclination(trust, PERIOD), Readings(1), np.zeros(2)
+        for k in range(round((60.0 + seconds) / PERIOD)):
+            true = np.array((0.5, 0.0)) * DEGREE * (k * PERIOD > 60.0)
+            turn = inclination.see(sensor.read(true), *tilt_of_inclines(*believed))
+            believed = np.array(inclines_of_tilt(*(np.array(tilt_of_inclines(*believed)) + turn)))
+        return float(np.abs(believed - true).max())
+
+    assert error_after(2.0, InclinometerTrust()) < 0.1 * DEGREE
+    assert error_after(2.0, InclinometerTrust(surprise=1e6)) > 0.2 * DEGREE
+
+
 def test_the_slope_of_loads_is_that_of_the_plane_through_them() -> None:
     rng = np.random.default_rng(0)
     places, stands = rng.uniform(-0.3, 0.3, (6, 2)), np.array([1, 0, 1, 1, 1, 0], np.int32)
@@ -95,7 +109,9 @@ def test_the_slope_of_loads_is_that_of_the_plane_through_them() -> None:
     assert not load_slope(places, loads, np.array([1, 1, 0, 0, 0, 0], np.int32)).any()
 
 
-@pytest.mark.parametrize("key", ["noise", "time_constant", "drift", "start", "give", "give_doubt"])
+@pytest.mark.parametrize(
+    "key", ["noise", "time_constant", "drift", "start", "give", "give_doubt", "give_drift", "surprise"]
+)
 def test_trust_that_is_negative_or_endless_is_refused(key: str) -> None:
     for value in (-1.0, math.inf, math.nan):
         with pytest.raises(ValueError, match=key):

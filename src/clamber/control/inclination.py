@@ -17,6 +17,12 @@ from .posture import inclines_of_tilt, tilt_of_inclines
 DEGREE: Final = math.pi / 180.0
 
 
+MOST_GIVE: Final = 3e-5
+"""Feet that sank in by more would not be stood on: what 10 mm of soft ground give under the robot's weight [m/N]."""
+WATCHED: Final = 1.0
+"""Over which readings are compared with what is believed [s]."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InclinometerTrust:
     """What is believed of the inclinometers, the legs and the feet."""
@@ -33,9 +39,13 @@ class InclinometerTrust:
     """By how much a foot sinks in under load, with the ground [m/N] ..."""
     give_doubt: float = 1e-5
     """... and how unsure that is at first [m/N]."""
+    give_drift: float = 2e-7
+    """How far that strays in a second: no foothold is like another [m/(N sqrt(s))]."""
+    surprise: float = 4.0
+    """Readings that differ for a second by more than this many of their deviations tell of something that nothing else told [-]."""
 
     def __post_init__(self) -> None:
-        for key in ("noise", "time_constant", "drift", "start", "give", "give_doubt"):
+        for key in ("noise", "time_constant", "drift", "start", "give", "give_doubt", "give_drift", "surprise"):
             if not 0.0 <= getattr(self, key) < math.inf:
                 raise ValueError(f"{key} = {getattr(self, key)}: must be 0 or more, and finite")
 
@@ -60,9 +70,15 @@ class Inclination:
         """Whether readings are left out: while a slide speeds up, accelerations look like tilt."""
         self.give = trust.give
         """By how much a foot sinks in under load, as learned [m/N]."""
+        self.learns = False
+        """Whether readings teach the give: only while nothing but load shifts, or a slip is taken for it."""
         self._covariance = np.diag((trust.start**2, trust.start**2, trust.give_doubt**2))
         self._lagged: Floats | None = None
         """The believed readings, late as those of the inclinometers are, shape (2,) [rad]."""
+        self._differs = np.zeros(2)
+        """By how much the readings of the last second differ from those, shape (2,) [rad]."""
+        correlated = trust.time_constant / (trust.time_constant + WATCHED)
+        self._surprising = trust.surprise * trust.noise * math.sqrt(correlated)
 
     @property
     def unsure(self) -> float:
@@ -99,18 +115,29 @@ class Inclination:
         self._lagged += self._lag * (believed - self._lagged)
         self._covariance[0, 0] += self.trust.drift**2 * self._period
         self._covariance[1, 1] += self.trust.drift**2 * self._period
+        self._covariance[2, 2] += self.trust.give_drift**2 * self._period
         if self.frozen:
+            self._differs[:] = 0.0
             return 0.0, 0.0
+        off = readings - self.offsets - self._lagged
+        self._differs += self._period / WATCHED * (off - self._differs)
+        much = float(np.abs(self._differs).max())
+        if much > self._surprising:
+            self.doubt(much)
         seen = self._covariance[:2, :2].copy()
         seen[0, 0] += self._noise
         seen[1, 1] += self._noise
         if seen[0, 0] * seen[1, 1] <= 0.0:  # exact sensors and no doubt at all
             return 0.0, 0.0
         gain = np.linalg.solve(seen, self._covariance[:2]).T
-        move = gain @ (readings - self.offsets - self._lagged)
-        self._covariance -= gain @ self._covariance[:2]
-        self._covariance = 0.5 * (self._covariance + self._covariance.T)
-        self.give = max(0.0, self.give + float(move[2]))
+        if not self.learns:
+            gain[2] = 0.0
+        move = gain @ off
+        rest = np.eye(3)
+        rest[:, :2] -= gain
+        # the form that holds for any gain
+        self._covariance = rest @ self._covariance @ rest.T + self._noise * gain @ gain.T
+        self.give = min(MOST_GIVE, max(0.0, self.give + float(move[2])))
         # the late readings follow what is believed now, not late
         self._lagged += move[:2]
         seen_beta, seen_gamma = tilt_of_inclines(believed[0] + move[0], believed[1] + move[1])

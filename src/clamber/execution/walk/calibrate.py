@@ -72,10 +72,12 @@ def feel_give(walker: Walker) -> None:
     if spec is None:
         return
     home = float(walker.arm[0])
+    walker.inclination.learns = True
     for turn in (*SWINGS, 0.0):
         walker.arm_aims[0] = min(spec.highest[0], max(spec.lowest[0], home + turn))
         _until_arm_is_there(walker)
         walker.wait(REST)
+    walker.inclination.learns = False
 
 
 def offsets_from(readings: Sequence[Floats], headings: Sequence[float]) -> Floats:

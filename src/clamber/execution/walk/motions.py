@@ -257,6 +257,7 @@ def slide(walker: Walker, swing: int, end: Floats) -> None:
     seconds = slide_seconds(robot, places, settings.ramp)
     before = walker.inclination.frozen
     late = settings.ramp + SETTLED
+    walker.inclination.learns = True
     for k in range(1, max(1, math.ceil(seconds / walker.period)) + 1):
         time = k * walker.period
         walker.inclination.frozen = before or time < late or time > seconds - settings.ramp
@@ -264,6 +265,7 @@ def slide(walker: Walker, swing: int, end: Floats) -> None:
         place = slide_places(still, first, last, swing, np.array([share]))
         walker.actuators[:] = lengths_at(robot, place)[0]
         walker.tick()
+    walker.inclination.learns = False
     walker.inclination.frozen = True
     walker.wait(SETTLED)
     while walker.left > 1e-5:

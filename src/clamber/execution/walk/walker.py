@@ -12,7 +12,7 @@ from ...control.walker_balance import mass_centre, support_margin, weight_of
 from ...robots.walker import WalkerRobot
 from ...robots.walker.two_frames import FOUND, follow_branch
 from ...types import Floats, Ints
-from .falls import FallWatch
+from .falls import LIGHT, FallWatch
 from .plant import WalkerPlant
 from .settings import WalkSettings
 
@@ -25,6 +25,8 @@ SLACK: Final = 0.6
 """Errors of a leg's length below this part of its motor's step stay [-]."""
 SMOOTHED: Final = 0.3
 """Time constant of the loads that tell how deep feet sink in [s]."""
+HALF: Final = 0.5
+"""Part of what feet sink in that is made up for while others, which do not count as standing, carry, too [-]."""
 LEAST_GIVE: Final = 2e-6
 """A foot and its leg sink in by so much at least, where loads are shared [m/N]."""
 KICKED: Final = math.radians(0.5)
@@ -267,8 +269,12 @@ class Walker:
         self._slope = self._slope + more
         c, s = math.cos(self.pose[3]), math.sin(self.pose[3])
         change = np.array((c * more[0] + s * more[1], c * more[1] - s * more[0]))
-        self.heights[here] -= self.inclination.give * (self.places[here] - self.places[here].mean(axis=0)) @ change
-        self.inclination.sink(-change)
+        # legs that are being lifted give way to what the others answer with: in full that could build up
+        part = HALF if np.any(self.forces[~here] > LIGHT) else 1.0
+        self.heights[here] -= (
+            part * self.inclination.give * (self.places[here] - self.places[here].mean(axis=0)) @ change
+        )
+        self.inclination.sink(-part * change)
 
     def _load_slope(self) -> Floats:
         """Of the plane through the loads, along the world's axes, for the plate's turn, shape (2,) [N/m]."""
