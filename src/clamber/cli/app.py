@@ -15,7 +15,9 @@ from .bench import bench
 from .body import body
 from .calibrate import calibrate
 from .check import check
+from .ditch import ditch
 from .follow import follow
+from .help_text import command_of
 from .inventory import inventory
 from .learn import learn
 from .limb import limb
@@ -58,6 +60,7 @@ app.add_typer(new, name="new")
 app.add_typer(plant, name="plant")
 app.command("reach")(reach)
 app.command("calibrate")(calibrate)
+app.command("ditch")(ditch)
 app.command("study")(study)
 
 
@@ -83,7 +86,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         arguments: Words after `clamber`; None takes those of the process.
     """
     try:
-        app(args=None if arguments is None else list(arguments), prog_name="clamber")
+        command_of(app)(args=None if arguments is None else list(arguments), prog_name="clamber")
     except ClamberError as error:
         print(f"clamber: {error}", file=sys.stderr)
         sys.exit(2)

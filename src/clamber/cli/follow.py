@@ -82,6 +82,10 @@ def follow(
         table.add_row(
             "manipulability", f"{told['mean_manipulability']:.4f} mean, {told['least_manipulability']:.4f} least"
         )
+        if run.options.gain > run.stable_gain:
+            table.add_row(
+                "gain", f"{run.options.gain:g} swings about summits of V; below {run.stable_gain:.3g} it does not"
+            )
         table.add_row("closest limit", f"{name}, {margin:.3g} {unit} left at {time:.1f} s")
         if run.unreachable:
             table.add_row("out of reach", f"{len(run.unreachable)} of the points looked at beforehand")

@@ -8,18 +8,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..control.cooperative.footing import SUPPORT_WORDS
-from ..control.cooperative.planted import heading_of, turn_of
 from ..experiments.cooperative.follow import FollowRun
-from ..types import Floats
 from . import style
+from .arm_and_body import draw_robot, set_space
 from .output import CANVASES, check_suffix, save_figure
 from .style import styled
 
 WANTED: Final = style.QUIET
 TOOL: Final = style.PARTS[0]
-ARM: Final = style.PARTS[1]
-DELTA: Final = style.INK
-Y: Final = style.PARTS[2]
 START_ALPHA: Final = 0.3
 MILLI: Final = 1e3
 
@@ -57,14 +53,9 @@ def _draw_space(space: Any, run: FollowRun) -> None:
     space.plot(*run.places[on].T, color=TOOL, lw=1.3, label="tool")
     if run.off_end > 1e-3:
         space.plot(*run.path.points[-1], marker="x", ms=7, color=style.ALERT, ls="none", label="end, not reached")
-    draw_robot(space, run, 0, START_ALPHA)
-    draw_robot(space, run, -1, 1.0)
-    space.set_aspect("equal")
-    for name in "xyz":
-        getattr(space, f"set_{name}label")(f"{name} [m]")
-        getattr(space, f"{name}axis").pane.set_facecolor(style.WALL)
-    space.view_init(elev=18, azim=-62)
-    space.locator_params(nbins=5)
+    draw_robot(space, run.footing, run.q[0], START_ALPHA)
+    draw_robot(space, run.footing, run.q[-1], 1.0)
+    set_space(space)
     space.legend(loc="upper left", fontsize=8)
 
 
@@ -85,44 +76,3 @@ def _draw_over_time(upper: Axes, lower: Axes, run: FollowRun) -> None:
         "way to its start", (0.5 * begins, 0.03), xycoords=("data", "axes fraction"), ha="center", fontsize=7.5,
         color=style.QUIET,
     )  # fmt: skip
-
-
-def draw_robot(space: Any, run: FollowRun, row: int, alpha: float) -> None:
-    """Draw frames, standing legs and arm at one row of a run into 3-D axes."""
-    q, robot = run.q[row], run.robot
-    turn, origin = turn_of(q[3:6]), q[:3]
-    feet = run.footing.feet_on_ground()
-    offset, twist = np.array(run.footing.offset), run.footing.twist
-    if run.footing.support == "y":
-        offset = (turn.T @ (feet[1].mean(axis=0) - origin))[:2]
-        twist += heading_of(run.footing.pose[3:6]) - heading_of(q[3:6])
-    c, s = np.cos(twist), np.sin(twist)
-    plate = robot.feet()
-    plate[1] = plate[1] @ np.array([[c, s], [-s, c]]) + offset
-    over = plate @ turn[:, :2].T + origin
-    for frame, colour in enumerate((DELTA, Y)):
-        loop = np.vstack([over[frame], over[frame][:1]]) if frame == 0 else _spokes(over[1])
-        space.plot(*loop.T, color=colour, lw=2.0, alpha=alpha)
-        if frame in run.footing.standing():
-            for top, foot in zip(over[frame], feet[frame], strict=True):
-                space.plot(*np.array([top, foot]).T, color=colour, lw=1.4, alpha=alpha)
-    space.plot(*arm_points(run, row).T, color=ARM, lw=2.6, alpha=alpha, solid_capstyle="round")
-
-
-def _spokes(tips: Floats) -> Floats:
-    """The Y-frame as one line from its middle out to each tip and back."""
-    middle = tips.mean(axis=0)
-    return np.array([tips[0], middle, tips[1], middle, tips[2]])
-
-
-def arm_points(run: FollowRun, row: int) -> Floats:
-    """The arm's joints and its tool in the world at one row of a run [m], shape (links + 3, 3)."""
-    arm = run.robot.arm
-    assert arm is not None, "only robots with an arm follow paths"
-    q = run.q[row]
-    pitches = np.concatenate([[0.0], np.cumsum(q[7:])])
-    out = np.concatenate([[0.0, 0.0], arm.out + np.cumsum([0.0, *(np.array(arm.links) * np.cos(pitches[1:]))])])
-    up = np.concatenate([[0.0, arm.up], arm.up + np.cumsum([0.0, *(np.array(arm.links) * np.sin(pitches[1:]))])])
-    plate = np.column_stack([out * np.cos(q[6]), out * np.sin(q[6]), up])
-    points: Floats = plate @ turn_of(q[3:6]).T + q[:3]
-    return points

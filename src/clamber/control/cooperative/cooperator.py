@@ -1,13 +1,13 @@
 """The law of cooperative motion around its kernels: checks what comes in, solves the programme, looks one step ahead."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import numpy as np
 
 from ...robots.walker import WalkerRobot
 from ...types import Floats
-from .footing import BALANCE, N_ROWS, Footing, FootingError
+from .footing import BALANCE, N_ROWS, Footing, FootingError, Support
 from .limits import Kept, chain_of, limit_names
 from .one_step import finish, move_freely, prepare, see
 from .programme import let_rest, make_programme
@@ -126,6 +126,36 @@ class Cooperator:
         limited, w = self.settings.limited, self._w
         return float(
             see(self.chain, self._record, q, weights, self._fastest, self._tool_speeds, limited, self._speeds, w)
+        )
+
+    def gradient(self, q: Floats, weights: Floats) -> Floats:
+        """dV/dq^ of the normalised chain [-], shape (m,)."""
+        self.measure(q, weights)
+        return self._w.gradient.copy()
+
+    def scaled_jacobian(self, q: Floats, weights: Floats) -> Floats:
+        """J^ [-], shape (3, m)."""
+        self.measure(q, weights)
+        return self._w.scaled.copy()
+
+    def y_in_delta(self, q: Floats) -> tuple[tuple[float, float], float]:
+        """Offset [m] and twist [rad] of the Y-frame in the Delta-frame at a configuration."""
+        self.limited_values(q)
+        x, y, twist = self._w.y_place.tolist()
+        return (x, y), twist
+
+    def stand_on(self, support: Support, q: Floats, heights: Floats | None = None) -> None:
+        """Change the feet that stand, with the robot as it is at `q`.
+
+        Args:
+            support: The frame that stands from now on, or both.
+            q: Freedoms, shape (m,).
+            heights: Of the ground under each foot, Delta-frame first [m], shape (2, 3); None: as before.
+        """
+        offset, twist = self.y_in_delta(q)
+        under = self.footing.heights if heights is None else heights
+        self.stand(
+            replace(self.footing, support=support, pose=q[:POSE].copy(), offset=offset, twist=twist, heights=under)
         )
 
     def step(

@@ -11,6 +11,7 @@ from ...control.cooperative.footing import N_ROWS, ROW_UNITS, Footing
 from ...control.cooperative.freedoms import SUPPORT, Freedoms, freedoms_of, weights_of
 from ...control.cooperative.limits import freedom_names
 from ...control.cooperative.settings import Cooperation, CooperationError, own_speeds
+from ...control.cooperative.stable_gain import stable_gain
 from ...execution.log import Log
 from ...robots.walker import WalkerRobot
 from ...types import Floats, Json
@@ -87,6 +88,8 @@ class FollowRun:
     """The reachable place nearest to the path's last point, from where the run ended."""
     unsolved: int
     """Periods in which the law found no motion and rested."""
+    stable_gain: float
+    """k_p above which the motion would swing about a summit of V, by the run's last posture [-]."""
 
     @property
     def errors(self) -> Floats:
@@ -147,6 +150,7 @@ class FollowRun:
             "end_error_m": self.off_end,
             "mean_manipulability": float(self.measure[self.on_path > 0.0].mean()),
             "least_manipulability": float(self.measure[self.on_path > 0.0].min()),
+            "stable_gain": self.stable_gain if np.isfinite(self.stable_gain) else None,
             "closest_limit": {"name": name, "margin": margin, "unit": unit, "time": time},
             "held_by": self.held,
             "unreachable_points": [
@@ -219,7 +223,7 @@ def follow_path(robot: WalkerRobot, path: ToolPath, options: FollowOptions) -> F
         np.arange(len(on), dtype=np.float64) * options.period, np.array(rows.q), np.array(rows.places), np.array(rows.wanted), on,
         np.array(rows.measure), np.array(rows.values), law.limits(), law.names,
         dict(sorted(held.items(), key=lambda item: -item[1])), unreachable, search.find(rows.at, path.points[-1]),
-        rows.unsolved,
+        rows.unsolved, stable_gain(law, rows.at, weights),
     )  # fmt: skip
 
 
