@@ -277,7 +277,12 @@ class WalkSequencer:
         marks.append(walker.time)
 
     def _way_of(self, track: Track, step: Step, landed: Floats) -> float:
-        """Where on the track a frame that came down elsewhere than it was to is, by how far behind along the way it stands [m]."""
+        """Where on the track a frame that came down elsewhere than it was to is, by how far behind along the way it stands [m].
+
+        One that edges sent elsewhere is where it was to be: it has done what it could.
+        """
+        if self.walker.settings.probe > 0.0:
+            return step.way
         ahead = track.pose(min(track.length, step.way))
         behind = track.pose(max(0.0, step.way - 1e-3))
         forward = ahead - behind
