@@ -24,6 +24,7 @@ def follow(
     payload: Annotated[str, typer.Option(help="At the tool.")] = "0kg",
     balance: Annotated[str, typer.Option(help="Least margin of the centre of mass in the support.")] = "0mm",
     height: Annotated[str | None, typer.Option(help="Of the plate at the start; legs' nominal length.")] = None,
+    dynamics: Annotated[bool, typer.Option("--dynamics", help="Lead a robot in contact dynamics through it.")] = False,
     output: Outputs = None,
     as_json: AsJson = False,
 ) -> None:
@@ -56,6 +57,7 @@ def follow(
         payload=parse_quantity(payload, "mass"),
         balance=parse_quantity(balance, "length"),
         height=None if height is None else parse_quantity(height, "length"),
+        dynamics=dynamics,
     )
     tool_path = load_tool_path(path)
     announce_compilation("prepare", quiet=as_json)
