@@ -16,6 +16,7 @@ from .body import body
 from .calibrate import calibrate
 from .check import check
 from .follow import follow
+from .help_text import command_of
 from .inventory import inventory
 from .learn import learn
 from .limb import limb
@@ -83,7 +84,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         arguments: Words after `clamber`; None takes those of the process.
     """
     try:
-        app(args=None if arguments is None else list(arguments), prog_name="clamber")
+        command_of(app)(args=None if arguments is None else list(arguments), prog_name="clamber")
     except ClamberError as error:
         print(f"clamber: {error}", file=sys.stderr)
         sys.exit(2)

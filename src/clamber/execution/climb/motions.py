@@ -45,11 +45,11 @@ TUG: Final = 10.0
 LIFT: Final = (0.001, 0.003)
 """A push that lifts the body this far weakens, to a third at the second: it bears already, and other hooks would come off [m]."""
 SLIDING: Final = (0.003, 0.006)
-"""A push under which the tips of holding limbs come apart this far weakens, to nothing at the second: a hook is coming off [m]."""
-WEAK: Final = 0.25
-"""A push weakened to less than this part says nothing of a hook that has stopped [-]."""
+"""So does one under which the tips of holding limbs come apart this far: a hook is coming off, unless joints cross their play [m]."""
 TUG_RISE: Final = 0.1
 """In which the tug grows to its full size [s]."""
+BORNE_TIME: Final = 0.05
+"""Over which what a push meets is smoothed [s]."""
 DITHER: Final = 8.0
 """Pull across, to and fro, so that friction lets the hook slide in [N]."""
 DITHER_RATE: Final = 5.0
@@ -343,7 +343,7 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0, home: Floats 
         stopped = _push(climber, i, hold + aside * h, g, room)
         off = body.tip(i) - hold
         along, across = float(off @ g), float(off @ h)
-        if stopped and along > -room and abs(across) < room:
+        if stopped and math.hypot(along, across) < room:
             climber.learn(number, i, climber.holding())
             climber.latest = i
             task.doing, task.hold, task.place = "cling", number, climber.holds[number].copy()
@@ -404,22 +404,21 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bo
     body, task, period = climber.body, climber.body.tasks[i], climber.plant.period
     # believed to press from the start: in free air the tip is then farther in than believed, never less far
     task.doing, task.pressed, task.tug = "pull", True, np.zeros(2)
-    stage, still, tugged, phase = "push", 0.0, 0.0, 0.0
+    stage, still, tugged, phase, borne = "push", 0.0, 0.0, 0.0, 0.0
     seated, marks = False, np.full(2, -np.inf)
-    rested = body.pose[:2].copy()
-    first, last = climber.holding()[0], climber.holding()[-1]
-    apart = body.tip(first) - body.tip(last)
+    rested, apart = body.pose[:2].copy(), _apart(climber)
     part = HANGING if climber.hangs else 1.0
     for _ in range(round(PATIENCE / period)):
         along = body.grab_direction(i)
         across = np.array((-along[1], along[0]))
         size = PUSH + (TUG - PUSH) * min(tugged / TUG_RISE, 1.0)
         lifted = float((rested - body.pose[:2]) @ g)
-        slid = math.dist(body.tip(first) - body.tip(last), apart)
         if stage == "push":
             free = float((place - body.tip(i)) @ g) - room
             size += float(np.interp(free, (0.0, FREE), (0.0, HASTE)))
-        size *= part * np.interp(lifted, LIFT, (1.0, 1 / 3)) * np.interp(slid, SLIDING, (1.0, 0.0))
+        # a joint that crosses its play, or is wrongly believed to, is seen in one of both; a hook that slides, in both
+        slid = float(np.linalg.norm(_apart(climber) - apart, axis=1).min())
+        size *= part * min(np.interp(lifted, LIFT, (1.0, 1 / 3)), np.interp(slid, SLIDING, (1.0, 1 / 3)))
         strength, rate = (WIDE_DITHER, WIDE_RATE) if stage == "coax" else (DITHER, DITHER_RATE)
         phase += 2 * np.pi * rate * period
         side = part * strength * np.sin(phase)
@@ -427,17 +426,21 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bo
             side += CENTRING * float(across @ (place - body.tip(i)))
         else:
             tugged += period
-            task.tug = size * along
+        # what does not go into motion is borne by what the hook meets, and the other limbs carry that much less
+        borne += (
+            period / BORNE_TIME * (min(max(size - task.damping * float(body.tip_speed(i) @ along), 0.0), size) - borne)
+        )
+        task.tug = borne * along
         task.force = size * along + side * across
         climber.tick()
         # the play is crossed without a motor that turns, and the belief about it lags: both must have come to rest
         reached = np.array((body.felt_tip(i) @ g, body.tip(i) @ g))
         advanced = reached > marks + ADVANCE
         marks = np.where(advanced, reached, marks)
-        # what does not pull does not seat
-        still = 0.0 if advanced.any() or size < WEAK * part * PUSH else still + period
+        still = 0.0 if advanced.any() else still + period
         ahead = float((place - body.tip(i)) @ g)
-        if ahead < -room:
+        # the belief about the play may be out for a while, the encoders know nothing of it: beyond by both is beyond
+        if max(ahead, float((place - body.felt_tip(i)) @ g)) < -room:
             break
         if stage == "push" and still > STOPPED:
             stage, still = "coax" if ahead > SHORT else "tug", 0.0
@@ -448,3 +451,9 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bo
             break
     task.pressed, task.tug = False, np.zeros(2)
     return seated
+
+
+def _apart(climber: Climber) -> Floats:
+    """One holding tip less another by the encoders alone, and with the play counted, world frame, shape (2, 2) [m]."""
+    body, i, j = climber.body, climber.holding()[0], climber.holding()[-1]
+    return np.array((body.felt_tip(i) - body.felt_tip(j), body.tip(i) - body.tip(j)))
