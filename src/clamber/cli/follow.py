@@ -35,7 +35,7 @@ def follow(
 
     Exit code 1 if the tool does not come to the path's end or cannot reach points of it.
     """
-    from ..control.cooperative.footing import SUPPORT_WORDS
+    from ..control.cooperative.planted_feet import SUPPORT_WORDS
     from ..execution.log_files import SUFFIXES, write_log
     from ..experiments.cooperative.follow import FollowOptions, follow_path
     from ..experiments.cooperative.tool_path import load_tool_path

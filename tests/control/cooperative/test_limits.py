@@ -9,8 +9,8 @@ from walkers import hoshino
 
 from clamber.control.cooperative.closest import ReachSearch
 from clamber.control.cooperative.cooperator import Cooperator
-from clamber.control.cooperative.footing import Footing, FootingError
 from clamber.control.cooperative.freedoms import SUPPORT, Freedoms, weights_of
+from clamber.control.cooperative.planted_feet import LimitError, PlantedFeet
 from clamber.control.cooperative.settings import Cooperation, own_speeds
 from clamber.robots import WalkerRobot
 from clamber.types import Floats
@@ -25,7 +25,7 @@ class Judge:
     """Largest excess over every limit, from places of points in the world."""
 
     robot: WalkerRobot
-    stance: Footing
+    stance: PlantedFeet
     speeds: Floats
     period: float
 
@@ -59,7 +59,7 @@ def run_to(
     """Go to a target as fast as the tool may; the largest excess, and where the tool ends."""
     robot = hoshino()
     rng = np.random.default_rng(seed)
-    stance = Footing(
+    stance = PlantedFeet(
         robot=robot,
         support=SUPPORT[freedoms],
         pose=START[:6],
@@ -111,7 +111,7 @@ def test_no_run_to_any_of_a_thousand_targets_exceeds_a_limit(part: int) -> None:
 def test_a_run_ends_where_the_search_finds_the_closest_reachable_place() -> None:
     """The law, step by step at real speed, and the search that jumps, agree where the target cannot be reached."""
     robot = hoshino()
-    stance = Footing(robot=robot, support="delta", pose=START[:6])
+    stance = PlantedFeet(robot=robot, support="delta", pose=START[:6])
     weights = weights_of("arm", 4)
     search = ReachSearch(robot, stance, weights)
     speeds = own_speeds(robot)
@@ -132,7 +132,7 @@ def test_no_grid_point_of_the_arm_is_nearer_than_the_search_finds() -> None:
     robot = hoshino()
     arm = robot.arm
     assert arm is not None
-    stance = Footing(robot=robot, support="y", pose=START[:6])
+    stance = PlantedFeet(robot=robot, support="y", pose=START[:6])
     search = ReachSearch(robot, stance, weights_of("arm", 4), kept="arm")
     axes = [np.linspace(low, high, 61) for low, high in zip(arm.lowest[1:], arm.highest[1:], strict=True)]
     pitches = np.cumsum(np.stack(np.meshgrid(*axes, indexing="ij")), axis=0).reshape(3, -1)
@@ -155,22 +155,22 @@ def test_no_grid_point_of_the_arm_is_nearer_than_the_search_finds() -> None:
 
 def test_a_start_beyond_a_limit_is_named() -> None:
     robot = hoshino()
-    stance = Footing(robot=robot, support="delta", pose=START[:6])
+    stance = PlantedFeet(robot=robot, support="delta", pose=START[:6])
     made = Cooperator(robot, Cooperation(speeds=own_speeds(robot), tool_speeds=np.full(3, 0.1)), stance)
     bent = START.copy()
     bent[8] = -2.5
-    with pytest.raises(FootingError, match=r"the joint 2 of the arm is -2.5; allowed are -2.4 to 2.4"):
+    with pytest.raises(LimitError, match=r"the joint 2 of the arm is -2.5; allowed are -2.4 to 2.4"):
         made.check_start(bent)
     high = START.copy()
     high[2] = 0.47
-    with pytest.raises(FootingError, match=r"the length of leg 0 of the Delta-frame is 0.47; allowed are 0.25 to 0.45"):
+    with pytest.raises(LimitError, match=r"the length of leg 0 of the Delta-frame is 0.47; allowed are 0.25 to 0.45"):
         made.check_start(high)
 
 
 def test_near_a_singular_posture_damping_keeps_the_motion_smooth() -> None:
     """Out to the arm's full stretch and past it: joint rates stay within their speeds, and damped ones come to rest there."""
     robot = hoshino()
-    stance = Footing(robot=robot, support="delta", pose=START[:6])
+    stance = PlantedFeet(robot=robot, support="delta", pose=START[:6])
     damped = Cooperation(speeds=own_speeds(robot), tool_speeds=np.full(3, 0.1), gain=0.0)
     weights, outwards = weights_of("arm", 4), np.array([np.cos(0.2), np.sin(0.2), 0.0])
     shaking = {}

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from clamber.control.cooperative.footing import FootingError
+from clamber.control.cooperative.planted_feet import LimitError
 from clamber.control.cooperative.settings import CooperationError
 from clamber.execution.log_csv import csv_text, parse_csv
 from clamber.experiments.cooperative.follow import FollowOptions, FollowRun, follow_path
@@ -97,9 +97,9 @@ def test_options_that_cannot_be_are_named() -> None:
     path = load_tool_path("circle")
     with pytest.raises(CooperationError, match=r"gain = -1\.0"):
         follow_path(hoshino(), path, FollowOptions(dof=4, gain=-1.0))
-    with pytest.raises(FootingError, match="balance over edge"):
+    with pytest.raises(LimitError, match="balance over edge"):
         follow_path(hoshino(), path, FollowOptions(dof=4, payload=40.0))
-    with pytest.raises(FootingError, match="length of leg"):
+    with pytest.raises(LimitError, match="length of leg"):
         follow_path(hoshino(), path, FollowOptions(dof=4, height=0.6))
 
 

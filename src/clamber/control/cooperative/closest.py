@@ -8,8 +8,8 @@ import numpy as np
 from ...robots.walker import WalkerRobot
 from ...types import Floats
 from .cooperator import Cooperator
-from .footing import Footing, FootingError
 from .limits import Kept
+from .planted_feet import LimitError, PlantedFeet
 from .settings import Cooperation
 from .tool_chain import POSE
 
@@ -57,7 +57,7 @@ class ReachSearch:
     """Looks for the nearest reachable places with one stance and one set of freedoms."""
 
     def __init__(
-        self, robot: WalkerRobot, footing: Footing, weights: Floats, *, balance: float = 0.0, kept: Kept = "places"
+        self, robot: WalkerRobot, footing: PlantedFeet, weights: Floats, *, balance: float = 0.0, kept: Kept = "places"
     ) -> None:
         """Starts no search.
 
@@ -112,7 +112,7 @@ class ReachSearch:
             start[POSE] = np.clip(np.remainder(turn + np.pi, 2 * np.pi) - np.pi, *self._range(0))
             try:
                 self._law.check_start(start)
-            except FootingError:
+            except LimitError:
                 continue
             found = self._descend(start, target)
             if found.distance < best.distance:

@@ -7,8 +7,8 @@ import numpy as np
 
 from ...robots.walker.geometry import TwoFrames
 from ...types import Floats
-from .footing import Footing
 from .planted import heading_change, turn_of
+from .planted_feet import PlantedFeet
 from .tool_chain import POSE
 
 
@@ -19,7 +19,7 @@ class FeltBody:
     gives along all legs alike does not show.
     """
 
-    def __init__(self, footing: Footing) -> None:
+    def __init__(self, footing: PlantedFeet) -> None:
         """Begins with the mechanism as the footing has it."""
         record: Any = footing.record()[0]
         self._frame = footing.standing()[0]

@@ -13,7 +13,7 @@ import numpy as np
 from ...compiled import kernel
 from ...types import Floats, Ints
 from ..matrices import smallest_singular
-from .footing import BALANCE, GUARD, N_ROWS
+from .planted_feet import BALANCE, GUARD, N_ROWS
 from .tool_chain import POSE
 
 FREE = 1e30
@@ -71,14 +71,14 @@ def write_programme(chain, footing, q, speeds, tool_speeds, velocity, gain, law,
 
     Args:
         chain: A `Chain`.
-        footing: Record of `FOOTING`.
+        footing: Record of `PLANTED_FEET`.
         q: Freedoms, shape (m,).
         speeds: Their largest speeds now, shape (m,); 0 switches one off.
         tool_speeds: T_v's [m/s], shape (3,).
         velocity: Wanted of the tool, feedback included [m/s], shape (3,).
         gain: k_p [-].
         law: kappa [1/s], the bounds' inner margin [m], least, smallest, largest of `damping_of`, shape (5,).
-        w: A `Workspace` after `see_measure`.
+        w: A `Scratch` after `see_measure`.
         f, rows, lower, upper, which: Of a `Programme`, filled.
     """
     m = q.size

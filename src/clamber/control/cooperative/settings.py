@@ -9,7 +9,7 @@ import numpy as np
 from ...errors import ClamberError
 from ...robots.walker import WalkerRobot
 from ...types import Floats
-from .footing import ACTUATOR, BALANCE, LEG, Footing
+from .planted_feet import ACTUATOR, BALANCE, LEG, PlantedFeet
 
 Form = Literal["right", "as printed"]
 
@@ -90,14 +90,14 @@ def own_speeds(robot: WalkerRobot) -> Floats:
     Returns:
         Shape (6 + joints,).
     """
-    from .workspace import make_workspace, see_bounds, see_tool
+    from .scratch import make_scratch, see_bounds, see_tool
 
     assert robot.arm is not None, "only robots with an arm move it"
     from .limits import chain_of
 
     q = np.array([0.0, 0.0, robot.legs.nominal, 0.0, 0.0, 0.0, *robot.arm.rest])
-    chain, w = chain_of(robot, balance=0.0), make_workspace(robot.arm.n_joints)
-    footing = Footing(robot=robot, support="y", pose=q[:6]).record()
+    chain, w = chain_of(robot, balance=0.0), make_scratch(robot.arm.n_joints)
+    footing = PlantedFeet(robot=robot, support="y", pose=q[:6]).record()
     see_tool(chain, q, w)
     see_bounds(chain, footing[0], q, w)
     fastest = np.concatenate([np.full(3, robot.mechanism.speed), [np.inf], np.full(6, robot.legs.speed)])

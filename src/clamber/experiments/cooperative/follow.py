@@ -7,9 +7,9 @@ import numpy as np
 
 from ...control.cooperative.closest import Reach, ReachSearch
 from ...control.cooperative.cooperator import Cooperator
-from ...control.cooperative.footing import N_ROWS, ROW_UNITS, Footing
 from ...control.cooperative.freedoms import SUPPORT, Freedoms, freedoms_of, weights_of
 from ...control.cooperative.limits import freedom_names
+from ...control.cooperative.planted_feet import N_ROWS, ROW_UNITS, PlantedFeet
 from ...control.cooperative.settings import Cooperation, CooperationError, own_speeds
 from ...control.cooperative.stable_gain import stable_gain
 from ...execution.log import Log
@@ -68,7 +68,7 @@ class FollowRun:
     path: ToolPath
     options: FollowOptions
     freedoms: Freedoms
-    footing: Footing
+    footing: PlantedFeet
     time: Floats
     """[s], shape (rows,)."""
     q: Floats
@@ -196,7 +196,7 @@ def follow_path(robot: WalkerRobot, path: ToolPath, options: FollowOptions) -> F
     Raises:
         CooperationError: If an option cannot be.
         FreedomsError: If no set has so many degrees of freedom.
-        FootingError: If the robot cannot stand so.
+        LimitError: If the robot cannot stand so.
     """
     arm = robot.arm
     if arm is None:
@@ -207,7 +207,7 @@ def follow_path(robot: WalkerRobot, path: ToolPath, options: FollowOptions) -> F
     freedoms = freedoms_of(options.dof, arm.n_joints)
     height = robot.legs.nominal if options.height is None else options.height
     q = np.array([0.0, 0.0, height, 0.0, 0.0, 0.0, *arm.rest])
-    footing = Footing(robot=robot, support=SUPPORT[freedoms], pose=q[:6], payload=options.payload)
+    footing = PlantedFeet(robot=robot, support=SUPPORT[freedoms], pose=q[:6], payload=options.payload)
     settings = Cooperation(
         speeds=own_speeds(robot),
         tool_speeds=np.full(3, options.tool_speed),

@@ -6,8 +6,8 @@ import numpy as np
 
 from ...control.cooperative.cooperator import Cooperator
 from ...control.cooperative.felt_body import FeltBody
-from ...control.cooperative.footing import LEG, Footing, Support
 from ...control.cooperative.planted import turn_of
+from ...control.cooperative.planted_feet import LEG, PlantedFeet, Support
 from ...control.cooperative.tool_chain import POSE
 from ...robots.walker import WalkerRobot
 from ...sim.walker_flaws import WalkerFlaws
@@ -36,10 +36,10 @@ class SimulatedBody:
         sensed = self._sim.sense()
         self._actuators = sensed.actuators.copy()
         # It has sunk a little into its springy feet. Where it stands now is where its path is measured from.
-        bare = Footing(robot=robot, support=support, pose=self._sim.truth().pose.copy(), payload=payload)
+        bare = PlantedFeet(robot=robot, support=support, pose=self._sim.truth().pose.copy(), payload=payload)
         self.start = np.concatenate([bare.pose, arm.rest])
         heights = _heights(bare, self._legs)
-        self.footing = Footing(robot=robot, support=support, pose=bare.pose, heights=heights, payload=payload)
+        self.footing = PlantedFeet(robot=robot, support=support, pose=bare.pose, heights=heights, payload=payload)
         self._felt = FeltBody(self.footing)
         self._off = np.zeros(3)
         self._share = period / SMOOTH
@@ -65,7 +65,7 @@ class SimulatedBody:
         return self._off
 
 
-def _heights(stance: Footing, legs: Floats) -> Floats:
+def _heights(stance: PlantedFeet, legs: Floats) -> Floats:
     """Heights of the ground under each foot at which the legs have these lengths with the plate at the stance's pose [m], shape (2, 3)."""
     turn = turn_of(stance.pose[3:6])
     over = stance.robot.feet() @ turn[:, :2].T + stance.pose[:3]
