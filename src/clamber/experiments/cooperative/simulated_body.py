@@ -59,6 +59,10 @@ class SimulatedBody:
         out: Floats = self._sim.truth().tool.copy()
         return out
 
+    def pose(self) -> Floats:
+        """Where the plate truly is: x, y, z [m], alpha, beta, gamma [rad], shape (6,)."""
+        return self._sim.truth().pose.copy()
+
     @property
     def off(self) -> Floats:
         """By how much the tool is felt to be off where it was led to, smoothed [m], shape (3,)."""
