@@ -100,7 +100,7 @@ def test_the_right_form_never_lowers_the_measure_and_the_printed_one_often_does(
 def test_with_no_limit_near_the_programme_is_equation_19(dof: str) -> None:
     robot = hoshino()
     q = np.array([0.0, 0.0, 0.35, 0.0, 0.0, 0.0, 0.2, 1.1, -1.0, -0.9])
-    settings = {"gain": 0.05, "least_damping": 1e-6, "singular": 0.0, "approach": 20.0}
+    settings = {"gain": 0.05, "softness": 1e-6, "approach": 20.0}
     speeds = own_speeds(robot)
     made = law(robot, speeds=speeds, tool_speeds=TOOL_SPEEDS, limited=True, **settings)
     weights = weights_of(dof, 4)  # type: ignore[arg-type]

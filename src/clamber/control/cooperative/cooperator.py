@@ -10,9 +10,9 @@ from ...types import Floats
 from .limits import Kept, chain_of, limit_names
 from .one_step import finish, move_freely, prepare, see
 from .planted_feet import BALANCE, N_ROWS, LimitError, PlantedFeet, Support
-from .programme import let_rest, make_programme
+from .programme import calm, let_rest, make_programme
 from .scratch import make_scratch, see_bounds, see_tool
-from .settings import Cooperation, CooperationError
+from .settings import Cooperation, CooperationError, stretch
 from .tool_chain import POSE
 
 SOLVED: Final = 1
@@ -68,7 +68,8 @@ class Cooperator:
         self._tight = np.zeros(len(self.names))
         self._fastest, self._tool_speeds = np.array(settings.speeds), np.array(settings.tool_speeds)
         s = settings
-        self._law = np.array([s.approach, s.inside, s.least_damping, s.singular, s.largest_damping])
+        little = stretch(s, robot)
+        self._law = np.array([s.approach, s.inside, s.softness, little, s.damping * little])
         self.stand(footing)
 
     def stand(self, footing: PlantedFeet) -> None:
@@ -185,6 +186,8 @@ class Cooperator:
             p.which,
         )  # fmt: skip
         x, multipliers, solved = self._solve(count)
+        if calm(x, count, p.f, p.rows, p.lower, p.upper, self._speeds, self._law):
+            x, multipliers, solved = self._solve(count)
         place = w.place.copy()
         share = finish(
             self.chain, self._record, q, x, multipliers, count, self._speeds, p.lower, p.upper, p.which, s.period,
