@@ -12,7 +12,7 @@ from .one_step import finish, move_freely, prepare, see
 from .planted_feet import BALANCE, N_ROWS, LimitError, PlantedFeet, Support
 from .programme import calm, let_rest, make_programme
 from .scratch import make_scratch, see_bounds, see_tool
-from .settings import Cooperation, CooperationError, stretch
+from .settings import Cooperation, CooperationError, stretch, swerve
 from .tool_chain import POSE
 
 SOLVED: Final = 1
@@ -68,8 +68,8 @@ class Cooperator:
         self._tight = np.zeros(len(self.names))
         self._fastest, self._tool_speeds = np.array(settings.speeds), np.array(settings.tool_speeds)
         s = settings
-        little = stretch(s, robot)
-        self._law = np.array([s.approach, s.inside, s.softness, little, s.damping * little])
+        plate, arm = swerve(s, robot), stretch(s, robot)
+        self._law = np.array([s.approach, s.inside, s.softness, plate, s.damping * plate, arm, s.damping * arm])
         self.stand(footing)
 
     def stand(self, footing: PlantedFeet) -> None:

@@ -2,8 +2,8 @@
 
     minimise |q^ - k_p dV/dq^|^2 + |e|^2   with   J^ q^ + lambda e = T_v r_dot,   limits on q^
 
-With no limit active and lambda = 0 the solution is equation 19 itself; lambda is small. Where the arm would spend much motion on little
-its freedoms are damped (`calm`). A limit g is approached like a wall in a thick fluid: its rate towards the wall is at most kappa times
+With no limit active and lambda = 0 the solution is equation 19 itself; lambda is small. Where freedoms would spend much motion on little,
+they are damped (`calm`). A limit g is approached like a wall in a thick fluid: its rate towards the wall is at most kappa times
 what is left.
 """
 
@@ -72,7 +72,8 @@ def write_programme(chain, footing, q, speeds, tool_speeds, velocity, gain, law,
         tool_speeds: T_v's [m/s], shape (3,).
         velocity: Wanted of the tool, feedback included [m/s], shape (3,).
         gain: k_p [-].
-        law: kappa [1/s], the bounds' inner margin [m], lambda [-], and what `calm` takes for little and for enough, shape (5,).
+        law: kappa [1/s], the bounds' inner margin [m], lambda [-], and what `calm` takes for little and for enough, of
+            the plate and of the arm, shape (7,).
         w: A `Scratch` after `see_measure`.
         f, rows, lower, upper, which: Of a `Programme`, filled.
     """
@@ -133,41 +134,50 @@ def write_programme(chain, footing, q, speeds, tool_speeds, velocity, gain, law,
 
 @kernel
 def calm(x, count, f, rows, lower, upper, speeds, law):
-    """Make the arm's motion dear where the tool is held back and the arm spends much on little; whether that is so.
+    """Make motion dear where the tool is held back and spends much on little; whether that is so.
 
-    On a stretched arm, or one whose joints are at their ends, joints would run at full speed for next to nothing and shake in steps. The
-    damping (Nakamura and Hanafusa 1986) is that of the arm's freedoms alone: the plate's are slow, and may go on.
+    On a stretched arm, at joints' ends, or in a corner of the plate's limits, freedoms would run at full speed for next to nothing and
+    shake in steps. They are damped (Nakamura and Hanafusa 1986), the plate's and the arm's each by their own measure: the plate's are
+    slow, and may go on where the arm may not.
 
     Args:
         x: Solution, shape (m + 3,).
         count: Rows, the tool's three among them.
-        f, rows, lower, upper: Of the programme; the arm's part is scaled.
-        speeds: Largest speeds, by which the solution is multiplied; the arm's are scaled, shape (m,).
+        f, rows, lower, upper: Of the programme; the part of what is damped is scaled.
+        speeds: Largest speeds, by which the solution is multiplied, scaled likewise, shape (m,).
         law: As of `write_programme`.
     """
     m = x.size - 3
-    wanted, missed, gained, spent = 0.0, 0.0, 0.0, 0.0
+    wanted, missed, gained = 0.0, 0.0, 0.0
     for i in range(3):
         wanted += lower[m + i] * lower[m + i]
         missed += (law[2] * x[m + i]) ** 2
         gained += (lower[m + i] - law[2] * x[m + i]) ** 2
-    for k in range(POSE, m):
-        spent += x[k] * x[k]
-    if missed <= HARDLY * HARDLY * wanted or gained >= law[3] * law[3] * spent:
+    if missed <= HARDLY * HARDLY * wanted:
         return False
-    part = (1.0 - gained / (law[3] * law[3] * spent)) * min(1.0, missed / (MUCH * MUCH * wanted))
-    dear = law[4] * part / (law[2] * law[2])
-    if dear <= 1.0:
-        return False
-    scale = 1.0 / np.sqrt(dear)
-    for k in range(POSE, m):
-        f[k] *= scale
-        lower[k] /= scale
-        upper[k] /= scale
-        speeds[k] *= scale
-        for i in range(count):
-            rows[i, k] *= scale
-    return True
+    held = min(1.0, missed / (MUCH * MUCH * wanted))
+    any_dear = False
+    for group in range(2):
+        first, end = (0, POSE) if group == 0 else (POSE, m)
+        little, enough = law[3 + 2 * group], law[4 + 2 * group]
+        spent = 0.0
+        for k in range(first, end):
+            spent += x[k] * x[k]
+        if gained >= little * little * spent:
+            continue
+        dear = enough * held * (1.0 - gained / (little * little * spent)) / (law[2] * law[2])
+        if dear <= 1.0:
+            continue
+        any_dear = True
+        scale = 1.0 / np.sqrt(dear)
+        for k in range(first, end):
+            f[k] *= scale
+            lower[k] /= scale
+            upper[k] /= scale
+            speeds[k] *= scale
+            for i in range(count):
+                rows[i, k] *= scale
+    return any_dear
 
 
 @kernel

@@ -52,7 +52,7 @@ class Cooperation:
     softness: float = 1e-3
     """lambda, by which the tool's motion gives way to the limits in the programme [-]."""
     damping: float = 1.0
-    """Of an arm that spends much motion on little, over what one that is stretched out needs to come to rest (`stretch`) [-]; 0: none."""
+    """Of freedoms that spend much motion on little, over what they need to come to rest (`stretch`, `swerve`) [-]; 0: none."""
 
     def __post_init__(self) -> None:
         for name in ("speeds", "tool_speeds"):
@@ -93,6 +93,14 @@ def stretch(settings: Cooperation, robot: WalkerRobot) -> float:
     bent = math.fsum((i + 1) * length for i, length in enumerate(robot.arm.links)) + abs(robot.arm.out)
     fastest = float(np.max(settings.speeds[6:]))
     return fastest * fastest * settings.period * bent / float(np.min(settings.tool_speeds))
+
+
+def swerve(settings: Cooperation, robot: WalkerRobot) -> float:
+    """The same of the plate in a corner of its limits, which are curved by no less than an actuator's shortest length [-]."""
+    assert robot.arm is not None, "only robots with an arm move it"
+    reach = sum(robot.arm.links) + abs(robot.arm.out) + abs(robot.arm.up)
+    fastest = max(float(np.max(settings.speeds[:3])), reach * float(np.max(settings.speeds[3:6])))
+    return fastest * fastest * settings.period / (robot.mechanism.shortest * float(np.min(settings.tool_speeds)))
 
 
 def own_speeds(robot: WalkerRobot) -> Floats:
