@@ -1,9 +1,8 @@
-"""How long a step of cooperative motion takes, with all its limits, beside mink and pink; how long the mechanism's workspace."""
+"""How long a step of cooperative motion takes, with all its limits, beside mink and pink on the same chain."""
 
-from collections.abc import Callable
 from functools import partial
 from statistics import median
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
@@ -13,14 +12,13 @@ from ..control.cooperative.freedoms import freedoms_of, weights_of
 from ..control.cooperative.settings import Cooperation, own_speeds
 from ..robots.library import load_robot
 from ..robots.walker import WalkerRobot
-from ..robots.walker.geometry import TwoFrames
-from ..robots.walker.workspace import stride, workspace
 from ..types import Floats
 from .control_speed import round_times
 from .cooperative.chain_peers import CHAIN_PEERS, PERIOD, Tick
 from .cooperative.follow import FollowOptions, FollowRun, follow_path
 from .cooperative.tool_path import load_tool_path
 from .ik_peers import installed
+from .region_speed import region_rows
 from .rows import NOTHING, Row, Say, keep_quiet
 
 ROUNDS: Final = 15
@@ -30,10 +28,6 @@ STEPS: Final = 400
 PEER_STEPS: Final = 100
 PATH: Final = "wide"
 """Whose configurations are timed: on its way actuators, legs, balance and joints come to their limits."""
-ANGLE: Final = 0.17
-"""Of the frames to each other [rad]."""
-DIRECTION: Final = 0.5
-"""Of a step [rad]."""
 DOFS: Final = (4, 5, 7, 10)
 
 
@@ -115,19 +109,6 @@ def reach_rows(*, rounds: int = ROUNDS, say: Say = keep_quiet) -> list[Row]:
     ]
 
 
-def mechanism_rows(*, rounds: int = ROUNDS, say: Say = keep_quiet) -> list[Row]:
-    """Where the frames can be to each other at one angle, and how far they slide in one direction."""
-    say("workspace of the mechanism")
-    frames = TwoFrames.of(walker().mechanism)
-    works: list[Callable[[], Any]] = [partial(workspace, frames, ANGLE), partial(stride, frames, ANGLE, DIRECTION)]
-    region, length = np.median(round_times(works, rounds), axis=0)
-    return [
-        Row("exact workspace at one angle", 1e3 * region, "ms"),
-        Row("exact step length at one angle in one direction", 1e3 * length, "ms"),
-        Row("exact workspace and step length", 1e3 * (region + length), "ms", "< 1"),
-    ]
-
-
 def hexapod_rows(*, say: Say = keep_quiet) -> list[Row]:
     """All of it."""
-    return [*step_rows(say=say), *peer_rows(say=say), *reach_rows(say=say), *mechanism_rows(say=say)]
+    return [*step_rows(say=say), *peer_rows(say=say), *reach_rows(say=say), *region_rows(walker(), say=say)]
