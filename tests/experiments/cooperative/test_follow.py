@@ -112,9 +112,13 @@ def test_in_contact_dynamics_the_tool_stays_within_millimetres(dof: int) -> None
     assert felt.errors.max() < 5e-3
     assert np.ptp(felt.q[:, 0]) > 0.05
     bare = follow_path(hoshino(), load_tool_path("wide"), FollowOptions(dof=dof, dynamics=True, felt=False))
-    on, both = felt.on_path > 0, min(len(felt.time), len(bare.time))
-    errors = [np.linalg.norm(run.places - run.wanted, axis=1)[:both][on[:both]] for run in (felt, bare)]
-    assert np.sqrt(np.mean(errors[0] ** 2)) < 0.8 * np.sqrt(np.mean(errors[1] ** 2))
+    # where no limit holds it back: the first half of the path, which both follow
+    rms = []
+    for run in (felt, bare):
+        early = (run.on_path > 0.0) & (run.wanted[:, 1] < 0.0)
+        rms.append(np.sqrt(np.mean(np.sum((run.places - run.wanted)[early] ** 2, axis=1))))
+    assert rms[0] < 0.6 * rms[1]
+    assert bare.off_end > 0.02  # it sags so far that the path waits for it in vain
 
 
 def test_the_circle_is_followed_in_contact_dynamics() -> None:
