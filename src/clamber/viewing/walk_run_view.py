@@ -47,8 +47,8 @@ MOVING: Final[dict[str, Callable[["WalkRunView", list[Frame[int]], Path], None]]
     ".mp4": write_mp4_frames,
 }
 """Suffix -> what writes an animation."""
-FEW: Final = 4000
-"""Samples of a curve."""
+FEW: Final = 100_000
+"""Samples of a curve, at most: kicks are as short as a tenth of a second."""
 RELIEF: Final = LinearSegmentedColormap.from_list("relief", ["#8FA3B5", "#F7F8FA", "#C9B28F"])
 """Ditches, the slope itself, steps."""
 
