@@ -38,8 +38,8 @@ class Course(Protocol):
         """The coming step; None where neither frame can go on."""
         ...
 
-    def landed(self, step: Step, pose: Floats) -> bool:
-        """Take note of where a step's frame came down, shape (3,); whether the robot has come on by it."""
+    def landed(self, step: Step, walker: Walker) -> bool:
+        """Take note of where a step's frame came down; whether the robot has come on by it."""
         ...
 
 
@@ -74,10 +74,11 @@ class TrackCourse:
             self._swing = int(np.argmax([0.0 if step is None else step.way for step in steps]))
         return self._farthest(walker, self._swing) or self._farthest(walker, 1 - self._swing)
 
-    def landed(self, step: Step, pose: Floats) -> bool:
-        """See `Course`."""
+    def landed(self, step: Step, walker: Walker) -> bool:
+        """See `Course`; a frame that edges sent elsewhere is where it was to be, for it has done what it could."""
         before = self._ways[step.swing]
-        self._ways[step.swing] = self._way_of(step, pose)
+        probed = walker.settings.probe > 0.0
+        self._ways[step.swing] = step.way if probed else self._way_of(step, walker.frames()[step.swing])
         self._swing = 1 - step.swing
         return bool(self._ways[step.swing] - before >= FINE)
 
@@ -161,8 +162,8 @@ class PlannedCourse:
             return straight
         return replace(straight, over=tuple(step.corners[:-1]))
 
-    def landed(self, step: Step, pose: Floats) -> bool:
+    def landed(self, step: Step, walker: Walker) -> bool:
         """See `Course`."""
-        off = seen_from(step.end, pose)
+        off = seen_from(step.end, walker.frames()[step.swing])
         self._at += 1
         return bool(np.hypot(off[0], off[1]) <= ASTRAY)

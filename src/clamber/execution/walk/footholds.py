@@ -25,6 +25,8 @@ GRID: Final = 0.006
 """Distance of the places that are looked at [m]."""
 TOLD: Final = 0.6
 """A touch nearer to a corner than this share of the triangle's radius tells of it already [-]."""
+HOLE: Final = -1e3
+"""Height of what no foot reaches [m]."""
 FAR: Final = 0.3
 """What a metre from where it was to stand costs, in metres from an edge [-]."""
 
@@ -54,19 +56,23 @@ class Touches:
 
     def add(self, soles: Floats) -> None:
         """Take in a touch of all three feet, shape (3, 3) [m]."""
-        for points, sole in zip(self._points, soles, strict=True):
-            points.append(sole.copy())
+        for foot, sole in enumerate(soles):
+            self.add_foot(foot, sole)
+
+    def add_foot(self, foot: int, sole: Floats) -> None:
+        """Take in a touch of one foot, shape (3,) [m]."""
+        self._points[foot].append(sole.copy())
 
     def add_hole(self, foot: int, sole: Floats) -> None:
         """A foot that found no ground: deeper than anything."""
-        self._points[foot].append(np.array((sole[0], sole[1], -math.inf)))
+        self._points[foot].append(np.array((sole[0], sole[1], HOLE)))
 
     def edges(self, foot: int) -> list[tuple[Floats, Floats]]:
         """Pairs of touches with an edge between them, seen from above [m]: of each touch those with the nearest that is higher or lower."""
         points = self._points[foot]
         found = []
         for a in points:
-            others = [b for b in points if not abs(b[2] - a[2]) <= self._even]
+            others = [b for b in points if abs(b[2] - a[2]) > self._even]
             if others:
                 b = min(others, key=lambda b: math.dist(a[:2], b[:2]))
                 found.append((a[:2], b[:2]))
@@ -140,11 +146,11 @@ def _touch(walker: Walker, frame: int, pose: Floats, touches: Touches) -> list[i
         motions.lift(walker, frame, pose[:2] - walker.frames()[frame, :2])
     motions.slide(walker, frame, pose)
     without = motions.lower(walker, mine)
-    if without:
-        for i in mine:
-            if i in without:
-                touches.add_hole(i - mine[0], walker.soles[i])
-    touches.add(walker.soles[list(mine)]) if not without else None
+    for foot, i in enumerate(mine):
+        if i in without:
+            touches.add_hole(foot, walker.soles[i])
+        else:
+            touches.add_foot(foot, walker.soles[i])
     return without
 
 

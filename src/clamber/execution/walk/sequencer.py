@@ -177,7 +177,7 @@ class WalkSequencer:
             if outcome not in ("ok", "moved"):
                 report.reason = f"step {len(report.steps)}: {outcome}: {report.steps[-1].reason}"
                 return
-            if not course.landed(step, self.walker.frames()[step.swing]):
+            if not course.landed(step, self.walker):
                 report.reason = f"stuck: the ground lets neither frame go on from {course.way:.3f} m"
                 return
         report.done = True

@@ -12,6 +12,7 @@ from ...control.walker_balance import mass_centre, support_margin, weight_of
 from ...robots.walker import WalkerRobot
 from ...robots.walker.two_frames import FOUND, follow_branch
 from ...types import Floats, Ints
+from ..fallen import FallenError as FallenError
 from .falls import LIGHT, FallWatch
 from .plant import WalkerPlant
 from .settings import WalkSettings
@@ -33,10 +34,6 @@ KICKED: Final = math.radians(0.5)
 """Inclinometers that differ so far from the legs tell of a foot that has slipped off something [rad] ..."""
 KICK: Final = 0.3
 """... if they do for so long [s]."""
-
-
-class FallenError(Exception):
-    """The robot has fallen; the walk ends with this reason. Never a user's mistake."""
 
 
 class RefusedError(Exception):
