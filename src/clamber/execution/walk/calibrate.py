@@ -16,7 +16,7 @@ from ...types import Floats
 from . import motions
 from .walker import Walker
 
-LOOK: Final = 15.0
+LOOK: Final = 30.0
 """For which readings are averaged at each heading [s]."""
 REST: Final = 3.0
 """Before that, until the legs have taken the load [s]."""

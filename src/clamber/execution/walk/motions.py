@@ -188,9 +188,7 @@ def lift(walker: Walker, frame: int, ahead: Floats | None = None, *, by: float |
         )
     clear = by if by is not None else settings.lift if settings.lift is not None else robot.legs.lift
     mine, spec = list(walker.of_frame(frame)), robot.legs
-    # the plate slides in its own plane, so what counts is how the ground rises against that
-    against = ground_slope(walker) + walker.matrix[:2, 2] / walker.matrix[2, 2]
-    rise = 0.0 if ahead is None else float(against @ ahead)
+    rise = 0.0 if ahead is None else float(_against_plate(walker) @ ahead)
     low, high, lifts = walker.heights.copy(), walker.heights.copy(), np.zeros(LEGS)
     low[mine] += rise
     high[mine] += max(0.0, rise)
@@ -258,12 +256,15 @@ def slide(walker: Walker, swing: int, end: Floats) -> None:
     before = walker.inclination.frozen
     late = settings.ramp + SETTLED
     walker.inclination.learns = True
+    from_here = walker.frames()[swing, :2].copy()
     for k in range(1, max(1, math.ceil(seconds / walker.period)) + 1):
         time = k * walker.period
         walker.inclination.frozen = before or time < late or time > seconds - settings.ramp
         share = eased_share(time, seconds, settings.ramp)
         place = slide_places(still, first, last, swing, np.array([share]))
         walker.actuators[:] = lengths_at(robot, place)[0]
+        if settings.clear is not None:
+            _approach(walker, swing, (1.0 - share) * (np.asarray(end[:2]) - from_here), seconds - time)
         walker.tick()
     walker.inclination.learns = False
     walker.inclination.frozen = True
@@ -272,6 +273,35 @@ def slide(walker: Walker, swing: int, end: Floats) -> None:
         walker.tick()
     walker.inclination.frozen = before
     walker.inclination.doubt(settings.landing_doubt)
+
+
+def _approach(walker: Walker, swing: int, ahead: Floats, seconds: float) -> None:
+    """Let lifted feet go down towards the ground that is expected where a slide ends, in time to be `clear` above it then.
+
+    Args:
+        walker: The robot.
+        swing: The lifted frame.
+        ahead: What is left of its way, seen from above, shape (2,) [m].
+        seconds: Until it is there [s].
+    """
+    settings, spec = walker.settings, walker.robot.legs
+    assert settings.clear is not None
+    mine = list(walker.of_frame(swing))
+    rise = float(_against_plate(walker) @ ahead)
+    heights = walker.heights.copy()
+    for i in mine:
+        # over the highest ground from here on
+        heights[i] = expected_height(walker, i) + max(0.0, rise) + settings.clear
+    aims = np.clip(walker.targets(walker.wanted, heights), spec.shortest, spec.longest)
+    for i in mine:
+        if aims[i] - walker.lengths[i] >= spec.speed * (seconds - walker.period):
+            walker.free_aims[i] = max(walker.free_aims[i], aims[i])
+
+
+def _against_plate(walker: Walker) -> Floats:
+    """How the ground rises against the plate along the world's x and y, shape (2,) [-]: a frame slides in the plate's own plane."""
+    against: Floats = ground_slope(walker) + walker.matrix[:2, 2] / walker.matrix[2, 2]
+    return against
 
 
 def place_for(walker: Walker, swing: int, end: Floats) -> Floats:
