@@ -217,7 +217,7 @@ class WalkSequencer:
     def _carry_out(self, step: Step, marks: list[float]) -> tuple[Outcome, int, str]:
         walker, settings = self.walker, self.walker.settings
         start = walker.frames()[step.swing].copy()
-        self._bring(step, start, marks)
+        self._bring(step, marks)
         walker.phase = PHASES.index("lower")
         outcome: Outcome = "ok"
         reason = ""
@@ -232,8 +232,9 @@ class WalkSequencer:
                     break
                 outcome = "moved"
                 reason = f"{leg_name(without[0])} found no ground at the end of the step"
-                motions.lift(walker, step.swing)
-                motions.slide(walker, step.swing, start + share * (step.end - start))
+                back = start + share * (step.end - start)
+                motions.lift(walker, step.swing, back)
+                motions.slide(walker, step.swing, back)
                 without = motions.lower(walker, walker.of_frame(step.swing))
                 tries += 1
             if without:
@@ -244,10 +245,10 @@ class WalkSequencer:
         marks.append(walker.time)
         return outcome, tries, reason
 
-    def _bring(self, step: Step, start: Floats, marks: list[float]) -> None:
+    def _bring(self, step: Step, marks: list[float]) -> None:
         walker = self.walker
         walker.phase = PHASES.index("lift")
-        motions.lift(walker, step.swing, step.end[:2] - start[:2])
+        motions.lift(walker, step.swing, step.end)
         marks.append(walker.time)
         walker.phase = PHASES.index("slide")
         for pose in (*step.over, step.end):
