@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from clamber.execution.walk.walk_trace import WalkTrace
 
 from clamber.execution.log_files import read_log
+from clamber.execution.walk.walk_trace import WalkTrace
 
 TINY = ("--set", "way.0.distance=3cm")
 SHORT = ("--set", "way.0.distance=5cm")

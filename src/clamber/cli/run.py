@@ -59,6 +59,24 @@ def run(
         }  # fmt: skip
         run_walk_file(what, overrides or (), noise or (), seed, outputs, for_climbs, as_json=as_json, quiet=quiet)
         return
+    from ..experiments.walk.planned import open_planned_walk
+    from ..experiments.walk.run_walk import split_walk_settings
+
+    planned = open_planned_walk(what, task, split_walk_settings(overrides or ())[0])
+    if planned is not None:
+        from .run_planned_walk import run_planned_walk
+
+        for_climbs = {
+            "--peg-error": peg_error is not None,
+            "--no-replan": not replan,
+            "--plant": plant != "torques",
+            "--force": force,
+        }
+        run_planned_walk(
+            what, *planned, overrides or (), noise or (), planner, seconds, seed, outputs, save_plan, for_climbs,
+            as_json=as_json, quiet=quiet,
+        )  # fmt: skip
+        return
     from ..experiments.climb.plants import check_plant, is_remote
 
     check_plant(plant)

@@ -7,8 +7,9 @@ import numpy as np
 import typer
 from rich.console import Console
 
-from ..execution.walk.sequencer import WalkReport
+from ..execution.walk.sequencer import Lay, WalkReport
 from ..experiments.walk.run_walk import WalkRun
+from ..tasks.walks import Walk
 from ..units import DEGREE
 from .live_line import LiveLine
 from .output import plain_table, print_json, stderr, stdout
@@ -45,22 +46,43 @@ def run_walk_file(
         as_json: Whether to print JSON alone.
         quiet: Whether to tell nothing on the way.
     """
-    from ..experiments.walk.noise import named_walk_noise, read_walk_noise
-    from ..experiments.walk.run_walk import run_walk, split_walk_settings, walk_flaws
+    from ..experiments.walk.run_walk import split_walk_settings
     from ..tasks.walks import load_walk
-    from ..viewing.walk_run_view import check_walk_suffix, write_walk
 
+    refuse_climbs_options(what, climbs_only)
+    walk = load_walk(what, split_walk_settings(settings)[0])
+    walk_and_tell(walk, settings, noise, seed, outputs, as_json=as_json, quiet=quiet)
+
+
+def refuse_climbs_options(what: str, climbs_only: Mapping[str, bool]) -> None:
+    """Raises `BadParameter` if an option is given that only climbs have."""
     for option, given in climbs_only.items():
         if given:
             raise typer.BadParameter(f"'{what}' is a walk, and this is for climbs", param_hint=option)
+
+
+def walk_and_tell(
+    walk: Walk,
+    settings: Sequence[str],
+    noise: Sequence[str],
+    seed: int,
+    outputs: Sequence[Path],
+    lay: Lay | None = None,
+    *,
+    as_json: bool,
+    quiet: bool,
+) -> None:
+    """Carry a walk out, along its own way or another course, write files and say how it went; leaves with 1 where it did not end well."""
+    from ..experiments.walk.noise import named_walk_noise, read_walk_noise
+    from ..experiments.walk.run_walk import run_walk, split_walk_settings, walk_flaws
+    from ..viewing.walk_run_view import check_walk_suffix, write_walk
+
     for file in outputs:
         check_walk_suffix(file)
     deviations = read_walk_noise(named_walk_noise("none"), noise)
-    for_walk, for_plant = split_walk_settings(settings)
-    walk = load_walk(what, for_walk)
-    flaws = walk_flaws(walk, for_plant)
+    flaws = walk_flaws(walk, split_walk_settings(settings)[1])
     with WalkLine(stderr(), quiet=quiet) as line:
-        run = run_walk(walk, flaws, noise=deviations, seed=seed, progress=line.update)
+        run = run_walk(walk, flaws, noise=deviations, seed=seed, lay=lay, progress=line.update)
     for file in outputs:
         write_walk(run, file)
     if as_json:

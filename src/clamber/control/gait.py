@@ -94,6 +94,8 @@ class Step:
     """Least room of the mechanism on the way [m]."""
     balance: float
     """Least support margin on the way, level ground taken for granted [m]."""
+    over: tuple[Floats, ...] = ()
+    """Poses that it passes on the way, each of shape (3,); none: it goes straight."""
 
 
 def target_of(track: Track, way: float, swing: int, neutral: float) -> Floats:

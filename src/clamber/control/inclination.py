@@ -19,6 +19,8 @@ DEGREE: Final = math.pi / 180.0
 
 MOST_GIVE: Final = 3e-5
 """Feet that sank in by more would not be stood on: what 10 mm of soft ground give under the robot's weight [m/N]."""
+MOST_DOUBT: Final = 0.04 * DEGREE
+"""A tilt that is this unsure follows the readings within a second; more, and it would follow their noise [rad]."""
 WATCHED: Final = 1.0
 """Over which readings are compared with what is believed [s]."""
 
@@ -123,7 +125,7 @@ class Inclination:
         self._differs += self._period / WATCHED * (off - self._differs)
         much = float(np.abs(self._differs).max())
         if much > self._surprising:
-            self.doubt(much)
+            self.doubt(min(much, MOST_DOUBT))
         seen = self._covariance[:2, :2].copy()
         seen[0, 0] += self._noise
         seen[1, 1] += self._noise

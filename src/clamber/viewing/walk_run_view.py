@@ -25,6 +25,7 @@ from . import style
 from .frames import Frame
 from .gif import write_gif_frames
 from .output import CANVASES, check_suffix, save_figure
+from .scene import draw_forbidden
 from .style import bare, styled
 from .video import write_mp4_frames
 from .walk_shapes import WalkShapes, shapes_at
@@ -152,6 +153,10 @@ class WalkRunView:
             vmax=size,
             zorder=0,
         )
+        seen = [
+            (np.column_stack([patch, np.zeros(len(patch))]) @ ground.axes().T)[:, :2] for patch in ground.forbidden()
+        ]
+        draw_forbidden(axes, map(np.ndarray.tolist, seen))
         for f, colour in enumerate(COLOURS):
             for spots in footprints(trace, f):
                 axes.plot(spots[:, 0], spots[:, 1], ls="", marker="o", ms=2.6, color=colour, alpha=0.6, zorder=3)

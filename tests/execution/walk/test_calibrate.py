@@ -18,6 +18,7 @@ def test_offsets_and_slope_are_told_apart_by_two_headings() -> None:
     np.testing.assert_allclose(offsets_from([offsets + each for each in turned], headings), offsets, atol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(2))
 def test_turning_over_the_y_frame_finds_offsets_on_a_slope(seed: int) -> None:
     tilt, offsets = math.radians(8.0), np.radians((0.3, -0.2))

@@ -48,7 +48,7 @@ def test_legs_and_actuators_keep_their_speeds_and_strokes() -> None:
     walker, plant = stood(slope(tilt, BEST), tilt=tilt, uphill=BEST)
     motions.level(walker)  # strokes are asserted by the plant at every tick
     end = forward(walker, Y, 0.055)
-    motions.lift(walker, Y, end[:2] - walker.frames()[Y, :2])
+    motions.lift(walker, Y, end)
     motions.slide(walker, Y, end)
     motions.lower(walker, walker.of_frame(Y))
     assert plant.fastest[0] <= ROBOT.mechanism.speed * 1.01
@@ -188,7 +188,7 @@ def test_motions_on_flat_ground_keep_the_feet_that_stand_where_they_are() -> Non
     for k in range(3):
         swing = (Y, DELTA)[k % 2]
         end = forward(walker, swing, 0.05 if k == 0 else 0.11)
-        motions.lift(walker, swing, end[:2] - walker.frames()[swing, :2])
+        motions.lift(walker, swing, end)
         motions.slide(walker, swing, end)
         motions.lower(walker, walker.of_frame(swing))
         motions.settle(walker)

@@ -9,6 +9,7 @@ from spring_walks import BEST, NOISE, RADIUS, stood
 from springs_walker import Ground, flat, slope
 
 from clamber.control.track import straight, through, turn_about
+from clamber.execution.walk.course import TrackCourse
 from clamber.execution.walk.sequencer import WalkReport, WalkSequencer
 from clamber.execution.walk.settings import WalkSettings
 from clamber.execution.walk.walk_trace import PHASES, WalkTrace
@@ -23,7 +24,7 @@ def ahead(distance: float, direction: float = BEST):  # type: ignore[no-untyped-
 
 def walk(ground: Ground, lay, *, calibrated: bool = True, neutral: float = 0.0, **options):  # type: ignore[no-untyped-def]
     walker, plant = stood(ground, **options)
-    sequencer = WalkSequencer(walker, lay, calibrated=calibrated, neutral=neutral)
+    sequencer = WalkSequencer(walker, lambda pose: TrackCourse(lay(pose), neutral=neutral), calibrated=calibrated)
     report = sequencer.run()
     return report, walker.trace(report.to_json()), plant
 

@@ -16,7 +16,7 @@ from ...types import Floats
 from . import motions
 from .walker import Walker
 
-LOOK: Final = 15.0
+LOOK: Final = 30.0
 """For which readings are averaged at each heading [s]."""
 REST: Final = 3.0
 """Before that, until the legs have taken the load [s]."""
@@ -38,12 +38,12 @@ def calibrate(walker: Walker) -> Floats:
         RefusedError: If the robot would tip on its Y-frame, or cannot turn.
         FallenError: If the robot falls.
     """
-    motions.lift(walker, DELTA)
     home = walker.frames()[DELTA].copy()
-    arm = walker.arm.copy()
+    arm, turns = walker.arm.copy(), _turns(walker)
+    motions.lift(walker, DELTA, *(home + np.array((0.0, 0.0, turn)) for turn in turns))
     readings, headings = [], []
     walker.inclination.frozen = True  # the plane stays as it is, by its legs
-    for turn in _turns(walker):
+    for turn in turns:
         _turn_to(walker, home, turn, arm)
         walker.wait(REST)
         seen = []
@@ -115,7 +115,7 @@ def _turn_to(walker: Walker, home: Floats, turn: float, arm: Floats) -> None:
     if spec is not None:
         aim = min(spec.highest[0], max(spec.lowest[0], arm[0] - turn))
         walker.arm_aims[0] = aim
-    motions.slide(walker, DELTA, home + np.array((0.0, 0.0, turn)))
+    motions.slide(walker, DELTA, home + np.array((0.0, 0.0, turn)), lands=False)
     _until_arm_is_there(walker)
 
 

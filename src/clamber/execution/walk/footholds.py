@@ -143,7 +143,7 @@ def _touch(walker: Walker, frame: int, pose: Floats, touches: Touches) -> list[i
     """Bring the frame to a pose through the air and lower it; legs that found no ground."""
     mine = walker.of_frame(frame)
     if walker.on_ground(frame):
-        motions.lift(walker, frame, pose[:2] - walker.frames()[frame, :2])
+        motions.lift(walker, frame, pose)
     motions.slide(walker, frame, pose)
     without = motions.lower(walker, mine)
     for foot, i in enumerate(mine):

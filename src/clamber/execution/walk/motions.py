@@ -158,7 +158,7 @@ def expected_height(walker: Walker, i: int) -> float:
     return float(walker.heights[stands].mean() + ground_slope(walker) @ (walker.soles[i, :2] - middle))
 
 
-def lift(walker: Walker, frame: int, ahead: Floats | None = None, *, by: float | None = None) -> None:
+def lift(walker: Walker, frame: int, *ends: Floats, by: float | None = None) -> None:
     """Lift a frame's feet off the ground: slowly while the others take its load, then until they clear what is expected on their way.
 
     The plate rises or sinks meanwhile to where the legs have room for that and for the landing.
@@ -166,7 +166,7 @@ def lift(walker: Walker, frame: int, ahead: Floats | None = None, *, by: float |
     Args:
         walker: The robot.
         frame: The frame.
-        ahead: By how much the frame will move, seen from above, shape (2,) [m]; None: nowhere.
+        ends: Poses that it will go to, seen from above, shape (3,) [m], [rad]; none: it stays over its place.
         by: By how much its feet clear the ground [m]; None: as the settings or the robot's file say.
 
     Raises:
@@ -188,12 +188,10 @@ def lift(walker: Walker, frame: int, ahead: Floats | None = None, *, by: float |
         )
     clear = by if by is not None else settings.lift if settings.lift is not None else robot.legs.lift
     mine, spec = list(walker.of_frame(frame)), robot.legs
-    # the plate slides in its own plane, so what counts is how the ground rises against that
-    against = ground_slope(walker) + walker.matrix[:2, 2] / walker.matrix[2, 2]
-    rise = 0.0 if ahead is None else float(against @ ahead)
     low, high, lifts = walker.heights.copy(), walker.heights.copy(), np.zeros(LEGS)
-    low[mine] += rise
-    high[mine] += max(0.0, rise)
+    rises = np.stack([np.zeros(3), *(_rises(walker, frame, end) for end in ends)])
+    low[mine] += rises.min(axis=0)
+    high[mine] += rises.max(axis=0)
     lifts[mine] = clear
     height = height_for(walker, low, high, lifts)
     aims = np.clip(walker.targets(np.array((height, *walker.wanted[1:])), high + lifts), spec.shortest, spec.longest)
@@ -221,7 +219,7 @@ def _ease(walker: Walker, legs: list[int]) -> None:
         free = free + 1 if walker.forces[legs].max() < LIGHT else 0
 
 
-def slide(walker: Walker, swing: int, end: Floats) -> None:
+def slide(walker: Walker, swing: int, end: Floats, *, lands: bool = True) -> None:
     """Bring the lifted frame to a pose in the world, straight, over the frame that stands.
 
     Inclinometers are not heard while it speeds up or slows down.
@@ -230,6 +228,7 @@ def slide(walker: Walker, swing: int, end: Floats) -> None:
         walker: The robot.
         swing: The lifted frame.
         end: Where it is to be, seen from above: x, y [m], heading [rad], shape (3,).
+        lands: Whether it comes down there, so that its feet may already go down on the way.
 
     Raises:
         RefusedError: If a foot of the frame is on the ground, or the way is beyond the mechanism or the balance.
@@ -264,6 +263,8 @@ def slide(walker: Walker, swing: int, end: Floats) -> None:
         share = eased_share(time, seconds, settings.ramp)
         place = slide_places(still, first, last, swing, np.array([share]))
         walker.actuators[:] = lengths_at(robot, place)[0]
+        if lands and settings.clear is not None:
+            _approach(walker, swing, end, seconds - time)
         walker.tick()
     walker.inclination.learns = False
     walker.inclination.frozen = True
@@ -272,6 +273,41 @@ def slide(walker: Walker, swing: int, end: Floats) -> None:
         walker.tick()
     walker.inclination.frozen = before
     walker.inclination.doubt(settings.landing_doubt)
+
+
+def _rises(walker: Walker, frame: int, end: Floats) -> Floats:
+    """By how much the ground that is expected under a frame's feet rises on their way to a pose, shape (3,) [m].
+
+    A frame slides in the plate's own plane, so what counts is how the ground rises against that.
+    """
+    c, s = math.cos(end[2]), math.sin(end[2])
+    feet = np.asarray(end[:2]) + walker.robot.feet()[frame] @ np.array(((c, s), (-s, c)))
+    against = ground_slope(walker) + walker.matrix[:2, 2] / walker.matrix[2, 2]
+    rises: Floats = (feet - walker.soles[list(walker.of_frame(frame)), :2]) @ against
+    return rises
+
+
+def _approach(walker: Walker, swing: int, end: Floats, seconds: float) -> None:
+    """Let lifted feet go down towards the ground that is expected where a slide ends, in time to be `clear` above it then.
+
+    Args:
+        walker: The robot.
+        swing: The lifted frame.
+        end: Where it comes down, seen from above, shape (3,) [m], [rad].
+        seconds: Until it is there [s].
+    """
+    settings, spec = walker.settings, walker.robot.legs
+    assert settings.clear is not None
+    mine = list(walker.of_frame(swing))
+    heights = walker.heights.copy()
+    heights[mine] = [expected_height(walker, i) for i in mine]
+    heights[mine] += (
+        np.maximum(0.0, _rises(walker, swing, end)) + settings.clear
+    )  # over the highest ground from here on
+    aims = np.clip(walker.targets(walker.wanted, heights), spec.shortest, spec.longest)
+    for i in mine:
+        if aims[i] - walker.lengths[i] >= spec.speed * (seconds - walker.period):
+            walker.free_aims[i] = max(walker.free_aims[i], aims[i])
 
 
 def place_for(walker: Walker, swing: int, end: Floats) -> Floats:

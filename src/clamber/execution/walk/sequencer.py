@@ -1,4 +1,4 @@
-"""The sequencer of a walk: prepares the robot, then lets its frames take turns along a track, and tells what became of every step."""
+"""The sequencer of a walk: prepares the robot, then lets its frames take turns along a course, and tells what became of every step."""
 
 import math
 from collections.abc import Callable
@@ -7,19 +7,19 @@ from typing import Final, Literal, TypeAlias
 
 import numpy as np
 
-from ...control.gait import FINE, PhaseTimes, Step, farthest_step
-from ...control.track import Track
+from ...control.gait import PhaseTimes, Step
 from ...types import Floats, Json
 from ..plant import PlantStoppedError
 from . import motions
 from .calibrate import calibrate, feel_give
+from .course import Course
 from .footholds import choose_footing
 from .walk_trace import PHASES, TracedWalker
 from .walker import FallenError, RefusedError, leg_name
 
 Outcome: TypeAlias = Literal["ok", "moved", "no ground", "refused", "fell", "stopped", "interrupted"]
-Lay: TypeAlias = Callable[[Floats], Track]
-"""A track for a robot whose Delta-frame is at a pose x, y [m], heading [rad], shape (3,), once it stands level."""
+Lay: TypeAlias = Callable[[Floats], Course]
+"""A course for a robot whose Delta-frame is at a pose x, y [m], heading [rad], shape (3,), once it stands level."""
 Progress: TypeAlias = Callable[[int, float, float], None]
 """Told before each step: its number, the way done and the whole way [m]."""
 
@@ -35,7 +35,7 @@ class StepReport:
     """From 1."""
     frame: str
     way: float
-    """Where on the track the frame came down [m]."""
+    """Where on the way the frame was to come down [m]."""
     outcome: Outcome
     start: float
     """When it began [s]."""
@@ -64,7 +64,7 @@ class WalkReport:
 
     steps: list[StepReport] = field(default_factory=list)
     done: bool = False
-    """Whether both frames came to the end of the track."""
+    """Whether both frames came to the end of the course."""
     seconds: float = 0.0
     """Simulated, or on the robot's clock."""
     prepared: float = 0.0
@@ -75,7 +75,7 @@ class WalkReport:
     """Of the plate at the end, as believed [m], [rad]."""
     true_pose: tuple[float, ...] | None = None
     goal: tuple[float, ...] = ()
-    """Of the Delta-frame, seen from above, where the track ends [m], [rad]; empty if the walk ended before it was laid."""
+    """Of the Delta-frame, seen from above, where the course ends [m], [rad]; empty if the walk ended before it was laid."""
     offsets: tuple[float, float] = (0.0, 0.0)
     """Of the inclinometers, as calibrated [rad]."""
     kicks: int = 0
@@ -113,27 +113,25 @@ class WalkSequencer:
 
     Args:
         walker: The robot, started.
-        lay: The track, laid once the robot stands as it is to walk: levelling moves it.
-        neutral: Angle of the Y-frame in the Delta-frame where both are at one place of the track [rad].
+        lay: The course, laid once the robot stands as it is to walk: levelling moves it.
         calibrated: Whether the inclinometers' offsets are known; if not, they are calibrated before the first step.
         progress: Told before each step.
     """
 
     def __init__(
-        self, walker: TracedWalker, lay: Lay, *, neutral: float = 0.0, calibrated: bool = True, progress: Progress | None = None
-    ) -> None:  # fmt: skip
-        self.walker, self._lay, self._neutral, self._calibrated = walker, lay, neutral, calibrated
+        self, walker: TracedWalker, lay: Lay, *, calibrated: bool = True, progress: Progress | None = None
+    ) -> None:
+        self.walker, self._lay, self._calibrated = walker, lay, calibrated
         self._progress = progress
-        self._ways = np.zeros(2)
         self.report = WalkReport()
 
     def run(self) -> WalkReport:
         """Walk to the track's end, a fall, a refusal, a stopped plant, or Ctrl-C; what happened until then is in report and trace."""
         report, walker = self.report, self.walker
         try:
-            track = self._prepare()
-            report.goal = tuple(map(float, track.pose(track.length)))
-            self._walk(track)
+            course = self._prepare()
+            report.goal = tuple(map(float, course.goal))
+            self._walk(course)
         except KeyboardInterrupt:
             report.reason = "interrupted"
         except FallenError as fall:
@@ -149,8 +147,8 @@ class WalkSequencer:
         report.true_pose = None if true is None else tuple(map(float, true.pose))
         return report
 
-    def _prepare(self) -> Track:
-        """Find the ground with all feet, level, calibrate, lay the track."""
+    def _prepare(self) -> Course:
+        """Find the ground with all feet, level, calibrate, lay the course."""
         walker = self.walker
         none = motions.find_ground(walker)
         if none:
@@ -166,45 +164,25 @@ class WalkSequencer:
         self.report.prepared = walker.time
         return self._lay(walker.frames()[0])
 
-    def _walk(self, track: Track) -> None:
+    def _walk(self, course: Course) -> None:
         report = self.report
-        swing = self._first(track)
-        self._ways[:] = 0.0
-        while float(self._ways.min()) < track.length - FINE:
-            step = self._next(track, swing)
+        while not course.done:
+            step = course.next(self.walker)
             if step is None:
-                swing = 1 - swing
-                step = self._next(track, swing)
-            if step is None:
-                report.reason = f"stuck: neither frame can go on from {self._ways.min():.3f} m of {track.length:.3f} m"
+                report.reason = f"stuck: neither frame can go on from {course.way:.3f} m of {course.length:.3f} m"
                 return
             if self._progress is not None:
-                self._progress(len(report.steps) + 1, float(self._ways.min()), track.length)
-            before = self._ways.copy()
-            outcome = self._step(track, step)
+                self._progress(len(report.steps) + 1, course.way, course.length)
+            outcome = self._step(step)
             if outcome not in ("ok", "moved"):
                 report.reason = f"step {len(report.steps)}: {outcome}: {report.steps[-1].reason}"
                 return
-            if np.abs(self._ways - before).max() < FINE:
-                report.reason = f"stuck: the ground lets neither frame go on from {self._ways.min():.3f} m"
+            if not course.landed(step, self.walker):
+                report.reason = f"stuck: the ground lets neither frame go on from {course.way:.3f} m"
                 return
-            swing = 1 - swing
         report.done = True
 
-    def _first(self, track: Track) -> int:
-        steps = [self._next(track, swing) for swing in (0, 1)]
-        return int(np.argmax([0.0 if step is None else step.way for step in steps]))
-
-    def _next(self, track: Track, swing: int) -> Step | None:
-        walker = self.walker
-        if self._ways[swing] >= track.length - FINE:
-            return None
-        return farthest_step(
-            walker.robot, track, walker.frames(), self._ways, swing, neutral=self._neutral, arm=walker.arm,
-            payload=walker.payload, limits=walker.settings.limits, longest=walker.settings.longest,
-        )  # fmt: skip
-
-    def _step(self, track: Track, step: Step) -> Outcome:
+    def _step(self, step: Step) -> Outcome:
         """Carry out one step and report it, whatever becomes of it."""
         walker, report = self.walker, self.report
         walker.step = len(report.steps) + 1
@@ -215,7 +193,6 @@ class WalkSequencer:
             outcome, tries, reason = self._carry_out(step, marks)
             landed = walker.frames()[step.swing]
             off = float(np.hypot(*(landed[:2] - step.end[:2])))
-            self._ways[step.swing] = self._way_of(track, step, landed)
         except FallenError as fall:
             outcome, reason = "fell", str(fall)
             raise
@@ -231,7 +208,7 @@ class WalkSequencer:
             error = None if true is None else float(np.hypot(*(true.pose[:2] - walker.pose[:2])))
             report.steps.append(
                 StepReport(
-                    walker.step, ("Delta", "Y")[step.swing], float(self._ways[step.swing]), outcome, start, times,
+                    walker.step, ("Delta", "Y")[step.swing], step.way, outcome, start, times,
                     step.balance, off, tries, walker.tilt(), error, reason,
                 )
             )  # fmt: skip
@@ -240,7 +217,7 @@ class WalkSequencer:
     def _carry_out(self, step: Step, marks: list[float]) -> tuple[Outcome, int, str]:
         walker, settings = self.walker, self.walker.settings
         start = walker.frames()[step.swing].copy()
-        self._bring(step, start, marks)
+        self._bring(step, marks)
         walker.phase = PHASES.index("lower")
         outcome: Outcome = "ok"
         reason = ""
@@ -255,8 +232,9 @@ class WalkSequencer:
                     break
                 outcome = "moved"
                 reason = f"{leg_name(without[0])} found no ground at the end of the step"
-                motions.lift(walker, step.swing)
-                motions.slide(walker, step.swing, start + share * (step.end - start))
+                back = start + share * (step.end - start)
+                motions.lift(walker, step.swing, back)
+                motions.slide(walker, step.swing, back)
                 without = motions.lower(walker, walker.of_frame(step.swing))
                 tries += 1
             if without:
@@ -267,29 +245,12 @@ class WalkSequencer:
         marks.append(walker.time)
         return outcome, tries, reason
 
-    def _bring(self, step: Step, start: Floats, marks: list[float]) -> None:
+    def _bring(self, step: Step, marks: list[float]) -> None:
         walker = self.walker
         walker.phase = PHASES.index("lift")
-        motions.lift(walker, step.swing, step.end[:2] - start[:2])
+        motions.lift(walker, step.swing, step.end)
         marks.append(walker.time)
         walker.phase = PHASES.index("slide")
-        motions.slide(walker, step.swing, step.end)
+        for pose in (*step.over, step.end):
+            motions.slide(walker, step.swing, pose)
         marks.append(walker.time)
-
-    def _way_of(self, track: Track, step: Step, landed: Floats) -> float:
-        """Where on the track a frame that came down elsewhere than it was to is, by how far behind along the way it stands [m].
-
-        One that edges sent elsewhere is where it was to be: it has done what it could.
-        """
-        if self.walker.settings.probe > 0.0:
-            return step.way
-        ahead = track.pose(min(track.length, step.way))
-        behind = track.pose(max(0.0, step.way - 1e-3))
-        forward = ahead - behind
-        if np.hypot(*forward[:2]) < 1e-9:
-            return step.way
-        forward = forward[:2] / np.hypot(*forward[:2])
-        short = float(forward @ (step.end[:2] - landed[:2]))
-        return (
-            float(np.clip(step.way - max(0.0, short), self._ways[step.swing], step.way)) if short > FINE else step.way
-        )

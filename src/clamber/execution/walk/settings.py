@@ -11,13 +11,13 @@ class WalkSettings:
     """What a robot's file does not say of its walking."""
 
     level: bool = True
-    """Whether the plate is kept level; if not, it keeps the tilt that it has at the start."""
+    """Whether the plate is kept level; if not, it keeps the tilt of the start, and its steps are judged as if that were level."""
     limits: Limits = Limits()  # noqa: RUF009  # frozen
     """How far steps use what the robot can."""
     lift: float | None = None
     """By how much a lifted foot clears the ground that is expected on its way [m]; None: as the robot's file says."""
     clear: float | None = 0.02
-    """A slide may begin when its feet clear the expected ground by so much [m], which saves time; None: by all of `lift`."""
+    """A slide begins and ends with its feet so far above the expected ground [m], which saves time; None: by all of `lift`."""
     touch: float = 30.0
     """A foot that the ground pushes with more than this is on it [N]: the loads of standing feet are 60 N and more ..."""
     touches: int = 2

@@ -26,7 +26,7 @@ SLACK: Final = 0.6
 """Errors of a leg's length below this part of its motor's step stay [-]."""
 SMOOTHED: Final = 0.3
 """Time constant of the loads that tell how deep feet sink in [s]."""
-HALF: Final = 0.5
+PART: Final = 0.75
 """Part of what feet sink in that is made up for while others, which do not count as standing, carry, too [-]."""
 LEAST_GIVE: Final = 2e-6
 """A foot and its leg sink in by so much at least, where loads are shared [m/N]."""
@@ -267,7 +267,7 @@ class Walker:
         c, s = math.cos(self.pose[3]), math.sin(self.pose[3])
         change = np.array((c * more[0] + s * more[1], c * more[1] - s * more[0]))
         # legs that are being lifted give way to what the others answer with: in full that could build up
-        part = HALF if np.any(self.forces[~here] > LIGHT) else 1.0
+        part = PART if np.any(self.forces[~here] > LIGHT) else 1.0
         self.heights[here] -= (
             part * self.inclination.give * (self.places[here] - self.places[here].mean(axis=0)) @ change
         )
@@ -310,7 +310,6 @@ class Walker:
             self.kicks += 1
             self._kicked = 0.0
             self.inclination.frozen = False
-            self.inclination.doubt(tilted)
 
     def _share_load(self) -> None:
         """Legs that carry too much while more than three stand are drawn in, others pushed out; the plane through the feet stays."""

@@ -11,7 +11,8 @@ import numpy as np
 from ...control.track import Track
 from ...errors import UnitError, describe_choices
 from ...execution.plant import PlantStoppedError
-from ...execution.walk.sequencer import Progress, WalkReport, WalkSequencer
+from ...execution.walk.course import TrackCourse
+from ...execution.walk.sequencer import Lay, Progress, WalkReport, WalkSequencer
 from ...execution.walk.settings import WalkSettings
 from ...execution.walk.true_walk import TracedPlant, TrueWalk
 from ...execution.walk.walk_trace import TracedWalker, WalkTrace
@@ -120,6 +121,11 @@ def lay_track(walk: Walk, pose: Floats) -> Track:
     return Track.of(pose, [piece.twist() for piece in walk.way], walk.robot.legs.radius_delta)
 
 
+def own_way(walk: Walk) -> Lay:
+    """How the way of a walk's file is laid out from where the robot stands."""
+    return lambda pose: TrackCourse(lay_track(walk, pose), neutral=walk.start.twist)
+
+
 def run_walk(
     walk: Walk,
     flaws: WalkerFlaws,
@@ -127,6 +133,7 @@ def run_walk(
     noise: WalkNoise = named_walk_noise("none"),  # noqa: B008  # frozen
     seed: int = 0,
     settings: WalkSettings | None = None,
+    lay: Lay | None = None,
     progress: Progress | None = None,
 ) -> WalkRun:
     """Carry a walk out.
@@ -137,6 +144,7 @@ def run_walk(
         noise: What deviates from what the robot believes. With an offset of the inclinometers they are calibrated first.
         seed: Of how much it does, and of rough ground.
         settings: How it walks; None: as usual, level and probing as the walk says.
+        lay: The course that it follows, laid where it stands; None: the walk's own way.
         progress: Told before each step.
     """
     began = time.perf_counter()
@@ -147,8 +155,7 @@ def run_walk(
     walker = TracedWalker(walk.robot, plant, settings=how, payload=walk.payload)
     sequencer = WalkSequencer(
         walker,
-        lambda pose: lay_track(walk, pose),
-        neutral=walk.start.twist,
+        lay or own_way(walk),
         calibrated=noise.widths["inclinometer_offset"] == 0.0,
         progress=progress,
     )
