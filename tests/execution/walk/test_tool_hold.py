@@ -28,7 +28,8 @@ def tool_of(pose: Floats, joints: Floats) -> Floats:
         pitch += joint
         out += length * math.cos(pitch)
         up += length * math.sin(pitch)
-    return pose[:3] + np.array((out * math.cos(turn), out * math.sin(turn), up))
+    place: Floats = pose[:3] + np.array((out * math.cos(turn), out * math.sin(turn), up))
+    return place
 
 
 class Watched(SpringsWalker):
