@@ -19,7 +19,8 @@ def test_the_tool_stays_within_millimetres_while_the_robot_walks_past(uphill: fl
     assert run.done, run.reason
     held = run.held
     assert held is not None
-    np.testing.assert_allclose(held.part.reach, [(0.04, 0.26)], atol=0.011)  # poses of the way are looked at every 2 cm
+    np.testing.assert_allclose(held.part.reach, [(0.05, 0.25)], atol=2e-3)
+    assert (held.part.first, held.part.last) == held.part.reach[0]  # all of it is well within reach
     # what is measured is the plant's own tool point, against the point as it truly lies beside the start
     rows = np.isin(run.true.time, held.time)
     gone = run.true.pose[rows, 0]

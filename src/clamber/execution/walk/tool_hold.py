@@ -23,6 +23,8 @@ from .walker import RefusedError, Walker
 
 GRID: Final = 0.02
 """Poses of the way that are looked at lie so far apart [m]; the ends of the part that can be held are bisected between them."""
+FINE: Final = 0.001
+"""To which the way's nearest place to the point is found [m]."""
 EDGE: Final = 0.03
 """The tool comes so far inside where the arm can just reach, and leaves as early [m]: lifting moves the plate by a centimetre or two."""
 GENTLY: Final = 0.5
@@ -84,11 +86,12 @@ class ToolHold:
         assert robot.arm is not None, "only robots with an arm hold something"
         self.point, self._arm = np.array(point, float), robot.arm
         self._rest = walker.arm.copy()
-        self._ways = np.linspace(0.0, track.length, max(2, math.ceil(track.length / GRID) + 1))
+        self._ways = _spread(0.0, track.length, GRID)
         self._poses = _plate_poses(walker, track, self._ways)
         self._at = 0
-        self.reach = self._find_reach(robot, within)
-        self.first, self.last = self._choose_part()
+        asked = self._asked(track, within)
+        self.reach = self._find_reach(robot, asked, _plate_poses(walker, track, asked))
+        self.first, self.last = self._choose_part(asked)
         speeds = own_speeds(robot)
         settings = Cooperation(speeds=speeds, tool_speeds=np.full(3, TOOL_SPEED), gain=GAIN, period=walker.period)
         footing = PlantedFeet(robot=robot, support="y", pose=self._poses[0])
@@ -198,29 +201,30 @@ class ToolHold:
     def _off(self, k: int, pose: Floats) -> float:
         return float(np.hypot(*(pose - self._poses[k])[:2])) + abs(float(pose[3] - self._poses[k, 3])) * GRID
 
-    def _find_reach(self, robot: WalkerRobot, within: float) -> tuple[tuple[float, float], ...]:
-        away = np.hypot(*(self._poses[:, :2] - self.point[:2]).T)
-        nearest = self._ways[int(np.argmin(away))]
-        asked = np.flatnonzero(np.abs(self._ways - nearest) <= within + 1e-9)
-        found = reachable_part(robot, self._poses[asked], self.point)
+    def _asked(self, track: Track, within: float) -> Floats:
+        """Ways between which the tool is to be held, as far as the track goes [m]."""
+        ways = _spread(0.0, track.length, FINE)
+        away = [float(np.hypot(*(track.pose(float(way))[:2] - self.point[:2]))) for way in ways]
+        nearest = float(ways[int(np.argmin(away))])
+        return _spread(max(0.0, nearest - within), min(track.length, nearest + within), GRID)
+
+    def _find_reach(self, robot: WalkerRobot, ways: Floats, poses: Floats) -> tuple[tuple[float, float], ...]:
+        found = reachable_part(robot, poses, self.point)
         if not found.parts:
             short = float(found.distances.min())
             raise RefusedError(
-                f"the arm reaches the point to hold nowhere from way {self._ways[asked[0]]:.2f} m to "
-                f"{self._ways[asked[-1]]:.2f} m: {1e3 * short:.0f} mm are missing where it comes nearest", -short,
-            )  # fmt: skip
-        ways = self._ways[asked]
-        at = np.arange(len(asked), dtype=np.float64)
+                f"the arm reaches the point to hold nowhere from way {ways[0]:.2f} m to {ways[-1]:.2f} m: "
+                f"{1e3 * short:.0f} mm are missing where it comes nearest",
+                -short,
+            )
+        at = np.arange(len(ways), dtype=np.float64)
         return tuple((float(np.interp(a, at, ways)), float(np.interp(b, at, ways))) for a, b in found.parts)
 
-    def _choose_part(self) -> tuple[float, float]:
-        """The longest one, from `EDGE` inside where the reach ends."""
+    def _choose_part(self, asked: Floats) -> tuple[float, float]:
+        """The longest one; where it ends with the arm's reach, from `EDGE` inside."""
         first, last = max(self.reach, key=lambda part: part[1] - part[0])
         inside = min(EDGE, 0.5 * (last - first))
-        grid = self._ways
-        first += inside if not np.isclose(grid, first, atol=1e-9).any() else 0.0
-        last -= inside if not np.isclose(grid, last, atol=1e-9).any() else 0.0
-        return first, last
+        return first + inside * (first > asked[0]), last - inside * (last < asked[-1])
 
     def _joints_at(self, walker: Walker) -> Floats:
         """Joints that bring the tool to the point from where it is first held, near those at rest."""
@@ -231,6 +235,11 @@ class ToolHold:
         footing = PlantedFeet(robot=walker.robot, support="y", pose=pose)
         search = ReachSearch(walker.robot, footing, self._weights, kept="arm")
         return search.find(np.concatenate([pose, rest]), self.point).q[POSE:]
+
+
+def _spread(first: float, last: float, gap: float) -> Floats:
+    """Evenly from first to last, both included, at most `gap` apart [m]."""
+    return np.linspace(first, last, max(2, math.ceil((last - first) / gap - 1e-9) + 1))
 
 
 def _plate_poses(walker: Walker, track: Track, ways: Floats) -> Floats:
