@@ -13,7 +13,7 @@ from .dead_reckoning import orient
 def arm_points(robot: WalkerRobot, arm: Floats) -> Floats:
     """Ends of the arm's links in the plate, from the axis of joint 1 to the tool point, shape (n + 1, 3) [m].
 
-    Equation 8 of Hoshino and others (1996): joint 0 turns about the plate's normal, the others pitch, upwards positive.
+    Equation 8 of Hoshino and others (1995): joint 0 turns about the plate's normal, the others pitch, upwards positive.
 
     Args:
         robot: It has an arm.
