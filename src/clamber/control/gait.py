@@ -239,5 +239,5 @@ class PhaseTimes:
 
 
 def speed_of_gait(step: float, cycle: float, duty: float = 0.5) -> float:
-    """Equation 1 of Hoshino and others (1996) with T as the whole cycle, the only reading that gives 130 mm/min with 160 mm [m/s]."""
+    """Equation 1 of Hoshino and others (1995) with T as the whole cycle, the only reading that gives 130 mm/min with 160 mm [m/s]."""
     return (1.0 - duty) / duty * step / cycle
