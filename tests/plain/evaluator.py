@@ -10,7 +10,7 @@ from typing import Any
 from .carriers import Carrier, best_option, torques
 from .forces import NO_SPLIT_TORQUE, shared_load
 from .hook import hang_margins, many_margin, pair_margins
-from .interference import FAR, clearance, contains, interference_margins, point_to_segment, swing_clearance
+from .interference import FAR, clearance, contains, holder_gap, interference_margins, point_to_segment, swing_clearance
 from .kinematics import (
     EPS,
     Option,
@@ -26,7 +26,7 @@ from .kinematics import (
 )
 
 CHECKS: tuple[str, ...] = ("reach", "joint", "support", "hangs", "torque", "power", "clearance", "swing", "keep_out")
-CHECKS += ("limb_limb", "limb_body", "limb_peg", "hook", "shared", "stability")
+CHECKS += ("limb_limb", "limb_body", "limb_peg", "hook", "shared", "stability", "holder_peg")
 TICKS = 2**20
 """Ticks of pose in one step."""
 NO_CANDIDATE = -1e9
@@ -401,6 +401,8 @@ class PlainEvaluator:
         margins["shared"] = -1.0 if len(set(held)) < len(held) else 0.0
         xs = [c.hold.x for c in carriers]
         margins["stability"] = min(max(xs) - pose.x, pose.x - min(xs)) if len(xs) > 1 else 0.0
+        held_by = [(limbs[i], taken[i], self.holds[s.hold[i]]) for i in s.holders()]
+        margins["holder_peg"] = holder_gap(self.task, pose, held_by)
         good = self.still_open(s, both, carriers, split, in_good)
         return Judgement(margins, all_torques, power, [o.branch for o in taken], forces, good)
 

@@ -58,6 +58,9 @@ PARAMS = np.dtype(
         ("max_power", "f8"),
         ("link_radius", "f8"),
         ("body_margin", "f8"),
+        ("hook_width", "f8"),  # 0: hooks are points
+        ("hook_ahead", "f8"),
+        ("hook_way", "f8"),
         ("grid_x", "f8"),
         ("grid_y", "f8"),
         ("grid_cell", "f8"),

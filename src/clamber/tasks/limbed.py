@@ -115,6 +115,12 @@ class Rules:
     """Half angle of end effectors that state none [rad]."""
     hook_pull: NonNegativeForce = 0.0
     """Pull along its grab direction that every end effector with a cone can be given [N]: a hook with less slips off."""
+    hook_width: NonNegativeLength = 0.0
+    """Width of a hook with its flare; 0: nothing is asked of holders and other holds (`holder_peg`) [m]."""
+    hook_ahead: NonNegativeLength = 0.0
+    """How far a hook reaches ahead of its hold's centre, along its grab direction [m]."""
+    hook_way: NonNegativeLength = 0.0
+    """From how far behind a hook comes straight onto its hold, and goes off again [m]."""
     hard: tuple[StrictStr, ...] = DEFAULT_HARD
     """Names of the checks that forbid an action; the others only report."""
     allowed: tuple[StrictStr, ...] | None = None
