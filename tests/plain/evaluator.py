@@ -285,9 +285,13 @@ class PlainEvaluator:
         px, py = port_in_world(self.robot.limbs[limb], pose)
         hx, hy = self.place(number)
         limit = limb_length(self.robot.limbs[limb])
-        if grabbing or self.rules.offset_while_holding:
-            limit -= self.rules.reach_offset
-        return limit - math.hypot(hx - px, hy - py)
+        return limit - (self.rules.reach_offset if grabbing else 0.0) - math.hypot(hx - px, hy - py)
+
+    def reach_margin(self, limb: int, pose: Pose, number: int, grabbing: bool) -> float:
+        """Of a holder: the limit is shortened by the larger of the offsets that count [m]."""
+        counts = grabbing or self.rules.offset_while_holding
+        offset = max(self.rules.holding_offset, self.rules.reach_offset if counts else 0.0)
+        return self.spare(limb, pose, number, grabbing=False) - offset
 
     # Outcomes
 
@@ -363,7 +367,7 @@ class PlainEvaluator:
             both.append([option(limb, pose, target, b) for b in (0, 1)])
             usables.append(usable(both[i], self.allowed(s, i)))
 
-        margins["reach"] = min(self.spare(i, pose, s.hold[i] or 0, grabbing=i in grabbed) for i in holders)
+        margins["reach"] = min(self.reach_margin(i, pose, s.hold[i] or 0, grabbing=i in grabbed) for i in holders)
         margins["joint"] = min(
             max((o.joint_margin for o in both[i] if o.branch in self.allowed(s, i)), default=-math.pi) for i in holders
         )

@@ -60,7 +60,7 @@ def _fill_rules(
     row["tick_angle"] = math.tau / turn / TICKS
     row["turn_ticks"] = turn * TICKS
     row["weight"] = task.robot.weight
-    row["reach_offset"] = rules.reach_offset
+    row["reach_offset"], row["holding_offset"] = rules.reach_offset, rules.holding_offset
     row["clearance"] = rules.clearance
     row["max_power"] = math.inf if rules.max_power is None else rules.max_power
     row["link_radius"], row["body_margin"] = task.robot.link_radius, task.robot.body_margin

@@ -43,9 +43,10 @@ def judge(p, s, grabbing, swing, margins):
     for i in range(n):
         if s.hold[i] < 0:
             continue
-        limit = limbs(p)[i].length
+        offset = p.holding_offset
         if i == grabbing or p.offset_while_holding:
-            limit -= p.reach_offset
+            offset = max(offset, p.reach_offset)
+        limit = limbs(p)[i].length - offset
         reach = min(reach, limit - s.solved[i, 0])
         allowed = s.open[i] if p.kept else 3
         best = -math.pi

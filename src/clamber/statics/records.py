@@ -54,6 +54,7 @@ PARAMS = np.dtype(
         ("turn_ticks", "i8"),
         ("weight", "f8"),
         ("reach_offset", "f8"),
+        ("holding_offset", "f8"),
         ("clearance", "f8"),
         ("max_power", "f8"),
         ("link_radius", "f8"),

@@ -101,8 +101,10 @@ class Rules:
     """Whether the limb that moved last carries weight while three or more hold."""
     reach_offset: NonNegativeLength = 0.0
     """Reach that a grab may not use [m]."""
+    holding_offset: NonNegativeLength = 0.0
+    """Reach that limbs may not use while they hold [m]."""
     offset_while_holding: StrictBool = False
-    """Whether the offset also applies to limbs that hold."""
+    """Whether the offset of grabs also applies to limbs that hold."""
     replace_out_of_reach: StrictBool = False
     """Whether a hold out of reach is replaced by the nearest one."""
     branch: Literal["free", "kept"] = "free"
@@ -303,9 +305,10 @@ def _check_rules(rules: Rules, robot: LimbedRobot, document: Document) -> None:
         raise document.problem("rules.hard", "names a check twice")
     if rules.min_supports > len(robot.limbs):
         raise document.problem("rules.min_supports", f"must be at most the number of limbs, {len(robot.limbs)}")
-    if rules.reach_offset >= min(limb.length for limb in robot.limbs):
-        shortest = min(limb.length for limb in robot.limbs)
-        raise document.problem("rules.reach_offset", f"must be less than the shortest limb, {shortest:.4g} m")
+    shortest = min(limb.length for limb in robot.limbs)
+    for key, offset in (("reach_offset", rules.reach_offset), ("holding_offset", rules.holding_offset)):
+        if offset >= shortest:
+            raise document.problem(f"rules.{key}", f"must be less than the shortest limb, {shortest:.4g} m")
     for index, keep in enumerate(rules.keep):
         _check_limb(keep.limb, f"rules.keep.{index}.limb", robot, document)
         _check_order(keep, f"rules.keep.{index}", ("x", "y"), document)

@@ -14,11 +14,15 @@ from ...execution.climb.here import GENERATORS, hold_document
 from ...execution.climb.sequencer import Replan
 from ...planning.budgets import accepts
 from ...planning.planners import PLANNERS
+from ...robots.hooks import HOOK_AHEAD, HOOK_WAY, HOOK_WIDTH
 from ...tasks.library import change_task, task_from_document
 from ...tasks.limbed import LimbedTask
 from ...types import Json
 from ...units import DEGREE, INCH
 from ...worlds.board import Hold
+
+
+MM: Final = 1e-3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,8 +39,12 @@ class Caution:
     """Least pull of every hook that carries, of the robot's weight [-]: with less, the joints' friction lets it slip off."""
     share: float = 0.4
     """Of the motors' torque that a plan may use [-]."""
-    spare: float = 1.0
-    """Reach that limbs leave, also while they hold: a stretched elbow is soft, and may pass to the other side [in]."""
+    spare: float = 2.0
+    """Reach that a grab leaves: the body is not where it should be to the last millimetre, nor is the hold [in]."""
+    bend: float = 0.5
+    """Reach that limbs leave while they hold: a stretched elbow is soft, and may pass to the other side [in]."""
+    room: float = 3.5
+    """Between holds, and links and hooks that pass them [mm]."""
 
 
 CAUTIONS: Final = (
@@ -95,14 +103,20 @@ def cautious(task: LimbedTask, caution: Caution) -> LimbedTask:
         board = {key: value for key, value in document["board"].items() if key not in GENERATORS}
         document["board"] = board | {"holds": [_spared(hold, task.robot.weight, caution) for hold in task.world.holds]}
     changed = task_from_document(document, "cautious task")
-    rules = task.rules
+    rules, room = task.rules, caution.room * MM
+    hard = dict.fromkeys((*rules.hard, "holder_peg"))
     cautious_task = change_task(
         changed,
         [
             f"rules.hook_cone={min(rules.hook_cone / DEGREE, caution.hook_cone)!r} deg",
             f"rules.hook_pull={max(rules.hook_pull, caution.pull * task.robot.weight)!r} N",
             f"rules.reach_offset={max(rules.reach_offset, caution.spare * INCH)!r} m",
-            f"rules.offset_while_holding={str(hooked or rules.offset_while_holding).lower()}",
+            f"rules.holding_offset={max(rules.holding_offset, caution.bend * INCH * hooked)!r} m",
+            f"rules.hard=[{', '.join(repr(name) for name in hard)}]",
+            f"rules.hook_width={HOOK_WIDTH + 2.0 * room!r} m",
+            f"rules.hook_ahead={HOOK_AHEAD + room!r} m",
+            f"rules.hook_way={HOOK_WAY!r} m",
+            f"link_radius={task.robot.link_radius + room!r} m",
             f"motor.torque_limit={caution.share * task.robot.motor.torque_limit!r} N m",
         ],
     )
