@@ -404,7 +404,8 @@ class PlainEvaluator:
         held = [h for h in s.hold if h is not None]
         margins["shared"] = -1.0 if len(set(held)) < len(held) else 0.0
         xs = [c.hold.x for c in carriers]
-        margins["stability"] = min(max(xs) - pose.x, pose.x - min(xs)) if len(xs) > 1 else 0.0
+        within = min(max(xs) - pose.x, pose.x - min(xs)) if len(xs) > 1 else 0.0
+        margins["stability"] = within - rules.inside
         held_by = [(limbs[i], taken[i], self.holds[s.hold[i]]) for i in s.holders()]
         margins["holder_peg"] = holder_gap(self.task, pose, held_by)
         good = self.still_open(s, both, carriers, split, in_good)

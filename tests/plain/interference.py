@@ -118,7 +118,12 @@ def holder_gap(task: Any, pose: Pose, held: list[tuple[Any, Option, Any]]) -> fl
         at, g = complex(*tip), cmath.exp(1j * taken.grab_angle)
         corners = [
             at + g * complex(along, side)
-            for along, side in ((rules.hook_ahead, half), (rules.hook_ahead, -half), (-rules.hook_way, -half), (-rules.hook_way, half))
+            for along, side in (
+                (rules.hook_ahead, half),
+                (rules.hook_ahead, -half),
+                (-rules.hook_way, -half),
+                (-rules.hook_way, half),
+            )
         ]
         swept = [(z.real, z.imag) for z in corners]
         for hold in task.world.holds:

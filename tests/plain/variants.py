@@ -59,6 +59,7 @@ def varied_rules(rng: random.Random, task: LimbedTask) -> Any:
         max_power=rng.choice((None, None, 5.0, 50.0)),
         hook_cone=math.radians(rng.choice((90.0, 90.0, 60.0, 30.0))),
         hook_pull=rng.choice((0.0, 0.0, 2.0, 8.0)),
+        inside=aside.choice((0.0, 0.0, INCH)),
         holding_offset=aside.choice((0.0, 0.0, 0.5 * INCH)),
         hook_width=width,
         hook_ahead=aside.choice((0.0, 0.016)),

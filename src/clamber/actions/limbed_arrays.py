@@ -61,7 +61,7 @@ def _fill_rules(
     row["turn_ticks"] = turn * TICKS
     row["weight"] = task.robot.weight
     row["reach_offset"], row["holding_offset"] = rules.reach_offset, rules.holding_offset
-    row["clearance"] = rules.clearance
+    row["clearance"], row["inside"] = rules.clearance, rules.inside
     row["max_power"] = math.inf if rules.max_power is None else rules.max_power
     row["link_radius"], row["body_margin"] = task.robot.link_radius, task.robot.body_margin
     row["hook_width"], row["hook_ahead"], row["hook_way"] = rules.hook_width, rules.hook_ahead, rules.hook_way

@@ -67,7 +67,7 @@ def judge(p, s, grabbing, swing, margins):
     near = nearest_hold(p, s.x, s.y)
     margins[CLEARANCE] = near - p.clearance if near < math.inf else UNLIMITED
     if p.seen & (1 << STABILITY):
-        margins[STABILITY] = stability(p, s, k)
+        margins[STABILITY] = stability(p, s, k) - p.inside
     if p.seen & (1 << SHARED):
         margins[SHARED] = shared(p, s)
     good = 3 * 0x5555  # two bits a limb: every branch good until the hook check says otherwise

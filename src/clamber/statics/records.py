@@ -56,6 +56,7 @@ PARAMS = np.dtype(
         ("reach_offset", "f8"),
         ("holding_offset", "f8"),
         ("clearance", "f8"),
+        ("inside", "f8"),
         ("max_power", "f8"),
         ("link_radius", "f8"),
         ("body_margin", "f8"),

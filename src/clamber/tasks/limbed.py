@@ -111,6 +111,8 @@ class Rules:
     """Whether a limb may change the side of its elbow while it holds."""
     clearance: NonNegativeLength = 6 * INCH
     """Least distance of the body's origin from any hold [m]."""
+    inside: NonNegativeLength = 0.0
+    """How far the body's origin lies inside the span of the holds that carry it (`stability`) [m]."""
     max_power: PositivePower | None = None
     """Largest electrical power of the joints that carry weight [W]; None: any."""
     hook_cone: ConeAngle = math.pi / 2

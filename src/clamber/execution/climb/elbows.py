@@ -21,12 +21,13 @@ CHANGE: Final = 0.4
 BARRED: Final = 1e3
 """What counts a side that the plan's checks forbid."""
 LACKING: Final = 2.0
-"""What counts each newton that the worst of two carrying limbs lacks of what is wished, after each action: one stance that lacks three is a fall, whatever the others are like [1/N]."""
+"""What counts each newton that the worst of two carrying limbs lacks of what is wished, after each action: one stance that lacks three
+is a fall, whatever the others are like [1/N]."""
 ON_TOP: Final = 0.3
 """What a hook that pulls sideways instead of down counts after each action [-]."""
-BLOCKED: Final = 4.0
+BLOCKED: Final = 5.0
 """What counts after each action a limb on a hold whose links touch another hold or the body, which then bend it off its way [-]."""
-CLEAR: Final = 0.008
+CLEAR: Final = 0.001
 """Clearance with which it counts nothing [m]."""
 POINT: Final = np.zeros(2)
 """Stands for a hook where links alone are looked at."""

@@ -21,7 +21,6 @@ from ...types import Json
 from ...units import DEGREE, INCH
 from ...worlds.board import Hold
 
-
 MM: Final = 1e-3
 
 
@@ -39,26 +38,30 @@ class Caution:
     """Least pull of every hook that carries, of the robot's weight [-]: with less, the joints' friction lets it slip off."""
     share: float = 0.4
     """Of the motors' torque that a plan may use [-]."""
-    spare: float = 2.0
+    spare: float = 1.0
     """Reach that a grab leaves: the body is not where it should be to the last millimetre, nor is the hold [in]."""
     bend: float = 0.5
     """Reach that limbs leave while they hold: a stretched elbow is soft, and may pass to the other side [in]."""
     room: float = 3.5
     """Between holds, and links and hooks that pass them [mm]."""
+    inside: float | None = None
+    """How far the weight stays inside the span of the holds that carry it, None for anywhere [in]: beside it, a hook is all lever."""
 
 
 CAUTIONS: Final = (
-    Caution(),
+    Caution(inside=1.0),
+    Caution(hook_cone=60.0, hold_cone=90.0, strength=2.0, room=1.0, inside=1.0),
+    Caution(hook_cone=60.0, hold_cone=90.0, strength=2.0, room=1.0, inside=0.0),
+    Caution(pull=0.25),
     Caution(spare=0.5),
-    Caution(hook_cone=60.0, pull=0.1, spare=0.7),
-    Caution(hook_cone=60.0, hold_cone=75.0, pull=0.1, share=0.5, spare=0.5),
-    Caution(hook_cone=65.0, hold_cone=75.0, strength=3.0, pull=0.05, share=0.6, spare=0.3),
-    Caution(hook_cone=70.0, hold_cone=90.0, strength=5.0, pull=0.0, share=0.8, spare=0.0),
+    Caution(hook_cone=60.0, hold_cone=75.0, pull=0.1, spare=0.5, room=1.0),
+    Caution(hook_cone=65.0, hold_cone=75.0, strength=3.0, pull=0.05, share=0.6, spare=0.3, bend=0.3, room=0.0),
+    Caution(hook_cone=70.0, hold_cone=90.0, strength=5.0, pull=0.0, share=0.8, spare=0.0, bend=0.0, room=0.0),
 )
 """The next where there is no plan that is easy in every stance; then the easiest."""
 INCAUTIOUS: Final = 10.0
 """What being less cautious counts in one that is not."""
-EASY: Final = 3.5
+EASY: Final = 4.5
 """What may count against a stance that is easy to hold: no link on a hold, no hook or motor much beyond what is wished."""
 
 
@@ -104,7 +107,7 @@ def cautious(task: LimbedTask, caution: Caution) -> LimbedTask:
         document["board"] = board | {"holds": [_spared(hold, task.robot.weight, caution) for hold in task.world.holds]}
     changed = task_from_document(document, "cautious task")
     rules, room = task.rules, caution.room * MM
-    hard = dict.fromkeys((*rules.hard, "holder_peg"))
+    hard = dict.fromkeys((*rules.hard, "holder_peg", *(() if caution.inside is None else ("stability",))))
     cautious_task = change_task(
         changed,
         [
@@ -113,6 +116,7 @@ def cautious(task: LimbedTask, caution: Caution) -> LimbedTask:
             f"rules.reach_offset={max(rules.reach_offset, caution.spare * INCH)!r} m",
             f"rules.holding_offset={max(rules.holding_offset, caution.bend * INCH * hooked)!r} m",
             f"rules.hard=[{', '.join(repr(name) for name in hard)}]",
+            f"rules.inside={max(rules.inside, (caution.inside or 0.0) * INCH)!r} m",
             f"rules.hook_width={HOOK_WIDTH + 2.0 * room!r} m",
             f"rules.hook_ahead={HOOK_AHEAD + room!r} m",
             f"rules.hook_way={HOOK_WAY!r} m",
