@@ -5,7 +5,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any
 
-CHECKS = ("stroke", "singular", "foothold", "balance")
+CHECKS = ("stroke", "singular", "foothold", "balance", "legs")
 UNLIMITED = 1e9
 TICKS = 2**20
 
@@ -27,6 +27,7 @@ class PlainResult:
     stance: PlainStance
     margins: dict[str, float]
     reason: str | None
+    duration: float
 
 
 def cross(a: complex, b: complex) -> float:
@@ -42,6 +43,10 @@ def from_segment(point: complex, a: complex, b: complex) -> float:
     if dot >= abs(along) ** 2:
         return abs(point - b)
     return abs(cross(along, point - a)) / abs(along)
+
+
+def edge_distance(point: complex, corners: list[complex]) -> float:
+    return min(from_segment(point, a, b) for a, b in zip(corners, corners[1:] + corners[:1], strict=True))
 
 
 def signed_distance(point: complex, corners: list[complex]) -> float:
@@ -80,7 +85,50 @@ class PlainWalker:
         radius = self.task.robot.legs.radius_y if frame == "y" else self.task.robot.legs.radius_delta
         return [origin + radius * cmath.exp(1j * angle) * d for d in self.directions(frame)]
 
-    def margins(self, stance: PlainStance) -> dict[str, float]:
+    def ground(self, foot: complex) -> float:
+        """Height of the ground: that of the last block over a place."""
+        height = 0.0
+        for block in self.task.world.blocks:
+            if signed_distance(foot, [complex(*corner) for corner in block.corners]) < 0.0:
+                height = block.height
+        return height
+
+    def heights(self, stance: PlainStance) -> tuple[float, float, float]:
+        """Lowest and highest that the plate can be, and where it is."""
+        legs = self.task.robot.legs
+        stand = [self.ground(foot) for foot in self.feet(stance, stance.stands)]
+        over = [self.ground(foot) for foot in self.feet(stance, "y" if stance.stands == "delta" else "delta")]
+        low = legs.shortest + max(*stand, *(height + legs.lift for height in over))
+        high = legs.longest + min(stand)
+        return low, high, max(low, min(high, sum(stand) / 3 + legs.nominal))
+
+    def centre_of_mass(self, delta: complex, alpha: float, y: complex) -> complex:
+        """Every mass by itself, at its place."""
+        robot, start = self.task.robot, self.task.start
+        masses = [
+            (robot.mass.share_delta * robot.mass.frames, delta),
+            ((1 - robot.mass.share_delta) * robot.mass.frames, y),
+        ]
+        at, pitch, angles = robot.arm.out, 0.0, start.arm or robot.arm.rest
+        out = cmath.exp(1j * (alpha + angles[0]))
+        for link, mass, angle in zip(robot.arm.links, robot.arm.masses, angles[1:], strict=True):
+            pitch += angle
+            masses.append((mass, delta + (at + link * math.cos(pitch) / 2) * out))
+            at += link * math.cos(pitch)
+        masses.append((start.payload, delta + at * out))
+        return sum(mass * place for mass, place in masses) / sum(mass for mass, _ in masses)
+
+    def lengths(self, stance: PlainStance) -> list[float]:
+        """Of the actuators."""
+        (delta, alpha), (y, beta) = self.pose(stance, "delta"), self.pose(stance, "y")
+        ends = zip(self.directions("delta"), self.directions("y"), strict=True)
+        m = self.mechanism
+        return [
+            abs(y + m.radius_y * b * cmath.exp(1j * beta) - delta - m.radius_delta * a * cmath.exp(1j * alpha))
+            for a, b in ends
+        ]
+
+    def margins(self, stance: PlainStance, landed: bool) -> dict[str, float]:
         robot, rules, mechanism = self.task.robot, self.task.rules, self.mechanism
         (delta, alpha), (y, beta) = self.pose(stance, "delta"), self.pose(stance, "y")
         # Everything of the mechanism in the Delta-frame, as the page has it
@@ -93,11 +141,17 @@ class PlainWalker:
         rho = abs(attach_y[0] - attach_delta[0])
         feet = self.feet(stance, stance.stands)
         patches = [[complex(*corner) for corner in patch] for patch in self.task.world.patches]
+        blocks = [[complex(*corner) for corner in block.corners] for block in self.task.world.blocks]
         foothold = UNLIMITED
-        if patches:
-            foothold = min([UNLIMITED, *(signed_distance(foot, patch) for foot in feet for patch in patches)])
-            foothold -= robot.legs.pad_radius + rules.clearance
-        mass = robot.share_delta * delta + (1.0 - robot.share_delta) * y
+        if patches or blocks:
+            away = [signed_distance(foot, patch) for foot in feet for patch in patches]
+            away += [edge_distance(foot, block) for foot in feet for block in blocks]
+            foothold = min([UNLIMITED, *away]) - (robot.legs.pad_radius + rules.clearance)
+        low, high, _ = self.heights(stance)
+        if landed:
+            other = "y" if stance.stands == "delta" else "delta"
+            high = min([high, *(self.ground(foot) + robot.legs.longest for foot in self.feet(stance, other))])
+        mass = self.centre_of_mass(delta, alpha, y)
         sides = zip(feet, feet[1:] + feet[:1], strict=True)
         balance = min(cross(b - a, mass - a) / abs(b - a) for a, b in sides) - rules.balance
         return {
@@ -105,6 +159,7 @@ class PlainWalker:
             "singular": mechanism.guard * rho - abs(p),
             "foothold": foothold,
             "balance": balance,
+            "legs": high - low,
         }
 
     def act(self, stance: PlainStance, action: str) -> PlainResult:
@@ -117,12 +172,20 @@ class PlainWalker:
             steps = list(getattr(stance, lifted))
             steps[("x", "y", "theta").index(action[1:])] += 1 if action[0] == "+" else -1
             after = replace(stance, **{lifted: tuple(steps)})
-        margins = self.margins(after)
+        margins = self.margins(after, action in {"none", "swap"})
+        climb = abs(self.heights(after)[2] - self.heights(stance)[2])
+        legs = self.task.robot.legs
+        duration = 0.0
+        if action == "swap":
+            duration = (2 * legs.lift + climb) / legs.speed
+        elif action != "none":
+            change = max(abs(b - a) for a, b in zip(self.lengths(stance), self.lengths(after), strict=True))
+            duration = max(change / self.mechanism.speed, climb / legs.speed)
         reason = next((name for name in CHECKS if name in self.task.rules.hard and margins[name] < -1e-9), None)
         if reason is None:
             while after.stage < len(self.task.goals) and self.meets(after, self.task.goals[after.stage]):
                 after = replace(after, stage=after.stage + 1)
-        return PlainResult(after, margins, reason)
+        return PlainResult(after, margins, reason, duration)
 
     def meets(self, stance: PlainStance, goal: Any) -> bool:
         origin, angle = self.pose(stance, "delta")

@@ -165,8 +165,8 @@ def test_a_torque_limit_on_either_side_of_the_least_torque_opens_and_closes_the_
 ) -> None:
     problem, _ = small
     least = explore(problem.informed(), most_stances=ROOM, aim=Aim(first="torque")).ways[0].first
-    over = explore(problem.informed(), most_stances=ROOM, aim=Aim(most_torque=least * (1.0 + 1e-9)))
-    under = explore(problem.informed(), most_stances=ROOM, aim=Aim(most_torque=least * (1.0 - 1e-9)))
+    over = explore(problem.informed(), most_stances=ROOM, aim=Aim(most_peak=least * (1.0 + 1e-9)))
+    under = explore(problem.informed(), most_stances=ROOM, aim=Aim(most_peak=least * (1.0 - 1e-9)))
     assert over.found and under.exhausted and not under.ways
 
 
@@ -283,11 +283,14 @@ def test_a_front_tells_whether_it_is_complete() -> None:
     task = load_task(*BOARD)
     whole = plan_front(task, ("length", "torque"))
     assert whole.complete and len(whole.trades) > 1
-    assert all(a.length < b.length and a.torque > b.torque for a, b in pairwise(whole.trades))
+    assert all(a.length < b.length and a.costs["torque"] > b.costs["torque"] for a, b in pairwise(whole.trades))
     part = plan_front(task, ("torque", "length"), max_stances=300)
     assert not part.complete and "more may be" in part.reason
     other = plan_front(task, ("energy", "torque"))
-    assert other.complete and all(a.energy < b.energy and a.torque > b.torque for a, b in pairwise(other.trades))
+    assert other.complete and all(
+        a.costs["energy"] < b.costs["energy"] and a.costs["torque"] > b.costs["torque"]
+        for a, b in pairwise(other.trades)
+    )
 
 
 def test_what_is_minimized_is_told() -> None:

@@ -22,11 +22,11 @@ from clamber.errors import SpecError
 from clamber.planning.planners import plan_task
 from clamber.robots import load_robot
 from clamber.statics.records import UNLIMITED
-from clamber.statics.walker import BALANCE, SINGULAR, STROKE
+from clamber.statics.walker import BALANCE, FOOTHOLD, LEGS, SINGULAR, STROKE
 from clamber.tasks import load_task, task_from_document
 from clamber.tasks.walker import WalkerTask
 from clamber.worlds import load_field
-from clamber.worlds.field import PatchField
+from clamber.worlds.field import Block, PatchField
 from plain_walker import CHECKS, PlainStance, PlainWalker
 
 ACTIONS = (*MOVES, "swap", "none")
@@ -141,7 +141,9 @@ def random_task(rng: random.Random) -> WalkerTask:
         f"rules.clearance={rng.choice((0, 1))} cm",
         f"rules.balance={rng.choice((0, 1, 4))} cm",
         f"rules.hard=[{hard}]",
-        f"share_delta={rng.random()}",
+        f"mass.share_delta={rng.random()}",
+        f"start.payload={rng.choice((0, 2, 5))} kg",
+        f"start.arm=[{', '.join(repr(f'{rng.uniform(-0.4, 1.5)} rad') for _ in range(4))}]",
         f"legs.radius_y={rng.uniform(20, 28)} cm",
         f"mechanism.radius_y={rng.uniform(21, 26)} cm",
         f"legs.pad_radius={rng.choice((0, 2))} cm",
@@ -150,7 +152,12 @@ def random_task(rng: random.Random) -> WalkerTask:
     )
     if rng.random() < 0.5:
         overrides = (*overrides, "goal.theta_min=-170 deg", "goal.theta_max=-20 deg")
-    return load(*overrides, field=PatchField(name="random", title="", patches=tuple(patches)))
+    blocks = []
+    for _ in range(rng.choice((0, 0, 1, 3))):
+        x, y, side = rng.uniform(-0.5, 0.5), rng.uniform(-0.5, 0.5), rng.uniform(0.2, 0.6)
+        corners = ((x, y), (x + side, y), (x + side, y + side), (x, y + side))
+        blocks.append(Block(corners=corners, height=rng.uniform(-0.12, 0.12)))
+    return load(*overrides, field=PatchField(name="random", title="", patches=tuple(patches), blocks=tuple(blocks)))
 
 
 def test_kernel_and_plain_evaluator_agree_on_random_walks() -> None:
@@ -174,6 +181,7 @@ def test_kernel_and_plain_evaluator_agree_on_random_walks() -> None:
             assert ours.margins[0] == pytest.approx([result.margins[check] for check in CHECKS], abs=1e-12, rel=1e-12)
             assert ours.reasons[0] == (-1 if result.reason is None else CHECKS.index(result.reason))
             after = ours.stances[1]
+            assert after["duration"] == pytest.approx(result.duration, abs=1e-9)
             assert after["stage"] == result.stance.stage
             assert after["stands"] == ("delta", "y").index(result.stance.stands)
             for frame, name in enumerate(("delta", "y")):
@@ -194,16 +202,20 @@ def test_kernel_and_plain_evaluator_agree_on_random_walks() -> None:
 # Symmetry
 
 
-def test_a_third_of_a_turn_changes_no_margin() -> None:
+def test_a_third_of_a_turn_of_walker_and_arm_changes_no_margin() -> None:
     rng = np.random.default_rng(1)
     for _ in range(20):
         twist, (x, y) = rng.uniform(-5.0, 30.0), rng.uniform(-2.0, 2.0, 2)
         turned = complex(x, y) * np.exp(2j * math.pi / 3.0)
         margins = [
-            bare(f"start.twist={twist} deg", f"start.offset=['{at.real} cm', '{at.imag} cm']")
+            bare(
+                f"start.twist={twist} deg",
+                f"start.offset=['{at.real} cm', '{at.imag} cm']",
+                f"start.arm=['{angle} deg', '0.8 rad', '-1 rad', '-0.9 rad']",
+            )
             .replay(np.array([pack(NONE)], np.int32))
             .margins
-            for at in (complex(x, y), turned)
+            for at, angle in ((complex(x, y), 10.0), (turned, 130.0))
         ]
         assert margins[1] == pytest.approx(margins[0], abs=1e-12)
 
@@ -212,9 +224,10 @@ def test_mirrored_walkers_have_equal_margins() -> None:
     """Mirrored in the y axis: offset and twist change their signs, x its direction."""
     field = PatchField(name="box", title="", patches=(((0.3, 0.1), (0.4, 0.1), (0.4, 0.3), (0.3, 0.3)),))
     mirror_patches = tuple(tuple((-x, y) for x, y in patch) for patch in field.patches)
-    task = load("start.x=7 cm", "start.twist=12 deg", "start.offset=['1 cm', '-2 cm']", field=field)
+    arms = (f"start.arm=['{angle} deg', '0.8 rad', '-1 rad', '-0.9 rad']" for angle in (80, 100))
+    task = load("start.x=7 cm", "start.twist=12 deg", "start.offset=['1 cm', '-2 cm']", next(arms), field=field)
     image = load(
-        "start.x=-7 cm", "start.twist=-12 deg", "start.offset=['-1 cm', '-2 cm']", "mechanism.offset=60 deg",
+        "start.x=-7 cm", "start.twist=-12 deg", "start.offset=['-1 cm', '-2 cm']", "mechanism.offset=60 deg", next(arms),
         field=replace(field, patches=mirror_patches),
     )  # fmt: skip
     rng = np.random.default_rng(2)
@@ -226,9 +239,93 @@ def test_mirrored_walkers_have_equal_margins() -> None:
     assert theirs.margins == pytest.approx(ours.margins, abs=1e-9)
 
 
+BARE_ARM = ("rules.balance=0 cm", "mass.frames=80 kg", "arm.masses=['0 kg','0 kg','0 kg']")
+"""All mass at the frames' origins: the arm straight out reaches 0.8 m."""
+
+
 def test_balance_in_the_middle_is_half_the_circle_of_the_feet() -> None:
-    replay = bare("rules.balance=1 cm").replay(np.array([CODES[7], CODES[6]], np.int32))
+    replay = bare(*BARE_ARM, "rules.balance=1 cm").replay(np.array([CODES[7], CODES[6]], np.int32))
     assert replay.margins[:, BALANCE] == pytest.approx(0.2384 / 2 - 0.01, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("stands", "side", "slid", "expected"),
+    [("delta", 30, 0.0, 0.0303), ("y", 90, 0.0, 0.0303), ("y", 90, -0.0984, -0.0331)],
+)
+def test_ten_kilograms_at_arm_s_length_tip_the_robot_at_the_end_of_a_slide(
+    stands: str, side: float, slid: float, expected: float
+) -> None:
+    problem = bare(
+        *BARE_ARM, f"start.stands={stands}", f"start.offset=['0 m', '{slid} m']", "start.payload=10 kg",
+        f"start.arm=['{side} deg', '0 deg', '0 deg', '0 deg']",
+    )  # fmt: skip
+    margin = problem.replay(np.array([CODES[7]], np.int32)).margins[0, BALANCE]
+    moment = 10 * 0.8 - (0.6 * 80 + 10) * slid  # about the middle of the standing feet, towards the load [kg m]
+    assert margin == pytest.approx(0.2384 / 2 - moment / 90, abs=1e-12)
+    assert margin == pytest.approx(expected, abs=1e-4)
+
+
+def test_the_links_of_the_arm_move_the_centre_of_mass_by_their_middles() -> None:
+    at_rest, straight = bare(), bare("start.arm=['90 deg', '0 deg', '0 deg', '0 deg']")
+    masses, middles = np.array([3.0, 2.0, 1.0]), np.array([0.2, 0.5, 0.725])
+    assert straight.start["mass_y"][0] == pytest.approx(masses @ middles / 80.0, abs=1e-12)
+    assert straight.start["mass_x"][0] == pytest.approx(0.0, abs=1e-12)
+    assert 0.0 < at_rest.start["mass_x"][0] < straight.start["mass_y"][0]
+
+
+@pytest.mark.parametrize(
+    ("override", "allowed"),
+    [
+        ("start.arm=['0 deg']", "4 angles"),
+        ("start.arm=['0 deg', '120 deg', '0 deg', '0 deg']", "-0.5 to 1.8 rad"),
+        ("start.payload=-1 kg", "0 kg or more"),
+    ],
+)
+def test_an_arm_out_of_range_is_refused(override: str, allowed: str) -> None:
+    with pytest.raises(SpecError, match=allowed):
+        load(override)
+
+
+# Steps in the ground
+
+
+def on_block(height: float, *overrides: str) -> WalkerProblem:
+    """On open ground, all feet of the Y-frame but none of the Delta-frame on blocks."""
+    task = load(*overrides)
+    feet = WalkerProblem(replace(task, world=OPEN), walker_table(), threads=1).start["foot"][0]
+    blocks = tuple(
+        Block(
+            corners=tuple((x + dx, y + dy) for dx, dy in ((-0.02, -0.02), (0.02, -0.02), (0.02, 0.02), (-0.02, 0.02))),
+            height=height,
+        )
+        for x, y in feet[1]
+    )
+    return WalkerProblem(replace(task, world=replace(OPEN, blocks=blocks)), walker_table(), threads=1)
+
+
+@pytest.mark.parametrize(
+    ("height", "delta_stands", "y_stands"), [(0.0, 0.15, 0.15), (0.04, 0.11, 0.15), (-0.04, 0.15, 0.11)]
+)
+def test_legs_lose_what_a_step_takes_of_their_stroke(height: float, delta_stands: float, y_stands: float) -> None:
+    # Of a stroke of 200 mm, the lift of 50 mm above the higher ground is lost, and the depth of the lower ground
+    problem = on_block(height, "rules.hard=[]")
+    margins = problem.replay(np.array([pack(NONE), pack(RELEASE)], np.int32)).margins[:, LEGS]
+    assert margins == pytest.approx([delta_stands, y_stands], abs=1e-12)
+
+
+def test_no_foot_stands_on_an_edge() -> None:
+    problem = on_block(0.04, "rules.hard=[]", "rules.clearance=5 mm")
+    margins = problem.replay(np.array([pack(NONE), pack(RELEASE)], np.int32)).margins[:, FOOTHOLD]
+    assert margins[1] == pytest.approx(0.02 - 0.005, abs=1e-12)  # in the middle of a block of 40 mm
+    assert margins[0] > 0.02
+
+
+def test_time_is_that_of_the_slowest_actuator_and_of_the_legs() -> None:
+    problem = bare()
+    slide, swap = problem.replay(np.array([CODES[0], CODES[6]], np.int32)).stances[1:]
+    start = problem.start[0]
+    assert slide["duration"] == pytest.approx(np.abs(slide["actuator"] - start["actuator"]).max() / 9.47e-3, abs=1e-12)
+    assert swap["duration"] == pytest.approx(2 * 0.05 / 0.005, abs=1e-12)
 
 
 # Planners that know no family
@@ -303,7 +400,7 @@ def test_the_genetic_planner_crosses_the_field_and_the_plain_evaluator_agrees() 
 
 
 def test_rollout_says_what_replay_says_on_any_number_of_threads() -> None:
-    table = walker_table(repeats=(3,))
+    table = walker_table(strides=(3,))
     one, many = (WalkerProblem(load(), table, threads=n) for n in (1, 3))
     rng = np.random.default_rng(4)
     genes = rng.integers(0, len(table), (200, 30)).astype(np.int32)

@@ -50,3 +50,28 @@ def test_a_pressed_joint_comes_to_rest_at_the_side_that_its_load_pushes_it_to() 
             np.array((0.025, half)), play,
         )  # fmt: skip
     np.testing.assert_allclose(play, half * np.tanh(loads / 0.05), atol=1e-4)
+
+
+def test_a_holding_joint_keeps_its_side_within_its_friction_and_takes_that_of_its_load_beyond() -> None:
+    rng = np.random.default_rng(5)
+    half, rate, angle = np.radians(1.0), np.array((0.025, np.radians(1.0))), 0.3
+    kept = followed = 0
+    for _ in range(40):
+        q, forces = rng.uniform(-1.2, 1.2, (3, 2)), rng.normal(0.0, 3.0, (3, 2))
+        before = half * rng.choice((-1.0, 1.0), (3, 2))
+        play = before.copy()
+        for _ in range(2000):
+            follow_play(
+                BODY.legs, q, np.ones(3, np.int64), forces, angle, np.zeros(3, np.int64), np.zeros((3, 2)), rate, play
+            )
+        for i, limb in enumerate(ROBOT.limbs):
+            turn = -(angle + limb.port_angle)
+            down = GRAVITY * np.array((-np.sin(-turn), -np.cos(-turn)))
+            chain = chain_of_limb(ROBOT, limb.name)
+            weight = chain.with_gravity((down[0], down[1], 0.0)).bias(q[i], np.zeros(2))
+            load, dry = chain.jacobian(q[i])[:2].T @ forces[i] + weight, chain.joints["friction"]
+            inside, beyond = np.abs(load) < dry, np.abs(load) > dry + 0.1
+            np.testing.assert_array_equal(play[i][inside], before[i][inside])
+            np.testing.assert_allclose(play[i][beyond], half * np.sign(load)[beyond], rtol=0.05)
+            kept, followed = kept + int(inside.sum()), followed + int(beyond.sum())
+    assert kept > 20 and followed > 20

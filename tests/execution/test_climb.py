@@ -61,6 +61,20 @@ def test_a_hook_that_has_left_is_clear_of_its_peg(friction: float) -> None:
     assert float(np.hypot(*(plant.truth().tips[BOTTOM] - climber.holds[2]))) > 0.020
 
 
+def test_a_hook_drawn_back_while_the_body_moves_goes_straight_in_the_world() -> None:
+    climber, plant = on_the_ladder()
+    climber.wait(0.5)
+    climber.carry_with_all(but=BOTTOM)
+    body, start, before = climber.body, climber.body.tip(BOTTOM), plant.truth().pose
+    way, move = -0.045 * body.grab_direction(BOTTOM), np.array((0.0, 0.03, 0.0))
+    true = plant.truth().tips[BOTTOM]
+    move_body(climber, body.aim + move, drawn=(BOTTOM, start, way))
+    climber.wait(0.3)
+    # a peg in its slot, a tip that lags, and play of two degrees: millimetres
+    np.testing.assert_allclose(plant.truth().tips[BOTTOM] - true, way, atol=5e-3)
+    np.testing.assert_allclose(plant.truth().pose[:2] - before[:2], move[:2], atol=5e-3)
+
+
 @pytest.mark.parametrize("length", [0.0, 0.05, 0.9, 4.0])
 def test_a_way_goes_from_rest_to_rest_within_speed_and_agility(length: float) -> None:
     period = 0.001

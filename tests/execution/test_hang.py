@@ -192,6 +192,16 @@ def test_a_push_swings_the_body_as_its_angular_momentum_says_and_the_swing_dies(
 
 
 @cache
+def test_a_body_that_is_folded_hangs_straight_below_its_peg_with_those_angles() -> None:
+    hanging = hang_up(robot(), NOMINAL, POSTURE)
+    hang, wished = hanging.hang, POSTURE[0] + np.array((-0.3, 0.4))
+    assert hang.fold(wished)
+    assert hang.calm()
+    np.testing.assert_allclose(hanging.plant.truth().q[0], wished, atol=np.radians(3.0))  # the play is 2 deg
+    assert abs(hanging.true_swing()) < np.radians(3.0)
+    assert hanging.off_peg() < 0.003
+
+
 def gap() -> LimbedTask:
     task = load_task("gap")
     assert isinstance(task, LimbedTask)

@@ -12,12 +12,14 @@ from clamber.actions.limbed_plans import thesis_code
 from clamber.actions.plan import Plan
 from clamber.execution.climb.climb_trace import ClimbTrace, TracedClimber
 from clamber.execution.climb.course import PlanRefusedError, climbable, lay_course
+from clamber.execution.climb.motions import move_body
 from clamber.execution.climb.sequencer import Sequencer
 from clamber.execution.log_files import read_log, write_log
 from clamber.sim.climber_plant import ClimberPlant
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.tasks import load_task
 from clamber.tasks.limbed import LimbedTask
+from clamber.types import Floats
 
 NOMINAL = LimbFlaws(backlash=np.radians(2.0), physics_rate=1000.0, encoder_counts=400, delay=1)
 RUNG = (106, 301, 205, 300, 3, 3)
@@ -153,6 +155,31 @@ def test_a_trace_comes_back_from_its_log(tmp_path: Path) -> None:
     assert trace.holds[-1].tolist() == [4, 3, 0]
     silent = replace(trace, true_pose=None, true_angles=None, notes=None)
     assert ClimbTrace.from_log(silent.to_log()).true_pose is None
+
+
+@pytest.mark.parametrize(("worse", "stays"), [(0.0, True), (1.0, False)])
+def test_a_limb_takes_its_hold_from_near_the_plans_pose_only_where_the_others_hold_no_worse(
+    worse: float, stays: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    task = ladder()
+    sequencer = sequence(task, plan_of(task, 106))
+    climber = sequencer.climber
+    planned = sequencer.course.pose(1)
+
+    def start_off() -> None:
+        """With the body 20 mm above the plan's pose, where the others are said to hold worse by some newtons."""
+        begin()
+        move_body(climber, planned + np.array((0.0, 0.02, 0.0)))
+
+    def stands(pose: Floats, _: object = None) -> float:
+        return -worse if pose[1] > planned[1] + 0.01 else 0.0
+
+    begin = sequencer.start
+    monkeypatch.setattr(sequencer, "start", start_off)
+    monkeypatch.setattr(climber.body, "stands", stands)
+    report = sequencer.run()
+    assert [one.outcome for one in report.actions] == ["ok"]
+    assert climber.body.aim[1] - planned[1] == pytest.approx(0.02 if stays else 0.0, abs=1e-6)
 
 
 def test_where_a_hold_cannot_be_had_another_plan_is_asked_for_from_there() -> None:

@@ -6,10 +6,11 @@ from dataclasses import dataclass, field
 import numpy as np
 import pytest
 
+from clamber.execution.climb.climb_report import ClimbReport
 from clamber.execution.climb.climb_trace import TracedClimber
 from clamber.execution.climb.climber import FallenError, SlippedError
 from clamber.execution.climb.course import lay_course
-from clamber.execution.climb.sequencer import ClimbReport, Sequencer
+from clamber.execution.climb.sequencer import Sequencer
 from clamber.execution.climb.slip import MOVED
 from clamber.experiments.climb.climb_work import two_rungs
 from clamber.experiments.climb.noise import draw_for, named_noise
@@ -22,7 +23,7 @@ OFF = 0.012
 """A tip that far from its peg is off it [m]."""
 GONE = 0.25
 """Time for which a peg is not there, where it comes back [s]."""
-RIGHT, LEFT = 0, 1
+RIGHT, LEFT, BOTTOM = 0, 1, 2
 When = Callable[[TracedClimber], bool]
 
 
@@ -87,8 +88,8 @@ def on_two_limbs(step: int, ticks: int) -> When:
 
 
 def on_three_limbs(step: int, ticks: int) -> When:
-    """Likewise, while the third one clings."""
-    return _after(step, ticks, lambda doing: doing.count("hold") == 2 and "cling" in doing)
+    """Likewise, while the third one, the bottom limb, clings."""
+    return _after(step, ticks, lambda doing: doing.count("hold") == 2 and doing[BOTTOM] == "cling")
 
 
 def while_one_pushes(step: int, ticks: int) -> When:
@@ -163,3 +164,24 @@ def test_a_clinging_hook_takes_the_load_and_the_climb_goes_on(seed: int) -> None
     told = report.to_json()["actions"]
     assert isinstance(told, list)
     assert sum(action["recovered"] for action in told) >= 1
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize(("limb", "step", "ticks"), [(RIGHT, 2, 60), (LEFT, 5, 100)], ids=["body above", "body beside"])
+def test_a_body_that_has_lost_one_of_two_hooks_is_still_held_two_seconds_later(
+    limb: int, step: int, ticks: int, seed: int
+) -> None:
+    climb = Knocked(seed, limb, on_two_limbs(step, ticks))
+    tick = climb.climber.tick
+
+    def tick_until_seen() -> None:
+        if climb.knocked is not None and climb.climber.time > climb.knocked + 2.0:
+            raise KeyboardInterrupt
+        tick()
+
+    climb.climber.tick = tick_until_seen  # type: ignore[method-assign]
+    report = climb.climb()
+    assert report.reason == "interrupted"
+    tips = climb.plant.truth().tips
+    on = [i for i, task in enumerate(climb.climber.body.tasks) if task.hold]
+    assert any(float(np.hypot(*(tips[i] - climb.pegs[climb.climber.body.tasks[i].hold - 1]))) < OFF for i in on)

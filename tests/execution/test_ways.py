@@ -131,6 +131,32 @@ def test_no_move_of_the_body_is_made_that_the_others_cannot_bear() -> None:
     assert approaches().leave(RIGHT, 1.0, pose, tip, -0.03 * grab, {}, stands=lambda pose: False) is None
 
 
+@pytest.mark.parametrize("bend", [24.0, 60.0, 105.0])
+@pytest.mark.parametrize("move", [(0.0, 0.035), (0.035, 0.0), (0.0, -0.05), (-0.05, 0.0)])
+def test_a_hook_is_drawn_back_in_step_with_the_body_only_within_the_joints_limits(
+    bend: float, move: tuple[float, float]
+) -> None:
+    ways = approaches()
+    limb = ways.robot.limbs[RIGHT]
+    tip, grab, pose = on_a_hold(bend)
+    back, shift = -0.048 * grab, np.array(move)
+    elbows = []
+    for part in np.linspace(0.0, 1.0, 201):
+        x, y = tip + part * (back - shift)  # as the body sees it that has moved
+        # joint angles by the law of cosines, the elbow to the positive side; the right limb's port does not turn it
+        x, y = x - limb.port_x, y - limb.port_y
+        cosine = (x * x + y * y - limb.l1**2 - limb.l2_effective**2) / (2.0 * limb.l1 * limb.l2_effective)
+        inner = np.arccos(np.clip(cosine, -1.0, 1.0))
+        shoulder = np.arctan2(y, x) - np.arctan2(
+            limb.l2_effective * np.sin(inner), limb.l1 + limb.l2_effective * np.cos(inner)
+        )
+        elbow = inner - limb.hook_beta
+        inside = limb.shoulder.lower <= shoulder <= limb.shoulder.upper and elbow <= limb.elbow.upper
+        elbows.append(elbow if inside and abs(cosine) < 1.0 else -np.inf)
+    expected = min(elbows) > np.radians(20.0)
+    assert ways.bends(RIGHT, 1.0, pose, tip, back, shift) == expected
+
+
 def on_three_holds() -> WholeBody:
     """A body whose limbs all carry."""
     body = WholeBody(libra(), period=0.005)

@@ -1,6 +1,7 @@
 """Plans of limbed climbers: packed codes as named actions and back, and the thesis's numbers for them."""
 
 from bisect import bisect_left
+from collections.abc import Mapping
 from operator import attrgetter
 from typing import Final
 
@@ -10,10 +11,12 @@ from ..errors import describe_choices
 from ..statics.checks import LIMBED_CHECKS, Check
 from ..tasks.limbed import LimbedTask
 from ..types import Ints
+from ..units import OZ_IN
 from .codes import HOLD, MOVE, NEAREST, NONE, RANDOM, RELEASE, Code, pack
 from .inventory import module_name
 from .limbed_problem import LimbedProblem
 from .loops import replay
+from .plan_costs import PlanCost
 from .planned import ActionError, PlannedAction
 from .problem import CompiledProblem, Records
 from .table import ActionTable
@@ -111,6 +114,13 @@ class LimbedPlans:
     def power(self, stance: np.void) -> float:
         """Electrical power of the joints that hold the weight [W] (thesis 2.22)."""
         return float(stance["power"])
+
+    def costs(self, task: LimbedTask) -> Mapping[str, PlanCost]:
+        """Energy of holding, and the largest joint torque."""
+        return {
+            "torque": PlanCost(feature="peak", title="largest torque", unit="oz-in", per_unit=OZ_IN),
+            "energy": PlanCost(feature="effort", title="holding energy", size=self.duration(task), unit="J"),
+        }
 
     def duration(self, task: LimbedTask) -> float:
         """Time that one action takes [s]."""

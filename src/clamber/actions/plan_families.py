@@ -1,5 +1,6 @@
 """What a plan and its verdict have to know about a family of robots, and the families that have it."""
 
+from collections.abc import Mapping
 from typing import Any, Final, Protocol
 
 import numpy as np
@@ -8,6 +9,7 @@ from ..statics.checks import Check
 from ..tasks import Task
 from ..types import Ints
 from .limbed_plans import LimbedPlans
+from .plan_costs import PlanCost
 from .planned import PlannedAction
 from .problem import CompiledProblem, Records
 from .walker_plans import WalkerPlans
@@ -53,6 +55,10 @@ class PlanFamily(Protocol):
 
     def model(self, task: Any) -> str:
         """The rules that a proof about a task holds for."""
+        ...
+
+    def costs(self, task: Any) -> Mapping[str, PlanCost]:
+        """What a plan may be asked to have little of, beside its actions: name -> cost; one adds up, one is a largest value."""
         ...
 
     def power(self, stance: np.void) -> float:

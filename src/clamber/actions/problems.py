@@ -10,7 +10,7 @@ from ..types import Json
 from .inventory import Dropped, make_inventory
 from .limbed_problem import LimbedProblem
 from .problem import CompiledProblem
-from .walker_problem import WalkerProblem, walker_table
+from .walker_problem import WalkerProblem, stride_lengths, walker_table
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +45,7 @@ def _limbed(task: Any, threads: int | None, filters: bool) -> Posed:
 
 
 def _walker(task: Any, threads: int | None, filters: bool) -> Posed:
-    table = walker_table()
+    table = walker_table(stride_lengths(task))
     return Posed(WalkerProblem(task, table, threads=threads), len(table))
 
 

@@ -5,12 +5,23 @@ import math
 from ..compiled import inlined, kernel
 from ..robots.kinematics import wrap
 from ..statics.records import TICKS
-from ..statics.walker import DELTA, WALKER_PARAMS, Y, balance, foothold, judge, place, stretch, walker_goals
+from ..statics.walker import (
+    DELTA,
+    WALKER_PARAMS,
+    Y,
+    balance,
+    foothold,
+    judge,
+    place,
+    stand_height,
+    stretch,
+    walker_goals,
+)
 from .codes import MOVE, NONE, RELEASE, pack_code, unpack
 from .family import family_kernels
 
 FEATURES = 7
-"""Body progress, feet progress, travel, stages, length, poor stability, nearness of singularity."""
+"""Body progress, feet progress, time, stages, length, poor stability, nearness of singularity."""
 KEY_WORDS = 7
 SLIDES_AND_TURNS = 6
 CELL = 0.3
@@ -30,7 +41,9 @@ def copy_stance(s, t):
     t.mass_y = s.mass_y
     t.foothold = s.foothold
     t.balance = s.balance
-    t.travel = s.travel
+    t.legs = s.legs
+    t.height = s.height
+    t.duration = s.duration
     t.strain = s.strain
     for f in range(2):
         t.c[f] = s.c[f]
@@ -45,7 +58,16 @@ def copy_stance(s, t):
 
 
 @inlined
-def act(p, code, after, margins):
+def longest_change(before, after):
+    """Largest change of an actuator's length from one stance to another [m]."""
+    change = 0.0
+    for i in range(3):
+        change = max(change, abs(after.actuator[i] - before.actuator[i]))
+    return change
+
+
+@inlined
+def act(p, before, code, after, margins):
     """Carry out one action; see `step`."""
     kind, _, argument = unpack(code)
     if kind == MOVE:
@@ -53,16 +75,18 @@ def act(p, code, after, margins):
         axis = argument >> 1
         ticks = after.ticks[f, axis] + (1 - 2 * (argument & 1)) * TICKS
         if axis == 2:
-            after.travel = TICKS * p.tick_angle * p.foot_radius[f]
             ticks %= p.turn_ticks
-        else:
-            after.travel = TICKS * p.tick
         after.ticks[f, axis] = ticks
         place(p, after, f)
-        return judge(p, after, False, margins)
+        reason = judge(p, after, False, margins)
+        climb = abs(after.height - before.height) / p.leg_speed
+        after.duration = max(longest_change(before, after) / p.speed, climb)
+        return reason
     if kind == RELEASE:
         after.stands = 1 - after.stands
-        return judge(p, after, True, margins)
+        reason = judge(p, after, True, margins)
+        after.duration = (2.0 * p.lift + abs(after.height - before.height)) / p.leg_speed
+        return reason
     if kind == NONE:
         place(p, after, DELTA)  # so that a start given by its ticks alone becomes a stance
         place(p, after, Y)
@@ -85,9 +109,9 @@ def step(p, before, code, after, margins):
         -1 if the action holds, else the number of the first hard check that it violates.
     """
     copy_stance(before, after)
-    after.travel = 0.0
+    after.duration = 0.0
     after.count = before.count + 1
-    reason = act(p, code, after, margins)
+    reason = act(p, before, code, after, margins)
     if reason < 0:
         while after.stage < p.n_goals and meets(after, walker_goals(p)[after.stage]):
             after.stage += 1
@@ -126,13 +150,14 @@ def measure(p, s, row):
         row[0] = base
         row[1] = 6.0 * base
     else:
-        row[0] = base - goal_distance(s.x, s.y, goal)
+        turn = 0.0 if goal.a_half >= math.pi else max(0.0, abs(wrap(s.angle - goal.a_mid)) - goal.a_half)
+        row[0] = base - goal_distance(s.x, s.y, goal) - p.foot_radius[DELTA] * turn
         feet = 0.0
         for f in range(2):
             for i in range(3):
                 feet += base - goal_distance(s.foot[f, i, 0], s.foot[f, i, 1], goal)
         row[1] = feet
-    row[2] = s.travel
+    row[2] = s.duration
     row[3] = s.stage
     row[4] = 1.0
     row[5] = 1.0 if s.balance < p.least_balance else 0.0
@@ -163,16 +188,17 @@ def key(p, s, words):
 
 @kernel
 def restore(p, words, s):
-    """The stance of a key; `travel` is that of no action."""
+    """The stance of a key; `duration` is that of no action."""
     for f in range(2):
         for i in range(3):
             s.ticks[f, i] = words[3 * f + i]
         place(p, s, f)
     s.stands = words[6] & 1
     s.stage = words[6] >> 32
-    s.travel = 0.0
+    s.duration = 0.0
     stretch(p, s)
     s.foothold = foothold(p, s)
+    s.legs = stand_height(p, s, False)
     s.balance = balance(p, s)
 
 

@@ -1,5 +1,7 @@
 """Plans of two-frame walkers: packed codes as named actions and back."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from ..errors import describe_choices
@@ -9,6 +11,7 @@ from ..statics.walker import WALKER_CHECKS
 from ..tasks.walker import WalkerTask
 from ..types import Ints
 from .codes import MOVE, NONE, RELEASE, Code, pack
+from .plan_costs import PlanCost
 from .planned import ActionError, PlannedAction
 from .problem import CompiledProblem, Records
 from .walker_problem import MOVES, WalkerProblem, walker_table
@@ -82,8 +85,15 @@ class WalkerPlans:
         """0: the model has no forces."""
         return 0.0
 
+    def costs(self, task: WalkerTask) -> Mapping[str, PlanCost]:
+        """The time that a walk takes, and how near it comes to where the mechanism is singular."""
+        return {
+            "time": PlanCost(feature="effort", title="takes", unit="s", digits=0),
+            "strain": PlanCost(feature="peak", title="nearest to a singular place", unit="of 1", digits=2),
+        }
+
     def duration(self, task: WalkerTask) -> float:
-        """0: the model has no time."""
+        """0: the model has no forces, so no energy is counted."""
         return 0.0
 
     def torque(self, stance: np.void) -> float:

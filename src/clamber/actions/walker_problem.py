@@ -9,6 +9,7 @@ import numpy as np
 
 from ..errors import MISSING, SpecError
 from ..robots.walker import FRAMES
+from ..robots.walker.weight import Weight, weight_of
 from ..statics.records import TICKS
 from ..statics.walker import WALKER_CHECKS, WALKER_GOAL, WALKER_PARAMS, WALKER_STANCE
 from ..tasks.walker import Goal, WalkerTask
@@ -21,19 +22,35 @@ from .table import ActionTable
 from .walker import FEATURES, KEY_WORDS
 
 CHECKS: Final = tuple(check.name for check in WALKER_CHECKS)
-# Named as the limbed climber's, so that a profile's weights fit: effort is travel, peak is |p| / rho
+# Named as the limbed climber's, so that a profile's weights fit: effort is the time that an action takes, peak is |p| / rho
 FEATURE_NAMES: Final = ("body", "limbs", "effort", "stages", "length", "unstable", "peak")
 FEATURE_KINDS: Final = (0, 0, 1, 0, 1, 1, 2)
 MOVES: Final = ("+x", "-x", "+y", "-y", "+theta", "-theta")
 
 
-def walker_table(repeats: Sequence[int] = ()) -> ActionTable:
-    """The walker's inventory: six moves of the lifted frame, the swap, and macros that repeat each move."""
+HEADINGS: Final = ((0,), (0, 2), (2,), (1, 2), (1,), (1, 3), (3,), (0, 3))
+"""Eight ways to slide: moves along the world's axes that a stride takes in turn."""
+
+
+def walker_table(strides: Sequence[int] = ()) -> ActionTable:
+    """The walker's inventory: six moves of the lifted frame, the swap, and strides, each a slide or turn and the swap that ends it.
+
+    Args:
+        strides: By how many steps the lifted frame slides or turns in a stride.
+    """
     entries = [(name, [pack(MOVE, 0, axis)], True) for axis, name in enumerate(MOVES)]
     entries.append(("swap", [pack(RELEASE)], False))
-    for times in repeats:
-        entries += [(f"{name} x{times}", [pack(MOVE, 0, axis)] * times, True) for axis, name in enumerate(MOVES)]
+    for times in strides:
+        for axes in (*HEADINGS, (4,), (5,)):
+            moves = [pack(MOVE, 0, axes[step % len(axes)]) for step in range(times)]
+            entries.append((f"stride {' '.join(MOVES[axis] for axis in axes)} x{times}", [*moves, pack(RELEASE)], True))
     return ActionTable.build(entries)
+
+
+def stride_lengths(task: WalkerTask) -> tuple[int, ...]:
+    """Steps of the strides worth having: doubled from two up to what the stroke allows."""
+    most = task.robot.mechanism.stroke / task.step.length
+    return tuple(2**k for k in range(1, 8) if 2**k <= most)
 
 
 class WalkerProblem(CompiledProblem):
@@ -108,8 +125,15 @@ def start_stance(task: WalkerTask, params: Params) -> Records:
 
 
 def walker_params(task: WalkerTask) -> Params:
-    """The arrays that the kernels read."""
+    """The arrays that the kernels read.
+
+    Raises:
+        SpecError: If the robot's attachments are on no circles: the checks know those only.
+    """
     robot, rules, start = task.robot, task.rules, task.start
+    if robot.mechanism.points_delta is not None:
+        allowed = "fields are planned for attachments on circles; state radius_delta and radius_y instead"
+        raise SpecError(f"robot '{robot.name}'", "mechanism.points_delta", MISSING, allowed)
     record = np.zeros(1, WALKER_PARAMS)
     row = record[0]
     c, s = math.cos(start.theta), math.sin(start.theta)
@@ -121,24 +145,34 @@ def walker_params(task: WalkerTask) -> Params:
     row["tick_angle"] = math.tau / turn / TICKS
     row["turn_ticks"] = turn * TICKS
     row["joint"], row["rest"] = robot.attachments(), robot.feet()
-    row["foot_radius"] = robot.legs.radius_delta, robot.legs.radius_y
+    row["foot_radius"] = np.hypot(row["rest"][..., 0], row["rest"][..., 1]).max(axis=1)
     row["shortest"], row["longest"] = robot.mechanism.shortest, robot.mechanism.longest
     row["guard"] = robot.mechanism.guard
-    row["share_delta"] = robot.share_delta
+    weight = carried_weight(task)
+    row["share"], row["load"] = weight.share, weight.load
+    row["leg_shortest"], row["leg_longest"] = robot.legs.shortest, robot.legs.longest
+    row["leg_nominal"], row["lift"], row["leg_speed"] = robot.legs.nominal, robot.legs.lift, robot.legs.speed
+    row["speed"] = robot.mechanism.speed
     row["clearance"] = rules.clearance + robot.legs.pad_radius
     row["least_balance"] = rules.balance
     row["apart"] = farthest_apart(task)
     row["n_goals"] = len(task.goals)
-    row["n_patches"] = len(task.world.patches)
+    row["n_patches"], row["n_blocks"] = len(task.world.patches), len(task.world.blocks)
     row["hard"] = sum(1 << CHECKS.index(name) for name in rules.hard)
     row["kinds"][: len(FEATURE_KINDS)] = FEATURE_KINDS
-    corners = [corner for patch in task.world.patches for corner in patch]
+    outlines = (*task.world.patches, *(block.corners for block in task.world.blocks))
     return Params(
         record,
         goals=_goals(task),
-        vertices=np.array(corners, np.float64).reshape(-1, 2),
-        patch_start=np.cumsum([0, *map(len, task.world.patches)]).astype(np.int64),
+        vertices=np.array([corner for corners in outlines for corner in corners], np.float64).reshape(-1, 2),
+        patch_start=np.cumsum([0, *map(len, outlines)]).astype(np.int64),
+        heights=np.array([block.height for block in task.world.blocks], np.float64),
     )
+
+
+def carried_weight(task: WalkerTask) -> Weight:
+    """The robot's weight with the arm and the payload as the task has them."""
+    return weight_of(task.robot, task.start.arm, task.start.payload)
 
 
 def farthest_apart(task: WalkerTask) -> float:

@@ -42,7 +42,7 @@ def climber_yardsticks(task: LimbedTask) -> Yardsticks:
 
 
 def walker_yardsticks(task: WalkerTask) -> Yardsticks:
-    """Half a stroke, the guarded singular distance, a tenth of the feet's circle, the middle of a support triangle."""
+    """Half a stroke, the guarded singular distance, a tenth of the feet's circle, the middle of a support triangle, the legs' stroke."""
     mechanism, legs = task.robot.mechanism, task.robot.legs
     feet = min(legs.radius_delta, legs.radius_y)
     sizes = {
@@ -50,6 +50,7 @@ def walker_yardsticks(task: WalkerTask) -> Yardsticks:
         "singular": mechanism.guard * mechanism.singular_distance(0.0),
         "foothold": max(task.rules.clearance, 0.1 * feet),
         "balance": 0.5 * feet,  # inradius of a triangle over its circumradius
+        "legs": legs.stroke,
     }
     return Yardsticks(WALKER_CHECKS, task.rules.hard, sizes)
 

@@ -13,7 +13,10 @@ from .. import __version__
 from ..errors import ClamberError
 from .bench import bench
 from .body import body
+from .calibrate import calibrate
 from .check import check
+from .follow import follow
+from .help_text import command_of
 from .inventory import inventory
 from .learn import learn
 from .limb import limb
@@ -45,6 +48,7 @@ app.command("inventory")(inventory)
 app.command("check")(check)
 app.command("run")(run)
 app.command("press")(press)
+app.command("follow")(follow)
 app.command("trials")(trials)
 app.command("show")(show)
 app.command("bench")(bench)
@@ -54,6 +58,7 @@ app.add_typer(body, name="body")
 app.add_typer(new, name="new")
 app.add_typer(plant, name="plant")
 app.command("reach")(reach)
+app.command("calibrate")(calibrate)
 app.command("study")(study)
 
 
@@ -79,7 +84,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         arguments: Words after `clamber`; None takes those of the process.
     """
     try:
-        app(args=None if arguments is None else list(arguments), prog_name="clamber")
+        command_of(app)(args=None if arguments is None else list(arguments), prog_name="clamber")
     except ClamberError as error:
         print(f"clamber: {error}", file=sys.stderr)
         sys.exit(2)

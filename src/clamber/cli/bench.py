@@ -42,7 +42,9 @@ def bench(
         crew.executor.check()
     if ray is None:
         announce_compilation(
-            {"boards": "simulate", "control": "drive_at", "plant": "drive_at"}.get(name or "", "rollout")
+            {"boards": "simulate", "control": "drive_at", "plant": "drive_at", "hexapod": "prepare"}.get(
+                name or "", "rollout"
+            )
         )
     if name == "boards":
         from .bench_boards import bench_boards

@@ -4,11 +4,11 @@ from pathlib import Path
 
 from rich.console import Console
 
+from ..actions.plan_families import plan_family
 from ..planning.exact.costs import read_costs
 from ..planning.exact.front import Front, plan_front
 from ..planning.exact.planner import MOST_STANCES
 from ..tasks import Task
-from ..units import OZ_IN
 from .output import plain_table, print_json, stderr, stdout
 from .plan_text import ProgressLine
 
@@ -58,9 +58,12 @@ def print_front(console: Console, found: Front, output: Path | None) -> None:
     status = "infeasible" if found.infeasible else "complete" if found.complete else "incomplete"
     title = f"{status}: {len(found.trades)} plans for '{found.task.name}', {found.costs[0]} against {found.costs[1]}"
     console.print(title, style="bold green" if found.complete and not found.infeasible else "bold red")
-    table = plain_table("actions", "torque [oz-in]", "energy [J]", right=("actions", "torque [oz-in]", "energy [J]"))
+    costs = plan_family(found.task).costs(found.task)
+    heads = ("actions", *(f"{name} [{cost.unit}]" for name, cost in costs.items()))
+    table = plain_table(*heads, right=heads)
     for trade in found.trades:
-        table.add_row(str(trade.length), f"{trade.torque / OZ_IN:.2f}", f"{trade.energy:.2f}")
+        numbers = (trade.costs[name] / cost.per_unit for name, cost in costs.items())
+        table.add_row(str(trade.length), *(f"{number:.2f}" for number in numbers))
     if found.trades:
         console.print(table)
     console.print(f"proved for: {found.model}; {found.reason}")

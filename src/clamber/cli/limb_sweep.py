@@ -6,9 +6,9 @@ from typing import Annotated
 import typer
 
 from . import limb_options as opt
-from .crew import EndsLine, check_resume, executor_of
-from .options import AsJson, Output, Quiet, Ray, Resume, Store, Workers
-from .output import announce_compilation, check_writable, print_json, stderr, stdout
+from .crew import CrewWords
+from .option_holder import shares
+from .output import announce_compilation, print_json, stdout
 
 
 class GainsChoice(StrEnum):
@@ -26,6 +26,7 @@ class ScenarioChoice(StrEnum):
     push = "push"
 
 
+@shares(CrewWords)
 def sweep(
     vary: Annotated[
         list[str],
@@ -57,21 +58,15 @@ def sweep(
     elbow: opt.Elbow = None,
     flaws: opt.Flaws = opt.FlawsChoice.nominal,
     settings: opt.Settings = None,
-    workers: Workers = None,
-    ray: Ray = None,
-    store: Store = None,
-    resume: Resume = False,
-    output: Output = None,
-    as_json: AsJson = False,
-    quiet: Quiet = False,
+    *,
+    words: CrewWords,
 ) -> None:
     """Run laws at every point of a range: which is best where, and from where on each is unstable."""
-    check_writable(output)
-    check_resume(resume, store)
-    if output is not None:
+    words.check()
+    if words.output is not None:
         from ..viewing.output import CANVASES, check_suffix
 
-        check_suffix(output, (".csv", *CANVASES))
+        check_suffix(words.output, (".csv", *CANVASES))
     from ..experiments.limb.limb_sweep import make_bench, run_limb_sweep
     from ..planning.axes import range_axis
     from .limb_sweep_text import print_limb_sweep, write_limb_sweep
@@ -82,15 +77,15 @@ def sweep(
         kp=kp, kd=kd, match=match.value, reference=reference, robot=robot, limb=limb, start=start, elbow=elbow,
         flaws=flaws.value, settings=settings or (), recommended=gains is GainsChoice.recommended,
     )  # fmt: skip
-    announce_compilation("drive", quiet=quiet)
+    announce_compilation("drive", quiet=words.quiet)
     result = run_limb_sweep(
-        bench, axes, executor=executor_of(ray, workers), store=store, resume=resume,
-        progress=EndsLine(stderr(), "points", quiet=quiet).update,
+        bench, axes, executor=words.executor, store=words.store, resume=words.resume,
+        progress=words.line("points").update,
     )  # fmt: skip
-    if output is not None:
-        write_limb_sweep(result, output)
-    if as_json:
+    if words.output is not None:
+        write_limb_sweep(result, words.output)
+    if words.as_json:
         print_json(result.to_json())
     else:
-        print_limb_sweep(stdout(), result, output)
+        print_limb_sweep(stdout(), result, words.output)
     raise typer.Exit(0 if any(result.wins().values()) else 1)

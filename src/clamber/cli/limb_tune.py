@@ -6,11 +6,12 @@ from typing import Annotated
 import typer
 
 from . import limb_options as opt
-from .crew import EndsLine, check_resume, executor_of
-from .options import AsJson, Output, Quiet, Ray, Resume, Store, Workers
-from .output import announce_compilation, check_writable, print_json, stderr, stdout
+from .crew import CrewWords
+from .option_holder import shares
+from .output import announce_compilation, check_writable, print_json, stdout
 
 
+@shares(CrewWords)
 def tune(
     controllers: Annotated[
         list[str] | None,
@@ -27,22 +28,16 @@ def tune(
         Path | None,
         typer.Option(metavar="FILE", help="Put the recommended gains into this TOML file; others in it stay."),
     ] = None,
-    workers: Workers = None,
-    ray: Ray = None,
-    store: Store = None,
-    resume: Resume = False,
-    output: Output = None,
-    as_json: AsJson = False,
-    quiet: Quiet = False,
+    *,
+    words: CrewWords,
 ) -> None:
     """Find the largest gains at which the limb comes to rest after steps, circles and pushes, and recommend some below."""
-    check_resume(resume, store)
-    for path in (save, output):
-        check_writable(path)
-    if output is not None:
+    words.check()
+    check_writable(save)
+    if words.output is not None:
         from ..viewing.output import CANVASES, check_suffix
 
-        check_suffix(output, CANVASES)
+        check_suffix(words.output, CANVASES)
     from ..control.recommended import read_recommended, save_recommended
     from ..experiments.limb.bench_limb import bench_limb, limbed_robot
     from ..experiments.limb.flaw_texts import named_flaws, read_flaws
@@ -55,21 +50,21 @@ def tune(
     at = (0.22, 0.0) if start is None else read_point("start", start)
     chosen = bench_limb(robot, limb, at, elbow=read_elbow(elbow), upright=plant.upright)
     laws = [] if controllers in (None, ["all"]) else list(controllers or ())
-    announce_compilation("drive", quiet=quiet)
+    announce_compilation("drive", quiet=words.quiet)
     result = find(
-        chosen, laws, plant, robot=robot, margin=margin, executor=executor_of(ray, workers), store=store, resume=resume,
-        progress=EndsLine(stderr(), "searches", quiet=quiet).update,
+        chosen, laws, plant, robot=robot, margin=margin, executor=words.executor, store=words.store, resume=words.resume,
+        progress=words.line("searches").update,
     )  # fmt: skip
     if save is not None:
         save_recommended(result.recommended(), save)
-    if output is not None:
+    if words.output is not None:
         from ..viewing.limb_tune_plot import draw_tuning
 
-        draw_tuning(result, output)
-    if as_json:
+        draw_tuning(result, words.output)
+    if words.as_json:
         print_json(result.to_json())
     else:
         from .limb_tune_text import print_tuning
 
-        print_tuning(stdout(), result, save, output)
+        print_tuning(stdout(), result, save, words.output)
     raise typer.Exit(0 if result.steady else 1)

@@ -28,3 +28,9 @@ Store: TypeAlias = Annotated[
     Path | None, typer.Option(metavar="FILE", help="Keep each result as it ends (SQLite), to resume from.")
 ]
 Resume: TypeAlias = Annotated[bool, typer.Option("--resume", help="Go on with --store: what is finished stays.")]
+PlanSeconds: TypeAlias = Annotated[
+    float,
+    typer.Option(min=0.0, help="Most time for each search; where it ends one, another machine may find another plan."),
+]
+PLAN_SECONDS = 600.0
+"""So long that what planners may see ends their searches, however busy the machine."""

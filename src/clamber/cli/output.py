@@ -45,6 +45,15 @@ def announce_compilation(kernel: str = "replay", *, quiet: bool = False) -> None
         stderr().print("compiling the kernels (about half a minute, once)")
 
 
+def tell_cuts(cuts: int) -> None:
+    """Tells on stderr of searches for a plan that `--seconds` ended."""
+    if cuts:
+        searches = "a search" if cuts == 1 else f"{cuts} searches"
+        stderr().print(
+            f"--seconds ended {searches}: another machine, or this one under another load, may plan otherwise"
+        )
+
+
 def check_writable(path: Path | None) -> None:
     """Makes sure that a file can be written before hours are spent on what goes into it.
 

@@ -30,7 +30,10 @@ def plan(
     ] = None,
     minimize: Annotated[
         str | None,
-        typer.Option(metavar="COSTS", help="Of the exact planner: length, energy, torque, the first one first."),
+        typer.Option(
+            metavar="COSTS",
+            help="Of the exact planner, the first one first: length; energy, torque of climbers; time, strain of walkers.",
+        ),
     ] = None,
     pareto: Annotated[
         str | None, typer.Option(metavar="COST,COST", help="Every plan that no other beats in both of two costs.")

@@ -1,5 +1,6 @@
 """A search as people read it: a live line on the way, and the plan or why there is none."""
 
+from itertools import groupby
 from pathlib import Path
 
 from rich.console import Console
@@ -50,7 +51,9 @@ def _bound_text(progress: Exploring) -> str:
         return f"no plan has fewer than {progress.lower_bound:.0f} actions"
     if progress.cost == "torque":
         return f"no plan has less than {progress.lower_bound / OZ_IN:.0f} oz-in"
-    return f"no plan's powers add up to less than {progress.lower_bound:.1f} W"
+    if progress.cost == "energy":
+        return f"no plan's powers add up to less than {progress.lower_bound:.1f} W"
+    return f"no plan has less {progress.cost} than {progress.lower_bound:.4g}"
 
 
 def print_result(console: Console, result: PlanResult, output: Path | None) -> None:
@@ -101,10 +104,8 @@ def macro_text(task: Task, macro: Macro) -> str:
 
 
 def _costs_text(result: PlanResult) -> str:
-    if not result.costs:
-        return f"largest torque {result.max_torque / OZ_IN:.0f} oz-in"
-    torque, energy = result.costs["torque"], result.costs["energy"]
-    return f"largest torque {torque / OZ_IN:.1f} oz-in (start included), holding energy {energy:.1f} J"
+    spent = result.costs or result.spent()
+    return ", ".join(cost.words(spent[name]) for name, cost in plan_family(result.task).costs(result.task).items())
 
 
 def _print_furthest(console: Console, furthest: Furthest) -> None:
@@ -116,4 +117,7 @@ def _print_furthest(console: Console, furthest: Furthest) -> None:
 def _spelled(plan: Plan) -> str:
     """The plan in the thesis's numbers, or in words where it has none."""
     numbers = plan.numbers()
-    return "; ".join(a.title for a in plan.actions) if numbers is None else " ".join(map(str, numbers))
+    if numbers is not None:
+        return " ".join(map(str, numbers))
+    runs = [(title, len(list(run))) for title, run in groupby(action.title for action in plan.actions)]
+    return "; ".join(title if times == 1 else f"{title} x{times}" for title, times in runs)

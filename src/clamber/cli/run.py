@@ -6,8 +6,8 @@ from typing import Annotated
 import typer
 
 from ..errors import UnknownNameError
-from .options import AsJson, NoiseTexts, Overrides, Quiet
-from .output import announce_compilation, check_writable, print_json, stderr, stdout
+from .options import PLAN_SECONDS, AsJson, NoiseTexts, Overrides, PlanSeconds, Quiet
+from .output import announce_compilation, check_writable, print_json, stderr, stdout, tell_cuts
 
 
 def run(
@@ -16,7 +16,7 @@ def run(
     ],
     task: Annotated[str | None, typer.Option(help="Carry the plan out in this task, in place of its own.")] = None,
     planner: Annotated[str, typer.Option(help="How to search (`clamber list planners`).")] = "auto",
-    seconds: Annotated[float, typer.Option(min=0.0, help="Most time for each plan.")] = 60.0,
+    seconds: PlanSeconds = PLAN_SECONDS,
     overrides: Overrides = None,
     noise: NoiseTexts = None,
     peg_error: Annotated[str | None, typer.Option(help="Short for --noise peg_error=..., such as 3mm.")] = None,
@@ -66,12 +66,18 @@ def run(
         raise typer.BadParameter(f"{for_plant[0].partition('=')[0]} is the server's to set", param_hint="--set plant.")
     flaws = climbing_flaws(chosen, for_plant)
     check_noise(deviations, chosen.robot, flaws)
+    cuts: list[None] = []
+
+    def cut() -> None:
+        cuts.append(None)
+
     if plan is None:
-        plan = plan_to_climb(chosen, planner, seconds=seconds, seed=seed)
+        plan = plan_to_climb(chosen, planner, seconds=seconds, seed=seed, cut=cut)
     if plan is None:
+        tell_cuts(len(cuts))
         stderr().print(f"no plan for '{chosen.name}' that hooks can be trusted with; nothing has moved")
         raise typer.Exit(1)
-    again = replanner(planner, seconds=seconds, seed=seed) if replan else None
+    again = replanner(planner, seconds=seconds, seed=seed, cut=cut) if replan else None
     if save_plan is not None:
         plan.save(save_plan)
     streamed = next((file for file in outputs if file.suffix.lower() == ".mcap"), None)
@@ -80,6 +86,7 @@ def run(
             chosen, plan, flaws, noise=deviations, seed=seed, force=force, replan=again, progress=line.update,
             label=what, log=streamed, plant=plant,
         )  # fmt: skip
+    tell_cuts(len(cuts))
     for file in outputs:
         if file != streamed:
             write_run(run, file)

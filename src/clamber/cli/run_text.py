@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 from rich.console import Console
 
-from ..execution.climb.sequencer import ActionReport
+from ..execution.climb.climb_report import ActionReport
 from ..experiments.climb.run_plan import ClimbRun
 from .live_line import LiveLine
 from .output import plain_table
@@ -21,15 +21,17 @@ class ClimbLine(LiveLine):
 
 
 def print_run(console: Console, run: ClimbRun, written: Sequence[Path] = ()) -> None:
-    """Print how a climb ended, a row for each kind of action, and where it was close."""
+    """Print how a climb ended, a row for each kind of action, where it was close, and which hooks came off and were brought back."""
     report = run.report
     if report.done:
         console.print(f"climbed: {_count(report.actions)} actions of '{run.task.name}'", style="bold green")
     else:
         console.print(f"not climbed: '{run.task.name}'", style="bold red")
         console.print(report.reason)
-    table = plain_table("action", "times", "ok", "other", "time [s]", "pushes", "worst tip [mm]",
-                        right=("times", "ok", "time [s]", "pushes", "worst tip [mm]"))  # fmt: skip
+    numbers = ("times", "ok", "recovered", "time [s]", "pushes", "worst tip [mm]")
+    table = plain_table(
+        "action", "times", "ok", "recovered", "other", "time [s]", "pushes", "worst tip [mm]", right=numbers
+    )
     for kind in dict.fromkeys(action.kind for action in report.actions):
         rows = [action for action in report.actions if action.kind == kind]
         table.add_row(*_row(kind, rows))
@@ -59,11 +61,16 @@ def _row(kind: str, rows: list[ActionReport]) -> tuple[str, ...]:
     worst = f"{1e3 * max(errors):.1f}" if errors else ""
     pushes = str(sum(row.tries for row in rows)) if kind == "grab" else ""
     seconds = sum(row.seconds for row in rows)
-    return kind, str(_count(rows)), str(ok), words, f"{seconds:.1f}", pushes, worst
+    recovered = sum(row.recovered for row in rows)
+    return kind, str(_count(rows)), str(ok), str(recovered), words, f"{seconds:.1f}", pushes, worst
 
 
 def _print_close(console: Console, actions: list[ActionReport]) -> None:
-    """The grab that took most pushes and the move that ended farthest from its aim."""
+    """The actions in which hooks came off, the grab that took most pushes, and the move that ended farthest from its aim."""
+    for action in actions:
+        if action.recovered:
+            times = "once" if action.recovered == 1 else f"{action.recovered} times"
+            console.print(f"recovered {times}: step {action.first}, {action.title}: a hook had come off")
     grabs = [action for action in actions if action.kind == "grab"]
     hardest = max(grabs, key=lambda action: action.tries, default=None)
     if hardest is not None and hardest.tries > 1:

@@ -4,11 +4,13 @@ from typing import Annotated
 
 import typer
 
-from .crew import EndsLine, check_resume, executor_of
-from .options import AsJson, Output, Overrides, Quiet, Ray, Resume, Store, Workers
-from .output import announce_compilation, check_writable, print_json, stderr, stdout
+from .crew import CrewWords
+from .option_holder import shares
+from .options import Overrides
+from .output import announce_compilation, print_json, stdout
 
 
+@shares(CrewWords)
 def sweep(
     task: Annotated[str, typer.Argument(help="A task's name (`clamber list tasks`), or the path of its TOML file.")],
     vary: Annotated[
@@ -27,22 +29,16 @@ def sweep(
     seed: Annotated[int, typer.Option(min=0, help="Of the genetic planner.")] = 0,
     evaluations: Annotated[int, typer.Option(min=1, help="Most plans that the genetic planner tries.")] = 50_000,
     stances: Annotated[int, typer.Option(min=1, help="Most stances that the exact planner keeps.")] = 2_000_000,
-    workers: Workers = None,
-    ray: Ray = None,
-    store: Store = None,
-    resume: Resume = False,
-    output: Output = None,
-    as_json: AsJson = False,
-    quiet: Quiet = False,
+    *,
+    words: CrewWords,
 ) -> None:
     """Plan at every point of a range: where a plan exists, how long the shortest is, how hard it loads the joints."""
-    check_writable(output)
-    check_resume(resume, store)
-    pictured = output is not None and output.suffix.lower() != ".csv"
-    if pictured and output is not None:
+    words.check()
+    pictured = words.output is not None and words.output.suffix.lower() != ".csv"
+    if pictured and words.output is not None:
         from ..viewing.output import CANVASES, check_suffix
 
-        check_suffix(output, (".csv", *CANVASES))
+        check_suffix(words.output, (".csv", *CANVASES))
     from ..planning.axes import check_axes, range_axis, read_mark, values_axis
 
     axes = [*map(range_axis, vary or ()), *map(values_axis, values or ())]
@@ -52,8 +48,8 @@ def sweep(
     from ..planning.planners import FIRST_LOOPS
     from .sweep_text import print_sweep
 
-    if ray is None:
-        announce_compilation(FIRST_LOOPS.get(planner, "rollout"), quiet=quiet)
+    if words.ray is None:
+        announce_compilation(FIRST_LOOPS.get(planner, "rollout"), quiet=words.quiet)
     from ..planning.sweep import run_sweep
 
     stated = {"max_evaluations": evaluations, "max_stances": stances}
@@ -64,20 +60,20 @@ def sweep(
         overrides=overrides or (),
         planner=planner,
         options=limits,
-        executor=executor_of(ray, workers),
+        executor=words.executor,
         marks=marks,
-        store=store,
-        resume=resume,
-        progress=EndsLine(stderr(), "points", quiet=quiet).update,
+        store=words.store,
+        resume=words.resume,
+        progress=words.line("points").update,
     )
-    if pictured and output is not None:
+    if pictured and words.output is not None:
         from ..viewing.sweep_plot import draw_sweep
 
-        draw_sweep(result, output)
-    elif output is not None:
-        result.save_table(output)
-    if as_json:
+        draw_sweep(result, words.output)
+    elif words.output is not None:
+        result.save_table(words.output)
+    if words.as_json:
         print_json(result.to_json())
     else:
-        print_sweep(stdout(), result, output)
+        print_sweep(stdout(), result, words.output)
     raise typer.Exit(0 if result.found else 1)

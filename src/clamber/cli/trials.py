@@ -5,9 +5,15 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import UnknownNameError
-from .crew import check_resume, executor_of
-from .options import AsJson, NoiseTexts, Output, Overrides, Quiet, Ray, Resume, Store, Workers
-from .output import announce_compilation, check_writable, print_json, stderr, stdout
+from .crew import CrewWords
+from .option_holder import shares
+from .options import (
+    PLAN_SECONDS,
+    NoiseTexts,
+    Overrides,
+    PlanSeconds,
+)
+from .output import announce_compilation, print_json, stderr, stdout, tell_cuts
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -15,6 +21,7 @@ if TYPE_CHECKING:
     from ..experiments.climb.trial import TrialSetup
 
 
+@shares(CrewWords)
 def trials(
     what: Annotated[
         str, typer.Argument(metavar="TASK|PLAN", help="A task, to be planned once, or a plan: names or files.")
@@ -24,7 +31,7 @@ def trials(
     noise: NoiseTexts = None,
     task: Annotated[str | None, typer.Option(help="Carry the plan out in this task, in place of its own.")] = None,
     planner: Annotated[str, typer.Option(help="How to search (`clamber list planners`).")] = "auto",
-    seconds: Annotated[float, typer.Option(min=0.0, help="Most time for each plan.")] = 60.0,
+    seconds: PlanSeconds = PLAN_SECONDS,
     overrides: Overrides = None,
     replan: Annotated[bool, typer.Option(help="Plan again where a hold cannot be had.")] = True,
     force: Annotated[bool, typer.Option("--force", help="Carry out a plan that its checks refuse.")] = False,
@@ -34,21 +41,15 @@ def trials(
     replay: Annotated[
         int | None, typer.Option(min=0, metavar="SEED", help="Climb this one trial again, for -o a log or a picture.")
     ] = None,
-    workers: Workers = None,
-    ray: Ray = None,
-    store: Store = None,
-    resume: Resume = False,
-    output: Output = None,
-    as_json: AsJson = False,
-    quiet: Quiet = False,
+    *,
+    words: CrewWords,
 ) -> None:
     """Climb many times under noise: how often it succeeds, why it fails, how long it takes, what matters.
 
     Each climb draws what is not as believed from its own seed (docs/climbing.md lists the keys and usual widths); `--noise none
     --noise friction=30%` leaves one of them. `-o` writes a picture (.png, .svg, .pdf), or with `--replay` what `clamber run` writes.
     """
-    check_writable(output)
-    check_resume(resume, store)
+    words.check()
     from ..actions.plan_source import is_plan
     from ..experiments.climb.noise import named_noise, read_noise
     from ..experiments.climb.run_plan import open_climb
@@ -58,40 +59,43 @@ def trials(
     from ..planning.planners import FIRST_LOOPS, PLANNERS
     from .trials_text import TrialsLine, print_trials
 
-    if output is not None:
-        _check_suffix(output, replay)
+    if words.output is not None:
+        _check_suffix(words.output, replay)
     if planner not in PLANNERS:
         raise UnknownNameError("planner", planner, tuple(PLANNERS))
     least = _share(at_least)
     widths = read_noise(named_noise("usual"), noise or ())
-    announce_compilation("replay" if is_plan(what) else FIRST_LOOPS[planner], quiet=quiet)
-    executor = executor_of(ray, workers)
+    announce_compilation("replay" if is_plan(what) else FIRST_LOOPS[planner], quiet=words.quiet)
+    executor = words.executor
     if replay is None:
         executor.check()  # before a minute is spent on a plan
     chosen, plan, plant = open_climb(what, task, overrides or ())
     asked = TrialSetup(
         task=chosen, noise=widths, plan=plan, plant=plant, planner=planner, seconds=seconds, replan=replan, force=force
     )
+    cuts: list[None] = []
     try:
-        setup = with_plan(asked, store, what)
+        setup = with_plan(asked, words.store, what, cut=lambda: cuts.append(None))
     except NoPlanError as none:
+        tell_cuts(len(cuts))
         stderr().print(str(none))
         raise typer.Exit(1) from None
+    tell_cuts(len(cuts))
     if replay is not None:
-        raise typer.Exit(_replay(setup, replay, store, output, as_json=as_json, quiet=quiet))
-    with TrialsLine(stderr(), quiet=quiet) as line:
+        raise typer.Exit(_replay(setup, replay, words))
+    with TrialsLine(stderr(), quiet=words.quiet) as line:
         told = run_trials(
-            setup, range(seed, seed + n), executor=executor, store=store, resume=resume, told=line.update
+            setup, range(seed, seed + n), executor=executor, store=words.store, resume=words.resume, told=line.update
         )  # fmt: skip
     summary = sum_up(told)
-    if output is not None:
+    if words.output is not None:
         from ..viewing.trials_plot import draw_trials
 
-        draw_trials(summary, output)
-    if as_json:
+        draw_trials(summary, words.output)
+    if words.as_json:
         print_json(summary.to_json() | {"trials": [trial.to_json() for trial in told.ended]})
     else:
-        print_trials(stdout(), summary, output)
+        print_trials(stdout(), summary, words.output)
     if summary.n < summary.asked:
         raise typer.Exit(130)
     raise typer.Exit(0 if (summary.done == summary.n if least is None else summary.interval[0] >= least) else 1)
@@ -119,26 +123,24 @@ def _share(text: str | None) -> float | None:
     return share
 
 
-def _replay(
-    setup: "TrialSetup", seed: int, store: "Path | None", output: "Path | None", *, as_json: bool, quiet: bool
-) -> int:
+def _replay(setup: "TrialSetup", seed: int, words: CrewWords) -> int:
     """One trial again; the exit code."""
     from ..experiments.climb.trial import climb_once
     from ..experiments.climb.trials import stored_trial
     from ..viewing.climb_run_view import write_run
     from .run_text import ClimbLine, print_run
 
-    known, plans = stored_trial(setup, seed, store)
-    with ClimbLine(stderr(), quiet=quiet) as line:
+    known, plans = stored_trial(setup, seed, words.store)
+    with ClimbLine(stderr(), quiet=words.quiet) as line:
         run, trial, _ = climb_once(setup, seed, plans=plans, progress=line.update)
-    if output is not None:
-        write_run(run, output)
+    if words.output is not None:
+        write_run(run, words.output)
     if known is not None and known != trial:
         stderr().print(
             f"the store's trial {seed} went otherwise: another machine or other code; it ended {known.outcome}"
         )
-    if as_json:
+    if words.as_json:
         print_json(run.to_json() | {"trial": trial.to_json()})
     else:
-        print_run(stdout(), run, () if output is None else (output,))
+        print_run(stdout(), run, () if words.output is None else (words.output,))
     return 130 if run.report.reason == "interrupted" else 0 if run.report.done else 1

@@ -47,6 +47,11 @@ def print_trials(console: Console, summary: TrialSummary, written: Path | None) 
             f"pushes for each grab: {summary.pushes:.2f}; moves that did not arrive: {summary.stalled}; "
             f"climbs with a new plan: {summary.replanned}"
         )
+    if summary.recovered:
+        console.print(
+            f"hooks that came off and were brought back: {summary.recovered}, in {summary.recovering} climbs, "
+            f"{summary.saved} of which succeeded"
+        )
     if summary.speed is not None:
         console.print(f"{summary.speed:.0f} times as fast as it happens, each worker")
     if summary.effects:

@@ -198,6 +198,147 @@ def _even_out(loads, now, part):
         loads[k] += part * (now[k] - loads[k])
 
 
+@inlined
+def _wish(table):
+    """What the body is to be given: what brings it to its aim, and the weight that is fed forward."""
+    n = table[LIMBS]
+    legs = carray(pointer(table[LEGS]), n, LEG)
+    gains = carray(pointer(table[SETTINGS]), 1, BODY)[0]
+    holds = _rows(table, HOLDS, 2)
+    arms = _rows(table, ARMS, 2)
+    pose = _line(table, POSE, 3)
+    twist = _line(table, TWIST, 3)
+    aimed = _line(table, AIMED, 3)
+    aim_speed = _line(table, AIM_SPEED, 3)
+    wanted = _line(table, WANTED, 3)
+    for i in range(n):
+        arms[i, 0] = holds[i, 0] - pose[0]
+        arms[i, 1] = holds[i, 1] - pose[1]
+    for k in range(3):
+        if gains.mapping == WRENCH:
+            wanted[k] = gains.stiffness[k] * (aimed[k] - pose[k])
+        else:
+            wanted[k] = gains.kp[k] * (aimed[k] - pose[k]) + gains.kd[k] * (aim_speed[k] - twist[k])
+    if gains.mapping == WRENCH:
+        drag_tips(_rows(table, TIP_SPEEDS, 2), pose[2], arms, aim_speed, gains.damping, _rows(table, DRAGS, 2))
+    moment = weight_moment(legs, _rows(table, Q, 2), pose[2])
+    _feed(
+        carray(pointer(table[JOBS]), n, JOB), _rows(table, SETTLED_TIPS, 2), _line(table, SETTLED, 3), gains, moment,
+        _line(table, FED, 3),
+    )  # fmt: skip
+
+
+@inlined
+def _command_tips(table, carriers, pulls, forces):
+    """What the tips of these carriers do for it."""
+    n = table[LIMBS]
+    gains = carray(pointer(table[SETTINGS]), 1, BODY)[0]
+    command_tips(
+        carray(pointer(table[LEGS]), n, LEG), _rows(table, Q, 2), carriers, _line(table, POSE, 3), _rows(table, ARMS, 2),
+        _line(table, WANTED, 3), _line(table, FED, 3), gains.mapping, gains.limit, _line(table, LEAST, n),
+        _rows(table, DRAGS, 2), carray(pointer(table[CUTS]), (MOST_CUTS, 2), np.float64), pulls, forces,
+    )  # fmt: skip
+
+
+@inlined
+def _share(table, handed):
+    """What each holding tip does for the body; while the load passes, between what it did before and will do after."""
+    n = table[LIMBS]
+    pulls = _rows(table, PULLS, 2)
+    forces = _rows(table, FORCES, 2)
+    if handed < 1.0:
+        carriers = carray(pointer(table[CARRIERS]), (2, n), np.int64)
+        old_pulls = _rows(table, OLD_PULLS, 2)
+        old_forces = _rows(table, OLD_FORCES, 2)
+        _command_tips(table, carriers[0], old_pulls, old_forces)
+        _command_tips(table, carriers[1], pulls, forces)
+        for i in range(n):
+            for k in range(2):
+                # cones are convex: between two loads that keep a hook on, all do
+                pulls[i, k] += (1.0 - handed) * (old_pulls[i, k] - pulls[i, k])
+                forces[i, k] += (1.0 - handed) * (old_forces[i, k] - forces[i, k])
+    else:
+        _command_tips(table, carray(pointer(table[HELD]), n, np.int64), pulls, forces)
+
+
+@inlined
+def _by_law(table, i, torques):
+    """Torques of a limb whose law holds or moves its tip, its own weight carried; whether the law was given what is not finite."""
+    n = table[LIMBS]
+    leg = carray(pointer(table[LEGS]), n, LEG)[i]
+    gains = carray(pointer(table[SETTINGS]), 1, BODY)[0]
+    job = carray(pointer(table[JOBS]), n, JOB)[i]
+    drives = carray(pointer(table[DRIVES]), (2, n, DESK), np.int64)
+    aims = carray(pointer(table[LIMB_AIM]), 1, AIM)
+    states = carray(pointer(table[STATES]), (1, 2, 2), np.float64)
+    felt = carray(pointer(table[FELT]), (1, AXES), np.float64)
+    q = _rows(table, Q, 2)
+    qd = _rows(table, QD, 2)
+    pose = _line(table, POSE, 3)
+    states[0, 0, 0] = q[i, 0]
+    states[0, 0, 1] = q[i, 1]
+    states[0, 1, 0] = qd[i, 0]
+    states[0, 1, 1] = qd[i, 1]
+    _aim_limb(
+        job, leg, _rows(table, TIPS, 2)[i], _rows(table, TIP_SPEEDS, 2)[i], _rows(table, SETTLED_TIPS, 2)[i], pose,
+        _line(table, TWIST, 3), _line(table, SETTLED, 3), _rows(table, PULLS, 2)[i], _rows(table, FORCES, 2)[i], aims[0],
+    )  # fmt: skip
+    law = 0 if job.doing == HOLD else 1
+    bad = drive_at(drives[law, i], aims, states, felt, felt) >= 0
+    given = carray(pointer(drives[law, i, DESK_TORQUES]), 2, np.float64)
+    part = 1.0
+    if job.doing == TIP:
+        # a joint cut alone would turn the force at the tip, and wedge a hook on the hold that it leaves
+        part = min(1.0, gains.gentle / max(abs(given[0]), abs(given[1]), 1e-9))
+    # carried however the body is turned, which the law does not know
+    shoulder, elbow = weight_loads(leg, q[i], pose[2])
+    torques[0] = part * given[0] + shoulder
+    torques[1] = part * given[1] + elbow
+    return bad
+
+
+@inlined
+def _by_pull(table, i, torques):
+    """Torques of a limb that pulls on something with a force, and what they say of the play's sides."""
+    n = table[LIMBS]
+    leg = carray(pointer(table[LEGS]), n, LEG)[i]
+    gains = carray(pointer(table[SETTINGS]), 1, BODY)[0]
+    job = carray(pointer(table[JOBS]), n, JOB)[i]
+    q = _rows(table, Q, 2)
+    qd = _rows(table, QD, 2)
+    pose = _line(table, POSE, 3)
+    loads_now = _line(table, LOADS_NOW, 2)
+    if job.doing == CLING:
+        force = _clinging(
+            job, leg, q[i], _rows(table, SETTLED_TIPS, 2)[i], pose, _line(table, SETTLED, 3), gains.cling
+        )  # fmt: skip
+        damping = CLING_DAMPING
+    else:
+        force = (job.force[0], job.force[1])
+        damping = job.damping
+    pull_torques(leg, q[i], qd[i], pose, _line(table, TWIST, 3), force, damping, torques, loads_now)
+    _even_out(_rows(table, LOADS, 2)[i], loads_now, _line(table, LAG, 3)[2])
+    most = gains.firm if job.pressed else gains.gentle
+    for k in range(2):
+        torques[k] = min(max(torques[k], -most), most)
+
+
+@inlined
+def _by_joints(table, i, torques):
+    """Torques of a limb whose joints go to angles, or hang there under a load."""
+    n = table[LIMBS]
+    leg = carray(pointer(table[LEGS]), n, LEG)[i]
+    gains = carray(pointer(table[SETTINGS]), 1, BODY)[0]
+    job = carray(pointer(table[JOBS]), n, JOB)[i]
+    q = _rows(table, Q, 2)
+    qd = _rows(table, QD, 2)
+    torques[0] = leg.share1 * (gains.joint_kp * (job.angles[0] - q[i, 0]) + gains.joint_kd * (job.rates[0] - qd[i, 0]))
+    torques[1] = leg.share2 * (gains.joint_kp * (job.angles[1] - q[i, 1]) + gains.joint_kd * (job.rates[1] - qd[i, 1]))
+    if job.doing == HANG:
+        torques[0] += job.loads[0]
+        torques[1] += job.loads[1]
+
+
 @kernel
 def command_tick(table, handed):
     """Torques of all limbs.
@@ -210,116 +351,25 @@ def command_tick(table, handed):
         The first limb whose law was given something that is not finite, -1 where there is none.
     """
     n = table[LIMBS]
-    legs = carray(pointer(table[LEGS]), n, LEG)
-    gains = carray(pointer(table[SETTINGS]), 1, BODY)[0]
     jobs = carray(pointer(table[JOBS]), n, JOB)
-    drives = carray(pointer(table[DRIVES]), (2, n, DESK), np.int64)
-    held = carray(pointer(table[HELD]), n, np.int64)
-    carriers = carray(pointer(table[CARRIERS]), (2, n), np.int64)
     pressed = carray(pointer(table[PRESSED]), n, np.int64)
-    aims = carray(pointer(table[LIMB_AIM]), 1, AIM)
-    states = carray(pointer(table[STATES]), (1, 2, 2), np.float64)
-    felt = carray(pointer(table[FELT]), (1, AXES), np.float64)
-    cuts = carray(pointer(table[CUTS]), (MOST_CUTS, 2), np.float64)
-    q = _rows(table, Q, 2)
-    qd = _rows(table, QD, 2)
-    holds = _rows(table, HOLDS, 2)
-    arms = _rows(table, ARMS, 2)
-    tips = _rows(table, TIPS, 2)
-    tip_speeds = _rows(table, TIP_SPEEDS, 2)
-    settled_tips = _rows(table, SETTLED_TIPS, 2)
-    pulls = _rows(table, PULLS, 2)
-    forces = _rows(table, FORCES, 2)
-    drags = _rows(table, DRAGS, 2)
-    loads = _rows(table, LOADS, 2)
-    loads_now = _line(table, LOADS_NOW, 2)
-    lag = _line(table, LAG, 3)
     torques = _rows(table, TORQUES, 2)
-    least = _line(table, LEAST, n)
-    pose = _line(table, POSE, 3)
-    twist = _line(table, TWIST, 3)
-    aimed = _line(table, AIMED, 3)
-    aim_speed = _line(table, AIM_SPEED, 3)
-    settled = _line(table, SETTLED, 3)
-    wanted = _line(table, WANTED, 3)
-    fed = _line(table, FED, 3)
-
-    for i in range(n):
-        arms[i, 0] = holds[i, 0] - pose[0]
-        arms[i, 1] = holds[i, 1] - pose[1]
-    for k in range(3):
-        if gains.mapping == WRENCH:
-            wanted[k] = gains.stiffness[k] * (aimed[k] - pose[k])
-        else:
-            wanted[k] = gains.kp[k] * (aimed[k] - pose[k]) + gains.kd[k] * (aim_speed[k] - twist[k])
-    if gains.mapping == WRENCH:
-        drag_tips(tip_speeds, pose[2], arms, aim_speed, gains.damping, drags)
-    _feed(jobs, settled_tips, settled, gains, weight_moment(legs, q, pose[2]), fed)
-    if handed < 1.0:
-        old_pulls = _rows(table, OLD_PULLS, 2)
-        old_forces = _rows(table, OLD_FORCES, 2)
-        command_tips(
-            legs, q, carriers[0], pose, arms, wanted, fed, gains.mapping, gains.limit, least, drags, cuts, old_pulls, old_forces
-        )  # fmt: skip
-        command_tips(
-            legs, q, carriers[1], pose, arms, wanted, fed, gains.mapping, gains.limit, least, drags, cuts, pulls, forces
-        )  # fmt: skip
-        for i in range(n):
-            for k in range(2):
-                # cones are convex: between two loads that keep a hook on, all do
-                pulls[i, k] += (1.0 - handed) * (old_pulls[i, k] - pulls[i, k])
-                forces[i, k] += (1.0 - handed) * (old_forces[i, k] - forces[i, k])
-    else:
-        command_tips(
-            legs, q, held, pose, arms, wanted, fed, gains.mapping, gains.limit, least, drags, cuts, pulls, forces
-        )  # fmt: skip
-
+    _wish(table)
+    _share(table, handed)
     bad = -1
     for i in range(n):
-        job = jobs[i]
-        leg = legs[i]
-        states[0, 0, 0] = q[i, 0]
-        states[0, 0, 1] = q[i, 1]
-        states[0, 1, 0] = qd[i, 0]
-        states[0, 1, 1] = qd[i, 1]
-        if job.doing == HOLD or job.doing == TIP:
-            _aim_limb(
-                job, leg, tips[i], tip_speeds[i], settled_tips[i], pose, twist, settled, pulls[i], forces[i], aims[0]
-            )
-            law = 0 if job.doing == HOLD else 1
-            if drive_at(drives[law, i], aims, states, felt, felt) >= 0 and bad < 0:
+        doing = jobs[i].doing
+        if doing in (HOLD, TIP):
+            if _by_law(table, i, torques[i]) and bad < 0:
                 bad = i
-            given = carray(pointer(drives[law, i, DESK_TORQUES]), 2, np.float64)
-            part = 1.0
-            if job.doing == TIP:
-                # a joint cut alone would turn the force at the tip, and wedge a hook on the hold that it leaves
-                part = min(1.0, gains.gentle / max(abs(given[0]), abs(given[1]), 1e-9))
-            # carried however the body is turned, which the law does not know
-            shoulder, elbow = weight_loads(leg, q[i], pose[2])
-            torques[i, 0] = part * given[0] + shoulder
-            torques[i, 1] = part * given[1] + elbow
-        elif job.doing == CLING:
-            force = _clinging(job, leg, q[i], settled_tips[i], pose, settled, gains.cling)
-            pull_torques(leg, q[i], qd[i], pose, twist, force, CLING_DAMPING, torques[i], loads_now)
-            _even_out(loads[i], loads_now, lag[2])
-        elif job.doing == PULL:
-            force = (job.force[0], job.force[1])
-            pull_torques(leg, q[i], qd[i], pose, twist, force, job.damping, torques[i], loads_now)
-            _even_out(loads[i], loads_now, lag[2])
+        elif doing in (CLING, PULL):
+            _by_pull(table, i, torques[i])
         else:
-            torques[i, 0] = leg.share1 * (
-                gains.joint_kp * (job.angles[0] - q[i, 0]) + gains.joint_kd * (job.rates[0] - qd[i, 0])
-            )
-            torques[i, 1] = leg.share2 * (
-                gains.joint_kp * (job.angles[1] - q[i, 1]) + gains.joint_kd * (job.rates[1] - qd[i, 1])
-            )
-            if job.doing == HANG:
-                torques[i, 0] += job.loads[0]
-                torques[i, 1] += job.loads[1]
-        pressed[i] = job.doing == CLING or (job.doing == PULL and job.pressed != 0)
-        if job.doing == PULL or job.doing == CLING:
-            most = gains.firm if job.pressed else gains.gentle
-            for k in range(2):
-                torques[i, k] = min(max(torques[i, k], -most), most)
-    follow_play(legs, q, held, forces, pose[2], pressed, loads, lag, _rows(table, PLAY, 2))
+            _by_joints(table, i, torques[i])
+        pressed[i] = doing == CLING or (doing == PULL and jobs[i].pressed != 0)
+    follow_play(
+        carray(pointer(table[LEGS]), n, LEG), _rows(table, Q, 2), carray(pointer(table[HELD]), n, np.int64),
+        _rows(table, FORCES, 2), _line(table, POSE, 3)[2], pressed, _rows(table, LOADS, 2), _line(table, LAG, 3),
+        _rows(table, PLAY, 2),
+    )  # fmt: skip
     return bad

@@ -77,6 +77,8 @@ def weight_moment(legs, q, angle):
 def follow_play(legs, q, held, forces, angle, pressed, loads, rate, play):
     """Let each joint's believed side of its play follow what loads it.
 
+    A limb that holds is told no friction, so within its joints' friction a torque moves no motor and says nothing of the side: it stays.
+
     Args:
         legs: Records of `LEG`, shape (n,).
         q: Joint angles, shape (n, 2).
@@ -94,10 +96,20 @@ def follow_play(legs, q, held, forces, angle, pressed, loads, rate, play):
             first = q[i, 0]
             second = q[i, 0] + q[i, 1] + leg.beta
             outer = leg.l2 * (math.cos(second) * forces[i, 1] - math.sin(second) * forces[i, 0])
-            load = (outer + leg.l1 * (math.cos(first) * forces[i, 1] - math.sin(first) * forces[i, 0]), outer)
+            shoulder, elbow = weight_loads(leg, q[i], angle)
+            inner = outer + leg.l1 * (math.cos(first) * forces[i, 1] - math.sin(first) * forces[i, 0])
+            load = (_beyond(shoulder + inner, leg.friction1), _beyond(elbow + outer, leg.friction2))
         elif pressed[i]:
             load = (loads[i, 0], loads[i, 1])
         else:
             load = weight_loads(leg, q[i], angle)
         for k in range(2):
-            play[i, k] += rate[0] * (rate[1] * math.tanh(load[k] / SURE) - play[i, k])
+            side = math.tanh(load[k] / SURE)
+            part = abs(side) if held[i] else 1.0
+            play[i, k] += part * rate[0] * (rate[1] * side - play[i, k])
+
+
+@inlined
+def _beyond(load, friction):
+    """What is left of a load that friction takes from."""
+    return load - min(max(load, -friction), friction)

@@ -10,6 +10,7 @@ from .climb.plant_bench import plant_rows
 from .climb.speed import climb_rows
 from .control_speed import control_rows
 from .gaps import bench_gaps
+from .hexapod_speed import hexapod_rows
 from .proofs import bench_exact
 from .races import race_rows
 from .reductions import filter_rows, macro_rows
@@ -40,6 +41,7 @@ BENCHES: Final[dict[str, Callable[..., list[Row]]]] = {
     "control": control_rows,
     "climb": climb_rows,
     "plant": plant_rows,
+    "hexapod": hexapod_rows,
 }
 """Name -> benchmark; the command line's choices and the tests read it. Each can be called without arguments, or with `say`."""
 

@@ -25,6 +25,9 @@ def walker_relaxations(task: WalkerTask) -> Iterator[Relaxation]:
         yield key_dial("rules.clearance", rules.clearance / MM, most=0.0, unit="mm", per_unit=10, nested=True)
     if "balance" in rules.hard and rules.balance > 0.0:
         yield key_dial("rules.balance", rules.balance / MM, most=0.0, unit="mm", per_unit=10, nested=True)
+    if "legs" in rules.hard:
+        stroke = task.robot.legs.stroke / MM
+        yield key_dial("legs.stroke", stroke, most=LONGEST * stroke, unit="mm", per_unit=10, nested=True)
     if "foothold" in rules.hard:
         yield from _patches(task)
 

@@ -6,6 +6,7 @@ from typing import Literal
 import numpy as np
 
 from ..actions.plan import Plan
+from ..actions.plan_costs import spent
 from ..actions.plan_families import plan_family
 from ..actions.problem import CompiledProblem
 from ..actions.verdict import Verdict, check_plan
@@ -69,7 +70,7 @@ class PlanResult:
     minimized: tuple[str, ...] = ()
     """What a proof is about: costs in lexicographic order."""
     costs: dict[str, float] = field(default_factory=dict)
-    """Of the plan: length (actions), energy [J], torque (largest, the start stance included) [N m]; empty unless minimized."""
+    """Of the plan: length (actions) and every cost of the robot's family, in SI units; empty unless minimized."""
     stances: int | None = None
     """Different stances that an exact search saw."""
     model: str = ""
@@ -96,6 +97,12 @@ class PlanResult:
     def gap(self) -> int | None:
         """Actions that the plan may have too many, at most; None without a plan, or without a bound below it."""
         return self.length - self.lower_bound if self.has_plan and self.lower_bound is not None else None
+
+    def spent(self) -> dict[str, float]:
+        """Every cost of the plan that its robot's family has, in SI units."""
+        family = plan_family(self.task)
+        problem = family.problem(self.task)
+        return spent(problem, family.costs(self.task), problem.replay(self.plan.codes(self.task)).stances)
 
     def check(self) -> Verdict:
         """Replay the plan and recompute every margin."""

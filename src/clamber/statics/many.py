@@ -4,11 +4,15 @@ import math
 
 import numpy as np
 
-from ..compiled import kernel
+from ..compiled import inlined, kernel
 from .pose import port_of
 from .programme import maximise
 from .records import holds, limbs, work
 
+UNCUT = 1
+"""Goal of `many_split` without cuts."""
+SLACK = 2
+"""Its goal of the largest slack."""
 CORNERS = 16
 """Sides of the polygon that stands for the strength of a hold or an end effector."""
 
@@ -22,6 +26,66 @@ def cone_rows(a, row, column, mx, my, c_cone, s_cone, slack, last):
         a[row, column + 1] = my * s_cone + mx * turn
         a[row, last] = slack
         row += 1
+    return row
+
+
+@inlined
+def _balance_rows(a, s, hold, column):
+    """Six rows: what a hold's force brings to the body, an equality as two inequalities."""
+    for sign in range(2):
+        e = 1.0 if sign == 0 else -1.0
+        a[sign, column] = e
+        a[2 + sign, column + 1] = e
+        a[4 + sign, column] = -e * (hold.y - s.y)
+        a[4 + sign, column + 1] = e * (hold.x - s.x)
+
+
+@inlined
+def _torque_rows(a, b, row, column, s, i, limb, hold, weight, goal, last):
+    """Four rows: both motors of limb `i` within their limits, or within what is made least; the next row."""
+    px, py = port_of(limb, s)
+    branch_at = 1 + 5 * s.branch[i]
+    for joint in range(2):
+        rx = hold.x - (px if joint == 0 else s.solved[i, branch_at + 1])
+        ry = hold.y - (py if joint == 0 else s.solved[i, branch_at + 2])
+        scale = weight / (limb.limit1 if joint == 0 else limb.limit2)
+        for sign in range(2):
+            e = scale if sign == 0 else -scale
+            a[row, column] = e * ry
+            a[row, column + 1] = -e * rx
+            if goal == SLACK:
+                b[row] = 1.0
+            else:
+                a[row, last] = -1.0
+            row += 1
+    return row
+
+
+@inlined
+def _cut_rows(a, b, row, column, s, i, limb, hold, weight, goal, last):
+    """Rows of what limb `i`'s end and its hold can bear: cones, least pull, strength; the next row."""
+    slack = 1.0 if goal == SLACK else 0.0
+    branch_at = 1 + 5 * s.branch[i]
+    if limb.c_cone > -1.5:
+        gx = s.solved[i, branch_at + 3]
+        gy = s.solved[i, branch_at + 4]
+        row = cone_rows(a, row, column, gx, gy, limb.c_cone, limb.s_cone, slack, last)
+        if limb.pull > 0.0:
+            a[row, column] = gx
+            a[row, column + 1] = gy
+            a[row, last] = slack
+            b[row] = -limb.pull / weight
+            row += 1
+    if hold.c_cone > -1.5:
+        row = cone_rows(a, row, column, hold.dir_x, hold.dir_y, hold.c_cone, hold.s_cone, slack, last)
+    strength = min(hold.strength, limb.strength)
+    if strength < math.inf:
+        for side in range(CORNERS):
+            angle = (2 * side + 1) * math.pi / CORNERS
+            a[row, column] = math.cos(angle)
+            a[row, column + 1] = math.sin(angle)
+            b[row] = strength / weight * math.cos(math.pi / CORNERS)
+            row += 1
     return row
 
 
@@ -60,66 +124,23 @@ def many_split(p, s, carriers, goal, forces):
     basis = work(p)[at : at + d]
     at += d
     table = work(p)[at : at + (d + 1) * (most + 2 * d + 1)].reshape((d + 1, most + 2 * d + 1))
-    for i in range(most):
-        b[i] = 0.0
-        for j in range(d):
-            a[i, j] = 0.0
-    for j in range(d):
-        c[j] = 0.0
-    c[last] = 1.0 if goal == 2 else -1.0
+    a[:] = 0.0
+    b[:] = 0.0
+    c[:] = 0.0
+    c[last] = 1.0 if goal == SLACK else -1.0
     column = 0
     row = 6
     b[2] = 1.0
     b[3] = -1.0
     for i in range(n):
-        if not carriers & (1 << i):
-            continue
-        hold = holds(p)[s.hold[i]]
-        limb = limbs(p)[i]
-        for sign in range(2):  # an equality is two inequalities
-            e = 1.0 if sign == 0 else -1.0
-            a[sign, column] = e
-            a[2 + sign, column + 1] = e
-            a[4 + sign, column] = -e * (hold.y - s.y)
-            a[4 + sign, column + 1] = e * (hold.x - s.x)
-        px, py = port_of(limb, s)
-        branch_at = 1 + 5 * s.branch[i]
-        for joint in range(2):
-            rx = hold.x - (px if joint == 0 else s.solved[i, branch_at + 1])
-            ry = hold.y - (py if joint == 0 else s.solved[i, branch_at + 2])
-            scale = weight / (limb.limit1 if joint == 0 else limb.limit2)
-            for sign in range(2):
-                e = scale if sign == 0 else -scale
-                a[row, column] = e * ry
-                a[row, column + 1] = -e * rx
-                if goal == 2:
-                    b[row] = 1.0
-                else:
-                    a[row, last] = -1.0
-                row += 1
-        if goal != 1:
-            slack = 1.0 if goal == 2 else 0.0
-            if limb.c_cone > -1.5:
-                gx = s.solved[i, branch_at + 3]
-                gy = s.solved[i, branch_at + 4]
-                row = cone_rows(a, row, column, gx, gy, limb.c_cone, limb.s_cone, slack, last)
-                if limb.pull > 0.0:
-                    a[row, column] = gx
-                    a[row, column + 1] = gy
-                    a[row, last] = slack
-                    b[row] = -limb.pull / weight
-                    row += 1
-            if hold.c_cone > -1.5:
-                row = cone_rows(a, row, column, hold.dir_x, hold.dir_y, hold.c_cone, hold.s_cone, slack, last)
-            strength = min(hold.strength, limb.strength)
-            if strength < math.inf:
-                for side in range(CORNERS):
-                    angle = (2 * side + 1) * math.pi / CORNERS
-                    a[row, column] = math.cos(angle)
-                    a[row, column + 1] = math.sin(angle)
-                    b[row] = strength / weight * math.cos(math.pi / CORNERS)
-                    row += 1
-        column += 2
+        if carriers & (1 << i):
+            hold = holds(p)[s.hold[i]]
+            limb = limbs(p)[i]
+            _balance_rows(a, s, hold, column)
+            row = _torque_rows(a, b, row, column, s, i, limb, hold, weight, goal, last)
+            if goal != UNCUT:
+                row = _cut_rows(a, b, row, column, s, i, limb, hold, weight, goal, last)
+            column += 2
     if not maximise(a[:row], b[:row], c, table, basis, x):
         return False, 0.0
     column = 0
@@ -128,7 +149,7 @@ def many_split(p, s, carriers, goal, forces):
             forces[i, 0] = weight * x[column]
             forces[i, 1] = weight * x[column + 1]
             column += 2
-    return True, weight * x[last] if goal == 2 else x[last]
+    return True, weight * x[last] if goal == SLACK else x[last]
 
 
 @kernel

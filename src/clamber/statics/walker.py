@@ -11,8 +11,8 @@ from .checks import Check
 from .distances import inside, point_segment
 from .records import TOLERANCE, UNLIMITED
 
-STROKE, SINGULAR, FOOTHOLD, BALANCE = 0, 1, 2, 3
-N_CHECKS = 4
+STROKE, SINGULAR, FOOTHOLD, BALANCE, LEGS = 0, 1, 2, 3, 4
+N_CHECKS = 5
 DELTA, Y = 0, 1
 """The frames, in the order of every array."""
 FEATURE_SLOTS = 8
@@ -20,8 +20,9 @@ FEATURE_SLOTS = 8
 WALKER_CHECKS: Final[tuple[Check, ...]] = (
     Check("stroke", "m", "how far the actuators' lengths lie inside their range, smallest of the three"),
     Check("singular", "m", "guarded distance at which the mechanism is singular, less the distance of the origins"),
-    Check("foothold", "m", "distance of the standing feet from the nearest patch, less what the task asks for"),
+    Check("foothold", "m", "distance of the standing feet from the nearest patch or edge, less what the task asks for"),
     Check("balance", "m", "how far the centre of mass lies inside the standing feet, less what the task asks for"),
+    Check("legs", "m", "range of plate heights at which every leg has the length that its foot needs"),
 )
 """In the order in which a failing check is named as the reason; all are hard unless the task says otherwise."""
 
@@ -33,21 +34,34 @@ WALKER_PARAMS = np.dtype(
         ("turn_ticks", "i8"),
         ("joint", "f8", (2, 3, 2)),  # attachments of the actuators, each in its frame [m]
         ("rest", "f8", (2, 3, 2)),  # feet, each in its frame [m], anticlockwise
-        ("foot_radius", "f8", (2,)),
+        ("foot_radius", "f8", (2,)),  # from the frame's origin to its farthest foot [m]
         ("shortest", "f8"),
         ("longest", "f8"),
         ("guard", "f8"),
-        ("share_delta", "f8"),
-        ("clearance", "f8"),  # of a foot's centre from a patch
+        ("share", "f8", (2,)),  # of the whole mass at each frame's origin [-]
+        (
+            "load",
+            "f8",
+            (2,),
+        ),  # moment of arm and payload about the Delta-frame's origin per whole mass, Delta-frame [m]
+        ("leg_shortest", "f8"),
+        ("leg_longest", "f8"),
+        ("leg_nominal", "f8"),
+        ("lift", "f8"),  # of a lifted foot over the ground [m]
+        ("leg_speed", "f8"),
+        ("speed", "f8"),  # of an actuator [m/s]
+        ("clearance", "f8"),  # of a foot's centre from a patch or an edge
         ("least_balance", "f8"),
         ("apart", "f8"),  # the origins are never farther apart in a valid stance; inf where nothing says so
         ("n_goals", "i4"),
         ("n_patches", "i4"),
+        ("n_blocks", "i4"),
         ("hard", "i4"),
         ("kinds", "i4", (FEATURE_SLOTS,)),
         ("goals_at", "i8"),
         ("vertices_at", "i8"),
-        ("patch_start_at", "i8"),
+        ("patch_start_at", "i8"),  # patches first, then blocks
+        ("heights_at", "i8"),
         ("n_vertices", "i8"),
     ],
     align=True,
@@ -87,8 +101,10 @@ WALKER_STANCE = np.dtype(
         ("mass_y", "f8"),
         ("foothold", "f8"),  # margins that feature or next action read
         ("balance", "f8"),
+        ("legs", "f8"),
+        ("height", "f8"),  # of the plate [m]
         ("strain", "f8"),  # distance of the origins per distance at which the mechanism is singular [-]
-        ("travel", "f8"),  # how far a foot of the lifted frame went in the last action [m]
+        ("duration", "f8"),  # of the last action [s]
     ],
     align=True,
 )
@@ -101,15 +117,16 @@ def walker_goals(p):
 
 
 @inlined
-def patch_vertices(p):
-    """Corners of all patches, shape (n, 2) [m]."""
-    return carray(pointer(p.vertices_at), (p.n_vertices, 2), np.float64)
+def outline(p, k):
+    """Corners of outline k, shape (n, 2) [m]: the patches first, then the blocks."""
+    start = carray(pointer(p.patch_start_at), p.n_patches + p.n_blocks + 1, np.int64)
+    return carray(pointer(p.vertices_at), (p.n_vertices, 2), np.float64)[start[k] : start[k + 1]]
 
 
 @inlined
-def patch_start(p):
-    """First corner of each patch, and the end."""
-    return carray(pointer(p.patch_start_at), p.n_patches + 1, np.int64)
+def block_heights(p):
+    """How high each block's top is [m]."""
+    return carray(pointer(p.heights_at), p.n_blocks, np.float64)
 
 
 @inlined
@@ -134,31 +151,73 @@ def place(p, s, f):
         s.angle = angle
 
 
+@inlined
+def from_outline(x, y, corners):
+    """Distance of a point from a polygon's edge [m]."""
+    near = math.inf
+    j = corners.shape[0] - 1
+    for i in range(corners.shape[0]):
+        near = min(near, point_segment(x, y, corners[j, 0], corners[j, 1], corners[i, 0], corners[i, 1]))
+        j = i
+    return near
+
+
 @kernel
 def patch_distance(p, x, y):
-    """Distance of a point from the nearest patch [m]; negative inside one, by how deep."""
+    """Distance of a point from the nearest patch or edge of a block [m]; negative inside a patch, by how deep."""
     best = UNLIMITED
-    for k in range(p.n_patches):
-        corners = patch_vertices(p)[patch_start(p)[k] : patch_start(p)[k + 1]]
-        near = math.inf
-        j = corners.shape[0] - 1
-        for i in range(corners.shape[0]):
-            near = min(near, point_segment(x, y, corners[j, 0], corners[j, 1], corners[i, 0], corners[i, 1]))
-            j = i
-        best = min(best, -near if inside(x, y, corners) else near)
+    for k in range(p.n_patches + p.n_blocks):
+        corners = outline(p, k)
+        near = from_outline(x, y, corners)
+        best = min(best, -near if k < p.n_patches and inside(x, y, corners) else near)
     return best
 
 
 @kernel
+def ground_height(p, x, y):
+    """Height of the ground at a place [m]: that of the last block over it, else 0."""
+    for k in range(p.n_blocks - 1, -1, -1):
+        if inside(x, y, outline(p, p.n_patches + k)):
+            return block_heights(p)[k]
+    return 0.0
+
+
+@kernel
 def foothold(p, s):
-    """Margin of the standing feet from the patches [m]."""
-    if p.n_patches == 0:
+    """Margin of the standing feet from patches and edges [m]."""
+    if p.n_patches + p.n_blocks == 0:
         return UNLIMITED
     f = s.stands
     best = UNLIMITED
     for i in range(3):
         best = min(best, patch_distance(p, s.foot[f, i, 0], s.foot[f, i, 1]))
     return best - p.clearance
+
+
+@kernel
+def stand_height(p, s, landed):
+    """Set the plate's height; return the range of heights at which all legs fit [m].
+
+    The standing feet are on the ground, the others clear it by the lift. Where feet have just landed, all six were on the ground at once,
+    which counts in the range, but not in the height: that depends on the stance alone, however it was come to.
+    """
+    low = -math.inf
+    high = math.inf
+    both = math.inf
+    total = 0.0
+    for f in range(2):
+        for i in range(3):
+            ground = ground_height(p, s.foot[f, i, 0], s.foot[f, i, 1]) if p.n_blocks > 0 else 0.0
+            if f == s.stands:
+                total += ground
+                low = max(low, ground + p.leg_shortest)
+                high = min(high, ground + p.leg_longest)
+            else:
+                low = max(low, ground + p.lift + p.leg_shortest)
+                if landed:
+                    both = min(both, ground + p.leg_longest)
+    s.height = max(low, min(high, total / 3.0 + p.leg_nominal))
+    return min(high, both) - low
 
 
 @inlined
@@ -187,15 +246,19 @@ def stretch(p, s):
 def balance(p, s):
     """Set the centre of mass; return how far it lies inside the standing feet [m], less what the task asks for."""
     f = s.stands
-    s.mass_x = p.share_delta * s.pose[DELTA, 0] + (1.0 - p.share_delta) * s.pose[Y, 0]
-    s.mass_y = p.share_delta * s.pose[DELTA, 1] + (1.0 - p.share_delta) * s.pose[Y, 1]
-    qx = s.mass_x - s.pose[f, 0]
-    qy = s.mass_y - s.pose[f, 1]
-    # The feet are a regular triangle: each side lies half a radius from the origin, opposite to a foot
+    s.mass_x = p.share[DELTA] * s.pose[DELTA, 0] + p.share[Y] * s.pose[Y, 0]
+    s.mass_y = p.share[DELTA] * s.pose[DELTA, 1] + p.share[Y] * s.pose[Y, 1]
+    s.mass_x += s.c[DELTA] * p.load[0] - s.s[DELTA] * p.load[1]
+    s.mass_y += s.s[DELTA] * p.load[0] + s.c[DELTA] * p.load[1]
     least = math.inf
+    j = 2
     for i in range(3):
-        least = min(least, qx * (s.foot[f, i, 0] - s.pose[f, 0]) + qy * (s.foot[f, i, 1] - s.pose[f, 1]))
-    return 0.5 * p.foot_radius[f] + least / p.foot_radius[f] - p.least_balance
+        ex = s.foot[f, i, 0] - s.foot[f, j, 0]
+        ey = s.foot[f, i, 1] - s.foot[f, j, 1]
+        away = ex * (s.mass_y - s.foot[f, j, 1]) - ey * (s.mass_x - s.foot[f, j, 0])
+        least = min(least, away / math.sqrt(ex * ex + ey * ey))
+        j = i
+    return least - p.least_balance
 
 
 @kernel
@@ -210,10 +273,12 @@ def judge(p, s, landed, margins):
     """
     if landed:
         s.foothold = foothold(p, s)
+    s.legs = stand_height(p, s, landed)
     s.balance = balance(p, s)
     margins[STROKE], margins[SINGULAR] = stretch(p, s)
     margins[FOOTHOLD] = s.foothold
     margins[BALANCE] = s.balance
+    margins[LEGS] = s.legs
     for check in range(N_CHECKS):
         if p.hard & (1 << check) and margins[check] < -TOLERANCE:
             return check

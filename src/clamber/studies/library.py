@@ -32,6 +32,14 @@ from .boards_exact.no_rotation import forbid_rotation
 from .boards_exact.optima import prove_optima
 from .boards_exact.peg_spacing import vary_spacing
 from .boards_exact.torque_front import trade_length_for_torque
+from .hoshino_1995 import PAPER as HOSHINO
+from .hoshino_1995.ditches import draw_figure_5
+from .hoshino_1995.equation_19 import check_second_term
+from .hoshino_1995.fig_10 import compare_freedoms
+from .hoshino_1995.fig_11 import vary_gain
+from .hoshino_1995.printed_numbers import compare_numbers
+from .hoshino_1995.regions import draw_figure_4
+from .hoshino_1995.section_6_2 import count_freedoms
 from .result import StudyResult
 
 Repeat: TypeAlias = Callable[[], StudyResult]
@@ -56,6 +64,15 @@ ON_A_BODY: Final[dict[str, Repeat]] = {
     **SEEDED,
 }
 """Chapter 4 of Bevly 1997: the whole robot in contact dynamics."""
+OF_FRAMES: Final[dict[str, Repeat]] = {"table": compare_numbers, "fig-4": draw_figure_4, "fig-5": draw_figure_5}
+"""Sections 2 and 3 of Hoshino 1995: geometry of the two frames."""
+OF_ARM_AND_BODY: Final[dict[str, Repeat]] = {
+    "fig-10": compare_freedoms,
+    "fig-11": vary_gain,
+    "section-6-2": count_freedoms,
+    "equation-19": check_second_term,
+}
+"""Section 6: the tool moved by arm and body."""
 STUDIES: Final[dict[str, dict[str, Repeat]]] = {
     PAPER: {
         "inventory-size": count_modules,
@@ -81,10 +98,15 @@ STUDIES: Final[dict[str, dict[str, Repeat]]] = {
         "narrowest-cone": narrow_cones,
         "peg-spacing": vary_spacing,
     },
+    HOSHINO: {**OF_FRAMES, **OF_ARM_AND_BODY},
 }
 """Paper or subject -> result -> what repeats it; the command line, the pages and the tests read it."""
 
 
 def first_loop(result: Repeat) -> str:
-    """The kernel that a result runs first: plans are rolled out, laws on a limb or a body are ticked."""
+    """The kernel that a result runs first: plans are rolled out, laws ticked, frames' regions outlined, tools moved."""
+    if result in OF_FRAMES.values():
+        return "outline"
+    if result in OF_ARM_AND_BODY.values():
+        return "move_freely"
     return "drive" if result in (*ON_ONE_LIMB.values(), *ON_A_BODY.values()) else "rollout"

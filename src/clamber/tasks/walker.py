@@ -13,7 +13,7 @@ from ..robots.walker import WalkerRobot, build_walker
 from ..specs import Name, build_spec, spec
 from ..statics.walker import WALKER_CHECKS
 from ..types import Json
-from ..units import Angle, Length, NonNegativeLength, Point, Quantity
+from ..units import Angle, Length, NonNegativeLength, NonNegativeMass, Point, Quantity
 from ..worlds.field import PatchField, build_field
 
 SCHEMA: Final = "clamber-task-1"
@@ -46,6 +46,10 @@ class Start:
     """Angle of the Y-frame, in the Delta-frame [rad]."""
     stands: Literal["delta", "y"] = "delta"
     """The frame whose feet are on the ground."""
+    arm: tuple[Angle, ...] | None = None
+    """Joint angles of the arm while the robot walks [rad]; None for those at rest."""
+    payload: NonNegativeMass = 0.0
+    """At the tool point of the arm [kg]."""
 
 
 @spec
@@ -137,10 +141,12 @@ def build_walker_task(document: Document) -> WalkerTask:
     stated = build_spec(WalkerTaskSpec, document, without=("schema", "robot", "field", "labels"))
     _check(stated, document)
     rest = {key: value for key, value in document.data.items() if key not in {"robot", "field", "labels"}}
+    robot = build_walker(robot_document)
+    _check_arm(stated.start, robot, document)
     return WalkerTask(
         name=stated.name,
         title=stated.title,
-        robot=build_walker(robot_document),
+        robot=robot,
         world=build_field(field_document),
         start=stated.start,
         step=stated.step,
@@ -174,6 +180,23 @@ def _check(stated: WalkerTaskSpec, document: Document) -> None:
     keys = (*(f"subgoals.{index}" for index in range(len(stated.subgoals))), "goal")
     for key, goal in zip(keys, (*stated.subgoals, stated.goal), strict=True):
         _check_goal(goal, key, document)
+
+
+def _check_arm(start: Start, robot: WalkerRobot, document: Document) -> None:
+    if robot.arm is None:
+        if start.arm is not None:
+            raise document.problem("start.arm", f"the robot '{robot.name}' has no arm")
+        if start.payload > 0.0:
+            raise document.problem("start.payload", f"the robot '{robot.name}' has no arm to carry it")
+    elif start.arm is not None:
+        if len(start.arm) != robot.arm.n_joints:
+            raise document.problem("start.arm", f"must have {robot.arm.n_joints} angles, one for each joint")
+        for joint, angle in enumerate(start.arm):
+            low, high = robot.arm.lowest[joint], robot.arm.highest[joint]
+            if not low <= angle <= high:
+                raise document.problem(
+                    f"start.arm.{joint}", f"must be in the joint's range, {low:.6g} to {high:.6g} rad"
+                )
 
 
 def _check_goal(goal: Goal, key: str, document: Document) -> None:

@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 
 from ..actions.problem import Replay
 from ..actions.yardsticks import climber_yardsticks
+from ..execution.climb.climb_report import ActionReport
 from ..execution.climb.climb_trace import TOPIC, ClimbTrace
-from ..execution.climb.sequencer import ActionReport
 from ..execution.log_files import SUFFIXES as LOGS
 from ..execution.log_files import write_log
 from ..experiments.climb.run_plan import ClimbRun

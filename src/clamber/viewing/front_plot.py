@@ -6,18 +6,14 @@ from typing import Final
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from ..planning.exact.front import Front, Trade
-from ..units import OZ_IN
+from ..actions.plan_costs import PlanCost
+from ..actions.plan_families import plan_family
+from ..planning.exact.front import Front
 from . import style
 from .output import CANVASES, check_suffix, save_figure
 from .style import bare, styled
 
-AXES: Final = {
-    "length": ("actions of the plan", 1.0),
-    "energy": ("holding energy of the plan [J]", 1.0),
-    "torque": ("largest joint torque [oz-in]", 1.0 / OZ_IN),
-}
-"""Cost -> label and scale of its axis."""
+LENGTH: Final = PlanCost(feature="length", title="actions of the plan", unit="")
 
 
 def draw_front(front: Front, path: str | Path) -> None:
@@ -36,8 +32,8 @@ def draw_front(front: Front, path: str | Path) -> None:
         figure = Figure(figsize=(7.2, 4.4), layout="constrained")
         axes = figure.subplots()
         bare(axes)
-        across = [_cost(trade, front.costs[0]) for trade in front.trades]
-        up = [_cost(trade, front.costs[1]) for trade in front.trades]
+        costs = {"length": LENGTH, **plan_family(front.task).costs(front.task)}
+        across, up = ([trade.costs[name] / costs[name].per_unit for trade in front.trades] for name in front.costs)
         axes.step(across, up, where="post", color=style.PARTS[0], lw=1.4, alpha=0.6)
         axes.plot(across, up, ls="none", marker="o", ms=5, color=style.PARTS[0])
         if front.trades:
@@ -51,8 +47,8 @@ def draw_front(front: Front, path: str | Path) -> None:
             axes.set_ylim(low, high)
             proved = "no plan lies here" if front.complete else "no plan found here"
             axes.text(0.06, 0.06, proved, transform=axes.transAxes, color=style.QUIET)
-        axes.set_xlabel(AXES[front.costs[0]][0])
-        axes.set_ylabel(AXES[front.costs[1]][0])
+        axes.set_xlabel(_label(costs[front.costs[0]]))
+        axes.set_ylabel(_label(costs[front.costs[1]]))
         for name, axis in zip(front.costs, (axes.xaxis, axes.yaxis), strict=True):
             if name == "length":
                 axis.set_major_locator(MaxNLocator(integer=True))
@@ -63,5 +59,5 @@ def draw_front(front: Front, path: str | Path) -> None:
         save_figure(figure, path)
 
 
-def _cost(trade: Trade, name: str) -> float:
-    return float(getattr(trade, name)) * AXES[name][1]
+def _label(cost: PlanCost) -> str:
+    return f"{cost.title} [{cost.unit}]" if cost.unit else cost.title

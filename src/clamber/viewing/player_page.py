@@ -130,6 +130,7 @@ function draw() {
   g.strokeStyle = "#dce1e6"; g.lineWidth = 1; g.strokeRect(X(B[0]), Y(B[3]), k * (B[1] - B[0]), k * (B[3] - B[2]));
   axes(g, X, Y, B, k);
   g.save(); g.beginPath(); g.rect(X(B[0]), Y(B[3]), k * (B[1] - B[0]), k * (B[3] - B[2])); g.clip();
+  for (const b of D.blocks ?? []) { path(b.corners); g.closePath(); g.fillStyle = b.colour; g.fill(); g.strokeStyle = "#6e7b87"; g.lineWidth = 1; g.stroke(); }
   for (const q of D.forbidden) {
     path(q); g.closePath(); g.save(); g.fillStyle = "#eceef1"; g.fill(); g.clip(); g.strokeStyle = "#aab3bc"; g.lineWidth = 1; g.beginPath();
     for (let d = -H; d < W; d += 9) { g.moveTo(d, H); g.lineTo(d + H, 0); } g.stroke(); g.restore();

@@ -10,6 +10,7 @@ from matplotlib.patches import Circle, Polygon
 
 from ..robots.walker import FRAMES
 from ..tasks.walker import WalkerTask
+from ..worlds.field import Block
 from . import style
 from .scene import Bounds, draw_forbidden, draw_region, fit_bounds, goal_box, label_region, name_goal, set_axes
 from .walker_motion import WalkerMoment
@@ -20,6 +21,8 @@ NAMES: Final = tuple(f"{name.capitalize()}-frame" for name in FRAMES)
 RISE: Final = 0.25
 """By what share of its radius a lifted foot looks larger, for it is nearer to the eye [-]."""
 SUPPORT: Final = "#8FA3B5"
+HIGHER: Final = "#F3EAD7"
+LOWER: Final = "#D9D4C8"
 
 
 def walker_bounds(task: WalkerTask, moments: list[WalkerMoment]) -> Bounds:
@@ -41,12 +44,40 @@ def foot_radius(task: WalkerTask, bounds: Bounds) -> float:
 def draw_ground(axes: Axes, task: WalkerTask, bounds: Bounds) -> None:
     """Draw patches and goals, and set up the axes."""
     set_axes(axes, task, bounds)
+    for block in task.world.blocks:
+        draw_block(axes, block, bounds)
     draw_forbidden(axes, task.world.patches)
     for index, goal in enumerate(task.goals):
         corners = goal_box(goal, bounds)
         if corners is not None:
             draw_region(axes, corners, last=index == len(task.goals) - 1)
             label_region(axes, corners, name_goal(task.goals, index), bounds, 7.0)
+
+
+def block_colour(height: float) -> str:
+    """A higher block is lighter than the ground, a lower one darker."""
+    return HIGHER if height > 0.0 else LOWER
+
+
+def draw_block(axes: Axes, block: Block, bounds: Bounds) -> None:
+    """Draw a level part of the ground with its height."""
+    colour = block_colour(block.height)
+    axes.add_patch(Polygon(np.array(block.corners), fc=colour, ec=style.QUIET, lw=1.0, zorder=0.6))
+    x0, x1, y0, y1 = bounds
+    xs, ys = (
+        np.clip([corner[axis] for corner in block.corners], low, high) for axis, low, high in ((0, x0, x1), (1, y0, y1))
+    )
+    if xs.max() > xs.min() and ys.max() > ys.min():
+        edge = 0.015 * (x1 - x0)
+        axes.text(
+            xs.max() - edge,
+            ys.min() + edge,
+            f"{100 * block.height:+.3g} cm",
+            ha="right",
+            fontsize=7,
+            color=style.QUIET,
+            zorder=0.7,
+        )
 
 
 class WalkerArtists:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..actions.walker_problem import WalkerOutline, outline
+from ..actions.walker_problem import WalkerOutline, carried_weight, outline
 from ..tasks.walker import WalkerTask
 from ..types import Floats
 from .view import Part
@@ -71,8 +71,7 @@ def posed_moment(task: WalkerTask, stance: np.void, poses: Floats) -> WalkerMome
         x, y, angle = poses[f]
         c, s = math.cos(angle), math.sin(angle)
         at["foot"][f] = (x, y) + feet @ np.array([[c, s], [-s, c]])
-    share = task.robot.share_delta
-    at["mass_x"], at["mass_y"] = share * poses[0, :2] + (1.0 - share) * poses[1, :2]
+    at["mass_x"], at["mass_y"] = carried_weight(task).centre(poses)
     return settled_moment(task, at)
 
 

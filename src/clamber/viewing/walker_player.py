@@ -5,21 +5,27 @@ from typing import Final
 
 import numpy as np
 
+from ..actions.walker_problem import carried_weight
 from ..tasks.walker import WalkerTask
 from ..types import Json
 from .player import round_all
 from .scene import Bounds, goal_box, name_goal
 from .view import Spread
-from .walker_artists import COLOURS, RISE, SUPPORT, foot_radius
+from .walker_artists import COLOURS, RISE, SUPPORT, block_colour, foot_radius
 from .walker_motion import WalkerMoment
 from .words import length_unit
 
 
 def walker_world(task: WalkerTask, bounds: Bounds) -> Json:
-    """Patches, goals and the shape of the robot."""
+    """Patches, goals, the shape of the robot and where its weight is."""
+    weight = carried_weight(task)
     return {
         "unit": length_unit(task),
         "forbidden": [[round_all(corner) for corner in patch] for patch in task.world.patches],
+        "blocks": [
+            {"corners": [round_all(corner) for corner in block.corners], "colour": block_colour(block.height)}
+            for block in task.world.blocks
+        ],
         "goals": [
             {
                 "corners": [round_all(c) for c in corners],
@@ -35,7 +41,8 @@ def walker_world(task: WalkerTask, bounds: Bounds) -> Json:
         "joints": task.robot.attachments().tolist(),
         "feet": task.robot.feet().tolist(),
         "foot": foot_radius(task, bounds),
-        "share": task.robot.share_delta,
+        "share": weight.share.tolist(),
+        "load": weight.load.tolist(),
     }
 
 
@@ -64,7 +71,8 @@ SCRIPT: Final = r"""function robot({ g, s, X, Y, k, H, path, text }) {
     g.beginPath(); g.arc(X(p[0]), Y(p[1]), D.foot * k * (1 + D.rise * lift[f]), 0, 7); g.fillStyle = "#fff"; g.fill();
     g.globalAlpha = 1 - lift[f]; g.fillStyle = D.colours[f]; g.fill(); g.globalAlpha = 1; g.strokeStyle = D.colours[f]; g.lineWidth = 2.2; g.stroke();
   }
-  const x = X(D.share * o[0][0] + (1 - D.share) * o[1][0]), y = Y(D.share * o[0][1] + (1 - D.share) * o[1][1]);
+  const c = Math.cos(s.angles[0]), q = Math.sin(s.angles[0]), mass = k => D.share[0] * o[0][k] + D.share[1] * o[1][k];
+  const x = X(mass(0) + c * D.load[0] - q * D.load[1]), y = Y(mass(1) + q * D.load[0] + c * D.load[1]);
   g.beginPath(); g.arc(x, y, 6, 0, 7); g.fillStyle = "#fff"; g.fill(); g.strokeStyle = "#22303c"; g.lineWidth = 1.8; g.stroke();
   g.beginPath(); g.moveTo(x - 6, y); g.lineTo(x + 6, y); g.moveTo(x, y - 6); g.lineTo(x, y + 6); g.stroke();
   g.font = "11px system-ui, sans-serif"; g.textBaseline = "middle"; g.textAlign = "left";

@@ -1,4 +1,4 @@
-"""A field: flat, level ground with patches on which no foot may stand."""
+"""A field: level ground with patches on which no foot may stand, and with blocks: level parts that are higher or lower."""
 
 from typing import Final
 
@@ -13,6 +13,16 @@ SCHEMA: Final = "clamber-field-1"
 
 
 @spec
+class Block:
+    """A level part of the ground with sharp edges."""
+
+    corners: Polygon
+    """Of a simple polygon [m]."""
+    height: float
+    """Of its top [m]; negative in a hollow."""
+
+
+@spec
 class PatchField:
     """Ground seen from above, in SI units; world frame: x to the right, y up on the page."""
 
@@ -20,6 +30,8 @@ class PatchField:
     title: str
     patches: tuple[Polygon, ...] = ()
     """Corners of simple polygons on which no foot may stand [m]."""
+    blocks: tuple[Block, ...] = ()
+    """Where they overlap, the last one counts."""
 
 
 @spec
@@ -46,6 +58,14 @@ class BoxSpec:
 
 
 @spec
+class BlockSpec(BoxSpec):
+    """A block with sides along the axes."""
+
+    height: Length
+    """[m]."""
+
+
+@spec
 class FieldSpec:
     """What a field file says."""
 
@@ -55,6 +75,8 @@ class FieldSpec:
     """Where the places of the patches come from."""
     boxes: tuple[BoxSpec, ...] = ()
     polygons: tuple[Polygon, ...] = ()
+    blocks: tuple[BlockSpec, ...] = ()
+    """Level parts of the ground that are higher or lower; where they overlap, the last one counts."""
 
 
 def build_field(document: Document) -> PatchField:
@@ -65,11 +87,13 @@ def build_field(document: Document) -> PatchField:
     """
     check_schema(document, SCHEMA)
     stated = build_spec(FieldSpec, document, without=("schema",))
-    for index, box in enumerate(stated.boxes):
-        for low, high in (("x_min", "x_max"), ("y_min", "y_max")):
-            if not getattr(box, low) < getattr(box, high):
-                raise document.problem(f"boxes.{index}.{low}", f"must be less than {high}")
+    for key, boxes in (("boxes", stated.boxes), ("blocks", stated.blocks)):
+        for index, box in enumerate(boxes):
+            for low, high in (("x_min", "x_max"), ("y_min", "y_max")):
+                if not getattr(box, low) < getattr(box, high):
+                    raise document.problem(f"{key}.{index}.{low}", f"must be less than {high}")
     for index, polygon in enumerate(stated.polygons):
         check_polygon(polygon, document, f"polygons.{index}")
     patches = (*(box.corners() for box in stated.boxes), *stated.polygons)
-    return PatchField(name=stated.name, title=stated.title, patches=patches)
+    blocks = tuple(Block(corners=block.corners(), height=block.height) for block in stated.blocks)
+    return PatchField(name=stated.name, title=stated.title, patches=patches, blocks=blocks)

@@ -1,4 +1,4 @@
-"""Boards and fields by name or path."""
+"""Boards, fields and grounds by name or path."""
 
 from pathlib import Path
 from typing import Final
@@ -9,6 +9,8 @@ from .board import Board, build_board
 from .csv_board import read_csv_board
 from .field import SCHEMA as FIELD_SCHEMA
 from .field import PatchField, build_field
+from .ground import SCHEMA as GROUND_SCHEMA
+from .ground import Ground, build_ground
 
 DATA: Final = Path(__file__).parent / "data"
 
@@ -21,6 +23,11 @@ def board_names() -> tuple[str, ...]:
 def patch_field_names() -> tuple[str, ...]:
     """Names of the fields that come with Clamber."""
     return _names_of(FIELD_SCHEMA)
+
+
+def ground_names() -> tuple[str, ...]:
+    """Names of the grounds that come with Clamber."""
+    return _names_of(GROUND_SCHEMA)
 
 
 def _names_of(schema: str) -> tuple[str, ...]:
@@ -63,3 +70,20 @@ def load_field(name_or_path: str) -> PatchField:
         SpecError: If the file says something that cannot be used.
     """
     return build_field(read_field(name_or_path))
+
+
+def read_ground(name_or_path: str, folder: Path | None = None) -> Document:
+    """The document of a ground, shipped or the user's own (a path, relative to `folder`)."""
+    path, label = find_data("ground", name_or_path, DATA, folder)
+    return read_toml(path, label)
+
+
+def load_ground(name_or_path: str) -> Ground:
+    """A ground by its shipped name, such as "slope", or from the user's TOML file.
+
+    Raises:
+        UnknownNameError: If no shipped ground has that name.
+        FileError: If the file cannot be read.
+        SpecError: If the file says something that cannot be used.
+    """
+    return build_ground(read_ground(name_or_path))

@@ -34,6 +34,13 @@ def test_success_times_and_causes_are_counted() -> None:
     json.dumps(told.to_json(), allow_nan=False)
 
 
+def test_hooks_that_were_brought_back_are_counted_with_what_became_of_their_climbs() -> None:
+    ended = [climb(0), climb(1, recovered=2), climb(2, recovered=1, done=False), climb(3, recovered=1)]
+    told = sum_up(Trials(setup_of(*UP), 4, ended))
+    assert (told.recovered, told.recovering, told.saved) == (4, 3, 2)
+    assert [told.to_json()[key] for key in ("recovered", "recovering", "saved")] == [4, 3, 2]
+
+
 def test_without_a_success_or_a_way_there_are_no_times() -> None:
     none = sum_up(Trials(setup_of(300), 2, [climb(0, done=False)]))
     assert (none.seconds, none.per_rung, none.speed) == (None, None, None)

@@ -170,6 +170,20 @@ class Approaches:
                 return shift
         return None
 
+    def bends(self, i: int, side: float, pose: Floats, tip: Floats, back: Floats, shift: Floats) -> bool:
+        """Whether a limb that draws its hook back while the body moves, both in step, keeps its elbow well bent and its joints in limits.
+
+        Args:
+            i: Index of the limb.
+            side: Of its elbow, +1 or -1.
+            pose: Body pose, shape (3,).
+            tip: Of the limb, on its hold, world frame [m].
+            back: How far it draws back, world frame, shape (2,) [m].
+            shift: Move of the body, shape (2,) [m].
+        """
+        limb, move = self.robot.limbs[i], np.array((*shift, 0.0))
+        return all(_bent(limb, pose + part * move, tip + part * back, side) for part in np.linspace(0.0, 1.0, 9))
+
     def _room(self, i: int, angles: Floats, discs: Floats) -> float:
         return float(clearance(self.legs[i], angles[0], angles[1], discs, self.wall, self.robot.link_radius, HOOK))
 

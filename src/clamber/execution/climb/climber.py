@@ -63,7 +63,7 @@ class Climber:
         board: Its holds, as the map says.
         plant: What moves.
         gains: Of body and limbs.
-        map_error: Largest error of a hold's place in the map, each way along each axis [m].
+        map_error: Largest error of a hold's place in the map, each way along each axis [m]; what sensors and play add is reckoned apart.
         backlash: Whole play of a joint that is reckoned with at first [rad]; None: that of the robot's file.
     """
 
@@ -74,7 +74,7 @@ class Climber:
         plant: BodyPlant,
         *,
         gains: BodyGains = BodyGains(),  # noqa: B008  # frozen
-        map_error: float = 0.004,
+        map_error: float = 0.0,
         backlash: float | None = None,
     ) -> None:
         self.robot, self.plant, self.map_error = robot, plant, map_error

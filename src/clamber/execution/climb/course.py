@@ -13,12 +13,16 @@ from ...errors import ClamberError
 from ...tasks.library import change_task
 from ...tasks.limbed import LimbedTask
 from ...types import Floats, Ints, Records
+from .bearing import borne
 from .elbows import choose_elbows
 
 PARTS: Final = ("robot", "board")
 """Of a task, what a plan is bound to."""
 HANGING: Final = 1e-9
 """A body that turns by more than this in an action which is no turn swings to hang [rad]."""
+
+WEAKER: Final = 3.0
+"""By how much the worst of carrying limbs may be worse off with an elbow on the other side [N]."""
 
 
 class PlanRefusedError(ClamberError):
@@ -74,9 +78,19 @@ class Course:
         return range(step, end)
 
     def serves(self, i: int, step: int, elbow: int) -> bool:
-        """Whether a limb that takes a hold at a step could keep its elbow on a side (+1, -1) until it leaves, by the plan's checks."""
+        """Whether a limb that takes a hold at a step could keep its elbow on a side (+1, -1) until it leaves.
+
+        By the plan's checks, and by what hooks and motors bear: a hook that is taken from the wrong side may pull up where it is to carry.
+        """
         bit = 1 if elbow > 0 else 2
-        return all(int(self.stances[k]["open"][i]) & bit for k in self.stays(i, step))
+        return all(int(self.stances[k]["open"][i]) & bit and self._bears(i, k, elbow) for k in self.stays(i, step))
+
+    def _bears(self, i: int, step: int, elbow: int) -> bool:
+        """Whether carriers would hold after a step, hardly worse than as chosen, with one limb's elbow on a side."""
+        robot, places, chosen = self.task.robot, self.task.world.positions(), self.elbows[step]
+        other = np.where(np.arange(len(chosen)) == i, elbow, chosen)
+        least = min(0.0, borne(robot, places, self.stances[step], chosen)) - WEAKER
+        return borne(robot, places, self.stances[step], other) >= least
 
     def groups(self) -> list[tuple[int, int]]:
         """First and last step, from 1, of what is carried out in one go: like moves of the body in a row, else one action."""

@@ -29,7 +29,7 @@ def release_gripper(climber: Climber, i: int) -> None:
     task.hold, task.doing, task.angles = 0, "joints", climber.body.q[i].copy()
 
 
-def grab_with_gripper(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
+def grab_with_gripper(climber: Climber, i: int, number: int, *, elbow: int = 0, home: Floats | None = None) -> Grabbed:
     """Bring a limb to a hold and close its jaws; try again beside where they close on nothing.
 
     Args:
@@ -37,6 +37,7 @@ def grab_with_gripper(climber: Climber, i: int, number: int, *, elbow: int = 0) 
         i: Index of the limb.
         number: Of the hold.
         elbow: Side of the elbow to hold with: +1, -1, or 0 for the jaws most on top.
+        home: Pose to which the body goes where there is no way from where it is, before it makes room; None: it is there.
 
     Raises:
         FallenError: If the robot falls.
@@ -49,6 +50,9 @@ def grab_with_gripper(climber: Climber, i: int, number: int, *, elbow: int = 0) 
     climber.grips[i] = 0
     hold = climber.holds[number]
     found = way_in(climber, i, hold, elbow)
+    if home is not None and (found is None or found.shift.any()):
+        move_body(climber, home)
+        found = way_in(climber, i, hold, elbow)
     if found is not None and found.shift.any():
         move_body(climber, body.aim + np.array((*found.shift, 0.0)))
         found = way_in(climber, i, hold, elbow) or found

@@ -18,13 +18,21 @@ WIDEST: Final = 0.25
 TRACKING: Final = 40.0
 """Of the observer of the swing [rad/s]."""
 OVER: Final = math.radians(100.0)
-"""A centre of gravity that is farther than this from straight below does not hang on anything [rad]."""
+"""A centre of gravity that is farther than this from straight below does not hang on anything [rad] ..."""
+STEEP: Final = math.radians(75.0)
+"""From higher up than this nothing is damped: what stays there leans on holds, and joints that move would thrust it off [rad]."""
+OVER_FOR: Final = 0.12
+"""... for longer than this: one that begins to fall from there may still come to hang [s]."""
 SPEED: Final = 0.05
 """With which the body rises and sinks [m/s]."""
 TURN: Final = 0.25
 """[rad/s]."""
 JOINT_SPEED: Final = 0.8
 """Most of the holding limb's joints, but for the damping [rad/s]."""
+FOLD_SPEED: Final = 0.4
+"""Of the holding limb's joints where they are led: slower than the swing [rad/s]."""
+LEANING: Final = math.radians(12.0)
+"""A body that is led slowly and comes this much farther from hanging straight leans on something: holds, with its links [rad]."""
 CALM: Final = math.radians(1.0)
 """Amplitude below which a swing no longer matters [rad]."""
 PATIENCE: Final = 12.0
@@ -60,6 +68,10 @@ class Hang:
         """[rad/s]."""
         self.aside = 0.0
         """u [rad]."""
+        self._over = 0.0
+        """How long the centre of gravity has been too far up [s]."""
+        self._led = False
+        """Whether a motion leads the joints, rather than depth and angle."""
         limb = climber.robot.limbs[i]
         self._lower = np.array((limb.shoulder.lower, limb.elbow.lower))
         self._upper = np.array((limb.shoulder.upper, limb.elbow.upper))
@@ -91,16 +103,18 @@ class Hang:
         """
         body, period = self.climber.body, self.climber.plant.period
         seen = self.pendulum.swing(body.q, float(body.pose[2]))
-        if abs(seen) > OVER:
+        self._over = self._over + period if abs(seen) > OVER else 0.0
+        if self._over > OVER_FOR:
             raise FallenError(f"the body hangs {np.degrees(seen):.0f} deg from straight below its hold")
         off = seen - self.phi
         self.phi += period * (self.speed + 2.0 * TRACKING * off)
         self.speed += period * TRACKING**2 * off
         pushing = any(task.doing == "pull" for task in body.tasks)  # against a hold the body is no pendulum
-        wished = 0.0 if pushing else float(np.clip(self._gain * self.speed, -WIDEST, WIDEST))
+        wished = 0.0 if pushing or abs(seen) > STEEP else float(np.clip(self._gain * self.speed, -WIDEST, WIDEST))
         rate = -self.omega / LAG * (wished + self.aside)
         self.aside += period * rate
-        self._follow()
+        if not self._led:
+            self._follow()
         self._set(rate)
 
     def _follow(self) -> None:
@@ -130,6 +144,35 @@ class Hang:
             self.wish = start + u * u * (3 - 2 * u) * change
             self.climber.tick()
         self.tune()
+
+    def fold(self, angles: Floats) -> bool:
+        """Bring the holding limb's joints straight to angles, shape (2,) [rad]; the body goes where that and its weight take it.
+
+        Returns:
+            Whether it came there; a body that comes to lean on something on the way is left as it is.
+        """
+        leaning = abs(self.phi) + LEANING
+        start, period = self.angles.copy(), self.climber.plant.period
+        change = angles - start
+        count = max(1, round(1.5 * float(np.abs(change).max()) / FOLD_SPEED / period))
+        self._led = True
+        try:
+            for k in range(1, count + 1):
+                u = k / count
+                self.angles = start + u * u * (3 - 2 * u) * change
+                self.rates = 6 * u * (1 - u) * change / (count * period)
+                self.climber.tick()
+                if abs(self.phi) > leaning:
+                    break
+        finally:
+            self._led = False
+            self.rates = np.zeros(2)
+        q = self.climber.body.q.copy()
+        q[self.i] = self.angles
+        pose = self.pendulum.pose(q, self.climber.body.tasks[self.i].place)
+        self.wish[:] = float(self.climber.body.tasks[self.i].place[1] - pose[1]), pose[2]
+        self.tune()
+        return abs(self.phi) <= leaning
 
     def calm(self, seconds: float = PATIENCE) -> bool:
         """Wait until the body hardly swings, for a whole period of it; whether it does."""

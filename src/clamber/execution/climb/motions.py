@@ -45,11 +45,11 @@ TUG: Final = 10.0
 LIFT: Final = (0.001, 0.003)
 """A push that lifts the body this far weakens, to a third at the second: it bears already, and other hooks would come off [m]."""
 SLIDING: Final = (0.003, 0.006)
-"""A push under which the tips of holding limbs come apart this far weakens, to nothing at the second: a hook is coming off [m]."""
-WEAK: Final = 0.25
-"""A push weakened to less than this part says nothing of a hook that has stopped [-]."""
+"""So does one under which the tips of holding limbs come apart this far: a hook is coming off, unless joints cross their play [m]."""
 TUG_RISE: Final = 0.1
 """In which the tug grows to its full size [s]."""
+BORNE_TIME: Final = 0.05
+"""Over which what a push meets is smoothed [s]."""
 DITHER: Final = 8.0
 """Pull across, to and fro, so that friction lets the hook slide in [N]."""
 DITHER_RATE: Final = 5.0
@@ -86,14 +86,24 @@ WEAKER: Final = 3.0
 """By how much the worst of the holding limbs may be worse off where the body makes room for a grab [N]."""
 MOST_SHIFTS: Final = 2
 """That often the body makes room for one way: its limbs are elsewhere after the first [-]."""
+ASTRAY: Final = 0.05
+"""A body may be as far from where a plan has it when a limb takes a hold, if the others hold no worse there [m], [rad]."""
 SLACK: Final = 0.004
 """Beyond its doubt, how far a seated hook may be from where it should be: play and backlash [m]."""
 
 
-def move_body(climber: Climber, pose: Floats) -> None:
-    """Bring the body to a pose (x, y, theta) along a straight smooth way; free limbs first go to where they meet no hold on it."""
+def move_body(climber: Climber, pose: Floats, *, drawn: tuple[int, Floats, Floats] | None = None) -> None:
+    """Bring the body to a pose (x, y, theta) along a straight smooth way; free limbs first go to where they meet no hold on it.
+
+    Args:
+        climber: The robot.
+        pose: Shape (3,).
+        drawn: A limb whose tip goes straight in the world in step with the body, where from, and its way, both shape (2,) [m].
+    """
     clear_the_way(climber, pose)
     body, period = climber.body, climber.plant.period
+    if drawn is not None:
+        body.tasks[drawn[0]].doing = "tip"
     speed = SLOW if any(task.doing == "cling" for task in body.tasks) else BODY_SPEED
     start = body.aim.copy()
     change = pose - start
@@ -107,8 +117,13 @@ def move_body(climber: Climber, pose: Floats) -> None:
         done, rate = eased(k / count * (length + rise), length, rise)
         body.aim[:] = start + done / length * change
         body.aim_speed[:] = rate / length * change
+        if drawn is not None:
+            i, start_tip, way = drawn
+            body.tasks[i].place, body.tasks[i].speed = start_tip + done / length * way, rate / length * way
         climber.tick()
     body.aim_speed[:] = 0.0
+    if drawn is not None:
+        body.tasks[drawn[0]].speed = np.zeros(2)
 
 
 def eased(t: float, length: float, rise: float) -> tuple[float, float]:
@@ -199,13 +214,11 @@ def release(climber: Climber, i: int) -> None:
     climber.carry_with_all(but=i)
     body, task = climber.body, climber.body.tasks[i]
     away = stand_off_of(climber, i, climber.map.error(task.hold)) + AWAY
-    _make_room_to_leave(climber, i, away)
-    start, g = body.tip(i), body.grab_direction(i)
+    start, g = _draw_back(climber, i, away)
 
     def clear() -> bool:
         return float((start - body.tip(i)) @ g) > away - AWAY
 
-    move_tip(climber, i, start - away * g, 0.35)
     for _ in range(round(LEAVING / climber.plant.period)):
         if clear():
             break
@@ -249,16 +262,39 @@ def _lean_on_the_others(climber: Climber, i: int) -> None:
         move_body(climber, body.aim + np.array((*SHIFTS[best], 0.0)))
 
 
-def _make_room_to_leave(climber: Climber, i: int, away: float) -> None:
-    """Move the body to where a limb that reaches no farther can draw its hook back."""
-    if climber.hangs:
-        return
+def _draw_back(climber: Climber, i: int, away: float) -> tuple[Floats, Floats]:
+    """Draw a hook straight back off its hold by a distance [m], the body moved to where the limb can if it reaches no farther.
+
+    The body moves at the same time where the elbow stays well bent on all of the way, before it otherwise.
+
+    Returns:
+        The tip's place and the grab direction from which it was drawn back.
+    """
     body = climber.body
+    start, g = body.tip(i), body.grab_direction(i)
+    shift, in_step = _room_to_leave(climber, i, start, -away * g)
+    pose = body.aim + np.array((*shift, 0.0))
+    if in_step:
+        move_body(climber, pose, drawn=(i, start, -away * g))
+        return start, g
+    if shift.any():
+        move_body(climber, pose)
+        start, g = body.tip(i), body.grab_direction(i)
+    move_tip(climber, i, start - away * g, 0.35)
+    return start, g
+
+
+def _room_to_leave(climber: Climber, i: int, start: Floats, back: Floats) -> tuple[Floats, bool]:
+    """How the body moves so that a limb can draw its hook back, shape (2,) [m], and whether both may move in step."""
+    if climber.hangs:
+        return np.zeros(2), False
+    body, ways = climber.body, climber.approaches
     climber.plant.pause()
-    side, back = float(np.sign(body.q[i, 1] - body.play[i, 1])), -away * body.grab_direction(i)
-    shift = climber.approaches.leave(i, side, body.settled, body.tip(i), back, climber.holds, stands=_stands(climber))
-    if shift is not None and shift.any():
-        move_body(climber, body.aim + np.array((*shift, 0.0)))
+    side = float(np.sign(body.q[i, 1] - body.play[i, 1]))
+    shift = ways.leave(i, side, body.settled, start, back, climber.holds, stands=_stands(climber))
+    if shift is None or not shift.any():
+        return np.zeros(2), False
+    return shift, ways.bends(i, side, body.settled, start, back, shift)
 
 
 def _stands(climber: Climber) -> Callable[[Floats], bool]:
@@ -268,7 +304,7 @@ def _stands(climber: Climber) -> Callable[[Floats], bool]:
     return lambda pose: body.stands(pose) >= least
 
 
-def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
+def grab(climber: Climber, i: int, number: int, *, elbow: int = 0, home: Floats | None = None) -> Grabbed:
     """Bring a limb to a hold and hook on: off the old one, round to the new, push until it stops, tug; try again beside where it misses.
 
     Args:
@@ -276,6 +312,7 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
         i: Index of the limb.
         number: Of the hold.
         elbow: Side of the elbow to hold with: +1, -1, or 0 for the hook most on top.
+        home: Pose to which the body goes where there is no way from where it is, before it makes room; None: it is there.
 
     Raises:
         FallenError: If the robot falls.
@@ -290,7 +327,7 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
     doubt = climber.doubt(number, i)
     hold = climber.holds[number].copy()
     wished, near, room = stand_off_of(climber, i, doubt), NEAR + doubt, SLACK + doubt
-    found = _come_near(climber, i, hold, elbow, wished, near)
+    found = _come_near(climber, i, hold, elbow, home, wished, near)
     if found is None:
         return Grabbed(False, 0, 0.0, 0.0)
     follow(climber, i, found.way)
@@ -306,7 +343,7 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
         stopped = _push(climber, i, hold + aside * h, g, room)
         off = body.tip(i) - hold
         along, across = float(off @ g), float(off @ h)
-        if stopped and along > -room and abs(across) < room:
+        if stopped and math.hypot(along, across) < room:
             climber.learn(number, i, climber.holding())
             climber.latest = i
             task.doing, task.hold, task.place = "cling", number, climber.holds[number].copy()
@@ -317,19 +354,39 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0) -> Grabbed:
     return Grabbed(False, len(ASIDE), along, across)
 
 
-def _come_near(climber: Climber, i: int, hold: Floats, elbow: int, wished: float, near: float) -> Approach | None:
+def _come_near(
+    climber: Climber, i: int, hold: Floats, elbow: int, home: Floats | None, wished: float, near: float
+) -> Approach | None:
     """Move the body to where there is a way for a limb, and find the way from there; None where there is none."""
     body = climber.body
-    for left in reversed(range(MOST_SHIFTS + 1)):
+
+    def way(stands: Callable[[Floats], bool]) -> Approach | None:
         climber.plant.pause()
-        found = climber.approaches.find(
+        return climber.approaches.find(
             i, body.q[i] - body.play[i], body.settled, hold, climber.holds, elbow=elbow, stand_off=wished, near=near,
-            stands=_stands(climber) if left and not climber.hangs else _stays,
+            stands=stands,
         )  # fmt: skip
+
+    if home is not None:
+        found = way(_stays)
+        if found is not None:
+            return found
+        move_body(climber, home)
+    for left in reversed(range(MOST_SHIFTS + 1)):
+        found = way(_stands(climber) if left and not climber.hangs else _stays)
         if found is None or not found.shift.any():
             return found
         move_body(climber, body.aim + np.array((*found.shift, 0.0)))
     return None
+
+
+def may_stay(climber: Climber, i: int, pose: Floats) -> bool:
+    """Whether limb `i` may take a hold from where the body is, near another pose: the limbs that then carry hold no worse here."""
+    body = climber.body
+    if climber.hangs or float(np.abs(pose - body.aim).max()) > ASTRAY:
+        return False
+    others = [j for j, task in enumerate(body.tasks) if j != i and task.hold]
+    return body.stands(body.aim, others) >= min(0.0, body.stands(pose, others))
 
 
 def _stays(pose: Floats) -> bool:
@@ -347,22 +404,21 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bo
     body, task, period = climber.body, climber.body.tasks[i], climber.plant.period
     # believed to press from the start: in free air the tip is then farther in than believed, never less far
     task.doing, task.pressed, task.tug = "pull", True, np.zeros(2)
-    stage, still, tugged, phase = "push", 0.0, 0.0, 0.0
+    stage, still, tugged, phase, borne = "push", 0.0, 0.0, 0.0, 0.0
     seated, marks = False, np.full(2, -np.inf)
-    rested = body.pose[:2].copy()
-    first, last = climber.holding()[0], climber.holding()[-1]
-    apart = body.tip(first) - body.tip(last)
+    rested, apart = body.pose[:2].copy(), _apart(climber)
     part = HANGING if climber.hangs else 1.0
     for _ in range(round(PATIENCE / period)):
         along = body.grab_direction(i)
         across = np.array((-along[1], along[0]))
         size = PUSH + (TUG - PUSH) * min(tugged / TUG_RISE, 1.0)
         lifted = float((rested - body.pose[:2]) @ g)
-        slid = math.dist(body.tip(first) - body.tip(last), apart)
         if stage == "push":
             free = float((place - body.tip(i)) @ g) - room
             size += float(np.interp(free, (0.0, FREE), (0.0, HASTE)))
-        size *= part * np.interp(lifted, LIFT, (1.0, 1 / 3)) * np.interp(slid, SLIDING, (1.0, 0.0))
+        # a joint that crosses its play, or is wrongly believed to, is seen in one of both; a hook that slides, in both
+        slid = float(np.linalg.norm(_apart(climber) - apart, axis=1).min())
+        size *= part * min(np.interp(lifted, LIFT, (1.0, 1 / 3)), np.interp(slid, SLIDING, (1.0, 1 / 3)))
         strength, rate = (WIDE_DITHER, WIDE_RATE) if stage == "coax" else (DITHER, DITHER_RATE)
         phase += 2 * np.pi * rate * period
         side = part * strength * np.sin(phase)
@@ -370,17 +426,21 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bo
             side += CENTRING * float(across @ (place - body.tip(i)))
         else:
             tugged += period
-            task.tug = size * along
+        # what does not go into motion is borne by what the hook meets, and the other limbs carry that much less
+        borne += (
+            period / BORNE_TIME * (min(max(size - task.damping * float(body.tip_speed(i) @ along), 0.0), size) - borne)
+        )
+        task.tug = borne * along
         task.force = size * along + side * across
         climber.tick()
         # the play is crossed without a motor that turns, and the belief about it lags: both must have come to rest
         reached = np.array((body.felt_tip(i) @ g, body.tip(i) @ g))
         advanced = reached > marks + ADVANCE
         marks = np.where(advanced, reached, marks)
-        # what does not pull does not seat
-        still = 0.0 if advanced.any() or size < WEAK * part * PUSH else still + period
+        still = 0.0 if advanced.any() else still + period
         ahead = float((place - body.tip(i)) @ g)
-        if ahead < -room:
+        # the belief about the play may be out for a while, the encoders know nothing of it: beyond by both is beyond
+        if max(ahead, float((place - body.felt_tip(i)) @ g)) < -room:
             break
         if stage == "push" and still > STOPPED:
             stage, still = "coax" if ahead > SHORT else "tug", 0.0
@@ -391,3 +451,9 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bo
             break
     task.pressed, task.tug = False, np.zeros(2)
     return seated
+
+
+def _apart(climber: Climber) -> Floats:
+    """One holding tip less another by the encoders alone, and with the play counted, world frame, shape (2, 2) [m]."""
+    body, i, j = climber.body, climber.holding()[0], climber.holding()[-1]
+    return np.array((body.felt_tip(i) - body.felt_tip(j), body.tip(i) - body.tip(j)))

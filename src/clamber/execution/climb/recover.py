@@ -21,8 +21,18 @@ RESTING: Final = 0.3
 """Before the lost hold is taken again [s]."""
 AT_HOLD: Final = 0.035
 """A hook that is pushed on and is nearer to its hold takes the load, whether it is seated or not [m]."""
+CLOSE: Final = 0.02
+"""One that bears already is that near: a tip farther off leans on its hold from outside [m]."""
+SNATCH: Final = 15.0
+"""Pull of a free hook along its grab direction, and at most as much towards its hold, while the body begins to swing [N]."""
+SNATCHING: Final = 0.6
+"""For so long [s]."""
+CAUGHT: Final = 8.0
+"""A hook that feels more than this against its hold has caught it [N] ..."""
+FIRMLY: Final = 0.04
+"""... where it does so for this long [s]."""
 TOUCHES: Final = 3.0
-"""A limb that feels more than this there has caught it [N]."""
+"""A hook that feels more than this there, along its grab direction, has caught it [N]."""
 MOST_SLIPS: Final = 4
 """Hooks that may come off, one after the other, until the robot counts as fallen."""
 PITCH: Final = math.radians(10.0)
@@ -33,6 +43,8 @@ ON_TOP: Final = 0.4
 """A hook that pulls less downwards might come off again [-]."""
 STRAIGHT: Final = math.radians(12.0)
 """A limb whose elbow is straighter is at the end of its reach [rad]."""
+PARTS: Final = (0.25, 0.5, 0.75)
+"""Of a way of the joints, where its hook is looked at [-]."""
 WAYS: Final = 6
 """Most pairs of a limb and a hold that are tried from a hang."""
 
@@ -77,7 +89,7 @@ def catch(climber: Climber, lost: int) -> Hang | None:
     """
     body = climber.body
     for i, task in enumerate(body.tasks):
-        if i == lost or (task.doing not in ONWARDS and not (task.doing == "pull" and _hook_on(climber, i))):
+        if i == lost or (task.doing not in ONWARDS and not (task.doing == "pull" and _hook_on(climber, i, AT_HOLD))):
             task.hold, task.doing, task.angles, task.rates = 0, "joints", body.q[i].copy(), np.zeros(2)
     on = [i for i, task in enumerate(body.tasks) if task.hold]
     if not on:
@@ -86,10 +98,11 @@ def catch(climber: Climber, lost: int) -> Hang | None:
     climber.slip.reset()
     if len(on) == 1:
         hang = Hang(climber, on[0])
-        hang.calm()
+        if not _snatch(climber, hang, lost):
+            hang.calm()
         for i in range(body.n):
-            if i != on[0] and math.hypot(*climber.fall.forces[i]) > TOUCHES:
-                _hook_on(climber, i)
+            if i != on[0] and _pull_of(climber, i) > TOUCHES:
+                _hook_on(climber, i, CLOSE)
         if not any(task.doing == "cling" for task in body.tasks):
             return hang
         climber.balance = None
@@ -106,16 +119,65 @@ def catch(climber: Climber, lost: int) -> Hang | None:
     return None
 
 
-def _hook_on(climber: Climber, i: int) -> bool:
-    """Let a limb whose hook is where a free hold is count as on it: it may be, and nothing is lost if not."""
-    task, tip = climber.body.tasks[i], climber.body.tip(i)
-    taken = {one.hold for one in climber.body.tasks}
+def _snatch(climber: Climber, hang: Hang, lost: int) -> bool:
+    """While the body begins to swing, draw free hooks that are at a hold onto it, but for the lost one; whether one has caught."""
+    body, near = climber.body, {}
+    for i, task in enumerate(body.tasks):
+        hold = 0 if task.hold or i == lost else _free_hold(climber, i, AT_HOLD)
+        if hold:
+            near[i] = climber.holds[hold]
+    if not near:
+        return False
+
+    def draw() -> None:
+        hang.balance()
+        for i, place in near.items():
+            along, lack = body.grab_direction(i), place - body.tip(i)
+            size = float(np.hypot(*lack))
+            body.tasks[i].force = SNATCH * along + lack * (SNATCH / max(size, AT_HOLD))
+
+    for i in near:
+        body.tasks[i].doing, body.tasks[i].pressed = "pull", True
+    climber.balance = draw
+    felt = dict.fromkeys(near, 0.0)
+    caught = False
+    for _ in range(round(SNATCHING / climber.plant.period)):
+        climber.tick()
+        for i in near:
+            bears = _pull_of(climber, i) > CAUGHT and _free_hold(climber, i, CLOSE) > 0
+            felt[i] = felt[i] + climber.plant.period if bears else 0.0
+        caught = max(felt.values()) > FIRMLY
+        if caught:
+            break
+    climber.balance = hang.balance
+    for i in near:
+        task = body.tasks[i]
+        task.pressed, task.tug = False, np.zeros(2)
+        task.doing, task.angles, task.rates = "joints", body.q[i].copy(), np.zeros(2)
+    return caught
+
+
+def _pull_of(climber: Climber, i: int) -> float:
+    """With what limb `i` feels its hook pull along its grab direction [N]; nothing where it cannot tell."""
+    pull = float(climber.fall.forces[i] @ climber.body.grab_direction(i))
+    return pull if math.isfinite(pull) else 0.0
+
+
+def _free_hold(climber: Climber, i: int, within: float) -> int:
+    """Number of the free hold that limb `i`'s hook is at, so near [m]; 0 where there is none."""
+    tip, taken = climber.body.tip(i), {one.hold for one in climber.body.tasks}
     near = min(
         (number for number in climber.holds if number not in taken),
         key=lambda number: math.dist(climber.holds[number], tip),
         default=0,
     )
-    if not near or math.dist(climber.holds[near], tip) > AT_HOLD:
+    return near if near and math.dist(climber.holds[near], tip) < within else 0
+
+
+def _hook_on(climber: Climber, i: int, within: float) -> bool:
+    """Let a limb whose hook is where a free hold is count as on it: it may be, and nothing is lost if not."""
+    near, task = _free_hold(climber, i, within), climber.body.tasks[i]
+    if not near:
         return False
     task.hold, task.place, task.doing = near, climber.holds[near].copy(), "cling"
     task.pressed, task.tug = False, np.zeros(2)
@@ -125,7 +187,7 @@ def _hook_on(climber: Climber, i: int) -> bool:
 def _restore(
     climber: Climber, hang: Hang | None, wanted: Mapping[int, int], pose: Floats, elbows: Mapping[int, int]
 ) -> str:
-    if hang is not None and not _grab_from_hang(hang, wanted, pose, elbows):
+    if hang is not None and not _grab_from_hang(hang, wanted, elbows):
         return "a hook has come off, the body hangs on one limb, and the others reach no hold"
     tasks = climber.body.tasks
     for moves in range(2):
@@ -146,10 +208,10 @@ def _restore(
     return ""
 
 
-def _grab_from_hang(hang: Hang, wanted: Mapping[int, int], pose: Floats, elbows: Mapping[int, int]) -> bool:
+def _grab_from_hang(hang: Hang, wanted: Mapping[int, int], elbows: Mapping[int, int]) -> bool:
     """Take a hold with a free limb while the body hangs on another; whether it is on, and both carry.
 
-    Holds where limbs belong come first, then those that turn the body least from where it belongs.
+    Holds where limbs belong come first, then those that ask least of the holding limb's joints.
     """
     climber = hang.climber
     tasks = climber.body.tasks
@@ -160,12 +222,16 @@ def _grab_from_hang(hang: Hang, wanted: Mapping[int, int], pose: Floats, elbows:
     for i in free:
         for number in near:
             meant = wanted.get(i) == number
-            place = pose_to_grab(hang, i, number, elbows.get(i, 0) if meant else 0, float(pose[2]))
-            if place is not None:
-                found.append((not meant, abs(math.remainder(place[2] - pose[2], math.tau)), i, number, place))
-    for other, _, i, number, place in sorted(found, key=lambda each: each[:4])[:WAYS]:
+            way = way_to_grab(hang, i, number, elbows.get(i, 0) if meant else 0)
+            if way is not None:
+                angles, place = way
+                found.append((not meant, float(np.abs(angles - hang.angles).max()), i, number, angles, place))
+    for other, _, i, number, angles, place in sorted(found, key=lambda each: each[:4])[:WAYS]:
         clear_the_way(climber, place)
-        hang.bring(place)
+        before = hang.angles.copy()
+        if not hang.fold(angles):
+            hang.fold(before)
+            continue
         hang.calm()
         if grab(climber, i, number, elbow=0 if other else elbows.get(i, 0)).held:
             hang.end()
@@ -173,36 +239,53 @@ def _grab_from_hang(hang: Hang, wanted: Mapping[int, int], pose: Floats, elbows:
     return False
 
 
-def pose_to_grab(hang: Hang, i: int, number: int, elbow: int, angle: float) -> Floats | None:
-    """The pose nearest to an angle in which a body that hangs lets limb `i` take a hold, both hooks well on top.
+def way_to_grab(hang: Hang, i: int, number: int, elbow: int) -> tuple[Floats, Floats] | None:
+    """Where a body that hangs lets limb `i` take a hold, both hooks well on top there, and the one that holds on the way, too.
 
     Args:
         hang: The body.
         i: Index of the limb.
         number: Of the hold.
         elbow: Side of its elbow, +1, -1, or 0 for either.
-        angle: Of the body [rad].
+
+    Returns:
+        The angles of the holding limb's joints that are nearest to where they are, shape (2,) [rad], and the body's pose with them.
     """
     climber, pendulum = hang.climber, hang.pendulum
     body, limb, stay = climber.body, climber.robot.limbs[i], climber.robot.limbs[hang.i]
     hold, own, side = climber.holds[number], body.tasks[hang.i].place, hang.angles[1]
-    best, least = None, math.inf
     q = body.q - body.play
-    for shoulder in np.arange(stay.shoulder.lower, stay.shoulder.upper, PITCH):
-        for elbow_angle in np.arange(stay.elbow.lower, stay.elbow.upper, PITCH):
-            if elbow_angle * side < 0.0 or abs(elbow_angle) < STRAIGHT:
-                continue
-            q[hang.i] = shoulder, elbow_angle
-            pose = pendulum.pose(q, own)
-            turned = abs(math.remainder(pose[2] - angle, math.tau))
-            down = stay.port_angle + pose[2] + shoulder + elbow_angle + stay.end.angle
-            if turned >= least or -math.sin(down) < ON_TOP:
-                continue
-            for one in postures(limb, pose, hold):
-                fit = one.inside and one.on_top > ON_TOP and abs(one.angles[1]) > STRAIGHT
-                if fit and (not elbow or elbow * one.angles[1] > 0.0):
-                    best, least = pose, turned
-    return best
+
+    def hangs_at(angles: Floats) -> tuple[Floats, float]:
+        q[hang.i] = angles
+        pose = pendulum.pose(q, own)
+        down = stay.port_angle + pose[2] + angles[0] + angles[1] + stay.end.angle
+        return pose, -math.sin(down)
+
+    def reaches(pose: Floats) -> bool:
+        return any(
+            one.inside
+            and one.on_top > ON_TOP
+            and abs(one.angles[1]) > STRAIGHT
+            and (not elbow or elbow * one.angles[1] > 0.0)
+            for one in postures(limb, pose, hold)
+        )
+
+    tried = [
+        np.array((shoulder, elbow_angle))
+        for shoulder in np.arange(stay.shoulder.lower, stay.shoulder.upper, PITCH)
+        for elbow_angle in np.arange(stay.elbow.lower, stay.elbow.upper, PITCH)
+        if elbow_angle * side > 0.0 and abs(elbow_angle) >= STRAIGHT
+    ]
+    for angles in sorted(tried, key=lambda one: float(np.abs(one - hang.angles).max())):
+        pose, on_top = hangs_at(angles)
+        if on_top < ON_TOP or not reaches(pose):
+            continue
+        least = min(on_top, hangs_at(hang.angles)[1])
+        between = (hang.angles + u * (angles - hang.angles) for u in PARTS)
+        if all(hangs_at(one)[1] >= least - 1e-9 for one in between):
+            return angles, pose
+    return None
 
 
 def _unwound(climber: Climber, pose: Floats) -> Floats:

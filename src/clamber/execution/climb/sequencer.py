@@ -1,117 +1,30 @@
-"""The sequencer: carries a plan out action by action, tries again where a grab misses, and tells what happened to each."""
+"""The sequencer: carries a plan out action by action, brings slipped hooks back, plans again, and tells what happened to each."""
 
-import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import Final, Literal, TypeAlias
+from typing import Final, TypeAlias
 
 import numpy as np
 
 from ...actions.plan import Plan
 from ...tasks.limbed import LimbedTask
-from ...types import Floats, Json
+from ...types import Floats
 from ..plant import PlantStoppedError
+from .actor import ARRIVED, Actor
+from .climb_report import ActionReport, ClimbReport, Outcome, beyond
 from .climb_trace import TracedClimber
-from .climber import FallenError, Grabbed, SlippedError
-from .course import Course, PlanRefusedError, lay_course, names_of, swings
-from .ends import grab, release
-from .hang import Hang
+from .climber import FallenError, SlippedError
+from .course import Course, PlanRefusedError, lay_course, names_of
 from .here import task_from_here
-from .let_go import let_go
-from .motions import clear_the_way, move_body
 from .recover import recover
 
-Outcome: TypeAlias = Literal["ok", "stalled", "missed", "fell", "interrupted", "stopped", "not supported"]
 Replan: TypeAlias = Callable[[LimbedTask], Plan | None]
 """A plan for a task that starts where the robot is; None where there is none."""
 Progress: TypeAlias = Callable[[int, int, str, float], None]
 """Told before each action: its step, how many there are, the action in words, the time [s]."""
 
-ELSEWHERE: Final = ((0.0, 0.0), (0.0, 0.02), (0.0, -0.02), (0.025, 0.0), (-0.025, 0.0))
-"""Where the body goes for another approach after a miss, from the plan's pose [m]."""
-FARTHER: Final = ((0.0, 0.045), (0.0, -0.045), (0.05, 0.0), (-0.05, 0.0))
-"""Likewise where a limb has found no way from any of these [m]."""
-WORST: Final = -8.0
-"""How badly off the worst of hooks and motors may be where the body goes for that [N]."""
 MOST_REPLANS: Final = 3
 MOST_RECOVERIES: Final = 3
 """Of one action."""
-ARRIVED: Final = 0.02
-"""A body nearer to its aim than this has come to it [m]."""
-TURNED: Final = math.radians(6.0)
-"""Likewise [rad]."""
-SHIFTED: Final = 0.005
-"""A body's aim farther from the plan's pose than this is brought back before a grab [m], [rad]."""
-SETTLING: Final = 1.0
-"""Most time that it gets to come there after its way [s]."""
-PAUSE: Final = 0.1
-"""Between two looks at that [s]."""
-
-
-@dataclass(frozen=True, slots=True)
-class ActionReport:
-    """What happened to an action, or to like moves of the body that were carried out in one go."""
-
-    first: int
-    """Step of the plan, from 1."""
-    last: int
-    kind: str
-    title: str
-    outcome: Outcome
-    start: float
-    """When it began [s]."""
-    seconds: float
-    tries: int
-    """Pushes of the hook of a grab; ways of the body; 1 for the rest."""
-    off: float
-    """Body from its aim at the end, as believed [m]."""
-    body_error: float | None
-    """Body, believed from true, at the end [m]; None where nobody tells."""
-    tip_error: float | None
-    """The same of the tip of the limb that acted [m]."""
-    reason: str = ""
-    recovered: int = 0
-    """Hooks that came off meanwhile and were brought back."""
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {name: getattr(self, name) for name in self.__slots__}
-
-
-@dataclass(slots=True)
-class ClimbReport:
-    """How a plan was carried out."""
-
-    actions: list[ActionReport] = field(default_factory=list)
-    replans: list[Json] = field(default_factory=list)
-    """Where a new plan was made: after which of `actions`, its length, why."""
-    forced: list[str] = field(default_factory=list)
-    """Objections to the plan that were overridden."""
-    done: bool = False
-    """Whether every action of the plan, or of those that took its place, was carried out, and the body came to the goal with it."""
-    seconds: float = 0.0
-    """Simulated, or on the robot's clock."""
-    reason: str = ""
-    """Why it ended, where it is not done."""
-    pose: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    """Body at the end, as believed [m], [rad]."""
-    true_pose: tuple[float, float, float] | None = None
-    short: float = 0.0
-    """By how much the body, truly where that is told, misses the last goal's box [m]."""
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {
-            "done": self.done,
-            "reason": self.reason,
-            "seconds": self.seconds,
-            "pose": list(self.pose),
-            "true_pose": None if self.true_pose is None else list(self.true_pose),
-            "short": self.short,
-            "forced": self.forced,
-            "replans": self.replans,
-            "actions": [action.to_json() for action in self.actions],
-        }
 
 
 class Sequencer:
@@ -139,13 +52,17 @@ class Sequencer:
     ) -> None:
         if course.objections and not force:
             raise course.objections[0]
-        self.climber, self.course = climber, course
+        self.climber = climber
+        self._actor = Actor(climber, course)
         self._replan, self._progress = replan, progress
-        self._missed: set[int] = set()
-        self._hanging: Hang | None = None
         self._recovered = 0
         """In the present action."""
         self.report = ClimbReport(forced=names_of(course.objections))
+
+    @property
+    def course(self) -> Course:
+        """The plan that is carried out now."""
+        return self._actor.course
 
     def start(self) -> None:
         """Put the robot into the plan's first stance.
@@ -174,20 +91,25 @@ class Sequencer:
             report.reason = f"fell: {fall}"
         except PlantStoppedError as stop:
             report.reason = f"stopped: {stop}"
+        self._end()
+        return report
+
+    def _end(self) -> None:
+        """Tell where the climb ended, and call it done only where that is the goal."""
+        report, climber = self.report, self.climber
         report.seconds = climber.time
         report.pose = _tuple(climber.body.settled)
         pose = climber.body.settled
         if climber.truth is not None:
             pose = climber.truth().pose
             report.true_pose = _tuple(pose)
-        report.short = _beyond(self.course.task, pose)
-        planned = _beyond(self.course.task, self.course.pose(len(self.course.actions)))
+        report.short = beyond(self.course.task, pose)
+        planned = beyond(self.course.task, self.course.pose(len(self.course.actions)))
         if report.done and report.short > planned + ARRIVED:
             report.done = False
             report.reason = (
                 f"short: every action was carried out, but the body ends {1e3 * report.short:.0f} mm short of the goal"
             )
-        return report
 
     def _carry_out(self) -> bool:
         """The present course; False where another has taken its place."""
@@ -222,7 +144,7 @@ class Sequencer:
             raise
         finally:
             title = action.title if last == first else f"{action.title}, {last - first + 1} times"
-            limb = None if action.limb is None else self._limb(action.limb)
+            limb = None if action.limb is None else self._actor.limb(action.limb)
             self.report.actions.append(
                 self._reported(first, last, action.kind, title, outcome, start, tries, limb, reason)
             )
@@ -232,7 +154,7 @@ class Sequencer:
         """Carry out one group, once more after each hook that comes off in it and is brought back."""
         while True:
             try:
-                return self._motion(first, last)
+                return self._actor.carry_out(first, last)
             except SlippedError as slip:
                 if self._recovered == MOST_RECOVERIES:
                     raise
@@ -243,139 +165,20 @@ class Sequencer:
 
     def _recover(self, step: int, slip: SlippedError) -> str:
         """Back to the stance before a step, but for the limb that acts in it; why not, where that cannot be."""
-        self._hanging = None
+        self._actor.hanging = None
         acts = self.course.actions[step - 1].limb
-        held = {self._limb(name): hold for name, hold in self.course.holds(step - 1).items() if hold and name != acts}
+        held = {
+            self._actor.limb(name): hold for name, hold in self.course.holds(step - 1).items() if hold and name != acts
+        }
         elbows = {i: int(self.course.elbows[step - 1, i]) for i in held}
-        return recover(self.climber, slip, held, self._pose(step - 1), elbows)
-
-    def _motion(self, first: int, last: int) -> tuple[Outcome, int, str]:
-        action = self.course.actions[first - 1]
-        if action.limb is not None and self._hanging is not None and self._hanging.i == self._limb(action.limb):
-            return "not supported", 0, "it is the last limb that holds"
-        if swings(self.course, last):
-            refused = self._hang(last)
-            if refused:
-                return "not supported", 0, refused
-            if action.kind != "grab":
-                return "ok", 1, ""
-        if action.kind == "move":
-            return self._move(last)
-        if action.kind == "release":
-            assert action.limb is not None
-            i = self._limb(action.limb)
-            if self.climber.body.tasks[i].hold:  # a slip may have done it
-                release(self.climber, i)
-            if self.climber.body.tasks[i].hold:
-                return "missed", 1, "its hook stays wedged on its hold"
-            return "ok", 1, ""
-        if action.kind == "grab":
-            return self._grab(first)
-        return "ok", 0, ""
-
-    def _hang(self, step: int) -> str:
-        """The body comes to hang, or moves as it hangs, as the plan has it after a step; why not, where that cannot be."""
-        climber, tasks = self.climber, self.climber.body.tasks
-        if not climber.hangs:
-            acts = self.course.actions[step - 1].limb
-            leaving = None if acts is None else self._limb(acts)
-            stay = [i for i, task in enumerate(tasks) if task.hold and i != leaving]
-            if leaving is None or len(stay) != 1:
-                return "more than one limb would have to let go"
-            self._hanging = let_go(climber, leaving, stay[0])
-            if self._hanging is None:
-                return "the weight cannot be brought below the hold that is to carry it alone"
-        hanging = self._hanging
-        assert hanging is not None
-        clear_the_way(climber, self._pose(step))
-        hanging.bring(self._pose(step))
-        hanging.calm()
-        return ""
-
-    def _move(self, step: int) -> tuple[Outcome, int, str]:
-        """The body goes to the plan's pose; once more where it does not come there."""
-        for tries in (1, 2):
-            move_body(self.climber, self._pose(step))
-            if self._settle():
-                return "ok", tries, ""
-        return "stalled", 2, f"the body stays {1e3 * self._off():.0f} mm off its aim"
-
-    def _grab(self, step: int) -> tuple[Outcome, int, str]:
-        action = self.course.actions[step - 1]
-        if action.limb is None or action.hold is None:
-            return "missed", 0, "the plan names no hold"
-        i, tries = self._limb(action.limb), 0
-        elbow = int(self.course.elbows[step, i])
-        side = math.copysign(1.0, self.climber.holds[action.hold][0] - self._pose(step)[0])
-        result = Grabbed(False, 0, 0.0, 0.0)
-        sides = [elbow, -elbow] if self.course.serves(i, step, -elbow) else [elbow]
-        for elbow in sides:
-            for x, y in (*ELSEWHERE, *FARTHER):
-                if result.tries and (x, y) in FARTHER:
-                    break
-                place = self._pose(step) + np.array((side * x, y, 0.0))
-                off = float(np.abs(place - self.climber.body.aim).max())
-                if not self.climber.hangs and off > SHIFTED:  # also by the approach to the hold before
-                    if (x or y) and self.climber.body.stands(place) < WORST:
-                        continue
-                    move_body(self.climber, place)
-                result = grab(self.climber, i, action.hold, elbow=elbow)
-                tries += max(1, result.tries)
-                if result.held:
-                    self._keep_in_map(i, action.hold)
-                    self.course.elbows[self.course.stays(i, step), i] = elbow
-                    if self._hanging is not None:
-                        self._hanging.end()
-                        self._hanging = None
-                    return "ok", tries, ""
-            if result.tries:
-                break  # there is a way; the hook does not take
-        self._missed.add(action.hold)
-        if not result.tries:
-            return "missed", tries, "the limb finds no way there"
-        return (
-            "missed",
-            tries,
-            f"the hook stopped {1e3 * result.along:+.0f}, {1e3 * result.across:+.0f} mm from the hold",
-        )
-
-    def _keep_in_map(self, i: int, number: int) -> None:
-        """What a hook felt corrects the map, but never by more than the map can be wrong: a bias would add up from grab to grab."""
-        hold, climber = self.course.task.world.by_number(number), self.climber
-        place, most = np.array((hold.x, hold.y)), climber.map_error
-        climber.holds[number] = place + np.clip(climber.holds[number] - place, -most, most)
-        climber.body.tasks[i].place = climber.holds[number].copy()
-
-    def _settle(self) -> bool:
-        for _ in range(round(SETTLING / PAUSE)):
-            if self._arrived():
-                return True
-            self.climber.wait(PAUSE)
-        return self._arrived()
-
-    def _arrived(self) -> bool:
-        body = self.climber.body
-        return self._off() < ARRIVED and abs(float(body.aim[2] - body.settled[2])) < TURNED
-
-    def _off(self) -> float:
-        body = self.climber.body
-        return float(np.hypot(*(body.aim[:2] - body.settled[:2])))
-
-    def _pose(self, step: int) -> Floats:
-        """The plan's pose, its angle counted on from where the body is."""
-        pose, angle = self.course.pose(step), self.climber.body.aim[2]
-        pose[2] = angle + math.remainder(pose[2] - angle, math.tau)
-        return pose
-
-    def _limb(self, name: str) -> int:
-        return [limb.name for limb in self.climber.robot.limbs].index(name)
+        return recover(self.climber, slip, held, self._actor.pose(step - 1), elbows)
 
     def _plan_again(self, step: int) -> bool:
         """Ask for a plan from where the robot is, without the holds that were missed; whether there is one."""
         if self._replan is None or len(self.report.replans) >= MOST_REPLANS:
             return False
         held = {limb.name: self.climber.body.tasks[i].hold for i, limb in enumerate(self.climber.robot.limbs)}
-        task = task_from_here(self.course, step, held, self._missed)
+        task = task_from_here(self.course, step, held, self._actor.missed)
         self.climber.plant.pause()
         plan = self._replan(task)
         if plan is None:
@@ -384,9 +187,9 @@ class Sequencer:
         if course.objections:
             return False
         self.report.replans.append(
-            {"after": len(self.report.actions), "without": sorted(self._missed), "length": len(plan.actions)}
+            {"after": len(self.report.actions), "without": sorted(self._actor.missed), "length": len(plan.actions)}
         )
-        self.course = course
+        self._actor.course = course
         return True
 
     def _reported(
@@ -399,14 +202,9 @@ class Sequencer:
             body_error = float(np.hypot(*(true.pose[:2] - climber.body.settled[:2])))
             tip_error = None if limb is None else float(np.hypot(*(true.tips[limb] - climber.body.tip(limb))))
         return ActionReport(
-            first, last, kind, title, outcome, start, climber.time - start, tries, self._off(), body_error, tip_error, reason,
+            first, last, kind, title, outcome, start, climber.time - start, tries, self._actor.off(), body_error, tip_error, reason,
             self._recovered,
         )  # fmt: skip
-
-
-def _beyond(task: LimbedTask, pose: Floats) -> float:
-    x_min, x_max, y_min, y_max = task.goals[-1].box
-    return math.hypot(max(x_min - pose[0], pose[0] - x_max, 0.0), max(y_min - pose[1], pose[1] - y_max, 0.0))
 
 
 def _tuple(pose: Floats) -> tuple[float, float, float]:

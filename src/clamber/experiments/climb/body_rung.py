@@ -21,7 +21,6 @@ from ...types import Floats, Json
 from ...units import INCH
 from .body_bench import SLOT
 from .body_stand import bench_flaws
-from .run_plan import LEAST_MAP_ERROR
 
 GRABS: Final = (("right", 6, -1), ("bottom", 1, 1), ("left", 5, 1))
 """Limb, hold and side of the elbow, in order: hooks come from above, whatever the control."""
@@ -101,7 +100,7 @@ def climb_rung(gains: BodyGains, seed: int) -> RungTrial:
     pegs = task.world.positions() + shifts
     plant = ClimberPlant(replace(task.robot, weight=weight * task.robot.weight), task.world, flaws, pegs=pegs)
     climber = WatchedClimber(
-        task.robot, task.world, plant, gains=gains, map_error=LEAST_MAP_ERROR + PEG_ERROR,
+        task.robot, task.world, plant, gains=gains, map_error=PEG_ERROR,
         pegs=dict(zip(numbers, pegs, strict=True)), truth=plant.truth,
     )  # fmt: skip
     reason = _climb(climber)

@@ -11,6 +11,7 @@ from ...tasks.limbed import LimbedTask
 from ...types import Json
 from .noise import NO_NOISE, read_noise
 from .run_plan import climbing_flaws, climbing_task, run_plan
+from .warm_up import warm_up
 
 RUNGS = (106, 301, 205, 300, 3, 3, 304, 108, 303, 207, 300, 3, 3)
 """Two rungs of the ladder by the gait of the thesis, its numbers of actions."""
@@ -27,9 +28,8 @@ def two_rungs() -> tuple[LimbedTask, Plan]:
 
 @cache
 def _ready() -> float:
-    """The moment at which this process has its kernels loaded: it climbs once, for nothing."""
-    task, plan = two_rungs()
-    run_plan(task, plan, climbing_flaws(task, ()))
+    """The moment at which this process has its kernels loaded."""
+    warm_up()
     return time.monotonic()
 
 

@@ -2,6 +2,7 @@
 
 import copy
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
@@ -14,6 +15,7 @@ from ...execution.climb.here import GENERATORS, hold_document
 from ...execution.climb.sequencer import Replan
 from ...planning.budgets import accepts
 from ...planning.planners import PLANNERS
+from ...planning.result import PlanResult
 from ...robots.hooks import HOOK_AHEAD, HOOK_WAY, HOOK_WIDTH
 from ...tasks.library import change_task, task_from_document
 from ...tasks.limbed import LimbedTask
@@ -65,20 +67,41 @@ EASY: Final = 4.5
 """What may count against a stance that is easy to hold: no link on a hold, no hook or motor much beyond what is wished."""
 
 
-def plan_to_climb(task: LimbedTask, planner: str, *, seconds: float, seed: int) -> Plan | None:
+def plan_to_climb(
+    task: LimbedTask,
+    planner: str,
+    *,
+    seconds: float,
+    seed: int,
+    threads: int | None = None,
+    cut: Callable[[], None] = lambda: None,
+) -> Plan | None:
     """The most cautious plan that is easy to carry out, or the easiest of the cautious ones, or any.
+
+    What a search may see is limited by the planner, so the plan is the same on any number of cores, busy or not, unless a search takes
+    longer than it may.
 
     Args:
         task: Under the rules that can be carried out.
         planner: Its name.
         seconds: Most time for each search.
         seed: Of the planner.
+        threads: Threads; None for one a core.
+        cut: Told of each search that its seconds ended: another machine may find another plan.
     """
-    options = {name: value for name, value in (("seconds", seconds), ("seed", seed)) if accepts(planner, name)}
+    stated = {"seconds": seconds, "seed": seed, "threads": threads}
+    options = {name: value for name, value in stated.items() if accepts(planner, name)}
+
+    def search(task: LimbedTask) -> PlanResult:
+        result = PLANNERS[planner](task, **options)
+        if result.seconds >= seconds:
+            cut()
+        return result
+
     best, least = None, math.inf
     for rank, caution in enumerate(CAUTIONS):
         try:
-            result = PLANNERS[planner](cautious(task, caution), **options)
+            result = search(cautious(task, caution))
         except StartError:  # it stands where a cautious plan would not take it
             continue
         if not result.has_plan:
@@ -93,7 +116,7 @@ def plan_to_climb(task: LimbedTask, planner: str, *, seconds: float, seed: int) 
         if least == 0.0:
             break
     if best is None:
-        result = PLANNERS[planner](task, **options)
+        result = search(task)
         best = result.plan if result.has_plan else None
     return best
 
@@ -136,10 +159,12 @@ def _spared(hold: Hold, weight: float, caution: Caution) -> Json:
     return {"strength": f"{caution.strength * weight!r} N"} | made
 
 
-def replanner(planner: str, *, seconds: float, seed: int) -> Replan:
-    """What a sequencer asks for another plan."""
+def replanner(
+    planner: str, *, seconds: float, seed: int, threads: int | None = None, cut: Callable[[], None] = lambda: None
+) -> Replan:
+    """What a sequencer asks for another plan; see `plan_to_climb`."""
 
     def replan(task: LimbedTask) -> Plan | None:
-        return plan_to_climb(task, planner, seconds=seconds, seed=seed)
+        return plan_to_climb(task, planner, seconds=seconds, seed=seed, threads=threads, cut=cut)
 
     return replan

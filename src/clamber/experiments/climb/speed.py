@@ -21,7 +21,7 @@ from ..batches import run_batch
 from ..control_speed import round_times
 from ..rows import Row, Say, keep_quiet
 from .climb_work import timed_trial, two_rungs
-from .run_plan import LEAST_MAP_ERROR, climbing_flaws, run_plan
+from .run_plan import climbing_flaws, run_plan
 
 ROUNDS: Final = 5
 """How often each piece of work is timed; the median counts."""
@@ -40,7 +40,7 @@ REST: Final = "motions and sequencer"
 
 def climber_on(task: LimbedTask, plant: ClimberPlant) -> TracedClimber:
     """The climber as `run_plan` has it, pegs where the map says."""
-    return TracedClimber(task.robot, task.world, plant, map_error=LEAST_MAP_ERROR, truth=plant.truth)
+    return TracedClimber(task.robot, task.world, plant, truth=plant.truth)
 
 
 def shares_of(task: LimbedTask, plan: Plan, flaws: LimbFlaws) -> dict[str, float]:

@@ -36,8 +36,8 @@ class TrialSetup:
     plant: tuple[str, ...] = ()
     """Settings of the plant, such as "backlash=1deg"."""
     planner: str = "auto"
-    seconds: float = 60.0
-    """Most time for each plan."""
+    seconds: float = 600.0
+    """Most time for each search for a plan."""
     replan: bool = True
     """Whether to plan again where a hold cannot be had."""
     force: bool = False
@@ -160,7 +160,8 @@ def climb_once(
         progress: Told before each action.
     """
     assert setup.plan is not None, "plan first"
-    way = PlansOnTheWay(replanner(setup.planner, seconds=setup.seconds, seed=PLAN_SEED), plans, [])
+    planner = replanner(setup.planner, seconds=setup.seconds, seed=PLAN_SEED, threads=1)  # others climb meanwhile
+    way = PlansOnTheWay(planner, plans, [])
     run = run_plan(
         setup.task, setup.plan, climbing_flaws(setup.task, setup.plant), noise=setup.noise, seed=seed,
         force=setup.force, replan=way if setup.replan else None, progress=progress,

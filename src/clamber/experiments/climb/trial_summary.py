@@ -102,6 +102,12 @@ class TrialSummary:
     """Moves of the body that did not arrive, in all climbs."""
     replanned: int
     """Climbs that took a new plan."""
+    recovered: int
+    """Hooks that came off and were brought back, in all climbs."""
+    recovering: int
+    """Climbs with such a hook."""
+    saved: int
+    """Those of them that succeeded."""
     forced: tuple[str, ...]
     """What speaks against the plan, which was carried out all the same."""
     effects: tuple[Effect, ...]
@@ -129,6 +135,9 @@ class TrialSummary:
             "pushes_per_grab": self.pushes,
             "stalled": self.stalled,
             "replanned": self.replanned,
+            "recovered": self.recovered,
+            "recovering": self.recovering,
+            "saved": self.saved,
             "forced": list(self.forced),
             "effects": [effect.to_json() for effect in self.effects],
         }
@@ -143,6 +152,7 @@ def sum_up(trials: Trials) -> TrialSummary:
     way = body_way(course)
     grabs = sum(trial.grabs for trial in ended)
     simulated = sum(trial.seconds for trial in ended)
+    recovering = [trial for trial in ended if trial.recovered]
     return TrialSummary(
         task=trials.setup.task.name,
         noise=trials.setup.noise.words(),
@@ -157,6 +167,9 @@ def sum_up(trials: Trials) -> TrialSummary:
         pushes=sum(trial.pushes for trial in ended) / grabs if grabs else None,
         stalled=sum(trial.stalled for trial in ended),
         replanned=sum(trial.replans > 0 for trial in ended),
+        recovered=sum(trial.recovered for trial in ended),
+        recovering=len(recovering),
+        saved=sum(trial.done for trial in recovering),
         forced=tuple(names_of(course.objections)),
         effects=tuple(find_effects(ended)),
     )

@@ -4,10 +4,8 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Final
 
 from ...actions.plan import Plan
-from ...compiled import is_compiled
 from ...errors import ClamberError
 from ...execution.climb.course import lay_course
 from ...jobs import Executor, Kept, Outcome, look_into, map_items
@@ -15,10 +13,8 @@ from ...types import Json
 from .noise import check_noise
 from .planning import plan_to_climb
 from .run_plan import climbing_flaws
-from .trial import PLAN_SEED, ClimbTrial, TrialSetup, climb_once, error_trial, run_trial, trial_of
-
-FIRST_TICK: Final = "pull_torques"
-"""A kernel that a climb needs as soon as it grabs."""
+from .trial import PLAN_SEED, ClimbTrial, TrialSetup, error_trial, run_trial, trial_of
+from .warm_up import warm_up
 
 
 class NoPlanError(ClamberError):
@@ -32,8 +28,10 @@ class NoPlanError(ClamberError):
         return f"no plan for '{self.task}' that hooks can be trusted with; nothing has moved"
 
 
-def with_plan(setup: TrialSetup, store: Path | None = None, label: str = "plan") -> TrialSetup:
-    """The setup with its plan: its own, that of the store, or a new one; errors call it `label`.
+def with_plan(
+    setup: TrialSetup, store: Path | None = None, label: str = "plan", cut: Callable[[], None] = lambda: None
+) -> TrialSetup:
+    """The setup with its plan: its own, that of the store, or a new one; errors call it `label`, `cut` is as in `plan_to_climb`.
 
     Raises:
         NoPlanError: If there is none.
@@ -47,7 +45,7 @@ def with_plan(setup: TrialSetup, store: Path | None = None, label: str = "plan")
     if plan is None and kept is not None and kept.note is not None:
         plan = Plan.from_json(kept.note, "plan of the store")
     if plan is None:
-        plan = plan_to_climb(setup.task, setup.planner, seconds=setup.seconds, seed=PLAN_SEED)
+        plan = plan_to_climb(setup.task, setup.planner, seconds=setup.seconds, seed=PLAN_SEED, cut=cut)
     if plan is None:
         raise NoPlanError(setup.task.name)
     course = lay_course(setup.task, plan, label)
@@ -130,7 +128,7 @@ def run_trials(
             told(trials)
 
     if executor.here and len(before) < len(seeds):
-        _compile(setup)
+        warm_up()  # here, once, and not in every worker at the same time
     with suppress(KeyboardInterrupt):
         outcomes = map_items(
             run_trial,
@@ -149,12 +147,3 @@ def run_trials(
             for seed, outcome in zip(seeds, outcomes, strict=True)
         ]
     return trials
-
-
-def _compile(setup: TrialSetup) -> None:
-    """Compile the kernels here, once, and not in every worker at the same time: by the plan up to its first grab."""
-    if is_compiled(FIRST_TICK):
-        return
-    assert setup.plan is not None
-    first = next((k for k, action in enumerate(setup.plan.actions, 1) if action.kind == "grab"), 1)
-    climb_once(replace(setup, plan=replace(setup.plan, actions=setup.plan.actions[:first])), 0, plans=[])

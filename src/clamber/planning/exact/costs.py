@@ -4,10 +4,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
+from ...actions.plan_families import plan_family
 from ...errors import ClamberError, describe_choices
+from ...tasks import Task
 
-COSTS: Final = {"length": "length", "energy": "effort", "torque": "peak"}
-"""Cost -> the feature that counts it: actions, power summed over actions, largest joint torque."""
+COSTS: Final = {"length": "length", "energy": "effort", "time": "effort", "torque": "peak", "strain": "peak"}
+"""Cost -> the feature that counts it. Every family has the length, one cost that adds up, one that is a largest value."""
 
 
 class CostError(ClamberError):
@@ -23,12 +25,12 @@ class CostError(ClamberError):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Aim:
-    """What one exact search minimizes: a cost, a second one among its equals, and a limit on the largest torque."""
+    """What one exact search minimizes: a cost, a second one among its equals, and a limit on the cost that is a largest value."""
 
     first: str = "length"
     second: str | None = None
-    most_torque: float | None = None
-    """No action may have more [N m]."""
+    most_peak: float | None = None
+    """No action may have more, in the unit of the feature "peak"."""
     at_most: float | None = None
     """No plan with more of the first cost is of interest."""
     front: bool = False
@@ -51,6 +53,14 @@ def read_costs(option: str, text: str, *, least: int = 1, most: int = 3) -> tupl
         wanted = f"{least}" if least == most else f"{least} to {most}"
         raise CostError(option, f"{len(names)} costs are named", f"name {wanted} of {', '.join(COSTS)}")
     return names
+
+
+def check_costs(option: str, names: Sequence[str], task: Task) -> None:
+    """Raises `CostError` where the family of the task's robot lacks one of the costs."""
+    known = ("length", *plan_family(task).costs(task))
+    for name in names:
+        if name not in known:
+            raise CostError(option, f"'{name}' is no cost of task '{task.name}'", describe_choices(name, known))
 
 
 def describe_order(order: Sequence[str]) -> str:

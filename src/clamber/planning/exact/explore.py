@@ -17,7 +17,7 @@ from .records import EXHAUSTED, FOUND, FULL, NEAREST, NEWEST, RUNNING, SEARCH, S
 
 QUOTA: Final = 20_000
 """Stances expanded between looks at the clock."""
-FINENESS: Final = {"energy": 64, "torque": BUCKETS / 16}
+FINENESS: Final = {"effort": 64, "peak": BUCKETS / 16}
 """Buckets per start stance's cost, where costs aren't whole."""
 LEAST_ACTIONS: Final = Aim()
 
@@ -142,14 +142,14 @@ def search_record(problem: CompiledProblem, aim: Aim, *, dominance: bool) -> np.
     row: np.void = search[0]
     row["first"] = problem.features.index(COSTS[aim.first])
     row["second"] = -1 if aim.second is None else problem.features.index(COSTS[aim.second])
-    row["capped"] = -1 if aim.most_torque is None else problem.features.index("peak")
-    row["cap"] = math.inf if aim.most_torque is None else aim.most_torque
+    row["capped"] = -1 if aim.most_peak is None else problem.features.index("peak")
+    row["cap"] = math.inf if aim.most_peak is None else aim.most_peak
     row["front"], row["informed"], row["dominance"] = aim.front, aim.first == "length", dominance
-    row["order"] = NEAREST if aim.first == "torque" else NEWEST if aim.second is None else SHORTEST
+    row["order"] = NEAREST if COSTS[aim.first] == "peak" else NEWEST if aim.second is None else SHORTEST
     row["at_most"] = math.inf if aim.at_most is None else aim.at_most
     row["width"] = 1.0
     if aim.first != "length":  # any width gives the same answer; this one keeps buckets small and few
-        row["width"] = (problem.measured(problem.start)[0, row["first"]] or 1.0) / FINENESS[aim.first]
+        row["width"] = (problem.measured(problem.start)[0, row["first"]] or 1.0) / FINENESS[COSTS[aim.first]]
     return row
 
 

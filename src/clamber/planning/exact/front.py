@@ -6,13 +6,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ...actions.plan import Plan
+from ...actions.plan_costs import spent
 from ...actions.plan_families import plan_family
 from ...files import write_atomically
 from ...tasks import Task
 from ...types import Json
-from ...units import OZ_IN
 from ..progress import Exploring, Listener
-from .costs import Aim
+from .costs import COSTS, Aim, check_costs
 from .explore import Exploration, Way
 from .minimize import UNDER, Minimizer
 from .planner import MOST_STANCES, exact_problem
@@ -23,19 +23,18 @@ class Trade:
     """One plan of a front."""
 
     plan: Plan
-    length: int
-    energy: float
-    """[J]"""
-    torque: float
-    """Largest joint torque, the start stance included [N m]."""
+    costs: dict[str, float]
+    """Length [actions] and every cost of the family, in SI units."""
+
+    @property
+    def length(self) -> int:
+        """Actions of the plan."""
+        return len(self.plan.actions)
 
     def to_json(self) -> Json:
         """Plain data."""
         return {
-            "length": self.length,
-            "energy_J": self.energy,
-            "torque_Nm": self.torque,
-            "torque_oz_in": self.torque / OZ_IN,
+            "costs": dict(self.costs),
             "codes": self.plan.numbers(),
             "actions": [action.to_json() for action in self.plan.actions],
         }
@@ -90,7 +89,7 @@ def plan_front(
 
     Args:
         task: What to plan.
-        costs: Two of "length", "energy", "torque".
+        costs: Two of "length" and the costs of the robot's family.
         seconds: Most wall-clock time [s].
         threads: As for `plan_exact`.
         max_stances: Memory; running out leaves the front incomplete, and says so.
@@ -98,8 +97,10 @@ def plan_front(
 
     Raises:
         PlannerError: If the task allows actions that exact search can't list one by one.
+        CostError: If the family has no such cost.
     """
     started = time.monotonic()
+    check_costs("costs", costs, task)
     problem = exact_problem(task, threads=threads).informed()
 
     def tell(stances: int, bound: float, cost: str) -> None:
@@ -113,21 +114,14 @@ def plan_front(
         seen = searches.run(Aim(second=other, front=True))
         ways, complete, infeasible = list(seen.ways), seen.found or seen.exhausted, seen.exhausted
     else:
-        ways, complete, infeasible = _by_falling_limit(searches)
+        ways, complete, infeasible = _by_falling_limit(searches, *sorted(names, key=lambda name: COSTS[name] == "peak"))
     family = plan_family(task)
     trades = []
     for way in ways:
-        stances = problem.replay(way.codes).stances
-        features = problem.measured(stances)
-        trades.append(
-            Trade(
-                Plan.of_codes(task, way.codes, planner="exact"),
-                len(way.codes),
-                float(features[1:, problem.features.index("effort")].sum()) * family.duration(task),
-                float(features[:, problem.features.index("peak")].max()),
-            )
-        )
-    trades.sort(key=lambda trade: getattr(trade, costs[0]))
+        worth = {"length": float(len(way.codes))}
+        worth |= spent(problem, family.costs(task), problem.replay(way.codes).stances)
+        trades.append(Trade(Plan.of_codes(task, way.codes, planner="exact"), worth))
+    trades.sort(key=lambda trade: trade.costs[costs[0]])
     return Front(
         task=task,
         costs=costs,
@@ -142,12 +136,12 @@ def plan_front(
     )
 
 
-def _by_falling_limit(searches: Minimizer) -> tuple[list[Way], bool, bool]:
-    """The front of energy and torque: least energy under a limit of the torque that falls until no plan is left."""
+def _by_falling_limit(searches: Minimizer, summed: str, peak: str) -> tuple[list[Way], bool, bool]:
+    """The front of a summed cost and a largest value: least of the first under a limit of the second that falls until no plan is left."""
     ways: list[Way] = []
     limit: float | None = None
     while True:
-        seen: Exploration = searches.run(Aim(first="energy", second="torque", most_torque=limit))
+        seen: Exploration = searches.run(Aim(first=summed, second=peak, most_peak=limit))
         if not seen.found:
             return ways, seen.exhausted, seen.exhausted and not ways
         ways.append(seen.ways[0])

@@ -5,12 +5,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from ...actions.problem import CompiledProblem
-from .costs import Aim
+from .costs import COSTS, Aim
 from .explore import Exploration, explore
 
 Tell = Callable[[int, float, str], None]
 UNDER = 1.0 - 1e-9
-"""A torque limit that a plan just misses is this part of its largest torque."""
+"""A limit that a plan just misses is this part of its largest value."""
 
 
 class Minimizer:
@@ -40,47 +40,47 @@ class Minimizer:
         self.stances = max(self.stances, seen.stances)
         return seen
 
-    def least(self, order: Sequence[str], *, most_torque: float | None = None) -> Exploration:
+    def least(self, order: Sequence[str], *, most_peak: float | None = None) -> Exploration:
         """The best plan by an order of costs.
 
-        A largest torque doesn't add up, so what is best after it can't be found by going on from what is best so far: where it comes
+        A largest value doesn't add up, so what is best after it can't be found by going on from what is best so far: where it comes
         first, its least value becomes a limit for the costs behind it. Where it comes third, its limit falls until the first two grow.
 
         Args:
             order: One to three different costs of `COSTS`.
-            most_torque: No action may have more [N m].
+            most_peak: No action may have more, in the unit of the feature "peak".
 
         Returns:
             The search that settled it; one that ended early leaves the best plan known and the bound on the first cost.
         """
         first, *rest = order
-        if first == "torque":
-            easiest = self.run(Aim(first="torque", most_torque=most_torque))
+        if COSTS[first] == "peak":
+            easiest = self.run(Aim(first=first, most_peak=most_peak))
             if not easiest.found or not rest:
                 return easiest
             limit = easiest.ways[0].first * (1.0 + 1e-12)
-            settled = self.least(rest, most_torque=limit)
-            best = settled if settled.ways else easiest  # out of time: only the torque is proved
+            settled = self.least(rest, most_peak=limit)
+            best = settled if settled.ways else easiest  # out of time: only the largest value is proved
             return replace(best, lower_bound=easiest.lower_bound, found=settled.found)
         if not rest:
-            return self.run(Aim(first=first, most_torque=most_torque))
-        both = self.run(Aim(first=first, second=rest[0], most_torque=most_torque))
+            return self.run(Aim(first=first, most_peak=most_peak))
+        both = self.run(Aim(first=first, second=rest[0], most_peak=most_peak))
         if not both.found or len(rest) == 1:
             return both
-        if rest[0] == "torque":
+        if COSTS[rest[0]] == "peak":
             limit = both.ways[0].second * (1.0 + 1e-12)
-            settled = self.run(Aim(first=first, second=rest[1], most_torque=limit))
+            settled = self.run(Aim(first=first, second=rest[1], most_peak=limit))
             return settled if settled.found else replace(both, found=False)
-        return self._easiest_of_equals(both, first, rest[0], most_torque)
+        return self._easiest_of_equals(both, first, rest[0], most_peak)
 
-    def _easiest_of_equals(self, both: Exploration, first: str, second: str, most_torque: float | None) -> Exploration:
-        """Of the plans that two added-up costs don't tell apart, the one of least torque."""
+    def _easiest_of_equals(self, both: Exploration, first: str, second: str, most_peak: float | None) -> Exploration:
+        """Of the plans that two added-up costs don't tell apart, the one of least peak."""
         best = both
         while True:
             peak = self.peak(best)
-            lower = peak * UNDER if most_torque is None else min(most_torque, peak * UNDER)
+            lower = peak * UNDER if most_peak is None else min(most_peak, peak * UNDER)
             tried = self.run(
-                Aim(first=first, second=second, most_torque=lower, at_most=both.ways[0].first * (1.0 + 1e-9))
+                Aim(first=first, second=second, most_peak=lower, at_most=both.ways[0].first * (1.0 + 1e-9))
             )
             if not tried.found and not tried.exhausted:
                 return replace(best, found=False)
@@ -89,6 +89,6 @@ class Minimizer:
             best = tried
 
     def peak(self, seen: Exploration) -> float:
-        """Largest joint torque of the best plan, the start stance included [N m]."""
+        """The largest value of the best plan, the start stance included, in the unit of the feature "peak"."""
         stances = self.problem.replay(seen.codes).stances
         return float(self.problem.measured(stances)[:, self.problem.features.index("peak")].max())

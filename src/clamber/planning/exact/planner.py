@@ -4,6 +4,7 @@ import time
 from collections.abc import Sequence
 
 from ...actions.plan import Plan
+from ...actions.plan_costs import spent
 from ...actions.plan_families import plan_family
 from ...actions.problem import CompiledProblem
 from ...actions.problems import pose_problem
@@ -11,7 +12,7 @@ from ...errors import PlannerError
 from ...tasks import Task
 from ..progress import Exploring, Listener
 from ..result import PlanResult, Status, furthest_of
-from .costs import COSTS, describe_order
+from .costs import COSTS, check_costs, describe_order
 from .explore import Exploration
 from .minimize import Minimizer
 
@@ -49,7 +50,7 @@ def plan_exact(
         seconds: Most wall-clock time [s].
         threads: The search itself runs on one; replays take as many as given.
         max_stances: Memory: most stances kept. Running out is a result ("bounded").
-        minimize: Costs in lexicographic order: of "length", "energy", "torque".
+        minimize: Costs in lexicographic order: "length" and the costs of the robot's family.
         progress: Called now and then.
 
     Returns:
@@ -57,8 +58,10 @@ def plan_exact(
 
     Raises:
         PlannerError: If the task allows actions that exact search can't list one by one.
+        CostError: If the robot's family has no such cost.
     """
     started = time.monotonic()
+    check_costs("minimize", minimize, task)
     plain = exact_problem(task, threads=threads)
 
     def tell(stances: int, bound: float, cost: str) -> None:
@@ -78,9 +81,6 @@ def plan_exact(
     family = plan_family(task)
     status: Status = "optimal" if proved.found else "infeasible" if proved.exhausted else "bounded"
     stances = plain.replay(seen.codes).stances
-    features = plain.measured(stances)
-    torque = features[:, plain.features.index("peak")]
-    energy = float(features[1:, plain.features.index("effort")].sum()) * family.duration(task)
     return PlanResult(
         status=status,
         plan=Plan.of_codes(task, seen.codes, seed=seed, planner="exact"),
@@ -91,11 +91,11 @@ def plan_exact(
         seconds=time.monotonic() - started,
         seed=seed,
         planner="exact",
-        max_torque=float(torque[1:].max(initial=0.0)),
+        max_torque=max((family.torque(stance) for stance in stances[1:]), default=0.0),
         furthest=None if seen.ways else furthest_of(task, plain, seen.codes),
         lower_bound=int(proved.lower_bound) if minimize[0] == "length" and not proved.exhausted else None,
         minimized=tuple(minimize),
-        costs={"length": len(seen.codes), "energy": energy, "torque": float(torque.max())} if seen.ways else {},
+        costs={"length": len(seen.codes)} | spent(plain, family.costs(task), stances) if seen.ways else {},
         stances=searches.stances,
         model=family.model(task),
     )

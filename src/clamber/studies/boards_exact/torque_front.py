@@ -30,7 +30,12 @@ def trade_length_for_torque() -> StudyResult:
     front = plan_front(task, ("length", "torque"), threads=1)
     verdicts = [check_plan(task, trade.plan) for trade in front.trades]
     rows: tuple[tuple[Value, ...], ...] = tuple(
-        (trade.length, trade.torque / OZ_IN, trade.energy, "valid" if verdict.ok and verdict.reached else "not valid")
+        (
+            trade.length,
+            trade.costs["torque"] / OZ_IN,
+            trade.costs["energy"],
+            "valid" if verdict.ok and verdict.reached else "not valid",
+        )
         for trade, verdict in zip(front.trades, verdicts, strict=True)
     )
     easiest = prove(BOARD, MODEL, minimize=("torque",))

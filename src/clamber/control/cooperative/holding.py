@@ -1,0 +1,102 @@
+"""A point of the world held by the tool while the body moves as walking has it: one step, and the part of a way where it can be held."""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ...robots.walker import WalkerRobot
+from ...types import Floats
+from .closest import REACHED, ReachSearch
+from .cooperator import Cooperator, Step
+from .footing import Footing
+from .freedoms import weights_of
+from .tool_chain import POSE
+
+FINE: Final = 1e-5
+"""Ends of the part of a way where a point can be held are found to this share of the way between two poses [-]."""
+
+
+class ToolHolder:
+    """Keeps the tool at a point while the body's pose is given, step by step."""
+
+    def __init__(self, law: Cooperator, q: Floats) -> None:
+        """Begins at a configuration.
+
+        Args:
+            law: Of the motion; `stand` it anew when the feet change.
+            q: Freedoms at the start, shape (m,).
+        """
+        self.law, self.q = law, q.copy()
+        self._own = np.zeros(POSE)  # what the tool added to the body's given pose
+
+    def step(self, pose: Floats, point: Floats, weights: Floats) -> Step:
+        """Move for one period, with the body at its next pose.
+
+        Args:
+            pose: x, y, z, alpha, beta, gamma that walking gives the plate at the end of the period, shape (6,).
+            point: Where the tool is to be then, world [m], shape (3,).
+            weights: 1 for each freedom that may serve the tool: the arm's, and those of the plate that walking leaves, shape (m,).
+        """
+        ahead = self.q.copy()
+        ahead[:POSE] = pose + self._own
+        # the body carries the tool off within the period, and one period's motion of the arm takes it back
+        step = self.law.step(ahead, point, np.zeros(3), weights, feedback=1.0 / self.law.settings.period)
+        self.q = step.q
+        self._own = np.where(weights[:POSE] > 0.0, step.q[:POSE] - pose, 0.0)
+        return step
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Reachable:
+    """Where along a way of the body a point can be held."""
+
+    parts: tuple[tuple[float, float], ...]
+    """First and last place of each part where it can be, counted in poses: 2.5 is half way from pose 2 to pose 3."""
+    distances: Floats
+    """Of the nearest reachable place from the point at each pose [m], shape (poses,)."""
+    joints: Floats
+    """The arm's joints there, shape (poses, joints)."""
+
+
+def reachable_part(robot: WalkerRobot, poses: Floats, point: Floats) -> Reachable:
+    """Where along a way of the body the arm alone can hold a point.
+
+    Args:
+        robot: With an arm.
+        poses: Of the plate along the way, near enough to each other that nothing happens between two, shape (poses, 6).
+        point: World [m], shape (3,).
+    """
+    assert robot.arm is not None, "only robots with an arm move it"
+    n = robot.arm.n_joints
+    footing = Footing(robot=robot, support="y", pose=poses[0])
+    search = ReachSearch(robot, footing, weights_of("arm", n), kept="arm")
+
+    def at(pose: Floats, joints: Floats) -> tuple[float, Floats]:
+        found = search.find(np.concatenate([pose, joints]), point)
+        return found.distance, found.q[POSE:]
+
+    distances, joints = np.empty(len(poses)), np.empty((len(poses), n))
+    last = np.array(robot.arm.rest)
+    for k, pose in enumerate(poses):
+        distances[k], joints[k] = at(pose, last)
+        last = joints[k]
+    can = distances <= REACHED
+    edges = []
+    for k in np.flatnonzero(can[1:] != can[:-1]).tolist():
+        inside, outside = (k, k + 1) if can[k] else (k + 1, k)
+        here, there, known = float(inside), float(outside), joints[inside]
+        while abs(here - there) > FINE:
+            middle = 0.5 * (here + there)
+            share = middle - k
+            distance, found = at((1.0 - share) * poses[k] + share * poses[k + 1], known)
+            if distance <= REACHED:
+                here, known = middle, found
+            else:
+                there = middle
+        edges.append(here)
+    if can[0]:
+        edges.insert(0, 0.0)
+    if can[-1]:
+        edges.append(float(len(poses) - 1))
+    return Reachable(tuple(zip(edges[::2], edges[1::2], strict=True)), distances, joints)

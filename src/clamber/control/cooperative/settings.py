@@ -1,0 +1,109 @@
+"""Numbers of the law of cooperative motion, and the speeds that follow from a robot's actuators."""
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any, Literal
+
+import numpy as np
+
+from ...errors import ClamberError
+from ...robots.walker import WalkerRobot
+from ...types import Floats
+from .footing import ACTUATOR, BALANCE, LEG, Footing
+
+Form = Literal["right", "as printed"]
+
+
+class CooperationError(ClamberError):
+    """A setting of the law that cannot be: names it, its value, what is allowed."""
+
+    def __init__(self, name: str, value: object, allowed: str) -> None:
+        super().__init__(name, value, allowed)
+        self.name, self.value, self.allowed = name, value, allowed
+
+    def __str__(self) -> str:
+        return f"{self.name} = {self.value}: {self.allowed}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Cooperation:
+    """How body and arm share the tool's motion."""
+
+    speeds: Floats
+    """Largest speeds of the freedoms, T_q's [m/s, rad/s], shape (6 + joints,)."""
+    tool_speeds: Floats
+    """Largest speeds of the tool, T_v's [m/s], shape (3,)."""
+    gain: float = 1.0
+    """k_p of the manipulability's gradient [-]."""
+    feedback: float = 2.0
+    """Of the tool's position error [1/s]; 0 is the paper's open loop."""
+    period: float = 0.02
+    """Of a step [s]."""
+    form: Form = "right"
+    """Whether xi is that of the normalised Jacobian, as equation 19 needs it, or of the plain one, as (13) and (16) print it."""
+    limited: bool = True
+    """Whether the limits of joints, rates, actuators, legs and balance are kept, by a quadratic programme."""
+    approach: float = 5.0
+    """kappa: the rate towards a limit is at most this times what is left [1/s]."""
+    inside: float = 2e-4
+    """By how much the programme stays inside the limits of the plate's pose, which are curved [m]."""
+    balance: float = 0.0
+    """Least distance of the centre of mass from the edges of the support [m]."""
+    least_damping: float = 1e-3
+    """lambda of the programme far from singular [-]."""
+    largest_damping: float = 0.1
+    """lambda where the chain is singular [-]."""
+    singular: float = 0.1
+    """Smallest singular value of the normalised Jacobian below which lambda grows [-]."""
+
+    def __post_init__(self) -> None:
+        for name in ("speeds", "tool_speeds"):
+            values = np.asarray(getattr(self, name))
+            if not (np.isfinite(values).all() and (values >= 0.0).all()):
+                raise CooperationError(name, values, "must be finite numbers, 0 or more")
+        if not (np.asarray(self.tool_speeds) > 0.0).all() or np.shape(self.tool_speeds) != (3,):
+            raise CooperationError("tool_speeds", self.tool_speeds, "must be three numbers over 0")
+        for name in ("gain", "feedback", "inside", "balance", "least_damping", "largest_damping", "singular"):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value >= 0.0):
+                raise CooperationError(name, value, "must be a finite number, 0 or more")
+        if not 0.0 < self.period < math.inf:
+            raise CooperationError("period", self.period, "must be over 0 s")
+        for name in ("feedback", "approach"):
+            if not getattr(self, name) * self.period <= 1.0:
+                raise CooperationError(
+                    name, getattr(self, name), f"must be at most {1.0 / self.period:g} /s, one over the period"
+                )
+        if not self.approach > 0.0:
+            raise CooperationError("approach", self.approach, "must be over 0 /s")
+        if self.form not in ("right", "as printed"):
+            raise CooperationError("form", repr(self.form), "must be 'right' or 'as printed'")
+
+    def with_changes(self, **changes: Any) -> "Cooperation":
+        """The same with some settings changed, checked anew."""
+        return replace(self, **changes)
+
+
+def own_speeds(robot: WalkerRobot) -> Floats:
+    """The speed of each freedom, alone, at which an actuator, a leg or a joint is at its fastest in the middle pose [m/s, rad/s].
+
+    Returns:
+        Shape (6 + joints,).
+    """
+    from .workspace import make_workspace, see_bounds, see_tool
+
+    assert robot.arm is not None, "only robots with an arm move it"
+    from .limits import chain_of
+
+    q = np.array([0.0, 0.0, robot.legs.nominal, 0.0, 0.0, 0.0, *robot.arm.rest])
+    chain, w = chain_of(robot, balance=0.0), make_workspace(robot.arm.n_joints)
+    footing = Footing(robot=robot, support="y", pose=q[:6]).record()
+    see_tool(chain, q, w)
+    see_bounds(chain, footing[0], q, w)
+    fastest = np.concatenate([np.full(3, robot.mechanism.speed), [np.inf], np.full(6, robot.legs.speed)])
+    out = np.empty(q.size)
+    for k in range(6):
+        rows = range(ACTUATOR, ACTUATOR + 3) if k in (0, 1, 3) else range(LEG, BALANCE)
+        out[k] = min(fastest[row] / abs(w.gradients[row, k]) for row in rows if w.gradients[row, k] != 0.0)
+    out[6:] = robot.arm.fastest
+    return out

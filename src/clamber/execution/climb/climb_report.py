@@ -1,0 +1,82 @@
+"""What is told of a plan that was carried out: of every action, and as a whole."""
+
+import math
+from dataclasses import dataclass, field
+from typing import Literal, TypeAlias
+
+from ...tasks.limbed import LimbedTask
+from ...types import Floats, Json
+
+Outcome: TypeAlias = Literal["ok", "stalled", "missed", "fell", "interrupted", "stopped", "not supported"]
+
+
+@dataclass(frozen=True, slots=True)
+class ActionReport:
+    """What happened to an action, or to like moves of the body that were carried out in one go."""
+
+    first: int
+    """Step of the plan, from 1."""
+    last: int
+    kind: str
+    title: str
+    outcome: Outcome
+    start: float
+    """When it began [s]."""
+    seconds: float
+    tries: int
+    """Pushes of the hook of a grab; ways of the body; 1 for the rest."""
+    off: float
+    """Body from its aim at the end, as believed [m]."""
+    body_error: float | None
+    """Body, believed from true, at the end [m]; None where nobody tells."""
+    tip_error: float | None
+    """The same of the tip of the limb that acted [m]."""
+    reason: str = ""
+    recovered: int = 0
+    """Hooks that came off meanwhile and were brought back."""
+
+    def to_json(self) -> Json:
+        """Plain data."""
+        return {name: getattr(self, name) for name in self.__slots__}
+
+
+@dataclass(slots=True)
+class ClimbReport:
+    """How a plan was carried out."""
+
+    actions: list[ActionReport] = field(default_factory=list)
+    replans: list[Json] = field(default_factory=list)
+    """Where a new plan was made: after which of `actions`, its length, why."""
+    forced: list[str] = field(default_factory=list)
+    """Objections to the plan that were overridden."""
+    done: bool = False
+    """Whether every action of the plan, or of those that took its place, was carried out, and the body came to the goal with it."""
+    seconds: float = 0.0
+    """Simulated, or on the robot's clock."""
+    reason: str = ""
+    """Why it ended, where it is not done."""
+    pose: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Body at the end, as believed [m], [rad]."""
+    true_pose: tuple[float, float, float] | None = None
+    short: float = 0.0
+    """By how much the body, truly where that is told, misses the last goal's box [m]."""
+
+    def to_json(self) -> Json:
+        """Plain data."""
+        return {
+            "done": self.done,
+            "reason": self.reason,
+            "seconds": self.seconds,
+            "pose": list(self.pose),
+            "true_pose": None if self.true_pose is None else list(self.true_pose),
+            "short": self.short,
+            "forced": self.forced,
+            "replans": self.replans,
+            "actions": [action.to_json() for action in self.actions],
+        }
+
+
+def beyond(task: LimbedTask, pose: Floats) -> float:
+    """By how much a pose misses the box of a task's last goal [m]."""
+    x_min, x_max, y_min, y_max = task.goals[-1].box
+    return math.hypot(max(x_min - pose[0], pose[0] - x_max, 0.0), max(y_min - pose[1], pose[1] - y_max, 0.0))

@@ -1,0 +1,28 @@
+"""What a climb runs, compiled or loaded before its time counts and before a plant waits for commands."""
+
+from functools import cache
+from typing import Final
+
+from ...actions.limbed_plans import thesis_code
+from ...actions.plan import Plan
+from ...execution.climb.climb_trace import TracedClimber
+from ...execution.climb.course import climbable, lay_course
+from ...execution.climb.sequencer import Sequencer
+from ...sim.climber_plant import ClimberPlant
+from ...tasks import load_task
+from ...tasks.limbed import LimbedTask
+from ..limb.flaw_texts import named_flaws
+
+FIRST_GRAB: Final = 106
+"""Of the thesis's gait on the ladder, its number of the action."""
+
+
+@cache
+def warm_up() -> None:
+    """Climb one action for nothing, once in a process: compiling takes minutes, loading what is compiled a second."""
+    ladder = load_task("ladder")
+    assert isinstance(ladder, LimbedTask)
+    task = climbable(ladder)
+    plant = ClimberPlant(task.robot, task.world, named_flaws("nominal", task.robot))
+    plan = Plan.of_codes(task, [thesis_code(task, FIRST_GRAB)])
+    Sequencer(TracedClimber(task.robot, task.world, plant), lay_course(task, plan)).run()

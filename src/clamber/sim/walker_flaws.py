@@ -1,0 +1,91 @@
+"""What is not ideal about a simulated walker: inclinometers, load cells, friction, masses, payload, and what is left to chance."""
+
+import math
+from dataclasses import dataclass, field, fields, replace
+from typing import Any
+
+from ..errors import describe_choices
+from .limb_flaws import PlantError
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Inclinometers:
+    """Two inclinometers on the plate, along its axes: pendulums, that is, which feel acceleration as well as weight."""
+
+    noise: float = 0.0
+    """Standard deviation of a reading; the filter lets no faster noise through [rad]."""
+    offsets: tuple[float, float] = (0.0, 0.0)
+    """What each tells too much [rad]."""
+    time_constant: float = 0.2
+    """Of their filter [s]; 0 for none."""
+
+    def __post_init__(self) -> None:
+        for key in ("noise", "time_constant"):
+            if not 0.0 <= getattr(self, key) < math.inf:
+                raise PlantError(f"inclinometers.{key}", getattr(self, key), "must be 0 or more, and finite")
+        if len(self.offsets) != 2 or not all(map(math.isfinite, self.offsets)):
+            raise PlantError("inclinometers.offsets", self.offsets, "must be two finite numbers")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WalkerFlaws:
+    """What makes a simulated walker differ from its file, and its sensors from the truth. The defaults are as the file says."""
+
+    inclinometers: Inclinometers = field(default_factory=Inclinometers)
+    force_noise: float = 0.0
+    """Standard deviation of each leg's load cell at each reading [N]."""
+    friction: float = 1.0
+    """Of feet on the ground, over what the ground's file says [-]."""
+    mass_error: float = 0.0
+    """Every part's mass is drawn evenly from 1 less this to 1 plus this, times what the file says [-]."""
+    payload: float = 0.0
+    """Mass at the arm's tool point that the controller does not know of [kg]."""
+    control_rate: float = 50.0
+    """Ticks per second [Hz]."""
+    physics_rate: float = 500.0
+    """Steps of the simulation per second [Hz]; a whole multiple of the control rate."""
+    seed: int | None = None
+    """Draws noise and masses; None: neither."""
+
+    def __post_init__(self) -> None:
+        for key in ("force_noise", "mass_error", "payload"):
+            if not 0.0 <= getattr(self, key) < math.inf:
+                raise PlantError(key, getattr(self, key), "must be 0 or more, and finite")
+        if not self.mass_error < 1.0:
+            raise PlantError("mass_error", self.mass_error, "must be less than 1, that is 100 %")
+        for key in ("friction", "control_rate", "physics_rate"):
+            if not 0.0 < getattr(self, key) < math.inf:
+                raise PlantError(key, getattr(self, key), "must be more than 0, and finite")
+        if self.seed is not None and self.seed < 0:
+            raise PlantError("seed", self.seed, "must be a whole number, 0 or more")
+        chancy = {"inclinometers.noise": self.inclinometers.noise, "force_noise": self.force_noise}
+        for key, value in (chancy | {"mass_error": self.mass_error}).items():
+            if self.seed is None and value > 0.0:
+                raise PlantError(key, value, "needs a seed")
+        steps = self.physics_rate / self.control_rate
+        if abs(steps - round(steps)) > 1e-9 * steps or round(steps) < 1:
+            raise PlantError(
+                "control_rate", f"{self.control_rate:g} Hz", f"must divide the physics rate of {self.physics_rate:g} Hz"
+            )
+
+    @property
+    def period(self) -> float:
+        """Of the control [s]."""
+        return 1.0 / self.control_rate
+
+    @property
+    def steps(self) -> int:
+        """Physics steps in a control period."""
+        return round(self.physics_rate / self.control_rate)
+
+    def with_changes(self, **changes: Any) -> "WalkerFlaws":
+        """A copy with some properties changed.
+
+        Raises:
+            PlantError: If there is no such property, or its value is not allowed.
+        """
+        known = tuple(each.name for each in fields(self))
+        for key in changes:
+            if key not in known:
+                raise PlantError(key, changes[key], f"no such property; there are {describe_choices(key, known)}")
+        return replace(self, **changes)

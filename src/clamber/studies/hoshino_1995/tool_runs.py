@@ -1,0 +1,138 @@
+"""Runs of section 6: the tool goes straight to a target by equation 19, with some of the freedoms."""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ...control.cooperative.cooperator import Cooperator
+from ...control.cooperative.footing import SUPPORT_WORDS, Footing
+from ...control.cooperative.freedoms import SUPPORT, freedoms_of, weights_of
+from ...control.cooperative.settings import Cooperation, Form, own_speeds
+from ...types import Floats
+from .walker import hoshino
+
+START: Final = np.array([0.0, 0.0, 0.40, 0.0, 0.0, 0.0, 0.2, 1.1, -1.0, -0.9])
+"""Freedoms at the start [m, rad]; the paper prints none."""
+WAY: Final = np.array([0.14, 0.12, -0.22])
+"""Of the tool [m]; it ends 0.71 m from the axis of joint 1, of 0.75 m that the arm reaches."""
+LASTS: Final = 20.0
+"""[s]."""
+PERIOD: Final = 0.02
+TOOL_SPEEDS: Final = np.full(3, 0.1)
+"""T_v's [m/s]."""
+BALANCED: Final = np.array([0.05, 0.05, 0.02, 0.15, 0.10, 0.10, 0.35, 0.35, 0.35, 0.35])
+"""T_q's [m/s, rad/s]: with speeds of this ratio the freedoms visibly differ."""
+GAINS: Final = (0.0, 1.0, 5.0)
+"""k_p of figure 11."""
+DOFS: Final = (4, 5, 7, 10)
+RUNS: Final = 60
+CHOSEN: Final = (
+    "The paper prints no link lengths, no posture, no way, no speeds and no cycle time: the arm's links (0.30, 0.30, 0.15 m), the "
+    "start, the way (0.14, 0.12, -0.22) m in 20 s from rest to rest by a quintic law, T_v of 0.1 m/s, T_q (0.05 m/s along x and y, 0.02 "
+    "along z, 0.15, 0.10, 0.10 rad/s, 0.35 for the arm) and 20 ms are ours.",
+    "Which freedoms the 5 are is not printed: we take the arm and the plate's height. 7 (arm, height and two tilts: all that moves "
+    "while the Delta-frame stands) is ours besides.",
+    "Equation 19 is taken in its right form: V and its gradient are those of the normalised Jacobian, and a freedom is switched off by "
+    "a largest speed of 0 in both places of T_q^-1.",
+)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ToolRun:
+    """One motion to a target; a row for each period."""
+
+    dof: int
+    gain: float
+    footing: Footing
+    time: Floats
+    """[s], shape (rows,)."""
+    q: Floats
+    """Shape (rows, 10)."""
+    places: Floats
+    """Of the tool [m], shape (rows, 3)."""
+    wanted: Floats
+    """[m], shape (rows, 3)."""
+    measure: Floats
+    """V [-], shape (rows,)."""
+
+    @property
+    def title(self) -> str:
+        """For pictures."""
+        return f"{self.dof} dof, {SUPPORT_WORDS[self.footing.support]} standing"
+
+    @property
+    def off_end(self) -> float:
+        """Of the tool from the target at the end [m]."""
+        return float(np.linalg.norm(self.places[-1] - self.wanted[-1]))
+
+
+def go(
+    dof: int,
+    gain: float,
+    *,
+    start: Floats = START,
+    way: Floats = WAY,
+    form: Form = "right",
+    limited: bool = False,
+    feedback: float = 0.0,
+    speeds: Floats | None = None,
+) -> ToolRun:
+    """Go a straight way by equation 19.
+
+    Args:
+        dof: Degrees of freedom: 4, 5, 7 or 10.
+        gain: k_p.
+        start: Freedoms at the start, shape (10,).
+        way: Of the tool [m], shape (3,).
+        form: Of equation 19.
+        limited: Whether every limit is kept, with the speeds that actuators and legs have and the plate on its feet.
+        feedback: Of the position error [1/s]; the paper has none.
+        speeds: T_q's [m/s, rad/s], shape (10,); None: those of actuators and legs where limits are kept, else `BALANCED`.
+    """
+    robot = hoshino()
+    freedoms = freedoms_of(dof, 4)
+    footing = Footing(robot=robot, support=SUPPORT[freedoms], pose=start[:6])
+    if speeds is None:
+        speeds = own_speeds(robot) if limited else BALANCED
+    settings = Cooperation(
+        speeds=speeds, tool_speeds=TOOL_SPEEDS, gain=gain, feedback=feedback, period=PERIOD, form=form, limited=limited
+    )
+    law, weights = Cooperator(robot, settings, footing), weights_of(freedoms, 4)
+    if limited:
+        law.check_start(start)
+    rows = round(LASTS / PERIOD) + 1
+    out = ToolRun(
+        dof, gain, footing, np.arange(rows, dtype=np.float64) * PERIOD, np.empty((rows, 10)), np.empty((rows, 3)), np.empty((rows, 3)),
+        np.empty(rows),
+    )  # fmt: skip
+    q, begin = start, law.place(start)
+    for k in range(rows):
+        u = k / (rows - 1)
+        share = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u)
+        speed = 30.0 * u * u * (1.0 - u) * (1.0 - u) / LASTS
+        out.wanted[k] = begin + share * way
+        step = law.step(q, out.wanted[k], speed * way, weights)
+        out.q[k], out.places[k], out.measure[k] = q, step.place, step.measure
+        q = step.q
+    return out
+
+
+def random_case(seed: int) -> tuple[Floats, Floats]:
+    """A start about the usual one and a way of 0.1 to 0.35 m anywhere that the arm alone can go."""
+    robot = hoshino()
+    assert robot.arm is not None
+    rng = np.random.default_rng(seed)
+    reach = sum(robot.arm.links)
+    while True:
+        start = START.copy()
+        start[6:] = rng.uniform((-2.0, 0.5, -2.0, -1.5), (2.0, 1.5, -0.5, 1.5))
+        direction = rng.normal(size=3)
+        way = rng.uniform(0.1, 0.35) * direction / np.linalg.norm(direction)
+        footing = Footing(robot=robot, support="delta", pose=start[:6])
+        law = Cooperator(robot, Cooperation(speeds=BALANCED, tool_speeds=TOOL_SPEEDS), footing)
+        end = law.place(start) + way
+        flat = np.hypot(end[0], end[1])
+        shoulder = np.hypot(flat - robot.arm.out, end[2] - start[2] - robot.arm.up)
+        if flat > 0.2 and 0.3 < shoulder < 0.93 * reach and end[2] > 0.1:
+            return start, way

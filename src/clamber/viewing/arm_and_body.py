@@ -1,0 +1,61 @@
+"""A two-frame walker with its arm, as lines in 3-D axes."""
+
+from typing import Any, Final
+
+import numpy as np
+
+from ..control.cooperative.footing import Footing
+from ..control.cooperative.planted import heading_of, turn_of
+from ..robots.walker.weight import arm_places
+from ..types import Floats
+from . import style
+
+ARM: Final = style.PARTS[1]
+DELTA: Final = style.INK
+Y: Final = style.PARTS[2]
+
+
+def draw_robot(space: Any, footing: Footing, q: Floats, alpha: float) -> None:
+    """Draw frames, standing legs and arm.
+
+    Args:
+        space: 3-D axes.
+        footing: What it stands on.
+        q: Freedoms of body and arm, shape (6 + joints,).
+        alpha: Opacity.
+    """
+    robot, turn, origin = footing.robot, turn_of(q[3:6]), q[:3]
+    feet = footing.feet_on_ground()
+    offset, twist = np.array(footing.offset), footing.twist
+    if footing.support == "y":
+        offset = (turn.T @ (feet[1].mean(axis=0) - origin))[:2]
+        twist += heading_of(footing.pose[3:6]) - heading_of(q[3:6])
+    c, s = np.cos(twist), np.sin(twist)
+    plate = robot.feet()
+    plate[1] = plate[1] @ np.array([[c, s], [-s, c]]) + offset
+    over = plate @ turn[:, :2].T + origin
+    for frame, colour in enumerate((DELTA, Y)):
+        loop = np.vstack([over[frame], over[frame][:1]]) if frame == 0 else _spokes(over[1])
+        space.plot(*loop.T, color=colour, lw=2.0, alpha=alpha)
+        if frame in footing.standing():
+            for top, foot in zip(over[frame], feet[frame], strict=True):
+                space.plot(*np.array([top, foot]).T, color=colour, lw=1.4, alpha=alpha)
+    assert robot.arm is not None, "only robots with an arm follow paths"
+    arm = np.vstack([np.zeros(3), [0.0, 0.0, robot.arm.up], arm_places(robot.arm, q[6:].tolist())]) @ turn.T + origin
+    space.plot(*arm.T, color=ARM, lw=2.6, alpha=alpha, solid_capstyle="round")
+
+
+def set_space(space: Any) -> None:
+    """Equal scales, named axes and a view from the side."""
+    space.set_aspect("equal")
+    for name in "xyz":
+        getattr(space, f"set_{name}label")(f"{name} [m]")
+        getattr(space, f"{name}axis").pane.set_facecolor(style.WALL)
+    space.view_init(elev=18, azim=-62)
+    space.locator_params(nbins=5)
+
+
+def _spokes(tips: Floats) -> Floats:
+    """The Y-frame as one line from its middle out to each tip and back."""
+    middle = tips.mean(axis=0)
+    return np.array([tips[0], middle, tips[1], middle, tips[2]])

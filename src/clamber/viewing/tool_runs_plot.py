@@ -1,0 +1,122 @@
+"""Pictures of motions of body and arm for a tool, side by side: by freedoms, and by the gain of the manipulability's gradient."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from ..control.cooperative.footing import Footing
+from ..types import Floats
+from . import style
+from .arm_and_body import draw_robot, set_space
+from .output import CANVASES, check_suffix, save_figure
+from .style import styled
+
+ALPHAS: Final = (0.2, 0.45, 1.0)
+"""Of start, middle and end."""
+COLOURS: Final = (style.QUIET, style.PARTS[0], style.PARTS[1], style.PARTS[2])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Motion:
+    """One motion as the pictures need it."""
+
+    title: str
+    footing: Footing
+    q: Floats
+    """Freedoms, shape (rows, m)."""
+    places: Floats
+    """Of the tool [m], shape (rows, 3)."""
+
+
+def draw_motions(motions: Sequence[Motion], path: str | Path) -> None:
+    """Draw start, middle and end of each motion in space.
+
+    Raises:
+        SuffixError: If the file's suffix names no format for still pictures.
+        FileError: If the file cannot be written.
+    """
+    check_suffix(path, CANVASES)
+    with styled():
+        figure = Figure(figsize=(3.9 * len(motions), 3.9))
+        figure.subplots_adjust(left=0.0, right=0.97, bottom=0.06, top=0.9, wspace=0.08)
+        for k, motion in enumerate(motions):
+            space: Any = figure.add_subplot(1, len(motions), k + 1, projection="3d")
+            for row, alpha in zip((0, len(motion.q) // 2, -1), ALPHAS, strict=True):
+                draw_robot(space, motion.footing, motion.q[row], alpha)
+            space.plot(*motion.places.T, color=style.PARTS[0], lw=1.6)
+            set_space(space)
+            space.set(xlim=(-0.3, 0.75), ylim=(-0.3, 0.4), zlim=(0.0, 1.05))
+            space.set_aspect("equal")
+            space.set_title(motion.title, fontsize=9.5, loc="center")
+        save_figure(figure, path)
+
+
+def draw_gains(time: Floats, courses: Mapping[float, Floats], means: Mapping[int, Floats], path: str | Path) -> None:
+    """Draw V over time by gain, and the mean V of random ways over that with the first gain.
+
+    Args:
+        time: [s], shape (rows,).
+        courses: k_p -> V [-], shape (rows,).
+        means: Degrees of freedom -> mean V by way and gain, shape (ways, gains).
+        path: A file (.png, .svg, .pdf).
+
+    Raises:
+        SuffixError: If the file's suffix names no format for still pictures.
+        FileError: If the file cannot be written.
+    """
+    check_suffix(path, CANVASES)
+    gains = list(courses)
+    with styled():
+        figure = Figure(figsize=(9.4, 3.8), layout="constrained")
+        left, right = figure.subplots(1, 2, width_ratios=(1.0, 1.25))
+        for colour, (gain, course) in zip(COLOURS, courses.items(), strict=False):
+            left.plot(time, course, color=colour, lw=1.6, label=f"$k_p$ = {gain:g}")
+        left.set(xlabel="time [s]", ylabel="manipulability V [-]")
+        left.legend(fontsize=8)
+        rng = np.random.default_rng(0)
+        for place, values in enumerate(means.values()):
+            for k in range(1, len(gains)):
+                ratios = values[:, k] / values[:, 0]
+                at = place + 0.22 * (2 * k - len(gains)) + rng.uniform(-0.07, 0.07, len(ratios))
+                right.plot(at, ratios, ".", ms=4, color=COLOURS[k], alpha=0.75)
+        right.axhline(1.0, color=style.QUIET, lw=0.8)
+        right.set_xticks(range(len(means)), [f"{dof} dof" for dof in means])
+        right.set_ylabel(f"mean V over that with $k_p$ = {gains[0]:g} [-]")
+        for axes in (left, right):
+            style.bare(axes)
+            axes.grid(color=style.FAINT, lw=0.6, axis="y")
+        save_figure(figure, path)
+
+
+def draw_freedoms(means: Floats, dofs: Sequence[int], gains: Sequence[float], path: str | Path) -> None:
+    """Draw the mean V of each way over the number of freedoms.
+
+    Args:
+        means: Mean V, shape (gains, ways, sets).
+        dofs: Degrees of freedom of each set.
+        gains: k_p of each panel.
+        path: A file (.png, .svg, .pdf).
+
+    Raises:
+        SuffixError: If the file's suffix names no format for still pictures.
+        FileError: If the file cannot be written.
+    """
+    check_suffix(path, CANVASES)
+    with styled():
+        figure = Figure(figsize=(9.4, 3.6), layout="constrained")
+        for axes, gain, values in zip(figure.subplots(1, len(gains), sharey=True), gains, means, strict=True):
+            for way in values:
+                axes.plot(range(len(dofs)), way, color=style.PARTS[4], lw=0.6, alpha=0.6)
+            axes.plot(range(len(dofs)), np.median(values, axis=0), color=style.INK, lw=2.0, marker="o", ms=4)
+            axes.set_xticks(range(len(dofs)), [str(dof) for dof in dofs])
+            axes.set_xlabel("degrees of freedom")
+            axes.set_title(f"$k_p$ = {gain:g}", fontsize=9.5)
+            style.bare(axes)
+            axes.grid(color=style.FAINT, lw=0.6, axis="y")
+        figure.axes[0].set_ylabel("mean V of a way [-]; median in bold")
+        figure.axes[0].set_ylim(bottom=0.0)
+        save_figure(figure, path)

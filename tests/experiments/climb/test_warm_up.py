@@ -1,0 +1,65 @@
+"""The time of a climb is its own: kernels are ready before it begins, and new plans don't count."""
+
+import subprocess
+import sys
+
+import pytest
+
+from clamber.actions.plan import Plan
+from clamber.execution.climb.climb_report import ClimbReport
+from clamber.execution.climb.sequencer import Sequencer
+from clamber.experiments.climb import run_plan as running
+from clamber.experiments.climb.climb_work import two_rungs
+from clamber.experiments.climb.run_plan import climbing_flaws, run_plan
+from clamber.tasks.limbed import LimbedTask
+
+CLIMB = """
+import gc
+from numba.core.registry import CPUDispatcher
+from clamber.experiments.climb.climb_work import two_rungs
+from clamber.experiments.climb.noise import named_noise
+from clamber.experiments.climb.run_plan import climbing_flaws, run_plan
+from clamber.experiments.climb.warm_up import warm_up
+
+def loaded():
+    return {(one.__module__, one.__name__) for one in gc.get_objects() if isinstance(one, CPUDispatcher) and one.overloads}
+
+warm_up()
+before = loaded()
+task, plan = two_rungs()
+run = run_plan(task, plan, climbing_flaws(task, ()), noise=named_noise("usual"), seed=3, plant="volts")
+assert len(run.report.actions) == 11, run.report.reason
+assert len(before) > 5
+print(sorted(loaded() - before))
+"""
+
+
+def test_after_warming_up_a_climb_loads_no_further_kernel() -> None:
+    told = subprocess.run([sys.executable, "-c", CLIMB], capture_output=True, text=True, timeout=600)
+    assert told.stdout.strip() == "[]", told.stderr
+
+
+def test_time_of_a_climb_has_neither_warming_up_nor_new_plans_in_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    now = 0.0
+
+    def pass_by(seconds: float) -> None:
+        nonlocal now
+        now += seconds
+
+    def climb(self: Sequencer) -> ClimbReport:
+        pass_by(3.0)
+        assert self._replan is not None
+        assert self._replan(task) is plan
+        self.start()
+        self.climber.tick()
+        return self.report
+
+    def replan(task: LimbedTask) -> Plan:
+        pass_by(10.0)
+        return plan
+
+    task, plan = two_rungs()
+    monkeypatch.setattr(running.time, "perf_counter", lambda: now)
+    monkeypatch.setattr(running, "warm_up", lambda: pass_by(100.0))
+    monkeypatch.setattr(Sequencer, "run", climb)
+    assert run_plan(task, plan, climbing_flaws(task, ()), replan=replan).wall_seconds == 3.0

@@ -1,0 +1,170 @@
+"""The walker's plant: aims, sensors, truth, and that it keeps its protocol's word."""
+
+import math
+
+import numpy as np
+import pytest
+from walker_by_hand import LEVEL, POSE, hoshino, legs_with, lengths, let_pass, standing
+
+from clamber.execution.walk.plant import WalkerPlant
+from clamber.sim.limb_flaws import PlantError
+from clamber.sim.walker_flaws import Inclinometers, WalkerFlaws
+from clamber.sim.walker_plant import WalkerSim, plate_angles, plate_quaternion
+from clamber.units import GRAVITY
+from clamber.worlds import Ground
+from clamber.worlds.ground import Block
+
+
+def test_it_is_a_walker_plant() -> None:
+    plant: WalkerPlant = standing()
+    assert plant.period == 0.02
+    plant.pause()
+    plant.step()
+    assert plant.sense().time == 0.02
+
+
+def test_it_is_put_down_where_its_lowest_foot_touches() -> None:
+    step = Ground(name="step", blocks=(Block(x_min=-0.1, x_max=1.0, y_min=0.2, y_max=1.0, height=0.03),))
+    legs = legs_with(None)
+    legs[0, 0] -= 0.03  # its foot is at (0, 0.238), on the step
+    sim = standing(ground=step, legs=legs, pose=np.array((0.0, 0.0, 5.0, 0.3, 0.0, 0.0)))
+    true = sim.truth()
+    assert true.pose[2] == pytest.approx(0.35, abs=2e-3)
+    assert true.pose[3] == pytest.approx(0.3, abs=1e-3)
+    sim = standing(ground=step, legs=legs)
+    true = sim.truth()
+    assert true.feet[0, 0, 2] == pytest.approx(0.03, abs=2e-3)
+    assert true.touching.sum() >= 3
+
+
+def test_what_is_sensed_is_so() -> None:
+    place = (0.03, -0.02, 0.2)
+    sim = standing(place, flaws=WalkerFlaws(inclinometers=Inclinometers(offsets=(0.002, -0.001))))
+    let_pass(sim, 2.0)
+    sensed, true = sim.sense(), sim.truth()
+    robot = hoshino()
+    np.testing.assert_allclose(sensed.actuators, lengths(robot, true.place), atol=1e-12)
+    np.testing.assert_allclose(sensed.forces, true.forces[..., 2], atol=0.5)
+    assert sensed.forces.sum() == pytest.approx(80.0 * GRAVITY, abs=0.01)
+    inclines = (-true.pose[4] + 0.002, math.asin(math.cos(true.pose[4]) * math.sin(true.pose[5])) - 0.001)
+    np.testing.assert_allclose(sensed.inclines, inclines, atol=1e-7)
+    # soles by the plate's pose and the legs' lengths; feet give way to the sides by next to nothing here
+    alpha = true.pose[3]
+    for f, angle in enumerate((alpha, alpha + true.place[2])):
+        c, s = math.cos(angle), math.sin(angle)
+        along = robot.feet()[f] @ np.array(((c, s), (-s, c)))
+        origin = true.pose[:2] + (true.place[:2] if f else 0.0)
+        np.testing.assert_allclose(true.feet[f, :, :2], origin + along, atol=1e-3)
+        np.testing.assert_allclose(true.feet[f, :, 2], true.pose[2] - sensed.legs[f], atol=1e-3)
+
+
+def test_aims_are_even_within_a_period() -> None:
+    """A motor's own aim is a straight line between the ticks, at every physics step, and what follows it is no staircase."""
+    sim = standing(lifted=1)
+    legs = legs_with(1)
+    act = int(sim.model.actuator("y leg 0").actadr[0])
+    seen = []
+    for tick in range(10):
+        legs[1] += 0.1e-3  # the leg's top speed
+        sim.actuate(sim.sense().actuators, legs, sim.sense().arm)
+        before = sim._data.act[act]
+        sim.step()
+        seen.append(sim._data.act[act] - before)
+        assert sim._data.act[act] == pytest.approx(legs[1, 0], abs=1e-12), tick
+    np.testing.assert_allclose(seen, 0.1e-3, atol=1e-12)
+
+
+def test_motors_keep_to_their_speeds_strokes_and_steps() -> None:
+    sim = standing(lifted=1)
+    robot = hoshino()
+    legs = legs_with(1)
+    legs[1, 0] = 0.1  # 0.15 m beyond the stroke
+    legs[1, 1] = 0.31234  # no whole step of the motor
+    aims = sim.sense().actuators + np.array((0.0, 0.0, 0.02))
+    before = sim.sense().legs.copy()
+    sim.actuate(aims, legs, sim.sense().arm)
+    let_pass(sim, 1.0)
+    now = sim.sense()
+    assert before[1, 0] - now.legs[1, 0] == pytest.approx(robot.legs.speed * 1.0, abs=3e-4)
+    assert now.actuators[2] - 0.2384 == pytest.approx(robot.mechanism.speed * 1.0, abs=2e-4)
+    let_pass(sim, 15.0)
+    now = sim.sense()
+    assert now.legs[1, 0] == pytest.approx(robot.legs.shortest, abs=2e-5)
+    assert now.legs[1, 1] == pytest.approx(0.3123, abs=2e-5)
+
+
+def test_resets_begin_anew_to_the_last_bit() -> None:
+    sim = standing(flaws=WalkerFlaws(seed=3, force_noise=1.0, inclinometers=Inclinometers(noise=1e-3)))
+    robot = hoshino()
+    assert robot.arm is not None
+    runs = []
+    for _ in range(2):
+        sim.reset(POSE, np.zeros(3), legs_with(None), np.array(robot.arm.rest))
+        sensed = []
+        for _ in range(10):
+            sim.actuate(lengths(robot, np.array((0.01, 0.0, 0.0))), legs_with(None), np.array(robot.arm.rest))
+            sim.step()
+            now = sim.sense()
+            sensed.append(np.concatenate((now.actuators, now.legs.ravel(), now.forces.ravel(), now.inclines)))
+        runs.append(np.array(sensed))
+    np.testing.assert_array_equal(*runs)
+
+
+def test_load_cells_have_the_stated_noise() -> None:
+    sim = standing(lifted=1, flaws=WalkerFlaws(seed=3, force_noise=2.0))
+    let_pass(sim, 1.0)
+    readings = np.array([sim.sense().forces[1].copy() for _ in range(2000)])
+    assert readings.std() == pytest.approx(2.0, rel=4.0 / math.sqrt(2 * 6000))
+    assert abs(readings.mean()) < 4.0 * 2.0 / math.sqrt(6000)
+
+
+def test_a_payload_moves_the_centre_of_mass_and_the_margin_of_statics() -> None:
+    arm = (math.pi / 2, 0.0, 0.0, 0.0)  # straight out, over a foot of the Delta-frame
+    bare, loaded = (standing(arm=arm, flaws=WalkerFlaws(payload=payload)).truth() for payload in (0.0, 10.0))
+    assert loaded.tool[1] - loaded.pose[1] == pytest.approx(0.8, abs=3e-3)
+    wanted = (80.0 * bare.centre + 10.0 * loaded.tool) / 90.0
+    np.testing.assert_allclose(loaded.centre, wanted, atol=2e-3)
+    assert loaded.forces.sum(axis=(0, 1))[2] == pytest.approx(90.0 * GRAVITY, abs=1.0)
+
+
+def test_slippery_feet_slide_on_a_slope_that_is_steeper_than_their_friction() -> None:
+    """With the centre of mass over the middle of three feet; friction 0.15 holds up to 8.5 deg, 0.2 up to 11.3 deg."""
+    slope = math.radians(10.0)
+    ground = Ground(name="slope", slope=slope, friction=1.0)
+    moved = {}
+    for friction in (0.15, 0.2):
+        legs = legs_with(1, length=0.33) - ground.heights(hoshino().feet())
+        sim = standing(lifted=1, ground=ground, legs=legs, flaws=WalkerFlaws(friction=friction))
+        before = sim.truth().pose[0]
+        let_pass(sim, 3.0)
+        moved[friction] = before - sim.truth().pose[0]
+    assert moved[0.15] > 0.1
+    assert abs(moved[0.2]) < 1e-4
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ({"payload": -1.0}, "payload"),
+        ({"friction": 0.0}, "friction"),
+        ({"mass_error": 1.0, "seed": 0}, "mass_error"),
+        ({"force_noise": 1.0}, "needs a seed"),
+        ({"inclinometers": Inclinometers(noise=1e-3)}, "inclinometers.noise"),
+        ({"control_rate": 300.0}, "must divide"),
+        ({"seed": -1}, "seed"),
+    ],
+)
+def test_impossible_flaws_are_refused(keys: dict[str, object], words: str) -> None:
+    with pytest.raises(PlantError, match=words):
+        WalkerFlaws().with_changes(**keys)
+    with pytest.raises(PlantError, match="no such property"):
+        WalkerFlaws().with_changes(frictoin=1.0)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_angles_of_a_posture_come_back(seed: int) -> None:
+    angles = tuple(np.random.default_rng(seed).uniform(-1.5, 1.5, 3))
+    sim = WalkerSim(hoshino(), LEVEL, WalkerFlaws())
+    sim._qpos[:] = 0.0
+    sim._qpos[3:7] = plate_quaternion(*angles)
+    np.testing.assert_allclose(plate_angles(sim._axes()), angles, atol=1e-12)

@@ -1,0 +1,53 @@
+"""Hoshino 1995, sections 2 and 3: the geometry of the two frames."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from clamber.robots.walker import TwoFrames
+from clamber.robots.walker.slide_time import slide_seconds
+from clamber.studies.hoshino_1995.walker import hoshino
+from clamber.studies.library import OF_FRAMES, STUDIES
+from clamber.studies.report import write_report
+
+
+def test_the_printed_numbers_come_out_to_their_last_place() -> None:
+    result = OF_FRAMES["table"]()
+    assert result.verdict == "holds"
+    numbers = result.numbers
+    assert numbers["walking speed, a step per cycle [mm/min]"] == pytest.approx(130.0, abs=0.5)
+    assert numbers["turning speed while sliding [deg/min]"] == pytest.approx(150.0, abs=0.5)
+    json.dumps(result.to_json(), allow_nan=False)
+
+
+def test_regions_grow_by_strokes_alone_and_shrink_within_the_guard() -> None:
+    result = OF_FRAMES["fig-4"]()
+    assert result.verdict == "holds"
+    assert result.numbers["angle of the largest guarded area [deg]"] == 20
+    guarded = [float(v) for k, v in result.numbers.items() if k.startswith("area within 0.9")]  # type: ignore[arg-type]
+    assert guarded[:5] == sorted(guarded[:5]) and guarded[4:] == sorted(guarded[4:], reverse=True)
+
+
+def test_a_wide_ditch_takes_a_pivot(tmp_path: Path) -> None:
+    result = OF_FRAMES["fig-5"]()
+    assert result.verdict == "holds"
+    assert result.numbers["a ditch of 200 mm ahead, theta = 0, theta_w = 0: pivots"] > 0  # type: ignore[operator]
+    write_report([result, OF_FRAMES["fig-4"]()], tmp_path)
+    pages = tmp_path / "hoshino-1995"
+    for name in ("fig-4-regions", "fig-4-areas", "fig-5-maps", "fig-5-curves", "fig-5-crossing"):
+        assert (pages / f"{name}.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_every_result_of_the_frames_is_listed() -> None:
+    assert set(OF_FRAMES) <= set(STUDIES["hoshino-1995"])
+
+
+def test_a_slide_takes_as_long_as_its_busiest_actuator() -> None:
+    """Turning on the spot changes all three lengths alike: from end to end by the whole stroke."""
+    robot = hoshino()
+    frames = TwoFrames.of(robot.mechanism)
+    whole = slide_seconds(frames, robot.mechanism.speed, (0, 0, -0.31383), (0, 0, 0.83708))
+    assert whole == pytest.approx(0.25 / robot.mechanism.speed, rel=1e-4)
+    # along an actuator its length changes as much as the way is long
+    assert slide_seconds(frames, 0.01, (0, 0, 0), (0, -0.05, 0)) == pytest.approx(5.0, rel=1e-9)
