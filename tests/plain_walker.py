@@ -86,12 +86,17 @@ class PlainWalker:
         return [origin + radius * cmath.exp(1j * angle) * d for d in self.directions(frame)]
 
     def ground(self, foot: complex) -> float:
-        """Height of the ground: that of the last block over a place."""
-        height = 0.0
-        for block in self.task.world.blocks:
-            if signed_distance(foot, [complex(*corner) for corner in block.corners]) < 0.0:
-                height = block.height
-        return height
+        """Height of the ground over a place, as the world itself has it."""
+        height = float(self.task.world.heights((foot.real, foot.imag)))
+        return height if math.isfinite(height) else -UNLIMITED
+
+    def on_slope(self, foot: complex) -> complex:
+        """Where in the ground's frame a foot stands that is over a place."""
+        world = self.task.world
+        tilt, heading = world.slope, cmath.exp(1j * world.uphill)
+        along = foot * heading.conjugate()  # its real part goes uphill
+        rise = math.cos(tilt) * along.real + math.sin(tilt) * self.ground(foot)
+        return complex(rise, along.imag) * heading
 
     def heights(self, stance: PlainStance) -> tuple[float, float, float]:
         """Lowest and highest that the plate can be, and where it is."""
@@ -140,13 +145,16 @@ class PlainWalker:
         longest = mechanism.shortest + mechanism.stroke
         rho = abs(attach_y[0] - attach_delta[0])
         feet = self.feet(stance, stance.stands)
-        patches = [[complex(*corner) for corner in patch] for patch in self.task.world.patches]
-        blocks = [[complex(*corner) for corner in block.corners] for block in self.task.world.blocks]
-        foothold = UNLIMITED
-        if patches or blocks:
-            away = [signed_distance(foot, patch) for foot in feet for patch in patches]
-            away += [edge_distance(foot, block) for foot in feet for block in blocks]
-            foothold = min([UNLIMITED, *away]) - (robot.legs.pad_radius + rules.clearance)
+        world = self.task.world
+        patches = [[complex(*corner) for corner in patch] for patch in world.forbidden()]
+        edges = [[complex(*corner) for corner in block.corners()] for block in world.raised()]
+        spots = [self.on_slope(foot) for foot in feet]
+        away = [signed_distance(spot, patch) for spot in spots for patch in patches]
+        away += [edge_distance(spot, edge) for spot in spots for edge in edges]
+        away += [
+            min(s.real - world.x_min, world.x_max - s.real, s.imag - world.y_min, world.y_max - s.imag) for s in spots
+        ]
+        foothold = min(away) - (robot.legs.pad_radius + rules.clearance)
         low, high, _ = self.heights(stance)
         if landed:
             other = "y" if stance.stands == "delta" else "delta"

@@ -29,8 +29,8 @@ GAP = (
 RING = (
     "patch-walk",
     (
-        "goal.x_min=0.8m", "step.length=80mm", "step.angle=30deg", "field.polygons=[]",
-        'field.boxes=[{x_min="40cm",x_max="60cm",y_min="-2m",y_max="2m"},{x_min="-80cm",x_max="-40cm",y_min="-2m",y_max="2m"},'
+        "goal.x_min=0.8m", "step.length=80mm", "step.angle=30deg",
+        'ground.patches=[{x_min="40cm",x_max="60cm",y_min="-2m",y_max="2m"},{x_min="-80cm",x_max="-40cm",y_min="-2m",y_max="2m"},'
         '{x_min="-80cm",x_max="60cm",y_min="40cm",y_max="2m"},{x_min="-80cm",x_max="60cm",y_min="-2m",y_max="-40cm"}]',
     ),
 )  # fmt: skip
@@ -137,7 +137,7 @@ def test_the_answer_does_not_depend_on_threads(steep: Openings) -> None:
 def test_a_walker_learns_which_patch_shuts_it_in() -> None:
     found = openings_of(RING)
     assert found.places is None
-    dropped = [opening for opening in found.openings if opening.key == "field.boxes"]
+    dropped = [opening for opening in found.openings if opening.key == "ground.patches"]
     assert dropped[0].before == "patch 0"
     assert is_feasible(RING, *dropped[0].overrides) == dropped[0].length
     assert {shut.key for shut in found.shut if shut.proved} >= {"rules.clearance", "rules.balance"}

@@ -21,28 +21,26 @@ from clamber.compiled import kernel
 from clamber.errors import SpecError
 from clamber.planning.planners import plan_task
 from clamber.robots import load_robot
-from clamber.statics.records import UNLIMITED
 from clamber.statics.walker import BALANCE, FOOTHOLD, LEGS, SINGULAR, STROKE
 from clamber.tasks import load_task, task_from_document
 from clamber.tasks.walker import WalkerTask
-from clamber.worlds import load_field
-from clamber.worlds.field import Block, PatchField
+from clamber.worlds.ground import Block, Ground
 from plain_walker import CHECKS, PlainStance, PlainWalker
 
 ACTIONS = (*MOVES, "swap", "none")
 CODES = (*(pack(MOVE, 0, axis) for axis in range(6)), pack(RELEASE), pack(NONE))
-OPEN = PatchField(name="open", title="", patches=())
+OPEN = Ground(name="open", title="", patches=())
 
 
-def load(*overrides: str, field: PatchField | None = None) -> WalkerTask:
+def load(*overrides: str, ground: Ground | None = None) -> WalkerTask:
     task = load_task("patch-walk", overrides)
     assert isinstance(task, WalkerTask)
-    return task if field is None else replace(task, world=field)
+    return task if ground is None else replace(task, world=ground)
 
 
 def bare(*overrides: str) -> WalkerProblem:
     """On open ground, with the mechanism's checks alone."""
-    task = load("rules.hard=['stroke', 'singular']", *overrides, field=OPEN)
+    task = load("rules.hard=['stroke', 'singular']", *overrides, ground=OPEN)
     return WalkerProblem(task, walker_table(), threads=1)
 
 
@@ -155,9 +153,10 @@ def random_task(rng: random.Random) -> WalkerTask:
     blocks = []
     for _ in range(rng.choice((0, 0, 1, 3))):
         x, y, side = rng.uniform(-0.5, 0.5), rng.uniform(-0.5, 0.5), rng.uniform(0.2, 0.6)
-        corners = ((x, y), (x + side, y), (x + side, y + side), (x, y + side))
-        blocks.append(Block(corners=corners, height=rng.uniform(-0.12, 0.12)))
-    return load(*overrides, field=PatchField(name="random", title="", patches=tuple(patches), blocks=tuple(blocks)))
+        blocks.append(Block(x_min=x, x_max=x + side, y_min=y, y_max=y + side, height=rng.uniform(-0.12, 0.12)))
+    slope = {"slope": rng.choice((0.0, 0.1, 0.3)), "uphill": rng.uniform(-3.0, 3.0)}
+    ground = Ground(name="random", title="", patches=tuple(patches), blocks=tuple(blocks), **slope)
+    return load(*overrides, ground=ground)
 
 
 def test_kernel_and_plain_evaluator_agree_on_random_walks() -> None:
@@ -222,13 +221,13 @@ def test_a_third_of_a_turn_of_walker_and_arm_changes_no_margin() -> None:
 
 def test_mirrored_walkers_have_equal_margins() -> None:
     """Mirrored in the y axis: offset and twist change their signs, x its direction."""
-    field = PatchField(name="box", title="", patches=(((0.3, 0.1), (0.4, 0.1), (0.4, 0.3), (0.3, 0.3)),))
-    mirror_patches = tuple(tuple((-x, y) for x, y in patch) for patch in field.patches)
+    ground = Ground(name="box", title="", patches=(((0.3, 0.1), (0.4, 0.1), (0.4, 0.3), (0.3, 0.3)),))
+    mirror_patches = tuple(tuple((-x, y) for x, y in patch) for patch in ground.patches)
     arms = (f"start.arm=['{angle} deg', '0.8 rad', '-1 rad', '-0.9 rad']" for angle in (80, 100))
-    task = load("start.x=7 cm", "start.twist=12 deg", "start.offset=['1 cm', '-2 cm']", next(arms), field=field)
+    task = load("start.x=7 cm", "start.twist=12 deg", "start.offset=['1 cm', '-2 cm']", next(arms), ground=ground)
     image = load(
         "start.x=-7 cm", "start.twist=-12 deg", "start.offset=['-1 cm', '-2 cm']", "mechanism.offset=60 deg", next(arms),
-        field=replace(field, patches=mirror_patches),
+        ground=replace(ground, patches=mirror_patches),
     )  # fmt: skip
     rng = np.random.default_rng(2)
     which = rng.integers(0, 7, 300)
@@ -294,11 +293,7 @@ def on_block(height: float, *overrides: str) -> WalkerProblem:
     task = load(*overrides)
     feet = WalkerProblem(replace(task, world=OPEN), walker_table(), threads=1).start["foot"][0]
     blocks = tuple(
-        Block(
-            corners=tuple((x + dx, y + dy) for dx, dy in ((-0.02, -0.02), (0.02, -0.02), (0.02, 0.02), (-0.02, 0.02))),
-            height=height,
-        )
-        for x, y in feet[1]
+        Block(x_min=x - 0.02, x_max=x + 0.02, y_min=y - 0.02, y_max=y + 0.02, height=height) for x, y in feet[1]
     )
     return WalkerProblem(replace(task, world=replace(OPEN, blocks=blocks)), walker_table(), threads=1)
 
@@ -420,7 +415,7 @@ def test_rollout_says_what_replay_says_on_any_number_of_threads() -> None:
 )
 def test_the_bound_never_overestimates(goal: tuple[str, ...]) -> None:
     """Against the least actions to a goal, over all stances within 14 actions of the start on a coarse lattice."""
-    task = load("step.length=6 cm", "step.angle=24 deg", *goal, field=OPEN)
+    task = load("step.length=6 cm", "step.angle=24 deg", *goal, ground=OPEN)
     problem = WalkerProblem(task, walker_table(), threads=1)
     layers, index_of, stances, children = [problem.start], {keys_of(problem, problem.start): 0}, [problem.start], {}
     for _ in range(14):
@@ -463,7 +458,7 @@ def test_the_task_is_rebuilt_from_its_document() -> None:
     task = load("start.x=1 cm")
     again = task_from_document(json.loads(json.dumps(task.document)))
     assert again == task
-    assert set(task.hashes) == {"robot", "field", "task"}
+    assert set(task.hashes) == {"robot", "ground", "task"}
 
 
 def test_every_number_of_the_robot_says_whether_it_is_printed_fitted_or_chosen() -> None:
@@ -482,8 +477,8 @@ def test_every_number_of_the_robot_says_whether_it_is_printed_fitted_or_chosen()
         ("goal.x_max=3 cm", "must be at most x_max"),
         ("mechanism.guard=1.2", "must be 1 or less"),
         ("start.stands=x", "must be 'delta' or 'y'"),
-        ("field.boxes.0.x_min=1 m", "must be less than x_max"),
-        ("field.polygons=[[['0 m', '0 m'], ['1 m', '1 m']]]", "at least three corners"),
+        ("ground.patches.0.x_min=1 m", "must be less than x_max"),
+        ("ground.patches=[[['0 m', '0 m'], ['1 m', '1 m']]]", "at least three corners"),
     ],
 )
 def test_bad_input_is_named(override: str, said: str) -> None:
@@ -492,10 +487,36 @@ def test_bad_input_is_named(override: str, said: str) -> None:
     assert said in str(error.value)
 
 
-def test_a_field_without_patches_limits_no_foot() -> None:
-    replay = bare().replay(np.array([CODES[6]], np.int32))
-    assert replay.margins[0, 2] == UNLIMITED
-    assert len(load_field("patches").patches) == 5
+def test_feet_stay_on_the_ground() -> None:
+    open_ground = bare().replay(np.array([CODES[6]], np.int32)).margins[0, FOOTHOLD]
+    assert open_ground == pytest.approx(10.0 - 0.2384 - 0.005, abs=1e-12)
+    ground = replace(OPEN, x_max=0.1)
+    margins = (
+        WalkerProblem(replace(load("rules.hard=[]"), world=ground), walker_table())
+        .replay(np.array([pack(NONE)], np.int32))
+        .margins[0]
+    )
+    assert margins[FOOTHOLD] < 0.0 and margins[LEGS] < -1e6
+
+
+def test_a_slope_takes_the_stroke_that_the_paper_needs() -> None:
+    """Ten degrees take 63 to 73 mm of three legs and up to 84 mm of six, which stand up to twice the radius apart."""
+    taken = []
+    for uphill in np.linspace(0.0, math.pi, 37):
+        problem = WalkerProblem(
+            replace(
+                load("rules.hard=[]", "legs.lift=0.001 mm"), world=replace(OPEN, slope=math.radians(10), uphill=uphill)
+            ),
+            walker_table(),
+        )
+        feet = problem.start["foot"][0]
+        heights = feet @ np.array([math.cos(uphill), math.sin(uphill)]) * math.tan(math.radians(10))
+        margin = problem.replay(np.array([pack(NONE)], np.int32)).margins[0, LEGS]
+        assert margin == pytest.approx(0.2 - (heights.max() - heights.min()), abs=2e-6)
+        taken.append((np.ptp(heights[0]), 0.2 - margin))
+    three, six = np.array(taken).T
+    assert (three.min(), three.max()) == pytest.approx((0.063, 0.073), abs=5e-4)
+    assert six.max() == pytest.approx(2 * 0.2384 * math.tan(math.radians(10)), abs=1e-5)
 
 
 def test_the_outline_has_the_actuators_lengths() -> None:

@@ -13,6 +13,7 @@ from clamber.robots.walker.ditch import Footing, FootingError, ditch_map, widest
 from clamber.robots.walker.ditch_plan import cross_ditch
 from clamber.robots.walker.ditch_slides import fewest_slides
 from clamber.robots.walker.intervals import meet, union
+from clamber.robots.walker.weight import Weight, weight_of
 
 DEG = math.pi / 180.0
 MM = 1e-3
@@ -26,12 +27,13 @@ def robot() -> WalkerRobot:
 
 def random_case(seed: int) -> tuple[Footing, float, float]:
     rng = np.random.default_rng(seed)
+    made = robot()
+    assert made.arm is not None
     footing = Footing.of(
-        robot(),
+        made,
+        weight=weight_of(made, rng.uniform(made.arm.lowest, made.arm.highest), float(rng.choice([0.0, 5.0]))),
         guard=float(rng.choice([0.0, 0.8, 0.9])),
         margin=float(rng.uniform(0, 30)) * MM,
-        load=float(rng.choice([0.0, 5.0])),
-        load_at=tuple(rng.uniform(-0.4, 0.4, 2)),
     )
     return footing, rng.uniform(-15, 45) * DEG, rng.uniform(0, math.tau)
 
@@ -55,7 +57,7 @@ class Search:
             rho = abs(b - a)[0]  # circles: the same for all
             within &= abs(place) <= footing.guard * rho
         feet = [footing.feet[0] @ (1, 1j), np.exp(1j * theta) * (footing.feet[1] @ (1, 1j))]
-        mass = complex(*footing.lean) + footing.share * place
+        mass = complex(*footing.weight.load) + footing.weight.share[1] * place
         over = []
         for own, centre in ((feet[0], mass), (feet[1], mass - place)):
             inside = np.full(place.shape, math.inf)
@@ -126,10 +128,19 @@ def test_a_crossing_is_as_wide_as_a_search_over_places_says(seed: int) -> None:
 @pytest.mark.parametrize("aside", [False, True])
 @pytest.mark.parametrize("guard", [0.0, 0.9])
 def test_the_map_repeats_every_sixty_degrees(aside: bool, guard: float) -> None:
-    footing = Footing.of(robot(), guard=guard)
+    """With the weight in the middle of the frames, as in theirs; an arm to one side counts where balance decides."""
+    footing = Footing.of(robot(), guard=guard, weight=Weight(80.0, np.array([0.63, 0.37]), np.zeros(2)))
     widths = ditch_map(footing, np.arange(-17, 48, 2.5) * DEG, np.arange(0, 360, 4) * DEG, aside=aside)
     for k in range(1, 6):
         np.testing.assert_allclose(np.roll(widths, 15 * k, axis=1), widths, atol=1e-9)
+
+
+def test_within_the_guard_the_arm_at_rest_decides_nothing() -> None:
+    thetas, directions = np.arange(-17, 48, 2.5) * DEG, np.arange(0, 360, 4) * DEG
+    middle = Footing.of(robot(), weight=Weight(80.0, np.array([0.63, 0.37]), np.zeros(2)))
+    np.testing.assert_allclose(
+        ditch_map(Footing.of(robot()), thetas, directions), ditch_map(middle, thetas, directions), atol=1e-9
+    )
 
 
 def test_the_straight_map_has_its_known_values() -> None:
@@ -151,7 +162,7 @@ def test_outside_the_range_of_angles_no_ditch_is_crossed() -> None:
 
 def test_a_pad_takes_its_width_twice() -> None:
     bare = Footing.of(robot())
-    padded = Footing(bare.frames, bare.feet, 5 * MM, bare.share, bare.lean, bare.guard, bare.margin)
+    padded = Footing(bare.frames, bare.feet, 5 * MM, bare.weight, bare.guard, bare.margin)
     assert widest_ditch(padded, 0.0, 0.5) == pytest.approx(widest_ditch(bare, 0.0, 0.5) - 10 * MM, abs=1e-9)
 
 
@@ -224,9 +235,9 @@ def test_where_no_way_leads_over_the_reason_is_told() -> None:
     assert "it cannot pivot where it stands" in cross_ditch(footing, 0.2, before=0.2065).reason
 
 
-@pytest.mark.parametrize(("what", "value"), [("load", -1.0), ("margin", math.nan), ("guard", math.inf)])
+@pytest.mark.parametrize(("what", "value"), [("margin", math.nan), ("margin", -1.0), ("guard", 1.1)])
 def test_footing_names_what_means_nothing(what: str, value: float) -> None:
-    with pytest.raises(FootingError, match=f"{what} = .*: must be finite and 0 or more"):
+    with pytest.raises(FootingError, match=f"{what} = .*: must be (finite and 0 or more|from 0 to 1)"):
         Footing.of(robot(), **{what: value})
     with pytest.raises(FootingError, match=r"width = -0\.1"):
         cross_ditch(Footing.of(robot()), -0.1, before=0.4)

@@ -1,16 +1,21 @@
 """The planar 3-RPR mechanism: its kinematics both ways, derivatives, singular poses, and the branch that is followed."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.optimize import fsolve
 
+import clamber
+from clamber.actions.walker_problem import walker_params
 from clamber.errors import SpecError
 from clamber.files import Document
 from clamber.robots.library import load_robot
 from clamber.robots.walker import PoseError, TwoFrames, WalkerRobot
 from clamber.robots.walker.assemblies import are_similar, general_poses, similar_poses
+from clamber.tasks import load_task
+from clamber.tasks.walker import WalkerTask
 
 MM = 1e-3
 SEEDS = range(12)
@@ -140,7 +145,7 @@ def test_closed_form_and_polynomial_agree_where_both_hold(seed: int) -> None:
         assert any(same(pose, other, 1e-5) for other in general)
 
 
-def test_a_general_mechanism_has_up_to_six_assemblies_and_no_fewer_than_an_even_number() -> None:
+def test_a_general_mechanism_has_two_four_or_six_assemblies() -> None:
     counts = set()
     for seed in range(200):
         frames = random_frames(seed)
@@ -271,3 +276,16 @@ def test_a_robot_file_may_state_attachments_as_points() -> None:
 def test_attachments_are_stated_in_one_way_and_whole(changes: dict[str, object], words: str) -> None:
     with pytest.raises(SpecError, match=words):
         with_mechanism(changes)
+
+
+def test_a_field_is_planned_for_attachments_on_circles_only(tmp_path: Path) -> None:
+    text = (Path(clamber.__file__).parent / "robots" / "data" / "hoshino.toml").read_text(encoding="utf-8")
+    rows = [row for row in text.splitlines() if not row.startswith(("radius_delta", "radius_y"))]
+    points = "\n".join(f"points_{frame} = {ATTACHMENTS[f'points_{frame}']!r}" for frame in ("delta", "y"))
+    made = "\n".join(rows).replace("[mechanism]", f"[mechanism]\n{points}")
+    made = made.replace("[legs]", '[legs]\nradius_delta = "238 mm"\nradius_y = "238 mm"')
+    (tmp_path / "odd.toml").write_text(made, encoding="utf-8")
+    task = load_task("patch-walk", [f"robot={tmp_path / 'odd.toml'}"])
+    assert isinstance(task, WalkerTask)
+    with pytest.raises(SpecError, match=r"mechanism\.points_delta: fields are planned for attachments on circles"):
+        walker_params(task)

@@ -1,6 +1,7 @@
 """Hoshino 1995, sections 2 and 3: the geometry of the two frames."""
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -37,6 +38,17 @@ def test_a_wide_ditch_takes_a_pivot(tmp_path: Path) -> None:
     pages = tmp_path / "hoshino-1995"
     for name in ("fig-4-regions", "fig-4-areas", "fig-5-maps", "fig-5-curves", "fig-5-crossing"):
         assert (pages / f"{name}.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_the_page_on_geometry_shows_these_areas() -> None:
+    page = (Path(__file__).resolve().parents[2] / "docs" / "walker-geometry.md").read_text(encoding="utf-8")
+    numbers = OF_FRAMES["fig-4"]().numbers
+    rows = re.findall(r"^\| (-?\d+) \| ([\d.]+) \| ([\d.]+) \|$", page, re.MULTILINE)
+    assert len(rows) == 6
+    for theta, strokes, guarded in rows:
+        assert float(strokes) == pytest.approx(numbers[f"area by strokes alone, theta = {theta} deg [cm^2]"], abs=0.06)
+        of = f"area within 0.9 of the singular distance, theta = {theta} deg [cm^2]"
+        assert float(guarded) == pytest.approx(numbers[of], abs=0.06)
 
 
 def test_every_result_of_the_frames_is_listed() -> None:

@@ -78,7 +78,7 @@ class WalkerProblem(CompiledProblem):
 
     @property
     def landmarks(self) -> int:
-        """Patches of the field."""
+        """Patches of the ground."""
         return len(self.task.world.patches)
 
     @property
@@ -132,7 +132,7 @@ def walker_params(task: WalkerTask) -> Params:
     """
     robot, rules, start = task.robot, task.rules, task.start
     if robot.mechanism.points_delta is not None:
-        allowed = "fields are planned for attachments on circles; state radius_delta and radius_y instead"
+        allowed = "walks are planned for attachments on circles; state radius_delta and radius_y instead"
         raise SpecError(f"robot '{robot.name}'", "mechanism.points_delta", MISSING, allowed)
     record = np.zeros(1, WALKER_PARAMS)
     row = record[0]
@@ -157,16 +157,20 @@ def walker_params(task: WalkerTask) -> Params:
     row["least_balance"] = rules.balance
     row["apart"] = farthest_apart(task)
     row["n_goals"] = len(task.goals)
-    row["n_patches"], row["n_blocks"] = len(task.world.patches), len(task.world.blocks)
+    ground = task.world
+    bricks = ground.tiles()
+    outlines = (*ground.forbidden(), *(block.corners() for block in ground.raised()))
+    row["n_patches"], row["n_edges"], row["n_bricks"] = len(ground.patches), len(ground.raised()), len(bricks)
+    row["down"], row["depth"] = ground.axes().T, ground.depth
+    row["ends"] = ground.x_min, ground.x_max, ground.y_min, ground.y_max
     row["hard"] = sum(1 << CHECKS.index(name) for name in rules.hard)
     row["kinds"][: len(FEATURE_KINDS)] = FEATURE_KINDS
-    outlines = (*task.world.patches, *(block.corners for block in task.world.blocks))
     return Params(
         record,
         goals=_goals(task),
         vertices=np.array([corner for corners in outlines for corner in corners], np.float64).reshape(-1, 2),
         patch_start=np.cumsum([0, *map(len, outlines)]).astype(np.int64),
-        heights=np.array([block.height for block in task.world.blocks], np.float64),
+        bricks=bricks,
     )
 
 
@@ -245,5 +249,5 @@ def outline(task: WalkerTask, stance: np.void) -> WalkerOutline:
         stands=int(stance["stands"]),
         actuators=np.stack(joints, axis=1),
         centre_of_mass=np.array([stance["mass_x"], stance["mass_y"]]),
-        patches=tuple(np.array(patch) for patch in task.world.patches),
+        patches=tuple(np.array(patch) for patch in task.world.forbidden()),
     )

@@ -15,6 +15,7 @@ from .bench import bench
 from .body import body
 from .calibrate import calibrate
 from .check import check
+from .ditch import ditch
 from .follow import follow
 from .help_text import command_of
 from .inventory import inventory
@@ -59,6 +60,7 @@ app.add_typer(new, name="new")
 app.add_typer(plant, name="plant")
 app.command("reach")(reach)
 app.command("calibrate")(calibrate)
+app.command("ditch")(ditch)
 app.command("study")(study)
 
 

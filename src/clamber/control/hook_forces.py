@@ -11,11 +11,11 @@ import math
 
 from ..compiled import inlined, kernel
 
-WISHED_CONE = math.radians(60.0)
+WISHED_CONE = math.radians(45.0)
 """Half angle about the grab direction within which the load of a hook that is fed forward is wished [rad]."""
 WIDEST_CONE = math.radians(70.0)
 """Likewise of all that it bears for a while, feedback included: friction and the hook's walls keep it on beyond."""
-WISHED_PULL = 6.0
+WISHED_PULL = 3.0
 """Pull along the grab direction that is wished of every hook [N]."""
 LEAST_PULL = 1.5
 """Likewise for a while [N]."""

@@ -18,6 +18,7 @@ from .cooperative.chain_peers import CHAIN_PEERS, PERIOD, Tick
 from .cooperative.follow import FollowOptions, FollowRun, follow_path
 from .cooperative.tool_path import load_tool_path
 from .ik_peers import installed
+from .region_speed import region_rows
 from .rows import NOTHING, Row, Say, keep_quiet
 
 ROUNDS: Final = 15
@@ -110,4 +111,4 @@ def reach_rows(*, rounds: int = ROUNDS, say: Say = keep_quiet) -> list[Row]:
 
 def hexapod_rows(*, say: Say = keep_quiet) -> list[Row]:
     """All of it."""
-    return [*step_rows(say=say), *peer_rows(say=say), *reach_rows(say=say)]
+    return [*step_rows(say=say), *peer_rows(say=say), *reach_rows(say=say), *region_rows(walker(), say=say)]

@@ -34,9 +34,7 @@ def walker_relaxations(task: WalkerTask) -> Iterator[Relaxation]:
 
 def _patches(task: WalkerTask) -> Iterator[Switch]:
     """Each patch that is not there."""
-    for kind in ("boxes", "polygons"):
-        raw = task.document["field"].get(kind, [])
-        for k in range(len(raw)):
-            rest = toml_value([patch for other, patch in enumerate(raw) if other != k])
-            key = f"field.{kind}"
-            yield Switch(key=key, before=f"patch {k}", after="dropped", overrides=(f"{key}={rest}",))
+    raw = task.document["ground"].get("patches", [])
+    for k in range(len(raw)):
+        rest = toml_value([patch for other, patch in enumerate(raw) if other != k])
+        yield Switch(key="ground.patches", before=f"patch {k}", after="dropped", overrides=(f"ground.patches={rest}",))

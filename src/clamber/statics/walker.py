@@ -20,7 +20,11 @@ FEATURE_SLOTS = 8
 WALKER_CHECKS: Final[tuple[Check, ...]] = (
     Check("stroke", "m", "how far the actuators' lengths lie inside their range, smallest of the three"),
     Check("singular", "m", "guarded distance at which the mechanism is singular, less the distance of the origins"),
-    Check("foothold", "m", "distance of the standing feet from the nearest patch or edge, less what the task asks for"),
+    Check(
+        "foothold",
+        "m",
+        "distance of the standing feet from the nearest patch or edge of the ground, less what the task asks for",
+    ),
     Check("balance", "m", "how far the centre of mass lies inside the standing feet, less what the task asks for"),
     Check("legs", "m", "range of plate heights at which every leg has the length that its foot needs"),
 )
@@ -55,13 +59,17 @@ WALKER_PARAMS = np.dtype(
         ("apart", "f8"),  # the origins are never farther apart in a valid stance; inf where nothing says so
         ("n_goals", "i4"),
         ("n_patches", "i4"),
-        ("n_blocks", "i4"),
+        ("n_edges", "i4"),  # outlines of level parts of the ground: a foot keeps off them
+        ("n_bricks", "i4"),
         ("hard", "i4"),
         ("kinds", "i4", (FEATURE_SLOTS,)),
         ("goals_at", "i8"),
         ("vertices_at", "i8"),
-        ("patch_start_at", "i8"),  # patches first, then blocks
-        ("heights_at", "i8"),
+        ("patch_start_at", "i8"),  # patches first, then edges
+        ("bricks_at", "i8"),
+        ("down", "f8", (3, 3)),  # turns the world's coordinates into the ground's
+        ("ends", "f8", (4,)),  # of the ground: x_min, x_max, y_min, y_max in its frame [m]
+        ("depth", "f8"),
         ("n_vertices", "i8"),
     ],
     align=True,
@@ -118,15 +126,15 @@ def walker_goals(p):
 
 @inlined
 def outline(p, k):
-    """Corners of outline k, shape (n, 2) [m]: the patches first, then the blocks."""
-    start = carray(pointer(p.patch_start_at), p.n_patches + p.n_blocks + 1, np.int64)
+    """Corners of outline k, shape (n, 2) [m]: the patches first, then the edges."""
+    start = carray(pointer(p.patch_start_at), p.n_patches + p.n_edges + 1, np.int64)
     return carray(pointer(p.vertices_at), (p.n_vertices, 2), np.float64)[start[k] : start[k + 1]]
 
 
 @inlined
-def block_heights(p):
-    """How high each block's top is [m]."""
-    return carray(pointer(p.heights_at), p.n_blocks, np.float64)
+def bricks(p):
+    """x_min, x_max, y_min, y_max, top of the bricks that the ground is made of, ground's frame [m], shape (n, 5)."""
+    return carray(pointer(p.bricks_at), (p.n_bricks, 5), np.float64)
 
 
 @inlined
@@ -164,9 +172,9 @@ def from_outline(x, y, corners):
 
 @kernel
 def patch_distance(p, x, y):
-    """Distance of a point from the nearest patch or edge of a block [m]; negative inside a patch, by how deep."""
-    best = UNLIMITED
-    for k in range(p.n_patches + p.n_blocks):
+    """Distance of a point of the ground, in its frame, from the nearest patch, edge or end [m]; negative in a patch or beyond an end."""
+    best = min(min(x - p.ends[0], p.ends[1] - x), min(y - p.ends[2], p.ends[3] - y))
+    for k in range(p.n_patches + p.n_edges):
         corners = outline(p, k)
         near = from_outline(x, y, corners)
         best = min(best, -near if k < p.n_patches and inside(x, y, corners) else near)
@@ -175,22 +183,42 @@ def patch_distance(p, x, y):
 
 @kernel
 def ground_height(p, x, y):
-    """Height of the ground at a place [m]: that of the last block over it, else 0."""
-    for k in range(p.n_blocks - 1, -1, -1):
-        if inside(x, y, outline(p, p.n_patches + k)):
-            return block_heights(p)[k]
-    return 0.0
+    """Height of the ground at a place of the level plane [m]: where an upright line leaves the highest brick; very low beyond all."""
+    best = -UNLIMITED
+    for k in range(p.n_bricks):
+        brick = bricks(p)[k]
+        enter = -math.inf
+        leave = math.inf
+        for axis in range(3):
+            start = p.down[axis, 0] * x + p.down[axis, 1] * y
+            rise = p.down[axis, 2]
+            low = -p.depth if axis == 2 else brick[2 * axis]
+            high = brick[4] if axis == 2 else brick[2 * axis + 1]
+            if abs(rise) < 1e-12:
+                if start < low or start > high:
+                    leave = -math.inf
+                continue
+            first = (low - start) / rise
+            second = (high - start) / rise
+            enter = max(enter, min(first, second))
+            leave = min(leave, max(first, second))
+        if enter <= leave:
+            best = max(best, leave)
+    return best
 
 
 @kernel
 def foothold(p, s):
-    """Margin of the standing feet from patches and edges [m]."""
-    if p.n_patches + p.n_blocks == 0:
-        return UNLIMITED
+    """Margin of the standing feet from patches, edges and the ground's ends [m]."""
     f = s.stands
     best = UNLIMITED
     for i in range(3):
-        best = min(best, patch_distance(p, s.foot[f, i, 0], s.foot[f, i, 1]))
+        x = s.foot[f, i, 0]
+        y = s.foot[f, i, 1]
+        z = ground_height(p, x, y)
+        u = p.down[0, 0] * x + p.down[0, 1] * y + p.down[0, 2] * z
+        v = p.down[1, 0] * x + p.down[1, 1] * y + p.down[1, 2] * z
+        best = min(best, patch_distance(p, u, v))
     return best - p.clearance
 
 
@@ -207,7 +235,7 @@ def stand_height(p, s, landed):
     total = 0.0
     for f in range(2):
         for i in range(3):
-            ground = ground_height(p, s.foot[f, i, 0], s.foot[f, i, 1]) if p.n_blocks > 0 else 0.0
+            ground = ground_height(p, s.foot[f, i, 0], s.foot[f, i, 1])
             if f == s.stands:
                 total += ground
                 low = max(low, ground + p.leg_shortest)

@@ -12,7 +12,7 @@ from ..robots.walker import WalkerRobot
 from ..specs import field_names
 from ..types import Json
 from ..worlds.board import SHORT_KEYS
-from ..worlds.library import read_board, read_field
+from ..worlds.library import read_board, read_ground
 from .limbed import LimbedTask, TaskSpec, build_limbed_task
 from .overrides import apply_overrides, split_override
 from .walker import WalkerTask, WalkerTaskSpec, build_walker_task
@@ -50,8 +50,8 @@ TASK_FAMILIES: Final[dict[str, TaskFamily]] = {
         short_keys={f"board.{short}": f"board.{key}" for short, key in SHORT_KEYS.items()},
     ),
     "walker": TaskFamily(
-        world_key="field",
-        read_world=read_field,
+        world_key="ground",
+        read_world=read_ground,
         build=build_walker_task,
         task_keys=field_names(WalkerTaskSpec),
         robot_keys=tuple(name for name in field_names(WalkerRobot) if name != "sources"),

@@ -1,4 +1,4 @@
-"""The two-frame walker's task: a robot on a field, its start, its steps, what counts as allowed and as done."""
+"""The two-frame walker's task: a robot on a ground, its start, its steps, what counts as allowed and as done."""
 
 import math
 from collections.abc import Mapping
@@ -14,7 +14,7 @@ from ..specs import Name, build_spec, spec
 from ..statics.walker import WALKER_CHECKS
 from ..types import Json
 from ..units import Angle, Length, NonNegativeLength, NonNegativeMass, Point, Quantity
-from ..worlds.field import PatchField, build_field
+from ..worlds.ground import Ground, build_ground
 
 SCHEMA: Final = "clamber-task-1"
 CHECK_NAMES: Final = tuple(check.name for check in WALKER_CHECKS)
@@ -98,7 +98,7 @@ class Goal:
 
 @spec
 class WalkerTaskSpec:
-    """What a task file says beside its robot and its field."""
+    """What a task file says beside its robot and its ground."""
 
     name: Name
     title: StrictStr = ""
@@ -117,37 +117,37 @@ class WalkerTask:
     name: str
     title: str
     robot: WalkerRobot
-    world: PatchField
+    world: Ground
     start: Start
     step: Step
     goals: tuple[Goal, ...]
     """Sub-goals in order, then the goal."""
     rules: Rules
     document: Json = field(default_factory=dict)
-    """Robot, field and task as read, with overrides applied, plain data: a worker rebuilds the task from it."""
+    """Robot, ground and task as read, with overrides applied, plain data: a worker rebuilds the task from it."""
     hashes: Mapping[str, str] = field(default_factory=dict)
-    """"robot", "field", "task" -> SHA-256 of that part of `document`."""
+    """"robot", "ground", "task" -> SHA-256 of that part of `document`."""
 
 
 def build_walker_task(document: Document) -> WalkerTask:
-    """A task from its merged document: a task file with its robot and field in place of their names.
+    """A task from its merged document: a task file with its robot and ground in place of their names.
 
     Raises:
         SpecError: If any of the three breaks a rule, or they do not fit each other.
     """
     check_schema(document, SCHEMA)
     robot_document = document.section("robot", _label(document, "robot"))
-    field_document = document.section("field", _label(document, "field"))
-    stated = build_spec(WalkerTaskSpec, document, without=("schema", "robot", "field", "labels"))
+    ground_document = document.section("ground", _label(document, "ground"))
+    stated = build_spec(WalkerTaskSpec, document, without=("schema", "robot", "ground", "labels"))
     _check(stated, document)
-    rest = {key: value for key, value in document.data.items() if key not in {"robot", "field", "labels"}}
+    rest = {key: value for key, value in document.data.items() if key not in {"robot", "ground", "labels"}}
     robot = build_walker(robot_document)
     _check_arm(stated.start, robot, document)
     return WalkerTask(
         name=stated.name,
         title=stated.title,
         robot=robot,
-        world=build_field(field_document),
+        world=build_ground(ground_document),
         start=stated.start,
         step=stated.step,
         goals=tuple(_resolve(goal, stated.step) for goal in (*stated.subgoals, stated.goal)),
@@ -155,7 +155,7 @@ def build_walker_task(document: Document) -> WalkerTask:
         document=document.data,
         hashes={
             "robot": content_hash(robot_document.data),
-            "field": content_hash(field_document.data),
+            "ground": content_hash(ground_document.data),
             "task": content_hash(rest),
         },
     )

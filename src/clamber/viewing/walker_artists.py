@@ -10,7 +10,7 @@ from matplotlib.patches import Circle, Polygon
 
 from ..robots.walker import FRAMES
 from ..tasks.walker import WalkerTask
-from ..worlds.field import Block
+from ..worlds.ground import Block
 from . import style
 from .scene import Bounds, draw_forbidden, draw_region, fit_bounds, goal_box, label_region, name_goal, set_axes
 from .walker_motion import WalkerMoment
@@ -30,7 +30,7 @@ def walker_bounds(task: WalkerTask, moments: list[WalkerMoment]) -> Bounds:
     points = np.vstack([np.vstack([*at.outline.frames, at.outline.feet.reshape(-1, 2)]) for at in moments])
     x0, x1, y0, y1 = fit_bounds(points, task.goals)
     room = 0.5 * max(task.robot.legs.radius_delta, task.robot.legs.radius_y)
-    corners = [np.array(patch) for patch in task.world.patches]
+    corners = [np.array(patch) for patch in task.world.forbidden()]
     low, high = (x0 - room, y0 - room), (x1 + room, y1 + room)
     near = [patch for patch in corners if np.all((patch >= low) & (patch <= high))]
     return fit_bounds(np.vstack([points, *near]), task.goals)
@@ -44,9 +44,9 @@ def foot_radius(task: WalkerTask, bounds: Bounds) -> float:
 def draw_ground(axes: Axes, task: WalkerTask, bounds: Bounds) -> None:
     """Draw patches and goals, and set up the axes."""
     set_axes(axes, task, bounds)
-    for block in task.world.blocks:
+    for block in task.world.raised():
         draw_block(axes, block, bounds)
-    draw_forbidden(axes, task.world.patches)
+    draw_forbidden(axes, task.world.forbidden())
     for index, goal in enumerate(task.goals):
         corners = goal_box(goal, bounds)
         if corners is not None:
@@ -62,10 +62,11 @@ def block_colour(height: float) -> str:
 def draw_block(axes: Axes, block: Block, bounds: Bounds) -> None:
     """Draw a level part of the ground with its height."""
     colour = block_colour(block.height)
-    axes.add_patch(Polygon(np.array(block.corners), fc=colour, ec=style.QUIET, lw=1.0, zorder=0.6))
+    axes.add_patch(Polygon(np.array(block.corners()), fc=colour, ec=style.QUIET, lw=1.0, zorder=0.6))
     x0, x1, y0, y1 = bounds
     xs, ys = (
-        np.clip([corner[axis] for corner in block.corners], low, high) for axis, low, high in ((0, x0, x1), (1, y0, y1))
+        np.clip([corner[axis] for corner in block.corners()], low, high)
+        for axis, low, high in ((0, x0, x1), (1, y0, y1))
     )
     if xs.max() > xs.min() and ys.max() > ys.min():
         edge = 0.015 * (x1 - x0)

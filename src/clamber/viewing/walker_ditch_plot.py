@@ -137,7 +137,5 @@ def _stance(axes: Axes, crossing: Crossing, frame: int, poses: Floats) -> None:
         axes.fill(*feet.T, fc=colour if slid else "none", ec=colour, alpha=0.25 if slid else 1.0, lw=1.2, zorder=2)
         axes.fill(*feet.T, fc="none", ec=colour, lw=1.2, zorder=3)
         axes.plot(*feet.T, ls="none", marker="o", ms=4, color=colour, zorder=4)
-    c, s = math.cos(poses[0, 2]), math.sin(poses[0, 2])
-    lean = np.array([c * footing.lean[0] - s * footing.lean[1], s * footing.lean[0] + c * footing.lean[1]])
-    centre = ((1.0 - footing.share) * poses[0, :2] + footing.share * poses[1, :2] + lean) * MM
+    centre = footing.weight.centre(poses) * MM
     axes.plot(*centre, marker="o", ms=4, color=style.INK, zorder=5)

@@ -21,10 +21,10 @@ def walker_world(task: WalkerTask, bounds: Bounds) -> Json:
     weight = carried_weight(task)
     return {
         "unit": length_unit(task),
-        "forbidden": [[round_all(corner) for corner in patch] for patch in task.world.patches],
+        "forbidden": [[round_all(corner) for corner in patch] for patch in task.world.forbidden()],
         "blocks": [
-            {"corners": [round_all(corner) for corner in block.corners], "colour": block_colour(block.height)}
-            for block in task.world.blocks
+            {"corners": [round_all(corner) for corner in block.corners()], "colour": block_colour(block.height)}
+            for block in task.world.raised()
         ],
         "goals": [
             {

@@ -13,6 +13,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Patch, PathPatch
 from matplotlib.path import Path as Outline
 
+from ..robots.walker.arcs import INSIDE
 from ..robots.walker.geometry import TwoFrames
 from ..robots.walker.workspace import Part, best_directions, stride, workspace
 from ..types import Floats
@@ -76,8 +77,9 @@ def _panel(axes: Axes, frames: TwoFrames, theta: float) -> None:
     for region, colour in ((singular, FREE), (guarded, GUARDED)):
         if region.central is not None:
             axes.add_patch(_filled(region.central, colour))
-    _, x, y, radius = singular.curves[-1]
-    axes.add_patch(Circle((x * MM, y * MM), radius * MM, fill=False, ec=style.ALERT, lw=1.0, ls=(0, (4, 3))))
+    kind, x, y, radius = singular.curves[-1][:4]
+    if kind == INSIDE and len(singular.curves) > 6:
+        axes.add_patch(Circle((x * MM, y * MM), radius * MM, fill=False, ec=style.ALERT, lw=1.0, ls=(0, (4, 3))))
     directions, _ = best_directions(frames, theta * DEGREE, guard=frames.guard)
     step = stride(frames, theta * DEGREE, directions[0], guard=frames.guard)
     ends = np.array([-step.back, step.ahead])[:, None] * (math.cos(directions[0]), math.sin(directions[0])) * MM

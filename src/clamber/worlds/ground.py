@@ -1,4 +1,4 @@
-"""A ground to walk on: a slope with blocks, ditches and rough patches on it, seen as an exact height above every place."""
+"""A ground to walk on: a slope with blocks, ditches, rough parts and forbidden patches on it, seen as an exact height above every place."""
 
 from typing import Annotated, Final
 
@@ -9,7 +9,8 @@ from pydantic import Field, StrictInt, StrictStr
 from ..files import Document, check_schema
 from ..specs import Name, build_spec, spec
 from ..types import Floats
-from ..units import Angle, Length, PositiveLength, PositiveRatio, Quantity
+from ..units import Angle, Length, Polygon, PositiveLength, PositiveRatio, Quantity
+from .board import check_polygon
 
 SCHEMA: Final = "clamber-ground-1"
 MOST_TILES: Final = 20_000
@@ -17,8 +18,8 @@ MOST_TILES: Final = 20_000
 
 
 @spec
-class Block:
-    """A rectangle of the ground at a height of its own: a step where it is above the slope, a ditch where it is below."""
+class Rectangle:
+    """A rectangle of the ground, with sides along its axes."""
 
     x_min: Length
     """In the ground's frame [m]."""
@@ -28,22 +29,29 @@ class Block:
     """[m]."""
     y_max: Length
     """[m]."""
+
+    def corners(self) -> Polygon:
+        """Its corners, anticlockwise."""
+        return (
+            (self.x_min, self.y_min),
+            (self.x_max, self.y_min),
+            (self.x_max, self.y_max),
+            (self.x_min, self.y_max),
+        )
+
+
+@spec
+class Block(Rectangle):
+    """A rectangle of the ground at a height of its own: a step where it is above the slope, a ditch where it is below."""
+
     height: Length
     """Of its top above the slope, along the slope's normal [m]."""
 
 
 @spec
-class Rough:
+class Rough(Rectangle):
     """A rectangle of square tiles of random heights."""
 
-    x_min: Length
-    """In the ground's frame [m]."""
-    x_max: Length
-    """[m]."""
-    y_min: Length
-    """[m]."""
-    y_max: Length
-    """[m]."""
     tile: PositiveLength
     """Side of a tile [m]."""
     height: Length
@@ -96,6 +104,16 @@ class Ground:
     """A later one replaces what an earlier one says of the same place."""
     rough: tuple[Rough, ...] = ()
     """Laid before the blocks."""
+    patches: tuple[Rectangle | Polygon, ...] = ()
+    """Where no foot may stand although it could: rectangles, or corners of simple polygons, ground's frame [m]."""
+
+    def forbidden(self) -> tuple[Polygon, ...]:
+        """Corners of the patches, ground's frame [m]."""
+        return tuple(patch.corners() if isinstance(patch, Rectangle) else patch for patch in self.patches)
+
+    def raised(self) -> tuple[Block, ...]:
+        """Rough tiles and blocks, in the order in which they are laid: their outlines are the ground's edges."""
+        return (*(block for patch in self.rough for block in patch.blocks()), *self.blocks)
 
     def axes(self) -> Floats:
         """The ground's axes in the world, as columns, shape (3, 3)."""
@@ -111,8 +129,7 @@ class Ground:
 
         All of them reach down to `depth`. As few as a sweep along x and then along y finds, so that a flat ground is one.
         """
-        blocks = (*(block for patch in self.rough for block in patch.blocks()), *self.blocks)
-        stated = np.array([(b.x_min, b.x_max, b.y_min, b.y_max, b.height) for b in blocks]).reshape(-1, 5)
+        stated = np.array([(b.x_min, b.x_max, b.y_min, b.y_max, b.height) for b in self.raised()]).reshape(-1, 5)
         xs, ys = (
             np.unique(np.clip(np.concatenate([(low, high), stated[:, at], stated[:, at + 1]]), low, high))
             for at, low, high in ((0, self.x_min, self.x_max), (2, self.y_min, self.y_max))
@@ -190,8 +207,14 @@ def build_ground(document: Document) -> Ground:
     """
     check_schema(document, SCHEMA)
     ground = build_spec(Ground, document, without=("schema",))
-    rectangles = [("", ground)]
-    rectangles += [(f"{key}.{i}.", each) for key in ("blocks", "rough") for i, each in enumerate(getattr(ground, key))]
+    rectangles: list[tuple[str, Ground | Rectangle]] = [("", ground)]
+    for key in ("blocks", "rough", "patches"):
+        rectangles += [
+            (f"{key}.{i}.", each) for i, each in enumerate(getattr(ground, key)) if isinstance(each, Rectangle)
+        ]
+    for i, patch in enumerate(ground.patches):
+        if not isinstance(patch, Rectangle):
+            check_polygon(patch, document, f"patches.{i}")
     for prefix, each in rectangles:
         for low, high in (("x_min", "x_max"), ("y_min", "y_max")):
             if not getattr(each, low) < getattr(each, high):
@@ -201,12 +224,12 @@ def build_ground(document: Document) -> Ground:
             raise document.problem(
                 f"blocks.{i}.height", f"must be above the ground's bottom, -depth = {-ground.depth:g} m"
             )
-    for i, patch in enumerate(ground.rough):
-        if not 0.0 <= patch.height < ground.depth:
+    for i, rough in enumerate(ground.rough):
+        if not 0.0 <= rough.height < ground.depth:
             raise document.problem(
                 f"rough.{i}.height", f"must be 0 or more, and less than the depth of {ground.depth:g} m"
             )
-        n = np.ceil((patch.x_max - patch.x_min) / patch.tile) * np.ceil((patch.y_max - patch.y_min) / patch.tile)
+        n = np.ceil((rough.x_max - rough.x_min) / rough.tile) * np.ceil((rough.y_max - rough.y_min) / rough.tile)
         if n > MOST_TILES:
             raise document.problem(f"rough.{i}.tile", f"makes {n:.0f} tiles; at most {MOST_TILES}")
     return ground

@@ -1,4 +1,4 @@
-"""Boards, fields and grounds by name or path."""
+"""Boards and grounds by name or path."""
 
 from pathlib import Path
 from typing import Final
@@ -7,8 +7,6 @@ from ..files import Document, data_names, find_data, read_toml
 from .board import SCHEMA as BOARD_SCHEMA
 from .board import Board, build_board
 from .csv_board import read_csv_board
-from .field import SCHEMA as FIELD_SCHEMA
-from .field import PatchField, build_field
 from .ground import SCHEMA as GROUND_SCHEMA
 from .ground import Ground, build_ground
 
@@ -18,11 +16,6 @@ DATA: Final = Path(__file__).parent / "data"
 def board_names() -> tuple[str, ...]:
     """Names of the boards that come with Clamber."""
     return _names_of(BOARD_SCHEMA)
-
-
-def patch_field_names() -> tuple[str, ...]:
-    """Names of the fields that come with Clamber."""
-    return _names_of(FIELD_SCHEMA)
 
 
 def ground_names() -> tuple[str, ...]:
@@ -53,23 +46,6 @@ def load_board(name_or_path: str, unit: str | None = None) -> Board:
         SpecError: If the file says something that cannot be used.
     """
     return build_board(read_board(name_or_path, unit=unit))
-
-
-def read_field(name_or_path: str, folder: Path | None = None) -> Document:
-    """The document of a field, shipped or the user's own (a path, relative to `folder`)."""
-    path, label = find_data("field", name_or_path, DATA, folder)
-    return read_toml(path, label)
-
-
-def load_field(name_or_path: str) -> PatchField:
-    """A field by its shipped name, such as "patches", or from the user's TOML file.
-
-    Raises:
-        UnknownNameError: If no shipped field has that name.
-        FileError: If the file cannot be read.
-        SpecError: If the file says something that cannot be used.
-    """
-    return build_field(read_field(name_or_path))
 
 
 def read_ground(name_or_path: str, folder: Path | None = None) -> Document:

@@ -8,11 +8,10 @@ import numpy as np
 
 from ...control.hook_forces import MOST_CUTS, pair_forces
 from ...control.swing_path import clearance
-from ...robots.hooks import HOOK_AHEAD, HOOK_WAY, HOOK_WIDTH
 from ...robots.limbed import LimbedRobot
 from ...types import Floats, Ints, Records
 from ...worlds.board import Board
-from .approach import discs_near, wall_of
+from .approach import HOOK, discs_near, wall_of
 from .legs import legs_of
 from .postures import Posture, postures
 
@@ -20,17 +19,14 @@ CHANGE: Final = 0.4
 """What a change of side counts, where 1 is a hook that pulls sideways instead of down [-]."""
 BARRED: Final = 1e3
 """What counts a side that the plan's checks forbid."""
-LACKING: Final = 2.0
-"""What counts each newton that the worst of two carrying limbs lacks of what is wished, after each action: one stance that lacks three
-is a fall, whatever the others are like [1/N]."""
+LACKING: Final = 0.5
+"""What counts each newton that the worst of two carrying limbs lacks of what is wished, after each action [1/N]."""
 ON_TOP: Final = 0.3
 """What a hook that pulls sideways instead of down counts after each action [-]."""
-BLOCKED: Final = 5.0
+BLOCKED: Final = 4.0
 """What counts after each action a limb on a hold whose links touch another hold or the body, which then bend it off its way [-]."""
-CLEAR: Final = 0.001
+CLEAR: Final = 0.008
 """Clearance with which it counts nothing [m]."""
-POINT: Final = np.zeros(2)
-"""Stands for a hook where links alone are looked at."""
 OFF_PLAN: Final = 0.2
 """What counts after each action a side that is not the one whose links the plan's checks have looked at [-]."""
 
@@ -126,23 +122,8 @@ def _crowding(
     others = {hold.number: np.array((hold.x, hold.y)) for k, hold in enumerate(board.holds) if k != on}
     radius = max(hold.radius for hold in board.holds)
     discs = discs_near(others, pose, lambda _: radius)
-    away = np.array(list(others.values())).reshape(-1, 2) - board.positions()[on]
     out = []
     for posture in found:
-        room = clearance(legs[i], posture.angles[0], posture.angles[1], discs, wall, robot.link_radius, POINT)
-        if robot.limbs[i].end.kind != "gripper":
-            room = min(room, _strip_gap(away, posture.grab) - radius)
+        room = clearance(legs[i], posture.angles[0], posture.angles[1], discs, wall, robot.link_radius, HOOK)
         out.append(BLOCKED * min(max(1.0 - room / CLEAR, 0.0), 1.0))
     return out
-
-
-def _strip_gap(away: Floats, grab: Floats) -> float:
-    """Distance of the nearest of some places from the strip that a hook sweeps onto its hold [m].
-
-    Args:
-        away: The places less the hold, shape (n, 2) [m].
-        grab: Direction in which the hook pulls, shape (2,).
-    """
-    along, across = away @ grab, np.abs(away @ (-grab[1], grab[0]))
-    beyond = np.maximum(0.0, np.maximum(along - HOOK_AHEAD, -HOOK_WAY - along))
-    return float(np.min(np.hypot(beyond, np.maximum(0.0, across - 0.5 * HOOK_WIDTH)), initial=np.inf))

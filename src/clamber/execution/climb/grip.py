@@ -24,7 +24,7 @@ def release_gripper(climber: Climber, i: int) -> None:
     climber.carry_with_all(but=i)
     task = climber.body.tasks[i]
     climber.grips[i] = 0
-    move_tip(climber, i, way_out(climber, i), 0.5)
+    move_tip(climber, i, way_out(climber, i, climber.map.error(task.hold)), 0.5)
     climber.learn_again()
     task.hold, task.doing, task.angles = 0, "joints", climber.body.q[i].copy()
 
@@ -48,14 +48,14 @@ def grab_with_gripper(climber: Climber, i: int, number: int, *, elbow: int = 0, 
     else:
         climber.carry_with_all(but=i)
     climber.grips[i] = 0
-    hold = climber.holds[number]
-    found = way_in(climber, i, hold, elbow)
+    hold, doubt = climber.holds[number], climber.doubt(number, i)
+    found = way_in(climber, i, hold, elbow, doubt)
     if home is not None and (found is None or found.shift.any()):
         move_body(climber, home)
-        found = way_in(climber, i, hold, elbow)
+        found = way_in(climber, i, hold, elbow, doubt)
     if found is not None and found.shift.any():
         move_body(climber, body.aim + np.array((*found.shift, 0.0)))
-        found = way_in(climber, i, hold, elbow) or found
+        found = way_in(climber, i, hold, elbow, doubt) or found
     if found is None:
         return Grabbed(False, 0, 0.0, 0.0)
     follow(climber, i, found.way)
@@ -64,7 +64,7 @@ def grab_with_gripper(climber: Climber, i: int, number: int, *, elbow: int = 0, 
     h = np.array((-g[1], g[0]))
     along = across = 0.0
     for tries, (forth, aside) in enumerate(AROUND, 1):
-        aim = hold + climber.map_error * (forth * g + aside * h)
+        aim = hold + doubt * (forth * g + aside * h)
         move_tip(climber, i, aim, 0.6)
         climber.wait(0.1)
         climber.grips[i] = 1

@@ -26,7 +26,7 @@ SLANTS: Final = tuple(np.radians((0, 15, -15, 30, -30, 45, -45, 60, -60, 75, -75
 """Angles between the way in and the grab direction, in the order in which they are tried [rad]."""
 
 
-def way_in(climber: Climber, i: int, hold: Floats, elbow: int) -> Approach | None:
+def way_in(climber: Climber, i: int, hold: Floats, elbow: int, doubt: float) -> Approach | None:
     """A way for limb `i` to a place off a hold from which it can go straight in; None where there is none.
 
     Args:
@@ -34,6 +34,7 @@ def way_in(climber: Climber, i: int, hold: Floats, elbow: int) -> Approach | Non
         i: Index of the limb.
         hold: Place of the hold, world frame [m].
         elbow: Side of the elbow to hold with, +1 or -1; 0: either.
+        doubt: How far off the hold may be along each axis [m].
 
     Returns:
         The way; `grab` is the direction of the straight way in.
@@ -44,19 +45,19 @@ def way_in(climber: Climber, i: int, hold: Floats, elbow: int) -> Approach | Non
         pose = climber.body.settled + np.array((*shift, 0.0))
         for final in postures(climber.robot.limbs[i], pose, hold):
             if final.inside and elbow * final.angles[1] >= 0.0:
-                found = _from_beside(climber, i, pose, hold, final)
+                found = _from_beside(climber, i, pose, hold, final, doubt)
                 if found is not None:
                     way, towards, distance = found
                     return Approach(shift, way, towards, distance)
     return None
 
 
-def way_out(climber: Climber, i: int) -> Floats:
+def way_out(climber: Climber, i: int, doubt: float) -> Floats:
     """Where limb `i`, its jaws open about its hold, backs off to: the first place that is clear, or the clearest, world frame [m]."""
     body = climber.body
     tip, best, most = body.tip(i), body.tip(i), -np.inf
     final = Posture(body.q[i] - body.play[i], body.grab_direction(i), inside=True)
-    for _, place, posture in _beside(climber, i, body.settled, tip, final):
+    for _, place, posture in _beside(climber, i, body.settled, tip, final, doubt):
         room = _room(climber, i, body.settled, posture)
         if room > most:
             best, most = place, room
@@ -66,13 +67,13 @@ def way_out(climber: Climber, i: int) -> Floats:
 
 
 def _from_beside(
-    climber: Climber, i: int, pose: Floats, hold: Floats, final: Posture
+    climber: Climber, i: int, pose: Floats, hold: Floats, final: Posture, doubt: float
 ) -> tuple[Floats, Floats, float] | None:
     limb, body = climber.robot.limbs[i], climber.body
     lower = np.array((limb.shoulder.lower, limb.elbow.lower))
     upper = np.array((limb.shoulder.upper, limb.elbow.upper))
     discs, path = discs_near(climber.holds, pose, climber.approaches.peg_radius), np.zeros((MOST_POINTS, 2))
-    for towards, place, posture in _beside(climber, i, pose, hold, final):
+    for towards, place, posture in _beside(climber, i, pose, hold, final, doubt):
         if _room(climber, i, pose, posture) < LEAST_CLEARANCE / 2:
             continue
         count = find_way(
@@ -85,10 +86,10 @@ def _from_beside(
 
 
 def _beside(
-    climber: Climber, i: int, pose: Floats, hold: Floats, final: Posture
+    climber: Climber, i: int, pose: Floats, hold: Floats, final: Posture, doubt: float
 ) -> Iterator[tuple[Floats, Floats, Posture]]:
     """Directions of ways in to a hold, the places off it where they begin, and the postures there, elbow on the side of the last."""
-    wished = free_distance(climber.peg_radius, climber.map_error)
+    wished = free_distance(climber.peg_radius, doubt)
     for part in STAND_OFFS:
         for slant in SLANTS:
             c, s = np.cos(slant), np.sin(slant)

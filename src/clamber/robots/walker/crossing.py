@@ -99,16 +99,16 @@ def places_along(feet, angle, dx, dy, places):
 
 
 @kernel
-def balance_curves(delta_feet, y_feet, theta, share, lean_x, lean_y, margin, curves, n):
+def balance_curves(delta_feet, y_feet, theta, share, load_x, load_y, margin, curves, n):
     """Add the lines between which the centre of mass is inside either frame's feet; return how many curves there are then.
 
     Args:
         delta_feet, y_feet: Feet of the frames, each in its own frame, anticlockwise, shape (3, 2) [m].
         theta: Angle of the Y-frame in the Delta-frame [rad].
         share: Of the whole mass, at the Y-frame's origin; the rest is with the Delta-frame [-].
-        lean_x, lean_y: The mass with the Delta-frame times its centre's place there, over the whole mass [m].
+        load_x, load_y: The mass with the Delta-frame times its centre's place there, over the whole mass [m].
         margin: How far inside [m].
-        curves: Shape (MOST_CURVES, 4).
+        curves: Shape (MOST_CURVES, CURVE_NUMBERS).
         n: Curves in use.
     """
     c = math.cos(theta)
@@ -118,7 +118,7 @@ def balance_curves(delta_feet, y_feet, theta, share, lean_x, lean_y, margin, cur
         ex, ey = delta_feet[j, 0] - delta_feet[i, 0], delta_feet[j, 1] - delta_feet[i, 1]
         length = math.hypot(ex, ey)
         nx, ny = ey / length, -ex / length  # outwards
-        spare = nx * (delta_feet[i, 0] - lean_x) + ny * (delta_feet[i, 1] - lean_y) - margin
+        spare = nx * (delta_feet[i, 0] - load_x) + ny * (delta_feet[i, 1] - load_y) - margin
         if share > 0.0:
             curves[n, 0], curves[n, 1], curves[n, 2], curves[n, 3] = BELOW, nx, ny, spare / share
             n += 1
@@ -126,7 +126,7 @@ def balance_curves(delta_feet, y_feet, theta, share, lean_x, lean_y, margin, cur
         length = math.hypot(ex, ey)
         nx, ny = (c * ey + s * ex) / length, (s * ey - c * ex) / length
         foot_x, foot_y = c * y_feet[i, 0] - s * y_feet[i, 1], s * y_feet[i, 0] + c * y_feet[i, 1]
-        spare = nx * (foot_x - lean_x) + ny * (foot_y - lean_y) - margin
+        spare = nx * (foot_x - load_x) + ny * (foot_y - load_y) - margin
         if share < 1.0:  # seen from the Y-frame's origin the mass is at lean - (1 - share) p
             curves[n, 0], curves[n, 1], curves[n, 2], curves[n, 3] = BELOW, -nx, -ny, spare / (1.0 - share)
             n += 1
@@ -153,14 +153,14 @@ def widest(delta_feet, y_feet, low, high, seen, stack):
 
 @kernel
 def widest_map(
-    delta, y, shortest, longest, guard, delta_feet, y_feet, share, lean_x, lean_y, margin, aside, thetas, directions, out,
+    delta, y, shortest, longest, guard, delta_feet, y_feet, share, load_x, load_y, margin, aside, thetas, directions, out,
     curves, arcs, areas, owners, room, seen, stack, places,
 ):  # fmt: skip
     """Write the widest ditch for each angle of the frames and each direction of crossing, shape (n_thetas, n_directions) [m].
 
     Args:
         delta, y, shortest, longest, guard: As of `reach_curves`.
-        delta_feet, y_feet, share, lean_x, lean_y, margin: As of `balance_curves`.
+        delta_feet, y_feet, share, load_x, load_y, margin: As of `balance_curves`.
         aside: Whether frames may also slide along the ditch; else they keep to the line along d through each other's origins.
         thetas: Angles of the Y-frame in the Delta-frame [rad], shape (n_thetas,).
         directions: Of crossing, in the Delta-frame [rad], shape (n_directions,).
@@ -171,7 +171,7 @@ def widest_map(
     """
     for i in range(thetas.shape[0]):
         n = reach_curves(delta, y, thetas[i], shortest, longest, guard, curves)
-        n = balance_curves(delta_feet, y_feet, thetas[i], share, lean_x, lean_y, margin, curves, n)
+        n = balance_curves(delta_feet, y_feet, thetas[i], share, load_x, load_y, margin, curves, n)
         count, loops = outline(curves, n, arcs, areas, owners, room)
         centre = owner_of(curves, n, arcs, count, loops, areas, 0.0, 0.0)
         for j in range(directions.shape[0]):

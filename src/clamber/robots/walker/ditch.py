@@ -8,12 +8,11 @@ import numpy.typing as npt
 
 from ...errors import ClamberError
 from ...types import Floats
-from .arcs import COLUMNS, MOST_ARCS, MOST_CURVES
-from .assemblies import are_similar
+from .arcs import COLUMNS, CURVE_NUMBERS, MOST_ARCS, MOST_CURVES, ROOM
 from .crossing import SIDES, balance_curves, widest_map
 from .geometry import TwoFrames
 from .robot import WalkerRobot
-from .workspace import GuardError
+from .weight import Weight, weight_of
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -25,10 +24,7 @@ class Footing:
     """Of both frames, each in its own frame, anticlockwise, shape (2, 3, 2) [m]."""
     pad_radius: float
     """Of a foot [m]; all of it is kept out of the ditch."""
-    share: float
-    """Share of the whole mass at the Y-frame's origin [-]; the rest is with the Delta-frame."""
-    lean: tuple[float, float]
-    """Mass with the Delta-frame times its centre's place there, over the whole mass [m]."""
+    weight: Weight
     guard: float
     """Largest nearness of a singular pose [-]; 0 for no such limit."""
     margin: float
@@ -36,60 +32,46 @@ class Footing:
 
     @classmethod
     def of(
-        cls,
-        robot: WalkerRobot,
-        *,
-        guard: float | None = None,
-        margin: float = 0.0,
-        load: float = 0.0,
-        load_at: tuple[float, float] = (0.0, 0.0),
+        cls, robot: WalkerRobot, *, weight: Weight | None = None, guard: float | None = None, margin: float = 0.0
     ) -> "Footing":
-        """A robot's footing, the arm folded over the Delta-frame's origin.
+        """A robot's footing.
 
         Args:
             robot: The robot.
+            weight: Its weight; that with the arm at rest and no payload unless given.
             guard: Largest nearness of a singular pose [-]; that of its file unless given; 0 for none.
             margin: How far inside the standing feet the centre of mass is kept [m].
-            load: What the Delta-frame carries [kg].
-            load_at: Where, in the Delta-frame [m].
 
         Raises:
-            FootingError: If the load is negative or not finite, or the margin is.
-            GuardError: If there is a guard and the attachments are no directly similar triangles.
+            FootingError: If the margin is negative or not finite, or the guard is, or is above 1.
         """
         frames = TwoFrames.of(robot.mechanism)
         guard = frames.guard if guard is None else guard
-        for what, value in (("load", load), ("margin", margin), ("guard", guard)):
-            if not 0.0 <= value < math.inf:
-                raise FootingError(what, value)
-        if guard > 0.0 and not are_similar(frames.delta, frames.y):
-            raise GuardError
-        arm = sum(robot.arm.masses) if robot.arm is not None else 0.0
-        whole = robot.mass.frames + arm + load
-        share = (1.0 - robot.mass.share_delta) * robot.mass.frames / whole
-        lean = (load * load_at[0] / whole, load * load_at[1] / whole)
-        return cls(frames, robot.feet(), robot.legs.pad_radius, share, lean, guard, margin)
+        if not 0.0 <= margin < math.inf:
+            raise FootingError("margin", margin)
+        if not 0.0 <= guard <= 1.0:
+            raise FootingError("guard", guard, "from 0 to 1")
+        weight = weight_of(robot) if weight is None else weight
+        return cls(frames, robot.feet(), robot.legs.pad_radius, weight, guard, margin)
 
     def balance_curves(self, theta: float) -> Floats:
-        """The lines between which both frames can carry the robot, as rows for `workspace`, shape (6, 4)."""
-        curves = np.zeros((MOST_CURVES, 4))
-        n = balance_curves(self.feet[0], self.feet[1], theta, self.share, *self.lean, self.margin, curves, 0)
+        """The lines between which both frames can carry the robot, as rows for `workspace`, shape (6, CURVE_NUMBERS)."""
+        curves = np.zeros((MOST_CURVES, CURVE_NUMBERS))
+        load_x, load_y = self.weight.load
+        share = self.weight.share[1]
+        n = balance_curves(self.feet[0], self.feet[1], theta, share, load_x, load_y, self.margin, curves, 0)
         return curves[:n]
 
     def feet_at(self, poses: Floats) -> Floats:
         """Places of all feet on the ground, shape (2, 3, 2) [m], from the frames' poses there, shape (2, 3)."""
         c, s = np.cos(poses[:, 2]), np.sin(poses[:, 2])
-        turns = np.stack(
-            [np.stack([c, s], axis=-1), np.stack([-s, c], axis=-1)], axis=1
-        )  # rows times these turn by the angle
+        turns = np.stack([np.stack([c, s], axis=-1), np.stack([-s, c], axis=-1)], axis=1)  # turn rows by the angles
         placed: Floats = poses[:, None, :2] + self.feet @ turns
         return placed
 
     def balance(self, poses: Floats, standing: int) -> float:
         """How far the centre of mass lies inside the feet of the frame that stands [m]; negative outside. Poses have shape (2, 3)."""
-        c, s = math.cos(poses[0, 2]), math.sin(poses[0, 2])
-        lean = np.array([c * self.lean[0] - s * self.lean[1], s * self.lean[0] + c * self.lean[1]])
-        centre = (1.0 - self.share) * poses[0, :2] + self.share * poses[1, :2] + lean
+        centre = self.weight.centre(poses)
         feet = self.feet_at(poses)[standing]
         sides = np.roll(feet, -1, axis=0) - feet
         off = centre - feet
@@ -97,14 +79,14 @@ class Footing:
 
 
 class FootingError(ClamberError):
-    """A load, margin or guard that means nothing."""
+    """A width, distance, margin or guard that means nothing."""
 
-    def __init__(self, what: str, value: float) -> None:
-        super().__init__(what, value)
-        self.what, self.value = what, value
+    def __init__(self, what: str, value: float, allowed: str = "finite and 0 or more") -> None:
+        super().__init__(what, value, allowed)
+        self.what, self.value, self.allowed = what, value, allowed
 
     def __str__(self) -> str:
-        return f"{self.what} = {self.value:.6g}: must be finite and 0 or more"
+        return f"{self.what} = {self.value:.6g}: must be {self.allowed}"
 
 
 def ditch_map(footing: Footing, thetas: npt.ArrayLike, directions: npt.ArrayLike, *, aside: bool = True) -> Floats:
@@ -121,13 +103,13 @@ def ditch_map(footing: Footing, thetas: npt.ArrayLike, directions: npt.ArrayLike
         aside: Whether slides may also lead along the ditch; else they keep to the line through the origins, as in a straight walk.
     """
     thetas, directions = np.atleast_1d(np.asarray(thetas, float)), np.atleast_1d(np.asarray(directions, float))
-    frames = footing.frames
+    frames, (load_x, load_y) = footing.frames, footing.weight.load
     out = np.empty((len(thetas), len(directions)))
     widest_map(
         frames.delta, frames.y, frames.shortest, frames.longest, footing.guard,
-        footing.feet[0], footing.feet[1], footing.share, *footing.lean, footing.margin, aside, thetas, directions, out,
-        np.zeros((MOST_CURVES, 4)), np.empty((MOST_ARCS, COLUMNS)), np.empty(MOST_ARCS), np.empty(MOST_ARCS, np.int64),
-        np.empty(2 * MOST_CURVES + 3), np.empty((SIDES, SIDES), np.bool_), np.empty((SIDES * SIDES, 2), np.int64),
+        footing.feet[0], footing.feet[1], footing.weight.share[1], load_x, load_y, footing.margin, aside, thetas, directions, out,
+        np.zeros((MOST_CURVES, CURVE_NUMBERS)), np.empty((MOST_ARCS, COLUMNS)), np.empty(MOST_ARCS), np.empty(MOST_ARCS, np.int64),
+        np.empty(ROOM), np.empty((SIDES, SIDES), np.bool_), np.empty((SIDES * SIDES, 2), np.int64),
         np.empty((2, 3)),
     )  # fmt: skip
     widths: Floats = np.maximum(0.0, out - 2.0 * footing.pad_radius)

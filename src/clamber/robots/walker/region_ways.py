@@ -8,8 +8,8 @@ from typing import Final
 import numpy as np
 
 from ...types import Floats
-from .arcs import BELOW, ray
-from .workspace import Workspace
+from .arcs import crossings, ray
+from .workspace import Workspace, half_plane
 
 LINES: Final = 48
 """Lines across a region whose middles a way may go through."""
@@ -41,18 +41,9 @@ def place_at(region: Workspace, direction: float, apart: float, aside: bool) -> 
 def slices(region: Workspace, along: Floats, apart: float) -> list[tuple[float, float]]:
     """Where the line of all p with p . along = apart is in the region: ranges of p . across, `across` to the left [m]."""
     across = np.array([-along[1], along[0]])
-    marks = []
-    for kind, x, y, size in region.curves:
-        if kind == BELOW:
-            slope = x * across[0] + y * across[1]
-            if abs(slope) > 1e-12:
-                marks.append((size - apart * (x * along[0] + y * along[1])) / slope)
-            continue
-        off = x * along[0] + y * along[1] - apart
-        if size > abs(off):
-            half = math.sqrt(size * size - off * off)
-            middle = x * across[0] + y * across[1]
-            marks += [middle - half, middle + half]
+    curves = np.vstack([region.curves, half_plane((float(along[0]), float(along[1])), apart)])
+    line, at = len(curves) - 1, np.empty(4)
+    marks = [float(t) for j in range(line) for t in at[: crossings(curves, line, j, at)]]
     marks.sort()
     return [
         (low, high)

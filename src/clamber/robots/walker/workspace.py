@@ -7,31 +7,23 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from ...errors import ClamberError
 from ...types import Floats
 from .arcs import (
     BELOW,
     COLUMNS,
+    CURVE_NUMBERS,
     MOST_ARCS,
     MOST_CURVES,
+    ROOM,
     depth,
+    extent,
     outline,
     owner_of,
+    point,
     ray,
     reach_curves,
 )
-from .assemblies import are_similar
 from .geometry import TwoFrames
-
-
-class GuardError(ClamberError):
-    """The singular curve of a mechanism is asked for as a circle, and it is none."""
-
-    def __str__(self) -> str:
-        return (
-            "the guard against singular poses bounds regions by a circle, and does so for directly similar triangles of "
-            "attachments only; ask for the region without it"
-        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,30 +34,20 @@ class Arc:
     """Its first point [m]."""
     end: tuple[float, float]
     """Its last point [m]."""
-    centre: tuple[float, float] | None
-    """Of its circle [m]; None for a straight piece."""
-    radius: float
-    """Of its circle [m]; infinite for a straight piece."""
-    swept: float
-    """Angle that it takes about its centre, anticlockwise [rad]; 0 for a straight piece."""
+    curve: tuple[float, ...]
+    """What it is a piece of: a row of `arcs`."""
+    first: float
+    """Parameter of its first point on the curve."""
+    last: float
+    """Parameter of its last point on the curve."""
 
     def points(self, step: float = math.radians(2.0)) -> Floats:
         """Points along it, both ends included, for pictures [m], shape (n, 2)."""
-        if self.centre is None:
+        if self.curve[0] == BELOW:
             return np.array([self.start, self.end])
-        first = math.atan2(self.start[1] - self.centre[1], self.start[0] - self.centre[0])
-        angles = first + np.linspace(0.0, self.swept, 2 + int(abs(self.swept) / step))
-        return np.array(self.centre) + self.radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
-
-    def farthest(self, direction: float) -> float:
-        """Largest p . d of its points, for the unit vector d of a direction [m]."""
-        d = math.cos(direction), math.sin(direction)
-        ends = max(self.start[0] * d[0] + self.start[1] * d[1], self.end[0] * d[0] + self.end[1] * d[1])
-        if self.centre is None:
-            return ends
-        first = math.atan2(self.start[1] - self.centre[1], self.start[0] - self.centre[0])
-        passes = math.copysign(1.0, self.swept) * (direction - first) % math.tau <= abs(self.swept)
-        return self.centre[0] * d[0] + self.centre[1] * d[1] + self.radius if passes else ends
+        row = np.array([self.curve])
+        count = 2 + int(abs(self.last - self.first) / step)
+        return np.array([point(row, 0, t) for t in np.linspace(self.first, self.last, count)])
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +69,7 @@ class Workspace:
     theta: float
     """Angle of the Y-frame in the Delta-frame [rad]."""
     curves: Floats
-    """What bounds it: rows of `arcs`, shape (n, 4)."""
+    """What bounds it: rows of `arcs`, shape (n, CURVE_NUMBERS)."""
     parts: tuple[Part, ...]
     """Its connected parts, the largest first."""
 
@@ -116,8 +98,12 @@ class Workspace:
         """Range of p . d over the part around the centre, for the unit vector d of a direction [m]; both 0 without such a part."""
         if self.central is None:
             return 0.0, 0.0
-        outer = self.central.loops[0]
-        return -max(arc.farthest(direction + math.pi) for arc in outer), max(arc.farthest(direction) for arc in outer)
+        curves = np.array([arc.curve for arc in self.central.loops[0]])
+        rows = [(k, arc.first, arc.last, 0.0, *arc.start, *arc.end) for k, arc in enumerate(self.central.loops[0])]
+        arcs, owners = np.array(rows), np.zeros(1, np.int64)
+        d = math.cos(direction), math.sin(direction)
+        least = -float(extent(curves, arcs, len(arcs), owners, 0, -d[0], -d[1]))
+        return least, float(extent(curves, arcs, len(arcs), owners, 0, *d))
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,14 +130,12 @@ def workspace(
         frames: The mechanism.
         theta: Angle of the Y-frame in the Delta-frame [rad].
         guard: Largest nearness of a singular pose [-]; 1 for all that is not beyond one; None for strokes alone.
-        besides: More curves that bound it, rows of `arcs`, shape (m, 4).
+        besides: More curves that bound it, rows of `arcs`, shape (m, CURVE_NUMBERS).
 
-    Raises:
-        GuardError: If a guard is asked for and the attachments are no directly similar triangles.
     """
     curves, n = region_curves(frames, theta, guard, besides)
     arcs, areas, owners = np.empty((MOST_ARCS, COLUMNS)), np.empty(MOST_ARCS), np.empty(MOST_ARCS, np.int64)
-    count, loops = outline(curves, n, arcs, areas, owners, np.empty(2 * MOST_CURVES + 3))
+    count, loops = outline(curves, n, arcs, areas, owners, np.empty(ROOM))
     centre = owner_of(curves, n, arcs, count, loops, areas, 0.0, 0.0)
     told = [_loop(curves, arcs[:count], loop) for loop in range(loops)]
     parts = []
@@ -167,10 +151,8 @@ def workspace(
 def region_curves(
     frames: TwoFrames, theta: float, guard: float | None = None, besides: Floats | None = None
 ) -> tuple[Floats, int]:
-    """The curves of a region as the kernels take them, shape (MOST_CURVES, 4), and how many are in use; see `workspace`."""
-    if guard is not None and not are_similar(frames.delta, frames.y):
-        raise GuardError
-    curves = np.zeros((MOST_CURVES, 4))
+    """The curves of a region as the kernels take them, shape (MOST_CURVES, CURVE_NUMBERS), and how many are in use; see `workspace`."""
+    curves = np.zeros((MOST_CURVES, CURVE_NUMBERS))
     n = reach_curves(frames.delta, frames.y, theta, frames.shortest, frames.longest, guard or 0.0, curves)
     if besides is not None:
         curves[n : n + len(besides)] = besides
@@ -195,8 +177,6 @@ def stride(
         start: The place that the chord goes through, the frames' origins on each other unless given [m].
         guard: As of `workspace`.
 
-    Raises:
-        GuardError: If a guard is asked for and the attachments are no directly similar triangles.
     """
     curves, n = region_curves(frames, theta, guard)
     dx, dy = math.cos(direction), math.sin(direction)
@@ -241,8 +221,8 @@ def best_directions(frames: TwoFrames, theta: float, *, guard: float | None = No
 
 
 def half_plane(normal: tuple[float, float], most: float) -> Floats:
-    """The row of all p with normal . p <= most, for a unit normal, shape (4,)."""
-    return np.array([BELOW, normal[0], normal[1], most])
+    """The row of all p with normal . p <= most, for a unit normal, shape (CURVE_NUMBERS,)."""
+    return np.array([BELOW, normal[0], normal[1], most, 0.0, 0.0, 0.0, 0.0])
 
 
 def _loop(curves: Floats, arcs: Floats, loop: int) -> tuple[Arc, ...]:
@@ -252,12 +232,10 @@ def _loop(curves: Floats, arcs: Floats, loop: int) -> tuple[Arc, ...]:
     while left:
         apart = [math.hypot(row[4] - order[-1][6], row[5] - order[-1][7]) for row in left]
         order.append(left.pop(int(np.argmin(apart))))
-    out = []
-    for row in order:
-        curve = curves[int(row[0])]
-        straight = curve[0] == BELOW
-        centre = None if straight else (float(curve[1]), float(curve[2]))
-        radius = math.inf if straight else float(curve[3])
-        swept = 0.0 if straight else float(row[2] - row[1])
-        out.append(Arc((float(row[4]), float(row[5])), (float(row[6]), float(row[7])), centre, radius, swept))
-    return tuple(out)
+    return tuple(
+        Arc(
+            (float(row[4]), float(row[5])), (float(row[6]), float(row[7])),
+            tuple(map(float, curves[int(row[0])])), float(row[1]), float(row[2]),
+        )
+        for row in order
+    )  # fmt: skip

@@ -97,9 +97,10 @@ def draw_figure_5() -> StudyResult:
             "Straight means that both origins keep to one line along theta_w, as in the paper's straight walk. Sidesteps along the "
             "ditch let it cross wider ones at most angles. The paper does not say which it takes, nor whether its robot steps in "
             "parts.",
-            "The feet are points at the radius of the joints (assumed, not printed), 60 % of the frames' 74 kg are at the Delta-"
-            "frame's origin with the arm's 6 kg folded above it, the rest is at the Y-frame's (assumed), and poses keep within 0.9 of "
-            "the singular distance.",
+            "The feet are points at the radius of the joints (not printed, assumed), 60 % of the frames' 74 kg are at the Delta-"
+            "frame's origin, the rest is at the Y-frame's, the arm's 6 kg are at rest as the robot's file says (all assumed), and "
+            "poses keep within 0.9 of the singular distance. There balance never decides; without the guard it does, the map is then "
+            "not quite periodic, and its widest is of theory only.",
             CALIBRATED,
             SIGNS,
         ),
