@@ -41,29 +41,32 @@ class Caution:
     share: float = 0.4
     """Of the motors' torque that a plan may use [-]."""
     spare: float = 1.0
-    """Reach that a grab leaves: the body is not where it should be to the last millimetre, nor is the hold [in]."""
-    bend: float = 0.5
-    """Reach that limbs leave while they hold: a stretched elbow is soft, and may pass to the other side [in]."""
-    room: float = 3.5
-    """Between holds, and links and hooks that pass them [mm]."""
-    inside: float | None = None
-    """How far the weight stays inside the span of the holds that carry it, None for anywhere [in]: beside it, a hook is all lever."""
+    """Reach that limbs leave, also while they hold: a stretched elbow is soft, and may pass to the other side [in]."""
+    bend: float | None = None
+    """What of it limbs leave that hold; None: all of it [in]."""
+    room: float | None = None
+    """Between holds, and links and hooks that pass them; None: links may lie on holds [mm]."""
 
 
 CAUTIONS: Final = (
-    Caution(inside=1.0),
-    Caution(hook_cone=60.0, hold_cone=90.0, strength=2.0, room=1.0, inside=1.0),
-    Caution(hook_cone=60.0, hold_cone=90.0, strength=2.0, room=1.0, inside=0.0),
-    Caution(pull=0.25),
+    Caution(),
     Caution(spare=0.5),
-    Caution(hook_cone=60.0, hold_cone=75.0, pull=0.1, spare=0.5, room=1.0),
-    Caution(hook_cone=65.0, hold_cone=75.0, strength=3.0, pull=0.05, share=0.6, spare=0.3, bend=0.3, room=0.0),
-    Caution(hook_cone=70.0, hold_cone=90.0, strength=5.0, pull=0.0, share=0.8, spare=0.0, bend=0.0, room=0.0),
+    Caution(hook_cone=60.0, pull=0.1, spare=0.7),
+    Caution(hook_cone=60.0, hold_cone=75.0, pull=0.1, share=0.5, spare=0.5),
+    Caution(hook_cone=65.0, hold_cone=75.0, strength=3.0, pull=0.05, share=0.6, spare=0.3),
+    Caution(hook_cone=70.0, hold_cone=90.0, strength=5.0, pull=0.0, share=0.8, spare=0.0),
 )
 """The next where there is no plan that is easy in every stance; then the easiest."""
+ROOMY: Final = (
+    Caution(pull=0.2, bend=0.5, room=3.5),
+    Caution(hook_cone=50.0, hold_cone=90.0, strength=2.0, pull=0.1, bend=0.5, room=1.0),
+)
+"""Likewise where even the easiest of those is hard: holders and the ways of their hooks keep clear of other holds (`holder_peg`)."""
+HARD: Final = 10.0
+"""What counts against a plan that is hard, all its stances together."""
 INCAUTIOUS: Final = 10.0
 """What being less cautious counts in one that is not."""
-EASY: Final = 4.5
+EASY: Final = 3.5
 """What may count against a stance that is easy to hold: no link on a hold, no hook or motor much beyond what is wished."""
 
 
@@ -98,8 +101,11 @@ def plan_to_climb(
             cut()
         return result
 
-    best, least = None, math.inf
-    for rank, caution in enumerate(CAUTIONS):
+    best, least, against = None, math.inf, math.inf
+    ranked = (*enumerate(CAUTIONS), *(enumerate(ROOMY) if hooked(task) else ()))
+    for rank, caution in ranked:
+        if caution.room is not None and against <= HARD:
+            break
         try:
             result = search(cautious(task, caution))
         except StartError:  # it stands where a cautious plan would not take it
@@ -109,10 +115,10 @@ def plan_to_climb(
         # the same actions, for the robot and the board as they are
         plan = Plan.of_codes(task, result.plan.codes(task), seed=seed, planner=result.plan.planner)
         course = lay_course(task, plan)
-        hardship = math.inf if course.objections else float(np.maximum(course.against - EASY, 0.0).sum())
-        hardship += INCAUTIOUS * rank if hardship > 0.0 else 0.0
+        own = math.inf if course.objections else float(np.maximum(course.against - EASY, 0.0).sum())
+        hardship = own + (INCAUTIOUS * rank if own > 0.0 else 0.0)
         if best is None or hardship < least:
-            best, least = plan, hardship
+            best, least, against = plan, hardship, own
         if least == 0.0:
             break
     if best is None:
@@ -121,32 +127,40 @@ def plan_to_climb(
     return best
 
 
+def hooked(task: LimbedTask) -> bool:
+    """Whether any limb ends in what only pulls."""
+    return any(limb.end.kind != "gripper" for limb in task.robot.limbs)
+
+
 def cautious(task: LimbedTask, caution: Caution) -> LimbedTask:
     """A task that asks for more than its checks do, so that what holds in it can bear to be carried out."""
     document = copy.deepcopy(task.document)
-    hooked = any(limb.end.kind != "gripper" for limb in task.robot.limbs)
-    if hooked:  # grippers may well push one against the other
+    hooks = hooked(task)
+    if hooks:  # grippers may well push one against the other
         board = {key: value for key, value in document["board"].items() if key not in GENERATORS}
         document["board"] = board | {"holds": [_spared(hold, task.robot.weight, caution) for hold in task.world.holds]}
     changed = task_from_document(document, "cautious task")
-    rules, room = task.rules, caution.room * MM
-    hard = dict.fromkeys((*rules.hard, "holder_peg", *(() if caution.inside is None else ("stability",))))
-    cautious_task = change_task(
-        changed,
-        [
-            f"rules.hook_cone={min(rules.hook_cone / DEGREE, caution.hook_cone)!r} deg",
-            f"rules.hook_pull={max(rules.hook_pull, caution.pull * task.robot.weight)!r} N",
-            f"rules.reach_offset={max(rules.reach_offset, caution.spare * INCH)!r} m",
-            f"rules.holding_offset={max(rules.holding_offset, caution.bend * INCH * hooked)!r} m",
+    rules = task.rules
+    stretched = (caution.bend is None and hooks) or rules.offset_while_holding
+    settings = [
+        f"rules.hook_cone={min(rules.hook_cone / DEGREE, caution.hook_cone)!r} deg",
+        f"rules.hook_pull={max(rules.hook_pull, caution.pull * task.robot.weight)!r} N",
+        f"rules.reach_offset={max(rules.reach_offset, caution.spare * INCH)!r} m",
+        f"rules.offset_while_holding={str(stretched).lower()}",
+        f"rules.holding_offset={max(rules.holding_offset, (caution.bend or 0.0) * INCH * hooks)!r} m",
+        f"motor.torque_limit={caution.share * task.robot.motor.torque_limit!r} N m",
+    ]
+    if caution.room is not None:
+        room = caution.room * MM
+        hard = dict.fromkeys((*rules.hard, "holder_peg"))
+        settings += [
             f"rules.hard=[{', '.join(repr(name) for name in hard)}]",
-            f"rules.inside={max(rules.inside, (caution.inside or 0.0) * INCH)!r} m",
             f"rules.hook_width={HOOK_WIDTH + 2.0 * room!r} m",
             f"rules.hook_ahead={HOOK_AHEAD + room!r} m",
             f"rules.hook_way={HOOK_WAY!r} m",
             f"link_radius={task.robot.link_radius + room!r} m",
-            f"motor.torque_limit={caution.share * task.robot.motor.torque_limit!r} N m",
-        ],
-    )
+        ]
+    cautious_task = change_task(changed, settings)
     assert isinstance(cautious_task, LimbedTask)  # the robot stays what it is
     return cautious_task
 
