@@ -163,7 +163,7 @@ class PlainWalker:
         sides = zip(feet, feet[1:] + feet[:1], strict=True)
         balance = min(cross(b - a, mass - a) / abs(b - a) for a, b in sides) - rules.balance
         return {
-            "stroke": min(min(length - mechanism.shortest, longest - length) for length in lengths),
+            "stroke": min(min(length - mechanism.shortest, longest - length) for length in lengths) - rules.stroke,
             "singular": mechanism.guard * rho - abs(p),
             "foothold": foothold,
             "balance": balance,

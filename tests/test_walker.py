@@ -138,6 +138,7 @@ def random_task(rng: random.Random) -> WalkerTask:
         f"step.angle={rng.choice((3, 6, 7.5, 360 / 7))} deg",
         f"rules.clearance={rng.choice((0, 1))} cm",
         f"rules.balance={rng.choice((0, 1, 4))} cm",
+        f"rules.stroke={rng.choice((0, 5))} mm",
         f"rules.hard=[{hard}]",
         f"mass.share_delta={rng.random()}",
         f"start.payload={rng.choice((0, 2, 5))} kg",

@@ -278,7 +278,7 @@ def test_attachments_are_stated_in_one_way_and_whole(changes: dict[str, object],
         with_mechanism(changes)
 
 
-def test_a_field_is_planned_for_attachments_on_circles_only(tmp_path: Path) -> None:
+def test_walks_are_planned_for_attachments_on_circles_only(tmp_path: Path) -> None:
     text = (Path(clamber.__file__).parent / "robots" / "data" / "hoshino.toml").read_text(encoding="utf-8")
     rows = [row for row in text.splitlines() if not row.startswith(("radius_delta", "radius_y"))]
     points = "\n".join(f"points_{frame} = {ATTACHMENTS[f'points_{frame}']!r}" for frame in ("delta", "y"))
@@ -287,5 +287,5 @@ def test_a_field_is_planned_for_attachments_on_circles_only(tmp_path: Path) -> N
     (tmp_path / "odd.toml").write_text(made, encoding="utf-8")
     task = load_task("patch-walk", [f"robot={tmp_path / 'odd.toml'}"])
     assert isinstance(task, WalkerTask)
-    with pytest.raises(SpecError, match=r"mechanism\.points_delta: fields are planned for attachments on circles"):
+    with pytest.raises(SpecError, match=r"mechanism\.points_delta: walks are planned for attachments on circles"):
         walker_params(task)

@@ -1,15 +1,17 @@
 """The walker's plant: aims, sensors, truth, and that it keeps its protocol's word."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
-from walker_by_hand import LEVEL, POSE, hoshino, legs_with, lengths, let_pass, standing
+from walker_by_hand import POSE, hoshino, legs_with, lengths, let_pass, standing
 
+from clamber.execution.plant import PlantStoppedError
 from clamber.execution.walk.plant import WalkerPlant
 from clamber.sim.limb_flaws import PlantError
 from clamber.sim.walker_flaws import Inclinometers, WalkerFlaws
-from clamber.sim.walker_plant import WalkerSim, plate_angles, plate_quaternion
+from clamber.sim.walker_plant import plate_angles, plate_axes, plate_quaternion
 from clamber.units import GRAVITY
 from clamber.worlds import Ground
 from clamber.worlds.ground import Block
@@ -164,7 +166,14 @@ def test_impossible_flaws_are_refused(keys: dict[str, object], words: str) -> No
 @pytest.mark.parametrize("seed", range(4))
 def test_angles_of_a_posture_come_back(seed: int) -> None:
     angles = tuple(np.random.default_rng(seed).uniform(-1.5, 1.5, 3))
-    sim = WalkerSim(hoshino(), LEVEL, WalkerFlaws())
-    sim._qpos[:] = 0.0
-    sim._qpos[3:7] = plate_quaternion(*angles)
-    np.testing.assert_allclose(plate_angles(sim._axes()), angles, atol=1e-12)
+    axes = plate_axes(*plate_quaternion(*angles))
+    np.testing.assert_allclose(plate_angles(axes), angles, atol=1e-12)
+    np.testing.assert_allclose(axes @ axes.T, np.eye(3), atol=1e-12)
+
+
+def test_a_simulation_that_loses_its_numbers_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)  # MuJoCo writes its warnings into a file there
+    sim = standing()
+    sim._qvel[0] = math.nan
+    with pytest.raises(PlantStoppedError, match="lost its numbers"):
+        sim.step()

@@ -154,7 +154,7 @@ def walker_params(task: WalkerTask) -> Params:
     row["leg_nominal"], row["lift"], row["leg_speed"] = robot.legs.nominal, robot.legs.lift, robot.legs.speed
     row["speed"] = robot.mechanism.speed
     row["clearance"] = rules.clearance + robot.legs.pad_radius
-    row["least_balance"] = rules.balance
+    row["least_balance"], row["least_stroke"] = rules.balance, rules.stroke
     row["apart"] = farthest_apart(task)
     row["n_goals"] = len(task.goals)
     ground = task.world

@@ -1,6 +1,7 @@
 """Names and titles of what `clamber list` shows."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from pathlib import Path
 from typing import Final
 
 from ..files import data_names, read_toml
@@ -8,11 +9,28 @@ from ..files import data_names, read_toml
 
 def _shipped(folder: str) -> list[tuple[str, str]]:
     """Name and title of the data files of a folder of the package."""
-    from .. import robots, tasks, worlds
+    from .. import robots, tasks
 
-    package = {"robots": robots, "worlds": worlds, "tasks": tasks}[folder]
-    data = package.library.DATA
-    return [(name, str(read_toml(data / f"{name}.toml").data.get("title", ""))) for name in data_names(data)]
+    data = {"robots": robots, "tasks": tasks}[folder].library.DATA
+    return _titled(data, data_names(data))
+
+
+def _worlds(kind: str) -> list[tuple[str, str]]:
+    """Those of one kind: boards, or grounds."""
+    from .. import worlds
+    from ..worlds.library import DATA
+
+    return _titled(DATA, worlds.ground_names() if kind == "grounds" else worlds.board_names())
+
+
+def _walks() -> list[tuple[str, str]]:
+    from ..tasks.walks.library import DATA, walk_names
+
+    return _titled(DATA, walk_names())
+
+
+def _titled(data: Path, names: Iterable[str]) -> list[tuple[str, str]]:
+    return [(name, str(read_toml(data / f"{name}.toml").data.get("title", ""))) for name in names]
 
 
 def _plans() -> list[tuple[str, str]]:
@@ -53,8 +71,10 @@ def _first_line(thing: object) -> str:
 
 ENTRIES: Final[dict[str, Callable[[], list[tuple[str, str]]]]] = {
     "robots": lambda: _shipped("robots"),
-    "boards": lambda: _shipped("worlds"),
+    "boards": lambda: _worlds("boards"),
+    "grounds": lambda: _worlds("grounds"),
     "tasks": lambda: _shipped("tasks"),
+    "walks": _walks,
     "plans": _plans,
     "planners": _planners,
     "controllers": _controllers,

@@ -24,6 +24,10 @@ def follow(
     payload: Annotated[str, typer.Option(help="At the tool.")] = "0kg",
     balance: Annotated[str, typer.Option(help="Least margin of the centre of mass in the support.")] = "0mm",
     height: Annotated[str | None, typer.Option(help="Of the plate at the start; legs' nominal length.")] = None,
+    dynamics: Annotated[bool, typer.Option("--dynamics", help="Lead a robot in contact dynamics through it.")] = False,
+    blind: Annotated[
+        bool, typer.Option("--blind", help="In dynamics: without correction by what sensors say.")
+    ] = False,
     output: Outputs = None,
     as_json: AsJson = False,
 ) -> None:
@@ -31,7 +35,7 @@ def follow(
 
     Exit code 1 if the tool does not come to the path's end or cannot reach points of it.
     """
-    from ..control.cooperative.footing import SUPPORT_WORDS
+    from ..control.cooperative.planted_feet import SUPPORT_WORDS
     from ..execution.log_files import SUFFIXES, write_log
     from ..experiments.cooperative.follow import FollowOptions, follow_path
     from ..experiments.cooperative.tool_path import load_tool_path
@@ -40,6 +44,8 @@ def follow(
     from ..units import parse_quantity
     from ..viewing.output import CANVASES
 
+    if blind and not dynamics:
+        raise typer.BadParameter("is for a robot in dynamics", param_hint="--blind")
     files = output or []
     for file in files:
         check_writable(file)
@@ -56,6 +62,8 @@ def follow(
         payload=parse_quantity(payload, "mass"),
         balance=parse_quantity(balance, "length"),
         height=None if height is None else parse_quantity(height, "length"),
+        dynamics=dynamics,
+        felt=not blind,
     )
     tool_path = load_tool_path(path)
     announce_compilation("prepare", quiet=as_json)

@@ -14,7 +14,9 @@ class Listed(StrEnum):
 
     robots = "robots"
     boards = "boards"
+    grounds = "grounds"
     tasks = "tasks"
+    walks = "walks"
     plans = "plans"
     planners = "planners"
     controllers = "controllers"
@@ -26,7 +28,7 @@ def list_names(
     what: Annotated[Listed | None, typer.Argument(help="One kind; all kinds unless given.")] = None,
     as_json: AsJson = False,
 ) -> None:
-    """List robots, boards, tasks, plans, planners, controllers, plants and studies by name."""
+    """List robots, boards, grounds, tasks, walks, plans, planners, controllers, plants and studies by name."""
     from .catalogue import entries
 
     if as_json:

@@ -1,4 +1,4 @@
-"""`clamber run`: carry a plan out in contact dynamics."""
+"""`clamber run`: carry a plan or a walk out in contact dynamics."""
 
 from pathlib import Path
 from typing import Annotated
@@ -12,7 +12,10 @@ from .output import announce_compilation, check_writable, print_json, stderr, st
 
 def run(
     what: Annotated[
-        str, typer.Argument(metavar="TASK|PLAN", help="A task, to be planned first, or a plan: names or files.")
+        str,
+        typer.Argument(
+            metavar="TASK|PLAN|WALK", help="A task, to be planned first, a plan, or a walk: names or files."
+        ),
     ],
     task: Annotated[str | None, typer.Option(help="Carry the plan out in this task, in place of its own.")] = None,
     planner: Annotated[str, typer.Option(help="How to search (`clamber list planners`).")] = "auto",
@@ -36,7 +39,7 @@ def run(
     as_json: AsJson = False,
     quiet: Quiet = False,
 ) -> None:
-    """Carry a plan out on a simulated robot: every action, what became of it, and where it ended.
+    """Carry a plan or a walk out on a simulated robot: every action or step, what became of it, and where it ended.
 
     `--set plant.backlash=1deg` changes the plant, other keys the task; `--noise usual` lets the plant differ from what is believed
     (docs/climbing.md). A file of `-o` is a log (.mcap, .csv), an animation (.gif, .html, .mp4) or a picture (.png, .svg, .pdf).
@@ -44,6 +47,36 @@ def run(
     outputs = list(dict.fromkeys(output or ()))
     for file in (*outputs, save_plan):
         check_writable(file)
+    from ..tasks.walks import is_walk
+
+    if is_walk(what):
+        from .run_walk import run_walk_file
+
+        for_climbs = {
+            "--task": task is not None, "--planner": planner != "auto", "--seconds": seconds != PLAN_SECONDS,
+            "--peg-error": peg_error is not None, "--no-replan": not replan, "--plant": plant != "torques", "--force": force,
+            "--save-plan": save_plan is not None,
+        }  # fmt: skip
+        run_walk_file(what, overrides or (), noise or (), seed, outputs, for_climbs, as_json=as_json, quiet=quiet)
+        return
+    from ..experiments.walk.planned import open_planned_walk
+    from ..experiments.walk.run_walk import split_walk_settings
+
+    planned = open_planned_walk(what, task, split_walk_settings(overrides or ())[0])
+    if planned is not None:
+        from .run_planned_walk import run_planned_walk
+
+        for_climbs = {
+            "--peg-error": peg_error is not None,
+            "--no-replan": not replan,
+            "--plant": plant != "torques",
+            "--force": force,
+        }
+        run_planned_walk(
+            what, *planned, overrides or (), noise or (), planner, seconds, seed, outputs, save_plan, for_climbs,
+            as_json=as_json, quiet=quiet,
+        )  # fmt: skip
+        return
     from ..experiments.climb.plants import check_plant, is_remote
 
     check_plant(plant)

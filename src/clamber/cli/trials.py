@@ -1,4 +1,4 @@
-"""`clamber trials`: one plan carried out many times, each time with another robot and board than believed."""
+"""`clamber trials`: one plan or walk carried out many times, each time with another robot and world than believed."""
 
 from typing import TYPE_CHECKING, Annotated
 
@@ -24,7 +24,8 @@ if TYPE_CHECKING:
 @shares(CrewWords)
 def trials(
     what: Annotated[
-        str, typer.Argument(metavar="TASK|PLAN", help="A task, to be planned once, or a plan: names or files.")
+        str,
+        typer.Argument(metavar="TASK|PLAN|WALK", help="A task, to be planned once, a plan, or a walk: names or files."),
     ],
     n: Annotated[int, typer.Option("-n", min=1, help="How many climbs.")] = 24,
     seed: Annotated[int, typer.Option(min=0, help="Of the first climb; each further one has the next.")] = 0,
@@ -50,6 +51,17 @@ def trials(
     --noise friction=30%` leaves one of them. `-o` writes a picture (.png, .svg, .pdf), or with `--replay` what `clamber run` writes.
     """
     words.check()
+    from ..tasks.walks import is_walk
+
+    if is_walk(what):
+        from .trials_walk import walk_trials_of
+
+        for_climbs = {
+            "--task": task is not None, "--planner": planner != "auto", "--seconds": seconds != PLAN_SECONDS, "--no-replan": not replan,
+            "--force": force, "--replay": replay is not None, "--output": words.output is not None,
+        }  # fmt: skip
+        walk_trials_of(what, overrides or (), noise or (), range(seed, seed + n), _share(at_least), for_climbs, words)
+        return
     from ..actions.plan_source import is_plan
     from ..experiments.climb.noise import named_noise, read_noise
     from ..experiments.climb.run_plan import open_climb

@@ -19,6 +19,8 @@ def walker_relaxations(task: WalkerTask) -> Iterator[Relaxation]:
     if "stroke" in rules.hard:
         stroke = mechanism.stroke / MM
         yield key_dial("mechanism.stroke", stroke, most=LONGEST * stroke, unit="mm", per_unit=10, nested=True)
+    if "stroke" in rules.hard and rules.stroke > 0.0:
+        yield key_dial("rules.stroke", rules.stroke / MM, most=0.0, unit="mm", per_unit=10, nested=True)
     if "singular" in rules.hard and mechanism.guard < 1.0:
         yield key_dial("mechanism.guard", mechanism.guard, most=1.0, unit="", per_unit=1000, nested=True)
     if "foothold" in rules.hard and rules.clearance > 0.0:

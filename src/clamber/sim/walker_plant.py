@@ -53,6 +53,8 @@ class WalkerSim:
         self.robot, self.ground, self.flaws, self.period = robot, ground, flaws, flaws.period
         self.model: Any = walker_spec(robot, ground, flaws, build=build, struts=struts).compile()
         model = self.model
+        # what pays for itself with many robots costs here; and numbers that are lost are to be seen, not replaced by those of the start
+        model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_ISLAND | mujoco.mjtDisableBit.mjDSBL_AUTORESET
         self._data: Any = mujoco.MjData(model)
         self._step, self._mujoco = mujoco.mj_step, mujoco
         self._surface, self._struts = Surface(ground), struts
@@ -80,6 +82,8 @@ class WalkerSim:
         self._sensed = WalkerSensed(
             0.0, np.zeros(3), np.zeros((2, 3)), np.zeros((2, 3)), self._inclines.readings, np.zeros(len(self._at_arm))
         )
+        self._axes, self._forces = np.eye(3), np.zeros((6, 3))
+        """Of the plate, in the world, as columns; of the ground on each foot, world frame [N]: as the last step left them."""
         self.tick = 0
 
     def _seed(self, which: int) -> int | None:
@@ -107,14 +111,15 @@ class WalkerSim:
                 self._qpos[self.model.joint(f"barrel {i}").qposadr[0]] = angle
                 self._qpos[self.model.joint(actuator_names()[i]).qposadr[0]] = length
         mujoco.mj_kinematics(self.model, data)
+        self._axes = plate_axes(*self._qpos[3:7].tolist())
         feet = self._soles()
         self._qpos[2] -= np.min(feet[:, 2] - self._surface.heights(feet[:, :2]))
         self._aim(np.concatenate((lengths, np.ravel(legs), arm)))
         self._act[self._activations] = self._aims
         mujoco.mj_forward(self.model, data)
         self._step(self.model, data, round(SETTLE / self.model.opt.timestep))
-        self._check()
-        self._inclines.reset(self._axes(), self._qvel[:3])
+        self._look()
+        self._inclines.reset(self._axes, self._qvel[:3])
         self._cells = np.random.default_rng(self._seed(1))
         self.tick = 0
 
@@ -124,9 +129,7 @@ class WalkerSim:
         sensed.actuators[:] = self._lengths()
         sensed.legs.ravel()[:] = self._qpos[self._at_legs]
         sensed.arm[:] = self._qpos[self._at_arm]
-        forces = self._foot_forces()
-        axis = self._axes()[:, 2]
-        sensed.forces.ravel()[:] = forces @ axis
+        sensed.forces.ravel()[:] = self._forces @ self._axes[:, 2]
         if self.flaws.force_noise > 0.0:
             sensed.forces.ravel()[:] += self.flaws.force_noise * self._cells.standard_normal(6)
         return WalkerSensed(
@@ -148,8 +151,8 @@ class WalkerSim:
         """
         self._ctrl[self._motors] = (self._aims - self._act[self._activations]) / self.period
         self._step(self.model, self._data, self.flaws.steps)
-        self._check()
-        self._inclines.see(self._axes(), self._qvel[:3])
+        self._look()
+        self._inclines.see(self._axes, self._qvel[:3])
         self.tick += 1
 
     def truth(self) -> WalkerTruth:
@@ -157,15 +160,13 @@ class WalkerSim:
         mujoco = self._mujoco
         mujoco.mj_kinematics(self.model, self._data)
         mujoco.mj_comPos(self.model, self._data)
-        forces = self._foot_forces()
-        axes = self._axes()
-        pose = np.array((*self._qpos[:3], *plate_angles(axes)))
+        pose = np.array((*self._qpos[:3], *plate_angles(self._axes)))
         return WalkerTruth(
             pose,
             self._qpos[self._at_place],
             self._soles().reshape(2, 3, 3),
-            (np.linalg.norm(forces, axis=1) > 0.0).astype(np.int32).reshape(2, 3),
-            forces.reshape(2, 3, 3),
+            self._forces.any(axis=1).astype(np.int32).reshape(2, 3),
+            self._forces.reshape(2, 3, 3).copy(),
             self._data.subtree_com[self._plate].copy(),
             np.full(3, math.nan) if self._tool is None else self._data.site_xpos[self._tool].copy(),
         )
@@ -184,20 +185,19 @@ class WalkerSim:
         lengths: Floats = np.hypot(ways[:, 0], ways[:, 1])
         return lengths
 
-    def _axes(self) -> Floats:
-        """The plate's, in the world, as columns, shape (3, 3)."""
-        w, x, y, z = self._qpos[3:7]
-        return np.array(
-            (
-                (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)),
-                (2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)),
-                (2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)),
-            )
-        )
+    def _look(self) -> None:
+        """See what a step has done.
+
+        Raises:
+            PlantStoppedError: If the simulation has lost its numbers.
+        """
+        if not math.isfinite(self._qpos.sum()):
+            raise PlantStoppedError("the simulation has lost its numbers")
+        self._axes, self._forces = plate_axes(*self._qpos[3:7].tolist()), self._foot_forces()
 
     def _soles(self) -> Floats:
         """Middles of the soles as kinematics last had them [m], shape (6, 3)."""
-        soles: Floats = self._data.xpos[self._bodies] - self._radius * self._axes()[:, 2]
+        soles: Floats = self._data.xpos[self._bodies] - self._radius * self._axes[:, 2]
         return soles
 
     def _foot_forces(self) -> Floats:
@@ -217,10 +217,6 @@ class WalkerSim:
             np.add.at(forces, feet[mine, side], sign * of_second[mine])
         return forces
 
-    def _check(self) -> None:
-        if not math.isfinite(self._qpos.sum()) or any(each.number for each in self._data.warning):
-            raise PlantStoppedError("the simulation has lost its numbers")
-
 
 def plate_quaternion(alpha: float, beta: float, gamma: float) -> Floats:
     """The turn Rz(alpha) Ry(beta) Rx(gamma) as a quaternion, real part first, shape (4,)."""
@@ -231,6 +227,17 @@ def plate_quaternion(alpha: float, beta: float, gamma: float) -> Floats:
             ca * cb * sg - sa * sb * cg,
             ca * sb * cg + sa * cb * sg,
             sa * cb * cg - ca * sb * sg,
+        )
+    )
+
+
+def plate_axes(w: float, x: float, y: float, z: float) -> Floats:
+    """The plate's axes in the world, as columns, by its unit quaternion, shape (3, 3)."""
+    return np.array(
+        (
+            (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)),
+            (2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)),
+            (2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)),
         )
     )
 

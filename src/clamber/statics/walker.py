@@ -18,7 +18,11 @@ DELTA, Y = 0, 1
 FEATURE_SLOTS = 8
 
 WALKER_CHECKS: Final[tuple[Check, ...]] = (
-    Check("stroke", "m", "how far the actuators' lengths lie inside their range, smallest of the three"),
+    Check(
+        "stroke",
+        "m",
+        "how far the actuators' lengths lie inside their range, smallest of the three, less what the task asks for",
+    ),
     Check("singular", "m", "guarded distance at which the mechanism is singular, less the distance of the origins"),
     Check(
         "foothold",
@@ -56,6 +60,7 @@ WALKER_PARAMS = np.dtype(
         ("speed", "f8"),  # of an actuator [m/s]
         ("clearance", "f8"),  # of a foot's centre from a patch or an edge
         ("least_balance", "f8"),
+        ("least_stroke", "f8"),
         ("apart", "f8"),  # the origins are never farther apart in a valid stance; inf where nothing says so
         ("n_goals", "i4"),
         ("n_patches", "i4"),
@@ -267,7 +272,7 @@ def stretch(p, s):
         reach = math.sqrt(cx * cx + cy * cy)
     apart = math.sqrt(dx * dx + dy * dy)
     s.strain = apart / reach if reach > 0.0 else 0.0
-    return room, p.guard * reach - apart
+    return room - p.least_stroke, p.guard * reach - apart
 
 
 @inlined

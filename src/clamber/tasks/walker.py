@@ -58,6 +58,8 @@ class Rules:
 
     clearance: NonNegativeLength = 0.0
     """Least distance of a standing foot's edge from any patch [m]."""
+    stroke: NonNegativeLength = 0.0
+    """Least distance of an actuator's length from either end of its range [m]."""
     balance: NonNegativeLength = 0.0
     """Least distance of the centre of mass from the sides of the support triangle [m]."""
     hard: tuple[StrictStr, ...] = CHECK_NAMES

@@ -4,8 +4,8 @@ from typing import Any, Final
 
 import numpy as np
 
-from ..control.cooperative.footing import Footing
 from ..control.cooperative.planted import heading_of, turn_of
+from ..control.cooperative.planted_feet import PlantedFeet
 from ..robots.walker.weight import arm_places
 from ..types import Floats
 from . import style
@@ -15,7 +15,7 @@ DELTA: Final = style.INK
 Y: Final = style.PARTS[2]
 
 
-def draw_robot(space: Any, footing: Footing, q: Floats, alpha: float) -> None:
+def draw_robot(space: Any, footing: PlantedFeet, q: Floats, alpha: float) -> None:
     """Draw frames, standing legs and arm.
 
     Args:

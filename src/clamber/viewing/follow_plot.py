@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..control.cooperative.footing import SUPPORT_WORDS
+from ..control.cooperative.planted_feet import SUPPORT_WORDS
 from ..experiments.cooperative.follow import FollowRun
 from . import style
 from .arm_and_body import draw_robot, set_space

@@ -10,9 +10,9 @@ from PIL import Image
 
 from ..files import write_atomically
 from . import style
-from .frames import make_frames
-from .raster import Pixels, rasterise
-from .view import View
+from .frames import Frame, make_frames
+from .raster import Animated, Pixels, rasterise
+from .view import Moment, View
 
 Ints = npt.NDArray[np.int_]
 MOST_FRAMES: Final = 640
@@ -57,7 +57,11 @@ def _add(chosen: Ints, colours: Ints, most: int) -> Ints:
 
 def write_gif(view: View[Any], path: Path, *, most_frames: int = MOST_FRAMES) -> None:
     """Write a plan as an animated GIF that runs for ever."""
-    frames = make_frames(view, most_frames)
+    write_gif_frames(view, make_frames(view, most_frames), path)
+
+
+def write_gif_frames(view: Animated[Moment], frames: list[Frame[Moment]], path: Path) -> None:
+    """Write frames as an animated GIF that runs for ever."""
     some = [frames[k] for k in np.linspace(0, len(frames) - 1, SAMPLES).astype(int)]
     palette = make_palette(np.concatenate(list(rasterise(view, some, DPI))))
     colours = (palette.getpalette() or [])[: 3 * COLOURS]

@@ -1,19 +1,36 @@
 """Frames as pixels: what stands still is drawn once, and only the robot and the panel's bars again."""
 
 from collections.abc import Iterator
+from typing import Protocol, TypeVar
 
 import numpy as np
 import numpy.typing as npt
+from matplotlib.artist import Artist
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 
 from .frames import Frame
-from .view import Moment, View
 
 Pixels = npt.NDArray[np.uint8]
 """RGB, shape (height, width, 3)."""
+Moment = TypeVar("Moment")
+Shown = TypeVar("Shown", contravariant=True)
 
 
-def rasterise(view: View[Moment], frames: list[Frame[Moment]], dpi: int) -> Iterator[Pixels]:
+class Animated(Protocol[Shown]):
+    """A picture of which a part changes from moment to moment."""
+
+    figure: Figure
+
+    @property
+    def artists(self) -> list[Artist]:
+        """The artists that change, from back to front."""
+
+    def show(self, step: int, at: Shown, /) -> None:
+        """Set the picture to a moment of a step."""
+
+
+def rasterise(view: Animated[Moment], frames: list[Frame[Moment]], dpi: int) -> Iterator[Pixels]:
     """Each frame as pixels; both sides are even, as video formats want them."""
     figure = view.figure
     w, h = figure.get_size_inches()

@@ -8,7 +8,7 @@ from typing import Any, Final
 import numpy as np
 from matplotlib.figure import Figure
 
-from ..control.cooperative.footing import Footing
+from ..control.cooperative.planted_feet import PlantedFeet
 from ..types import Floats
 from . import style
 from .arm_and_body import draw_robot, set_space
@@ -25,7 +25,7 @@ class Motion:
     """One motion as the pictures need it."""
 
     title: str
-    footing: Footing
+    footing: PlantedFeet
     q: Floats
     """Freedoms, shape (rows, m)."""
     places: Floats

@@ -5,10 +5,10 @@ from pathlib import Path
 from typing import Any, Final
 
 from ..files import write_atomically
-from .frames import make_frames
+from .frames import Frame, make_frames
 from .output import MissingExtraError
-from .raster import rasterise
-from .view import View
+from .raster import Animated, rasterise
+from .view import Moment, View
 
 MOST_FRAMES: Final = 6000
 RATE: Final = 15
@@ -22,11 +22,19 @@ def write_mp4(view: View[Any], path: Path, *, most_frames: int = MOST_FRAMES) ->
     Raises:
         MissingExtraError: If imageio-ffmpeg is not installed.
     """
+    write_mp4_frames(view, make_frames(view, most_frames), path)
+
+
+def write_mp4_frames(view: Animated[Moment], frames: list[Frame[Moment]], path: Path) -> None:
+    """Write frames as H.264 video.
+
+    Raises:
+        MissingExtraError: If imageio-ffmpeg is not installed.
+    """
     try:
         import imageio_ffmpeg
     except ImportError:
         raise MissingExtraError(f"writing {path.name}", "imageio-ffmpeg", "video") from None
-    frames = make_frames(view, most_frames)
     with tempfile.TemporaryDirectory() as folder:
         target = Path(folder) / "plan.mp4"
         writer = None

@@ -7,11 +7,11 @@ import pytest
 from walkers import ROBOTS, hoshino, random_q
 
 from clamber.control.cooperative.cooperator import Cooperator
-from clamber.control.cooperative.footing import Footing
 from clamber.control.cooperative.freedoms import BODY, FreedomsError, freedoms_of, switch, weights_of
 from clamber.control.cooperative.limits import chain_of
+from clamber.control.cooperative.planted_feet import PlantedFeet
+from clamber.control.cooperative.scratch import make_scratch, see_measure, see_tool
 from clamber.control.cooperative.settings import Cooperation, CooperationError, own_speeds
-from clamber.control.cooperative.workspace import make_workspace, see_measure, see_tool
 from clamber.robots import WalkerRobot
 from clamber.types import Floats
 
@@ -26,13 +26,13 @@ def law(robot: WalkerRobot, **settings: Any) -> Cooperator:
     n = robot.arm.n_joints
     speeds = np.array([*SPEEDS[:6], *np.full(n, 0.35)])
     made = Cooperation(**{"speeds": speeds, "tool_speeds": TOOL_SPEEDS, "limited": False, **settings})
-    return Cooperator(robot, made, Footing(robot=robot, support="y", pose=np.array([0, 0, 0.4, 0, 0, 0])))
+    return Cooperator(robot, made, PlantedFeet(robot=robot, support="y", pose=np.array([0, 0, 0.4, 0, 0, 0])))
 
 
 def gradient_of(robot: WalkerRobot, q: Floats, speeds: Floats, tool_speeds: Floats) -> tuple[Floats, Floats]:
     """J and dV/dq^ of a chain with such speeds; both are tested elsewhere."""
     assert robot.arm is not None
-    w = make_workspace(robot.arm.n_joints)
+    w = make_scratch(robot.arm.n_joints)
     see_tool(chain_of(robot, balance=0.0), q, w)
     see_measure(speeds, tool_speeds, w)
     return w.jacobian.copy(), w.gradient.copy()
@@ -100,12 +100,12 @@ def test_the_right_form_never_lowers_the_measure_and_the_printed_one_often_does(
 def test_with_no_limit_near_the_programme_is_equation_19(dof: str) -> None:
     robot = hoshino()
     q = np.array([0.0, 0.0, 0.35, 0.0, 0.0, 0.0, 0.2, 1.1, -1.0, -0.9])
-    settings = {"gain": 0.05, "least_damping": 1e-6, "singular": 0.0, "approach": 20.0}
+    settings = {"gain": 0.05, "softness": 1e-6, "approach": 20.0}
     speeds = own_speeds(robot)
     made = law(robot, speeds=speeds, tool_speeds=TOOL_SPEEDS, limited=True, **settings)
     weights = weights_of(dof, 4)  # type: ignore[arg-type]
     if dof != "all":
-        made.stand(Footing(robot=robot, support="delta", pose=q[:6]))
+        made.stand(PlantedFeet(robot=robot, support="delta", pose=q[:6]))
     rng = np.random.default_rng(2)
     for _ in range(10):
         velocity = rng.uniform(-0.003, 0.003, 3)
@@ -216,6 +216,6 @@ def test_a_setting_that_cannot_be_is_named(changes: dict[str, Any], words: str) 
 
 def test_a_freedom_that_the_feet_hold_may_not_take_part() -> None:
     made = law(hoshino(), limited=True)
-    made.stand(Footing(robot=hoshino(), support="delta", pose=np.array([0, 0, 0.4, 0, 0, 0])))
+    made.stand(PlantedFeet(robot=hoshino(), support="delta", pose=np.array([0, 0, 0.4, 0, 0, 0])))
     with pytest.raises(CooperationError, match="unless the Y-frame alone stands"):
         made.check_weights(np.ones(10))

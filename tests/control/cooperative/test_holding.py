@@ -5,9 +5,9 @@ import pytest
 from walkers import hoshino
 
 from clamber.control.cooperative.cooperator import Cooperator
-from clamber.control.cooperative.footing import Footing
 from clamber.control.cooperative.freedoms import weights_of
 from clamber.control.cooperative.holding import ToolHolder, reachable_part
+from clamber.control.cooperative.planted_feet import PlantedFeet
 from clamber.control.cooperative.settings import Cooperation, own_speeds
 from clamber.types import Floats
 
@@ -60,7 +60,7 @@ def test_the_tool_stays_while_the_body_goes_past() -> None:
     found = reachable_part(robot, way(5, half=half), POINT)
     assert found.parts == ((0.0, 4.0),)
     settings = Cooperation(speeds=own_speeds(robot), tool_speeds=np.full(3, 0.2), gain=0.5, period=period)
-    law = Cooperator(robot, settings, Footing(robot=robot, support="y", pose=poses[0]), "arm")
+    law = Cooperator(robot, settings, PlantedFeet(robot=robot, support="y", pose=poses[0]), "arm")
     holder = ToolHolder(law, np.concatenate([poses[0], found.joints[0]]))
     weights = weights_of("arm", 4)
     worst, last = 0.0, holder.q.copy()
@@ -78,7 +78,7 @@ def test_a_free_height_of_the_body_serves_the_tool_too() -> None:
     robot = hoshino()
     poses = way(200, half=0.0)
     point = np.array([0.0, 0.30, 0.36 + 0.15 + 0.75])  # 37 mm higher than the arm reaches there
-    stance = Footing(robot=robot, support="delta", pose=poses[0])
+    stance = PlantedFeet(robot=robot, support="delta", pose=poses[0])
     settings = Cooperation(speeds=own_speeds(robot), tool_speeds=np.full(3, 0.2), gain=0.0)
     ends = {}
     for freedoms in ("arm", "height"):

@@ -4,13 +4,15 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from scipy.optimize import minimize
 from test_planted import plain_values
 from walkers import hoshino
 
 from clamber.control.cooperative.closest import ReachSearch
 from clamber.control.cooperative.cooperator import Cooperator
-from clamber.control.cooperative.footing import Footing, FootingError
 from clamber.control.cooperative.freedoms import SUPPORT, Freedoms, weights_of
+from clamber.control.cooperative.planted import stand
+from clamber.control.cooperative.planted_feet import LimitError, PlantedFeet
 from clamber.control.cooperative.settings import Cooperation, own_speeds
 from clamber.robots import WalkerRobot
 from clamber.types import Floats
@@ -25,7 +27,7 @@ class Judge:
     """Largest excess over every limit, from places of points in the world."""
 
     robot: WalkerRobot
-    stance: Footing
+    stance: PlantedFeet
     speeds: Floats
     period: float
 
@@ -59,7 +61,7 @@ def run_to(
     """Go to a target as fast as the tool may; the largest excess, and where the tool ends."""
     robot = hoshino()
     rng = np.random.default_rng(seed)
-    stance = Footing(
+    stance = PlantedFeet(
         robot=robot,
         support=SUPPORT[freedoms],
         pose=START[:6],
@@ -108,31 +110,80 @@ def test_no_run_to_any_of_a_thousand_targets_exceeds_a_limit(part: int) -> None:
             assert worst <= ROUNDING, f"target {k} {target} with {freedoms}"
 
 
-def test_a_run_ends_where_the_search_finds_the_closest_reachable_place() -> None:
-    """The law, step by step at real speed, and the search that jumps, agree where the target cannot be reached."""
+FAR = np.array([[1.1, 0.3, 0.6], [0.4, 0.9, 0.2], [0.9, -0.2, 1.4], [-0.66, -0.48, 1.37]])
+
+
+@pytest.mark.parametrize("tool_speed", [0.05, 0.1, 0.4])
+@pytest.mark.parametrize("freedoms", ["arm", "levelling", "all"])
+def test_a_run_comes_to_rest_where_the_search_finds_the_closest_reachable_place(
+    freedoms: Freedoms, tool_speed: float
+) -> None:
+    """The law, step by step at real speed, and the search that jumps, agree where the target cannot be reached; nothing shakes there."""
     robot = hoshino()
-    stance = Footing(robot=robot, support="delta", pose=START[:6])
-    weights = weights_of("arm", 4)
+    stance = PlantedFeet(robot=robot, support=SUPPORT[freedoms], pose=START[:6])
+    weights = weights_of(freedoms, 4)
     search = ReachSearch(robot, stance, weights)
-    speeds = own_speeds(robot)
-    far = np.array([[1.1, 0.3, 0.6], [0.4, 0.9, 0.2], [0.9, -0.2, 1.4], [0.7, 0.5, -0.2]])
-    for target in far:
+    for target in FAR:
         found = search.find(START, target)
         assert not found.reached
-        assert found.distance > 0.05
         assert "out of reach: the closest reachable point is" in found.reason
-        made = Cooperator(robot, Cooperation(speeds=speeds, tool_speeds=np.full(3, 0.1), gain=0.0), stance)
+        settings = Cooperation(speeds=own_speeds(robot), tool_speeds=np.full(3, tool_speed), gain=0.0)
+        made = Cooperator(robot, settings, stance)
+        q, last = START.copy(), START
+        for _ in range(6000):
+            last, q = q, made.step(q, target, np.zeros(3), weights).q
+        assert np.abs(q - last).max() / settings.period < 1e-3
+        assert found.distance - 1e-5 < np.linalg.norm(target - made.place(q)) < found.distance + 6e-3
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("freedoms", ["levelling", "all"])
+def test_sequential_quadratic_programming_finds_no_nearer_place(freedoms: Freedoms) -> None:
+    """Scipy's SLSQP from sixteen postures, by the values of the limits alone."""
+    robot = hoshino()
+    stance = PlantedFeet(robot=robot, support=SUPPORT[freedoms], pose=START[:6])
+    weights = weights_of(freedoms, 4)
+    search = ReachSearch(robot, stance, weights)
+    law = Cooperator(robot, Cooperation(speeds=own_speeds(robot), tool_speeds=np.full(3, 0.1)), stance)
+    record, free, rng = stance.record()[0], np.flatnonzero(weights), np.random.default_rng(7)
+    low, high = law.limits()
+    low[4 + 13 :] = -np.inf  # three edges, no more
+
+    def at(x: Floats) -> Floats:
         q = START.copy()
-        for _ in range(3000):
-            q = made.step(q, target, np.zeros(3), weights).q
-        assert np.linalg.norm(target - made.place(q)) == pytest.approx(found.distance, abs=2e-3)
+        q[free] = x
+        if stance.support != "y":
+            stand(q, record["anchor"], record["heading"])
+        return q
+
+    def room(x: Floats) -> Floats:
+        values = law.limited_values(at(x))
+        out = np.concatenate([values - low, high - values])
+        return out[np.isfinite(out)]
+
+    for target in rng.uniform([-1.2, -1.2, -0.2], [1.2, 1.2, 1.6], (10, 3)):
+        best = np.inf
+        for _ in range(16):
+            begin = START[free].copy()
+            begin[-4:] = rng.uniform((-3.0, 0.0, -1.5, -1.5), (3.0, 1.5, 1.5, 1.5))
+            begin[-4] = np.clip(np.arctan2(target[1], target[0]) + 0.3 * rng.normal(), -3.0, 3.0)
+            found = minimize(
+                lambda x, target=target: 10.0 * float(np.sum((law.place(at(x)) - target) ** 2)),
+                begin,
+                constraints={"type": "ineq", "fun": room},
+                method="SLSQP",
+                options={"maxiter": 300, "ftol": 1e-12},
+            )
+            if room(found.x).min() > -1e-6:
+                best = min(best, float(np.linalg.norm(law.place(at(found.x)) - target)))
+        assert search.find(START, target).distance < best + 1e-5
 
 
 def test_no_grid_point_of_the_arm_is_nearer_than_the_search_finds() -> None:
     robot = hoshino()
     arm = robot.arm
     assert arm is not None
-    stance = Footing(robot=robot, support="y", pose=START[:6])
+    stance = PlantedFeet(robot=robot, support="y", pose=START[:6])
     search = ReachSearch(robot, stance, weights_of("arm", 4), kept="arm")
     axes = [np.linspace(low, high, 61) for low, high in zip(arm.lowest[1:], arm.highest[1:], strict=True)]
     pitches = np.cumsum(np.stack(np.meshgrid(*axes, indexing="ij")), axis=0).reshape(3, -1)
@@ -155,26 +206,26 @@ def test_no_grid_point_of_the_arm_is_nearer_than_the_search_finds() -> None:
 
 def test_a_start_beyond_a_limit_is_named() -> None:
     robot = hoshino()
-    stance = Footing(robot=robot, support="delta", pose=START[:6])
+    stance = PlantedFeet(robot=robot, support="delta", pose=START[:6])
     made = Cooperator(robot, Cooperation(speeds=own_speeds(robot), tool_speeds=np.full(3, 0.1)), stance)
     bent = START.copy()
     bent[8] = -2.5
-    with pytest.raises(FootingError, match=r"the joint 2 of the arm is -2.5; allowed are -2.4 to 2.4"):
+    with pytest.raises(LimitError, match=r"the joint 2 of the arm is -2.5; allowed are -2.4 to 2.4"):
         made.check_start(bent)
     high = START.copy()
     high[2] = 0.47
-    with pytest.raises(FootingError, match=r"the length of leg 0 of the Delta-frame is 0.47; allowed are 0.25 to 0.45"):
+    with pytest.raises(LimitError, match=r"the length of leg 0 of the Delta-frame is 0.47; allowed are 0.25 to 0.45"):
         made.check_start(high)
 
 
 def test_near_a_singular_posture_damping_keeps_the_motion_smooth() -> None:
     """Out to the arm's full stretch and past it: joint rates stay within their speeds, and damped ones come to rest there."""
     robot = hoshino()
-    stance = Footing(robot=robot, support="delta", pose=START[:6])
+    stance = PlantedFeet(robot=robot, support="delta", pose=START[:6])
     damped = Cooperation(speeds=own_speeds(robot), tool_speeds=np.full(3, 0.1), gain=0.0)
     weights, outwards = weights_of("arm", 4), np.array([np.cos(0.2), np.sin(0.2), 0.0])
     shaking = {}
-    for name, settings in {"damped": damped, "bare": damped.with_changes(singular=0.0)}.items():
+    for name, settings in {"damped": damped, "bare": damped.with_changes(damping=0.0)}.items():
         made = Cooperator(robot, settings, stance)
         q, rates, start = START.copy(), [], made.place(START)
         for k in range(1500):

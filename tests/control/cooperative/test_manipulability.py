@@ -10,16 +10,16 @@ import pytest
 from walkers import ROBOTS, differences, random_q, with_links
 
 from clamber.control.cooperative.limits import chain_of
-from clamber.control.cooperative.workspace import Workspace, make_workspace, see_measure, see_tool
+from clamber.control.cooperative.scratch import Scratch, make_scratch, see_measure, see_tool
 from clamber.robots import WalkerRobot
 from clamber.types import Floats
 
 ANSWERS = json.loads(Path(__file__).with_name("roboticstoolbox.json").read_text(encoding="utf-8"))
 
 
-def seen(robot: WalkerRobot, q: Floats) -> Workspace:
+def seen(robot: WalkerRobot, q: Floats) -> Scratch:
     assert robot.arm is not None
-    w = make_workspace(robot.arm.n_joints)
+    w = make_scratch(robot.arm.n_joints)
     see_tool(chain_of(robot, balance=0.0), q, w)
     return w
 

@@ -8,12 +8,12 @@ from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
 from walkers import ROBOTS, differences, hoshino, random_q
 
-from clamber.control.cooperative.footing import N_ROWS, Footing, FootingError
 from clamber.control.cooperative.limits import chain_of
 from clamber.control.cooperative.planted import follow_feet, heading_of, stand
+from clamber.control.cooperative.planted_feet import N_ROWS, LimitError, PlantedFeet
 from clamber.control.cooperative.plate_bounds import bound_gradients, bound_values
+from clamber.control.cooperative.scratch import Scratch, make_scratch, see_bounds, see_measure, see_tool
 from clamber.control.cooperative.singular_guard import guard_room
-from clamber.control.cooperative.workspace import Workspace, make_workspace, see_bounds, see_measure, see_tool
 from clamber.robots import WalkerRobot
 from clamber.robots.walker.geometry import TwoFrames
 from clamber.robots.walker.two_frames import singular_measure
@@ -22,10 +22,10 @@ from clamber.types import Floats
 SEEDS = range(6)
 
 
-def footing(robot: WalkerRobot, support: str, seed: int = 0, tilt: float = 0.0) -> Footing:
+def footing(robot: WalkerRobot, support: str, seed: int = 0, tilt: float = 0.0) -> PlantedFeet:
     rng = np.random.default_rng(seed)
     pose = np.array([0.2, -0.1, 0.4, 0.7, *rng.uniform(-tilt, tilt, 2)]) if tilt else np.array([0, 0, 0.38, 0.4, 0, 0])
-    return Footing(
+    return PlantedFeet(
         robot=robot,
         support=support,  # type: ignore[arg-type]
         pose=pose,
@@ -40,7 +40,7 @@ def turn_of(q: Floats) -> Floats:
     return Rotation.from_euler("ZYX", q[3:6]).as_matrix()
 
 
-def near(stance: Footing, robot: WalkerRobot, seed: int, tilt: float = 0.17) -> Floats:
+def near(stance: PlantedFeet, robot: WalkerRobot, seed: int, tilt: float = 0.17) -> Floats:
     """A configuration near the pose of a footing; on its feet where the Delta-frame stands."""
     rng = np.random.default_rng(100 + seed)
     q = random_q(robot, seed)
@@ -51,7 +51,7 @@ def near(stance: Footing, robot: WalkerRobot, seed: int, tilt: float = 0.17) -> 
     return q
 
 
-def plain_values(stance: Footing, robot: WalkerRobot, q: Floats) -> Floats:
+def plain_values(stance: PlantedFeet, robot: WalkerRobot, q: Floats) -> Floats:
     """A second reading of the bounds, from places of points in the world."""
     arm = robot.arm
     assert arm is not None
@@ -99,9 +99,9 @@ def plain_values(stance: Footing, robot: WalkerRobot, q: Floats) -> Floats:
     return out
 
 
-def seen(stance: Footing, robot: WalkerRobot, q: Floats) -> Workspace:
+def seen(stance: PlantedFeet, robot: WalkerRobot, q: Floats) -> Scratch:
     assert robot.arm is not None
-    w = make_workspace(robot.arm.n_joints)
+    w = make_scratch(robot.arm.n_joints)
     chain = chain_of(robot, balance=0.0, footing=stance)
     see_tool(chain, q, w)
     see_bounds(chain, stance.record()[0], q, w)
@@ -130,7 +130,7 @@ def test_the_bounds_gradients_are_those_of_central_differences(support: str, see
     record, chain = stance.record()[0], chain_of(robot, balance=0.0, footing=stance)
 
     def values(p: Floats) -> Floats:
-        w = make_workspace(4)
+        w = make_scratch(4)
         if support != "y":
             p = p.copy()
             stand(p, record["anchor"], record["heading"])
@@ -183,7 +183,7 @@ def test_the_plate_stands_where_its_feet_strain_least(seed: int) -> None:
     """Feet that give alike across the ground: x, y and alpha minimise the sum of the squared distances from where they were planted."""
     robot = hoshino()
     assert robot.arm is not None
-    stance = Footing(robot=robot, support="delta", pose=np.array([0.1, -0.2, 0.4, 0.5, 0.0, 0.0]))
+    stance = PlantedFeet(robot=robot, support="delta", pose=np.array([0.1, -0.2, 0.4, 0.5, 0.0, 0.0]))
     planted = stance.feet_on_ground()[0]
     q = near(stance, robot, seed)
 
@@ -200,7 +200,7 @@ def test_the_plate_stands_where_its_feet_strain_least(seed: int) -> None:
 
 def test_a_tilt_of_ten_degrees_moves_the_plate_by_its_legs_length() -> None:
     robot = hoshino()
-    stance = Footing(robot=robot, support="delta", pose=np.array([0, 0, 0.35, 0, 0, 0]))
+    stance = PlantedFeet(robot=robot, support="delta", pose=np.array([0, 0, 0.35, 0, 0, 0]))
     q = np.array([0, 0, 0.35 * np.cos(np.radians(10)), 0, np.radians(10), 0, *np.zeros(4)])
     record = stance.record()[0]
     stand(q, record["anchor"], record["heading"])
@@ -244,7 +244,7 @@ def test_the_manipulability_of_a_standing_robot_has_its_gradient(support: str, s
     speeds, tool_speeds = rng.uniform(0.1, 0.5, q.size), rng.uniform(0.1, 0.3, 3)
 
     def measure(p: Floats) -> float:
-        w = make_workspace(4)
+        w = make_scratch(4)
         if support != "y":
             p = p.copy()
             stand(p, record["anchor"], record["heading"])
@@ -262,7 +262,7 @@ def test_the_manipulability_of_a_standing_robot_has_its_gradient(support: str, s
 
 
 def test_a_stance_that_cannot_be_is_named() -> None:
-    with pytest.raises(FootingError, match="payload"):
-        Footing(robot=hoshino(), support="delta", pose=np.zeros(6), payload=-1.0)
-    with pytest.raises(FootingError, match="six finite numbers"):
-        Footing(robot=hoshino(), support="delta", pose=np.array([0, 0, np.nan, 0, 0, 0]))
+    with pytest.raises(LimitError, match="payload"):
+        PlantedFeet(robot=hoshino(), support="delta", pose=np.zeros(6), payload=-1.0)
+    with pytest.raises(LimitError, match="six finite numbers"):
+        PlantedFeet(robot=hoshino(), support="delta", pose=np.array([0, 0, np.nan, 0, 0, 0]))

@@ -7,8 +7,8 @@ from test_limits import START, Judge
 from walkers import hoshino
 
 from clamber.control.cooperative.cooperator import Cooperator
-from clamber.control.cooperative.footing import Footing, Support
 from clamber.control.cooperative.freedoms import Freedoms, switch, weights_of
+from clamber.control.cooperative.planted_feet import PlantedFeet, Support
 from clamber.control.cooperative.settings import Cooperation, own_speeds
 from clamber.control.cooperative.stable_gain import stable_gain
 
@@ -32,7 +32,7 @@ def test_the_tool_goes_on_smoothly_while_the_standing_feet_change() -> None:
     robot = hoshino()
     speeds = own_speeds(robot)
     settings = Cooperation(speeds=speeds, tool_speeds=np.full(3, 0.1), gain=2.0, period=PERIOD)
-    made = Cooperator(robot, settings, Footing(robot=robot, support="y", pose=START[:6], payload=1.0))
+    made = Cooperator(robot, settings, PlantedFeet(robot=robot, support="y", pose=START[:6], payload=1.0))
     q, start = START.copy(), made.place(START)
     centre = start - np.array([0.0, 0.0, 0.08])
     arm, rates, errors = weights_of("arm", 4), [], []
@@ -67,7 +67,7 @@ def test_the_tool_goes_on_smoothly_while_the_standing_feet_change() -> None:
 def test_standing_anew_does_not_move_the_robot(support: Support) -> None:
     robot = hoshino()
     settings = Cooperation(speeds=own_speeds(robot), tool_speeds=np.full(3, 0.1), gain=0.0)
-    made = Cooperator(robot, settings, Footing(robot=robot, support="y", pose=START[:6]))
+    made = Cooperator(robot, settings, PlantedFeet(robot=robot, support="y", pose=START[:6]))
     q, weights = START.copy(), weights_of("all", 4)
     target = made.place(q) + np.array([0.1, 0.1, -0.1])
     for _ in range(300):

@@ -7,7 +7,7 @@ from walkers import ROBOTS, differences, hoshino, random_q
 
 from clamber.control.cooperative.arm_moment import arm_moment
 from clamber.control.cooperative.limits import chain_of
-from clamber.control.cooperative.workspace import Workspace, make_workspace, see_tool
+from clamber.control.cooperative.scratch import Scratch, make_scratch, see_tool
 from clamber.robots import WalkerRobot
 from clamber.types import Floats
 
@@ -64,9 +64,9 @@ def robot(request: pytest.FixtureRequest) -> WalkerRobot:
     return ROBOTS[request.param]
 
 
-def seen(robot: WalkerRobot, q: Floats) -> Workspace:
+def seen(robot: WalkerRobot, q: Floats) -> Scratch:
     assert robot.arm is not None
-    w = make_workspace(robot.arm.n_joints)
+    w = make_scratch(robot.arm.n_joints)
     see_tool(chain_of(robot, balance=0.0), q, w)
     return w
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from clamber.control.cooperative.footing import FootingError
+from clamber.control.cooperative.planted_feet import LimitError
 from clamber.control.cooperative.settings import CooperationError
 from clamber.execution.log_csv import csv_text, parse_csv
 from clamber.experiments.cooperative.follow import FollowOptions, FollowRun, follow_path
@@ -97,7 +97,32 @@ def test_options_that_cannot_be_are_named() -> None:
     path = load_tool_path("circle")
     with pytest.raises(CooperationError, match=r"gain = -1\.0"):
         follow_path(hoshino(), path, FollowOptions(dof=4, gain=-1.0))
-    with pytest.raises(FootingError, match="balance over edge"):
+    with pytest.raises(LimitError, match="balance over edge"):
         follow_path(hoshino(), path, FollowOptions(dof=4, payload=40.0))
-    with pytest.raises(FootingError, match="length of leg"):
+    with pytest.raises(LimitError, match="length of leg"):
         follow_path(hoshino(), path, FollowOptions(dof=4, height=0.6))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("dof", [7, 10])
+def test_in_contact_dynamics_the_tool_stays_within_millimetres(dof: int) -> None:
+    """A tilt of 12 deg carries the plate 76 mm across its feet; where it stands is known by the planted feet alone."""
+    felt = follow_path(hoshino(), load_tool_path("wide"), FollowOptions(dof=dof, dynamics=True))
+    assert felt.reason == "followed to its end"
+    assert felt.errors.max() < 5e-3
+    assert np.ptp(felt.q[:, 0]) > 0.05
+    bare = follow_path(hoshino(), load_tool_path("wide"), FollowOptions(dof=dof, dynamics=True, felt=False))
+    # where no limit holds it back: the first half of the path, which both follow
+    rms = []
+    for run in (felt, bare):
+        early = (run.on_path > 0.0) & (run.wanted[:, 1] < 0.0)
+        rms.append(np.sqrt(np.mean(np.sum((run.places - run.wanted)[early] ** 2, axis=1))))
+    assert rms[0] < 0.6 * rms[1]
+    assert bare.off_end > 0.02  # it sags so far that the path waits for it in vain
+
+
+def test_the_circle_is_followed_in_contact_dynamics() -> None:
+    run = follow_path(hoshino(), load_tool_path("circle"), FollowOptions(dof=10, dynamics=True, speed=0.15))
+    assert run.reason == "followed to its end"
+    assert run.errors.max() < 3e-3
+    assert run.errors.max() > 1e-4  # feet and legs give

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from clamber.control.cooperative.limits import chain_of
+from clamber.control.cooperative.scratch import make_scratch, see_tool
 from clamber.control.cooperative.settings import own_speeds
-from clamber.control.cooperative.workspace import make_workspace, see_tool
 from clamber.experiments.benches import BENCHES
 from clamber.experiments.cooperative.chain_peers import CHAIN_PEERS, PERIOD
 from clamber.experiments.hexapod_speed import hexapod_rows, peer_rows, reach_rows, step_rows, walker
@@ -43,7 +43,7 @@ def test_a_peer_moves_the_same_tool(peer: str, limited: bool) -> None:
         pytest.skip(f"{peer} comes with the extra `bench`")
     robot = walker()
     tick = CHAIN_PEERS[peer](robot, own_speeds(robot), limited=limited)
-    w = make_workspace(4)
+    w = make_scratch(4)
     for q in POSTURES:
         see_tool(chain_of(robot, balance=0.0), q, w)
         way = np.array([2e-5, -1e-5, 1.5e-5])

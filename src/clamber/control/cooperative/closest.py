@@ -8,8 +8,8 @@ import numpy as np
 from ...robots.walker import WalkerRobot
 from ...types import Floats
 from .cooperator import Cooperator
-from .footing import Footing, FootingError
 from .limits import Kept
+from .planted_feet import LimitError, PlantedFeet
 from .settings import Cooperation
 from .tool_chain import POSE
 
@@ -20,6 +20,11 @@ TRUST: Final = (0.03, 0.03, 0.03, 0.1, 0.1, 0.1)
 """Farthest that the plate goes in one step of the search [m, rad]."""
 TURN: Final = 0.3
 """Likewise a joint of the arm [rad]."""
+INSIDE: Final = (3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5, 1e-7)
+"""Distances from the limits of the plate's pose that the search keeps, one after the other [m]: along a curved limit it can take long
+steps only where it is not close to it."""
+ENOUGH: Final = 1e-7
+"""A step counts if it brings the tool nearer by this part of the distance."""
 SMALLEST: Final = 1e-6
 """The search ends when its steps have shrunk to this part of the above."""
 HOLDS: Final = 1e-4
@@ -57,7 +62,7 @@ class ReachSearch:
     """Looks for the nearest reachable places with one stance and one set of freedoms."""
 
     def __init__(
-        self, robot: WalkerRobot, footing: Footing, weights: Floats, *, balance: float = 0.0, kept: Kept = "places"
+        self, robot: WalkerRobot, footing: PlantedFeet, weights: Floats, *, balance: float = 0.0, kept: Kept = "places"
     ) -> None:
         """Starts no search.
 
@@ -77,11 +82,11 @@ class ReachSearch:
             feedback=1.0,
             period=1.0,
             approach=1.0,
-            inside=1e-7,
             balance=balance,
-            singular=0.0,
+            damping=0.0,
         )
-        self._law = Cooperator(robot, settings, footing, kept)
+        self._laws = [Cooperator(robot, settings.with_changes(inside=inside), footing, kept) for inside in INSIDE]
+        self._law = self._laws[-1]
         self._law.check_weights(weights)
         self._weights = weights
         arm = robot.arm
@@ -112,7 +117,7 @@ class ReachSearch:
             start[POSE] = np.clip(np.remainder(turn + np.pi, 2 * np.pi) - np.pi, *self._range(0))
             try:
                 self._law.check_start(start)
-            except FootingError:
+            except LimitError:
                 continue
             found = self._descend(start, target)
             if found.distance < best.distance:
@@ -124,21 +129,22 @@ class ReachSearch:
         return float(chain.lowest[joint]), float(chain.highest[joint])
 
     def _descend(self, q: Floats, target: Floats) -> Reach:
-        law, still = self._law, np.zeros(3)
-        here = law.place(q)
+        still = np.zeros(3)
+        here = self._law.place(q)
         distance = float(np.linalg.norm(target - here))
-        trust = 1.0
         tight: tuple[int, ...] = ()
-        for _ in range(STEPS):
-            if distance <= REACHED * 1e-3 or trust < SMALLEST:
-                break
-            step = law.step(q, target, still, trust * self._weights)
-            place = law.place(step.q)
-            nearer = float(np.linalg.norm(target - place))
-            if nearer < distance * (1.0 - 1e-12):
-                trust = min(1.0, 2.0 * trust) if step.share == 1.0 else trust
-                q, here, distance, tight = step.q, place, nearer, step.tight
-            else:
-                trust *= 0.25
-        names = tuple(law.names[k] for k in tight if k < law.n_ranges) if distance > REACHED else ()
+        for law in self._laws:
+            trust = 1.0
+            for _ in range(STEPS):
+                if distance <= REACHED * 1e-3 or trust < SMALLEST:
+                    break
+                step = law.step(q, target, still, trust * self._weights)
+                place = law.place(step.q)
+                nearer = float(np.linalg.norm(target - place))
+                if nearer < distance * (1.0 - ENOUGH):
+                    trust = min(1.0, 2.0 * trust) if step.share == 1.0 else trust
+                    q, here, distance, tight = step.q, place, nearer, step.tight
+                else:
+                    trust *= 0.25
+        names = tuple(self._law.names[k] for k in tight if k < self._law.n_ranges) if distance > REACHED else ()
         return Reach(q, here, distance, names)

@@ -7,13 +7,13 @@ import numpy as np
 
 from ...robots.walker import WalkerRobot
 from ...types import Floats
-from .footing import BALANCE, N_ROWS, Footing, FootingError, Support
 from .limits import Kept, chain_of, limit_names
 from .one_step import finish, move_freely, prepare, see
-from .programme import let_rest, make_programme
-from .settings import Cooperation, CooperationError
+from .planted_feet import BALANCE, N_ROWS, LimitError, PlantedFeet, Support
+from .programme import calm, let_rest, make_programme
+from .scratch import make_scratch, see_bounds, see_tool
+from .settings import Cooperation, CooperationError, stretch, swerve
 from .tool_chain import POSE
-from .workspace import make_workspace, see_bounds, see_tool
 
 SOLVED: Final = 1
 """DAQP's word for an optimum."""
@@ -45,7 +45,7 @@ class Step:
 class Cooperator:
     """Moves the freedoms of one walker for a tool, one step at a time."""
 
-    def __init__(self, robot: WalkerRobot, settings: Cooperation, footing: Footing, kept: Kept = "all") -> None:
+    def __init__(self, robot: WalkerRobot, settings: Cooperation, footing: PlantedFeet, kept: Kept = "all") -> None:
         """Raises `CooperationError` if the robot has no arm or the settings are for another number of freedoms.
 
         Args:
@@ -62,16 +62,17 @@ class Cooperator:
         self.robot, self.settings, self._kept = robot, settings, kept
         self.names = limit_names(robot)
         self._m = m
-        self._w = make_workspace(robot.arm.n_joints)
+        self._w = make_scratch(robot.arm.n_joints)
         self._programme = make_programme(m)
         self._speeds, self._velocity = np.zeros(m), np.zeros(3)
         self._tight = np.zeros(len(self.names))
         self._fastest, self._tool_speeds = np.array(settings.speeds), np.array(settings.tool_speeds)
         s = settings
-        self._law = np.array([s.approach, s.inside, s.least_damping, s.singular, s.largest_damping])
+        plate, arm = swerve(s, robot), stretch(s, robot)
+        self._law = np.array([s.approach, s.inside, s.softness, plate, s.damping * plate, arm, s.damping * arm])
         self.stand(footing)
 
-    def stand(self, footing: Footing) -> None:
+    def stand(self, footing: PlantedFeet) -> None:
         """Stand anew, with other feet or from another pose."""
         self.footing = footing
         self._record: Any = footing.record()[0]
@@ -93,7 +94,7 @@ class Cooperator:
         """Make sure that a configuration is within every limit.
 
         Raises:
-            FootingError: With the limit that it breaks, and by how much.
+            LimitError: With the limit that it breaks, and by how much.
         """
         if np.shape(q) != (self._m,) or not np.isfinite(q).all():
             raise CooperationError("q", q, f"must be {self._m} finite numbers")
@@ -101,7 +102,7 @@ class Cooperator:
         values = self.limited_values(q)
         for name, value, least, most in zip(self.names, values, low, high, strict=False):
             if not least <= value <= most:
-                raise FootingError(name, float(value), f"allowed are {least:.6g} to {most:.6g}")
+                raise LimitError(name, float(value), f"allowed are {least:.6g} to {most:.6g}")
 
     def limits(self) -> tuple[Floats, Floats]:
         """Least and largest values in the order of `names`."""
@@ -185,6 +186,8 @@ class Cooperator:
             p.which,
         )  # fmt: skip
         x, multipliers, solved = self._solve(count)
+        if calm(x, count, p.f, p.rows, p.lower, p.upper, self._speeds, self._law):
+            x, multipliers, solved = self._solve(count)
         place = w.place.copy()
         share = finish(
             self.chain, self._record, q, x, multipliers, count, self._speeds, p.lower, p.upper, p.which, s.period,

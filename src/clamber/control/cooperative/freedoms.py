@@ -6,7 +6,7 @@ import numpy as np
 
 from ...errors import ClamberError
 from ...types import Floats
-from .footing import Support
+from .planted_feet import Support
 from .tool_chain import POSE
 
 Freedoms = Literal["arm", "height", "levelling", "all"]

@@ -9,8 +9,8 @@ from ...robots.walker import WalkerRobot
 from ...types import Floats
 from .closest import REACHED, ReachSearch
 from .cooperator import Cooperator, Step
-from .footing import Footing
 from .freedoms import weights_of
+from .planted_feet import PlantedFeet
 from .tool_chain import POSE
 
 FINE: Final = 1e-5
@@ -69,7 +69,7 @@ def reachable_part(robot: WalkerRobot, poses: Floats, point: Floats) -> Reachabl
     """
     assert robot.arm is not None, "only robots with an arm move it"
     n = robot.arm.n_joints
-    footing = Footing(robot=robot, support="y", pose=poses[0])
+    footing = PlantedFeet(robot=robot, support="y", pose=poses[0])
     search = ReachSearch(robot, footing, weights_of("arm", n), kept="arm")
 
     def at(pose: Floats, joints: Floats) -> tuple[float, Floats]:

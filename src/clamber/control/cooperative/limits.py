@@ -6,15 +6,15 @@ import numpy as np
 
 from ...robots.walker import WalkerRobot
 from .arm_moment import arm_moment
-from .footing import ACTUATOR, BALANCE, GUARD, LEG, N_ROWS, ROW_NAMES, Footing
+from .planted_feet import ACTUATOR, BALANCE, GUARD, LEG, N_ROWS, ROW_NAMES, PlantedFeet
+from .scratch import Chain
 from .tool_chain import POSE
-from .workspace import Chain
 
 Kept = Literal["all", "places", "arm"]
 """Which limits are kept: all; all but the speeds of actuators and legs; those of the arm's joints alone."""
 
 
-def chain_of(robot: WalkerRobot, *, balance: float, footing: Footing | None = None, kept: Kept = "all") -> Chain:
+def chain_of(robot: WalkerRobot, *, balance: float, footing: PlantedFeet | None = None, kept: Kept = "all") -> Chain:
     """The arm and every limit of a robot.
 
     Args:

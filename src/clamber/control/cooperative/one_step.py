@@ -6,7 +6,7 @@ from ...compiled import kernel
 from .manipulability import manipulability, manipulability_gradient
 from .programme import mark_tight, take_rates, write_programme
 from .redundancy import share_motion
-from .workspace import see_bounds, see_measure, see_tool, share_within
+from .scratch import see_bounds, see_measure, see_tool, share_within
 
 
 @kernel
@@ -27,14 +27,14 @@ def see(chain, footing, q, weights, fastest, tool_speeds, limited, speeds, w):
 
     Args:
         chain: A `Chain`.
-        footing: Record of `FOOTING`.
+        footing: Record of `PLANTED_FEET`.
         q: Freedoms, shape (m,).
         weights: Of the freedoms, 0 to 1, shape (m,).
         fastest: Their largest speeds, shape (m,).
         tool_speeds: Of the tool, shape (3,).
         limited: Whether the plate stands on its feet, within its bounds; else it moves freely.
         speeds: Filled with weights times fastest, shape (m,).
-        w: A `Workspace`.
+        w: A `Scratch`.
     """
     for k in range(q.size):
         speeds[k] = weights[k] * fastest[k]

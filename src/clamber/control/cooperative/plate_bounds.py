@@ -4,8 +4,8 @@ import math
 
 from ...compiled import inlined, kernel
 from ...robots.walker.two_frames import actuator_lengths, length_jacobian
-from .footing import ACTUATOR, BALANCE, GUARD, LEG
 from .planted import ALPHA, BETA, GAMMA, Z, heading_change
+from .planted_feet import ACTUATOR, BALANCE, GUARD, LEG
 from .singular_guard import guard_room
 
 DELTA_STANDS, Y_STANDS, BOTH_STAND = 0, 1, 2
@@ -32,7 +32,7 @@ def bound_values(footing, q, turn, s, place, slope, values):
     """Every bounded quantity at a configuration.
 
     Args:
-        footing: Record of `FOOTING`.
+        footing: Record of `PLANTED_FEET`.
         q: Freedoms, shape (m,).
         turn: R from `plate_turn`.
         s: First moment of the arm, plate frame [kg m], shape (3,).

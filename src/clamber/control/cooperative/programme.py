@@ -2,8 +2,9 @@
 
     minimise |q^ - k_p dV/dq^|^2 + |e|^2   with   J^ q^ + lambda e = T_v r_dot,   limits on q^
 
-With no limit active and lambda = 0 the solution is equation 19 itself. lambda is small, and grows as J^ becomes singular (damped least
-squares). A limit g is approached like a wall in a thick fluid: its rate towards the wall is at most kappa times what is left.
+With no limit active and lambda = 0 the solution is equation 19 itself; lambda is small. Where freedoms would spend much motion on little,
+they are damped (`calm`). A limit g is approached like a wall in a thick fluid: its rate towards the wall is at most kappa times
+what is left.
 """
 
 from dataclasses import dataclass
@@ -12,12 +13,16 @@ import numpy as np
 
 from ...compiled import kernel
 from ...types import Floats, Ints
-from ..matrices import smallest_singular
-from .footing import BALANCE, GUARD, N_ROWS
+from .planted_feet import BALANCE, GUARD, N_ROWS
 from .tool_chain import POSE
 
 FREE = 1e30
 """What the solver takes for no bound."""
+
+HARDLY = 0.01
+"""A tool that misses so little of the motion that is wanted of it [-] is not held back."""
+MUCH = 0.1
+"""One that misses so much is damped fully [-]."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,36 +61,26 @@ def make_programme(m: int) -> Programme:
 
 
 @kernel
-def damping_of(scaled, least, smallest, largest, square):
-    """The damping [-]: `least` far from singular, growing to `largest` as the smallest singular value falls below `smallest`."""
-    sigma = smallest_singular(scaled, 3, scaled.shape[1], square)
-    if sigma >= smallest:
-        return least
-    part = 1.0 - sigma / smallest
-    return least + (largest - least) * part * part
-
-
-@kernel
 def write_programme(chain, footing, q, speeds, tool_speeds, velocity, gain, law, w, f, rows, lower, upper, which):
     """Write the programme of one step; returns how many rows it has.
 
     Args:
         chain: A `Chain`.
-        footing: Record of `FOOTING`.
+        footing: Record of `PLANTED_FEET`.
         q: Freedoms, shape (m,).
         speeds: Their largest speeds now, shape (m,); 0 switches one off.
         tool_speeds: T_v's [m/s], shape (3,).
         velocity: Wanted of the tool, feedback included [m/s], shape (3,).
         gain: k_p [-].
-        law: kappa [1/s], the bounds' inner margin [m], least, smallest, largest of `damping_of`, shape (5,).
-        w: A `Workspace` after `see_measure`.
+        law: kappa [1/s], the bounds' inner margin [m], lambda [-], and what `calm` takes for little and for enough, of
+            the plate and of the arm, shape (7,).
+        w: A `Scratch` after `see_measure`.
         f, rows, lower, upper, which: Of a `Programme`, filled.
     """
     m = q.size
     joints = m - POSE
     quick = joints + N_ROWS  # first name of a speed
     kappa, inside = law[0], law[1]
-    damping = damping_of(w.scaled, law[2], law[3], law[4], w.square)
     for k in range(m):
         f[k] = -gain * w.gradient[k]
         lower[k], upper[k] = -1.0, 1.0
@@ -103,7 +98,7 @@ def write_programme(chain, footing, q, speeds, tool_speeds, velocity, gain, law,
         for k in range(m):
             rows[i, k] = w.scaled[i, k]
         for j in range(3):
-            rows[i, m + j] = damping if i == j else 0.0
+            rows[i, m + j] = law[2] if i == j else 0.0
         lower[m + i] = velocity[i] / tool_speeds[i]
         upper[m + i] = lower[m + i]
     count = 3
@@ -135,6 +130,54 @@ def write_programme(chain, footing, q, speeds, tool_speeds, velocity, gain, law,
         upper[m + count] = min(FREE, high * scale)
         count += 1
     return count
+
+
+@kernel
+def calm(x, count, f, rows, lower, upper, speeds, law):
+    """Make motion dear where the tool is held back and spends much on little; whether that is so.
+
+    On a stretched arm, at joints' ends, or in a corner of the plate's limits, freedoms would run at full speed for next to nothing and
+    shake in steps. They are damped (Nakamura and Hanafusa 1986), the plate's and the arm's each by their own measure: the plate's are
+    slow, and may go on where the arm may not.
+
+    Args:
+        x: Solution, shape (m + 3,).
+        count: Rows, the tool's three among them.
+        f, rows, lower, upper: Of the programme; the part of what is damped is scaled.
+        speeds: Largest speeds, by which the solution is multiplied, scaled likewise, shape (m,).
+        law: As of `write_programme`.
+    """
+    m = x.size - 3
+    wanted, missed, gained = 0.0, 0.0, 0.0
+    for i in range(3):
+        wanted += lower[m + i] * lower[m + i]
+        missed += (law[2] * x[m + i]) ** 2
+        gained += (lower[m + i] - law[2] * x[m + i]) ** 2
+    if missed <= HARDLY * HARDLY * wanted:
+        return False
+    held = min(1.0, missed / (MUCH * MUCH * wanted))
+    any_dear = False
+    for group in range(2):
+        first, end = (0, POSE) if group == 0 else (POSE, m)
+        little, enough = law[3 + 2 * group], law[4 + 2 * group]
+        spent = 0.0
+        for k in range(first, end):
+            spent += x[k] * x[k]
+        if gained >= little * little * spent:
+            continue
+        dear = enough * held * (1.0 - gained / (little * little * spent)) / (law[2] * law[2])
+        if dear <= 1.0:
+            continue
+        any_dear = True
+        scale = 1.0 / np.sqrt(dear)
+        for k in range(first, end):
+            f[k] *= scale
+            lower[k] /= scale
+            upper[k] /= scale
+            speeds[k] *= scale
+            for i in range(count):
+                rows[i, k] *= scale
+    return any_dear
 
 
 @kernel

@@ -9,7 +9,7 @@ import numpy as np
 from ...errors import ClamberError
 from ...robots.walker import WalkerRobot
 from ...types import Floats
-from .footing import ACTUATOR, BALANCE, LEG, Footing
+from .planted_feet import ACTUATOR, BALANCE, LEG, PlantedFeet
 
 Form = Literal["right", "as printed"]
 
@@ -49,12 +49,10 @@ class Cooperation:
     """By how much the programme stays inside the limits of the plate's pose, which are curved [m]."""
     balance: float = 0.0
     """Least distance of the centre of mass from the edges of the support [m]."""
-    least_damping: float = 1e-3
-    """lambda of the programme far from singular [-]."""
-    largest_damping: float = 0.1
-    """lambda where the chain is singular [-]."""
-    singular: float = 0.1
-    """Smallest singular value of the normalised Jacobian below which lambda grows [-]."""
+    softness: float = 1e-3
+    """lambda, by which the tool's motion gives way to the limits in the programme [-]."""
+    damping: float = 1.0
+    """Of freedoms that spend much motion on little, over what they need to come to rest (`stretch`, `swerve`) [-]; 0: none."""
 
     def __post_init__(self) -> None:
         for name in ("speeds", "tool_speeds"):
@@ -63,7 +61,7 @@ class Cooperation:
                 raise CooperationError(name, values, "must be finite numbers, 0 or more")
         if not (np.asarray(self.tool_speeds) > 0.0).all() or np.shape(self.tool_speeds) != (3,):
             raise CooperationError("tool_speeds", self.tool_speeds, "must be three numbers over 0")
-        for name in ("gain", "feedback", "inside", "balance", "least_damping", "largest_damping", "singular"):
+        for name in ("gain", "feedback", "inside", "balance", "softness", "damping"):
             value = getattr(self, name)
             if not (math.isfinite(value) and value >= 0.0):
                 raise CooperationError(name, value, "must be a finite number, 0 or more")
@@ -84,20 +82,41 @@ class Cooperation:
         return replace(self, **changes)
 
 
+def stretch(settings: Cooperation, robot: WalkerRobot) -> float:
+    """How far joints at their largest speed s turn the tool's normalised velocity within a step, by the arm's stretched posture [-].
+
+    Stretched out, joints that are off by d move the tool by sigma = s H d / v, with v the tool's largest speed and H at most the sum of
+    i L_i. Damped by lambda they go back by s dt sigma / lambda^2 in a step, at the tool's full speed. More than 2 d shakes; with lambda^2
+    equal to s^2 dt H / v it is d at most.
+    """
+    assert robot.arm is not None, "only robots with an arm move it"
+    bent = math.fsum((i + 1) * length for i, length in enumerate(robot.arm.links)) + abs(robot.arm.out)
+    fastest = float(np.max(settings.speeds[6:]))
+    return fastest * fastest * settings.period * bent / float(np.min(settings.tool_speeds))
+
+
+def swerve(settings: Cooperation, robot: WalkerRobot) -> float:
+    """The same of the plate in a corner of its limits, which are curved by no less than an actuator's shortest length [-]."""
+    assert robot.arm is not None, "only robots with an arm move it"
+    reach = sum(robot.arm.links) + abs(robot.arm.out) + abs(robot.arm.up)
+    fastest = max(float(np.max(settings.speeds[:3])), reach * float(np.max(settings.speeds[3:6])))
+    return fastest * fastest * settings.period / (robot.mechanism.shortest * float(np.min(settings.tool_speeds)))
+
+
 def own_speeds(robot: WalkerRobot) -> Floats:
     """The speed of each freedom, alone, at which an actuator, a leg or a joint is at its fastest in the middle pose [m/s, rad/s].
 
     Returns:
         Shape (6 + joints,).
     """
-    from .workspace import make_workspace, see_bounds, see_tool
+    from .scratch import make_scratch, see_bounds, see_tool
 
     assert robot.arm is not None, "only robots with an arm move it"
     from .limits import chain_of
 
     q = np.array([0.0, 0.0, robot.legs.nominal, 0.0, 0.0, 0.0, *robot.arm.rest])
-    chain, w = chain_of(robot, balance=0.0), make_workspace(robot.arm.n_joints)
-    footing = Footing(robot=robot, support="y", pose=q[:6]).record()
+    chain, w = chain_of(robot, balance=0.0), make_scratch(robot.arm.n_joints)
+    footing = PlantedFeet(robot=robot, support="y", pose=q[:6]).record()
     see_tool(chain, q, w)
     see_bounds(chain, footing[0], q, w)
     fastest = np.concatenate([np.full(3, robot.mechanism.speed), [np.inf], np.full(6, robot.legs.speed)])

@@ -10,6 +10,7 @@ import numpy as np
 from ...robots.limbed import LimbedRobot
 from ...types import Floats, Ints
 from ...worlds.board import Board
+from ..fallen import FallenError as FallenError
 from ..plant import BodyPlant
 from .approach import Approaches, rank
 from .fall import FallWatch
@@ -26,10 +27,6 @@ PINNED: Final = (0.05, 1.0)
 """A body this far from its aim for so long is held there by what it cannot overcome [m], [s]."""
 STRAINED: Final = 0.03
 """Two holding tips whose distance differs that much from that of their holds are not both on them [m]."""
-
-
-class FallenError(Exception):
-    """The robot has lost its holds; the run ends with this reason. Never a user's mistake."""
 
 
 class SlippedError(FallenError):

@@ -119,25 +119,34 @@ def read_noise(base: Noise, texts: Iterable[str]) -> Noise:
     Raises:
         NoiseError: If there is no such key, or its width cannot be.
     """
-    widths = dict(base.widths)
+    return Noise(read_widths(NOISE, base.widths, texts))
+
+
+def read_widths(kinds: Mapping[str, NoiseKind], widths: Mapping[str, float], texts: Iterable[str]) -> dict[str, float]:
+    """Widths of these kinds changed by texts, as `read_noise` does it.
+
+    Raises:
+        NoiseError: If there is no such key, or its width cannot be.
+    """
+    changed = dict(widths)
     for text in texts:
         key, equals, said = (part.strip() for part in text.partition("="))
         if not equals and key in SETS:
-            widths = dict(named_noise(key).widths)
+            changed = {name: kind.width if key == "usual" else 0.0 for name, kind in kinds.items()}
             continue
-        if key not in NOISE:
-            raise NoiseError(key, said, f"no such key; there are {describe_choices(key, (*NOISE, *SETS))}")
+        if key not in kinds:
+            raise NoiseError(key, said, f"no such key; there are {describe_choices(key, (*kinds, *SETS))}")
         if not said:
-            raise NoiseError(key, said, f"needs a width, as in {key}={NOISE[key].shown(NOISE[key].width)}")
+            raise NoiseError(key, said, f"needs a width, as in {key}={kinds[key].shown(kinds[key].width)}")
         try:
-            widths[key] = parse_quantity(said, NOISE[key].dimension)
+            changed[key] = parse_quantity(said, kinds[key].dimension)
         except UnitError as error:
             raise NoiseError(key, said, f"{error.problem}; {error.allowed}") from None
-        if not widths[key] >= 0.0:
-            raise NoiseError(key, said, f"must be 0 {NOISE[key].unit} or more; it is meant either way")
-        if NOISE[key].below_one and not widths[key] < 1.0:
+        if not changed[key] >= 0.0:
+            raise NoiseError(key, said, f"must be 0 {kinds[key].unit} or more; it is meant either way")
+        if kinds[key].below_one and not changed[key] < 1.0:
             raise NoiseError(key, said, "must be less than 100 %")
-    return Noise(widths)
+    return changed
 
 
 def noise_of(document: Json) -> Noise:

@@ -7,18 +7,21 @@ import numpy as np
 
 from ...control.cooperative.closest import Reach, ReachSearch
 from ...control.cooperative.cooperator import Cooperator
-from ...control.cooperative.footing import N_ROWS, ROW_UNITS, Footing
 from ...control.cooperative.freedoms import SUPPORT, Freedoms, freedoms_of, weights_of
 from ...control.cooperative.limits import freedom_names
+from ...control.cooperative.planted_feet import N_ROWS, ROW_UNITS, PlantedFeet
 from ...control.cooperative.settings import Cooperation, CooperationError, own_speeds
 from ...control.cooperative.stable_gain import stable_gain
 from ...execution.log import Log
 from ...robots.walker import WalkerRobot
 from ...types import Floats, Json
+from .simulated_body import SimulatedBody
 from .tool_path import TimedPath, ToolPath
 
 NEAR: Final = 1e-3
 """A run reaches the end of its path if the tool is as near as this [m]."""
+NEAR_IN_DYNAMICS: Final = 5e-3
+"""Likewise in contact dynamics, where feet and legs give [m]."""
 PATIENCE: Final = 5e-3
 """A path without times waits for the tool: it stands still while the tool is as far off as this [m], and goes on in between."""
 SLOWEST: Final = 0.02
@@ -51,6 +54,10 @@ class FollowOptions:
     """Of the plate over level ground at the start [m]; None: legs of nominal length."""
     period: float = 0.02
     """[s]."""
+    dynamics: bool = False
+    """Whether a robot in contact dynamics is led through the motion; else the motion is all there is."""
+    felt: bool = True
+    """In dynamics: whether the law makes up for what the robot's own sensors say that the tool is off."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -61,13 +68,13 @@ class FollowRun:
     path: ToolPath
     options: FollowOptions
     freedoms: Freedoms
-    footing: Footing
+    footing: PlantedFeet
     time: Floats
     """[s], shape (rows,)."""
     q: Floats
     """Freedoms, shape (rows, m)."""
     places: Floats
-    """Of the tool, world [m], shape (rows, 3)."""
+    """Of the tool, world [m], shape (rows, 3); in dynamics where it truly is."""
     wanted: Floats
     """Where it was to be [m], shape (rows, 3)."""
     on_path: Floats
@@ -99,6 +106,11 @@ class FollowRun:
         return out
 
     @property
+    def near(self) -> float:
+        """How near to the path's last point counts as there [m]."""
+        return NEAR_IN_DYNAMICS if self.options.dynamics else NEAR
+
+    @property
     def off_end(self) -> float:
         """Distance of the tool from the path's last point at the end [m]."""
         return float(np.linalg.norm(self.places[-1] - self.path.points[-1]))
@@ -106,7 +118,7 @@ class FollowRun:
     @property
     def reason(self) -> str:
         """Whether the path was followed to its end; else why not."""
-        if self.off_end <= NEAR:
+        if self.off_end <= self.near:
             if not self.unreachable:
                 return "followed to its end"
             worst = max((reach for _, reach in self.unreachable), key=lambda reach: reach.distance)
@@ -143,7 +155,7 @@ class FollowRun:
             "dof": self.options.dof,
             "supports": self.footing.support,
             "reason": self.reason,
-            "reached": self.off_end <= NEAR,
+            "reached": self.off_end <= self.near,
             "seconds": float(self.time[-1]),
             "rms_error_m": float(np.sqrt(np.mean(self.errors**2))),
             "largest_error_m": float(self.errors.max()),
@@ -184,7 +196,7 @@ def follow_path(robot: WalkerRobot, path: ToolPath, options: FollowOptions) -> F
     Raises:
         CooperationError: If an option cannot be.
         FreedomsError: If no set has so many degrees of freedom.
-        FootingError: If the robot cannot stand so.
+        LimitError: If the robot cannot stand so.
     """
     arm = robot.arm
     if arm is None:
@@ -195,7 +207,7 @@ def follow_path(robot: WalkerRobot, path: ToolPath, options: FollowOptions) -> F
     freedoms = freedoms_of(options.dof, arm.n_joints)
     height = robot.legs.nominal if options.height is None else options.height
     q = np.array([0.0, 0.0, height, 0.0, 0.0, 0.0, *arm.rest])
-    footing = Footing(robot=robot, support=SUPPORT[freedoms], pose=q[:6], payload=options.payload)
+    footing = PlantedFeet(robot=robot, support=SUPPORT[freedoms], pose=q[:6], payload=options.payload)
     settings = Cooperation(
         speeds=own_speeds(robot),
         tool_speeds=np.full(3, options.tool_speed),
@@ -203,6 +215,10 @@ def follow_path(robot: WalkerRobot, path: ToolPath, options: FollowOptions) -> F
         period=options.period,
         balance=options.balance,
     )
+    body = None
+    if options.dynamics:
+        body = SimulatedBody(robot, footing.support, height, options.payload, options.period)
+        footing, q = body.footing, body.start
     law, weights = Cooperator(robot, settings, footing), weights_of(freedoms, arm.n_joints)
     law.check_weights(weights)
     law.check_start(q)
@@ -213,7 +229,7 @@ def follow_path(robot: WalkerRobot, path: ToolPath, options: FollowOptions) -> F
     parts: list[tuple[TimedPath, bool]] = [(path.sample(options.speed), True)]
     if not np.array_equal(start, path.points[0]):
         parts.insert(0, (approach.sample(options.speed), False))
-    rows = _Rows(law, q, weights)
+    rows = _Rows(law, q, weights, body, options.felt)
     for timed, counts in parts:
         rows.follow(timed, counts, waits=timed.by_way)
     on = np.array(rows.on)
@@ -230,8 +246,8 @@ def follow_path(robot: WalkerRobot, path: ToolPath, options: FollowOptions) -> F
 class _Rows:
     """Runs the law along parts of a path and keeps a row for each period."""
 
-    def __init__(self, law: Cooperator, q: Floats, weights: Floats) -> None:
-        self.law, self.at, self.weights = law, q, weights
+    def __init__(self, law: Cooperator, q: Floats, weights: Floats, body: SimulatedBody | None, felt: bool) -> None:
+        self.law, self.at, self.weights, self.body, self.felt = law, q, weights, body, felt
         self.q: list[Floats] = []
         self.places: list[Floats] = []
         self.wanted: list[Floats] = []
@@ -247,11 +263,12 @@ class _Rows:
         ends = timed.lasts + SETTLE
         while moment <= ends and stuck <= STUCK:
             target, velocity = timed.at(moment)
-            place = self.law.place(self.at)
+            place = self.law.place(self.at) if self.body is None else self.body.move(self.law, self.at)
+            aim = target if self.body is None or not self.felt else target - self.body.off
             pace = 1.0
             if waits and moment < timed.lasts:
                 pace = max(0.0, 1.0 - float(np.linalg.norm(target - place)) / PATIENCE)
-            step = self.law.step(self.at, target, pace * velocity, self.weights)
+            step = self.law.step(self.at, aim, pace * velocity, self.weights)
             self.q.append(self.at)
             self.places.append(place)
             self.wanted.append(target)

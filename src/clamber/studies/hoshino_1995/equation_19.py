@@ -5,8 +5,8 @@ from typing import Final
 import numpy as np
 
 from ...control.cooperative.cooperator import Cooperator
-from ...control.cooperative.footing import Footing
 from ...control.cooperative.freedoms import freedoms_of, weights_of
+from ...control.cooperative.planted_feet import PlantedFeet
 from ...control.cooperative.settings import Cooperation, Form, own_speeds
 from ...types import Floats
 from ..result import Compared, StudyResult, Table, Value
@@ -30,7 +30,7 @@ def check_second_term() -> StudyResult:
     postures = np.tile(START, (POSTURES, 1))
     postures[:, 3:6] = rng.uniform(-1.0, 1.0, (POSTURES, 3)) * (1.0, TILT, TILT)
     postures[:, 6:] = rng.uniform(low, high, (POSTURES, low.size))
-    footing = Footing(robot=robot, support="y", pose=START[:6])
+    footing = PlantedFeet(robot=robot, support="y", pose=START[:6])
     speeds = {"0.05 m/s, 0.15 rad/s": BALANCED, "of actuators and legs": own_speeds(robot)}
     forms: tuple[Form, ...] = ("right", "as printed")
     falls: dict[tuple[str, str, int], float] = {}

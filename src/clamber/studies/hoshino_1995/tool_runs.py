@@ -6,8 +6,8 @@ from typing import Final
 import numpy as np
 
 from ...control.cooperative.cooperator import Cooperator
-from ...control.cooperative.footing import SUPPORT_WORDS, Footing
 from ...control.cooperative.freedoms import SUPPORT, freedoms_of, weights_of
+from ...control.cooperative.planted_feet import SUPPORT_WORDS, PlantedFeet
 from ...control.cooperative.settings import Cooperation, Form, own_speeds
 from ...types import Floats
 from .walker import hoshino
@@ -44,7 +44,7 @@ class ToolRun:
 
     dof: int
     gain: float
-    footing: Footing
+    footing: PlantedFeet
     time: Floats
     """[s], shape (rows,)."""
     q: Floats
@@ -92,7 +92,7 @@ def go(
     """
     robot = hoshino()
     freedoms = freedoms_of(dof, 4)
-    footing = Footing(robot=robot, support=SUPPORT[freedoms], pose=start[:6])
+    footing = PlantedFeet(robot=robot, support=SUPPORT[freedoms], pose=start[:6])
     if speeds is None:
         speeds = own_speeds(robot) if limited else BALANCED
     settings = Cooperation(
@@ -129,7 +129,7 @@ def random_case(seed: int) -> tuple[Floats, Floats]:
         start[6:] = rng.uniform((-2.0, 0.5, -2.0, -1.5), (2.0, 1.5, -0.5, 1.5))
         direction = rng.normal(size=3)
         way = rng.uniform(0.1, 0.35) * direction / np.linalg.norm(direction)
-        footing = Footing(robot=robot, support="delta", pose=start[:6])
+        footing = PlantedFeet(robot=robot, support="delta", pose=start[:6])
         law = Cooperator(robot, Cooperation(speeds=BALANCED, tool_speeds=TOOL_SPEEDS), footing)
         end = law.place(start) + way
         flat = np.hypot(end[0], end[1])

@@ -7,9 +7,9 @@ import numpy as np
 from ...compiled import kernel
 from ...types import Floats
 from .arm_vector import arm_vector
-from .footing import BALANCE, N_ROWS
 from .manipulability import manipulability, manipulability_gradient, normalise
 from .planted import along_feet, curve_along_feet, follow_feet, stand
+from .planted_feet import BALANCE, N_ROWS
 from .plate_bounds import Y_STANDS, bound_gradients, bound_values
 from .plate_turn import plate_turn
 from .tool_chain import POSE, tool_curvature, tool_jacobian, tool_place
@@ -36,7 +36,7 @@ class Chain(NamedTuple):
     """Fastest change of a bounded quantity [m/s], shape (N_ROWS,); infinite where none is stated."""
 
 
-class Workspace(NamedTuple):
+class Scratch(NamedTuple):
     """Scratch of one law; m freedoms, n + 1 joints."""
 
     turn: Floats
@@ -82,10 +82,10 @@ class Workspace(NamedTuple):
     """Speeds of 1, of the plain chain, shape (m,)."""
 
 
-def make_workspace(n_joints: int) -> Workspace:
+def make_scratch(n_joints: int) -> Scratch:
     """Arrays for an arm of so many joints."""
     m = POSE + n_joints
-    return Workspace(
+    return Scratch(
         turn=np.zeros((3, 3)),
         turn_1=np.zeros((3, 3, 3)),
         turn_2=np.zeros((3, 3, 3, 3)),
@@ -126,7 +126,7 @@ def see_tool(chain, q, w):
     Args:
         chain: A `Chain`.
         q: Freedoms, shape (m,).
-        w: A `Workspace`.
+        w: A `Scratch`.
     """
     plate_turn(q[3:POSE], w.turn, w.turn_1, w.turn_2)
     arm_vector(chain.links, chain.shape[0], chain.shape[1], q[POSE:], w.a, w.da, w.dda)
@@ -141,9 +141,9 @@ def see_bounds(chain, footing, q, w):
 
     Args:
         chain: A `Chain`.
-        footing: Record of `FOOTING`.
+        footing: Record of `PLANTED_FEET`.
         q: Freedoms, shape (m,).
-        w: A `Workspace`.
+        w: A `Scratch`.
     """
     arm_vector(chain.moment_links, footing.moment_out, footing.moment_up, q[POSE:], w.s, w.ds, w.dds)
     bound_values(footing, q, w.turn, w.s, w.y_place, w.slope, w.values)
@@ -159,12 +159,12 @@ def see_bounds(chain, footing, q, w):
 
 @kernel
 def see_measure(speeds, tool_speeds, w):
-    """V of the normalised chain, its gradient left in the workspace; after `see_tool` (and `see_bounds`).
+    """V of the normalised chain, its gradient left in the scratch; after `see_tool` (and `see_bounds`).
 
     Args:
         speeds: Largest speeds of the freedoms [m/s, rad/s], shape (m,); 0 switches one off.
         tool_speeds: Of the tool [m/s], shape (3,).
-        w: A `Workspace`.
+        w: A `Scratch`.
     """
     normalise(w.jacobian, speeds, tool_speeds, w.scaled)
     measure = manipulability(w.scaled, w.grams)
@@ -177,7 +177,7 @@ def step_to(footing, q, rates, time, share, after):
     """The configuration after a share of a step: x, y and alpha by the planted feet if there are some.
 
     Args:
-        footing: Record of `FOOTING`.
+        footing: Record of `PLANTED_FEET`.
         q: Freedoms, shape (m,).
         rates: Shape (m,).
         time: Of the whole step [s].
@@ -198,11 +198,11 @@ def share_within(chain, footing, q, rates, time, w):
 
     Args:
         chain: A `Chain`.
-        footing: Record of `FOOTING`.
+        footing: Record of `PLANTED_FEET`.
         q: Freedoms, within the bounds, shape (m,).
         rates: Shape (m,).
         time: Of the step [s].
-        w: A `Workspace` after `see_bounds`; `after` is left with the configuration that is reached.
+        w: A `Scratch` after `see_bounds`; `after` is left with the configuration that is reached.
     """
     low, high = 0.0, 1.0
     share = 1.0

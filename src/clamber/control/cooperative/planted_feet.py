@@ -27,7 +27,7 @@ ROW_NAMES: Final = (
 )
 ROW_UNITS: Final = tuple("1" if row == GUARD else "m" for row in range(N_ROWS))
 
-FOOTING: Final = np.dtype(
+PLANTED_FEET: Final = np.dtype(
     [
         ("attachments", "f8", (2, 3, 2)),  # of the actuators, each in its frame [m]
         ("feet", "f8", (2, 3, 2)),  # each in its frame [m]
@@ -52,7 +52,7 @@ FOOTING: Final = np.dtype(
 """What the kernels of `plate_bounds` read."""
 
 
-class FootingError(ClamberError):
+class LimitError(ClamberError):
     """A stance that the robot cannot have: names what it breaks, by how much, and what is allowed."""
 
     def __init__(self, what: str, value: float, allowed: str) -> None:
@@ -64,7 +64,7 @@ class FootingError(ClamberError):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Footing:
+class PlantedFeet:
     """Standing feet, and the Y-frame in the Delta-frame."""
 
     robot: WalkerRobot
@@ -82,11 +82,11 @@ class Footing:
 
     def __post_init__(self) -> None:
         if self.support not in SUPPORTS:
-            raise FootingError("support", float("nan"), f"it is {self.support!r}, and must be one of {SUPPORTS}")
+            raise LimitError("support", float("nan"), f"it is {self.support!r}, and must be one of {SUPPORTS}")
         if not self.payload >= 0.0:
-            raise FootingError("payload [kg]", self.payload, "must be 0 or more")
+            raise LimitError("payload [kg]", self.payload, "must be 0 or more")
         if np.shape(self.pose) != (6,) or not np.isfinite(self.pose).all():
-            raise FootingError("pose", float("nan"), "must be six finite numbers: x, y, z, alpha, beta, gamma")
+            raise LimitError("pose", float("nan"), "must be six finite numbers: x, y, z, alpha, beta, gamma")
 
     def standing(self) -> tuple[int, ...]:
         """Indices of the frames that stand, in `FRAMES`."""
@@ -104,8 +104,8 @@ class Footing:
         return out
 
     def record(self) -> Records:
-        """One record of `FOOTING`, shape (1,)."""
-        robot, out = self.robot, np.zeros(1, FOOTING)
+        """One record of `PLANTED_FEET`, shape (1,)."""
+        robot, out = self.robot, np.zeros(1, PLANTED_FEET)
         root = out[0]
         root["attachments"], root["feet"] = robot.attachments(), robot.feet()
         root["heights"] = self.heights

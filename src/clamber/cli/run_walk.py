@@ -1,0 +1,130 @@
+"""`clamber run` of a walk: what the command says about two-frame walkers, and nothing of climbers."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+import typer
+from rich.console import Console
+
+from ..execution.walk.sequencer import Lay, WalkReport
+from ..experiments.walk.run_walk import WalkRun
+from ..tasks.walks import Walk
+from ..units import DEGREE
+from .live_line import LiveLine
+from .output import plain_table, print_json, stderr, stdout
+
+
+class WalkLine(LiveLine):
+    """Follows a walk."""
+
+    def update(self, step: int, way: float, whole: float) -> None:
+        """Show the step that begins."""
+        self.show(f"step {step}: {way:.2f} of {whole:.2f} m")
+
+
+def run_walk_file(
+    what: str,
+    settings: Sequence[str],
+    noise: Sequence[str],
+    seed: int,
+    outputs: Sequence[Path],
+    climbs_only: Mapping[str, bool],
+    *,
+    as_json: bool,
+    quiet: bool,
+) -> None:
+    """Carry a walk out and say how it went; leaves with 1 where it did not come to its end.
+
+    Args:
+        what: The walk's name or file.
+        settings: Texts "key=value" of the walk, its robot, its ground, and its plant.
+        noise: Texts "key=size".
+        seed: Of the noise.
+        outputs: Files to write.
+        climbs_only: Options that only climbs have -> whether they are given.
+        as_json: Whether to print JSON alone.
+        quiet: Whether to tell nothing on the way.
+    """
+    from ..experiments.walk.run_walk import split_walk_settings
+    from ..tasks.walks import load_walk
+
+    refuse_climbs_options(what, climbs_only)
+    walk = load_walk(what, split_walk_settings(settings)[0])
+    walk_and_tell(walk, settings, noise, seed, outputs, as_json=as_json, quiet=quiet)
+
+
+def refuse_climbs_options(what: str, climbs_only: Mapping[str, bool]) -> None:
+    """Raises `BadParameter` if an option is given that only climbs have."""
+    for option, given in climbs_only.items():
+        if given:
+            raise typer.BadParameter(f"'{what}' is a walk, and this is for climbs", param_hint=option)
+
+
+def walk_and_tell(
+    walk: Walk,
+    settings: Sequence[str],
+    noise: Sequence[str],
+    seed: int,
+    outputs: Sequence[Path],
+    lay: Lay | None = None,
+    *,
+    as_json: bool,
+    quiet: bool,
+) -> None:
+    """Carry a walk out, along its own way or another course, write files and say how it went; leaves with 1 where it did not end well."""
+    from ..experiments.walk.noise import named_walk_noise, read_walk_noise
+    from ..experiments.walk.run_walk import run_walk, split_walk_settings, walk_flaws
+    from ..viewing.walk_run_view import check_walk_suffix, write_walk
+
+    for file in outputs:
+        check_walk_suffix(file)
+    deviations = read_walk_noise(named_walk_noise("none"), noise)
+    flaws = walk_flaws(walk, split_walk_settings(settings)[1])
+    with WalkLine(stderr(), quiet=quiet) as line:
+        run = run_walk(walk, flaws, noise=deviations, seed=seed, lay=lay, progress=line.update)
+    for file in outputs:
+        write_walk(run, file)
+    if as_json:
+        print_json(run.to_json())
+    else:
+        print_walk(stdout(), run, outputs)
+    raise typer.Exit(130 if run.report.reason == "interrupted" else 0 if run.done else 1)
+
+
+def print_walk(console: Console, run: WalkRun, written: Sequence[Path] = ()) -> None:
+    """Print how a walk ended, a row for each step, and where it was close."""
+    report = run.report
+    if run.done:
+        console.print(f"walked: {len(report.steps)} steps of '{run.walk.name}'", style="bold green")
+    else:
+        console.print(f"not walked: '{run.walk.name}'", style="bold red")
+        console.print(run.reason)
+    console.print(_steps(report))
+    speed = report.seconds / run.wall_seconds if run.wall_seconds > 0.0 else 0.0
+    console.print(f"{report.seconds:.0f} s in {run.wall_seconds:.1f} s ({speed:.0f} times as fast as it happens)")
+    x, y, z, alpha = (report.true_pose or report.pose)[:4]
+    console.print(f"plate at x {x:.3f} m, y {y:.3f} m, z {z:.3f} m, heading {alpha / DEGREE:.1f} deg")
+    if report.missed is not None:
+        off, turned = report.missed
+        console.print(f"{1e3 * off:.1f} mm and {turned / DEGREE:.2f} deg from where the way ends")
+    console.print(f"largest tilt while walking {run.tilt / DEGREE:.3f} deg, least margin {_millimetres(run.margin)}")
+    if report.kicks:
+        console.print(f"kicked {report.kicks} times: the plate tilted without its legs telling")
+    for path in written:
+        console.print(f"written: {path}", soft_wrap=True)
+
+
+def _steps(report: WalkReport) -> object:
+    table = plain_table("step", "frame", "way [m]", "outcome", "from [s]", "off [mm]", "reckoned margin",
+                        right=("step", "way [m]", "from [s]", "off [mm]", "reckoned margin"))  # fmt: skip
+    for step in report.steps:
+        off = f"{1e3 * step.off:.1f}" if np.isfinite(step.off) else ""
+        table.add_row(
+            str(step.number), step.frame, f"{step.way:.3f}", step.outcome, f"{step.start:.0f}", off, _millimetres(step.balance)
+        )  # fmt: skip
+    return table
+
+
+def _millimetres(margin: float) -> str:
+    return f"{1e3 * margin:.0f} mm" if np.isfinite(margin) else "none: fewer than three feet on the ground"

@@ -1,0 +1,85 @@
+"""Where a walker's centre of mass is, with arm and payload, and how far inside its standing feet."""
+
+import math
+
+import numpy as np
+
+from ..robots.walker import WalkerRobot
+from ..types import Floats, Ints
+from ..units import GRAVITY
+from .dead_reckoning import orient
+
+
+def arm_points(robot: WalkerRobot, arm: Floats) -> Floats:
+    """Ends of the arm's links in the plate, from the axis of joint 1 to the tool point, shape (n + 1, 3) [m].
+
+    Equation 8 of Hoshino and others (1996): joint 0 turns about the plate's normal, the others pitch, upwards positive.
+
+    Args:
+        robot: It has an arm.
+        arm: Joint angles, shape (n + 1,) [rad].
+    """
+    assert robot.arm is not None
+    pitches = np.cumsum(arm[1:])
+    out = robot.arm.out + np.concatenate(([0.0], np.cumsum(robot.arm.links * np.cos(pitches))))
+    up = robot.arm.up + np.concatenate(([0.0], np.cumsum(robot.arm.links * np.sin(pitches))))
+    points: Floats = np.stack([out * math.cos(arm[0]), out * math.sin(arm[0]), up], axis=-1)
+    return points
+
+
+def mass_moment(robot: WalkerRobot, place: Floats, arm: Floats, payload: float = 0.0) -> tuple[float, Floats]:
+    """Mass of the robot [kg], and its centre of mass in the plate, shape (3,) [m].
+
+    Args:
+        robot: The walker.
+        place: Of the Y-frame in the Delta-frame, shape (3,) [m], [rad].
+        arm: Joint angles, shape (joints,) [rad]; any without an arm.
+        payload: Mass at the tool point [kg].
+    """
+    mass = robot.mass.frames
+    on_y = 1.0 - robot.mass.share_delta
+    moment = mass * np.array((on_y * place[0], on_y * place[1], robot.mass.height))
+    if robot.arm is not None:
+        points = arm_points(robot, arm)
+        masses = np.array(robot.arm.masses)
+        moment += masses @ (0.5 * (points[:-1] + points[1:])) + payload * points[-1]
+        mass += float(masses.sum()) + payload
+    return mass, moment / mass
+
+
+def weight_of(robot: WalkerRobot, payload: float = 0.0) -> float:
+    """Weight of the robot with its arm and a payload [N]."""
+    arm = 0.0 if robot.arm is None else sum(robot.arm.masses) + payload
+    return GRAVITY * (robot.mass.frames + arm)
+
+
+def mass_centre(robot: WalkerRobot, pose: Floats, place: Floats, arm: Floats, payload: float = 0.0) -> Floats:
+    """Centre of mass in the world, shape (3,) [m]; `pose` is that of the plate, shape (6,) [m], [rad], the rest as in `mass_moment`."""
+    matrix = np.empty((3, 3))
+    orient(pose[3], pose[4], pose[5], matrix)
+    centre: Floats = pose[:3] + matrix @ mass_moment(robot, place, arm, payload)[1]
+    return centre
+
+
+def support_margin(feet: Floats, stands: Ints, point: Floats) -> float:
+    """How far a point lies inside the hull of the standing feet, seen from above [m]; negative outside, -inf with fewer than three.
+
+    Args:
+        feet: Shape (n, 2) or (n, 3) [m].
+        stands: 1 for feet that stand, shape (n,).
+        point: Shape (2,) or (3,) [m].
+    """
+    standing = feet[stands > 0, :2]
+    if len(standing) < 3:
+        return -math.inf
+    best = math.inf
+    for a in standing:
+        for b in standing:
+            way = b - a
+            length = math.hypot(way[0], way[1])
+            if length == 0.0:
+                continue
+            sides = (way[0] * (standing[:, 1] - a[1]) - way[1] * (standing[:, 0] - a[0])) / length
+            if sides.min() >= -1e-9:  # all others on the left: an edge of the hull
+                best = min(best, float(way[0] * (point[1] - a[1]) - way[1] * (point[0] - a[0])) / length)
+    return best

@@ -1,0 +1,180 @@
+"""What happens in a walk, sample by sample, and the log that it becomes."""
+
+import json
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+
+from ...control.walker_balance import support_margin
+from ...robots.walker import FRAMES
+from ...types import Floats, Ints, Json
+from ..log import Log, LogError, split_title
+from .walker import LEGS, Walker
+
+EVERY: Final = 5
+"""Ticks between samples; the last tick is always one."""
+POSE: Final = (("x", "m"), ("y", "m"), ("z", "m"), ("alpha", "rad"), ("beta", "rad"), ("gamma", "rad"))
+PLACE: Final = (("x", "m"), ("y", "m"), ("theta", "rad"))
+LEG_NAMES: Final = tuple(f"{frame} leg {i + 1}" for frame in FRAMES for i in range(3))
+PHASES: Final = ("prepare", "lift", "slide", "lower", "settle")
+"""What a walk does, by number."""
+
+
+def walk_titles(*, true: bool) -> dict[str, tuple[str, ...]]:
+    """Field of `WalkTrace` -> titles of its columns in a log, in the order of a sample's numbers; `true`: of the truth, too."""
+
+    def poses(word: str) -> tuple[str, ...]:
+        return tuple(f"plate {axis} {word} [{unit}]" for axis, unit in POSE)
+
+    def places(word: str) -> tuple[str, ...]:
+        return tuple(f"Y-frame {axis} {word} [{unit}]" for axis, unit in PLACE)
+
+    titles = {"time": ("time [s]",), "step": ("step",), "phase": ("phase",), "believed": poses("believed")}
+    titles["place"] = places("believed")
+    titles["lengths"] = tuple(f"{leg} length [m]" for leg in LEG_NAMES)
+    titles["commanded"] = tuple(f"{leg} commanded [m]" for leg in LEG_NAMES)
+    titles["actuators"] = tuple(f"actuator {i + 1} commanded [m]" for i in range(3))
+    titles["forces"] = tuple(f"{leg} force [N]" for leg in LEG_NAMES)
+    titles["stands"] = tuple(f"{leg} stands" for leg in LEG_NAMES)
+    titles["inclines"] = ("incline along x [rad]", "incline along y [rad]")
+    titles["margin"] = ("margin believed [m]",)
+    if true:
+        titles["true_pose"], titles["true_place"] = poses("true"), places("true")
+        titles["true_margin"] = ("margin true [m]",)
+        titles["true_feet"] = tuple(f"{leg} sole {axis} [m]" for leg in LEG_NAMES for axis in "xyz")
+    return titles
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class WalkTrace:
+    """A walk, `rows` samples long."""
+
+    time: Floats
+    """Shape (rows,) [s]."""
+    step: Ints
+    """Number of the step that is carried out, from 1; 0 before the first, shape (rows,)."""
+    phase: Ints
+    """Which of `PHASES`, shape (rows,)."""
+    believed: Floats
+    """Pose of the plate, shape (rows, 6) [m], [rad]."""
+    place: Floats
+    """Of the Y-frame in the Delta-frame, shape (rows, 3) [m], [rad]."""
+    lengths: Floats
+    """Of the legs, as sensed, shape (rows, 6) [m]."""
+    commanded: Floats
+    """Likewise as commanded."""
+    actuators: Floats
+    """Commanded, shape (rows, 3) [m]."""
+    forces: Floats
+    """Along the legs, shape (rows, 6) [N]."""
+    stands: Ints
+    """1 for feet that stand, as believed, shape (rows, 6)."""
+    inclines: Floats
+    """As read, shape (rows, 2) [rad]."""
+    margin: Floats
+    """Of the believed centre of mass inside the feet that stand, shape (rows,) [m]."""
+    true_pose: Floats | None = None
+    """Where the plant tells it, shape (rows, 6)."""
+    true_place: Floats | None = None
+    """Shape (rows, 3)."""
+    true_margin: Floats | None = None
+    """Of the true centre of mass inside the feet that touch, shape (rows,) [m]."""
+    true_feet: Floats | None = None
+    """Soles, shape (rows, 6, 3) [m]."""
+    notes: Json | None = None
+    """What came out, as the report has it."""
+
+    def tilt(self) -> Floats:
+        """Angle of the plate from the horizontal, truly where that is told, shape (rows,) [rad]."""
+        pose = self.believed if self.true_pose is None else self.true_pose
+        tilt: Floats = np.arccos(np.clip(np.cos(pose[:, 4]) * np.cos(pose[:, 5]), -1.0, 1.0))
+        return tilt
+
+    def to_log(self) -> Log:
+        """Columns by name, with `notes` as JSON."""
+        columns: dict[str, Floats] = {}
+        units: dict[str, str] = {}
+        for field, titles in walk_titles(true=self.true_pose is not None).items():
+            values = np.asarray(getattr(self, field), dtype=np.float64).reshape(len(self.time), -1)
+            for k, (name, unit) in enumerate(map(split_title, titles)):
+                columns[name] = values[:, k]
+                if unit is not None:
+                    units[name] = unit
+        notes = {"walker": json.dumps(LEG_NAMES)}
+        if self.notes is not None:
+            notes["report"] = json.dumps(self.notes)
+        return Log(columns, units, notes, "walk")
+
+    @classmethod
+    def from_log(cls, log: Log) -> "WalkTrace":
+        """The trace of a walk's log.
+
+        Raises:
+            LogError: If it is no log of a walk.
+        """
+        if "walker" not in log.notes:
+            raise LogError(log.label, None, None, None, "is no log of a walk: its notes name no walker's legs")
+        fields = walk_titles(true="plate x true" in log.columns)
+        table = np.stack([log.column(split_title(title)[0]) for titles in fields.values() for title in titles], axis=1)
+        return cls.from_table(table, json.loads(log.notes["report"]) if "report" in log.notes else None)
+
+    @classmethod
+    def from_table(cls, table: Floats, notes: Json | None) -> "WalkTrace":
+        """The trace of samples under `walk_titles`, shape (rows, columns)."""
+        true = table.shape[1] > sum(map(len, walk_titles(true=False).values()))
+        parts: dict[str, Any] = {}
+        start = 0
+        for field, titles in walk_titles(true=true).items():
+            values = np.ascontiguousarray(table[:, start : start + len(titles)])
+            start += len(titles)
+            if field in ("step", "phase", "stands"):
+                values = values.astype(np.int32)
+            if field == "true_feet":
+                values = values.reshape(-1, LEGS, 3)
+            parts[field] = values[:, 0] if len(titles) == 1 else values
+        return cls(notes=notes, **parts)
+
+
+class TracedWalker(Walker):
+    """A walker that keeps what happens at its ticks; keyword `every` says how many ticks lie between samples."""
+
+    def __init__(self, *args: Any, every: int = EVERY, **options: Any) -> None:
+        super().__init__(*args, **options)
+        self.step, self.phase = 0, 0
+        """Number of the step that is carried out, and which of `PHASES`."""
+        self._every, self._kept = every, -1
+        self._rows: list[Floats] = []
+
+    def tick(self) -> None:
+        """As a walker's, kept; the tick of a fall is, too."""
+        try:
+            super().tick()
+        except BaseException:
+            self.keep()
+            raise
+        if self.ticks % self._every == 0:
+            self.keep()
+
+    def keep(self) -> None:
+        """Take a sample of now, in place of one that there is."""
+        true = self.plant.truth()
+        parts = [
+            (self.time, self.step, self.phase), self.pose, self.place, self.sensed, self.commanded, self.actuators,
+            self.forces, self.stands, self.readings, (self.margin(),),
+        ]  # fmt: skip
+        if true is not None:
+            feet = true.feet.reshape(LEGS, 3)
+            margin = support_margin(feet, true.touching.ravel(), true.centre)
+            parts += [true.pose, true.place, (margin,), feet.ravel()]
+        row = np.concatenate([np.asarray(part, float) for part in parts])
+        if self._kept == self.ticks:
+            self._rows[-1] = row
+        else:
+            self._kept = self.ticks
+            self._rows.append(row)
+
+    def trace(self, notes: Json | None = None) -> WalkTrace:
+        """All samples so far."""
+        self.keep()
+        return WalkTrace.from_table(np.array(self._rows), notes)

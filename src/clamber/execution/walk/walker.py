@@ -1,0 +1,342 @@
+"""A walker on a plant: what it believes of itself, and one tick of sensing, reckoning, levelling and commanding."""
+
+import math
+from typing import Final
+
+import numpy as np
+
+from ...control.dead_reckoning import leg_places, reckon, soles_in_world
+from ...control.inclination import Inclination, InclinometerTrust, load_slope, strain_of
+from ...control.posture import leg_lengths, level_heights, move_together, rise, tilt_of_inclines, whole_steps
+from ...control.walker_balance import mass_centre, support_margin, weight_of
+from ...robots.walker import WalkerRobot
+from ...robots.walker.two_frames import FOUND, follow_branch
+from ...types import Floats, Ints
+from ..fallen import FallenError as FallenError
+from .falls import LIGHT, FallWatch
+from .plant import WalkerPlant
+from .settings import WalkSettings
+
+LEGS: Final = 6
+STILL: Final = 0.2
+"""A leg whose aim moves by less than this share of its speed is at rest: its error of length is no lag [-]."""
+GENTLY: Final = 0.4
+"""Share of its legs' speed at which the plate rises and sinks: feet that are lifted would else not come off the ground [-]."""
+SLACK: Final = 0.6
+"""Errors of a leg's length below this part of its motor's step stay [-]."""
+SMOOTHED: Final = 0.3
+"""Time constant of the loads that tell how deep feet sink in [s]."""
+PART: Final = 0.75
+"""Part of what feet sink in that is made up for while others, which do not count as standing, carry, too [-]."""
+LEAST_GIVE: Final = 2e-6
+"""A foot and its leg sink in by so much at least, where loads are shared [m/N]."""
+KICKED: Final = math.radians(0.5)
+"""Inclinometers that differ so far from the legs tell of a foot that has slipped off something [rad] ..."""
+KICK: Final = 0.3
+"""... if they do for so long [s]."""
+
+
+class RefusedError(Exception):
+    """A motion would break a rule of the robot; nothing has moved.
+
+    Args:
+        reason: Which rule.
+        margin: By how much it would be kept, negative [m]; NaN where that has no number.
+    """
+
+    def __init__(self, reason: str, margin: float = math.nan) -> None:
+        super().__init__(reason, margin)
+        self.reason, self.margin = reason, margin
+
+    def __str__(self) -> str:
+        return self.reason
+
+
+def leg_name(i: int) -> str:
+    """What reports call a leg, by its index in arrays of shape (6,)."""
+    return f"leg {i % 3 + 1} of the {('Delta-frame', 'Y-frame')[i // 3]}"
+
+
+class Walker:
+    """A two-frame walker that keeps its plate's posture, knows where its feet stand, and dead-reckons from them.
+
+    Arrays over legs have shape (6,): the three of the Delta-frame, then those of the Y-frame.
+
+    Args:
+        robot: The walker.
+        plant: What moves.
+        settings: How it walks.
+        trust: What is believed of its inclinometers.
+        payload: Mass at the tool point that it knows of [kg].
+    """
+
+    def __init__(
+        self,
+        robot: WalkerRobot,
+        plant: WalkerPlant,
+        *,
+        settings: WalkSettings = WalkSettings(),  # noqa: B008  # frozen
+        trust: InclinometerTrust = InclinometerTrust(),  # noqa: B008  # frozen
+        payload: float = 0.0,
+    ) -> None:
+        self.robot, self.plant, self.settings, self.payload = robot, plant, settings, payload
+        self.period = plant.period
+        self.inclination = Inclination(trust, plant.period)
+        self.falls = FallWatch(weight_of(robot, payload), plant.period)
+        self._delta, self._y = robot.attachments()
+        self._rest = robot.feet()
+        self._room = np.empty((9, 3))
+        self.pose, self.place = np.zeros(6), np.zeros(3)
+        """Believed: of the plate in the world; of the Y-frame in the Delta-frame."""
+        self.stands: Ints = np.zeros(LEGS, np.int32)
+        """1 for feet that stand."""
+        self.anchors, self.heights = np.zeros((LEGS, 2)), np.zeros(LEGS)
+        """Believed: where in the world the feet stand or stood last [m]."""
+        self.places, self.soles, self.matrix = np.zeros((LEGS, 2)), np.zeros((LEGS, 3)), np.eye(3)
+        self.sensed, self.forces, self.readings = np.zeros(LEGS), np.zeros(LEGS), np.zeros(2)
+        """Lengths of the legs [m], forces along them [N], inclines [rad], as last sensed."""
+        self.lengths, self.commanded = np.zeros(LEGS), np.zeros(LEGS)
+        """Of the legs, as wanted now [m]; as commanded: trimmed, in whole steps."""
+        self._trims, self._targets = np.zeros(LEGS), np.zeros(LEGS)
+        self.free_aims, self.free_speeds = np.zeros(LEGS), np.full(LEGS, robot.legs.speed)
+        """Where the legs that do not stand go, and how fast [m], [m/s]."""
+        self.height = 0.0
+        """Where the plate's height goes [m], slower than the legs can, so that levelling keeps up."""
+        self.wanted = np.zeros(3)
+        """Height, beta and gamma of the plate that are kept [m], [rad]."""
+        self.actuators = np.zeros(3)
+        """Aims of the actuators [m]."""
+        self.arm = np.zeros(0 if robot.arm is None else robot.arm.n_joints)
+        """Joints of the arm as commanded [rad]."""
+        self.arm_aims = self.arm.copy()
+        """Where they go, each at its own fastest [rad]."""
+        self.touched: Ints = np.zeros(LEGS, np.int32)
+        """For how many samples on end each foot has felt the ground."""
+        self.ticks = self.kicks = 0
+        self._kicked = 0.0
+        self._slope = np.zeros(2)
+        self.left = 0.0
+        """The longest way that a standing leg has still to go [m]."""
+
+    @property
+    def time(self) -> float:
+        """Since the start [s]."""
+        return self.ticks * self.period
+
+    def start(
+        self, pose: Floats, place: Floats, legs: Floats, arm: Floats | None = None, *, looks: float = 2.0
+    ) -> None:
+        """Put the robot on the ground and look at the inclinometers for a while.
+
+        Args:
+            pose: Of the plate, shape (6,) [m], [rad]; of it the robot believes x, y and the heading.
+            place: Of the Y-frame in the Delta-frame, shape (3,) [m], [rad].
+            legs: Lengths, shape (6,) or (2, 3) [m].
+            arm: Joint angles [rad]; None: those for walking in the robot's file.
+            looks: For how long readings are taken before anything moves [s].
+
+        Raises:
+            FallenError: If fewer than three feet carry the robot.
+        """
+        if arm is not None:
+            self.arm = np.array(arm, float)
+        elif self.robot.arm is not None:
+            self.arm = np.array(self.robot.arm.rest)
+        self.arm_aims = self.arm.copy()
+        self.plant.reset(pose, place, np.asarray(legs, float).reshape(2, 3), self.arm)
+        self.ticks = self.kicks = 0
+        self.lengths[:] = self.commanded[:] = self.free_aims[:] = np.asarray(legs, float).ravel()
+        self._trims[:] = 0.0
+        self.place[:] = place
+        self.pose[:2], self.pose[3] = pose[:2], pose[3]
+        self.stands[:] = 0
+        readings = []
+        for _ in range(max(1, round(looks / self.period))):
+            sensed = self.plant.sense()
+            readings.append(np.array(sensed.inclines))
+            self.actuators[:] = sensed.actuators
+            self.plant.step()
+            self.ticks += 1
+        self._take_in()
+        self.stands[:] = self.forces > self.settings.touch
+        if self.stands.sum() < 3:
+            raise FallenError(f"at the start only {self.stands.sum()} feet carry the robot")
+        self.pose[4:] = tilt_of_inclines(*(np.mean(readings, axis=0) - self.inclination.offsets))
+        leg_places(self._rest, self.place, self.places)
+        for i in range(LEGS):
+            self.heights[i] = rise(self.pose[4], self.pose[5], self.places[i, 0], self.places[i, 1], self.sensed[i])
+        self.pose[2] = -self.heights[self.stands > 0].mean()
+        self.heights += self.pose[2]
+        soles_in_world(self.pose, self.places, self.sensed, self.soles, self.matrix)
+        self.anchors[:] = self.soles[:, :2]
+        self._slope = self._load_slope()
+        self.wanted[:] = self.pose[2], self.pose[4], self.pose[5]
+        self.height = self.wanted[0]
+        self._trims[:] = np.where(self.stands, self.commanded - self.sensed, 0.0)
+        self.lengths[:] = np.where(self.stands, self.sensed, self.commanded)
+
+    def tick(self) -> None:
+        """Sense, reckon, command, step.
+
+        Raises:
+            FallenError: If the robot falls.
+        """
+        self._take_in()
+        self._sink(min(1.0, self.period / SMOOTHED))
+        if not self._reckon():
+            raise FallenError(f"only {self.stands.sum()} feet stand")
+        self._see_inclines()
+        self._share_load()
+        self._hold_posture()
+        self._move_free_legs()
+        self._move_arm()
+        legs = self.robot.legs
+        most = legs.speed * self.period
+        whole_steps(self.lengths + self._trims, legs.resolution, legs.shortest, legs.longest, most, self.commanded)
+        self.plant.actuate(self.actuators, self.commanded.reshape(2, 3), self.arm)
+        self.plant.step()
+        self.ticks += 1
+
+    def wait(self, seconds: float) -> None:
+        """Let time pass [s]."""
+        for _ in range(round(seconds / self.period)):
+            self.tick()
+
+    def land(self, i: int) -> None:
+        """A foot is on the ground and stays where it is."""
+        self._stand_on(i, 1)
+        self.anchors[i], self.heights[i] = self.soles[i, :2], self.soles[i, 2]
+        self._trims[i], self.lengths[i] = self.commanded[i] - self.sensed[i], self.sensed[i]
+
+    def leave(self, i: int) -> None:
+        """A foot no longer counts as standing; its leg stays as long as it is until `free_aims` says otherwise."""
+        self._stand_on(i, 0)
+        self.lengths[i] = self.free_aims[i] = self.commanded[i]
+        self._trims[i] = 0.0
+
+    def frames(self) -> Floats:
+        """Both frames seen from above, as believed: x, y [m] and heading [rad], shape (2, 3)."""
+        y = self.pose[:2] + self.matrix[:2, :2] @ self.place[:2]
+        return np.array([[self.pose[0], self.pose[1], self.pose[3]], [y[0], y[1], self.pose[3] + self.place[2]]])
+
+    def centre(self) -> Floats:
+        """Believed centre of mass, world frame, shape (3,) [m]."""
+        return mass_centre(self.robot, self.pose, self.place, self.arm, self.payload)
+
+    def margin(self, stands: Ints | None = None) -> float:
+        """How far the centre of mass lies inside the standing feet, or inside others [m]."""
+        return support_margin(self.soles, self.stands if stands is None else stands, self.centre())
+
+    def tilt(self) -> float:
+        """Angle of the plate from the horizontal, as believed [rad]."""
+        return math.acos(min(1.0, float(self.matrix[2, 2])))
+
+    def of_frame(self, frame: int) -> range:
+        """Indices of a frame's legs."""
+        return range(3 * frame, 3 * frame + 3)
+
+    def on_ground(self, frame: int) -> list[int]:
+        """Legs of a frame that stand or feel the ground."""
+        return [i for i in self.of_frame(frame) if self.stands[i] or self.forces[i] > self.settings.touch]
+
+    def targets(self, posture: Floats, heights: Floats) -> Floats:
+        """Lengths of all legs with the plate at z [m], beta, gamma [rad] over these heights, shape (6,) [m]."""
+        z, beta, gamma = posture
+        lengths = np.empty(LEGS)
+        leg_lengths(z, beta, gamma, self.places, heights, lengths)
+        return lengths
+
+    def _take_in(self) -> None:
+        sensed = self.plant.sense()
+        self.sensed[:], self.forces[:] = sensed.legs.ravel(), sensed.forces.ravel()
+        self.readings[:] = sensed.inclines
+        self.touched[:] = np.where(self.forces > self.settings.touch, self.touched + 1, 0)
+        if follow_branch(self._delta, self._y, sensed.actuators, self.place, self._room) != FOUND:
+            raise FallenError("the actuators' lengths belong to no posture of the mechanism near the last one")
+        leg_places(self._rest, self.place, self.places)
+
+    def _sink(self, share: float) -> None:
+        """Standing feet sink in as they take load; a share of what they have not yet is made up for.
+
+        Only the plane through the loads counts. The weight alone decides that; the rest is how six legs strain against each other, and
+        legs that answered to it would strain the more. It is smoothed, or it would answer to the robot's rocking on its feet.
+        """
+        here = self.stands > 0
+        more = share * (self._load_slope() - self._slope)
+        self._slope = self._slope + more
+        c, s = math.cos(self.pose[3]), math.sin(self.pose[3])
+        change = np.array((c * more[0] + s * more[1], c * more[1] - s * more[0]))
+        # legs that are being lifted give way to what the others answer with: in full that could build up
+        part = PART if np.any(self.forces[~here] > LIGHT) else 1.0
+        self.heights[here] -= (
+            part * self.inclination.give * (self.places[here] - self.places[here].mean(axis=0)) @ change
+        )
+        self.inclination.sink(-part * change)
+
+    def _load_slope(self) -> Floats:
+        """Of the plane through the loads, along the world's axes, for the plate's turn, shape (2,) [N/m]."""
+        x, y = load_slope(self.places, self.forces, self.stands)
+        c, s = math.cos(self.pose[3]), math.sin(self.pose[3])
+        return np.array((c * x - s * y, s * x + c * y))
+
+    def _stand_on(self, i: int, stands: int) -> None:
+        """A foot stands from now on, or does no longer."""
+        self._sink(1.0)
+        self._reckon()
+        self.stands[i] = stands
+        self._slope = self._load_slope()
+        self.inclination.doubt(self.settings.landing_doubt)
+
+    def _reckon(self) -> bool:
+        return bool(
+            reckon(
+                self.places, self.sensed, self.anchors, self.heights, self.stands, self.pose, self.soles, self.matrix
+            )
+        )
+
+    def _see_inclines(self) -> None:
+        beta, gamma = self.pose[4], self.pose[5]
+        tilted = self.inclination.off(self.readings)
+        turn = self.inclination.see(self.readings, beta, gamma)
+        if turn != (0.0, 0.0):
+            level_heights(beta, gamma, self.places, self.sensed, self.stands, *turn, self.heights)
+            self.pose[4] += turn[0]
+            self.pose[5] += turn[1]
+        why = self.falls.see(self.forces, tilted)
+        if why:
+            raise FallenError(why)
+        self._kicked = self._kicked + self.period if tilted > KICKED else 0.0
+        if self._kicked > KICK:  # believe the inclinometers at once, even in a slide
+            self.kicks += 1
+            self._kicked = 0.0
+            self.inclination.frozen = False
+
+    def _share_load(self) -> None:
+        """Legs that carry too much while more than three stand are drawn in, others pushed out; the plane through the feet stays."""
+        over = strain_of(self.places, self.forces, self.stands)
+        give = max(self.inclination.give, LEAST_GIVE)
+        self.heights += self.settings.share * self.period * give * over
+
+    def _hold_posture(self) -> None:
+        z, beta, gamma = self.wanted
+        leg_lengths(z, beta, gamma, self.places, self.heights, self._targets)
+        most = self.robot.legs.speed * self.period
+        rise = self.height - self.wanted[0]
+        self.wanted[0] += min(GENTLY * most, max(-GENTLY * most, rise))
+        before = self.lengths.copy()
+        self.left = abs(rise) + move_together(self.lengths, self._targets, self.stands, most)
+        still = (np.abs(self.lengths - before - (self.wanted[0] - z)) < STILL * most) & (self.stands > 0)
+        short = self.lengths - self.sensed
+        short[np.abs(short) < SLACK * self.robot.legs.resolution] = 0.0
+        self._trims += np.where(still, self.settings.trim * self.period * short, 0.0)
+
+    def _move_free_legs(self) -> None:
+        free = self.stands == 0
+        most = self.free_speeds * self.period
+        change = np.clip(self.free_aims - self.lengths, -most, most)
+        self.lengths[free] += change[free]
+
+    def _move_arm(self) -> None:
+        if self.robot.arm is not None:
+            most = self.period * np.array(self.robot.arm.fastest)
+            self.arm += np.clip(self.arm_aims - self.arm, -most, most)

@@ -1,0 +1,170 @@
+"""One walk carried out in contact dynamics: the plant with its flaws, and what truly happened."""
+
+import math
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+
+from ...control.track import Track
+from ...errors import UnitError, describe_choices
+from ...execution.plant import PlantStoppedError
+from ...execution.walk.course import TrackCourse
+from ...execution.walk.sequencer import Lay, Progress, WalkReport, WalkSequencer
+from ...execution.walk.settings import WalkSettings
+from ...execution.walk.true_walk import TracedPlant, TrueWalk
+from ...execution.walk.walk_trace import TracedWalker, WalkTrace
+from ...execution.walk.walker import FallenError
+from ...sim.limb_flaws import PlantError
+from ...sim.walker_flaws import WalkerFlaws
+from ...sim.walker_plant import WalkerSim
+from ...tasks.walks import Walk
+from ...types import Floats, Json
+from ...units import parse_quantity
+from .noise import WalkNoise, named_walk_noise
+
+SETTINGS: Final[dict[str, str]] = {"friction": "ratio", "payload": "mass", "physics_rate": "frequency"}
+"""Settings of the plant that a user may change -> dimension. The payload is one that the robot does not know of."""
+LOST: Final = 0.02
+"""A robot that ends farther from where it believes to be has not come to the end of its way [m]."""
+PLANT: Final = "plant."
+"""First word of settings that change the plant."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class WalkRun:
+    """A walk that was carried out."""
+
+    walk: Walk
+    report: WalkReport
+    trace: WalkTrace
+    """As the robot believed it."""
+    true: TrueWalk
+    """As it was."""
+    wall_seconds: float
+    """That it took."""
+
+    @property
+    def done(self) -> bool:
+        """Whether it came to the end of its way, truly."""
+        return not self.reason
+
+    @property
+    def reason(self) -> str:
+        """Why not; empty where it did."""
+        report = self.report
+        if not report.done:
+            return report.reason
+        off = math.dist(self.true.pose[-1, :2], report.pose[:2])
+        return "" if off <= LOST else f"lost: the robot is {1e3 * off:.0f} mm from where it believes to be"
+
+    @property
+    def walking(self) -> slice:
+        """Rows of `true` from the first step on."""
+        start = self.report.steps[0].start if self.report.steps else self.report.seconds
+        return slice(int(np.searchsorted(self.true.time, start)), None)
+
+    @property
+    def tilt(self) -> float:
+        """Largest angle of the plate from level while it walked [rad]."""
+        return float(self.true.tilts[self.walking].max(initial=0.0))
+
+    @property
+    def margin(self) -> float:
+        """Least margin of balance while it walked, with as many feet as touch the ground [m]."""
+        return float(self.true.margins[self.walking].min(initial=np.inf))
+
+    def to_json(self) -> Json:
+        """Plain data."""
+        told = {
+            "done": self.done,
+            "reason": self.reason,
+            "walk": self.walk.name,
+            "tilt": self.tilt,
+            "margin": self.margin if math.isfinite(self.margin) else None,
+            "wall_seconds": self.wall_seconds,
+        }
+        return self.report.to_json() | told
+
+
+def split_walk_settings(settings: Sequence[str]) -> tuple[list[str], list[str]]:
+    """Those of the walk, and those of the plant without their "plant."."""
+    plant = [text[len(PLANT) :] for text in settings if text.startswith(PLANT)]
+    return [text for text in settings if not text.startswith(PLANT)], plant
+
+
+def walk_flaws(walk: Walk, settings: Sequence[str]) -> WalkerFlaws:
+    """The plant of a walk with settings such as "friction=50%".
+
+    Raises:
+        PlantError: If one of them cannot be.
+    """
+    changes: dict[str, Any] = {}
+    for text in settings:
+        key, _, said = (part.strip() for part in text.partition("="))
+        if key not in SETTINGS:
+            raise PlantError(key, said, f"no such property; there are {describe_choices(key, SETTINGS)}")
+        try:
+            changes[key] = parse_quantity(said, SETTINGS[key])
+        except UnitError as error:
+            raise PlantError(key, said, f"{error.problem}; {error.allowed}") from None
+    changes["payload"] = changes.get("payload", 0.0) + walk.payload
+    if changes["payload"] > 0.0 and walk.robot.arm is None:
+        raise PlantError("payload", f"{changes['payload']:g} kg", "needs an arm to carry it, and the robot has none")
+    return WalkerFlaws().with_changes(**changes)
+
+
+def lay_track(walk: Walk, pose: Floats) -> Track:
+    """The way of a walk from where the Delta-frame is, x, y [m], heading [rad], shape (3,)."""
+    return Track.of(pose, [piece.twist() for piece in walk.way], walk.robot.legs.radius_delta)
+
+
+def own_way(walk: Walk) -> Lay:
+    """How the way of a walk's file is laid out from where the robot stands."""
+    return lambda pose: TrackCourse(lay_track(walk, pose), neutral=walk.start.twist)
+
+
+def run_walk(
+    walk: Walk,
+    flaws: WalkerFlaws,
+    *,
+    noise: WalkNoise = named_walk_noise("none"),  # noqa: B008  # frozen
+    seed: int = 0,
+    settings: WalkSettings | None = None,
+    lay: Lay | None = None,
+    progress: Progress | None = None,
+) -> WalkRun:
+    """Carry a walk out.
+
+    Args:
+        walk: Robot, ground, start and way.
+        flaws: Of the plant, before noise.
+        noise: What deviates from what the robot believes. With an offset of the inclinometers they are calibrated first.
+        seed: Of how much it does, and of rough ground.
+        settings: How it walks; None: as usual, level and probing as the walk says.
+        lay: The course that it follows, laid where it stands; None: the walk's own way.
+        progress: Told before each step.
+    """
+    began = time.perf_counter()
+    walk = walk.with_seed(seed)
+    drawn = noise.flaws(flaws, seed) if any(noise.widths.values()) else flaws
+    plant = TracedPlant(WalkerSim(walk.robot, walk.ground, drawn))
+    how = WalkSettings(level=walk.level, probe=walk.probe) if settings is None else settings
+    walker = TracedWalker(walk.robot, plant, settings=how, payload=walk.payload)
+    sequencer = WalkSequencer(
+        walker,
+        lay or own_way(walk),
+        calibrated=noise.widths["inclinometer_offset"] == 0.0,
+        progress=progress,
+    )
+    try:
+        walker.start(walk.start_pose(), walk.start_place(), walk.start_legs(), np.array(walk.arm))
+        report = sequencer.run()
+    except (FallenError, PlantStoppedError) as fall:  # before the first tick
+        report = WalkReport(
+            reason=f"fell: {fall}", seconds=walker.time, true_pose=tuple(map(float, plant.trace().pose[-1]))
+        )
+    notes = report.to_json() | {"walk": walk.name, "noise": noise.to_json(), "seed": seed}
+    return WalkRun(walk, report, walker.trace(notes), plant.trace(), time.perf_counter() - began)

@@ -1,0 +1,79 @@
+"""Walks by name or path."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Final
+
+from ...files import Document, data_names, find_data, read_toml
+from ...robots.library import family_of, read_robot
+from ...types import Json
+from ...worlds.library import read_ground
+from ..overrides import apply_overrides, split_override
+from .walk import SCHEMA, Walk, build_walk, walk_keys
+
+DATA: Final = Path(__file__).parent / "data"
+
+
+def walk_names() -> tuple[str, ...]:
+    """Names of the walks that come with Clamber."""
+    return data_names(DATA)
+
+
+def is_walk(name_or_path: str) -> bool:
+    """Whether a text means a walk: a shipped one's name, or a TOML file that says so."""
+    path = Path(name_or_path)
+    if name_or_path in walk_names():
+        return True
+    return path.suffix == ".toml" and path.is_file() and read_toml(path).data.get("schema") == SCHEMA
+
+
+def load_walk(name_or_path: str, overrides: Sequence[str] = ()) -> Walk:
+    """A walk by its shipped name, such as "slope-walk", or from the user's TOML file.
+
+    Args:
+        name_or_path: Name, or a path that ends in .toml; robot and ground may be paths relative to it.
+        overrides: Texts "key=value", such as "level=false", "ground.slope=5deg", "way.0.distance=2m", "legs.speed=8mm/s",
+            or "ground=steps" for another ground.
+
+    Raises:
+        UnknownNameError: If a name of walk, robot or ground does not exist.
+        FileError: If a file cannot be read.
+        SpecError: If a file or an override says something that cannot be used.
+    """
+    path, label = find_data("walk", name_or_path, DATA)
+    document = read_toml(path, label)
+    data = dict(document.data)
+    named: list[tuple[str, str]] = []
+    rest: list[str] = []
+    for text in overrides:
+        key, value = split_override(text)
+        if key in ("robot", "ground"):
+            data[key] = value
+            named.append((key, text))
+        else:
+            rest.append(text)
+    source = Document(document.label, data, tuple(named), document.folder)
+    here = {key for key, _ in named}  # a path in an override starts where the user stands, not at the walk
+    robot = read_robot(_named(source, "robot"), None if "robot" in here else document.folder)
+    if family_of(robot) != "walker":
+        raise robot.problem("family", "must be 'walker': a walk is for a two-frame walker")
+    ground = read_ground(_named(source, "ground"), None if "ground" in here else document.folder)
+    data |= {"robot": robot.data, "ground": ground.data, "labels": {"robot": robot.label, "ground": ground.label}}
+    merged, keys = Document(document.label, data, (), document.folder), walk_keys()
+    return build_walk(apply_overrides(merged, rest, keys["walk"], keys["robot"], {}))
+
+
+def walk_from_document(document: Json, label: str = "stored walk") -> Walk:
+    """The walk that `Walk.document` describes, in another process.
+
+    Raises:
+        SpecError: If the document is not one that this version can build.
+    """
+    return build_walk(Document(label, document))
+
+
+def _named(document: Document, key: str) -> str:
+    name = document.data.get(key)
+    if not isinstance(name, str) or not name:
+        raise document.problem(key, f"must name a {key}, or give the path of its file, in quotes")
+    return name

@@ -1,0 +1,205 @@
+"""A walk as its file states it: a robot on a ground, how it starts, and its way as pieces that are straight or turn."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import field, replace
+from typing import Final, Literal
+
+import numpy as np
+from pydantic import StrictBool, StrictStr
+
+from ...files import Document, check_schema
+from ...robots.walker import WalkerRobot, build_walker
+from ...specs import Name, build_spec, field_names, spec
+from ...types import Floats, Json
+from ...units import Angle, Length, NonNegativeLength, NonNegativeMass, Point, PositiveLength
+from ...worlds.ground import Ground, build_ground
+
+SCHEMA: Final = "clamber-walk-1"
+
+
+@spec
+class WalkStart:
+    """Where the robot is put down on six feet."""
+
+    x: Length = 0.0
+    """Origin of the Delta-frame, world frame [m]."""
+    y: Length = 0.0
+    """[m]."""
+    heading: Angle = 0.0
+    """Of the Delta-frame, world frame [rad]."""
+    offset: Point = (0.0, 0.0)
+    """Origin of the Y-frame, in the Delta-frame [m]."""
+    twist: Angle = 0.0
+    """Angle of the Y-frame in the Delta-frame [rad]; it keeps this at the same place of the way."""
+    plate: Literal["level", "ground"] = "level"
+    """Whether the plate is level and the legs make up for the ground, or the legs are of one length and the plate lies as the ground."""
+
+
+@spec
+class Piece:
+    """A piece of the way: `direction` and `distance` for a straight one, `turn` for a turn."""
+
+    direction: Angle | None = None
+    """Seen from the Delta-frame; the heading is kept [rad]."""
+    distance: PositiveLength | None = None
+    """Over ground, seen from above [m]."""
+    turn: Angle | None = None
+    """Of the heading [rad]."""
+    about: Point | None = None
+    """Point that it turns about, in the Delta-frame as it is then; on the spot unless given [m]."""
+
+    def twist(self) -> Floats:
+        """What the Delta-frame does, in its own frame: x, y [m] and heading [rad], each at a constant rate, shape (3,)."""
+        if self.turn is not None:
+            x, y = (0.0, 0.0) if self.about is None else self.about
+            return self.turn * np.array((y, -x, 1.0))
+        assert self.direction is not None and self.distance is not None
+        return self.distance * np.array((math.cos(self.direction), math.sin(self.direction), 0.0))
+
+
+@spec
+class WalkSpec:
+    """What a walk's file says beside its robot and its ground."""
+
+    name: Name
+    title: StrictStr = ""
+    source: StrictStr = ""
+    """Where the numbers come from."""
+    start: WalkStart = WalkStart()
+    way: tuple[Piece, ...]
+    """In order; one or more."""
+    level: StrictBool = True
+    """Whether the plate is kept level; if not, it keeps the tilt that it has at the start."""
+    probe: NonNegativeLength = 0.0
+    """Distance from a foothold at which the ground is felt for edges before a foot stands there [m]; 0: it is not."""
+    arm: tuple[Angle, ...] | None = None
+    """Joint angles of the arm [rad]; those of the robot's file unless given."""
+    payload: NonNegativeMass = 0.0
+    """Mass at the arm's tool point, which the robot knows of [kg]."""
+
+
+@spec
+class Walk:
+    """A walk with everything resolved, in SI units."""
+
+    name: str
+    title: str
+    robot: WalkerRobot
+    ground: Ground
+    start: WalkStart
+    way: tuple[Piece, ...]
+    level: bool
+    probe: float
+    """[m]."""
+    arm: tuple[float, ...]
+    """Joint angles [rad]; none without an arm."""
+    payload: float
+    """[kg]."""
+    document: Json = field(default_factory=dict)
+    """Robot, ground and walk as read, with overrides applied: a worker rebuilds the walk from it."""
+
+    def with_seed(self, seed: int) -> "Walk":
+        """The same walk with other tiles where the ground is rough: `seed` is added to the seeds that its file states."""
+        rough = tuple(replace(patch, seed=patch.seed + seed) for patch in self.ground.rough)
+        return replace(self, ground=replace(self.ground, rough=rough))
+
+    def start_place(self) -> Floats:
+        """Pose of the Y-frame in the Delta-frame: x, y [m], theta [rad], shape (3,)."""
+        return np.array((*self.start.offset, self.start.twist))
+
+    def start_pose(self) -> Floats:
+        """Pose of the plate: x, y [m], z = 0, alpha, beta, gamma [rad], shape (6,)."""
+        start = self.start
+        up = (0.0, 0.0, 1.0) if start.plate == "level" else self.ground.axes()[:, 2]
+        # Rz(-alpha) brings the normal to (sin beta cos gamma, -sin gamma, cos beta cos gamma)
+        c, s = math.cos(start.heading), math.sin(start.heading)
+        nx, ny, nz = c * up[0] + s * up[1], c * up[1] - s * up[0], up[2]
+        return np.array((start.x, start.y, 0.0, start.heading, math.atan2(nx, nz), -math.asin(ny)))
+
+    def start_legs(self) -> Floats:
+        """Lengths of the legs with which all feet reach the ground, about nominal, shape (2, 3) [m]; inf where there is none."""
+        legs, start = self.robot.legs, self.start
+        if start.plate == "ground":
+            return np.full((2, 3), legs.nominal)
+        feet = self.robot.feet().copy()
+        c, s = math.cos(start.twist), math.sin(start.twist)
+        feet[1] = feet[1] @ np.array(((c, s), (-s, c))) + start.offset
+        c, s = math.cos(start.heading), math.sin(start.heading)
+        heights = self.ground.heights(feet @ np.array(((c, s), (-s, c))) + (start.x, start.y))
+        if not np.isfinite(heights).all():
+            return np.full((2, 3), math.inf)
+        lengths: Floats = legs.nominal + 0.5 * (heights.max() + heights.min()) - heights
+        return lengths
+
+
+def build_walk(document: Document) -> Walk:
+    """A walk from its merged document: a walk's file with its robot and ground in place of their names.
+
+    Raises:
+        SpecError: If any of the three breaks a rule, or they do not fit each other.
+    """
+    check_schema(document, SCHEMA)
+    labels = document.data.get("labels", {})
+
+    def part(key: str) -> Document:
+        return document.section(key, labels.get(key, f"{document.label} [{key}]"))
+
+    robot, ground = build_walker(part("robot")), build_ground(part("ground"))
+    stated = build_spec(WalkSpec, document, without=("schema", "robot", "ground", "labels"))
+    _check_way(stated.way, document)
+    joints = 0 if robot.arm is None else robot.arm.n_joints
+    if stated.payload > 0.0 and robot.arm is None:
+        raise document.problem("payload", "needs an arm to carry it, and the robot has none")
+    if stated.arm is not None and len(stated.arm) != joints:
+        raise document.problem("arm", f"must have {joints} entries, one for each joint of the robot's arm")
+    rest = () if robot.arm is None else robot.arm.rest
+    walk = Walk(
+        name=stated.name,
+        title=stated.title,
+        robot=robot,
+        ground=ground,
+        start=stated.start,
+        way=stated.way,
+        level=stated.level,
+        probe=stated.probe,
+        arm=rest if stated.arm is None else stated.arm,
+        payload=stated.payload,
+        document=document.data,
+    )
+    _check_start(walk, document)
+    return walk
+
+
+def _check_way(way: tuple[Piece, ...], document: Document) -> None:
+    if not way:
+        raise document.problem("way", "must have a piece or more")
+    for i, piece in enumerate(way):
+        straight = piece.direction is not None or piece.distance is not None
+        if straight == (piece.turn is not None):
+            raise document.problem(f"way.{i}", "must state direction and distance, or turn: one of the two")
+        if straight and (piece.direction is None or piece.distance is None):
+            raise document.problem(f"way.{i}", "must state both direction and distance")
+        if straight and piece.about is not None:
+            raise document.problem(f"way.{i}.about", "is for a turn")
+        if piece.turn == 0.0:
+            raise document.problem(f"way.{i}.turn", "must not be 0")
+
+
+def _check_start(walk: Walk, document: Document) -> None:
+    legs, lengths = walk.robot.legs, walk.start_legs()
+    if np.isinf(lengths).any():
+        raise document.problem("start", "puts a foot where there is no ground")
+    low, high = float(lengths.min()), float(lengths.max())
+    if low < legs.shortest or high > legs.longest:
+        allowed = (
+            f"asks for legs of {1e3 * low:.0f} to {1e3 * high:.0f} mm; "
+            f"they can be {1e3 * legs.shortest:.0f} to {1e3 * legs.longest:.0f} mm"
+        )
+        raise document.problem("start", allowed)
+
+
+def walk_keys() -> Mapping[str, tuple[str, ...]]:
+    """Keys that an override may start with: of the walk, and of the robot without "robot."."""
+    robot = tuple(name for name in field_names(WalkerRobot) if name != "sources")
+    return {"walk": (*field_names(WalkSpec), "robot", "ground"), "robot": robot}

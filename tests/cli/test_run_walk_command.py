@@ -1,0 +1,74 @@
+"""`clamber run` of a walk: what it prints, writes and refuses."""
+
+import json
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from clamber.execution.log_files import read_log
+from clamber.execution.walk.walk_trace import WalkTrace
+
+TINY = ("--set", "way.0.distance=3cm")
+SHORT = ("--set", "way.0.distance=5cm")
+
+
+@pytest.fixture
+def run(clamber: Any) -> Any:
+    return partial(clamber, "run")
+
+
+def test_a_walk_is_carried_out_and_its_log_holds_the_report(run: Any, tmp_path: Path) -> None:
+    log, picture = tmp_path / "walk.mcap", tmp_path / "walk.png"
+    code, out, err = run("slope-walk", *SHORT, "-o", str(log), "-o", str(picture), "--json")
+    said = json.loads(out)
+    assert code == 0, said["reason"]
+    assert said["done"] and said["steps"]
+    assert "step 1" in err
+    trace = WalkTrace.from_log(read_log(log))
+    assert trace.notes is not None
+    assert trace.notes["steps"] == said["steps"]
+    assert trace.time[-1] == pytest.approx(said["seconds"])
+    assert picture.stat().st_size > 10_000
+
+
+def test_the_table_fits(run: Any) -> None:
+    code, out, _ = run("level-walk", *SHORT, "-q")
+    assert code == 0
+    assert "walked: " in out and "largest tilt" in out
+    assert max(map(len, out.splitlines())) <= 80
+
+
+def test_a_walk_that_falls_leaves_with_1(run: Any, tmp_path: Path) -> None:
+    changes = ("level=false", "start.plate=ground", "ground.uphill=180deg", "way.0.distance=1m")
+    code, out, _ = run("slope-walk", *(word for change in changes for word in ("--set", change)), "-q")
+    assert code == 1
+    assert "not walked" in out and "fell" in out
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("slope-walk", "--planner", "exact"), "walk"),
+        (("slope-walk", "--force"), "walk"),
+        (("slope-walk", "--set", "plant.backlash=1deg"), "friction"),
+        (("slope-walk", "--noise", "peg_error=1mm"), "inclinometer_noise"),
+        (("slope-walk", "--set", "ground.slope=50deg"), "legs"),
+        (("slope-walk", "-o", "walk.html"), ".gif"),
+    ],
+)
+def test_bad_input_is_one_message(run: Any, words: tuple[str, ...], said: str) -> None:
+    code, out, err = run(*words, "-q")
+    assert (code, out) == (2, "")
+    assert said in err and "Traceback" not in err
+
+
+@pytest.mark.slow
+def test_the_command_prints_what_walks_say_together(clamber: Any) -> None:
+    words = ("trials", "level-walk", *TINY, "-n", "2", "--workers", "1", "--noise", "none", "-q")
+    code, out, _ = clamber(*words)
+    assert code == 0
+    assert "2 of 2 walks" in out and "tilt [deg]" in out
+    code, _, err = clamber("trials", "level-walk", "--replay", "3", "-q")
+    assert code == 2 and "climbs" in err

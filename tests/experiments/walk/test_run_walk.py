@@ -1,0 +1,107 @@
+"""Walks in contact dynamics: level, on a slope, without levelling, and what noise makes of the plant."""
+
+import math
+
+import numpy as np
+import pytest
+
+from clamber.experiments.climb.noise import NoiseError
+from clamber.experiments.walk.noise import WALK_NOISE, named_walk_noise, read_walk_noise
+from clamber.experiments.walk.run_walk import WalkRun, run_walk, split_walk_settings, walk_flaws
+from clamber.sim.limb_flaws import PlantError
+from clamber.sim.walker_flaws import WalkerFlaws
+from clamber.tasks.walks import load_walk
+
+SHORT = "way.0.distance=15cm"
+
+
+def walked(name: str, *changes: str, **options: object) -> WalkRun:
+    walk = load_walk(name, (SHORT, *changes))
+    return run_walk(walk, walk_flaws(walk, ()), **options)
+
+
+def test_a_short_walk_over_level_ground_ends_where_it_should() -> None:
+    run = walked("level-walk")
+    assert run.done, run.reason
+    assert run.report.missed is not None
+    assert run.report.missed[0] < 2e-3
+    gone = run.true.pose[-1, :2] - run.true.pose[run.walking][0, :2]
+    np.testing.assert_allclose(gone, 0.15 * np.array((math.cos(math.pi / 6), 0.5)), atol=2e-3)
+    assert run.margin > 0.05
+    assert run.to_json()["walk"] == "level-walk"
+
+
+@pytest.mark.parametrize("uphill", [0.0, 90.0, 180.0])
+def test_the_plate_stays_level_on_a_slope(uphill: float) -> None:
+    run = walked("slope-walk", f"ground.uphill={uphill}deg")
+    assert run.done, run.reason
+    climbed = 0.15 * math.tan(math.radians(10.0)) * math.cos(math.radians(uphill))
+    # the height over the feet may differ by where the legs have room
+    assert run.true.feet[-1, ..., 2].mean() - run.true.feet[0, ..., 2].mean() == pytest.approx(climbed, abs=4e-3)
+    assert run.tilt < math.radians(0.2)
+    assert run.margin > 0.05
+
+
+def test_without_levelling_a_slope_downhill_topples_it() -> None:
+    """The centre of mass lies 70 mm downhill of where it is on level ground, and the margin there is 66 mm."""
+    changes = ("level=false", "start.plate=ground", "ground.uphill=180deg", "way.0.distance=1m")
+    run = walked("slope-walk", *changes)
+    assert not run.done
+    assert run.reason.startswith("fell")
+    assert run.margin < 0.0
+    # it is told long before the robot lies: within a second of balance lost, while it has tilted by less than 2 deg
+    lost = run.true.time[np.flatnonzero(run.true.margins > 0.0)[-1]]
+    assert run.report.seconds - lost < 1.0
+    assert abs(run.true.tilts[-1] - run.true.tilts[run.walking][0]) < math.radians(2.0)
+
+
+def test_noise_is_drawn_key_by_key() -> None:
+    base = WalkerFlaws()
+    usual = named_walk_noise("usual")
+    one, again, other = usual.flaws(base, 1), usual.flaws(base, 1), usual.flaws(base, 2)
+    assert one == again
+    assert one.friction != other.friction
+    width = WALK_NOISE["inclinometer_offset"].width
+    assert max(map(abs, one.inclinometers.offsets)) <= width
+    assert one.inclinometers.noise == WALK_NOISE["inclinometer_noise"].width
+    calm = read_walk_noise(usual, ["friction=0%"]).flaws(base, 1)
+    assert calm.friction == 1.0
+    assert calm.inclinometers == one.inclinometers
+
+
+@pytest.mark.parametrize("text", ["frictoin=1%", "friction=", "friction=-1%", "mass=100%", "force_noise=1deg"])
+def test_noise_that_cannot_be_is_named(text: str) -> None:
+    with pytest.raises(NoiseError, match="noise: "):
+        read_walk_noise(named_walk_noise("none"), [text])
+
+
+def test_settings_of_the_plant_are_split_and_read() -> None:
+    walk = load_walk("slope-walk", ["payload=2kg"])
+    for_walk, for_plant = split_walk_settings(["plant.friction=50%", "level=false", "plant.payload=1kg"])
+    assert for_walk == ["level=false"]
+    flaws = walk_flaws(walk, for_plant)
+    assert flaws.friction == 0.5
+    assert flaws.payload == 3.0  # what it knows of and what it does not
+    with pytest.raises(PlantError, match="physics_rate"):
+        walk_flaws(walk, ["phisics_rate=1kHz"])
+    with pytest.raises(PlantError, match="mass"):
+        walk_flaws(walk, ["payload=1m"])
+
+
+def test_a_robot_that_cannot_stand_falls_at_the_start() -> None:
+    walk = load_walk("level-walk", ["arm=['0 deg', '0 deg', '0 deg', '0 deg']"])
+    run = run_walk(walk, walk_flaws(walk, ["payload=40kg"]))
+    assert not run.done
+    assert run.reason.startswith("fell")
+    assert not run.report.steps
+    assert run.to_json()["steps"] == []
+
+
+@pytest.mark.slow
+def test_a_robot_that_is_held_by_a_step_it_does_not_know_of_is_lost() -> None:
+    """A step higher than feet are lifted: they push against it, and the robot reckons on."""
+    changes = ("start.x=35cm", "way.0.distance=30cm", "ground.blocks.0.height=7cm", "ground.blocks.1.height=7cm")
+    walk = load_walk("step-walk", changes)
+    run = run_walk(walk, walk_flaws(walk, ()))
+    assert not run.done
+    assert run.true.pose[-1, 0] < 0.6
