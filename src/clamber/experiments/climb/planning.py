@@ -58,7 +58,7 @@ CAUTIONS: Final = (
 )
 """The next where there is no plan that is easy in every stance; then the easiest."""
 ROOMY: Final = (
-    Caution(pull=0.2, bend=0.5, room=3.5),
+    Caution(spare=2.0, bend=0.0, room=3.0),
     Caution(hook_cone=50.0, hold_cone=90.0, strength=2.0, pull=0.1, bend=0.5, room=1.0),
 )
 """Likewise where even the easiest of those is hard: holders and the ways of their hooks keep clear of other holds (`holder_peg`)."""
@@ -156,8 +156,8 @@ def cautious(task: LimbedTask, caution: Caution) -> LimbedTask:
         settings += [
             f"rules.hard=[{', '.join(repr(name) for name in hard)}]",
             f"rules.hook_width={HOOK_WIDTH + 2.0 * room!r} m",
-            f"rules.hook_ahead={HOOK_AHEAD + room!r} m",
-            f"rules.hook_way={HOOK_WAY!r} m",
+            f"rules.hook_ahead={HOOK_AHEAD!r} m",  # no room there: its own hold stops it
+            f"rules.hook_way={HOOK_WAY + room!r} m",
             f"link_radius={task.robot.link_radius + room!r} m",
         ]
     cautious_task = change_task(changed, settings)
