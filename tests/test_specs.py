@@ -310,7 +310,7 @@ def test_free_limbs_point_straight_out_at_the_start() -> None:
 
 def test_default_hard_checks_are_checks() -> None:
     names = [check.name for check in LIMBED_CHECKS]
-    assert len(names) == len(set(names)) == 15
+    assert len(names) == len(set(names)) == 16
     assert set(DEFAULT_HARD) < set(names)
 
 

@@ -22,9 +22,10 @@ from clamber.control.gait import (
     speed_of_gait,
 )
 from clamber.control.track import Track, along_twist, by_twist, compose, seen_from, straight, through, turn_about
-from clamber.control.walker_balance import arm_points, mass_centre, mass_moment, support_margin, weight_of
+from clamber.control.walker_balance import mass_centre, mass_moment, support_margin
 from clamber.robots.library import load_robot
 from clamber.robots.walker import TwoFrames, WalkerRobot
+from clamber.robots.walker.weight import arm_places, weight_of
 from clamber.types import Floats
 
 found = load_robot("hoshino")
@@ -172,11 +173,14 @@ def test_the_centre_of_mass_is_that_of_the_parts(seed: int) -> None:
     expected = by_hand(place, arm, payload)
     mass, centre = mass_moment(ROBOT, place, arm, payload)
     np.testing.assert_allclose(centre, expected, atol=1e-12)
-    assert weight_of(ROBOT, payload) == pytest.approx(9.80665 * mass)
+    assert weight_of(ROBOT, payload=payload).total == pytest.approx(mass)
     pose = np.array((0.3, -0.4, 0.5, 1.2, 0.0, 0.0))
     turned = compose(pose[[0, 1, 3]], np.array((*expected[:2], 0.0)))[:2]
     np.testing.assert_allclose(mass_centre(ROBOT, pose, place, arm, payload), (*turned, 0.5 + expected[2]), atol=1e-12)
-    np.testing.assert_allclose(np.linalg.norm(np.diff(arm_points(ROBOT, arm), axis=0), axis=1), ROBOT.arm.links)  # type: ignore[union-attr]
+    assert ROBOT.arm is not None
+    np.testing.assert_allclose(
+        np.linalg.norm(np.diff(arm_places(ROBOT.arm, arm.tolist()), axis=0), axis=1), ROBOT.arm.links
+    )
 
 
 def test_ten_kilograms_at_eight_hundred_millimetres_stand_in_the_middle_and_tip_at_the_end_of_a_slide() -> None:

@@ -10,7 +10,7 @@ from typing import Any
 from .carriers import Carrier, best_option, torques
 from .forces import NO_SPLIT_TORQUE, shared_load
 from .hook import hang_margins, many_margin, pair_margins
-from .interference import FAR, clearance, contains, interference_margins, point_to_segment, swing_clearance
+from .interference import FAR, clearance, contains, holder_gap, interference_margins, point_to_segment, swing_clearance
 from .kinematics import (
     EPS,
     Option,
@@ -26,7 +26,7 @@ from .kinematics import (
 )
 
 CHECKS: tuple[str, ...] = ("reach", "joint", "support", "hangs", "torque", "power", "clearance", "swing", "keep_out")
-CHECKS += ("limb_limb", "limb_body", "limb_peg", "hook", "shared", "stability")
+CHECKS += ("limb_limb", "limb_body", "limb_peg", "hook", "shared", "stability", "holder_peg")
 TICKS = 2**20
 """Ticks of pose in one step."""
 NO_CANDIDATE = -1e9
@@ -285,9 +285,13 @@ class PlainEvaluator:
         px, py = port_in_world(self.robot.limbs[limb], pose)
         hx, hy = self.place(number)
         limit = limb_length(self.robot.limbs[limb])
-        if grabbing or self.rules.offset_while_holding:
-            limit -= self.rules.reach_offset
-        return limit - math.hypot(hx - px, hy - py)
+        return limit - (self.rules.reach_offset if grabbing else 0.0) - math.hypot(hx - px, hy - py)
+
+    def reach_margin(self, limb: int, pose: Pose, number: int, grabbing: bool) -> float:
+        """Of a holder: the limit is shortened by the larger of the offsets that count [m]."""
+        counts = grabbing or self.rules.offset_while_holding
+        offset = max(self.rules.holding_offset, self.rules.reach_offset if counts else 0.0)
+        return self.spare(limb, pose, number, grabbing=False) - offset
 
     # Outcomes
 
@@ -363,7 +367,7 @@ class PlainEvaluator:
             both.append([option(limb, pose, target, b) for b in (0, 1)])
             usables.append(usable(both[i], self.allowed(s, i)))
 
-        margins["reach"] = min(self.spare(i, pose, s.hold[i] or 0, grabbing=i in grabbed) for i in holders)
+        margins["reach"] = min(self.reach_margin(i, pose, s.hold[i] or 0, grabbing=i in grabbed) for i in holders)
         margins["joint"] = min(
             max((o.joint_margin for o in both[i] if o.branch in self.allowed(s, i)), default=-math.pi) for i in holders
         )
@@ -400,7 +404,10 @@ class PlainEvaluator:
         held = [h for h in s.hold if h is not None]
         margins["shared"] = -1.0 if len(set(held)) < len(held) else 0.0
         xs = [c.hold.x for c in carriers]
-        margins["stability"] = min(max(xs) - pose.x, pose.x - min(xs)) if len(xs) > 1 else 0.0
+        within = min(max(xs) - pose.x, pose.x - min(xs)) if len(xs) > 1 else 0.0
+        margins["stability"] = within - rules.inside
+        held_by = [(limbs[i], taken[i], self.holds[s.hold[i]]) for i in s.holders()]
+        margins["holder_peg"] = holder_gap(self.task, pose, held_by)
         good = self.still_open(s, both, carriers, split, in_good)
         return Judgement(margins, all_torques, power, [o.branch for o in taken], forces, good)
 

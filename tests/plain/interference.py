@@ -1,9 +1,10 @@
 """Distances between limbs, body, holds and keep-outs (docs/model.md, section 9)."""
 
+import cmath
 import math
 from typing import Any
 
-from .kinematics import Option, Point, Pose, port_in_world
+from .kinematics import Option, Point, Pose, limb_length, port_in_world
 
 FAR = 1e9
 """Margin where there is nothing to hit."""
@@ -104,6 +105,36 @@ def interference_margins(
                 gap = point_to_segment((hold.x, hold.y), link[0], link[1])
                 limb_peg = min(limb_peg, gap - robot.link_radius - hold.radius)
     return {"keep_out": keep_out, "limb_limb": limb_limb, "limb_body": limb_body, "limb_peg": limb_peg}
+
+
+def holder_gap(task: Any, pose: Pose, held: list[tuple[Any, Option, Any]]) -> float:
+    """`holder_peg`; `held`: limb, branch taken and hold of every holder."""
+    gap, rules = FAR, task.rules
+    if rules.hook_width == 0.0:
+        return gap
+    half = rules.hook_width / 2.0
+    for limb, taken, own in held:
+        port, tip = port_in_world(limb, pose), (own.x, own.y)
+        at, g = complex(*tip), cmath.exp(1j * taken.grab_angle)
+        corners = [
+            at + g * complex(along, side)
+            for along, side in (
+                (rules.hook_ahead, half),
+                (rules.hook_ahead, -half),
+                (-rules.hook_way, -half),
+                (-rules.hook_way, half),
+            )
+        ]
+        swept = [(z.real, z.imag) for z in corners]
+        for hold in task.world.holds:
+            place = (hold.x, hold.y)
+            if hold.number == own.number or math.hypot(hold.x - port[0], hold.y - port[1]) > limb_length(limb) + 0.1:
+                continue
+            for link in ((port, taken.elbow), (taken.elbow, tip)):
+                gap = min(gap, point_to_segment(place, *link) - task.robot.link_radius - hold.radius)
+            if limb.end.kind in ("hook", "foot"):
+                gap = min(gap, polygon_distance(swept, [place]) - hold.radius)
+    return gap
 
 
 def clearance(task: Any, p: Point) -> float:

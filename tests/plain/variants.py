@@ -42,6 +42,8 @@ def varied_rules(rng: random.Random, task: LimbedTask) -> Any:
         ("reach",),
         tuple(check for check in ALL_CHECKS if rng.random() < 0.6),
     ]
+    aside = copy.deepcopy(rng)  # so that what is drawn later does not depend on the hooks' sizes
+    width = aside.choice((0.0, 0.03, 0.1))
     return replace(
         task.rules,
         force_rule=rng.choice(("thesis", "thesis", "min_torque", "min_norm")),
@@ -57,6 +59,11 @@ def varied_rules(rng: random.Random, task: LimbedTask) -> Any:
         max_power=rng.choice((None, None, 5.0, 50.0)),
         hook_cone=math.radians(rng.choice((90.0, 90.0, 60.0, 30.0))),
         hook_pull=rng.choice((0.0, 0.0, 2.0, 8.0)),
+        inside=aside.choice((0.0, 0.0, INCH)),
+        holding_offset=aside.choice((0.0, 0.0, 0.5 * INCH)),
+        hook_width=width,
+        hook_ahead=aside.choice((0.0, 0.016)),
+        hook_way=aside.choice((0.0, 0.04)),
         hard=rng.choice(hard),
         keep=tuple(random_keep(rng, task) for _ in range(rng.choice((0, 0, 1, 2)))),
     )

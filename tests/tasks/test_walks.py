@@ -87,7 +87,7 @@ def test_a_walk_may_be_the_user_s_own_file(tmp_path: Path) -> None:
     ("changes", "words"),
     [
         (["way=[]"], "way"),
-        (["way.0.turn=1deg"], "one of the two"),
+        (["way.0.turn=1deg"], "one of the three"),
         (["way.0={ direction = '0 deg' }"], "both direction and distance"),
         (["way.0={ turn = '0 deg' }"], "must not be 0"),
         (["way.0={ direction = '0 deg', distance = '1 m', about = ['0 m', '0 m'] }"], "is for a turn"),
@@ -121,3 +121,12 @@ def test_a_payload_needs_an_arm(tmp_path: Path) -> None:
         load_walk(str(path), ["payload=1kg"])
     with pytest.raises(SpecError, match="hold"):
         load_walk(str(path), ["hold={ x = '1 m', y = '0.3 m', z = '0.6 m' }"])
+
+
+def test_a_place_is_a_piece_of_the_way() -> None:
+    walk = load_walk("level-walk", ("way=[{to=['1 m', '0.5 m'], heading='20 deg'}]",))
+    assert walk.way[0].to == (1.0, 0.5) and walk.way[0].heading == pytest.approx(math.radians(20.0))
+    with pytest.raises(SpecError, match="place alone"):
+        load_walk("level-walk", ("way=[{to=['1 m', '0.5 m'], turn='20 deg'}]",))
+    with pytest.raises(SpecError, match="heading"):
+        load_walk("level-walk", ("way=[{turn='20 deg', heading='20 deg'}]",))

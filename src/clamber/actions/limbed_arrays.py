@@ -60,10 +60,11 @@ def _fill_rules(
     row["tick_angle"] = math.tau / turn / TICKS
     row["turn_ticks"] = turn * TICKS
     row["weight"] = task.robot.weight
-    row["reach_offset"] = rules.reach_offset
-    row["clearance"] = rules.clearance
+    row["reach_offset"], row["holding_offset"] = rules.reach_offset, rules.holding_offset
+    row["clearance"], row["inside"] = rules.clearance, rules.inside
     row["max_power"] = math.inf if rules.max_power is None else rules.max_power
     row["link_radius"], row["body_margin"] = task.robot.link_radius, task.robot.body_margin
+    row["hook_width"], row["hook_ahead"], row["hook_way"] = rules.hook_width, rules.hook_ahead, rules.hook_way
     row["grid_x"], row["grid_y"], row["grid_cell"], row["grid_nx"], row["grid_ny"] = grid
     centre = next((goal.centre for goal in task.goals if goal.centre is not None), (0.0, 0.0))
     row["centre_x"], row["centre_y"] = centre

@@ -164,7 +164,7 @@ def put(p, s, where, angle):
 def can_hold(p, s, i):
     """Whether limb i can stay on its hold, by the hard checks `reach` and `joint`."""
     solve(p, s, i)
-    limit = limbs(p)[i].length - (p.reach_offset if p.offset_while_holding else 0.0)
+    limit = limbs(p)[i].length - max(p.holding_offset, p.reach_offset if p.offset_while_holding else 0.0)
     if p.hard & (1 << REACH) and limit - s.solved[i, 0] < -TOLERANCE:
         return False
     return not p.hard & (1 << JOINT) or max(s.solved[i, 1], s.solved[i, 6]) >= -TOLERANCE

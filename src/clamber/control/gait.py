@@ -176,6 +176,21 @@ def farthest_step(
     return best if best is not None and best.way - start > FINE else None
 
 
+def up_to_corner(track: Track, ways: Floats, swing: int) -> float:
+    """How far a frame may go on before both are past the end of the piece that the other one is on [m].
+
+    Beyond a corner the track is another twist: a frame that goes there alone may leave the other no way to follow.
+
+    Args:
+        track: Where the robot goes.
+        ways: Where on the track the frames are, shape (2,) [m].
+        swing: The frame to be lifted.
+    """
+    ahead = track.ways[track.ways > float(ways.min()) + FINE]
+    corner = float(ahead[0]) if len(ahead) else track.length
+    return corner - float(ways[swing])
+
+
 def slide_seconds(robot: WalkerRobot, places: Floats, ramp: float) -> float:
     """Least time of a slide that begins and ends with a ramp, its fastest actuator at its speed at the worst place [s].
 
@@ -224,5 +239,5 @@ class PhaseTimes:
 
 
 def speed_of_gait(step: float, cycle: float, duty: float = 0.5) -> float:
-    """Equation 1 of Hoshino and others (1996) with T as the whole cycle, the only reading that gives 130 mm/min with 160 mm [m/s]."""
+    """Equation 1 of Hoshino and others (1995) with T as the whole cycle, the only reading that gives 130 mm/min with 160 mm [m/s]."""
     return (1.0 - duty) / duty * step / cycle

@@ -1,7 +1,7 @@
 """Posture of a plate on legs of one freedom each: its inclination both ways, and its legs' lengths both ways. Kernels.
 
 The plate's orientation in the world is R = Rz(alpha) Ry(beta) Rx(gamma); its legs are along its normal, their places are in the plate.
-Equations as in `docs/walking.md`, after Hoshino and others (1996), section 4, whose equations 4, 5 and 7 are illegible and whose
+Equations as in `docs/walking.md`, after Hoshino and others (1995), section 4, whose equations 4, 5 and 7 are illegible and whose
 equation 6 loses the quadrant.
 """
 

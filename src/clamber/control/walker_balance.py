@@ -5,26 +5,9 @@ import math
 import numpy as np
 
 from ..robots.walker import WalkerRobot
+from ..robots.walker.weight import arm_places
 from ..types import Floats, Ints
-from ..units import GRAVITY
 from .dead_reckoning import orient
-
-
-def arm_points(robot: WalkerRobot, arm: Floats) -> Floats:
-    """Ends of the arm's links in the plate, from the axis of joint 1 to the tool point, shape (n + 1, 3) [m].
-
-    Equation 8 of Hoshino and others (1996): joint 0 turns about the plate's normal, the others pitch, upwards positive.
-
-    Args:
-        robot: It has an arm.
-        arm: Joint angles, shape (n + 1,) [rad].
-    """
-    assert robot.arm is not None
-    pitches = np.cumsum(arm[1:])
-    out = robot.arm.out + np.concatenate(([0.0], np.cumsum(robot.arm.links * np.cos(pitches))))
-    up = robot.arm.up + np.concatenate(([0.0], np.cumsum(robot.arm.links * np.sin(pitches))))
-    points: Floats = np.stack([out * math.cos(arm[0]), out * math.sin(arm[0]), up], axis=-1)
-    return points
 
 
 def mass_moment(robot: WalkerRobot, place: Floats, arm: Floats, payload: float = 0.0) -> tuple[float, Floats]:
@@ -40,17 +23,11 @@ def mass_moment(robot: WalkerRobot, place: Floats, arm: Floats, payload: float =
     on_y = 1.0 - robot.mass.share_delta
     moment = mass * np.array((on_y * place[0], on_y * place[1], robot.mass.height))
     if robot.arm is not None:
-        points = arm_points(robot, arm)
+        points = arm_places(robot.arm, arm.tolist())
         masses = np.array(robot.arm.masses)
         moment += masses @ (0.5 * (points[:-1] + points[1:])) + payload * points[-1]
         mass += float(masses.sum()) + payload
     return mass, moment / mass
-
-
-def weight_of(robot: WalkerRobot, payload: float = 0.0) -> float:
-    """Weight of the robot with its arm and a payload [N]."""
-    arm = 0.0 if robot.arm is None else sum(robot.arm.masses) + payload
-    return GRAVITY * (robot.mass.frames + arm)
 
 
 def mass_centre(robot: WalkerRobot, pose: Floats, place: Floats, arm: Floats, payload: float = 0.0) -> Floats:

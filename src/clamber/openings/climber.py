@@ -33,6 +33,13 @@ def _distances(task: LimbedTask) -> Iterator[Relaxation]:
         if rules.offset_while_holding:
             free = "rules.offset_while_holding"
             yield Switch(key=free, before="true", after="false", overrides=(f"{free}=false",))
+    if "reach" in rules.hard and rules.holding_offset > 0.0:
+        key = "rules.holding_offset"
+        yield key_dial(key, rules.holding_offset / MM, most=0.0, unit="mm", per_unit=10, nested=True)
+    if "holder_peg" in rules.hard and rules.hook_width > 0.0:
+        yield key_dial("rules.hook_width", rules.hook_width / MM, most=0.0, unit="mm", per_unit=10, nested=True)
+    if "stability" in rules.hard and rules.inside > 0.0:
+        yield key_dial("rules.inside", rules.inside / MM, most=0.0, unit="mm", per_unit=10, nested=True)
     if {"clearance", "swing"} & set(rules.hard) and rules.clearance > 0.0:
         yield key_dial("rules.clearance", rules.clearance / MM, most=0.0, unit="mm", per_unit=10, nested=True)
 

@@ -33,7 +33,12 @@ LIMBED_CHECKS: Final[tuple[Check, ...]] = (
     Check("limb_peg", "m", "gap between a link and a hold that its limb does not use"),
     Check("hook", "N", "how far the forces can be spread so that every end effector and hold can take them"),
     Check("shared", "1", "0, or -1 when two limbs are on one hold"),
-    Check("stability", "m", "how far the body's origin lies inside the span of the holds that carry it"),
+    Check(
+        "stability",
+        "m",
+        "how far the body's origin lies inside the span of the holds that carry it, less what the task asks for",
+    ),
+    Check("holder_peg", "m", "gap between other holds and a limb that holds, its hook's way onto its hold with it"),
 )
 """In the order in which a failing check is named as the reason."""
 

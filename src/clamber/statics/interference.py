@@ -1,13 +1,17 @@
 """Margins of limbs, body, holds and keep-outs against each other (page "The model", section 9)."""
 
+import math
+
 from ..compiled import kernel
 from .distances import point_segment, polygon_polygon, segment_polygon, segment_segment
 from .near import SIGHT, cells_about, cells_in_row
 from .pose import port_of, solve, take_branch, tip_of, usable
 from .records import UNLIMITED, cells, holds, hull, keep_out, limbs, vertices, work
 
-KEEP_OUT, LIMB_LIMB, LIMB_BODY, LIMB_PEG = 8, 9, 10, 11
+KEEP_OUT, LIMB_LIMB, LIMB_BODY, LIMB_PEG, HOLDER_PEG = 8, 9, 10, 11, 15
 """Places of these checks among the margins."""
+BESIDE = 0.1
+"""Holds beyond a limb's reach by more than this are in no holder's way [m]."""
 
 
 @kernel
@@ -68,3 +72,45 @@ def interference(p, s, margins):
     margins[LIMB_LIMB] = limb_limb
     margins[LIMB_BODY] = limb_body
     margins[LIMB_PEG] = limb_peg
+
+
+@kernel
+def holder_gap(p, s):
+    """`holder_peg` margin: how far links and hooks of holders are from other holds [m].
+
+    A hook needs the strip that it sweeps as it comes straight onto its hold: as wide as it is, from as far ahead of the tip, along the
+    grab direction, as it reaches, to where its way begins.
+    """
+    gap = UNLIMITED
+    if p.hook_width == 0.0:
+        return gap
+    half = 0.5 * p.hook_width
+    for i in range(p.n_limbs):
+        if s.hold[i] < 0:
+            continue
+        own = holds(p)[s.hold[i]]
+        px, py = port_of(limbs(p)[i], s)
+        at = 1 + 5 * s.branch[i]
+        ex = s.solved[i, at + 1]
+        ey = s.solved[i, at + 2]
+        gx = s.solved[i, at + 3]
+        gy = s.solved[i, at + 4]
+        hooked = limbs(p)[i].c_cone > -1.5
+        sight = limbs(p)[i].length + BESIDE
+        x0, x1, y0, y1 = cells_about(p, px, py, sight)
+        for row in range(y0, y1 + 1):
+            first, end = cells_in_row(p, row, x0, x1)
+            for c in range(first, end):
+                h = cells(p)[c]
+                hold = holds(p)[h]
+                if h == s.hold[i] or (hold.x - px) ** 2 + (hold.y - py) ** 2 > sight * sight:
+                    continue
+                near = point_segment(hold.x, hold.y, px, py, ex, ey)
+                near = min(near, point_segment(hold.x, hold.y, ex, ey, own.x, own.y)) - p.link_radius
+                if hooked:
+                    along = gx * (hold.x - own.x) + gy * (hold.y - own.y)
+                    across = gx * (hold.y - own.y) - gy * (hold.x - own.x)
+                    beyond = max(0.0, max(along - p.hook_ahead, -p.hook_way - along))
+                    near = min(near, math.hypot(beyond, max(0.0, abs(across) - half)))
+                gap = min(gap, near - hold.radius)
+    return gap

@@ -5,7 +5,7 @@ import math
 from ..compiled import kernel
 from .forces import NO_SPLIT
 from .grip import hang_margin, pair_margin
-from .interference import KEEP_OUT, LIMB_BODY, LIMB_LIMB, LIMB_PEG, interference
+from .interference import HOLDER_PEG, KEEP_OUT, LIMB_BODY, LIMB_LIMB, LIMB_PEG, holder_gap, interference
 from .many import many_split
 from .near import nearest_hold
 from .pose import count_holders, joint_torques, usable
@@ -14,8 +14,8 @@ from .share import share
 
 REACH, JOINT, SUPPORT, HANGS, TORQUE, POWER, CLEARANCE, SWING = 0, 1, 2, 3, 4, 5, 6, 7
 HOOK, SHARED, STABILITY = 12, 13, 14
-"""Places of the checks among the margins; those between lie beside their kernels."""
-N_CHECKS = 15
+"""Places of the checks among the margins; the others lie beside their kernels."""
+N_CHECKS = 16
 
 
 @kernel
@@ -43,9 +43,10 @@ def judge(p, s, grabbing, swing, margins):
     for i in range(n):
         if s.hold[i] < 0:
             continue
-        limit = limbs(p)[i].length
+        offset = p.holding_offset
         if i == grabbing or p.offset_while_holding:
-            limit -= p.reach_offset
+            offset = max(offset, p.reach_offset)
+        limit = limbs(p)[i].length - offset
         reach = min(reach, limit - s.solved[i, 0])
         allowed = s.open[i] if p.kept else 3
         best = -math.pi
@@ -66,7 +67,7 @@ def judge(p, s, grabbing, swing, margins):
     near = nearest_hold(p, s.x, s.y)
     margins[CLEARANCE] = near - p.clearance if near < math.inf else UNLIMITED
     if p.seen & (1 << STABILITY):
-        margins[STABILITY] = stability(p, s, k)
+        margins[STABILITY] = stability(p, s, k) - p.inside
     if p.seen & (1 << SHARED):
         margins[SHARED] = shared(p, s)
     good = 3 * 0x5555  # two bits a limb: every branch good until the hook check says otherwise
@@ -76,6 +77,8 @@ def judge(p, s, grabbing, swing, margins):
     fenced = p.fences > 0 and p.seen & (1 << KEEP_OUT)
     if fenced or p.seen & (1 << LIMB_LIMB | 1 << LIMB_BODY | 1 << LIMB_PEG):
         interference(p, s, margins)
+    if p.seen & (1 << HOLDER_PEG):
+        margins[HOLDER_PEG] = holder_gap(p, s)
     violated = 0
     for check in range(N_CHECKS):  # no branches, so that it vectorises
         violated |= (1 << check) if margins[check] < -TOLERANCE else 0

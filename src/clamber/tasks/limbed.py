@@ -101,20 +101,30 @@ class Rules:
     """Whether the limb that moved last carries weight while three or more hold."""
     reach_offset: NonNegativeLength = 0.0
     """Reach that a grab may not use [m]."""
+    holding_offset: NonNegativeLength = 0.0
+    """Reach that limbs may not use while they hold [m]."""
     offset_while_holding: StrictBool = False
-    """Whether the offset also applies to limbs that hold."""
+    """Whether the offset of grabs also applies to limbs that hold."""
     replace_out_of_reach: StrictBool = False
     """Whether a hold out of reach is replaced by the nearest one."""
     branch: Literal["free", "kept"] = "free"
     """Whether a limb may change the side of its elbow while it holds."""
     clearance: NonNegativeLength = 6 * INCH
     """Least distance of the body's origin from any hold [m]."""
+    inside: NonNegativeLength = 0.0
+    """How far the body's origin lies inside the span of the holds that carry it (`stability`) [m]."""
     max_power: PositivePower | None = None
     """Largest electrical power of the joints that carry weight [W]; None: any."""
     hook_cone: ConeAngle = math.pi / 2
     """Half angle of end effectors that state none [rad]."""
     hook_pull: NonNegativeForce = 0.0
     """Pull along its grab direction that every end effector with a cone can be given [N]: a hook with less slips off."""
+    hook_width: NonNegativeLength = 0.0
+    """Width of a hook with its flare; 0: nothing is asked of holders and other holds (`holder_peg`) [m]."""
+    hook_ahead: NonNegativeLength = 0.0
+    """How far a hook reaches ahead of its hold's centre, along its grab direction [m]."""
+    hook_way: NonNegativeLength = 0.0
+    """From how far behind a hook comes straight onto its hold, and goes off again [m]."""
     hard: tuple[StrictStr, ...] = DEFAULT_HARD
     """Names of the checks that forbid an action; the others only report."""
     allowed: tuple[StrictStr, ...] | None = None
@@ -297,9 +307,10 @@ def _check_rules(rules: Rules, robot: LimbedRobot, document: Document) -> None:
         raise document.problem("rules.hard", "names a check twice")
     if rules.min_supports > len(robot.limbs):
         raise document.problem("rules.min_supports", f"must be at most the number of limbs, {len(robot.limbs)}")
-    if rules.reach_offset >= min(limb.length for limb in robot.limbs):
-        shortest = min(limb.length for limb in robot.limbs)
-        raise document.problem("rules.reach_offset", f"must be less than the shortest limb, {shortest:.4g} m")
+    shortest = min(limb.length for limb in robot.limbs)
+    for key, offset in (("reach_offset", rules.reach_offset), ("holding_offset", rules.holding_offset)):
+        if offset >= shortest:
+            raise document.problem(f"rules.{key}", f"must be less than the shortest limb, {shortest:.4g} m")
     for index, keep in enumerate(rules.keep):
         _check_limb(keep.limb, f"rules.keep.{index}.limb", robot, document)
         _check_order(keep, f"rules.keep.{index}", ("x", "y"), document)

@@ -7,7 +7,7 @@ from typing import Protocol
 
 import numpy as np
 
-from ...control.gait import FINE, Step, farthest_step, look_at_step
+from ...control.gait import FINE, Step, farthest_step, look_at_step, up_to_corner
 from ...control.track import Track, compose, seen_from
 from ...types import Floats
 from .walker import Walker
@@ -83,11 +83,12 @@ class TrackCourse:
         return bool(self._ways[step.swing] - before >= FINE)
 
     def _farthest(self, walker: Walker, swing: int) -> Step | None:
-        if self._ways[swing] >= self.length - FINE:
+        room = up_to_corner(self._track, self._ways, swing)
+        if room < FINE:
             return None
         return farthest_step(
             walker.robot, self._track, walker.frames(), self._ways, swing, neutral=self._neutral, arm=walker.arm,
-            payload=walker.payload, limits=walker.settings.limits, longest=walker.settings.longest,
+            payload=walker.payload, limits=walker.settings.limits, longest=min(room, walker.settings.longest),
         )  # fmt: skip
 
     def _way_of(self, step: Step, landed: Floats) -> float:

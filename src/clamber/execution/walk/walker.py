@@ -8,10 +8,12 @@ import numpy as np
 from ...control.dead_reckoning import leg_places, reckon, soles_in_world
 from ...control.inclination import Inclination, InclinometerTrust, load_slope, strain_of
 from ...control.posture import leg_lengths, level_heights, move_together, rise, tilt_of_inclines, whole_steps
-from ...control.walker_balance import mass_centre, support_margin, weight_of
+from ...control.walker_balance import mass_centre, support_margin
 from ...robots.walker import WalkerRobot
 from ...robots.walker.two_frames import FOUND, follow_branch
+from ...robots.walker.weight import weight_of
 from ...types import Floats, Ints
+from ...units import GRAVITY
 from ..fallen import FallenError as FallenError
 from .falls import LIGHT, FallWatch
 from .plant import WalkerPlant
@@ -90,7 +92,7 @@ class Walker:
         self.robot, self.plant, self.settings, self.payload = robot, plant, settings, payload
         self.period = plant.period
         self.inclination = Inclination(trust, plant.period)
-        self.falls = FallWatch(weight_of(robot, payload), plant.period)
+        self.falls = FallWatch(GRAVITY * weight_of(robot, payload=payload).total, plant.period)
         self._delta, self._y = robot.attachments()
         self._rest = robot.feet()
         self._room = np.empty((9, 3))

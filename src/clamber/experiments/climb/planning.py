@@ -16,11 +16,14 @@ from ...execution.climb.sequencer import Replan
 from ...planning.budgets import accepts
 from ...planning.planners import PLANNERS
 from ...planning.result import PlanResult
+from ...robots.hooks import HOOK_AHEAD, HOOK_WAY, HOOK_WIDTH
 from ...tasks.library import change_task, task_from_document
 from ...tasks.limbed import LimbedTask
 from ...types import Json
 from ...units import DEGREE, INCH
 from ...worlds.board import Hold
+
+MM: Final = 1e-3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,6 +42,10 @@ class Caution:
     """Of the motors' torque that a plan may use [-]."""
     spare: float = 1.0
     """Reach that limbs leave, also while they hold: a stretched elbow is soft, and may pass to the other side [in]."""
+    bend: float | None = None
+    """What of it limbs leave that hold; None: all of it [in]."""
+    room: float | None = None
+    """Between holds, and links and hooks that pass them; None: links may lie on holds [mm]."""
 
 
 CAUTIONS: Final = (
@@ -50,6 +57,13 @@ CAUTIONS: Final = (
     Caution(hook_cone=70.0, hold_cone=90.0, strength=5.0, pull=0.0, share=0.8, spare=0.0),
 )
 """The next where there is no plan that is easy in every stance; then the easiest."""
+ROOMY: Final = (
+    Caution(spare=2.0, bend=0.0, room=3.0),
+    Caution(hook_cone=50.0, hold_cone=90.0, strength=2.0, pull=0.1, bend=0.5, room=1.0),
+)
+"""Likewise where even the easiest of those is hard: holders and the ways of their hooks keep clear of other holds (`holder_peg`)."""
+HARD: Final = 10.0
+"""What counts against a plan that is hard, all its stances together."""
 INCAUTIOUS: Final = 10.0
 """What being less cautious counts in one that is not."""
 EASY: Final = 3.5
@@ -87,8 +101,11 @@ def plan_to_climb(
             cut()
         return result
 
-    best, least = None, math.inf
-    for rank, caution in enumerate(CAUTIONS):
+    best, least, against = None, math.inf, math.inf
+    ranked = (*enumerate(CAUTIONS), *(enumerate(ROOMY) if hooked(task) else ()))
+    for rank, caution in ranked:
+        if caution.room is not None and against <= HARD:
+            break
         try:
             result = search(cautious(task, caution))
         except StartError:  # it stands where a cautious plan would not take it
@@ -98,10 +115,10 @@ def plan_to_climb(
         # the same actions, for the robot and the board as they are
         plan = Plan.of_codes(task, result.plan.codes(task), seed=seed, planner=result.plan.planner)
         course = lay_course(task, plan)
-        hardship = math.inf if course.objections else float(np.maximum(course.against - EASY, 0.0).sum())
-        hardship += INCAUTIOUS * rank if hardship > 0.0 else 0.0
+        own = math.inf if course.objections else float(np.maximum(course.against - EASY, 0.0).sum())
+        hardship = own + (INCAUTIOUS * rank if own > 0.0 else 0.0)
         if best is None or hardship < least:
-            best, least = plan, hardship
+            best, least, against = plan, hardship, own
         if least == 0.0:
             break
     if best is None:
@@ -110,25 +127,40 @@ def plan_to_climb(
     return best
 
 
+def hooked(task: LimbedTask) -> bool:
+    """Whether any limb ends in what only pulls."""
+    return any(limb.end.kind != "gripper" for limb in task.robot.limbs)
+
+
 def cautious(task: LimbedTask, caution: Caution) -> LimbedTask:
     """A task that asks for more than its checks do, so that what holds in it can bear to be carried out."""
     document = copy.deepcopy(task.document)
-    hooked = any(limb.end.kind != "gripper" for limb in task.robot.limbs)
-    if hooked:  # grippers may well push one against the other
+    hooks = hooked(task)
+    if hooks:  # grippers may well push one against the other
         board = {key: value for key, value in document["board"].items() if key not in GENERATORS}
         document["board"] = board | {"holds": [_spared(hold, task.robot.weight, caution) for hold in task.world.holds]}
     changed = task_from_document(document, "cautious task")
     rules = task.rules
-    cautious_task = change_task(
-        changed,
-        [
-            f"rules.hook_cone={min(rules.hook_cone / DEGREE, caution.hook_cone)!r} deg",
-            f"rules.hook_pull={max(rules.hook_pull, caution.pull * task.robot.weight)!r} N",
-            f"rules.reach_offset={max(rules.reach_offset, caution.spare * INCH)!r} m",
-            f"rules.offset_while_holding={str(hooked or rules.offset_while_holding).lower()}",
-            f"motor.torque_limit={caution.share * task.robot.motor.torque_limit!r} N m",
-        ],
-    )
+    stretched = (caution.bend is None and hooks) or rules.offset_while_holding
+    settings = [
+        f"rules.hook_cone={min(rules.hook_cone / DEGREE, caution.hook_cone)!r} deg",
+        f"rules.hook_pull={max(rules.hook_pull, caution.pull * task.robot.weight)!r} N",
+        f"rules.reach_offset={max(rules.reach_offset, caution.spare * INCH)!r} m",
+        f"rules.offset_while_holding={str(stretched).lower()}",
+        f"rules.holding_offset={max(rules.holding_offset, (caution.bend or 0.0) * INCH * hooks)!r} m",
+        f"motor.torque_limit={caution.share * task.robot.motor.torque_limit!r} N m",
+    ]
+    if caution.room is not None:
+        room = caution.room * MM
+        hard = dict.fromkeys((*rules.hard, "holder_peg"))
+        settings += [
+            f"rules.hard=[{', '.join(repr(name) for name in hard)}]",
+            f"rules.hook_width={HOOK_WIDTH + 2.0 * room!r} m",
+            f"rules.hook_ahead={HOOK_AHEAD!r} m",  # no room there: its own hold stops it
+            f"rules.hook_way={HOOK_WAY + room!r} m",
+            f"link_radius={task.robot.link_radius + room!r} m",
+        ]
+    cautious_task = change_task(changed, settings)
     assert isinstance(cautious_task, LimbedTask)  # the robot stays what it is
     return cautious_task
 

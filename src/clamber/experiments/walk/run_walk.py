@@ -8,6 +8,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from ...control.quickest import Gait, quickest_way
 from ...control.track import Track
 from ...errors import UnitError, describe_choices
 from ...execution.plant import PlantStoppedError
@@ -122,8 +123,31 @@ def walk_flaws(walk: Walk, settings: Sequence[str]) -> WalkerFlaws:
 
 
 def lay_track(walk: Walk, pose: Floats) -> Track:
-    """The way of a walk from where the Delta-frame is, x, y [m], heading [rad], shape (3,)."""
-    return Track.of(pose, [piece.twist() for piece in walk.way], walk.robot.legs.radius_delta)
+    """The way of a walk from where the Delta-frame is, x, y [m], heading [rad], shape (3,); to places the quickest way."""
+    twists: list[Floats] = []
+    radius = walk.robot.legs.radius_delta
+    for piece in walk.way:
+        if piece.to is None:
+            twists.append(piece.twist())
+        else:
+            track = Track.of(pose, twists, radius)
+            here = track.pose(track.length)
+            twists += quickest_way(walk.robot, here, np.array(piece.to), piece.heading, gait_of(walk))[0].twists
+    return Track.of(pose, twists, radius)
+
+
+def gait_of(walk: Walk) -> Gait:
+    """What the time of a walk depends on, with the settings that walks have."""
+    usual, legs = WalkSettings(), walk.robot.legs
+    swap = 2.0 * legs.lift / legs.speed + usual.settling
+    return Gait(
+        neutral=walk.start.twist,
+        arm=np.array(walk.arm),
+        payload=walk.payload,
+        limits=usual.limits,
+        ramp=usual.ramp,
+        swap=swap,
+    )
 
 
 def own_way(walk: Walk) -> Lay:

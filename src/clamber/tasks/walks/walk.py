@@ -38,7 +38,7 @@ class WalkStart:
 
 @spec
 class Piece:
-    """A piece of the way: `direction` and `distance` for a straight one, `turn` for a turn."""
+    """A piece of the way: `direction` and `distance` for a straight one, `turn` for a turn, `to` for a place."""
 
     direction: Angle | None = None
     """Seen from the Delta-frame; the heading is kept [rad]."""
@@ -48,9 +48,13 @@ class Piece:
     """Of the heading [rad]."""
     about: Point | None = None
     """Point that it turns about, in the Delta-frame as it is then; on the spot unless given [m]."""
+    to: Point | None = None
+    """Place in the world, reached straight or after a pivot, whichever takes less time [m]."""
+    heading: Angle | None = None
+    """At that place, world frame; any unless given [rad]."""
 
     def twist(self) -> Floats:
-        """What the Delta-frame does, in its own frame: x, y [m] and heading [rad], each at a constant rate, shape (3,)."""
+        """What the Delta-frame does, in its own frame: x, y [m] and heading [rad], each at a constant rate, shape (3,); not of `to`."""
         if self.turn is not None:
             x, y = (0.0, 0.0) if self.about is None else self.about
             return self.turn * np.array((y, -x, 1.0))
@@ -195,9 +199,15 @@ def _check_way(way: tuple[Piece, ...], document: Document) -> None:
     if not way:
         raise document.problem("way", "must have a piece or more")
     for i, piece in enumerate(way):
+        if piece.to is not None:
+            if any(value is not None for value in (piece.direction, piece.distance, piece.turn, piece.about)):
+                raise document.problem(f"way.{i}", "must state a place alone, with a heading if one is wanted")
+            continue
+        if piece.heading is not None:
+            raise document.problem(f"way.{i}.heading", "is for a place that is gone to")
         straight = piece.direction is not None or piece.distance is not None
         if straight == (piece.turn is not None):
-            raise document.problem(f"way.{i}", "must state direction and distance, or turn: one of the two")
+            raise document.problem(f"way.{i}", "must state direction and distance, or turn, or to: one of the three")
         if straight and (piece.direction is None or piece.distance is None):
             raise document.problem(f"way.{i}", "must state both direction and distance")
         if straight and piece.about is not None:
