@@ -83,6 +83,7 @@ def run(
     from ..actions.plan_source import is_plan
     from ..experiments.climb.noise import NO_NOISE, check_noise, read_noise
     from ..experiments.climb.planning import plan_to_climb, replanner
+    from ..experiments.climb.rehearsal import rehearse
     from ..experiments.climb.run_plan import climbing_flaws, open_climb, run_plan
     from ..planning.planners import FIRST_LOOPS, PLANNERS
     from ..viewing.climb_run_view import check_run_suffix, write_run
@@ -105,7 +106,14 @@ def run(
         cuts.append(None)
 
     if plan is None:
-        plan = plan_to_climb(chosen, planner, seconds=seconds, seed=seed, cut=cut)
+        plan = plan_to_climb(
+            chosen,
+            planner,
+            seconds=seconds,
+            seed=seed,
+            cut=cut,
+            rehearse=lambda task, plan: rehearse(task, plan, flaws),
+        )
     if plan is None:
         tell_cuts(len(cuts))
         stderr().print(f"no plan for '{chosen.name}' that hooks can be trusted with; nothing has moved")

@@ -4,7 +4,7 @@ import copy
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, TypeAlias
 
 import numpy as np
 
@@ -22,8 +22,11 @@ from ...tasks.limbed import LimbedTask
 from ...types import Json
 from ...units import DEGREE, INCH
 from ...worlds.board import Hold
+from .rehearsal import Rehearsal
 
 MM: Final = 1e-3
+Rehearse: TypeAlias = Callable[[LimbedTask, Plan], Rehearsal]
+"""Climbs by a plan before anything moves."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -78,8 +81,9 @@ def plan_to_climb(
     seed: int,
     threads: int | None = None,
     cut: Callable[[], None] = lambda: None,
+    rehearse: Rehearse | None = None,
 ) -> Plan | None:
-    """The most cautious plan that is easy to carry out, or the easiest of the cautious ones, or any.
+    """The most cautious plan that is easy to carry out, or the easiest of the cautious ones, or any; of several the one that climbs.
 
     What a search may see is limited by the planner, so the plan is the same on any number of cores, busy or not, unless a search takes
     longer than it may.
@@ -91,6 +95,7 @@ def plan_to_climb(
         seed: Of the planner.
         threads: Threads; None for one a core.
         cut: Told of each search that its seconds ended: another machine may find another plan.
+        rehearse: Climbs by a plan in simulation; None: ease alone decides.
     """
     stated = {"seconds": seconds, "seed": seed, "threads": threads}
     options = {name: value for name, value in stated.items() if accepts(planner, name)}
@@ -101,7 +106,8 @@ def plan_to_climb(
             cut()
         return result
 
-    best, least, against = None, math.inf, math.inf
+    found: list[tuple[float, Plan]] = []
+    against = math.inf
     ranked = (*enumerate(CAUTIONS), *(enumerate(ROOMY) if hooked(task) else ()))
     for rank, caution in ranked:
         if caution.room is not None and against <= HARD:
@@ -117,13 +123,34 @@ def plan_to_climb(
         course = lay_course(task, plan)
         own = math.inf if course.objections else float(np.maximum(course.against - EASY, 0.0).sum())
         hardship = own + (INCAUTIOUS * rank if own > 0.0 else 0.0)
-        if best is None or hardship < least:
-            best, least, against = plan, hardship, own
-        if least == 0.0:
+        against = min(against, own)
+        found.append((hardship, plan))
+        if hardship == 0.0:
             break
-    if best is None:
+    found.sort(key=lambda each: each[0])
+    if found:
+        return found[0][1] if rehearse is None else _rehearsed([plan for _, plan in found], task, rehearse)
+    try:
         result = search(task)
-        best = result.plan if result.has_plan else None
+    except StartError:  # it stands where no plan may begin
+        return None
+    return result.plan if result.has_plan else None
+
+
+def _rehearsed(plans: list[Plan], task: LimbedTask, rehearse: Rehearse) -> Plan:
+    """The first plan whose rehearsal is flawless, or the one that did best, the easier of equals."""
+    best, most = plans[0], None
+    seen: set[bytes] = set()
+    for plan in plans:
+        codes = plan.codes(task).tobytes()
+        if codes in seen or lay_course(task, plan).objections:
+            continue
+        seen.add(codes)
+        done = rehearse(task, plan)
+        if done.flawless:
+            return plan
+        if most is None or done > most:
+            best, most = plan, done
     return best
 
 

@@ -12,6 +12,7 @@ from ...jobs import Executor, Kept, Outcome, look_into, map_items
 from ...types import Json
 from .noise import check_noise
 from .planning import plan_to_climb
+from .rehearsal import rehearse
 from .run_plan import climbing_flaws
 from .trial import PLAN_SEED, ClimbTrial, TrialSetup, error_trial, run_trial, trial_of
 from .warm_up import warm_up
@@ -45,7 +46,11 @@ def with_plan(
     if plan is None and kept is not None and kept.note is not None:
         plan = Plan.from_json(kept.note, "plan of the store")
     if plan is None:
-        plan = plan_to_climb(setup.task, setup.planner, seconds=setup.seconds, seed=PLAN_SEED, cut=cut)
+        flaws = climbing_flaws(setup.task, setup.plant)
+        plan = plan_to_climb(
+            setup.task, setup.planner, seconds=setup.seconds, seed=PLAN_SEED, cut=cut,
+            rehearse=lambda task, plan: rehearse(task, plan, flaws),
+        )  # fmt: skip
     if plan is None:
         raise NoPlanError(setup.task.name)
     course = lay_course(setup.task, plan, label)

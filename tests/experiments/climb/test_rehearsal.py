@@ -1,0 +1,37 @@
+"""Plans rehearsed before they are climbed: the easiest that is carried out each time is taken."""
+
+import math
+
+from clamber.actions.plan import Plan
+from clamber.actions.plan_source import open_plan
+from clamber.experiments.climb.noise import NO_NOISE, read_noise
+from clamber.experiments.climb.planning import plan_to_climb
+from clamber.experiments.climb.rehearsal import SEEDS, Rehearsal, rehearse
+from clamber.experiments.climb.run_plan import climbing_flaws, climbing_task
+from clamber.tasks.limbed import LimbedTask
+
+
+def test_a_plan_is_climbed_by_as_often_as_it_is_carried_out() -> None:
+    opened = open_plan("ladder-hand")
+    task = climbing_task(opened.task)
+    few = Plan.of_codes(task, opened.plan.codes(task)[:3], planner="hand")
+    assert rehearse(task, few, climbing_flaws(task, ())) == Rehearsal(len(SEEDS), 1.0)
+    lost = rehearse(task, opened.plan, climbing_flaws(task, ()), read_noise(NO_NOISE, ("peg_error=30mm",)))
+    assert lost.climbed == 0 and lost.share < 1.0
+
+
+def test_rehearsals_are_told_apart_by_climbs_then_by_how_far_they_came() -> None:
+    assert Rehearsal(len(SEEDS), 1.0).flawless and not Rehearsal(len(SEEDS) - 1, 1.0).flawless
+    assert Rehearsal(1, 0.2) > Rehearsal(0, 0.9) > Rehearsal(0, 0.3)
+
+
+def test_every_candidate_may_be_asked_for_and_the_one_that_does_best_is_taken() -> None:
+    asked: list[Plan] = []
+
+    def fails(task: LimbedTask, plan: Plan) -> Rehearsal:
+        asked.append(plan)
+        return Rehearsal(0, 0.5)
+
+    task = climbing_task(open_plan("ladder-hand").task)
+    plan = plan_to_climb(task, "auto", seconds=math.inf, seed=0, threads=1, rehearse=fails)
+    assert asked and plan is asked[0]
