@@ -98,6 +98,10 @@ def test_a_walk_may_be_the_user_s_own_file(tmp_path: Path) -> None:
         (["ground=slop"], "slope"),
         (["wey=1"], "way"),
         (["start.plate=tilted"], "level"),
+        (["hold={ x = '1 m', y = '0.3 m' }"], "hold.z"),
+        (["hold={ x = '1 m', y = '0.3 m', z = '0.6 s' }"], "hold.z"),
+        (["hold={ x = '1 m', y = '0.3 m', z = '0.6 m', within = '0 m' }"], "hold.within"),
+        (["hold={ x = '1 m', y = '0.3 m', z = '0.6 m', wihtin = '1 m' }"], "wihtin"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_walked_is_named(changes: list[str], words: str) -> None:
@@ -115,6 +119,8 @@ def test_a_payload_needs_an_arm(tmp_path: Path) -> None:
     assert load_walk(str(path)).arm == ()
     with pytest.raises(SpecError, match="needs an arm"):
         load_walk(str(path), ["payload=1kg"])
+    with pytest.raises(SpecError, match="hold"):
+        load_walk(str(path), ["hold={ x = '1 m', y = '0.3 m', z = '0.6 m' }"])
 
 
 def test_a_place_is_a_piece_of_the_way() -> None:

@@ -8,6 +8,7 @@ import typer
 from rich.console import Console
 
 from ..execution.walk.sequencer import Lay, WalkReport
+from ..experiments.walk.held_point import HeldPoint
 from ..experiments.walk.run_walk import WalkRun
 from ..tasks.walks import Walk
 from ..units import DEGREE
@@ -109,10 +110,31 @@ def print_walk(console: Console, run: WalkRun, written: Sequence[Path] = ()) -> 
         off, turned = report.missed
         console.print(f"{1e3 * off:.1f} mm and {turned / DEGREE:.2f} deg from where the way ends")
     console.print(f"largest tilt while walking {run.tilt / DEGREE:.3f} deg, least margin {_millimetres(run.margin)}")
+    if run.held is not None:
+        for line in held_lines(run.held):
+            console.print(line)
     if report.kicks:
         console.print(f"kicked {report.kicks} times: the plate tilted without its legs telling")
     for path in written:
         console.print(f"written: {path}", soft_wrap=True)
+
+
+def held_lines(held: HeldPoint) -> list[str]:
+    """Where the tool was to be held, and what came of it."""
+    part = held.part
+    reach = ", ".join(f"{first:.3f} to {last:.3f} m" for first, last in part.reach)
+    lines = [f"the arm reaches the point from the way's {reach}; held from {part.first:.3f} to {part.last:.3f} m"]
+    if not len(held.errors):
+        return [*lines, "the robot did not come so far"]
+    largest, mean = 1e3 * float(held.errors.max()), 1e3 * float(held.errors.mean())
+    seconds = float(held.time[-1] - held.time[0])
+    lines.append(
+        f"held for {seconds:.0f} s: the tool at most {largest:.2f} mm from the point, {mean:.2f} mm on average"
+    )
+    lines.append(
+        f"joints {part.room / DEGREE:.1f} deg and more inside their ranges, at most {100.0 * part.speed:.0f} % of their speed"
+    )
+    return lines
 
 
 def _steps(report: WalkReport) -> object:

@@ -94,16 +94,6 @@ def height_for(walker: Walker, low: Floats, high: Floats, lifts: Floats) -> floa
     return normal * min(most, max(least, legs.nominal - 0.5 * (longest + shortest)))
 
 
-def ground_slope(walker: Walker) -> Floats:
-    """How the ground rises along the world's x and y, by the plane through the feet that stand, shape (2,) [-]; flat with too few."""
-    stands = walker.stands > 0
-    if stands.sum() < 3:
-        return np.zeros(2)
-    table = np.column_stack([walker.anchors[stands], np.ones(int(stands.sum()))])
-    found = np.linalg.lstsq(table, walker.heights[stands], rcond=None)[0]
-    return np.array((found[0], found[1]))
-
-
 def find_ground(walker: Walker) -> list[int]:
     """Lower every foot that the ground does not carry until it does; before a robot lifts its first frame. Legs that find none."""
     return lower(walker, range(LEGS))
@@ -155,7 +145,7 @@ def expected_height(walker: Walker, i: int) -> float:
     if stands.sum() < 3:
         return float(walker.soles[i, 2])
     middle = walker.anchors[stands].mean(axis=0)
-    return float(walker.heights[stands].mean() + ground_slope(walker) @ (walker.soles[i, :2] - middle))
+    return float(walker.heights[stands].mean() + walker.ground_slope() @ (walker.soles[i, :2] - middle))
 
 
 def lift(walker: Walker, frame: int, *ends: Floats, by: float | None = None) -> None:
@@ -282,7 +272,7 @@ def _rises(walker: Walker, frame: int, end: Floats) -> Floats:
     """
     c, s = math.cos(end[2]), math.sin(end[2])
     feet = np.asarray(end[:2]) + walker.robot.feet()[frame] @ np.array(((c, s), (-s, c)))
-    against = ground_slope(walker) + walker.matrix[:2, 2] / walker.matrix[2, 2]
+    against = walker.ground_slope() + walker.matrix[:2, 2] / walker.matrix[2, 2]
     rises: Floats = (feet - walker.soles[list(walker.of_frame(frame)), :2]) @ against
     return rises
 

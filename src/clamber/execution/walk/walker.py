@@ -1,7 +1,7 @@
 """A walker on a plant: what it believes of itself, and one tick of sensing, reckoning, levelling and commanding."""
 
 import math
-from typing import Final
+from typing import Final, Protocol
 
 import numpy as np
 
@@ -52,6 +52,14 @@ class RefusedError(Exception):
 
     def __str__(self) -> str:
         return self.reason
+
+
+class ArmTask(Protocol):
+    """What the arm does while the robot walks."""
+
+    def aims(self, walker: "Walker") -> Floats:
+        """Where its joints go by the end of the coming period, by what the walker believes at this tick, shape (joints,) [rad]."""
+        ...
 
 
 def leg_name(i: int) -> str:
@@ -112,11 +120,13 @@ class Walker:
         """Joints of the arm as commanded [rad]."""
         self.arm_aims = self.arm.copy()
         """Where they go, each at its own fastest [rad]."""
+        self.arm_task: ArmTask | None = None
+        """What gives them at every tick; None: they stay."""
         self.touched: Ints = np.zeros(LEGS, np.int32)
         """For how many samples on end each foot has felt the ground."""
         self.ticks = self.kicks = 0
         self._kicked = 0.0
-        self._slope = np.zeros(2)
+        self._slope, self._loads = np.zeros(2), np.zeros(LEGS)
         self.left = 0.0
         """The longest way that a standing leg has still to go [m]."""
 
@@ -171,7 +181,7 @@ class Walker:
         self.heights += self.pose[2]
         soles_in_world(self.pose, self.places, self.sensed, self.soles, self.matrix)
         self.anchors[:] = self.soles[:, :2]
-        self._slope = self._load_slope()
+        self._slope, self._loads = self._load_slope(), self.forces.copy()
         self.wanted[:] = self.pose[2], self.pose[4], self.pose[5]
         self.height = self.wanted[0]
         self._trims[:] = np.where(self.stands, self.commanded - self.sensed, 0.0)
@@ -207,6 +217,7 @@ class Walker:
     def land(self, i: int) -> None:
         """A foot is on the ground and stays where it is."""
         self._stand_on(i, 1)
+        self._loads[i] = self.forces[i]
         self.anchors[i], self.heights[i] = self.soles[i, :2], self.soles[i, 2]
         self._trims[i], self.lengths[i] = self.commanded[i] - self.sensed[i], self.sensed[i]
 
@@ -241,6 +252,17 @@ class Walker:
         """Legs of a frame that stand or feel the ground."""
         return [i for i in self.of_frame(frame) if self.stands[i] or self.forces[i] > self.settings.touch]
 
+    def ground_slope(self) -> Floats:
+        """How the ground rises along the world's x and y, by the plane through the feet that stand, shape (2,) [-]; flat with too few."""
+        here = self.stands > 0
+        if here.sum() < 3:
+            return np.zeros(2)
+        about = self.anchors[here] - self.anchors[here].mean(axis=0)
+        (xx, xy), (_, yy) = about.T @ about
+        x, y = about.T @ self.heights[here]
+        spread = xx * yy - xy * xy
+        return np.array((yy * x - xy * y, xx * y - xy * x)) / spread if spread > 0.0 else np.zeros(2)
+
     def targets(self, posture: Floats, heights: Floats) -> Floats:
         """Lengths of all legs with the plate at z [m], beta, gamma [rad] over these heights, shape (6,) [m]."""
         z, beta, gamma = posture
@@ -274,6 +296,26 @@ class Walker:
             part * self.inclination.give * (self.places[here] - self.places[here].mean(axis=0)) @ change
         )
         self.inclination.sink(-part * change)
+        self._settle_in(share)
+
+    def _settle_in(self, share: float) -> None:
+        """Feet that take load sink in along the ground's normal, each to the side for itself, and all together downwards.
+
+        How deep single feet go makes the legs share the load or tilts the plate, and is known from that. What all go together, the plate
+        goes, and so does the height at which it is wanted: no leg moves for it.
+        """
+        here = self.stands > 0
+        change = np.where(here, share * (self.forces - self._loads), 0.0)
+        self._loads += change
+        slope = self.ground_slope()
+        give = self.inclination.give / (
+            1.0 + float(slope @ slope)
+        )  # of the force along the normal, the part that is upright
+        self.anchors += give * change[:, None] * slope
+        down = give * float(change[here].mean()) if here.any() else 0.0
+        self.heights[here] -= down
+        self.height -= down
+        self.wanted[0] -= down
 
     def _load_slope(self) -> Floats:
         """Of the plane through the loads, along the world's axes, for the plate's turn, shape (2,) [N/m]."""
@@ -340,5 +382,7 @@ class Walker:
 
     def _move_arm(self) -> None:
         if self.robot.arm is not None:
+            if self.arm_task is not None:
+                self.arm_aims[:] = self.arm_task.aims(self)
             most = self.period * np.array(self.robot.arm.fastest)
             self.arm += np.clip(self.arm_aims - self.arm, -most, most)

@@ -12,7 +12,7 @@ from ...control.quickest import Gait, quickest_way
 from ...control.track import Track
 from ...errors import UnitError, describe_choices
 from ...execution.plant import PlantStoppedError
-from ...execution.walk.course import TrackCourse
+from ...execution.walk.course import Course, TrackCourse
 from ...execution.walk.sequencer import Lay, Progress, WalkReport, WalkSequencer
 from ...execution.walk.settings import WalkSettings
 from ...execution.walk.true_walk import TracedPlant, TrueWalk
@@ -24,6 +24,7 @@ from ...sim.walker_plant import WalkerSim
 from ...tasks.walks import Walk
 from ...types import Floats, Json
 from ...units import parse_quantity
+from .held_point import HeldPoint, LaidHold, lay_hold
 from .noise import WalkNoise, named_walk_noise
 
 SETTINGS: Final[dict[str, str]] = {"friction": "ratio", "payload": "mass", "physics_rate": "frequency"}
@@ -46,6 +47,8 @@ class WalkRun:
     """As it was."""
     wall_seconds: float
     """That it took."""
+    held: HeldPoint | None = None
+    """Where the walk has a point to hold, and the way was laid."""
 
     @property
     def done(self) -> bool:
@@ -87,6 +90,8 @@ class WalkRun:
             "margin": self.margin if math.isfinite(self.margin) else None,
             "wall_seconds": self.wall_seconds,
         }
+        if self.held is not None:
+            told["hold"] = self.held.to_json()
         return self.report.to_json() | told
 
 
@@ -177,9 +182,17 @@ def run_walk(
     plant = TracedPlant(WalkerSim(walk.robot, walk.ground, drawn))
     how = WalkSettings(level=walk.level, probe=walk.probe) if settings is None else settings
     walker = TracedWalker(walk.robot, plant, settings=how, payload=walk.payload)
+    holds: list[LaidHold] = []
+
+    def lay_with_hold(pose: Floats) -> Course:
+        if walk.hold is not None:
+            holds.append(lay_hold(walker, lay_track(walk, pose), walk.hold))
+            holds[0].hold.start(walker)
+        return (lay or own_way(walk))(walker.frames()[0])
+
     sequencer = WalkSequencer(
         walker,
-        lay or own_way(walk),
+        lay_with_hold,
         calibrated=noise.widths["inclinometer_offset"] == 0.0,
         progress=progress,
     )
@@ -191,4 +204,6 @@ def run_walk(
             reason=f"fell: {fall}", seconds=walker.time, true_pose=tuple(map(float, plant.trace().pose[-1]))
         )
     notes = report.to_json() | {"walk": walk.name, "noise": noise.to_json(), "seed": seed}
-    return WalkRun(walk, report, walker.trace(notes), plant.trace(), time.perf_counter() - began)
+    true = plant.trace()
+    held = holds[0].as_it_was(true) if holds else None
+    return WalkRun(walk, report, walker.trace(notes), true, time.perf_counter() - began, held)

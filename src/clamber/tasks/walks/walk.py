@@ -63,6 +63,20 @@ class Piece:
 
 
 @spec
+class Hold:
+    """A point that the tool is held at while the robot walks past it, seen from where the way begins."""
+
+    x: Length
+    """Ahead of the Delta-frame's origin, along its heading [m]."""
+    y: Length
+    """To its left [m]."""
+    z: Length
+    """Above the middle of its feet [m]."""
+    within: PositiveLength = 0.5
+    """It is held from so far before the place of the way that is nearest to it until so far behind, where the arm can reach it [m]."""
+
+
+@spec
 class WalkSpec:
     """What a walk's file says beside its robot and its ground."""
 
@@ -81,6 +95,8 @@ class WalkSpec:
     """Joint angles of the arm [rad]; those of the robot's file unless given."""
     payload: NonNegativeMass = 0.0
     """Mass at the arm's tool point, which the robot knows of [kg]."""
+    hold: Hold | None = None
+    """A point that the tool is held at on the way; none unless given."""
 
 
 @spec
@@ -100,6 +116,7 @@ class Walk:
     """Joint angles [rad]; none without an arm."""
     payload: float
     """[kg]."""
+    hold: Hold | None = None
     document: Json = field(default_factory=dict)
     """Robot, ground and walk as read, with overrides applied: a worker rebuilds the walk from it."""
 
@@ -155,6 +172,8 @@ def build_walk(document: Document) -> Walk:
     joints = 0 if robot.arm is None else robot.arm.n_joints
     if stated.payload > 0.0 and robot.arm is None:
         raise document.problem("payload", "needs an arm to carry it, and the robot has none")
+    if stated.hold is not None and robot.arm is None:
+        raise document.problem("hold", "needs an arm, and the robot has none")
     if stated.arm is not None and len(stated.arm) != joints:
         raise document.problem("arm", f"must have {joints} entries, one for each joint of the robot's arm")
     rest = () if robot.arm is None else robot.arm.rest
@@ -169,6 +188,7 @@ def build_walk(document: Document) -> Walk:
         probe=stated.probe,
         arm=rest if stated.arm is None else stated.arm,
         payload=stated.payload,
+        hold=stated.hold,
         document=document.data,
     )
     _check_start(walk, document)

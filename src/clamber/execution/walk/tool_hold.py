@@ -1,0 +1,251 @@
+"""The tool held at a point of the world while the robot walks past it: where on the way that can be, and the arm's aims at every tick.
+
+The body belongs to the walk. The arm takes back what the plate does, as the robot reckons it: slides, lifts, levelling, feet that sink in.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Final, Literal
+
+import numpy as np
+
+from ...control.cooperative.closest import ReachSearch
+from ...control.cooperative.cooperator import Cooperator
+from ...control.cooperative.freedoms import weights_of
+from ...control.cooperative.holding import ToolHolder, reachable_part
+from ...control.cooperative.planted_feet import PlantedFeet
+from ...control.cooperative.settings import Cooperation, own_speeds
+from ...control.cooperative.tool_chain import POSE
+from ...control.track import Track
+from ...robots.walker import WalkerRobot
+from ...types import Floats, Json
+from .walker import RefusedError, Walker
+
+GRID: Final = 0.02
+"""Poses of the way that are looked at lie so far apart [m]; the ends of the part that can be held are bisected between them."""
+FINE: Final = 0.001
+"""To which the way's nearest place to the point is found [m]."""
+EDGE: Final = 0.03
+"""The tool comes so far inside where the arm can just reach, and leaves as early [m]: lifting moves the plate by a centimetre or two."""
+GENTLY: Final = 0.5
+"""Share of its joints' speed at which the arm comes and leaves [-]."""
+PEAK: Final = 1.875
+"""Largest speed of a quintic motion from rest to rest, over its mean [-]."""
+TOOL_SPEED: Final = 0.2
+"""By which the tool's motion is measured in the law [m/s]."""
+GAIN: Final = 0.5
+"""Of the manipulability's gradient: the joint that the tool leaves free goes where the arm moves best [-]."""
+
+
+@dataclass(frozen=True, slots=True)
+class HeldPart:
+    """Where the tool was to be held, and what became of it as the robot believes."""
+
+    point: tuple[float, float, float]
+    """World, as believed [m]."""
+    first: float
+    """Way of the Delta-frame from which on the tool is held [m] ..."""
+    last: float
+    """... and until where."""
+    reach: tuple[tuple[float, float], ...]
+    """Parts of the way, of what was asked for, where the arm can reach the point [m]."""
+    began: float | None
+    """When it was there [s]; None: the walk did not come so far."""
+    ended: float | None
+    """When it left [s]; None: it was held to the end of the walk."""
+    missed: float
+    """Farthest that the commanded tool was from the point by the believed pose [m]."""
+    room: float
+    """Least distance of a joint from an end of its range [rad]."""
+    speed: float
+    """Largest share of its speed that a joint had [-]."""
+
+    def to_json(self) -> Json:
+        """Plain data."""
+        return {name: getattr(self, name) for name in self.__slots__} | {
+            "point": list(self.point),
+            "reach": [list(part) for part in self.reach],
+        }
+
+
+class ToolHold:
+    """Moves the arm so that the tool comes to a point, stays there, and leaves it; a walker's `arm_task`.
+
+    Args:
+        walker: The robot, standing as it will walk.
+        track: Where its Delta-frame goes.
+        point: World, as the robot believes [m], shape (3,).
+        within: It is held from so far before the way's nearest place to it until so far behind [m].
+
+    Raises:
+        RefusedError: If the arm reaches it nowhere there; the margin is what is missing.
+    """
+
+    def __init__(self, walker: Walker, track: Track, point: Floats, within: float) -> None:
+        robot = walker.robot
+        assert robot.arm is not None, "only robots with an arm hold something"
+        self.point, self._arm = np.array(point, float), robot.arm
+        self._rest = walker.arm.copy()
+        self._ways = _spread(0.0, track.length, GRID)
+        self._poses = _plate_poses(walker, track, self._ways)
+        self._at = 0
+        asked = self._asked(track, within)
+        self.reach = self._find_reach(robot, asked, _plate_poses(walker, track, asked))
+        self.first, self.last = self._choose_part(asked)
+        speeds = own_speeds(robot)
+        settings = Cooperation(speeds=speeds, tool_speeds=np.full(3, TOOL_SPEED), gain=GAIN, period=walker.period)
+        footing = PlantedFeet(robot=robot, support="y", pose=self._poses[0])
+        self._law = Cooperator(robot, settings, footing, "arm")
+        self._weights = weights_of("arm", robot.arm.n_joints)
+        self._holder: ToolHolder | None = None
+        self._way = 0.0
+        self._joints = self._joints_at(walker)
+        self._lead = self._seconds(self._rest, self._joints) * float(np.hypot(*speeds[:2]))
+        self._state: Literal["away", "coming", "there", "holding", "leaving"] = "away"
+        self._set_out_at, self._from = 0.0, self._rest
+        self._times: list[float] = []
+        self._missed, self._room, self._speed = 0.0, math.inf, 0.0
+
+    def start(self, walker: Walker) -> None:
+        """Take the arm over; where the way begins so near, the tool comes to the point before the robot goes on.
+
+        Raises:
+            FallenError: If the robot falls.
+        """
+        walker.arm_task = self
+        while self.way_of(walker.pose) >= self.first - self._lead and self._state in ("away", "coming"):
+            walker.tick()
+
+    def aims(self, walker: Walker) -> Floats:
+        """Where the arm's joints go by the end of the coming period, shape (joints,) [rad]."""
+        way, now = self.way_of(walker.pose), walker.time
+        self._way = way
+        if self._state == "away" and way >= self.first - self._lead:
+            self._joints = self._joints_at(walker)
+            self._set_out("coming", walker)
+        if self._state == "coming":
+            aims, there = self._between(self._joints, now)
+            if there:
+                self._state = "there"
+                self._holder = ToolHolder(self._law, np.concatenate([self._at_first(walker), aims]))
+            return aims
+        if self._state == "there":
+            if way < self.first:
+                return self._step(self._at_first(walker))
+            self._state = "holding"
+            self._times.append(now)
+        if self._state == "holding":
+            if way <= self.last:
+                return self._hold(walker)
+            self._times.append(now)
+            self._set_out("leaving", walker)
+        if self._state == "leaving":
+            return self._between(self._rest, now)[0]
+        return self._rest
+
+    def way_of(self, pose: Floats) -> float:
+        """How far on the way the plate is [m]; it never goes back."""
+        k = self._at
+        while k + 1 < len(self._ways) and self._off(k + 1, pose) <= self._off(k, pose):
+            k += 1
+        self._at = k
+        a, b = self._poses[max(0, k - 1)], self._poses[min(len(self._poses) - 1, k + 1)]
+        forward = (b - a)[:2]
+        length = float(np.hypot(*forward))
+        along = float(forward @ (pose - self._poses[k])[:2]) / length if length > 1e-9 else 0.0
+        return float(self._ways[k]) + min(GRID, max(-GRID, along))
+
+    def told(self) -> HeldPart:
+        """What became of it so far."""
+        began, ended = (*self._times, None, None)[:2]
+        x, y, z = self.point.tolist()
+        return HeldPart(
+            (x, y, z), self.first, self.last, self.reach, began, ended, self._missed, self._room, self._speed
+        )
+
+    def _hold(self, walker: Walker) -> Floats:
+        aims = self._step(walker.pose)
+        off = float(np.linalg.norm(self._law.place(np.concatenate([walker.pose, aims])) - self.point))
+        low, high = np.array(self._arm.lowest), np.array(self._arm.highest)
+        share = np.abs(aims - walker.arm) / (walker.period * np.array(self._arm.fastest))
+        self._missed = max(self._missed, off)
+        self._room = min(self._room, float(np.minimum(aims - low, high - aims).min()))
+        self._speed = max(self._speed, float(share.max()))
+        return aims
+
+    def _step(self, pose: Floats) -> Floats:
+        assert self._holder is not None, "the arm is there before it holds"
+        joints: Floats = self._holder.step(pose, self.point, self._weights).q[POSE:]
+        return joints
+
+    def _at_first(self, walker: Walker) -> Floats:
+        """The plate as it is now, but where the tool is first held: what lifting and levelling do to it counts before it is there."""
+        pose = walker.pose.copy()
+        there = np.array([np.interp(self.first, self._ways, column) for column in self._poses.T])
+        here = np.array([np.interp(self._way, self._ways, column) for column in self._poses.T])
+        pose[:4] += (there - here)[:4]
+        return pose
+
+    def _set_out(self, state: Literal["coming", "leaving"], walker: Walker) -> None:
+        self._state, self._set_out_at, self._from = state, walker.time, walker.arm.copy()
+
+    def _between(self, goal: Floats, now: float) -> tuple[Floats, bool]:
+        """A quintic motion in the joints, and whether it is over."""
+        u = min(1.0, (now - self._set_out_at) / max(1e-9, self._seconds(self._from, goal)))
+        share = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u)
+        return self._from + share * (goal - self._from), u >= 1.0
+
+    def _seconds(self, a: Floats, b: Floats) -> float:
+        return PEAK * float((np.abs(b - a) / np.array(self._arm.fastest)).max()) / GENTLY
+
+    def _off(self, k: int, pose: Floats) -> float:
+        return float(np.hypot(*(pose - self._poses[k])[:2])) + abs(float(pose[3] - self._poses[k, 3])) * GRID
+
+    def _asked(self, track: Track, within: float) -> Floats:
+        """Ways between which the tool is to be held, as far as the track goes [m]."""
+        ways = _spread(0.0, track.length, FINE)
+        away = [float(np.hypot(*(track.pose(float(way))[:2] - self.point[:2]))) for way in ways]
+        nearest = float(ways[int(np.argmin(away))])
+        return _spread(max(0.0, nearest - within), min(track.length, nearest + within), GRID)
+
+    def _find_reach(self, robot: WalkerRobot, ways: Floats, poses: Floats) -> tuple[tuple[float, float], ...]:
+        found = reachable_part(robot, poses, self.point)
+        if not found.parts:
+            short = float(found.distances.min())
+            raise RefusedError(
+                f"the arm reaches the point to hold nowhere from way {ways[0]:.2f} m to {ways[-1]:.2f} m: "
+                f"{1e3 * short:.0f} mm are missing where it comes nearest",
+                -short,
+            )
+        at = np.arange(len(ways), dtype=np.float64)
+        return tuple((float(np.interp(a, at, ways)), float(np.interp(b, at, ways))) for a, b in found.parts)
+
+    def _choose_part(self, asked: Floats) -> tuple[float, float]:
+        """The longest one; where it ends with the arm's reach, from `EDGE` inside."""
+        first, last = max(self.reach, key=lambda part: part[1] - part[0])
+        inside = min(EDGE, 0.5 * (last - first))
+        return first + inside * (first > asked[0]), last - inside * (last < asked[-1])
+
+    def _joints_at(self, walker: Walker) -> Floats:
+        """Joints that bring the tool to the point from where it is first held, near those at rest."""
+        pose, rest = self._at_first(walker), self._rest.copy()
+        x, y = self.point[:2] - pose[:2]
+        low, high = self._arm.lowest[0], self._arm.highest[0]
+        rest[0] = min(high, max(low, math.remainder(math.atan2(y, x) - pose[3], math.tau)))
+        footing = PlantedFeet(robot=walker.robot, support="y", pose=pose)
+        search = ReachSearch(walker.robot, footing, self._weights, kept="arm")
+        return search.find(np.concatenate([pose, rest]), self.point).q[POSE:]
+
+
+def _spread(first: float, last: float, gap: float) -> Floats:
+    """Evenly from first to last, both included, at most `gap` apart [m]."""
+    return np.linspace(first, last, max(2, math.ceil((last - first) / gap - 1e-9) + 1))
+
+
+def _plate_poses(walker: Walker, track: Track, ways: Floats) -> Floats:
+    """The plate along a track at its present height over the ground, which goes on as under its feet, shape (ways, 6)."""
+    flat = np.array([track.pose(float(way)) for way in ways])
+    poses = np.tile(walker.pose, (len(ways), 1))
+    poses[:, :2], poses[:, 3] = flat[:, :2], flat[:, 2]
+    poses[:, 2] += (flat[:, :2] - walker.pose[:2]) @ walker.ground_slope()
+    return poses

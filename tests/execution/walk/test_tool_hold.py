@@ -1,0 +1,113 @@
+"""A tool that is held at a point while the robot walks past it, on legs that stand on springs."""
+
+import math
+
+import numpy as np
+import pytest
+from spring_walks import BEST, RADIUS, ROBOT, stood
+from springs_walker import SpringsWalker, flat, slope
+
+from clamber.control.track import straight
+from clamber.execution.walk.course import TrackCourse
+from clamber.execution.walk.sequencer import WalkSequencer
+from clamber.execution.walk.settings import WalkSettings
+from clamber.execution.walk.tool_hold import ToolHold
+from clamber.execution.walk.walker import RefusedError
+from clamber.types import Floats
+
+ARM = ROBOT.arm
+assert ARM is not None
+
+
+def tool_of(pose: Floats, joints: Floats) -> Floats:
+    """Place of the tool, link by link, for a plate that is level but for a turn."""
+    assert ARM is not None
+    turn = pose[3] + joints[0]
+    out, up, pitch = ARM.out, ARM.up, 0.0
+    for length, joint in zip(ARM.links, joints[1:], strict=True):
+        pitch += joint
+        out += length * math.cos(pitch)
+        up += length * math.sin(pitch)
+    place: Floats = pose[:3] + np.array((out * math.cos(turn), out * math.sin(turn), up))
+    return place
+
+
+class Watched(SpringsWalker):
+    """Keeps the commanded joints and the true plate of every tick."""
+
+    def reset(self, pose: Floats, place: Floats, legs: Floats, arm: Floats) -> None:
+        super().reset(pose, place, legs, arm)
+        self.kept: list[tuple[float, Floats, Floats]] = []
+
+    def step(self) -> None:
+        super().step()
+        self.kept.append((self.time, self.truth().pose, self.arm.copy()))
+
+
+def test_the_tool_comes_stays_and_leaves_within_range_and_speed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("spring_walks.SpringsWalker", Watched)
+    walker, plant = stood(flat, noise=0.0)
+    holds: list[ToolHold] = []
+
+    def lay(pose: Floats) -> TrackCourse:
+        track = straight(pose, BEST, 0.3, RADIUS)
+        point = np.array((0.3, 0.17, walker.pose[2] + 0.2))
+        holds.append(ToolHold(walker, track, point, 0.06))
+        holds[0].start(walker)
+        return TrackCourse(track)
+
+    report = WalkSequencer(walker, lay).run()
+    assert report.done, report.reason
+    told = holds[0].told()
+    assert told.began is not None
+    assert told.ended is not None
+    assert told.missed < 1e-5
+    assert isinstance(plant, Watched)
+    held = [(pose, joints) for time, pose, joints in plant.kept if told.began < time <= told.ended]
+    ys = np.array([pose[1] for pose, _ in held])
+    assert ys.min() == pytest.approx(told.first, abs=3e-3)
+    assert ys.max() == pytest.approx(told.last, abs=3e-3)
+    errors = [float(np.linalg.norm(tool_of(pose, joints) - told.point)) for pose, joints in held]
+    assert max(errors) < 3e-3  # the plate's tilt is left out, and what the robot is off by its own reckoning
+    assert ARM is not None
+    arms = np.array([joints for _, _, joints in plant.kept])
+    assert (arms >= np.array(ARM.lowest) - 1e-9).all()
+    assert (arms <= np.array(ARM.highest) + 1e-9).all()
+    assert (np.abs(np.diff(arms, axis=0)) <= walker.period * np.array(ARM.fastest) + 1e-9).all()
+    np.testing.assert_allclose(arms[-1], ARM.rest, atol=1e-6)
+
+
+def test_the_reach_that_is_told_is_that_of_the_stretched_arm() -> None:
+    walker, _ = stood(flat, noise=0.0)
+    assert ARM is not None
+    height = 0.1
+    track = straight(np.array((0.0, 0.0, 0.0)), BEST, 2.0, RADIUS)
+    point = np.array((0.3, 1.0, walker.pose[2] + ARM.up + height))
+    hold = ToolHold(walker, track, point, 0.9)
+    along = math.sqrt((ARM.out + math.sqrt(sum(ARM.links) ** 2 - height**2)) ** 2 - 0.3**2)
+    np.testing.assert_allclose(hold.reach, [(1.0 - along, 1.0 + along)], atol=1e-3)
+    assert hold.reach[0][0] < hold.first < hold.last < hold.reach[0][1]
+
+
+def test_a_point_out_of_reach_is_refused_with_what_is_missing() -> None:
+    walker, _ = stood(flat)
+    track = straight(np.zeros(3), BEST, 0.2, RADIUS)
+    assert ARM is not None
+    away = 1.2
+    point = np.array((away, 0.1, walker.pose[2] + ARM.up))
+    with pytest.raises(RefusedError, match="nowhere") as refused:
+        ToolHold(walker, track, point, 0.05)
+    assert refused.value.margin == pytest.approx(ARM.out + sum(ARM.links) - away, abs=1e-3)
+
+
+@pytest.mark.parametrize("uphill", [None, BEST])
+def test_feet_that_sink_in_do_not_raise_what_is_believed(uphill: float | None) -> None:
+    """The springs give 0.9 mm under a frame that carries alone; without reckoning with it, every step would add as much."""
+    ground = flat if uphill is None else slope(math.radians(5.0), uphill)
+    walker, _ = stood(ground, noise=0.0, settings=WalkSettings(longest=0.08))
+    sequencer = WalkSequencer(walker, lambda pose: TrackCourse(straight(pose, BEST, 0.25, RADIUS)))
+    off = walker.pose[2] - walker.plant.truth().pose[2]  # type: ignore[union-attr]
+    report = sequencer.run()
+    assert report.done, report.reason
+    assert len(report.steps) > 5
+    assert walker.pose[2] - walker.plant.truth().pose[2] - off == pytest.approx(0.0, abs=1.5e-3)  # type: ignore[union-attr]

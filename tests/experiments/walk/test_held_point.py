@@ -1,0 +1,56 @@
+"""The tool held at a point of the world while the robot walks past it on a slope, in contact dynamics."""
+
+import math
+
+import numpy as np
+import pytest
+
+from clamber.experiments.walk.run_walk import run_walk, walk_flaws
+from clamber.tasks.walks import load_walk
+
+HOLD = "hold={ x = '15 cm', y = '0.3 m', z = '0.6 m', within = '%s' }"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("uphill", [0.0, 90.0, 180.0])
+def test_the_tool_stays_within_millimetres_while_the_robot_walks_past(uphill: float) -> None:
+    walk = load_walk("slope-walk", (HOLD % "10 cm", "way.0.distance=30cm", f"ground.uphill={uphill}deg"))
+    run = run_walk(walk, walk_flaws(walk, ()))
+    assert run.done, run.reason
+    held = run.held
+    assert held is not None
+    np.testing.assert_allclose(held.part.reach, [(0.05, 0.25)], atol=2e-3)
+    assert (held.part.first, held.part.last) == held.part.reach[0]  # all of it is well within reach
+    # what is measured is the plant's own tool point, against the point as it truly lies beside the start
+    rows = np.isin(run.true.time, held.time)
+    gone = run.true.pose[rows, 0]
+    assert gone.max() - gone.min() > 0.19
+    assert np.ptp(run.true.tool[rows], axis=0).max() < 4e-3
+    assert held.errors.max() < 2.5e-3
+    np.testing.assert_allclose(held.point[:2], (0.15, 0.3), atol=1e-3)
+    assert run.tilt < math.radians(0.1)
+    assert run.margin > 0.05
+    told = run.to_json()["hold"]
+    assert told["largest_error"] == held.errors.max()
+    assert told["held_seconds"] > 60.0
+
+
+def test_a_point_that_the_arm_cannot_reach_is_refused_before_a_step() -> None:
+    walk = load_walk("slope-walk", ("hold={ x = '10 cm', y = '1.5 m', z = '0.6 m' }", "way.0.distance=20cm"))
+    run = run_walk(walk, walk_flaws(walk, ()))
+    assert not run.done
+    assert "nowhere" in run.reason
+    assert run.report.steps == []
+    assert "hold" not in run.to_json()
+
+
+@pytest.mark.slow
+def test_a_robot_knows_where_it_walks_up_though_its_feet_sink_in() -> None:
+    """Feet sink in along the slope's normal: reckoned as rigid, each step of a frame adds 0.3 mm of way and 0.6 mm of height."""
+    walk = load_walk("slope-walk", ("way.0.distance=30cm",))
+    run = run_walk(walk, walk_flaws(walk, ()))
+    trace = run.trace
+    assert trace.true_pose is not None
+    off = (trace.believed - trace.true_pose)[trace.time > run.report.prepared, :3]
+    assert len(run.report.steps) > 5
+    assert np.abs(off[-1] - off[0]).max() < 0.8e-3
