@@ -180,7 +180,10 @@ def run_walk(
     walk = walk.with_seed(seed)
     drawn = noise.flaws(flaws, seed) if any(noise.widths.values()) else flaws
     plant = TracedPlant(WalkerSim(walk.robot, walk.ground, drawn))
-    how = WalkSettings(level=walk.level, probe=walk.probe) if settings is None else settings
+    how = settings
+    if how is None:
+        # a plan knows of steps between its footholds, the walker does not: its feet stay up until they are over the next
+        how = WalkSettings(level=walk.level, probe=walk.probe, clear=WalkSettings().clear if lay is None else None)
     walker = TracedWalker(walk.robot, plant, settings=how, payload=walk.payload)
     holds: list[LaidHold] = []
 
