@@ -24,6 +24,7 @@ from clamber.errors import PlannerError, UnknownNameError
 from clamber.planning.exact.explore import explore
 from clamber.planning.reach.layers import LAYERS, LayerError, choose_layer, layers_of
 from clamber.planning.reach.reach import Reach, find_reach
+from clamber.statics.checks import LIMBED_CHECKS
 from clamber.statics.records import TICKS
 from clamber.tasks import Task, load_task
 from clamber.viewing.margins import all_limiting
@@ -185,7 +186,7 @@ def test_the_payload_is_where_the_judge_begins_to_say_no(overrides: tuple[str, .
 def holds_with(overrides: tuple[str, ...], weight: float, stances: np.ndarray) -> list[bool]:
     """Whether stances hold for a robot of another weight, by the problem of that robot."""
     params = limbed_params(load_task("ladder", (*overrides, f"robot.weight={weight:.12g}N")), every_check=False)
-    after, margins, reasons = np.zeros(2, stances.dtype), np.zeros((1, 15)), np.zeros(1, np.int32)
+    after, margins, reasons = np.zeros(2, stances.dtype), np.zeros((1, len(LIMBED_CHECKS))), np.zeros(1, np.int32)
     found = []
     for i in range(len(stances)):
         replay(params.record, stances[i : i + 1], NONE, True, after, margins, reasons)

@@ -58,7 +58,7 @@ def steps(problem: LimbedProblem, seed: int, length: int) -> list[int]:
             np.array([code], np.int32),
             True,
             stances,
-            np.zeros((1, 15)),
+            np.zeros((1, len(problem.checks))),
             np.zeros(1, np.int32),
         )
         now = stances[1:]
@@ -375,7 +375,15 @@ def crowded_grabs(problem: LimbedProblem) -> set[tuple[int, int]]:
             reasons = np.zeros(1, np.int32)
             if h not in held:
                 code = np.array([pack(codes.HOLD, i, h)], np.int32)
-                replay(problem.params.record, start, code, True, np.zeros(2, start.dtype), np.zeros((1, 15)), reasons)
+                replay(
+                    problem.params.record,
+                    start,
+                    code,
+                    True,
+                    np.zeros(2, start.dtype),
+                    np.zeros((1, len(problem.checks))),
+                    reasons,
+                )
                 if reasons[0] < 0:
                     good.add((i, h))
     return good

@@ -89,7 +89,7 @@ def test_a_forced_plan_that_falls_leaves_with_1_and_a_whole_log(run: Any, tmp_pa
         (("ladder", "--peg-error", "3"), "unit"),
         (("ladder", "--planner", "magic"), "genetic"),
         (("ladder", "-o", "run.txt"), ".mcap"),
-        (("patch-walk",), "climber"),
+        (("patch-walk", "--peg-error", "3mm"), "--peg-error"),
         (("nowhere",), "ladder"),
         (("missing.json",), "missing.json"),
     ],
