@@ -129,7 +129,7 @@ def plan_to_climb(
             break
     found.sort(key=lambda each: each[0])
     if found:
-        return found[0][1] if rehearse is None else _rehearsed([plan for _, plan in found], task, rehearse)
+        return found[0][1] if rehearse is None else _rehearsed(found, task, rehearse)
     try:
         result = search(task)
     except StartError:  # it stands where no plan may begin
@@ -137,13 +137,13 @@ def plan_to_climb(
     return result.plan if result.has_plan else None
 
 
-def _rehearsed(plans: list[Plan], task: LimbedTask, rehearse: Rehearse) -> Plan:
-    """The first plan whose rehearsal is flawless, or the one that did best, the easier of equals."""
-    best, most = plans[0], None
+def _rehearsed(found: list[tuple[float, Plan]], task: LimbedTask, rehearse: Rehearse) -> Plan:
+    """The first plan whose rehearsal is flawless, or the one that did best, the easier of equals; by hardship, infinite where refused."""
+    best, most = found[0][1], None
     seen: set[bytes] = set()
-    for plan in plans:
+    for hardship, plan in found:
         codes = plan.codes(task).tobytes()
-        if codes in seen or lay_course(task, plan).objections:
+        if codes in seen or math.isinf(hardship):
             continue
         seen.add(codes)
         done = rehearse(task, plan)

@@ -40,13 +40,13 @@ def with_plan(
         NoiseError: If a width is more than what there is of it.
         StoreError: If the file can't be the store of these trials.
     """
-    check_noise(setup.noise, setup.task.robot, climbing_flaws(setup.task, setup.plant))
+    flaws = climbing_flaws(setup.task, setup.plant)
+    check_noise(setup.noise, setup.task.robot, flaws)
     kept = _kept(setup, store)
     plan, planned = setup.plan, setup.plan is None
     if plan is None and kept is not None and kept.note is not None:
         plan = Plan.from_json(kept.note, "plan of the store")
     if plan is None:
-        flaws = climbing_flaws(setup.task, setup.plant)
         plan = plan_to_climb(
             setup.task, setup.planner, seconds=setup.seconds, seed=PLAN_SEED, cut=cut,
             rehearse=lambda task, plan: rehearse(task, plan, flaws),
