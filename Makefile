@@ -68,7 +68,7 @@ study: setup  ## one paper's results, ours beside the printed ones: make study S
 
 # The lock file carries hashes and no address of a package index.
 lock: setup  ## renew requirements.txt after a change of the dependencies in pyproject.toml
-	$(BIN)/pip-compile --quiet --extra dev --extra bench --extra video --extra ray --allow-unsafe --generate-hashes --strip-extras \
+	$(BIN)/pip-compile --quiet --extra dev --extra docs --extra view --extra bench --extra video --extra ray --allow-unsafe --generate-hashes --strip-extras \
 		--no-header --no-emit-index-url --no-emit-find-links --no-emit-trusted-host --no-emit-options \
 		-o requirements.txt pyproject.toml
 

@@ -16,7 +16,20 @@ PACKAGE = ROOT / "src" / "clamber"
 PAGE = ROOT / "docs" / "architecture.md"
 BASE = "base"
 # Slow to import, or optional. `pyproject.toml` bans the same at module level (TID253).
-HEAVY = {"matplotlib", "mujoco", "ray", "deap", "pymoo", "pygad", "imageio_ffmpeg", "mcap", "mink", "pink", "pinocchio"}
+HEAVY = {
+    "matplotlib",
+    "mujoco",
+    "ray",
+    "deap",
+    "pymoo",
+    "pygad",
+    "imageio_ffmpeg",
+    "mcap",
+    "mink",
+    "pink",
+    "pinocchio",
+    "viser",
+}
 MAY_LOAD_HEAVY = {"viewing": {"matplotlib"}, "sim": {"mujoco"}}
 COMPILERS = {"njit", "jit", "vectorize", "guvectorize", "cfunc", "stencil", "generated_jit"}
 CHOOSERS = {PACKAGE / "actions" / "family.py"}  # hold no kernel, but choose one while compiling
