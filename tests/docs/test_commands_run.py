@@ -9,7 +9,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from told_commands import ROOT, Told, pages, told_by
+from told_commands import ROOT, Told, files_of, pages, told_by
 
 HOW = tomllib.loads((Path(__file__).parent / "shorter.toml").read_text())
 BLOCKS = {page.relative_to(ROOT).as_posix(): [told for told in told_by(page) if told.block] for page in pages()}
@@ -34,6 +34,9 @@ def code_of(told: Told) -> int:
 @pytest.mark.parametrize("page", [page for page, told in BLOCKS.items() if told])
 def test_commands_of_the_page_run(page: str, tmp_path: Path) -> None:
     plain = os.environ | {"NO_COLOR": "1", "COLUMNS": "80"}
+    for beside in (ROOT / page).parent.glob("*.md"):  # what a page's commands work on may stand on the page before
+        for name, content in files_of(beside).items():
+            (tmp_path / name).write_text(content)
     for told in BLOCKS[page]:
         if elsewhere(told.text):
             continue

@@ -8,6 +8,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 BEGIN = re.compile(r"(?:\.venv/bin/)?clamber(?= |$)")
+FILE = re.compile(r"# ([\w./-]+\.\w+)\n")
 PLACEHOLDER = re.compile(r"\b[A-Z]{3,}(?:\.\w+)?\b|\.\.\.| N\b|\bS\b")
 
 
@@ -49,6 +50,16 @@ def told_by(page: Path) -> Iterator[Told]:
             for inline in re.findall(r"`(clamber [^`]+)`", line):
                 for words in _split(inline.replace("\\|", "|")):
                     yield Told(name, number, words, block=False)
+
+
+def files_of(page: Path) -> dict[str, str]:
+    """Name -> content of the whole files that a page shows: blocks whose first line is a comment of their name alone."""
+    found = {}
+    for block in re.findall(r"^```\w+\n(.*?)^```$", page.read_text(), re.DOTALL | re.MULTILINE):
+        named = FILE.match(block)
+        if named:
+            found[named[1]] = block
+    return found
 
 
 def _whole_lines(text: str) -> Iterator[tuple[int, str]]:
