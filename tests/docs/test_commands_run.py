@@ -30,13 +30,26 @@ def code_of(told: Told) -> int:
     return 1 if any(re.search(rule["say"], told.text) for rule in HOW["no"]) else 0
 
 
+def install(package: Path, target: Path) -> Path:
+    """What `pip install` does, into a folder of its own: the machine's packages stay as they are, and nothing is fetched."""
+    words = ("install", "-q", "--no-deps", "--no-build-isolation", "--no-index", "--target", str(target / package.name))
+    subprocess.run([sys.executable, "-m", "pip", *words, str(package)], check=True, capture_output=True)
+    return target / package.name
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("page", [page for page, told in BLOCKS.items() if told])
 def test_commands_of_the_page_run(page: str, tmp_path: Path) -> None:
     plain = os.environ | {"NO_COLOR": "1", "COLUMNS": "80"}
     for beside in (ROOT / page).parent.glob("*.md"):  # what a page's commands work on may stand on the page before
         for name, content in files_of(beside).items():
+            (tmp_path / name).parent.mkdir(exist_ok=True)
             (tmp_path / name).write_text(content)
+    installed = [
+        install(package.parent, tmp_path / "installed") for package in sorted(tmp_path.glob("*/pyproject.toml"))
+    ]
+    if installed:
+        plain["PYTHONPATH"] = os.pathsep.join([*map(str, installed), os.environ.get("PYTHONPATH", "")])
     for told in BLOCKS[page]:
         if elsewhere(told.text):
             continue
