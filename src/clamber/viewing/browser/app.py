@@ -5,19 +5,29 @@ import socket
 import sys
 from typing import TYPE_CHECKING, Final
 
+from ...actions.plan import Plan
 from ...errors import ClamberError
+from ...experiments.climb.run_plan import ClimbRun
+from ...experiments.walk.run_walk import WalkRun
+from ...tasks import Task
+from ...tasks.limbed import LimbedTask
 from .. import style
+from .board_panel import BoardPanel
 from .climb_scenery import FOV
-from .exhibit import Exhibit
+from .exhibit import Exhibit, planned_exhibit, run_film
+from .inputs import by_hand, set_input
 from .playback import Playback
 from .scenery import Camera
 from .solids import colour
 from .stage import Stage
+from .wall_scene import WallScene
+from .work_panel import WorkPanel
 
 if TYPE_CHECKING:
     import viser
 
 LOOPBACK: Final = "127.0.0.1"
+SHOWN: Final = ("plan", "run", "both")
 WIDTH: Final = 400.0
 """Of the panel [pixels]."""
 
@@ -100,11 +110,62 @@ class App:
         self.stage.shown = "both" if len(self.stage.films) > 1 else "plan"
         tabs = server.gui.add_tab_group()
         with tabs.add_tab("Play", viser.Icon.PLAYER_PLAY):
+            self._shown = server.gui.add_dropdown("show", SHOWN, initial_value="both", visible=False)
             self.stage.add_head()
             self.playback = Playback(server, self.stage.show, self.stage.main)
             self.stage.add_details()
-        self.playback.seek(0.0)
+        self._shown.on_update(by_hand(lambda _: self.choose(self._shown.value)))
+        self.work: WorkPanel | None = None
+        self.board: BoardPanel | None = None
+        if exhibit.task is not None:
+            limbed = isinstance(exhibit.task, LimbedTask)
+            with tabs.add_tab("Board" if limbed else "Plan", viser.Icon.EDIT if limbed else viser.Icon.ROUTE):
+                self._add_work(exhibit.task)
+        self.choose("both")
         aim_camera(server, exhibit.scenery.camera())
+
+    def choose(self, shown: str) -> None:
+        """Show the plan, the run, or both, as far as they are there."""
+        stage = self.stage
+        stage.shown = "plan" if shown == "plan" else "run" if shown == "run" else "both"
+        self._shown.visible = len(stage.films) > 1
+        set_input(self._shown, stage.shown)
+        self.playback.load(stage.main)
+
+    def show_task(self, task: Task, plan: Plan | None = None) -> None:
+        """Show a task with a plan, or its start.
+
+        Raises:
+            ClamberError: If its start violates a hard check.
+        """
+        self.exhibit = exhibit = planned_exhibit(task, plan)
+        with self.playback.still():
+            self.stage.set_scenery(exhibit.scenery)
+            self.stage.set_film("plan", exhibit.plan_film)
+            self.choose("plan")
+
+    def show_run(self, run: ClimbRun | WalkRun) -> None:
+        """Play a run beside its plan."""
+        self.exhibit.run_film = run_film(self.exhibit, run)
+        with self.playback.still():
+            self.stage.set_film("run", self.exhibit.run_film)
+            self.choose("both")
+        self.playback.play(True)
+
+    def _add_work(self, task: Task) -> None:
+        if isinstance(task, LimbedTask):
+            self.board = BoardPanel(self.server, task, self._wall, self.show_task)
+        self.work = WorkPanel(
+            self.server,
+            (lambda: task) if self.board is None else self.board.task,
+            lambda: self.exhibit.plan,
+            self.show_task,
+            lambda task, plan, run: self.show_run(run),
+        )
+
+    def _wall(self) -> WallScene:
+        assert isinstance(self.stage.world, WallScene)  # a climber's
+        return self.stage.world
 
     @property
     def url(self) -> str:
@@ -114,7 +175,9 @@ class App:
         return f"http://{shown}:{self.server.get_port()}"
 
     def close(self) -> None:
-        """End the clock and the server."""
+        """End the work, the clock and the server."""
+        if self.work is not None:
+            self.work.labour.stop(wait=1.0)
         self.playback.stop()
         with contextlib.redirect_stdout(sys.stderr):  # its last words are no result of ours
             self.server.stop()
@@ -128,10 +191,11 @@ def aim_camera(server: "viser.ViserServer", at: Camera) -> None:
 
 
 def light_scene(server: "viser.ViserServer") -> None:
-    """Set light and background."""
-    server.scene.set_up_direction("+z")
-    server.scene.configure_default_lights(enabled=True, cast_shadow=True)
-    server.scene.configure_environment_map(None)  # plain lights look the same on every machine, and cost less
-    server.scene.add_light_hemisphere(
-        "/lights/sky", sky_color=(255, 255, 255), ground_color=(190, 190, 200), intensity=1.6
-    )
+    """Set light and background: the sun comes over the viewer's left shoulder, and shadows are soft."""
+    scene = server.scene
+    scene.set_up_direction("+z")
+    scene.configure_default_lights(enabled=False)
+    scene.configure_environment_map(None)  # plain lights look the same on every machine, and cost less
+    white = (255, 255, 255)
+    scene.add_light_hemisphere("/lights/sky", sky_color=white, ground_color=(170, 170, 180), intensity=1.5)
+    scene.add_light_directional("/lights/sun", color=white, intensity=2.0, cast_shadow=True, position=(-2.0, -5.0, 4.0))

@@ -22,9 +22,9 @@ BODY: Final = (2.2, 5.4)
 """Where the body begins and ends, likewise [-]."""
 GRIP_POINTS: Final = 12
 """Corners of the line that an end effector is drawn as."""
-GRADES: Final = (style.ALERT, "#F2A65A", style.BODY, style.BODY)
+GRADES: Final = (style.ALERT, "#F2A65A", "#9FADBA", "#9FADBA")
 """Colour of the body by the smallest margin of its stance (`margins.grade`)."""
-HEAT: Final = ((0.0, "#4E9F6D"), (0.5, "#C8B23C"), (0.8, "#E8833A"), (0.95, style.ALERT))
+HEAT: Final = ((0.0, "#1E8A4C"), (0.5, "#C9A800"), (0.8, "#E06A10"), (0.95, style.ALERT))
 """Colour of a joint from a share of its torque limit on."""
 
 
@@ -55,7 +55,7 @@ class ClimberFigure:
         self._body = server.scene.add_mesh_simple(
             f"{name}/body",
             *prism(corners, BODY[0] * self._radius, BODY[1] * self._radius),
-            color=colour(style.BODY),
+            color=colour(GRADES[3]),
             flat_shading=True,
             opacity=opacity if self._ghost else None,
             cast_shadow=not self._ghost,

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from .. import style
 from .film import Film
+from .inputs import by_hand, set_input
 from .solids import colour
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ class Playback:
         self._first = 0
         self._play.on_click(lambda _: self.toggle())
         self._jumps.on_click(lambda event: self._jump(event.target.value))
-        self._bar.on_update(self._bar_dragged)
+        self._bar.on_update(by_hand(self._bar_dragged))
         for row, button in enumerate(self._list):
             button.on_click(self._jumper(row))
         gui.add_command("Play or pause", hotkey="P").on_trigger(lambda _: self.toggle())
@@ -70,7 +71,7 @@ class Playback:
             self.film, self._listed = film, (-1, -1)
             self.play(False)
             self._bar.max = max(film.seconds, 0.01)
-            _set(self._speed, f"{film.speed:g} ×")
+            set_input(self._speed, f"{film.speed:g} ×")
             self._play.disabled = self._bar.disabled = film.seconds <= 0.0
             self.seek(at)
 
@@ -93,6 +94,10 @@ class Playback:
             self.play(False)
             self.seek(float(self.film.ends[step]))
 
+    def still(self) -> threading.RLock:
+        """A `with` block in which no moment is shown by the clock: what is shown may change."""
+        return self._lock
+
     def seek(self, time: float) -> None:
         """Show a time [s]; the clock goes on from there if it runs."""
         with self._lock:
@@ -113,9 +118,7 @@ class Playback:
             {"|◀": 0, "◀ step": self.step - 1, "step ▶": self.step + 1}.get(word, self.step if worst is None else worst)
         )
 
-    def _bar_dragged(self, event: "viser.GuiEvent[Any]") -> None:
-        if event.client is None:  # the clock's own
-            return
+    def _bar_dragged(self, _: "viser.GuiEvent[Any]") -> None:
         with self._lock:
             self.play(False)
             self.time = min(float(self._bar.value), self.film.seconds)
@@ -137,7 +140,7 @@ class Playback:
     def _refresh(self, *, bar: bool) -> None:
         if bar:
             self._bar_moved = time.perf_counter()
-            _set(self._bar, round(self.time, 2))
+            set_input(self._bar, round(self.time, 2))
         self._show(self.film, self.time)
         self._list_steps()
 
@@ -160,8 +163,3 @@ class Playback:
                 button.label = label
             if button.color != shade:
                 button.color = shade
-
-
-def _set(handle: Any, value: Any) -> None:
-    """Set what an input shows; its type says that it can only be read."""
-    handle.value = value

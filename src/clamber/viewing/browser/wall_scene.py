@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from ...tasks.limbed import LimbedTask
+from ...worlds.board import Hold
 from .. import style
 from ..scene import Bounds
 from ..wall import goal_label, goal_outline, hold_radius, spacing
@@ -20,6 +21,8 @@ PEGS: Final = 9.0
 """How far pegs stand out of the wall, in radii of a link [-]."""
 THICK: Final = 0.03
 """Of the wall [m]."""
+EDGE: Final = 0.04
+"""How much of the wall is shown beyond all that is on it [m]."""
 MOST_NUMBERS: Final = 80
 """With more pegs than this only a few numbers could be read, and none is drawn."""
 
@@ -36,37 +39,57 @@ class WallScene:
     def __init__(self, server: "viser.ViserServer", task: LimbedTask, bounds: Bounds) -> None:
         self._server, self.task, self.bounds = server, task, bounds
         self.root = server.scene.add_frame("/wall", show_axes=False)
-        x0, x1, y0, y1 = bounds
+        x0, x1, y0, y1 = (edge + side * EDGE for edge, side in zip(bounds, (-1, 1, -1, 1), strict=True))
         corners = np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
         server.scene.add_mesh_simple(
             "/wall/surface", *prism(corners, -THICK, 0.0), color=colour(WALL), flat_shading=True, wxyz=TURN
         )
-        self._depth = PEGS * link_radius(task)
+        self.depth = PEGS * link_radius(task)
+        """How far pegs stand out of the wall [m]."""
+        self._least = hold_radius(task, bounds)
+        away = min(0.12 * spacing(task), 0.03) if len(task.world.holds) > 1 else 0.02
+        self._aside = np.array((-away, away))
         for k, polygon in enumerate(task.world.keep_out):
             server.scene.add_mesh_simple(
-                f"/wall/keep out {k + 1}", *prism(np.array(polygon), 0.0, 0.9 * self._depth), color=colour(style.QUIET),
+                f"/wall/keep out {k + 1}", *prism(np.array(polygon), 0.0, 0.9 * self.depth), color=colour(style.QUIET),
                 opacity=0.55, flat_shading=True, wxyz=TURN,
             )  # fmt: skip
         self._draw_goals()
-        self.pegs = self._draw_pegs()
+        self._drawn: tuple[Hold, ...] = ()
+        self._pegs: Sticks | None = None
+        self._numbers: dict[int, viser.LabelHandle] = {}
+        self.draw_pegs(task.world.holds)
 
-    def _draw_pegs(self) -> Sticks:
-        holds, places = self.task.world.holds, self.task.world.positions()
-        least = hold_radius(self.task, self.bounds)
-        radii = np.array([max(hold.radius, least) for hold in holds])
-        shades = np.array([colour(style.HOLD)] * len(holds), np.uint8)
-        pegs = Sticks(self._server, "/wall/pegs", shades, radii)
-        pegs.put(np.stack((in_space(places, 0.0), in_space(places, self._depth)), axis=1))
-        if len(holds) <= MOST_NUMBERS:
-            away = min(0.12 * spacing(self.task), 0.03) if len(holds) > 1 else 0.02
-            aside = np.array((-away, away))
-            for hold, place in zip(holds, places, strict=True):
-                at = in_space(place + aside, 0.002)
-                self._server.scene.add_label(
-                    f"/wall/numbers/{hold.number}", str(hold.number), position=tuple(at), anchor="center-center",
-                    font_screen_scale=0.75, depth_test=True,
-                )  # fmt: skip
-        return pegs
+    def draw_pegs(self, holds: tuple[Hold, ...]) -> None:
+        """Draw pegs in place of those that are drawn, whatever they are: also such as make no board."""
+        if holds == self._drawn:
+            return
+        places = np.array([(hold.x, hold.y) for hold in holds]).reshape(-1, 2)
+        if self._pegs is not None and len(holds) != len(self._drawn):
+            self._pegs.node.remove()
+            self._pegs = None
+        if self._pegs is None and holds:
+            radii = np.array([max(hold.radius, self._least) for hold in holds])
+            self._pegs = Sticks(
+                self._server, "/wall/pegs", np.array([colour(style.HOLD)] * len(holds), np.uint8), radii
+            )
+        if self._pegs is not None:
+            self._pegs.put(np.stack((in_space(places, 0.0), in_space(places, self.depth)), axis=1))
+        self._drawn = holds
+        self._draw_numbers(holds)
+
+    def _draw_numbers(self, holds: tuple[Hold, ...]) -> None:
+        shown = {hold.number: hold for hold in holds} if len(holds) <= MOST_NUMBERS else {}
+        for number in [number for number in self._numbers if number not in shown]:
+            self._numbers.pop(number).remove()
+        for number, hold in shown.items():
+            at = tuple(in_space(np.array((hold.x, hold.y)) + self._aside, 0.006))
+            if number in self._numbers:
+                self._numbers[number].position = at
+                continue
+            self._numbers[number] = self._server.scene.add_label(
+                f"/wall/numbers/{number}", str(number), position=at, anchor="center-center", font_screen_scale=0.75, depth_test=True
+            )  # fmt: skip
 
     def _draw_goals(self) -> None:
         for k, goal in enumerate(self.task.goals):
