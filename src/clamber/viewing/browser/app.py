@@ -1,8 +1,8 @@
 """The viewer's server: its panel, its lights and its camera, from the first picture to its end."""
 
 import contextlib
+import io
 import socket
-import sys
 from typing import TYPE_CHECKING, Final
 
 from ...actions.plan import Plan
@@ -95,7 +95,7 @@ class App:
         check_viser()
         import viser
 
-        with contextlib.redirect_stdout(sys.stderr):  # it greets, and that is no result of ours
+        with contextlib.redirect_stdout(io.StringIO()):  # it greets; who opens it says where it is
             self.server = viser.ViserServer(host=host, port=free_port(host, port), label="Clamber", verbose=False)
         self.exhibit = exhibit
         server = self.server
@@ -179,7 +179,7 @@ class App:
         if self.work is not None:
             self.work.labour.stop(wait=1.0)
         self.playback.stop()
-        with contextlib.redirect_stdout(sys.stderr):  # its last words are no result of ours
+        with contextlib.redirect_stdout(io.StringIO()):  # its last words
             self.server.stop()
 
 

@@ -79,6 +79,7 @@ class BoardDraft:
         board = {key: value for key, value in document["board"].items() if key not in GENERATORS}
         holds = [hold_document(hold, hold.direction, hold.cone) for _, hold in sorted(self.pegs.items())]
         document["board"] = board | {"holds": holds}
+        document["labels"] = document.get("labels", {}) | {"board": LABEL}
         if self.goal is not None:
             room = self.task.step.length
             (x, y), goal = self.goal, document["goal"]

@@ -7,7 +7,6 @@ import numpy as np
 
 from ...errors import ClamberError
 from ...tasks.limbed import LimbedTask
-from ...types import Floats
 from ..words import length_unit
 from .board_draft import BoardDraft, is_about_goal
 from .inputs import by_hand, set_input
@@ -68,8 +67,7 @@ class BoardPanel:
         self._place.on_update(by_hand(lambda _: self._typed_place()))
         self._goal.on_update(by_hand(lambda _: self._typed_goal()))
         self._buttons.on_click(lambda event: self._pressed(event.target.value))
-        self._gizmo.on_update(by_hand(lambda event: self._dragged(event.target.position)))
-        self._gizmo.on_drag_end(lambda _: self.apply())
+        self._gizmo.on_update(by_hand(self._dragged))
         server.scene.on_click()(self._clicked)
         self.pick(self._picked())
 
@@ -158,14 +156,16 @@ class BoardPanel:
         self.pick(number)
         self.apply()
 
-    def _dragged(self, position: Floats) -> None:
+    def _dragged(self, event: "viser.TransformControlsEvent") -> None:
         number = self._picked()
         if number is None:
             return
-        x, y = (round(part / FINE) * FINE for part in on_wall(position))
+        x, y = (round(part / FINE) * FINE for part in on_wall(event.target.position))
         self.draft.move(number, x, y)
         set_input(self._place, self._shown(x, y))
         self._scene().draw_pegs(tuple(self.draft.pegs.values()))
+        if event.phase == "end":
+            self.apply()
 
     def _clicked(self, event: "viser.SceneClickEvent") -> None:
         if not self._editing.value:

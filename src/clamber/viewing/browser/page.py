@@ -2,8 +2,8 @@
 
 import contextlib
 import html
+import io
 import json
-import sys
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, Final
@@ -44,7 +44,7 @@ def write_page(exhibit: Exhibit, path: Path) -> int:
     check_viser()
     import viser
 
-    with contextlib.redirect_stdout(sys.stderr):  # its words are no result of ours
+    with contextlib.redirect_stdout(io.StringIO()):  # it greets, and nobody is to come
         server = viser.ViserServer(host=LOOPBACK, port=free_port(LOOPBACK, 0), verbose=False)
         try:
             page = _record(server, exhibit)

@@ -6,7 +6,7 @@ from typing import Final
 PANEL: Final = r"""<style>
 #clamber { position: fixed; left: 12px; top: 12px; width: 340px; max-height: calc(100vh - 76px); overflow: auto; z-index: 2; background: #fffffff2; color: #22303c;
   font: 13px/1.4 system-ui, sans-serif; border-radius: 8px; box-shadow: 0 1px 8px #22303c2e; padding: 10px 0; box-sizing: border-box; }
-#clamber h1 { font-size: 15px; margin: 0 12px 6px; } #clamber h2 { font-size: 12px; margin: 10px 12px 3px; }
+#clamber[hidden] { display: none; } #clamber h1 { font-size: 15px; margin: 0 40px 6px 12px; } #clamber h2 { font-size: 12px; margin: 10px 12px 3px; }
 #clamber ol { list-style: none; margin: 0; padding: 0; max-height: 200px; overflow: auto; border-block: 1px solid #dce1e6; }
 #clamber li { padding: 2px 12px; cursor: pointer; display: flex; gap: 8px; align-items: baseline; } #clamber li:hover { background: #f1f4f7; }
 #clamber li.now { background: #dfe8f0; font-weight: 600; } #clamber li.worst b { outline: 2px solid #22303c; }
@@ -16,11 +16,12 @@ PANEL: Final = r"""<style>
 #clamber .bar > div { position: relative; height: 8px; background: #dce1e6; } #clamber .bar > div > div { height: 8px; } #clamber .bar > span:last-child { text-align: right; }
 #clamber .bar i { position: absolute; top: -2px; bottom: -2px; width: 2px; margin-left: -1px; }
 #clamber .legend { padding: 0 12px; font-size: 11px; color: #6e7b87; } #clamber .legend i { display: inline-block; width: 9px; height: 9px; margin: 0 3px 0 8px; }
-#clamber-fold { position: fixed; left: 12px; bottom: 56px; z-index: 2; font: 12px system-ui, sans-serif; background: #fff; border: 1px solid #dce1e6; border-radius: 6px; padding: 3px 8px; cursor: pointer; }
+#clamber-fold { position: fixed; left: 318px; top: 16px; width: 28px; z-index: 3; font: 14px system-ui, sans-serif; background: none; border: 0; color: #6e7b87; cursor: pointer; }
+#clamber[hidden] + #clamber-fold { left: 12px; background: #fff; border-radius: 6px; box-shadow: 0 1px 8px #22303c2e; }
 </style>
 <aside id="clamber"><h1>@TITLE@</h1><div data-part="head"></div><h2 data-part="strip-title"></h2><canvas data-part="strip"></canvas><div class="legend"></div>
 <h2>Steps</h2><ol></ol><h2 data-part="bars-title"></h2><div data-part="bars"></div><h2>Margins</h2><div data-part="margins"></div></aside>
-<button id="clamber-fold">Hide panel</button>
+<button id="clamber-fold" aria-label="Hide panel" title="Hide panel">&#x2715;</button>
 <script id="clamber-data" type="application/json">@DATA@</script>
 <script>
 "use strict";
@@ -28,7 +29,7 @@ PANEL: Final = r"""<style>
 const D = JSON.parse(document.getElementById("clamber-data").textContent), panel = document.getElementById("clamber");
 const part = name => panel.querySelector('[data-part="' + name + '"]'), list = panel.querySelector("ol"), strip = part("strip"), G = D.bars;
 const fold = document.getElementById("clamber-fold");
-fold.onclick = () => { panel.hidden = !panel.hidden; panel.style.display = panel.hidden ? "none" : ""; fold.textContent = panel.hidden ? "Show panel" : "Hide panel"; };
+fold.onclick = () => { panel.hidden = !panel.hidden; const words = panel.hidden ? "Show panel" : "Hide panel"; fold.title = words; fold.setAttribute("aria-label", words); fold.textContent = panel.hidden ? "\u2630" : "\u2715"; };
 part("strip-title").textContent = D.strip.title; part("bars-title").textContent = G.title;
 D.strip.words.forEach((word, k) => { const i = document.createElement("i"); i.style.background = D.strip.colours[k]; panel.querySelector(".legend").append(i, word); });
 const items = D.steps.map((step, k) => {

@@ -73,9 +73,9 @@ class WorkPanel:
 
         def done(found: tuple[Task, Planned]) -> None:
             now, answer = found
-            self._say(self._plan_words, answer.words, bad=answer.plan is None)
             if answer.plan is not None:
                 self._planned(now, answer.plan)
+            self._say(self._plan_words, answer.words, bad=answer.plan is None)
 
         self._begin(work, done, self._plan_words)
 
@@ -93,8 +93,8 @@ class WorkPanel:
         def done(found: tuple[Task, Any]) -> None:
             now, run = found
             well, words = outcome(run)
-            self._say(self._run_words, words, bad=not well)
             self._ran(now, plan, run)
+            self._say(self._run_words, words, bad=not well)
 
         self._begin(work, done, self._run_words)
 
@@ -105,26 +105,24 @@ class WorkPanel:
 
     def _begin(self, work: Callable[[Any], Any], done: Callable[[Any], None], words: "viser.GuiHtmlHandle") -> None:
         def ended(found: Any) -> None:
-            self._rest()
             done(found)
+            self._show_work(False)
 
         def failed(reason: str) -> None:
-            self._rest()
             self._say(words, reason, bad=True)
+            self._show_work(False)
 
-        if not self.labour.begin(work, ended, failed):
+        if self.labour.busy:
             self._say(words, "other work is under way; stop it first", bad=True)
             return
         self._say(words, "", bad=False)
-        for button in (self._plan_button, self._run_button):
-            button.disabled = True
-        self._bar.visible = self._stop_button.visible = True
-        self._bar.animated = True
+        self._show_work(True)
+        self.labour.begin(work, ended, failed)
 
-    def _rest(self) -> None:
+    def _show_work(self, under_way: bool) -> None:
         for button in (self._plan_button, self._run_button):
-            button.disabled = False
-        self._bar.visible = self._stop_button.visible = False
+            button.disabled = under_way
+        self._bar.visible = self._stop_button.visible = self._bar.animated = under_way
         self._bar_words.content = ""
 
     def _tell(self, words: str, share: float | None) -> None:
