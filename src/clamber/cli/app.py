@@ -16,6 +16,7 @@ from .body import body
 from .calibrate import calibrate
 from .check import check
 from .ditch import ditch
+from .export import export
 from .follow import follow
 from .help_text import command_of
 from .inventory import inventory
@@ -52,6 +53,7 @@ app.command("press")(press)
 app.command("follow")(follow)
 app.command("trials")(trials)
 app.command("show")(show)
+app.command("export")(export)
 app.command("bench")(bench)
 app.command("sweep")(sweep)
 app.add_typer(limb, name="limb")
