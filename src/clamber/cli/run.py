@@ -5,7 +5,6 @@ from typing import Annotated
 
 import typer
 
-from ..errors import UnknownNameError
 from .options import PLAN_SECONDS, AsJson, NoiseTexts, Overrides, PlanSeconds, Quiet
 from .output import announce_compilation, check_writable, print_json, stderr, stdout, tell_cuts
 from .repeat import repeat_words
@@ -98,17 +97,16 @@ def run(
     from ..experiments.climb.planning import plan_to_climb, replanner
     from ..experiments.climb.rehearsal import rehearse
     from ..experiments.climb.run_plan import climbing_flaws, open_climb, run_plan
-    from ..planning.planners import FIRST_LOOPS, PLANNERS
+    from ..planning.planners import find_planner, first_loop
     from ..viewing.climb_run_view import check_run_suffix, write_run
     from .run_text import ClimbLine, print_run
 
     for file in outputs:
         check_run_suffix(file)
     telling.open("climb")
-    if planner not in PLANNERS:
-        raise UnknownNameError("planner", planner, tuple(PLANNERS))
+    find_planner(planner)
     deviations = read_noise(NO_NOISE, [*(noise or ()), *(() if peg_error is None else (f"peg_error={peg_error}",))])
-    announce_compilation("replay" if is_plan(what) else FIRST_LOOPS[planner], quiet=quiet)
+    announce_compilation("replay" if is_plan(what) else first_loop(planner), quiet=quiet)
     chosen, plan, for_plant = open_climb(what, task, overrides or ())
     if for_plant and is_remote(plant):
         raise typer.BadParameter(f"{for_plant[0].partition('=')[0]} is the server's to set", param_hint="--set plant.")

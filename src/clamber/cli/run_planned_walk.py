@@ -48,14 +48,12 @@ def run_planned_walk(
         as_json: Whether to print JSON alone.
         quiet: Whether to tell nothing on the way.
     """
-    from ..errors import UnknownNameError
     from ..experiments.walk.planned import careful, lay_plan, walk_of
-    from ..planning.planners import FIRST_LOOPS, PLANNERS, plan_task
+    from ..planning.planners import find_planner, first_loop, plan_task
 
     refuse_climbs_options(what, climbs_only)
-    if planner not in PLANNERS:
-        raise UnknownNameError("planner", planner, tuple(PLANNERS))
-    announce_compilation("replay" if plan is not None else FIRST_LOOPS[planner], quiet=quiet)
+    find_planner(planner)
+    announce_compilation("replay" if plan is not None else first_loop(planner), quiet=quiet)
     if plan is None:
         task = careful(task)
         with ProgressLine(stderr(), quiet=quiet) as line:
