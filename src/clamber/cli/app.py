@@ -17,6 +17,7 @@ from .calibrate import calibrate
 from .check import check
 from .ditch import ditch
 from .doctor import doctor
+from .export import export
 from .follow import follow
 from .help_text import command_of
 from .inventory import inventory
@@ -55,6 +56,7 @@ app.command("follow")(follow)
 app.command("trials")(trials)
 app.command("show")(show)
 app.command("view")(view)
+app.command("export")(export)
 app.command("bench")(bench)
 app.command("sweep")(sweep)
 app.add_typer(limb, name="limb")

@@ -12,7 +12,6 @@ from ..planning.learning import Lesson
 from ..planning.progress import Moment, progress_text
 from ..planning.result import Furthest, PlanResult
 from ..tasks import Task
-from ..units import OZ_IN
 from .live_line import LiveLine
 
 
