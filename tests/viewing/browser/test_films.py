@@ -54,6 +54,7 @@ def test_plan_moves_without_jumps(hand: Exhibit) -> None:
     ways = np.linalg.norm(np.diff(tips, axis=0), axis=-1)
     reach = 0.4  # [m]
     assert ways.max() < 0.1 * reach  # a reach lasts half a second at least
+    assert [film.step_at(film.rest(step)) for step in range(len(film.steps))] == list(range(len(film.steps)))
     assert film.step_at(0.0) == 0 and film.step_at(film.seconds) == len(film.steps) - 1
 
 
@@ -81,6 +82,7 @@ def test_run_is_where_its_trace_says(climbed: ClimbRun) -> None:
         assert (at.posture.x, at.posture.y, at.posture.angle) == pytest.approx(tuple(climbed.trace.true_pose[k]))
     assert film.seconds == climbed.trace.time[-1]
     assert len(film.steps) == 1 + len(climbed.report.actions)
+    assert [film.step_at(film.rest(step)) for step in range(len(film.steps))] == list(range(len(film.steps)))
 
 
 def test_forces_of_a_climber_at_rest_carry_its_weight(climbed: ClimbRun) -> None:
