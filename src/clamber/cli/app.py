@@ -36,6 +36,7 @@ from .show import show
 from .study import study
 from .sweep import sweep
 from .trials import trials
+from .view import view
 
 app = typer.Typer(
     name="clamber",
@@ -55,6 +56,7 @@ app.command("press")(press)
 app.command("follow")(follow)
 app.command("trials")(trials)
 app.command("show")(show)
+app.command("view")(view)
 app.command("export")(export)
 app.command("bench")(bench)
 app.command("sweep")(sweep)

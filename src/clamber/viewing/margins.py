@@ -21,14 +21,19 @@ class Limiting:
     share: float
     """Margin over the size of what is limited [-]; negative: violated."""
 
-    def __str__(self) -> str:
+    @property
+    def value(self) -> str:
+        """The margin for people, with its sign and unit."""
         unit = self.check.unit
         value, shown = {"m": (100 * self.margin, "cm"), "rad": (self.margin / DEGREE, "deg")}.get(
             unit, (self.margin, "" if unit == "1" else unit)
         )
+        return f"{value:+.3g} {shown}".strip()
+
+    def __str__(self) -> str:
         name = self.check.name.replace("_", "-")
         share = "violated" if self.share < 0.0 else f"{100 * self.share:.0f} %"
-        return f"{name} {value:+.3g} {shown} ({share})".replace("  ", " ")
+        return f"{name} {self.value} ({share})"
 
 
 def limiting(yardsticks: Yardsticks, margins: Floats, reason: int) -> Limiting | None:
