@@ -22,7 +22,20 @@ from .limbs import (
 from .plans import Front, Inventory, Learned, NoStart, Planned, Polished, Verdict
 from .runs import Climbed, ClimbTrials, Pressed, ReplayedTrial, Walked, WalkTrials
 from .searches import BenchRow, Reach, Sweep
-from .things import Drawn, Exported, Health, Listed, NewBoard, Served, StudyResult
+from .things import (
+    Drawn,
+    Exported,
+    Finding,
+    Health,
+    Listed,
+    NewBoard,
+    NewRobot,
+    NewTask,
+    Opened,
+    Saved,
+    Served,
+    StudyResult,
+)
 from .walkers import Crossing, Family, Followed, WidestDitch
 
 PRINTED: Final[dict[str, Any]] = {
@@ -31,12 +44,13 @@ PRINTED: Final[dict[str, Any]] = {
     "polish": Polished,
     "learn": Learned,
     "inventory": Inventory,
-    "check": Verdict,
+    "check": Verdict | Finding,
     "run": Climbed | Walked,
     "press": Pressed,
     "follow": Followed,
     "trials": ClimbTrials | WalkTrials | ReplayedTrial,
     "show": Drawn,
+    "view": Opened | Saved,
     "export": Exported,
     "bench": list[BenchRow],
     "sweep": Sweep,
@@ -46,6 +60,8 @@ PRINTED: Final[dict[str, Any]] = {
     "study": StudyResult | list[StudyResult],
     "doctor": Health,
     "new board": NewBoard,
+    "new robot": NewRobot,
+    "new task": NewTask,
     "plant serve": Served,
     "limb step": Contest,
     "limb circle": Contest,

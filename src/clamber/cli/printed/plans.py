@@ -320,6 +320,7 @@ class NearestRule(Printed):
 class Verdict(Printed):
     """What came out when a plan was carried out again."""
 
+    kind: Literal["plan"]
     ok: bool
     """Whether every action holds."""
     task: str

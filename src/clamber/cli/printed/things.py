@@ -1,6 +1,6 @@
-"""What `list`, `show`, `export`, `study`, `doctor` and `new board` print."""
+"""What `list`, `show`, `view`, `export`, `study`, `doctor`, `new` and `plant serve` print, and `check` of all but plans."""
 
-from typing import Literal
+from typing import Any, Literal
 
 from pydantic import Field
 
@@ -39,6 +39,49 @@ class Drawn(Printed):
     steps: Count
     """Actions that it shows."""
     bytes: Count
+
+
+class Opened(Printed):
+    """Printed once the viewer listens."""
+
+    url: str
+    title: str
+
+
+class Saved(Printed):
+    """`--save`: a page that was written."""
+
+    written: str
+    title: str
+    bytes: Count
+
+
+class StartMargin(Printed):
+    """One check of a task's start."""
+
+    check: str
+    unit: str
+    margin: float | None
+    """Signed, in `unit`; null where nothing limits it."""
+    hard: bool
+    """Whether the task's rules forbid what violates it."""
+    holds: bool
+
+
+class Finding(Printed):
+    """What a file is, and what is to be said of it; one that breaks its format is an error, exit code 2."""
+
+    kind: Literal["robot", "board", "ground", "task", "walk"]
+    ok: bool
+    """Whether every hard check of the start holds; files without a start are always."""
+    name: str
+    title: str
+    facts: dict[str, str]
+    """Word to value with its unit, for people."""
+    odd: list[str]
+    """What is allowed and yet most likely not meant."""
+    margins: list[StartMargin]
+    """Of a task's start."""
 
 
 class Exported(Printed):
@@ -139,11 +182,30 @@ class NewBoard(Printed):
 
     written: dict[str, str]
     """board, and with --task the task, to the file."""
+    name: str
     holds: Count
     width_m: float
     height_m: float
     gap_m: float | None
     """Least distance of two holds."""
+
+
+class NewRobot(Printed):
+    """A robot that was written."""
+
+    written: dict[str, str]
+    """robot, to the file."""
+    name: str
+
+
+class NewTask(Printed):
+    """A task that was written."""
+
+    written: dict[str, str]
+    """task, to the file."""
+    name: str
+    start: dict[str, Any]
+    """The start that was found, as the file has it."""
 
 
 class Served(Printed):
