@@ -31,6 +31,7 @@ from .polish import polish
 from .press import press
 from .reach import reach
 from .run import run
+from .schema import schema
 from .show import show
 from .study import study
 from .sweep import sweep
@@ -67,6 +68,7 @@ app.command("reach")(reach)
 app.command("calibrate")(calibrate)
 app.command("ditch")(ditch)
 app.command("study")(study)
+app.command("schema")(schema)
 app.command("doctor")(doctor)
 
 
