@@ -15,10 +15,10 @@ copyright = author  # Sphinx's name for it
 release = version = __version__
 
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
-exclude_patterns = ["media/**", "studies/*/*"]
+exclude_patterns = ["media/**"]
 myst_enable_extensions = ["colon_fence", "deflist", "fieldlist"]
 myst_heading_anchors = 4
-suppress_warnings = ["myst.header"]  # studies' pages are written by a command, result by result
+suppress_warnings = ["myst.header", "toc.not_included"]  # studies have a page for each result, reached from their own
 
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
