@@ -75,10 +75,9 @@ class TrackCourse:
         return self._farthest(walker, self._swing) or self._farthest(walker, 1 - self._swing)
 
     def landed(self, step: Step, walker: Walker) -> bool:
-        """See `Course`; a frame that edges sent elsewhere is where it was to be, for it has done what it could."""
+        """See `Course`."""
         before = self._ways[step.swing]
-        probed = walker.settings.probe > 0.0
-        self._ways[step.swing] = step.way if probed else self._way_of(step, walker.frames()[step.swing])
+        self._ways[step.swing] = self._way_of(step, walker.frames()[step.swing])
         self._swing = 1 - step.swing
         return bool(self._ways[step.swing] - before >= FINE)
 

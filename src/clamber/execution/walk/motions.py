@@ -4,6 +4,7 @@ A frame slides only while none of its feet is on the ground. Nothing else forbid
 """
 
 import math
+from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
@@ -30,6 +31,12 @@ PATIENCE: Final = 60.0
 """For levelling, at most [s]."""
 SETTLED: Final = 0.6
 """After a slide has sped up or slowed down, until the inclinometers have forgotten it [s]."""
+OVER: Final = 0.015
+"""Feet are lifted so far above the highest ground that was found about the plane through it [m]: what comes may be higher."""
+BRUSHED: Final = 10.0
+"""A lifted foot that feels more than this, either way, has run against something [N]; the noise of load cells is a few newtons."""
+BRAKE: Final = 0.2
+"""In which a slide stops when a lifted foot runs against the ground [s]."""
 LOOSE: Final = 0.25
 """A standing foot that feels less than this part of what counts as touching is lowered again before it has to carry [-]."""
 
@@ -141,6 +148,8 @@ def lower(walker: Walker, legs: range) -> list[int]:
 
 def expected_height(walker: Walker, i: int) -> float:
     """Height at which a leg that does not stand should find the ground, by the plane through the others [m]."""
+    if walker.settings.probe > 0.0 and walker.ground.known:
+        return float(walker.ground.heights(walker.soles[i : i + 1, :2])[0])
     stands = walker.stands > 0
     if stands.sum() < 3:
         return float(walker.soles[i, 2])
@@ -179,9 +188,13 @@ def lift(walker: Walker, frame: int, *ends: Floats, by: float | None = None) -> 
     clear = by if by is not None else settings.lift if settings.lift is not None else robot.legs.lift
     mine, spec = list(walker.of_frame(frame)), robot.legs
     low, high, lifts = walker.heights.copy(), walker.heights.copy(), np.zeros(LEGS)
-    rises = np.stack([np.zeros(3), *(_rises(walker, frame, end) for end in ends)])
-    low[mine] += rises.min(axis=0)
-    high[mine] += rises.max(axis=0)
+    if settings.probe > 0.0 and walker.ground.known:
+        clear = 0.0
+        low[mine], high[mine] = _reach_of_ground(walker, frame, ends)
+    else:
+        rises = np.stack([np.zeros(3), *(_rises(walker, frame, end) for end in ends)])
+        low[mine] += rises.min(axis=0)
+        high[mine] += rises.max(axis=0)
     lifts[mine] = clear
     height = height_for(walker, low, high, lifts)
     aims = np.clip(walker.targets(np.array((height, *walker.wanted[1:])), high + lifts), spec.shortest, spec.longest)
@@ -199,6 +212,22 @@ def lift(walker: Walker, frame: int, *ends: Floats, by: float | None = None) -> 
         walker.tick()
         if float((walker.soles[mine, 2] - high[mine]).min()) > need - 2.0 * spec.resolution:
             break
+
+
+def _reach_of_ground(walker: Walker, frame: int, ends: Sequence[Floats]) -> tuple[Floats, Floats]:
+    """How low a frame's feet may have to reach at the ends of its way, and how high they clear all that may lie on it, shape (3,) [m]."""
+    ground, mine = walker.ground, list(walker.of_frame(frame))
+    here = ground.heights(walker.soles[mine, :2])
+    there = [ground.heights(_feet_at(walker, frame, end)) for end in ends] or [here]
+    off = ground.rough + OVER
+    return np.min(there, axis=0) - off, np.max([here, *there], axis=0) + off
+
+
+def _feet_at(walker: Walker, frame: int, pose: Floats) -> Floats:
+    """Feet of a frame at a pose, seen from above, shape (3, 2) [m]; level."""
+    c, s = math.cos(pose[2]), math.sin(pose[2])
+    feet: Floats = np.asarray(pose[:2]) + walker.robot.feet()[frame] @ np.array(((c, s), (-s, c)))
+    return feet
 
 
 def _ease(walker: Walker, legs: list[int]) -> None:
@@ -247,8 +276,10 @@ def slide(walker: Walker, swing: int, end: Floats, *, lands: bool = True) -> Non
     before = walker.inclination.frozen
     late = settings.ramp + SETTLED
     walker.inclination.learns = True
-    for k in range(1, max(1, math.ceil(seconds / walker.period)) + 1):
-        time = k * walker.period
+    time, brake = 0.0, _Brake(walker, swing)
+    while time < seconds:
+        brake.see()
+        time += brake.pace * walker.period
         walker.inclination.frozen = before or time < late or time > seconds - settings.ramp
         share = eased_share(time, seconds, settings.ramp)
         place = slide_places(still, first, last, swing, np.array([share]))
@@ -265,13 +296,37 @@ def slide(walker: Walker, swing: int, end: Floats, *, lands: bool = True) -> Non
     walker.inclination.doubt(settings.landing_doubt)
 
 
+class _Brake:
+    """Stops a slide while a lifted foot that has run against the ground is drawn up.
+
+    A leg feels along itself only: against a wall that is how the foot rubs on it, up or down.
+    """
+
+    def __init__(self, walker: Walker, swing: int) -> None:
+        self._walker, self._legs = walker, list(walker.of_frame(swing))
+        self._felt, self._drawn = np.zeros(3, np.int32), np.zeros(3, np.bool_)
+        self.pace = 1.0
+        """Of the slide, 1 as fast as it may."""
+
+    def see(self) -> None:
+        """Take in a tick."""
+        walker, legs = self._walker, self._legs
+        self._felt = np.where(np.abs(walker.forces[legs]) > BRUSHED, self._felt + 1, 0)
+        felt = self._felt >= walker.settings.touches
+        self._drawn &= walker.lengths[legs] - walker.free_aims[legs] > 1e-6
+        self._drawn |= felt
+        for i in np.array(legs)[felt]:
+            walker.free_aims[i] = max(walker.robot.legs.shortest, walker.lengths[i] - OVER)
+        change = walker.period / BRAKE
+        self.pace = max(0.0, self.pace - change) if self._drawn.any() else min(1.0, self.pace + change)
+
+
 def _rises(walker: Walker, frame: int, end: Floats) -> Floats:
     """By how much the ground that is expected under a frame's feet rises on their way to a pose, shape (3,) [m].
 
     A frame slides in the plate's own plane, so what counts is how the ground rises against that.
     """
-    c, s = math.cos(end[2]), math.sin(end[2])
-    feet = np.asarray(end[:2]) + walker.robot.feet()[frame] @ np.array(((c, s), (-s, c)))
+    feet = _feet_at(walker, frame, end)
     against = walker.ground_slope() + walker.matrix[:2, 2] / walker.matrix[2, 2]
     rises: Floats = (feet - walker.soles[list(walker.of_frame(frame)), :2]) @ against
     return rises

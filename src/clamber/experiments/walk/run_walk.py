@@ -182,8 +182,9 @@ def run_walk(
     plant = TracedPlant(WalkerSim(walk.robot, walk.ground, drawn))
     how = settings
     if how is None:
-        # a plan knows of steps between its footholds, the walker does not: its feet stay up until they are over the next
-        how = WalkSettings(level=walk.level, probe=walk.probe, clear=WalkSettings().clear if lay is None else None)
+        # where ground may be higher than the walker can tell, its feet stay up until they are over their next footholds
+        clear = WalkSettings().clear if lay is None and walk.probe == 0.0 else None
+        how = WalkSettings(level=walk.level, probe=walk.probe, clear=clear)
     walker = TracedWalker(walk.robot, plant, settings=how, payload=walk.payload)
     holds: list[LaidHold] = []
 

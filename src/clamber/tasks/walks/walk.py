@@ -3,7 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import field, replace
-from typing import Final, Literal
+from typing import Annotated, Final, Literal
 
 import numpy as np
 from pydantic import StrictBool, StrictStr
@@ -12,7 +12,7 @@ from ...files import Document, check_schema
 from ...robots.walker import WalkerRobot, build_walker
 from ...specs import Name, build_spec, field_names, spec
 from ...types import Floats, Json
-from ...units import Angle, Length, NonNegativeLength, NonNegativeMass, Point, PositiveLength
+from ...units import Angle, Length, NonNegativeMass, Point, PositiveLength, Quantity
 from ...worlds.ground import Ground, build_ground
 
 SCHEMA: Final = "clamber-walk-1"
@@ -89,8 +89,9 @@ class WalkSpec:
     """In order; one or more."""
     level: StrictBool = True
     """Whether the plate is kept level; if not, it keeps the tilt that it has at the start."""
-    probe: NonNegativeLength = 0.0
-    """Distance from a foothold at which the ground is felt for edges before a foot stands there [m]; 0: it is not."""
+    probe: Annotated[float, Quantity("length", at_least=0.0, at_most=0.005)] = 0.0
+    """By how much feet are pushed to every side where they have come down, before they are relied upon, on ground that may be rough [m];
+    0: they are not."""
     arm: tuple[Angle, ...] | None = None
     """Joint angles of the arm [rad]; those of the robot's file unless given."""
     payload: NonNegativeMass = 0.0
