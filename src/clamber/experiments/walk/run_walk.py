@@ -24,6 +24,7 @@ from ...sim.walker_plant import WalkerSim
 from ...tasks.walks import Walk
 from ...types import Floats, Json
 from ...units import parse_quantity
+from .ditch_crossing import lay_crossing
 from .held_point import HeldPoint, LaidHold, lay_hold
 from .noise import WalkNoise, named_walk_noise
 
@@ -151,7 +152,13 @@ def gait_of(walk: Walk) -> Gait:
 
 
 def own_way(walk: Walk) -> Lay:
-    """How the way of a walk's file is laid out from where the robot stands."""
+    """How the way of a walk's file is laid out from where the robot stands.
+
+    Raises:
+        SpecError: If its ditch cannot be crossed.
+    """
+    if walk.way[0].ditch is not None:
+        return lay_crossing(walk)
     return lambda pose: TrackCourse(lay_track(walk, pose), neutral=walk.start.twist)
 
 
@@ -175,9 +182,13 @@ def run_walk(
         settings: How it walks; None: as usual, level and probing as the walk says.
         lay: The course that it follows, laid where it stands; None: the walk's own way.
         progress: Told before each step.
+
+    Raises:
+        SpecError: If the walk's ditch cannot be crossed.
     """
     began = time.perf_counter()
     walk = walk.with_seed(seed)
+    laid = lay or own_way(walk)
     drawn = noise.flaws(flaws, seed) if any(noise.widths.values()) else flaws
     plant = TracedPlant(WalkerSim(walk.robot, walk.ground, drawn))
     how = settings
@@ -192,7 +203,7 @@ def run_walk(
         if walk.hold is not None:
             holds.append(lay_hold(walker, lay_track(walk, pose), walk.hold))
             holds[0].hold.start(walker)
-        return (lay or own_way(walk))(walker.frames()[0])
+        return laid(walker.frames()[0])
 
     sequencer = WalkSequencer(
         walker,

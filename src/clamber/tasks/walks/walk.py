@@ -38,7 +38,7 @@ class WalkStart:
 
 @spec
 class Piece:
-    """A piece of the way: `direction` and `distance` for a straight one, `turn` for a turn, `to` for a place."""
+    """A piece of the way: `direction` and `distance` for a straight one, `turn` for a turn, `to` for a place, `ditch` for a ditch."""
 
     direction: Angle | None = None
     """Seen from the Delta-frame; the heading is kept [rad]."""
@@ -53,8 +53,13 @@ class Piece:
     heading: Angle | None = None
     """At that place, world frame; any unless given [rad]."""
 
+    ditch: PositiveLength | None = None
+    """Width of a ditch that lies across `direction`, to be crossed [m] ..."""
+    ahead: PositiveLength | None = None
+    """... and how far ahead of the Delta-frame's origin its near edge is [m]."""
+
     def twist(self) -> Floats:
-        """What the Delta-frame does, in its own frame: x, y [m] and heading [rad], each at a constant rate, shape (3,); not of `to`."""
+        """Of a straight piece or a turn: what the Delta-frame does in its own frame, x, y [m] and heading [rad], shape (3,)."""
         if self.turn is not None:
             x, y = (0.0, 0.0) if self.about is None else self.about
             return self.turn * np.array((y, -x, 1.0))
@@ -175,6 +180,13 @@ def build_walk(document: Document) -> Walk:
         raise document.problem("payload", "needs an arm to carry it, and the robot has none")
     if stated.hold is not None and robot.arm is None:
         raise document.problem("hold", "needs an arm, and the robot has none")
+    if stated.way[0].ditch is not None:
+        if stated.hold is not None:
+            raise document.problem("hold", "is for ways without a ditch")
+        if stated.start.offset != (0.0, 0.0):
+            raise document.problem(
+                "start.offset", "must be 0 before a ditch: the crossing begins with the frames on each other"
+            )
     if stated.arm is not None and len(stated.arm) != joints:
         raise document.problem("arm", f"must have {joints} entries, one for each joint of the robot's arm")
     rest = () if robot.arm is None else robot.arm.rest
@@ -200,6 +212,9 @@ def _check_way(way: tuple[Piece, ...], document: Document) -> None:
     if not way:
         raise document.problem("way", "must have a piece or more")
     for i, piece in enumerate(way):
+        if piece.ditch is not None or piece.ahead is not None:
+            _check_ditch(way, i, document)
+            continue
         if piece.to is not None:
             if any(value is not None for value in (piece.direction, piece.distance, piece.turn, piece.about)):
                 raise document.problem(f"way.{i}", "must state a place alone, with a heading if one is wanted")
@@ -208,13 +223,26 @@ def _check_way(way: tuple[Piece, ...], document: Document) -> None:
             raise document.problem(f"way.{i}.heading", "is for a place that is gone to")
         straight = piece.direction is not None or piece.distance is not None
         if straight == (piece.turn is not None):
-            raise document.problem(f"way.{i}", "must state direction and distance, or turn, or to: one of the three")
+            raise document.problem(
+                f"way.{i}",
+                "must state direction and distance, or turn, or to, or direction, ditch and ahead: one of the four",
+            )
         if straight and (piece.direction is None or piece.distance is None):
             raise document.problem(f"way.{i}", "must state both direction and distance")
         if straight and piece.about is not None:
             raise document.problem(f"way.{i}.about", "is for a turn")
         if piece.turn == 0.0:
             raise document.problem(f"way.{i}.turn", "must not be 0")
+
+
+def _check_ditch(way: tuple[Piece, ...], i: int, document: Document) -> None:
+    piece = way[i]
+    if piece.direction is None or piece.ditch is None or piece.ahead is None:
+        raise document.problem(f"way.{i}", "must state direction, ditch and ahead, all three")
+    if any(value is not None for value in (piece.distance, piece.turn, piece.about, piece.to, piece.heading)):
+        raise document.problem(f"way.{i}", "must state a ditch alone: direction, ditch and ahead")
+    if len(way) > 1:
+        raise document.problem(f"way.{i}", "must be the only piece: a ditch is crossed from where the walk starts")
 
 
 def _check_start(walk: Walk, document: Document) -> None:
