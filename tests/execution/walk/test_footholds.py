@@ -7,7 +7,7 @@ import pytest
 from spring_walks import BEST, ROBOT, stood
 
 from clamber.control.gait import DELTA, Y
-from clamber.control.inclination import strain_of
+from clamber.control.loads import strain_of
 from clamber.execution.walk import motions
 from clamber.execution.walk.footholds import KEPT, proof_strain, prove
 from clamber.execution.walk.settings import WalkSettings

@@ -76,6 +76,16 @@ def load_walker_task(name: str, *settings: str) -> WalkerTask:
     return task
 
 
+@pytest.mark.slow
+def test_a_point_that_is_held_is_measured_in_every_trial() -> None:
+    walk = load_walk("slope-walk", ("hold={ x='5 cm', y='0.3 m', z='0.6 m', within='4 cm' }", "way.0.distance=10cm"))
+    noise = WalkNoise(named_walk_noise("usual").widths | {"inclinometer_offset": 0.0})
+    told = WalkTrial(**run_walk_trial(WalkSetup(walk, noise).item(1)))
+    assert told.done, told.reason
+    assert told.held_way == pytest.approx(0.08, abs=2e-3)
+    assert told.held_error is not None and 1e-5 < told.held_error < 5e-3
+
+
 def test_shares_count_walks_that_came_to_their_end_and_those_that_kept_their_balance() -> None:
     ended = [trial(), trial(seed=1, done=False, reason="fell", margin=None, off=None), trial(seed=2, margin=-0.01)]
     trials = WalkTrials(WalkSetup(load_walk("level-walk"), named_walk_noise("none")), 3, ended)

@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 
 from ...control.gait import lengths_at
-from ...control.inclination import strain_of
+from ...control.loads import strain_of
 from ...types import Floats
 from . import motions
 from .walker import LEGS, Walker

@@ -24,7 +24,7 @@ def plan_crossing(walk: Walk) -> Crossing:
         SpecError: If it cannot be crossed so; it says why.
     """
     piece, robot, start = walk.way[0], walk.robot, walk.start
-    assert piece.ditch is not None and piece.ahead is not None and piece.direction is not None
+    assert piece.ditch is not None and piece.ahead is not None
     mechanism = replace(
         robot.mechanism,
         shortest=robot.mechanism.shortest + STROKE,
@@ -37,7 +37,7 @@ def plan_crossing(walk: Walk) -> Crossing:
         footing,
         piece.ditch + 2.0 * CLEARANCE,
         before=piece.ahead - CLEARANCE,
-        heading=-piece.direction,
+        heading=-(piece.along or 0.0),
         theta=start.twist,
     )
     if found.status != "found":
