@@ -23,6 +23,7 @@ from .inventory import inventory
 from .learn import learn
 from .limb import limb
 from .list import list_names
+from .most import most
 from .new import new
 from .plan import plan
 from .plant import plant
@@ -52,6 +53,7 @@ app.command("run")(run)
 app.command("press")(press)
 app.command("follow")(follow)
 app.command("trials")(trials)
+app.command("most")(most)
 app.command("show")(show)
 app.command("bench")(bench)
 app.command("sweep")(sweep)

@@ -3,9 +3,9 @@
 from dataclasses import replace
 
 from ...control.gait import Limits
-from ...errors import SpecError
 from ...execution.walk.course import PlannedCourse, PlannedStep
 from ...execution.walk.sequencer import Lay
+from ...execution.walk.walker import RefusedError
 from ...robots.walker.ditch import Footing
 from ...robots.walker.ditch_plan import Crossing, cross_ditch
 from ...robots.walker.weight import weight_of
@@ -15,13 +15,10 @@ from .planned import BALANCE, CLEARANCE, GUARD, STROKE
 
 
 def plan_crossing(walk: Walk) -> Crossing:
-    """The slides that cross a walk's ditch, wider by what feet keep from its edges, within less than the mechanism can.
+    """The slides that cross a walk's ditch, wider by what feet keep from its edges, within less than the mechanism can; or why none do.
 
     Args:
         walk: Its way is one ditch.
-
-    Raises:
-        SpecError: If it cannot be crossed so; it says why.
     """
     piece, robot, start = walk.way[0], walk.robot, walk.start
     assert piece.ditch is not None and piece.ahead is not None
@@ -33,20 +30,13 @@ def plan_crossing(walk: Walk) -> Crossing:
     )
     weight = weight_of(robot, walk.arm if robot.arm is not None else None, walk.payload)
     footing = Footing.of(replace(robot, mechanism=mechanism), weight=weight, margin=BALANCE)
-    found = cross_ditch(
+    return cross_ditch(
         footing,
         piece.ditch + 2.0 * CLEARANCE,
         before=piece.ahead - CLEARANCE,
         heading=-(piece.along or 0.0),
         theta=start.twist,
     )
-    if found.status != "found":
-        allowed = (
-            f"cannot be crossed with {1e3 * CLEARANCE:.0f} mm between feet and edges, {1e3 * BALANCE:.0f} mm of balance and "
-            f"{1e3 * STROKE:.0f} mm of the actuators' strokes kept: {found.reason}"
-        )
-        raise SpecError(f"walk '{walk.name}'", "way.0.ditch", f"{1e3 * piece.ditch:.6g} mm", allowed)
-    return found
 
 
 def crossing_steps(found: Crossing) -> tuple[PlannedStep, ...]:
@@ -59,15 +49,15 @@ def crossing_steps(found: Crossing) -> tuple[PlannedStep, ...]:
 
 
 def lay_crossing(walk: Walk) -> Lay:
-    """How a walk's ditch is crossed from where the robot stands.
-
-    Raises:
-        SpecError: As `plan_crossing`.
-    """
-    found = plan_crossing(walk)
-    steps, start, radius = crossing_steps(found), found.start[0], walk.robot.legs.radius_delta
+    """How a walk's ditch is crossed from where the robot stands; it is refused, with the reason, where it cannot be."""
 
     def lay(pose: Floats) -> PlannedCourse:
-        return PlannedCourse(steps, start, pose, radius=radius)
+        found = plan_crossing(walk)
+        if found.status != "found":
+            raise RefusedError(
+                f"the ditch cannot be crossed with {1e3 * CLEARANCE:.0f} mm kept between feet and edges, {1e3 * BALANCE:.0f} mm of "
+                f"balance and {1e3 * STROKE:.0f} mm of the actuators' strokes: {found.reason}"
+            )
+        return PlannedCourse(crossing_steps(found), found.start[0], pose, radius=walk.robot.legs.radius_delta)
 
     return lay

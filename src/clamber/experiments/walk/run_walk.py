@@ -156,11 +156,7 @@ def gait_of(walk: Walk) -> Gait:
 
 
 def own_way(walk: Walk) -> Lay:
-    """How the way of a walk's file is laid out from where the robot stands.
-
-    Raises:
-        SpecError: If its ditch cannot be crossed.
-    """
+    """How the way of a walk's file is laid out from where the robot stands."""
     if walk.way[0].ditch is not None:
         return lay_crossing(walk)
     return lambda pose: TrackCourse(lay_track(walk, pose), neutral=walk.start.twist)
@@ -186,13 +182,9 @@ def run_walk(
         settings: How it walks; None: as usual, level and probing as the walk says.
         lay: The course that it follows, laid where it stands; None: the walk's own way.
         progress: Told before each step.
-
-    Raises:
-        SpecError: If the walk's ditch cannot be crossed.
     """
     began = time.perf_counter()
     walk = walk.with_seed(seed)
-    laid = lay or own_way(walk)
     drawn = noise.flaws(flaws, seed) if any(noise.widths.values()) else flaws
     plant = TracedPlant(WalkerSim(walk.robot, walk.ground, drawn))
     how = settings
@@ -207,7 +199,7 @@ def run_walk(
         if walk.hold is not None:
             holds.append(lay_hold(walker, lay_track(walk, pose), walk.hold))
             holds[0].hold.start(walker)
-        return laid(walker.frames()[0])
+        return (lay or own_way(walk))(walker.frames()[0])
 
     sequencer = WalkSequencer(
         walker,
