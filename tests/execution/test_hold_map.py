@@ -19,7 +19,11 @@ def seen(place: Floats, by_angle: Floats | None = None, by_play: Floats | None =
     """A difference by exact sensors, or by such as are off."""
     none = np.zeros(2)
     return TipDifference(
-        place, none if by_angle is None else by_angle, none if by_play is None else by_play, np.zeros((2, 4)), np.zeros(4)
+        place,
+        none if by_angle is None else by_angle,
+        none if by_play is None else by_play,
+        np.zeros((2, 4)),
+        np.zeros(4),
     )
 
 
@@ -127,7 +131,9 @@ def test_two_known_holds_tell_where_in_its_play_a_loose_joint_is() -> None:
     holds = HoldMap(believed, ERROR)
     holds.know([0, 1])
     slope, off = np.array((0.1, 0.28)), np.radians(1.3)
-    tip = believed[1] - believed[0] - slope * off  # the joint is farther on than believed, so its tip seems short of the hold
+    tip = (
+        believed[1] - believed[0] - slope * off
+    )  # the joint is farther on than believed, so its tip seems short of the hold
     more = holds.learn(1, 0, loose(tip, slope, np.radians(1.2)))
     np.testing.assert_array_equal(more[1:], 0.0)
     assert more[0] == pytest.approx(off, rel=0.1)

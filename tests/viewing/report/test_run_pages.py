@@ -1,6 +1,7 @@
 """Reports of runs, made by the command: what they say, and that they open in a real browser."""
 
 import json
+import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,7 @@ from clamber.cli import main
 from clamber.execution.climb.course import climbable
 from clamber.tasks import load_task
 from clamber.tasks.limbed import LimbedTask
-from clamber.tasks.walks.walk import Piece
+from clamber.tasks.walks.piece import BodyTwist, Piece, Stop
 from clamber.viewing.report.walk import piece_in_words
 
 
@@ -78,6 +79,11 @@ def test_a_walks_report_says_where_it_was_close(walk: Path) -> None:
 def test_pieces_of_a_way_are_told_in_words() -> None:
     assert piece_in_words(Piece(turn=0.5, about=(1.0, 0.0))) == "a turn of 29 deg about x 1.00 m, y 0.00 m"
     assert piece_in_words(Piece(turn=-0.5)) == "a turn of -29 deg on the spot"
+    path = (Stop(x=0.5, y=0.0), Stop(x=1.0, y=0.25))
+    assert piece_in_words(Piece(through=path)) == "a path of 2 places to x 1.00 m, y 0.25 m"
+    twist = BodyTwist(vx=0.002, omega=math.radians(1.0))
+    told = "2 mm/s ahead, 0 mm/s to the left, 1 deg/s for 60 s"
+    assert piece_in_words(Piece(twist=twist, lasts=60.0)) == told
     assert piece_in_words(Piece(to=(1.0, 2.0), heading=0.0)) == "to x 1.00 m, y 2.00 m, facing 0 deg"
 
 

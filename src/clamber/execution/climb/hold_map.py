@@ -34,7 +34,7 @@ class TipDifference:
     by_joints: Floats
     """Change of `place` per angle at the gear output of each joint of the one limb, then of the other, shape (2, joints) [m/rad]."""
     loose: Floats
-    """How far each of these angles may be off as a joint rests on no side of its play for sure, standard deviations, shape (joints,) [rad]."""
+    """How far each of these may be off where a joint rests on no side of its play for sure, standard deviations, shape (joints,) [rad]."""
 
     @property
     def unsure(self) -> Floats:

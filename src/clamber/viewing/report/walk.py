@@ -7,7 +7,7 @@ from typing import Final
 from ...actions.plan import Plan
 from ...execution.walk.sequencer import StepReport, WalkReport
 from ...experiments.walk.run_walk import WalkRun
-from ...tasks.walks.walk import Piece
+from ...tasks.walks.piece import Piece
 from ...units import DEGREE
 from ..walk_run_view import write_walk
 from .run_page import Rows, RunPage, Shown, write_run_page
@@ -69,6 +69,12 @@ def piece_in_words(piece: Piece) -> str:
     if piece.turn is not None:
         about = "on the spot" if piece.about is None else f"about x {piece.about[0]:.2f} m, y {piece.about[1]:.2f} m"
         return f"a turn of {piece.turn / DEGREE:.0f} deg {about}"
+    if piece.through is not None:
+        last = piece.through[-1]
+        return f"a path of {len(piece.through)} places to x {last.x:.2f} m, y {last.y:.2f} m"
+    if piece.twist is not None:
+        vx, vy, omega = piece.twist.rates()
+        return f"{MILLI * vx:.3g} mm/s ahead, {MILLI * vy:.3g} mm/s to the left, {omega / DEGREE:.3g} deg/s for {piece.lasts:.3g} s"
     assert piece.direction is not None and piece.distance is not None
     return f"{piece.distance:.2f} m at {piece.direction / DEGREE:.0f} deg"
 
