@@ -12,7 +12,7 @@ from clamber.execution.walk import motions
 from clamber.execution.walk.footholds import KEPT, proof_strain, prove
 from clamber.execution.walk.settings import WalkSettings
 from clamber.execution.walk.true_walk import TracedPlant
-from clamber.execution.walk.walker import Walker
+from clamber.execution.walk.walker import RefusedError, Walker
 from clamber.sim.walker_build import WalkerBuild
 from clamber.sim.walker_flaws import WalkerFlaws
 from clamber.sim.walker_plant import WalkerSim
@@ -101,6 +101,18 @@ def test_a_foot_that_slips_under_trial_is_named() -> None:
     motions.slide(walker, Y, walker.frames()[Y] + (AHEAD, 0.0, 0.0))
     motions.lower(walker, walker.of_frame(Y))
     assert prove(walker, Y) == [3]
+
+
+def test_a_wall_that_no_leg_is_short_enough_for_ends_the_slide() -> None:
+    walker, plant = on_block(0.03, 0.2)
+    start = walker.frames()[Y].copy()
+    with pytest.raises(RefusedError, match="leg 1 of the Y-frame runs against ground"):
+        motions.slide(walker, Y, start + np.array((AHEAD, 0.0, 0.0)))
+    true = plant.truth()
+    assert true is not None
+    assert 0.02 < walker.frames()[Y, 0] - start[0] < 0.04  # it stopped there
+    assert abs(math.degrees(true.pose[3])) < 0.2
+    assert plant.trace().margins.min() > 0.05
 
 
 def test_a_lifted_foot_that_runs_against_a_wall_is_drawn_up_over_it() -> None:

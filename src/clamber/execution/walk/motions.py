@@ -22,6 +22,7 @@ from ...control.gait import (
 )
 from ...control.track import seen_from
 from ...types import Floats, Ints
+from .brake import OVER, Brake
 from .falls import LIGHT
 from .walker import LEGS, RefusedError, Walker, leg_name
 
@@ -31,12 +32,6 @@ PATIENCE: Final = 60.0
 """For levelling, at most [s]."""
 SETTLED: Final = 0.6
 """After a slide has sped up or slowed down, until the inclinometers have forgotten it [s]."""
-OVER: Final = 0.015
-"""Feet are lifted so far above the highest ground that was found about the plane through it [m]: what comes may be higher."""
-BRUSHED: Final = 10.0
-"""A lifted foot that feels more than this, either way, has run against something [N]; the noise of load cells is a few newtons."""
-BRAKE: Final = 0.2
-"""In which a slide stops when a lifted foot runs against the ground [s]."""
 LOOSE: Final = 0.25
 """A standing foot that feels less than this part of what counts as touching is lowered again before it has to carry [-]."""
 
@@ -276,7 +271,7 @@ def slide(walker: Walker, swing: int, end: Floats, *, lands: bool = True) -> Non
     before = walker.inclination.frozen
     late = settings.ramp + SETTLED
     walker.inclination.learns = True
-    time, brake = 0.0, _Brake(walker, swing)
+    time, brake = 0.0, Brake(walker, swing)
     while time < seconds:
         brake.see()
         time += brake.pace * walker.period
@@ -285,7 +280,7 @@ def slide(walker: Walker, swing: int, end: Floats, *, lands: bool = True) -> Non
         place = slide_places(still, first, last, swing, np.array([share]))
         walker.actuators[:] = lengths_at(robot, place)[0]
         if lands and settings.clear is not None:
-            _approach(walker, swing, end, seconds - time)
+            _approach(walker, swing, brake.free, end, seconds - time)
         walker.tick()
     walker.inclination.learns = False
     walker.inclination.frozen = True
@@ -294,31 +289,6 @@ def slide(walker: Walker, swing: int, end: Floats, *, lands: bool = True) -> Non
         walker.tick()
     walker.inclination.frozen = before
     walker.inclination.doubt(settings.landing_doubt)
-
-
-class _Brake:
-    """Stops a slide while a lifted foot that has run against the ground is drawn up.
-
-    A leg feels along itself only: against a wall that is how the foot rubs on it, up or down.
-    """
-
-    def __init__(self, walker: Walker, swing: int) -> None:
-        self._walker, self._legs = walker, list(walker.of_frame(swing))
-        self._felt, self._drawn = np.zeros(3, np.int32), np.zeros(3, np.bool_)
-        self.pace = 1.0
-        """Of the slide, 1 as fast as it may."""
-
-    def see(self) -> None:
-        """Take in a tick."""
-        walker, legs = self._walker, self._legs
-        self._felt = np.where(np.abs(walker.forces[legs]) > BRUSHED, self._felt + 1, 0)
-        felt = self._felt >= walker.settings.touches
-        self._drawn &= walker.lengths[legs] - walker.free_aims[legs] > 1e-6
-        self._drawn |= felt
-        for i in np.array(legs)[felt]:
-            walker.free_aims[i] = max(walker.robot.legs.shortest, walker.lengths[i] - OVER)
-        change = walker.period / BRAKE
-        self.pace = max(0.0, self.pace - change) if self._drawn.any() else min(1.0, self.pace + change)
 
 
 def _rises(walker: Walker, frame: int, end: Floats) -> Floats:
@@ -332,12 +302,13 @@ def _rises(walker: Walker, frame: int, end: Floats) -> Floats:
     return rises
 
 
-def _approach(walker: Walker, swing: int, end: Floats, seconds: float) -> None:
+def _approach(walker: Walker, swing: int, legs: list[int], end: Floats, seconds: float) -> None:
     """Let lifted feet go down towards the ground that is expected where a slide ends, in time to be `clear` above it then.
 
     Args:
         walker: The robot.
         swing: The lifted frame.
+        legs: Of it, those that may go down.
         end: Where it comes down, seen from above, shape (3,) [m], [rad].
         seconds: Until it is there [s].
     """
@@ -350,7 +321,7 @@ def _approach(walker: Walker, swing: int, end: Floats, seconds: float) -> None:
         np.maximum(0.0, _rises(walker, swing, end)) + settings.clear
     )  # over the highest ground from here on
     aims = np.clip(walker.targets(walker.wanted, heights), spec.shortest, spec.longest)
-    for i in mine:
+    for i in legs:
         if aims[i] - walker.lengths[i] >= spec.speed * (seconds - walker.period):
             walker.free_aims[i] = max(walker.free_aims[i], aims[i])
 

@@ -51,7 +51,7 @@ KICK: Final = 0.3
 
 
 class RefusedError(Exception):
-    """A motion would break a rule of the robot; nothing has moved.
+    """A motion would break a rule of the robot: it is not begun, or stops where it is.
 
     Args:
         reason: Which rule.
@@ -71,6 +71,10 @@ class ArmTask(Protocol):
 
     def aims(self, walker: "Walker") -> Floats:
         """Where its joints go by the end of the coming period, by what the walker believes at this tick, shape (joints,) [rad]."""
+        ...
+
+    def ahead(self, walker: "Walker") -> list[Floats]:
+        """Postures besides the present one that it may come through before the next step is over, each of shape (joints,) [rad]."""
         ...
 
 
@@ -115,7 +119,6 @@ class Walker:
         self.anchors, self.heights = np.zeros((LEGS, 2)), np.zeros(LEGS)
         """Believed: where in the world the feet stand or stood last [m]."""
         self.ground = TouchedGround()
-        """What footfalls have told of the ground."""
         self.strain = np.zeros(LEGS)
         """By how much more than its even share each leg is to carry while more than three stand [N]; see `strain_of`."""
         self.places, self.soles, self.matrix = np.zeros((LEGS, 2)), np.zeros((LEGS, 3)), np.eye(3)
@@ -260,6 +263,10 @@ class Walker:
     def margin(self, stands: Ints | None = None) -> float:
         """How far the centre of mass lies inside the standing feet, or inside others [m]."""
         return float(support_margin(self.soles, self.stands if stands is None else stands, self.centre()))
+
+    def postures(self) -> list[Floats]:
+        """Of the arm, in which the next step has to be in balance: as it is now, and as its task may have it on the way [rad]."""
+        return [self.arm.copy(), *([] if self.arm_task is None else self.arm_task.ahead(self))]
 
     def tilt(self) -> float:
         """Angle of the plate from the horizontal, as believed [rad]."""
