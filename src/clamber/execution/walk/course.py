@@ -75,10 +75,9 @@ class TrackCourse:
         return self._farthest(walker, self._swing) or self._farthest(walker, 1 - self._swing)
 
     def landed(self, step: Step, walker: Walker) -> bool:
-        """See `Course`; a frame that edges sent elsewhere is where it was to be, for it has done what it could."""
+        """See `Course`."""
         before = self._ways[step.swing]
-        probed = walker.settings.probe > 0.0
-        self._ways[step.swing] = step.way if probed else self._way_of(step, walker.frames()[step.swing])
+        self._ways[step.swing] = self._way_of(step, walker.frames()[step.swing])
         self._swing = 1 - step.swing
         return bool(self._ways[step.swing] - before >= FINE)
 
@@ -86,10 +85,22 @@ class TrackCourse:
         room = up_to_corner(self._track, self._ways, swing)
         if room < FINE:
             return None
-        return farthest_step(
-            walker.robot, self._track, walker.frames(), self._ways, swing, neutral=self._neutral, arm=walker.arm,
-            payload=walker.payload, limits=walker.settings.limits, longest=min(room, walker.settings.longest),
-        )  # fmt: skip
+        frames, limits, postures = walker.frames(), walker.settings.limits, walker.postures()
+        longest, step = min(room, walker.settings.longest), None
+        for arm in postures:  # what one of them allows is looked at no farther in the others
+            step = farthest_step(
+                walker.robot, self._track, frames, self._ways, swing, neutral=self._neutral, arm=arm,
+                payload=walker.payload, limits=limits, longest=longest,
+            )  # fmt: skip
+            if step is None:
+                return None
+            longest = step.way - float(self._ways[swing])
+        assert step is not None
+        looks = [
+            look_at_step(walker.robot, frames, swing, step.way, step.end, arm, walker.payload, limits)
+            for arm in postures
+        ]
+        return min(looks, key=lambda look: look.balance)
 
     def _way_of(self, step: Step, landed: Floats) -> float:
         """Where on the track a frame that came down elsewhere than it was to is, by how far behind along the way it stands [m]."""
