@@ -16,6 +16,7 @@ from .body import body
 from .calibrate import calibrate
 from .check import check
 from .ditch import ditch
+from .doctor import doctor
 from .follow import follow
 from .help_text import command_of
 from .inventory import inventory
@@ -62,6 +63,7 @@ app.command("reach")(reach)
 app.command("calibrate")(calibrate)
 app.command("ditch")(ditch)
 app.command("study")(study)
+app.command("doctor")(doctor)
 
 
 def _print_version(wanted: bool) -> None:

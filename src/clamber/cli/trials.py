@@ -4,7 +4,6 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..errors import UnknownNameError
 from .crew import CrewWords
 from .option_holder import shares
 from .options import (
@@ -68,16 +67,15 @@ def trials(
     from ..experiments.climb.trial import TrialSetup
     from ..experiments.climb.trial_summary import sum_up
     from ..experiments.climb.trials import NoPlanError, run_trials, with_plan
-    from ..planning.planners import FIRST_LOOPS, PLANNERS
+    from ..planning.planners import find_planner, first_loop
     from .trials_text import TrialsLine, print_trials
 
     if words.output is not None:
         _check_suffix(words.output, replay)
-    if planner not in PLANNERS:
-        raise UnknownNameError("planner", planner, tuple(PLANNERS))
+    find_planner(planner)
     least = _share(at_least)
     widths = read_noise(named_noise("usual"), noise or ())
-    announce_compilation("replay" if is_plan(what) else FIRST_LOOPS[planner], quiet=words.quiet)
+    announce_compilation("replay" if is_plan(what) else first_loop(planner), quiet=words.quiet)
     executor = words.executor
     if replay is None:
         executor.check()  # before a minute is spent on a plan

@@ -11,7 +11,7 @@ from ..errors import describe_choices
 from ..files import Document, check_schema, content_hash
 from ..robots.walker import WalkerRobot, build_walker
 from ..specs import Name, build_spec, spec
-from ..statics.walker import WALKER_CHECKS
+from ..statics.walker_checks import WALKER_CHECKS
 from ..types import Json
 from ..units import Angle, Length, NonNegativeLength, NonNegativeMass, Point, Quantity
 from ..worlds.ground import Ground, build_ground

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 
 from ..actions.problem import Replay
 from ..actions.yardsticks import walker_yardsticks
-from ..statics.walker import WALKER_CHECKS
+from ..statics.walker_checks import WALKER_CHECKS
 from ..tasks.walker import WalkerTask
 from ..types import Floats, Json
 from ..units import DEGREE
