@@ -13,7 +13,9 @@ from ...types import Floats
 from .walker import Walker
 
 ASTRAY = 0.02
-"""A planned step is not tried where the frame that stands is farther than this from where the plan has it [m], [rad]."""
+"""A planned step is not tried where the frame that stands is farther than this from where the plan has it [m] ..."""
+TURNED = 0.02
+"""... or turned by more than this [rad]."""
 
 
 class Course(Protocol):
@@ -152,8 +154,7 @@ class PlannedCourse:
         """See `Course`: None where the frame that stands is not where the plan has it."""
         step, frames = self._steps[self._at], walker.frames()
         off = seen_from(step.stands, frames[1 - step.swing])
-        off[2] = math.remainder(off[2], math.tau)
-        if float(np.abs(off).max()) > ASTRAY:
+        if np.hypot(off[0], off[1]) > ASTRAY or abs(math.remainder(off[2], math.tau)) > TURNED:
             return None
         way, settings = self.way, walker.settings
         straight = look_at_step(
