@@ -6,7 +6,8 @@ import numpy as np
 import typer
 from rich.console import Console
 
-from ..experiments.walk.trials import WalkTrials
+from ..experiments.intervals import wilson_interval
+from ..experiments.walk.trials import LEVEL, WalkTrials
 from ..units import DEGREE
 from .crew import CrewWords
 from .live_line import LiveLine
@@ -97,6 +98,12 @@ def print_walk_trials(console: Console, trials: WalkTrials) -> None:
             told = (*np.percentile(values, (50.0, 5.0, 95.0)), values.min(), values.max())
             table.add_row(title, *(f"{value:.{digits}f}" for value in told))
     console.print(table)
+    if trials.walk.level:
+        low, high = wilson_interval(trials.level, n)
+        console.print(
+            f"{trials.level} of {n} came to their end with the plate never more than {LEVEL / DEGREE:g} deg from level: "
+            f"95 % between {100 * low:.1f} and {100 * high:.1f} %"
+        )
     walked = float(trials.of("seconds").sum())
     if trials.wall_seconds > 0.0:
         console.print(

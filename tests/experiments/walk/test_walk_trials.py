@@ -1,6 +1,7 @@
 """Many walks: each by its seed alone, kept in a store, summed up."""
 
 import json
+import math
 from pathlib import Path
 from typing import Any
 
@@ -65,3 +66,11 @@ def test_shares_count_walks_that_came_to_their_end_and_those_that_kept_their_bal
     assert 0.0 < low < 2 / 3 < high < 1.0
     assert trials.of("off").tolist() == [1e-3, 1e-3]
     assert trials.to_json()["n"] == 3
+
+
+def test_a_walk_is_level_if_it_came_to_its_end_and_was_so_all_the_way() -> None:
+    tilts = (0.099, 0.101, 0.05, 0.02)
+    ended = [trial(seed=k, tilt=math.radians(tilt), done=k != 3) for k, tilt in enumerate(tilts)]
+    trials = WalkTrials(load_walk("level-walk"), named_walk_noise("none"), 4, ended)
+    assert trials.level == 2
+    assert trials.to_json()["level"] == 2

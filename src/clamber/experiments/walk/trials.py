@@ -14,10 +14,13 @@ from ...jobs.release import release
 from ...tasks.walks import Walk
 from ...tasks.walks.library import walk_from_document
 from ...types import Floats, Json
+from ...units import DEGREE
 from ..intervals import wilson_interval
 from .noise import WalkNoise
 from .run_walk import run_walk, walk_flaws
 
+LEVEL: Final = 0.1 * DEGREE
+"""A plate counts as level within this [rad]: what the paper's robot levels itself to."""
 ERROR: Final = "error"
 """Start of the reason of a trial that raised, or whose workers died."""
 
@@ -80,6 +83,11 @@ class WalkTrials:
         """Walks whose margin of balance was positive throughout, done or not."""
         return sum(trial.margin is not None and trial.margin > 0.0 for trial in self.ended)
 
+    @property
+    def level(self) -> int:
+        """Walks that came to their end with the plate never farther from level than `LEVEL` since the first step."""
+        return sum(trial.done and trial.tilt <= LEVEL for trial in self.ended)
+
     def of(self, name: str) -> Floats:
         """A number of all walks that have it."""
         return np.array(
@@ -96,6 +104,7 @@ class WalkTrials:
             "done": self.done,
             "interval": list(self.interval),
             "balanced": self.balanced,
+            "level": self.level,
             "trials": [trial.to_json() for trial in self.ended],
         }
 
