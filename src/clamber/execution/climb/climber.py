@@ -229,12 +229,10 @@ class Climber:
 
     def seen(self, i: int, j: int) -> TipDifference:
         """Where the tip of limb `i` is from that of limb `j`."""
-        c, s = math.cos(self.body.settled[2]), math.sin(self.body.settled[2])
         place = self.body.tip(i) - self.body.tip(j)
-        turn = np.array(((c, -s), (s, c)))
         by_play, unsure = np.zeros(2), np.zeros((2, 2))
         for limb, sign in ((i, 1.0), (j, -1.0)):
-            sides, slopes = self._sides(limb), turn @ self._by_joint(limb)
+            sides, slopes = self._sides(limb), self.body.turned_by_joints(limb)
             by_play -= sign * slopes @ sides
             loose = 0.5 * self.body.backlash * (1.0 - np.abs(sides)) * slopes
             unsure += loose @ loose.T
@@ -244,11 +242,3 @@ class Climber:
         """Which side of its play each joint of a limb rests on, -1 to 1, shape (2,)."""
         half = 0.5 * self.body.backlash
         return self.body.play[i] / half if half > 0.0 else np.ones(2)
-
-    def _by_joint(self, i: int) -> Floats:
-        """How a limb's tip moves with its joints, body frame, shape (2, 2) [m/rad]."""
-        body, limb = self.body, self.robot.limbs[i]
-        first = limb.port_angle + body.q[i, 0] - body.play[i, 0]
-        second = first + body.q[i, 1] - body.play[i, 1] + limb.hook_beta
-        x, y = -limb.l2_effective * math.sin(second), limb.l2_effective * math.cos(second)
-        return np.array(((x - limb.l1 * math.sin(first), x), (y + limb.l1 * math.cos(first), y)))

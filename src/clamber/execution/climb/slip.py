@@ -4,8 +4,12 @@ import math
 from itertools import combinations
 from typing import Final
 
+import numpy as np
+
 from .whole_body import WholeBody
 
+BEYOND: Final = 0.006
+"""What of that no play of their joints can be: how far a hook slides in its slot, sinks in, and what is learned of the map meanwhile [m]."""
 MOVED: Final = 0.0115
 """Two tips that have moved this far against each other are not both on their holds [m]. One joint that crosses its play moves them by less
 than 10 mm on LIBRA, a hook that slides in by 2 mm."""
@@ -62,7 +66,7 @@ class SlipWatch:
                 continue
             change = [new - old for new, old in zip(now, known[2], strict=True)]
             size, dx, dy = min((math.hypot(x, y), x, y) for x, y in (change[:2], change[2:]))
-            if size > max(most, MOVED):
+            if size > max(most, MOVED) and self._beyond_play(pair, known[2][2:], now[:2]) > BEYOND:
                 first, second = body.grab_direction(a), body.grab_direction(b)
                 lost = a if dx * (first[0] + second[0]) + dy * (first[1] + second[1]) > 0.0 else b
             most = max(most, size)
@@ -70,3 +74,20 @@ class SlipWatch:
             before[pair] = one.hold, other.hold, lately
         self.moved = most
         return lost
+
+    def _beyond_play(self, pair: tuple[int, int], lately: list[float], felt: list[float]) -> float:
+        """How far two tips have moved against each other at the least, wherever their joints may be within their play [m].
+
+        What the joints of both limbs can make of their play is a polygon with the directions of single joints as edges; this is the
+        distance from it.
+
+        Args:
+            pair: The limbs.
+            lately: First tip less second as it lately was, the play counted, world frame [m].
+            felt: The same now, by the encoders alone.
+        """
+        body = self._body
+        ways = np.concatenate([body.turned_by_joints(i) for i in pair], axis=1) * (0.5 * body.backlash)
+        normals = np.stack((-ways[1], ways[0])) / np.maximum(np.hypot(*ways), 1e-12)
+        moved = np.abs(normals.T @ (np.array(felt) - lately))
+        return float((moved - np.abs(normals.T @ ways).sum(axis=1)).max(initial=0.0))
