@@ -92,6 +92,8 @@ class Climber:
         self.ticks = 0
         self.latest = -1
         """Index of the limb that took its hold last."""
+        self.proven = True
+        """Whether it has carried there."""
         self._strained = self._slipped = self._pinned = 0
 
     @property

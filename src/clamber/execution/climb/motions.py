@@ -10,7 +10,7 @@ import numpy as np
 from ...types import Floats
 from .approach import SHIFTS, Approach, free_distance
 from .climber import Climber, Grabbed
-from .parking import park, poses_between
+from .parking import park, passes, poses_between
 
 BODY_SPEED: Final = 0.08
 """Of the body's aim, at most [m/s]."""
@@ -42,7 +42,7 @@ FREE: Final = 0.005
 """Least distance from the nearest place where the hold may be for all of that [m]."""
 TUG: Final = 10.0
 """Pull on a hook that has stopped: a quarter of LIBRA's weight; more would lift the limb below off its hold [N]."""
-LIFT: Final = (0.001, 0.003)
+LIFT: Final = (0.003, 0.006)
 """A push that lifts the body this far weakens, to a third at the second: it bears already, and other hooks would come off [m]."""
 SLIDING: Final = (0.003, 0.006)
 """So does one under which the tips of holding limbs come apart this far: a hook is coming off, unless joints cross their play [m]."""
@@ -68,6 +68,9 @@ WIDE_RATE: Final = 2.5
 """... and so slow that it moves the hook across by millimetres [Hz]."""
 STUCK: Final = 0.8
 """At most for that long without an advance [s]."""
+PROVING: Final = 0.2
+"""For so long a hook that carries for the first time does so before the limb that carried until then leaves its own hold: one that has
+stopped on its flare slides home in it, or off [s]."""
 HANGING: Final = 0.4
 """Part of these forces where the body hangs on one limb, which gives way [-]."""
 CENTRING: Final = 150.0
@@ -88,7 +91,7 @@ MOST_SHIFTS: Final = 2
 """That often the body makes room for one way: its limbs are elsewhere after the first [-]."""
 ASTRAY: Final = 0.05
 """A body may be as far from where a plan has it when a limb takes a hold, if the others hold no worse there [m], [rad]."""
-SLACK: Final = 0.004
+SLACK: Final = 0.008
 """Beyond its doubt, how far a seated hook may be from where it should be: play and backlash [m]."""
 
 
@@ -212,6 +215,9 @@ def release(climber: Climber, i: int) -> None:
     """
     _lean_on_the_others(climber, i)
     climber.carry_with_all(but=i)
+    if climber.latest >= 0 and not climber.proven:
+        climber.wait(PROVING)
+        climber.proven = True
     body, task = climber.body, climber.body.tasks[i]
     away = stand_off_of(climber, i, climber.map.error(task.hold)) + AWAY
     start, g = _draw_back(climber, i, away)
@@ -298,10 +304,18 @@ def _room_to_leave(climber: Climber, i: int, start: Floats, back: Floats) -> tup
 
 
 def _stands(climber: Climber) -> Callable[[Floats], bool]:
-    """Whether the limbs that hold can at another pose of the body, hardly worse than here."""
+    """Whether the body can go to another pose: limbs that hold do so hardly worse than here, and free ones meet no hold on the way."""
     body = climber.body
     least = min(0.0, body.stands(body.settled)) - WEAKER
-    return lambda pose: body.stands(pose) >= least
+    free = [(i, body.q[i] - body.play[i]) for i, task in enumerate(body.tasks) if not task.hold]
+
+    def stands(pose: Floats) -> bool:
+        if body.stands(pose) < least:
+            return False
+        way = poses_between(body.settled, pose)
+        return all(passes(climber.approaches, i, q, way, climber.holds) for i, q in free)
+
+    return stands
 
 
 def grab(climber: Climber, i: int, number: int, *, elbow: int = 0, home: Floats | None = None) -> Grabbed:
@@ -345,7 +359,7 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0, home: Floats 
         along, across = float(off @ g), float(off @ h)
         if stopped and math.hypot(along, across) < room:
             climber.learn(number, i, climber.holding())
-            climber.latest = i
+            climber.latest, climber.proven = i, False
             task.doing, task.hold, task.place = "cling", number, climber.holds[number].copy()
             climber.wait(0.1)
             return Grabbed(True, tries, along, across)
