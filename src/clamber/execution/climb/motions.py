@@ -46,6 +46,10 @@ LIFT: Final = (0.003, 0.006)
 """A push that lifts the body this far weakens, to a third at the second: it bears already, and other hooks would come off [m]."""
 SLIDING: Final = (0.003, 0.006)
 """So does one under which the tips of holding limbs come apart this far: a hook is coming off, unless joints cross their play [m]."""
+FIRM: Final = 0.7
+"""A push that has weakened to less of itself tells no seat [-]: it begins anew from where the body has come to rest ..."""
+ANEW: Final = 2
+"""... so often at most."""
 TUG_RISE: Final = 0.1
 """In which the tug grows to its full size [s]."""
 BORNE_TIME: Final = 0.05
@@ -77,6 +81,8 @@ CENTRING: Final = 150.0
 """Pull towards the believed hold across the hook [N/m]."""
 ADVANCE: Final = 0.0015
 """A tip that advances less than this along the grab direction has stopped [m]."""
+CREEP: Final = 0.0006
+"""So has one under a tug that advances less than this: a hook creeps in on its flare [m]."""
 STOPPED: Final = 0.2
 """For that long, a period of the dither, before the tug begins [s]."""
 STILL: Final = 0.25
@@ -419,7 +425,7 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bo
     # believed to press from the start: in free air the tip is then farther in than believed, never less far
     task.doing, task.pressed, task.tug = "pull", True, np.zeros(2)
     stage, still, tugged, phase, borne = "push", 0.0, 0.0, 0.0, 0.0
-    seated, marks = False, np.full(2, -np.inf)
+    seated, marks, anew = False, np.full(2, -np.inf), 0
     rested, apart = body.pose[:2].copy(), _apart(climber)
     part = HANGING if climber.hangs else 1.0
     for _ in range(round(PATIENCE / period)):
@@ -432,7 +438,8 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bo
             size += float(np.interp(free, (0.0, FREE), (0.0, HASTE)))
         # a joint that crosses its play, or is wrongly believed to, is seen in one of both; a hook that slides, in both
         slid = float(np.linalg.norm(_apart(climber) - apart, axis=1).min())
-        size *= part * min(np.interp(lifted, LIFT, (1.0, 1 / 3)), np.interp(slid, SLIDING, (1.0, 1 / 3)))
+        faded = min(np.interp(lifted, LIFT, (1.0, 1 / 3)), np.interp(slid, SLIDING, (1.0, 1 / 3)))
+        size *= part * faded
         strength, rate = (WIDE_DITHER, WIDE_RATE) if stage == "coax" else (DITHER, DITHER_RATE)
         phase += 2 * np.pi * rate * period
         side = part * strength * np.sin(phase)
@@ -449,7 +456,7 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bo
         climber.tick()
         # the play is crossed without a motor that turns, and the belief about it lags: both must have come to rest
         reached = np.array((body.felt_tip(i) @ g, body.tip(i) @ g))
-        advanced = reached > marks + ADVANCE
+        advanced = reached > marks + (ADVANCE if stage == "push" else CREEP)
         marks = np.where(advanced, reached, marks)
         still = 0.0 if advanced.any() else still + period
         ahead = float((place - body.tip(i)) @ g)
@@ -461,8 +468,11 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bo
         elif stage == "coax" and (still > STUCK or ahead < 0.5 * SHORT):
             stage, still = "tug", 0.0
         elif stage == "tug" and tugged > TUG_RISE and still > STILL:
-            seated = True
-            break
+            if faded > FIRM or anew == ANEW:
+                seated = True
+                break
+            # a weak push lets a hook rest on its flare: from where the body is now, with all of it
+            rested, apart, still, anew = body.pose[:2].copy(), _apart(climber), 0.0, anew + 1
     task.pressed, task.tug = False, np.zeros(2)
     return seated
 

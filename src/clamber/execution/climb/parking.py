@@ -27,7 +27,7 @@ def poses_between(start: Floats, end: Floats) -> list[Floats]:
 def room_along(
     approaches: Approaches, i: int, angles: Floats, poses: Sequence[Floats], holds: Mapping[int, Floats]
 ) -> float:
-    """Clearance of a limb with joints at angles, shape (2,) [rad], from all holds while the body goes along poses; negative: it meets one [m]."""
+    """Clearance of a limb, joints at angles, shape (2,) [rad], from all holds as the body goes along poses; negative: it meets one [m]."""
     leg, robot = approaches.legs[i], approaches.robot
     every = np.concatenate([discs_near(holds, pose, approaches.peg_radius) for pose in poses])
     return float(clearance(leg, angles[0], angles[1], every, approaches.wall, robot.link_radius, HOOK))
