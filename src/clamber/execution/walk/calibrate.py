@@ -12,7 +12,8 @@ from typing import Final
 import numpy as np
 
 from ...control.gait import DELTA, room_at
-from ...control.walker_balance import mass_centre, support_margin
+from ...control.support import support_margin
+from ...control.walker_balance import mass_centre
 from ...types import Floats
 from . import motions
 from .walker import RefusedError, Walker
