@@ -40,7 +40,7 @@ def bench(
     crew = Crew(executor=executor_of(ray, workers), store=store, resume=resume, progress=line.update)
     if ray is not None:
         crew.executor.check()
-    if ray is None:
+    if ray is None and name != "start":
         announce_compilation(
             {"boards": "simulate", "control": "drive_at", "plant": "drive_at", "hexapod": "prepare"}.get(
                 name or "", "rollout"
