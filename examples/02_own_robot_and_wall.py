@@ -16,7 +16,9 @@ for name in ("robot.toml", "wall.toml", "climb.toml"):
     found = clamber.inspect(here / name)
     print(f"{found.kind} '{found.name}': {found.title}; {len(found.odd)} odd")
 start = {margin.check: margin for margin in found.margins}
-print(f"at the start {start['torque'].margin:.2f} N m of torque and {1000 * start['reach'].margin:.0f} mm of reach are left")
+print(
+    f"at the start {start['torque'].margin:.2f} N m of torque and {1000 * start['reach'].margin:.0f} mm of reach are left"
+)
 
 task = clamber.load_task(str(here / "climb.toml"))
 result = clamber.plan(task, "greedy")

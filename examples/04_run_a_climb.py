@@ -15,7 +15,11 @@ run = clamber.run(plan, noise=["peg_error=3mm"], seed=1)
 x, y, theta = run.report.pose
 print(f"{'done' if run.done else run.reason} after {run.report.seconds:.0f} s, body at ({x:.3f}, {y:.3f}) m")
 for action in run.report.actions[:8]:
-    print(f"  {action.first:3} {action.title:24} {action.outcome:8} {action.seconds:5.1f} s, body off by {1000 * action.off:.1f} mm")
-print(f"  ... {len(run.report.actions)} in all; {sum(action.tries > 1 for action in run.report.actions)} needed another try")
+    print(
+        f"  {action.first:3} {action.title:24} {action.outcome:8} {action.seconds:5.1f} s, body off by {1000 * action.off:.1f} mm"
+    )
+print(
+    f"  ... {len(run.report.actions)} in all; {sum(action.tries > 1 for action in run.report.actions)} needed another try"
+)
 
 clamber.draw(run, out / "climb.png")

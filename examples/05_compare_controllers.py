@@ -18,7 +18,9 @@ for row in result.rows:
         print(f"  {row.entry.label:20} unstable after {measures.unstable_at:.1f} s")
         continue
     off, lag = measures.true.radial_rms, measures.true.lag
-    print(f"  {row.entry.label:20} {1000 * off:6.2f} mm off the circle (rms), {lag:.3f} rad behind, {measures.work:.1f} J")
+    print(
+        f"  {row.entry.label:20} {1000 * off:6.2f} mm off the circle (rms), {lag:.3f} rad behind, {measures.work:.1f} J"
+    )
 
 clamber.draw(result, out / "circle.png")
 result.save_table(out / "circle.csv")

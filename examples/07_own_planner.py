@@ -40,7 +40,9 @@ def plan_widest(task, *, seed=0, width=300, longest=60):
         if not stances_kept:
             break
         stances, ways = np.concatenate(stances_kept), ways_kept
-    return clamber.answer(task, ways[0], planner="widest", seed=seed, checks=checks, reason=f"none in {longest} actions")
+    return clamber.answer(
+        task, ways[0], planner="widest", seed=seed, checks=checks, reason=f"none in {longest} actions"
+    )
 
 
 if __name__ == "__main__":

@@ -102,9 +102,9 @@ def imports_of(tree: ast.Module, parts: tuple[str, ...]) -> Iterator[Import]:
     """All imports in `tree`, relative ones made absolute; `from a import b` counts as `a.b`, for b may be a module."""
     inside_functions = {
         id(node)
-        for function in ast.walk(tree)
-        if isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef)
-        for node in ast.walk(function)
+        for block in ast.walk(tree)
+        if isinstance(block, ast.FunctionDef | ast.AsyncFunctionDef) or is_for_types_only(block)
+        for node in ast.walk(block)
     }
     for node in ast.walk(tree):
         outer = id(node) not in inside_functions
@@ -114,6 +114,11 @@ def imports_of(tree: ast.Module, parts: tuple[str, ...]) -> Iterator[Import]:
             package = ".".join(parts[: -node.level]) if node.level else ""
             source = ".".join(name for name in (package, node.module or "") if name)
             yield from (Import(f"{source}.{alias.name}", node.lineno, outer) for alias in node.names)
+
+
+def is_for_types_only(block: ast.AST) -> bool:
+    """Whether only type checkers read it, so that nothing in it is ever imported."""
+    return isinstance(block, ast.If) and ast.unparse(block.test) == "TYPE_CHECKING"
 
 
 @cache

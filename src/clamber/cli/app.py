@@ -17,6 +17,7 @@ from .calibrate import calibrate
 from .check import check
 from .ditch import ditch
 from .doctor import doctor
+from .export import export
 from .follow import follow
 from .help_text import command_of
 from .inventory import inventory
@@ -34,6 +35,7 @@ from .show import show
 from .study import study
 from .sweep import sweep
 from .trials import trials
+from .view import view
 
 app = typer.Typer(
     name="clamber",
@@ -53,6 +55,8 @@ app.command("press")(press)
 app.command("follow")(follow)
 app.command("trials")(trials)
 app.command("show")(show)
+app.command("view")(view)
+app.command("export")(export)
 app.command("bench")(bench)
 app.command("sweep")(sweep)
 app.add_typer(limb, name="limb")

@@ -89,6 +89,7 @@ def print_walk_trials(console: Console, trials: WalkTrials) -> None:
     rows = (
         ("tilt [deg]", "tilt", DEGREE, 3), ("margin [mm]", "margin", 1e-3, 1), ("off [mm]", "off", 1e-3, 1),
         ("heading off [deg]", "turned", DEGREE, 2), ("time [s]", "seconds", 1.0, 0), ("kicks", "kicks", 1.0, 0),
+        ("held over [m]", "held_way", 1.0, 3), ("held, farthest [mm]", "held_error", 1e-3, 2),
     )  # fmt: skip
     for title, name, unit, digits in rows:
         values = trials.of(name) / unit

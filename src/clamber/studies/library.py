@@ -102,6 +102,13 @@ STUDIES: Final[dict[str, dict[str, Repeat]]] = {
 }
 """Paper or subject -> result -> what repeats it; the command line, the pages and the tests read it."""
 
+TITLES: Final[dict[str, str]] = {
+    PAPER: "Bevly 1997: planning action modules for, and controlling, an experimental climbing robot",
+    BOARDS_EXACT: "What exact search proves about the boards of Bevly 1997",
+    HOSHINO: "Hoshino and others 1995: posture control of a six-legged robot that walks and manipulates",
+}
+"""Paper or subject -> what a reader is told of it."""
+
 
 def first_loop(result: Repeat) -> str:
     """The kernel that a result runs first: plans are rolled out, laws ticked, frames' regions outlined, tools moved."""

@@ -4,6 +4,8 @@ import json
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from clamber.experiments.walk.noise import named_walk_noise
 from clamber.experiments.walk.trials import WalkTrial, WalkTrials, run_walk_trial, run_walk_trials
 from clamber.jobs import LocalProcesses
@@ -43,6 +45,16 @@ def test_trials_are_kept_and_taken_from_their_store(tmp_path: Path) -> None:
     assert two.ended[0] == one.ended[0]
     assert two.done == 2
     assert told[-1] <= 2
+
+
+@pytest.mark.slow
+def test_a_point_that_is_held_is_measured_in_every_trial() -> None:
+    walk = load_walk("slope-walk", ("hold={ x='5 cm', y='0.3 m', z='0.6 m', within='4 cm' }", "way.0.distance=10cm"))
+    noise = named_walk_noise("usual").to_json() | {"inclinometer_offset": 0.0}
+    told = WalkTrial(**run_walk_trial({"document": walk.document, "plant": [], "noise": noise, "seed": 1}))
+    assert told.done, told.reason
+    assert told.held_way == pytest.approx(0.08, abs=2e-3)
+    assert told.held_error is not None and 1e-5 < told.held_error < 5e-3
 
 
 def test_shares_count_walks_that_came_to_their_end_and_those_that_kept_their_balance() -> None:

@@ -53,8 +53,9 @@ class StepReport:
     reason: str = ""
 
     def to_json(self) -> Json:
-        """Plain data."""
+        """Plain data; None for a distance that there is none of, such as that of a frame that never came down."""
         plain = {name: getattr(self, name) for name in self.__slots__}
+        plain |= {name: None for name in ("balance", "off") if not math.isfinite(plain[name])}
         return plain | {"times": {name: getattr(self.times, name) for name in PhaseTimes.__slots__}}
 
 

@@ -60,6 +60,11 @@ class HeldPart:
     speed: float
     """Largest share of its speed that a joint had [-]."""
 
+    @property
+    def way(self) -> float:
+        """Over which the tool was to be held [m]."""
+        return self.last - self.first
+
     def to_json(self) -> Json:
         """Plain data."""
         return {name: getattr(self, name) for name in self.__slots__} | {

@@ -9,7 +9,7 @@ from typing import Any, Final
 import numpy as np
 
 from ...control.quickest import Gait, quickest_way
-from ...control.track import Track
+from ...control.track import Track, through
 from ...errors import UnitError, describe_choices
 from ...execution.plant import PlantStoppedError
 from ...execution.walk.course import Course, TrackCourse
@@ -31,6 +31,8 @@ SETTINGS: Final[dict[str, str]] = {"friction": "ratio", "payload": "mass", "phys
 """Settings of the plant that a user may change -> dimension. The payload is one that the robot does not know of."""
 LOST: Final = 0.02
 """A robot that ends farther from where it believes to be has not come to the end of its way [m]."""
+WITHIN: Final = 0.005
+"""So near are places of a path passed [m]."""
 PLANT: Final = "plant."
 """First word of settings that change the plant."""
 
@@ -127,12 +129,14 @@ def lay_track(walk: Walk, pose: Floats) -> Track:
     twists: list[Floats] = []
     radius = walk.robot.legs.radius_delta
     for piece in walk.way:
-        if piece.to is None:
-            twists.append(piece.twist())
-        else:
-            track = Track.of(pose, twists, radius)
-            here = track.pose(track.length)
+        track = Track.of(pose, twists, radius)
+        here = track.pose(track.length)
+        if piece.to is not None:
             twists += quickest_way(walk.robot, here, np.array(piece.to), piece.heading, gait_of(walk))[0].twists
+        elif piece.through is not None:
+            twists += list(through(here, piece.poses(float(here[2])), radius, within=WITHIN).twists)
+        else:
+            twists.append(piece.whole_twist())
     return Track.of(pose, twists, radius)
 
 

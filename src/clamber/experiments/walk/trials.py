@@ -43,6 +43,10 @@ class WalkTrial:
     turned: float | None
     """Heading from that at the end of the way [rad]."""
     kicks: int
+    held_way: float | None = None
+    """Way over which the tool was to be held at a point [m]; None where the walk has none, or ended before it was laid."""
+    held_error: float | None = None
+    """Largest distance of the tool from that point while it was held [m]; None where the robot did not come so far."""
 
     def to_json(self) -> Json:
         """Plain data."""
@@ -109,9 +113,11 @@ def run_walk_trial(item: Json) -> Json:
     run = run_walk(walk, walk_flaws(walk, item["plant"]), noise=WalkNoise(item["noise"]), seed=item["seed"])
     report, margin = run.report, run.margin
     off, turned = (None, None) if report.missed is None else report.missed
+    way, error = (None, None) if run.held is None else (run.held.part.way, run.held.largest)
     return WalkTrial(
         seed=item["seed"], done=run.done, reason=run.reason, seconds=report.seconds, steps=len(report.steps),
         tilt=run.tilt, margin=margin if np.isfinite(margin) else None, off=off, turned=turned, kicks=report.kicks,
+        held_way=way, held_error=error,
     ).to_json()  # fmt: skip
 
 

@@ -14,6 +14,7 @@ from ...specs import Name, build_spec, field_names, spec
 from ...types import Floats, Json
 from ...units import Angle, Length, NonNegativeLength, NonNegativeMass, Point, PositiveLength
 from ...worlds.ground import Ground, build_ground
+from .piece import Piece, check_way
 
 SCHEMA: Final = "clamber-walk-1"
 
@@ -34,32 +35,6 @@ class WalkStart:
     """Angle of the Y-frame in the Delta-frame [rad]; it keeps this at the same place of the way."""
     plate: Literal["level", "ground"] = "level"
     """Whether the plate is level and the legs make up for the ground, or the legs are of one length and the plate lies as the ground."""
-
-
-@spec
-class Piece:
-    """A piece of the way: `direction` and `distance` for a straight one, `turn` for a turn, `to` for a place."""
-
-    direction: Angle | None = None
-    """Seen from the Delta-frame; the heading is kept [rad]."""
-    distance: PositiveLength | None = None
-    """Over ground, seen from above [m]."""
-    turn: Angle | None = None
-    """Of the heading [rad]."""
-    about: Point | None = None
-    """Point that it turns about, in the Delta-frame as it is then; on the spot unless given [m]."""
-    to: Point | None = None
-    """Place in the world, reached straight or after a pivot, whichever takes less time [m]."""
-    heading: Angle | None = None
-    """At that place, world frame; any unless given [rad]."""
-
-    def twist(self) -> Floats:
-        """What the Delta-frame does, in its own frame: x, y [m] and heading [rad], each at a constant rate, shape (3,); not of `to`."""
-        if self.turn is not None:
-            x, y = (0.0, 0.0) if self.about is None else self.about
-            return self.turn * np.array((y, -x, 1.0))
-        assert self.direction is not None and self.distance is not None
-        return self.distance * np.array((math.cos(self.direction), math.sin(self.direction), 0.0))
 
 
 @spec
@@ -168,7 +143,7 @@ def build_walk(document: Document) -> Walk:
 
     robot, ground = build_walker(part("robot")), build_ground(part("ground"))
     stated = build_spec(WalkSpec, document, without=("schema", "robot", "ground", "labels"))
-    _check_way(stated.way, document)
+    check_way(stated.way, document)
     joints = 0 if robot.arm is None else robot.arm.n_joints
     if stated.payload > 0.0 and robot.arm is None:
         raise document.problem("payload", "needs an arm to carry it, and the robot has none")
@@ -193,27 +168,6 @@ def build_walk(document: Document) -> Walk:
     )
     _check_start(walk, document)
     return walk
-
-
-def _check_way(way: tuple[Piece, ...], document: Document) -> None:
-    if not way:
-        raise document.problem("way", "must have a piece or more")
-    for i, piece in enumerate(way):
-        if piece.to is not None:
-            if any(value is not None for value in (piece.direction, piece.distance, piece.turn, piece.about)):
-                raise document.problem(f"way.{i}", "must state a place alone, with a heading if one is wanted")
-            continue
-        if piece.heading is not None:
-            raise document.problem(f"way.{i}.heading", "is for a place that is gone to")
-        straight = piece.direction is not None or piece.distance is not None
-        if straight == (piece.turn is not None):
-            raise document.problem(f"way.{i}", "must state direction and distance, or turn, or to: one of the three")
-        if straight and (piece.direction is None or piece.distance is None):
-            raise document.problem(f"way.{i}", "must state both direction and distance")
-        if straight and piece.about is not None:
-            raise document.problem(f"way.{i}.about", "is for a turn")
-        if piece.turn == 0.0:
-            raise document.problem(f"way.{i}.turn", "must not be 0")
 
 
 def _check_start(walk: Walk, document: Document) -> None:
