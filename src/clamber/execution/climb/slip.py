@@ -22,8 +22,8 @@ class SlipWatch:
 
     Against where the holds are believed to be they are off by as much as the map is, the play and the sensors; against where they were
     a moment ago by little. Where a load turns round, several joints cross their play at once: their encoders move, the tips do not. The
-    belief of the play follows that, but moves tips itself where it lags or errs; a hook that comes off moves them by both. Of two that move apart,
-    that one has come off which moves the way it pulled: its hold is no longer in the way.
+    belief of the play follows that, but moves tips itself where it lags or errs; a hook that comes off moves them by both. Of two that
+    move apart, that one has come off which moves the way it pulled: its hold is no longer in the way.
 
     Args:
         body: What knows the limbs and their tasks.
