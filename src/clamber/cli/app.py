@@ -24,6 +24,7 @@ from .inventory import inventory
 from .learn import learn
 from .limb import limb
 from .list import list_names
+from .most import most
 from .new import new
 from .plan import plan
 from .plant import plant
@@ -55,6 +56,7 @@ app.command("run")(run)
 app.command("press")(press)
 app.command("follow")(follow)
 app.command("trials")(trials)
+app.command("most")(most)
 app.command("show")(show)
 app.command("view")(view)
 app.command("export")(export)
