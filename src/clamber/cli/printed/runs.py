@@ -317,8 +317,8 @@ class WalkTrials(Printed):
     done: Count
     interval: Interval
     """95 % interval (Wilson) of the share that came to the end."""
-    balanced: float | int | None
-    """Walks that came to the end without ever losing balance."""
+    balanced: Count
+    """Walks whose margin of balance was positive throughout, done or not."""
     trials: list[WalkTrial]
 
 
