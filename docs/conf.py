@@ -6,6 +6,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parent))  # for the pages made here
 
 from api_pages import write_api_pages
+from json_pages import write_json_page
 
 from clamber import __version__
 
@@ -15,10 +16,10 @@ copyright = author  # Sphinx's name for it
 release = version = __version__
 
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
-exclude_patterns = ["media/**", "studies/*/*"]
+exclude_patterns = ["media/**"]
 myst_enable_extensions = ["colon_fence", "deflist", "fieldlist"]
 myst_heading_anchors = 4
-suppress_warnings = ["myst.header"]  # studies' pages are written by a command, result by result
+suppress_warnings = ["myst.header", "toc.not_included"]  # studies have a page for each result, reached from their own
 
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
@@ -34,3 +35,4 @@ html_css_files = ["wide-tables.css"]
 html_show_sourcelink = False
 
 write_api_pages(Path(__file__).parent)
+write_json_page(Path(__file__).parent)

@@ -17,6 +17,7 @@ from .calibrate import calibrate
 from .check import check
 from .ditch import ditch
 from .doctor import doctor
+from .export import export
 from .follow import follow
 from .help_text import command_of
 from .inventory import inventory
@@ -31,10 +32,12 @@ from .polish import polish
 from .press import press
 from .reach import reach
 from .run import run
+from .schema import schema
 from .show import show
 from .study import study
 from .sweep import sweep
 from .trials import trials
+from .view import view
 
 app = typer.Typer(
     name="clamber",
@@ -55,6 +58,8 @@ app.command("follow")(follow)
 app.command("trials")(trials)
 app.command("most")(most)
 app.command("show")(show)
+app.command("view")(view)
+app.command("export")(export)
 app.command("bench")(bench)
 app.command("sweep")(sweep)
 app.add_typer(limb, name="limb")
@@ -65,6 +70,7 @@ app.command("reach")(reach)
 app.command("calibrate")(calibrate)
 app.command("ditch")(ditch)
 app.command("study")(study)
+app.command("schema")(schema)
 app.command("doctor")(doctor)
 
 

@@ -8,7 +8,7 @@ import typer
 from rich.console import Console
 
 from ..experiments.intervals import wilson_interval
-from ..experiments.walk.trials import WalkCause, WalkTrials
+from ..experiments.walk.trials import LEVEL, WalkCause, WalkTrials
 from ..units import DEGREE
 from .crew import CrewWords
 from .live_line import LiveLine
@@ -174,6 +174,12 @@ def print_walk_trials(console: Console, trials: WalkTrials) -> None:
             told = (*np.percentile(values, (50.0, 5.0, 95.0)), values.min(), values.max())
             table.add_row(title, *(f"{value:.{digits}f}" for value in told))
     console.print(table)
+    if trials.setup.level:
+        low, high = wilson_interval(trials.level, n)
+        console.print(
+            f"{trials.level} of {n} came to their end with the plate never more than {LEVEL / DEGREE:g} deg from level: "
+            f"95 % between {100 * low:.1f} and {100 * high:.1f} %"
+        )
     walked = float(trials.of("seconds").sum())
     if trials.wall_seconds > 0.0:
         console.print(

@@ -34,7 +34,7 @@ class InclinometerTrust:
     """Standard deviation of a reading [rad]."""
     time_constant: float = 0.2
     """Of the inclinometers' own filter [s]: readings nearer in time than this say the same."""
-    drift: float = 0.005 * DEGREE
+    drift: float = 0.0034 * DEGREE
     """How far the tilt that the legs say strays from the true one in a second: feet settle [rad/sqrt(s)]."""
     start: float = 0.1 * DEGREE
     """How unsure the tilt is at first [rad]."""
@@ -42,7 +42,7 @@ class InclinometerTrust:
     """By how much a foot sinks in under load, with the ground [m/N] ..."""
     give_doubt: float = 1e-5
     """... and how unsure that is at first [m/N]."""
-    give_drift: float = 2e-7
+    give_drift: float = 2e-8
     """How far that strays in a second: no foothold is like another [m/(N sqrt(s))]."""
     surprise: float = 4.0
     """Readings that differ for a second by more than this many of their deviations tell of something that nothing else told [-]."""

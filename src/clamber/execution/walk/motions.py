@@ -32,7 +32,7 @@ PATIENCE: Final = 60.0
 """For levelling, at most [s]."""
 SETTLED: Final = 0.6
 """After a slide has sped up or slowed down, until the inclinometers have forgotten it [s]."""
-LOOSE: Final = 0.25
+LOOSE: Final = 0.5
 """A standing foot that feels less than this part of what counts as touching is lowered again before it has to carry [-]."""
 
 

@@ -18,8 +18,9 @@ class WalkSettings:
     """By how much a lifted foot clears the ground that is expected on its way [m]; None: as the robot's file says."""
     clear: float | None = 0.02
     """A slide begins and ends with its feet so far above the expected ground [m], which saves time; None: by all of `lift`."""
-    touch: float = 30.0
-    """A foot that the ground pushes with more than this is on it [N]: the loads of standing feet are 60 N and more ..."""
+    touch: float = 15.0
+    """A foot that the ground pushes with more than this is on it [N]: seven deviations of a load cell. What it pushes back until it stops
+    tilts the plate; the loads of standing feet are 60 N and more ..."""
     touches: int = 2
     """... for so many samples."""
     settling: float = 2.0
@@ -36,11 +37,11 @@ class WalkSettings:
     """Part of what a leg carries beyond its even share that is passed on in a second while more than three stand [1/s]."""
     near: float = 0.004
     """From so far above the ground as it is expected, feet go down more slowly [m] ..."""
-    near_speed: float = 0.0025
+    near_speed: float = 0.0015
     """... at this speed [m/s]: what a leg goes on until it is stopped tilts the plate."""
     deepest: float = 0.06
     """A foot that finds no ground so far below the expected has none [m]."""
-    landing_doubt: float = math.radians(0.03)
+    landing_doubt: float = math.radians(0.017)
     """How far feet that take or lose load may tilt the plate without its legs telling [rad]."""
     level_within: float = math.radians(0.03)
     """The plate counts as level within this [rad]."""

@@ -26,7 +26,7 @@ from ...robots.walker.weight import weight_of
 from ...types import Floats, Ints
 from ...units import GRAVITY
 from ..fallen import FallenError as FallenError
-from .falls import LIGHT, FallWatch
+from .falls import FallWatch
 from .plant import WalkerPlant
 from .settings import WalkSettings
 from .touched_ground import TouchedGround
@@ -40,8 +40,6 @@ SLACK: Final = 0.6
 """Errors of a leg's length below this part of its motor's step stay [-]."""
 SMOOTHED: Final = 0.3
 """Time constant of the loads that tell how deep feet sink in [s]."""
-PART: Final = 0.75
-"""Part of what feet sink in that is made up for while others, which do not count as standing, carry, too [-]."""
 LEAST_GIVE: Final = 2e-6
 """A foot and its leg sink in by so much at least, where loads are shared [m/N]."""
 KICKED: Final = math.radians(0.5)
@@ -306,19 +304,10 @@ class Walker:
         Only the plane through the loads counts. The weight alone decides that; the rest is how six legs strain against each other, and
         legs that answered to it would strain the more. It is smoothed, or it would answer to the robot's rocking on its feet.
         """
-        # legs that are being lifted give way to what the others answer with: in full that could build up
-        part = PART if np.any(self.forces[self.stands == 0] > LIGHT) else 1.0
         x, y = sink_unevenly(
-            share,
-            part * self.inclination.give,
-            self.pose[3],
-            self.places,
-            self.forces,
-            self.stands,
-            self._slope,
-            self.heights,
+            share, self.inclination.give, self.pose[3], self.places, self.forces, self.stands, self._slope, self.heights
         )
-        self.inclination.sink(np.array((-part * x, -part * y)))
+        self.inclination.sink(np.array((-x, -y)))
         self._settle_in(share)
 
     def _settle_in(self, share: float) -> None:

@@ -17,11 +17,14 @@ from ...tasks.walker import WalkerTask
 from ...tasks.walks import Walk
 from ...tasks.walks.library import walk_from_document
 from ...types import Floats, Json
+from ...units import DEGREE
 from ..intervals import wilson_interval
 from .noise import WalkNoise
 from .planned import lay_plan, walk_of
 from .run_walk import run_walk, walk_flaws
 
+LEVEL: Final = 0.1 * DEGREE
+"""A plate counts as level within this [rad]: what the paper's robot levels itself to."""
 ERROR: Final = "error"
 """Start of the reason of a trial that raised, or whose workers died."""
 
@@ -48,6 +51,11 @@ class WalkSetup:
     def title(self) -> str:
         """The same in words."""
         return f"walks '{self.name}'"
+
+    @property
+    def level(self) -> bool:
+        """Whether the plate is to be kept level."""
+        return not isinstance(self.walked, Walk) or self.walked.level
 
     def about(self) -> Json:
         """What tells these trials from others; not how many, nor from which seed on."""
@@ -165,6 +173,11 @@ class WalkTrials:
             for words, alike in sorted(found.items(), key=lambda pair: -len(pair[1]))
         )  # fmt: skip
 
+    @property
+    def level(self) -> int:
+        """Walks that came to their end with the plate never farther from level than `LEVEL` since the first step."""
+        return sum(trial.done and trial.tilt <= LEVEL for trial in self.ended)
+
     def of(self, name: str) -> Floats:
         """A number of all walks that have it."""
         return np.array(
@@ -183,6 +196,7 @@ class WalkTrials:
             "balanced": self.balanced,
             "balanced_interval": list(wilson_interval(self.balanced, len(self.ended))),
             "causes": [{name: getattr(cause, name) for name in WalkCause.__slots__} for cause in self.causes()],
+            "level": self.level,
             "trials": [trial.to_json() for trial in self.ended],
         }
 

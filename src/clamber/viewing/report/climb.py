@@ -1,6 +1,5 @@
 """A climb's report: the plan with its least margins, what became of every action, and where it was close."""
 
-import math
 from pathlib import Path
 from typing import Final
 
@@ -12,7 +11,7 @@ from ...execution.climb.climb_report import ActionReport
 from ...experiments.climb.run_plan import ClimbRun
 from ...units import DEGREE
 from ..climb_run_view import write_run
-from ..margins import Limiting
+from ..margins import named_limits
 from ..pictures import draw_route
 from ..torques import torque_limits
 from .run_page import Rows, RunPage, Shown, write_run_page
@@ -82,7 +81,7 @@ def _facts(run: ClimbRun) -> tuple[tuple[str, str], ...]:
         ("Robot", run.task.robot.title or run.task.robot.name),
         ("Actions", str(sum(action.last - action.first + 1 for action in report.actions))),
         ("Time", f"{report.seconds:.1f} s"),
-        ("Body at the end", f"x {x:.3f} m, y {y:.3f} m, {theta / DEGREE:.1f} deg"),
+        ("Body at the end", f"x {x:.3f} m, y {y:.3f} m, {round(theta / DEGREE, 1) + 0.0:.1f} deg"),
         ("From the goal", f"{MILLI * report.short:.0f} mm"),
         ("Seed of the noise", str(notes.get("seed", 0)) if run.drawn.pegs.any() or _noisy(notes) else "none drawn"),
     )
@@ -94,36 +93,20 @@ def _noisy(notes: dict[str, object]) -> bool:
 
 
 def _plan_rows(verdict: Verdict, run: ClimbRun) -> Rows:
-    rows = []
+    sticks, rows = climber_yardsticks(run.task), []
     for row in verdict.per_step:
-        tightest = min(_limits(row.margins, run), key=lambda one: one.share, default=None)
-        rows.append((row.step, row.action.title, "" if tightest is None else str(tightest)))
+        limits = named_limits(sticks, row.margins)
+        rows.append((row.step, row.action.title, str(limits[0]) if limits else ""))
     return Rows(("Step", "Action", "Nearest limit"), tuple(rows))
-
-
-def _limits(margins: dict[str, float | None], run: ClimbRun) -> list[Limiting]:
-    """The margins of hard checks that have a size to be measured against."""
-    sticks = climber_yardsticks(run.task)
-    return [
-        Limiting(check, margin, min(margin / sticks.sizes[check.name], 1.0))
-        for check in sticks.checks
-        if check.name in sticks.hard and sticks.sizes.get(check.name, 0.0) > 0.0
-        for margin in (margins[check.name],)
-        if margin is not None and math.isfinite(sticks.sizes[check.name])
-    ]
 
 
 def _margins(verdict: Verdict, run: ClimbRun) -> list[tuple[str, str, str]]:
     """The checks that the plan comes nearest to."""
-    tightest = verdict.tightest()
-    least: dict[str, float | None] = {check.name: None for check in verdict.checks}
-    least |= {name: margin for name, (margin, _) in tightest.items()}
-    rows = []
-    for limit in sorted(_limits(least, run), key=lambda one: one.share)[:CHECKS_TOLD]:
+    tightest, rows = verdict.tightest(), []
+    least = {name: margin for name, (margin, _) in tightest.items()}
+    for limit in named_limits(climber_yardsticks(run.task), least)[:CHECKS_TOLD]:
         step = tightest[limit.check.name][1]
-        rows.append(
-            ("plan, least margin", str(limit), f"step {step}: {verdict.per_step[step - 1].action.title}"),
-        )
+        rows.append(("plan, least margin", str(limit), f"step {step}: {verdict.per_step[step - 1].action.title}"))
     return rows
 
 
