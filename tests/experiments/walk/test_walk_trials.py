@@ -97,6 +97,14 @@ def test_shares_count_walks_that_came_to_their_end_and_those_that_kept_their_bal
     assert trials.to_json()["n"] == 3
 
 
+def test_a_walk_is_level_if_it_came_to_its_end_and_was_so_all_the_way() -> None:
+    tilts = (0.099, 0.101, 0.05, 0.02)
+    ended = [trial(seed=k, tilt=math.radians(tilt), done=k != 3) for k, tilt in enumerate(tilts)]
+    trials = WalkTrials(WalkSetup(load_walk("level-walk"), named_walk_noise("none")), 4, ended)
+    assert trials.level == 2
+    assert trials.to_json()["level"] == 2
+
+
 def test_causes_gather_walks_that_ended_alike() -> None:
     reasons = ("fell: the robot tips", "step 4: refused: too far", "step 9: refused: too long", "lost: 30 mm away", "")
     ended = [trial(seed=k, done=not reason, reason=reason, steps=k) for k, reason in enumerate(reasons)]
@@ -106,11 +114,3 @@ def test_causes_gather_walks_that_ended_alike() -> None:
     ]  # fmt: skip
     assert causes[0].reason == reasons[1]
     assert causes[0].interval == wilson_interval(2, 5)
-
-
-def test_a_walk_is_level_if_it_came_to_its_end_and_was_so_all_the_way() -> None:
-    tilts = (0.099, 0.101, 0.05, 0.02)
-    ended = [trial(seed=k, tilt=math.radians(tilt), done=k != 3) for k, tilt in enumerate(tilts)]
-    trials = WalkTrials(WalkSetup(load_walk("level-walk"), named_walk_noise("none")), 4, ended)
-    assert trials.level == 2
-    assert trials.to_json()["level"] == 2

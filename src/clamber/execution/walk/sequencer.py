@@ -170,7 +170,8 @@ class WalkSequencer:
         while not course.done:
             step = course.next(self.walker)
             if step is None:
-                report.reason = f"stuck: neither frame can go on from {course.way:.3f} m of {course.length:.3f} m"
+                at = f"{course.way:.3f} m of {course.length:.3f} m"
+                report.reason = f"stuck: neither frame can go on from {at}: {course.obstacle(self.walker)}"
                 return
             if self._progress is not None:
                 self._progress(len(report.steps) + 1, course.way, course.length)

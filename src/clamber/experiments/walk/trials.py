@@ -53,8 +53,8 @@ class WalkSetup:
         return f"walks '{self.name}'"
 
     @property
-    def level(self) -> bool:
-        """Whether the plate is to be kept level."""
+    def levels(self) -> bool:
+        """Whether the plate is to be kept level; in a plan it always is."""
         return not isinstance(self.walked, Walk) or self.walked.level
 
     def about(self) -> Json:
@@ -159,6 +159,11 @@ class WalkTrials:
         """Walks whose margin of balance was positive throughout, done or not."""
         return sum(trial.margin is not None and trial.margin > 0.0 for trial in self.ended)
 
+    @property
+    def level(self) -> int:
+        """Walks that came to their end with the plate never farther from level than `LEVEL` since the first step."""
+        return sum(trial.done and trial.tilt <= LEVEL for trial in self.ended)
+
     def causes(self) -> tuple[WalkCause, ...]:
         """Why walks ended early, the commonest first."""
         early = [trial for trial in self.ended if not trial.done]
@@ -172,11 +177,6 @@ class WalkTrials:
             )
             for words, alike in sorted(found.items(), key=lambda pair: -len(pair[1]))
         )  # fmt: skip
-
-    @property
-    def level(self) -> int:
-        """Walks that came to their end with the plate never farther from level than `LEVEL` since the first step."""
-        return sum(trial.done and trial.tilt <= LEVEL for trial in self.ended)
 
     def of(self, name: str) -> Floats:
         """A number of all walks that have it."""
@@ -194,9 +194,9 @@ class WalkTrials:
             "done": self.done,
             "interval": list(self.interval),
             "balanced": self.balanced,
+            "level": self.level,
             "balanced_interval": list(wilson_interval(self.balanced, len(self.ended))),
             "causes": [{name: getattr(cause, name) for name in WalkCause.__slots__} for cause in self.causes()],
-            "level": self.level,
             "trials": [trial.to_json() for trial in self.ended],
         }
 
