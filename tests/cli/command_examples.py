@@ -44,6 +44,7 @@ LONG = (
     "trials two.json -n 2 --workers 1",
     "trials two.json --replay 1",
     "trials level-walk -n 2 --workers 1 --set way.0.distance=3cm",
+    "most level-walk --set way.0.distance=3cm --vary payload=5kg..40kg:2",
     "calibrate --seeds 1",
     "ditch --straight",
     "ditch --width 180mm",
