@@ -46,11 +46,8 @@ class WalkSettings:
     level_within: float = math.radians(0.03)
     """The plate counts as level within this [rad]."""
     probe: float = 0.0
-    """Distance from a foothold at which the ground is probed for edges [m]; 0: it is not."""
-    even: float = 0.003
-    """Touches of a foot whose heights differ by more have an edge between them [m]."""
-    most_probes: int = 12
-    """Touches of a frame for one foothold, at most."""
+    """By how much feet are pushed to every side where they have come down, before they are relied upon [m]; 0: they are not. More than 0
+    also means that the ground may be rough: feet are lifted over all that has been found so far."""
     longest: float = math.inf
     """A step goes no farther than this [m]."""
 
@@ -65,16 +62,14 @@ class WalkSettings:
             "ease_speed",
             "near_speed",
             "longest",
-            "even",
         ):
             if not getattr(self, key) > 0.0:
                 raise ValueError(f"{key} = {getattr(self, key)}: must be more than 0")
         for key in ("trim", "share", "landing_doubt", "probe", "near"):
             if not 0.0 <= getattr(self, key) < math.inf:
                 raise ValueError(f"{key} = {getattr(self, key)}: must be 0 or more, and finite")
-        for key in ("touches", "most_probes"):
-            if getattr(self, key) < 1:
-                raise ValueError(f"{key} = {getattr(self, key)}: must be 1 or more")
+        if self.touches < 1:
+            raise ValueError(f"touches = {self.touches}: must be 1 or more")
         for key in ("lift", "clear"):
             value = getattr(self, key)
             if value is not None and not 0.0 < value < math.inf:

@@ -29,6 +29,7 @@ from ..fallen import FallenError as FallenError
 from .falls import FallWatch
 from .plant import WalkerPlant
 from .settings import WalkSettings
+from .touched_ground import TouchedGround
 
 LEGS: Final = 6
 STILL: Final = 0.2
@@ -48,7 +49,7 @@ KICK: Final = 0.3
 
 
 class RefusedError(Exception):
-    """A motion would break a rule of the robot; nothing has moved.
+    """A motion would break a rule of the robot: it is not begun, or stops where it is.
 
     Args:
         reason: Which rule.
@@ -68,6 +69,10 @@ class ArmTask(Protocol):
 
     def aims(self, walker: "Walker") -> Floats:
         """Where its joints go by the end of the coming period, by what the walker believes at this tick, shape (joints,) [rad]."""
+        ...
+
+    def ahead(self, walker: "Walker") -> list[Floats]:
+        """Postures besides the present one that it may come through before the next step is over, each of shape (joints,) [rad]."""
         ...
 
 
@@ -111,6 +116,9 @@ class Walker:
         """1 for feet that stand."""
         self.anchors, self.heights = np.zeros((LEGS, 2)), np.zeros(LEGS)
         """Believed: where in the world the feet stand or stood last [m]."""
+        self.ground = TouchedGround()
+        self.strain = np.zeros(LEGS)
+        """By how much more than its even share each leg is to carry while more than three stand [N]; see `strain_of`."""
         self.places, self.soles, self.matrix = np.zeros((LEGS, 2)), np.zeros((LEGS, 3)), np.eye(3)
         self.sensed, self.forces, self.readings = np.zeros(LEGS), np.zeros(LEGS), np.zeros(2)
         """Lengths of the legs [m], forces along them [N], inclines [rad], as last sensed."""
@@ -169,6 +177,7 @@ class Walker:
         self.ticks = self.kicks = 0
         self.lengths[:] = self.commanded[:] = self.free_aims[:] = np.asarray(legs, float).ravel()
         self._trims[:] = 0.0
+        self.ground = TouchedGround()
         self.place[:] = place
         self.pose[:2], self.pose[3] = pose[:2], pose[3]
         self.stands[:] = 0
@@ -191,6 +200,8 @@ class Walker:
         self.heights += self.pose[2]
         soles_in_world(self.pose, self.places, self.sensed, self.soles, self.matrix)
         self.anchors[:] = self.soles[:, :2]
+        for k in np.flatnonzero(self.stands):
+            self.ground.add(self.anchors[k], float(self.heights[k]))
         self._slope, self._loads = self._load_slope(), self.forces.copy()
         self.wanted[:] = self.pose[2], self.pose[4], self.pose[5]
         self.height = self.wanted[0]
@@ -229,6 +240,7 @@ class Walker:
         self._stand_on(i, 1)
         self._loads[i] = self.forces[i]
         self.anchors[i], self.heights[i] = self.soles[i, :2], self.soles[i, 2]
+        self.ground.add(self.anchors[i], float(self.heights[i]))
         self._trims[i], self.lengths[i] = self.commanded[i] - self.sensed[i], self.sensed[i]
 
     def leave(self, i: int) -> None:
@@ -249,6 +261,10 @@ class Walker:
     def margin(self, stands: Ints | None = None) -> float:
         """How far the centre of mass lies inside the standing feet, or inside others [m]."""
         return float(support_margin(self.soles, self.stands if stands is None else stands, self.centre()))
+
+    def postures(self) -> list[Floats]:
+        """Of the arm, in which the next step has to be in balance: as it is now, and as its task may have it on the way [rad]."""
+        return [self.arm.copy(), *([] if self.arm_task is None else self.arm_task.ahead(self))]
 
     def tilt(self) -> float:
         """Angle of the plate from the horizontal, as believed [rad]."""
@@ -346,7 +362,7 @@ class Walker:
 
     def _share_load(self) -> None:
         """Legs that carry too much while more than three stand are drawn in, others pushed out; the plane through the feet stays."""
-        over = strain_of(self.places, self.forces, self.stands)
+        over = strain_of(self.places, self.forces - self.strain, self.stands)
         give = max(self.inclination.give, LEAST_GIVE)
         self.heights += self.settings.share * self.period * give * over
 
