@@ -38,7 +38,7 @@ def bench(
     crew = Crew(executor=executor_of(ray, workers), store=store, resume=resume, progress=line.update)
     if ray is not None:
         crew.executor.check()
-    if ray is None:
+    if ray is None and only != "start":
         announce_compilation(FIRST_KERNELS.get(only or "", "rollout"))
     if only == "boards":
         from .bench_boards import bench_boards
