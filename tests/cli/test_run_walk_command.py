@@ -56,6 +56,8 @@ def test_a_walk_that_falls_leaves_with_1(run: Any, tmp_path: Path) -> None:
         (("slope-walk", "--noise", "peg_error=1mm"), "inclinometer_noise"),
         (("slope-walk", "--set", "ground.slope=50deg"), "legs"),
         (("slope-walk", "-o", "walk.html"), ".gif"),
+        (("level-walk", "--set", "way=[{ path = 'gone.csv' }]"), "gone.csv"),
+        (("level-walk", "--set", "way=[{ twist = { vx = '1 mm/s' } }]"), "lasts"),
     ],
 )
 def test_bad_input_is_one_message(run: Any, words: tuple[str, ...], said: str) -> None:

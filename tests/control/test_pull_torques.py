@@ -7,6 +7,7 @@ from clamber.control.play import follow_play, pull_torques
 from clamber.execution.climb.whole_body import WholeBody
 from clamber.robots.library import load_robot
 from clamber.robots.limbed import LimbedRobot
+from clamber.types import Floats
 from clamber.units import GRAVITY
 
 ROBOT = load_robot("libra")
@@ -42,36 +43,62 @@ def test_damping_takes_power_from_a_tip_that_moves_with_the_body_too() -> None:
 
 
 def test_a_pressed_joint_comes_to_rest_at_the_side_that_its_load_pushes_it_to() -> None:
-    play, half = np.zeros((3, 2)), np.radians(1.0)
+    play, sure, half = np.zeros((3, 2)), np.zeros((3, 2)), np.radians(1.0)
     loads = np.array(((1.0, -1.0), (-2.0, 0.5), (0.0, 3.0)))
     for _ in range(400):
         follow_play(
-            BODY.legs, np.zeros((3, 2)), np.zeros(3, np.int64), np.zeros((3, 2)), 0.0, np.ones(3, np.int64), loads,
-            np.array((0.025, half)), play,
+            BODY.legs, np.zeros((3, 2)), np.zeros((3, 2)), np.zeros(3, np.int64), np.zeros((3, 2)), 0.0,
+            np.ones(3, np.int64), loads, np.array((0.025, half)), play, sure,
         )  # fmt: skip
     np.testing.assert_allclose(play, half * np.tanh(loads / 0.05), atol=1e-4)
+    np.testing.assert_allclose(sure, np.tanh(np.abs(loads) / 0.05), atol=1e-3)
 
 
-def test_a_holding_joint_keeps_its_side_within_its_friction_and_takes_that_of_its_load_beyond() -> None:
-    rng = np.random.default_rng(5)
+def holding_joints(rng: np.random.Generator, speeds: Floats) -> tuple[Floats, Floats, Floats, Floats, Floats]:
+    """Limbs that hold with any forces, their motors turning at these speeds: torques without friction, friction, and of their play the
+    side before and after a while, [rad], and how sure it is."""
     half, rate, angle = np.radians(1.0), np.array((0.025, np.radians(1.0))), 0.3
-    kept = followed = 0
+    q, forces = rng.uniform(-1.2, 1.2, (3, 2)), rng.normal(0.0, 3.0, (3, 2))
+    before = half * rng.choice((-1.0, 1.0), (3, 2))
+    play, sure = before.copy(), rng.uniform(0.0, 1.0, (3, 2))
+    for _ in range(2000):
+        follow_play(
+            BODY.legs, q, speeds, np.ones(3, np.int64), forces, angle, np.zeros(3, np.int64), np.zeros((3, 2)), rate,
+            play, sure,
+        )  # fmt: skip
+    torques, dry = np.zeros((3, 2)), np.zeros((3, 2))
+    for i, limb in enumerate(ROBOT.limbs):
+        turn = angle + limb.port_angle
+        down = GRAVITY * np.array((-np.sin(turn), -np.cos(turn)))
+        chain = chain_of_limb(ROBOT, limb.name)
+        weight = chain.with_gravity((down[0], down[1], 0.0)).bias(q[i], np.zeros(2))
+        torques[i], dry[i] = chain.jacobian(q[i])[:2].T @ forces[i] + weight, chain.joints["friction"]
+    return torques, dry, before, play, sure
+
+
+def test_a_holding_joint_keeps_its_side_within_its_friction_unsure_of_it_and_takes_that_of_its_load_beyond() -> None:
+    rng = np.random.default_rng(5)
+    half, kept, followed = np.radians(1.0), 0, 0
     for _ in range(40):
-        q, forces = rng.uniform(-1.2, 1.2, (3, 2)), rng.normal(0.0, 3.0, (3, 2))
-        before = half * rng.choice((-1.0, 1.0), (3, 2))
-        play = before.copy()
-        for _ in range(2000):
-            follow_play(
-                BODY.legs, q, np.ones(3, np.int64), forces, angle, np.zeros(3, np.int64), np.zeros((3, 2)), rate, play
-            )
-        for i, limb in enumerate(ROBOT.limbs):
-            turn = -(angle + limb.port_angle)
-            down = GRAVITY * np.array((-np.sin(-turn), -np.cos(-turn)))
-            chain = chain_of_limb(ROBOT, limb.name)
-            weight = chain.with_gravity((down[0], down[1], 0.0)).bias(q[i], np.zeros(2))
-            load, dry = chain.jacobian(q[i])[:2].T @ forces[i] + weight, chain.joints["friction"]
-            inside, beyond = np.abs(load) < dry, np.abs(load) > dry + 0.1
-            np.testing.assert_array_equal(play[i][inside], before[i][inside])
-            np.testing.assert_allclose(play[i][beyond], half * np.sign(load)[beyond], rtol=0.05)
-            kept, followed = kept + int(inside.sum()), followed + int(beyond.sum())
+        torques, dry, before, play, sure = holding_joints(rng, np.zeros((3, 2)))
+        inside, beyond = np.abs(torques) < dry, np.abs(torques) > dry + 0.1
+        np.testing.assert_array_equal(play[inside], before[inside])
+        np.testing.assert_allclose(sure[inside], 0.0, atol=1e-9)
+        np.testing.assert_allclose(play[beyond], half * np.sign(torques)[beyond], rtol=0.05)
+        assert np.all(sure[beyond] > 0.95)
+        kept, followed = kept + int(inside.sum()), followed + int(beyond.sum())
     assert kept > 20 and followed > 20
+
+
+def test_friction_of_a_motor_that_turns_is_all_against_it_so_its_joint_tells_its_side() -> None:
+    rng = np.random.default_rng(6)
+    half, told = np.radians(1.0), 0
+    for _ in range(40):
+        speeds = rng.choice((-0.3, 0.3), (3, 2))
+        torques, dry, _, play, sure = holding_joints(rng, speeds)
+        loads = torques - dry * np.sign(speeds)
+        clear = np.abs(loads) > 0.1
+        np.testing.assert_allclose(play[clear], half * np.sign(loads)[clear], rtol=0.05)
+        assert np.all(sure[clear] > 0.95)
+        told += int((clear & (np.abs(torques) < dry)).sum())
+    assert told > 20

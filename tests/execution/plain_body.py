@@ -105,7 +105,9 @@ class PlainBody(WholeBody):
             if task.doing in ("pull", "cling"):
                 most = gains.firm if task.pressed else gains.gentle
                 np.clip(torques, -most, most, out=torques)
-        follow_play(self.legs, self.q, self.held, forces, self.pose[2], pressed, loads, self._lag, self.play)
+        follow_play(
+            self.legs, self.q, self.qd, self.held, forces, self.pose[2], pressed, loads, self._lag, self.play, self.sure
+        )
         return self.torques
 
     def _own_weight(self, i: int) -> Floats:

@@ -19,8 +19,19 @@ def seen(place: Floats, by_angle: Floats | None = None, by_play: Floats | None =
     """A difference by exact sensors, or by such as are off."""
     none = np.zeros(2)
     return TipDifference(
-        place, none if by_angle is None else by_angle, none if by_play is None else by_play, np.zeros((2, 2))
+        place,
+        none if by_angle is None else by_angle,
+        none if by_play is None else by_play,
+        np.zeros((2, 4)),
+        np.zeros(4),
     )
+
+
+def loose(place: Floats, by_joints: Floats, error: float) -> TipDifference:
+    """A difference by a joint that may be anywhere in its play, and three that are sure."""
+    slopes = np.zeros((2, 4))
+    slopes[:, 0] = by_joints
+    return TipDifference(place, np.zeros(2), np.zeros(2), slopes, np.array((error, 0.0, 0.0, 0.0)))
 
 
 def test_a_hold_gripped_beside_a_known_one_is_as_sure_as_the_measurement() -> None:
@@ -105,10 +116,26 @@ def test_a_joint_that_rests_on_no_side_leaves_its_hold_in_doubt() -> None:
     believed, true = drawn(np.random.default_rng(6))
     holds = HoldMap(believed, ERROR)
     holds.know([0])
-    loose = TipDifference(true[1] - true[0], np.zeros(2), np.zeros(2), np.diag((0.005**2, 0.0)))
+    unsure = loose(true[1] - true[0], np.array((0.25, 0.0)), 0.02)  # 5 mm along x
     sure = holds.doubt(1, 0, seen(true[1] - true[0]))
-    assert holds.doubt(1, 0, loose) == pytest.approx(np.sqrt(sure**2 + 3 * 0.005**2))
+    assert holds.doubt(1, 0, unsure) == pytest.approx(np.sqrt(sure**2 + 3 * 0.005**2))
     x_before, y_before = believed[1].copy()
-    holds.learn(1, 0, loose)
+    holds.learn(1, 0, unsure)
     assert abs(believed[1][0] - x_before) < 0.4 * abs(true[1][0] - true[0][0] + believed[0][0] - x_before)
     assert abs(believed[1][1] - y_before) > 0.7 * abs(true[1][1] - true[0][1] + believed[0][1] - y_before)
+
+
+def test_two_known_holds_tell_where_in_its_play_a_loose_joint_is() -> None:
+    believed, _ = drawn(np.random.default_rng(7))
+    places = {n: place.copy() for n, place in believed.items()}
+    holds = HoldMap(believed, ERROR)
+    holds.know([0, 1])
+    slope, off = np.array((0.1, 0.28)), np.radians(1.3)
+    tip = (
+        believed[1] - believed[0] - slope * off
+    )  # the joint is farther on than believed, so its tip seems short of the hold
+    more = holds.learn(1, 0, loose(tip, slope, np.radians(1.2)))
+    np.testing.assert_array_equal(more[1:], 0.0)
+    assert more[0] == pytest.approx(off, rel=0.1)
+    for n, place in places.items():
+        np.testing.assert_allclose(believed[n], place, atol=5e-4)

@@ -68,9 +68,9 @@ JOB = np.dtype(
 (
     LEGS, SETTINGS, JOBS, DRIVES, Q, QD, LAGGED, HELD, WEIGHTS, HOLDS, ARMS, TIPS, TIP_SPEEDS, POSE, TWIST, AIMED, AIM_SPEED, PLAY,
     SETTLED_TIPS, SETTLED, SPARE_SPEEDS, SPARE_TWIST, CARRIERS, PULLS, FORCES, OLD_PULLS, OLD_FORCES, CUTS, DRAGS, LEAST, PRESSED,
-    LOADS, LOADS_NOW, LAG, WANTED, FED, LIMB_AIM, STATES, FELT, TORQUES, LIMBS,
-) = range(41)  # fmt: skip
-TABLE = 41
+    LOADS, LOADS_NOW, LAG, WANTED, FED, LIMB_AIM, STATES, FELT, TORQUES, SURE, LIMBS,
+) = range(42)  # fmt: skip
+TABLE = 42
 
 
 @inlined
@@ -368,8 +368,8 @@ def command_tick(table, handed):
             _by_joints(table, i, torques[i])
         pressed[i] = doing == CLING or (doing == PULL and jobs[i].pressed != 0)
     follow_play(
-        carray(pointer(table[LEGS]), n, LEG), _rows(table, Q, 2), carray(pointer(table[HELD]), n, np.int64),
-        _rows(table, FORCES, 2), _line(table, POSE, 3)[2], pressed, _rows(table, LOADS, 2), _line(table, LAG, 3),
-        _rows(table, PLAY, 2),
+        carray(pointer(table[LEGS]), n, LEG), _rows(table, Q, 2), _rows(table, QD, 2),
+        carray(pointer(table[HELD]), n, np.int64), _rows(table, FORCES, 2), _line(table, POSE, 3)[2], pressed,
+        _rows(table, LOADS, 2), _line(table, LAG, 3), _rows(table, PLAY, 2), _rows(table, SURE, 2),
     )  # fmt: skip
     return bad

@@ -6,6 +6,8 @@ from ..compiled import inlined, kernel
 
 SURE = 0.05
 """A load well above this puts a joint at one end of its play [N m]."""
+MOVES = 0.03
+"""A motor well above this speed turns, and its friction is all against it [rad/s]."""
 RESTS = 0.1
 """Friction fed forward is full where a joint is to bring well above this [N m]."""
 
@@ -74,14 +76,15 @@ def weight_moment(legs, q, angle):
 
 
 @kernel
-def follow_play(legs, q, held, forces, angle, pressed, loads, rate, play):
+def follow_play(legs, q, qd, held, forces, angle, pressed, loads, rate, play, sure):
     """Let each joint's believed side of its play follow what loads it.
 
-    A limb that holds is told no friction, so within its joints' friction a torque moves no motor and says nothing of the side: it stays.
+    A limb that holds is told no friction, so what loads a joint of it is its torque less the friction of a motor that turns, and anything
+    within its friction of that while it stands: where this may be nothing, it says nothing of the side. The belief stays then, unsure.
 
     Args:
         legs: Records of `LEG`, shape (n,).
-        q: Joint angles, shape (n, 2).
+        q, qd: Joint angles and speeds, shape (n, 2).
         held: 1 for limbs that hold, loaded by `forces`, shape (n,).
         forces: Of the tips on their holds, port frame, shape (n, 2) [N].
         angle: Of the body [rad].
@@ -89,6 +92,7 @@ def follow_play(legs, q, held, forces, angle, pressed, loads, rate, play):
         loads: Torques at the joints' outputs, shape (n, 2) [N m].
         rate: Part of the rest of the way that it goes at a tick, and half the whole play [rad], shape (2,) or more.
         play: Changed, shape (n, 2) [rad].
+        sure: How sure each side is, 0 to 1, changed, shape (n, 2) [-].
     """
     for i in range(legs.size):
         leg = legs[i]
@@ -98,7 +102,7 @@ def follow_play(legs, q, held, forces, angle, pressed, loads, rate, play):
             outer = leg.l2 * (math.cos(second) * forces[i, 1] - math.sin(second) * forces[i, 0])
             shoulder, elbow = weight_loads(leg, q[i], angle)
             inner = outer + leg.l1 * (math.cos(first) * forces[i, 1] - math.sin(first) * forces[i, 0])
-            load = (_beyond(shoulder + inner, leg.friction1), _beyond(elbow + outer, leg.friction2))
+            load = (_borne(shoulder + inner, leg.friction1, qd[i, 0]), _borne(elbow + outer, leg.friction2, qd[i, 1]))
         elif pressed[i]:
             load = (loads[i, 0], loads[i, 1])
         else:
@@ -107,9 +111,13 @@ def follow_play(legs, q, held, forces, angle, pressed, loads, rate, play):
             side = math.tanh(load[k] / SURE)
             part = abs(side) if held[i] else 1.0
             play[i, k] += part * rate[0] * (rate[1] * side - play[i, k])
+            sure[i, k] += rate[0] * (abs(side) - sure[i, k])
 
 
 @inlined
-def _beyond(load, friction):
-    """What is left of a load that friction takes from."""
-    return load - min(max(load, -friction), friction)
+def _borne(torque, friction, speed):
+    """What a motor's torque surely loads its joint with: less the friction of one that turns, or any up to it of one that stands."""
+    turns = math.tanh(speed / MOVES)
+    load = torque - friction * turns
+    unknown = friction * (1.0 - abs(turns))
+    return load - min(max(load, -unknown), unknown)

@@ -213,10 +213,13 @@ class Climber:
             i: Index of that limb.
             others: Indices of limbs whose tips are on the holds of their tasks.
         """
-        tasks = self.body.tasks
+        body, tasks = self.body, self.body.tasks
         for j in others:
-            self.map.learn(number, tasks[j].hold, self.seen(i, j))
-        self.body.reckon_with(2.0 * self.map.half_play)
+            more = self.map.learn(number, tasks[j].hold, self.seen(i, j))
+            half = 0.5 * body.backlash
+            for limb, angles in zip((i, j), more.reshape(2, 2), strict=True):
+                body.play[limb] = np.clip(body.play[limb] - angles, -half, half)
+        body.reckon_with(2.0 * self.map.half_play)
         for task in tasks:
             if task.hold:
                 task.place = self.holds[task.hold].copy()
@@ -230,13 +233,10 @@ class Climber:
     def seen(self, i: int, j: int) -> TipDifference:
         """Where the tip of limb `i` is from that of limb `j`."""
         place = self.body.tip(i) - self.body.tip(j)
-        by_play, unsure = np.zeros(2), np.zeros((2, 2))
-        for limb, sign in ((i, 1.0), (j, -1.0)):
-            sides, slopes = self._sides(limb), self.body.turned_by_joints(limb)
-            by_play -= sign * slopes @ sides
-            loose = 0.5 * self.body.backlash * (1.0 - np.abs(sides)) * slopes
-            unsure += loose @ loose.T
-        return TipDifference(place, np.array((place[1], -place[0])), by_play, unsure)
+        by_joints = np.hstack([self.body.turned_by_joints(i), -self.body.turned_by_joints(j)])
+        sides = np.concatenate([self._sides(i), self._sides(j)])
+        loose = 0.5 * self.body.backlash * (1.0 - self.body.sure[[i, j]].ravel())
+        return TipDifference(place, np.array((place[1], -place[0])), -by_joints @ sides, by_joints, loose)
 
     def _sides(self, i: int) -> Floats:
         """Which side of its play each joint of a limb rests on, -1 to 1, shape (2,)."""

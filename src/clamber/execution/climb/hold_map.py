@@ -31,8 +31,16 @@ class TipDifference:
     """Change of `place` per offset of the body's encoder, shape (2,) [m/rad]."""
     by_play: Floats
     """Change of `place` per half backlash of every joint, shape (2,) [m/rad]."""
-    unsure: Floats
-    """Covariance of `place` where joints rest on no side of their play for sure, shape (2, 2) [m^2]."""
+    by_joints: Floats
+    """Change of `place` per angle at the gear output of each joint of the one limb, then of the other, shape (2, joints) [m/rad]."""
+    loose: Floats
+    """How far each of these may be off where a joint rests on no side of its play for sure, standard deviations, shape (joints,) [rad]."""
+
+    @property
+    def unsure(self) -> Floats:
+        """Covariance of `place` by that, shape (2, 2) [m^2]."""
+        spread = self.by_joints * self.loose
+        return np.asarray(spread @ spread.T)
 
 
 class HoldMap:
@@ -64,7 +72,7 @@ class HoldMap:
                 self._variance[k], self._variance[:, k] = 0.0, 0.0
                 self._variance[k, k] = KNOWN**2
 
-    def learn(self, number: int, other: int, seen: TipDifference) -> None:
+    def learn(self, number: int, other: int, seen: TipDifference) -> Floats:
         """Two hooks are on their holds: the difference of their tips corrects all that hangs together with it.
 
         Where it is too odd for what is known, the place of the first hold counts as little known again.
@@ -73,6 +81,10 @@ class HoldMap:
             number: Of the hold of the one tip, the one that was taken last.
             other: Of that of the other.
             seen: Place of the one tip less that of the other, by the sensors as they are believed now.
+
+        Returns:
+            What of it is put down to joints that may be anywhere in their play: by how much their angles at the gear outputs are more than
+            believed, shape (joints,) [rad].
         """
         slope = self._slope(number, other, seen)
         lack = seen.place - (self.places[number] - self.places[other])
@@ -81,7 +93,8 @@ class HoldMap:
             for k in (self._row[number], self._row[number] + 1):
                 self._variance[k, k] += self._error**2 / 3.0
         towards = self._variance @ slope.T
-        gain = towards @ np.linalg.inv(slope @ towards + noise)
+        weight = np.linalg.inv(slope @ towards + noise)
+        gain = towards @ weight
         change = gain @ lack
         for one, k in self._row.items():
             self.places[one] = self.places[one] + change[k : k + 2]
@@ -89,6 +102,7 @@ class HoldMap:
         self.half_play = max(0.0, self.half_play + float(change[-1]))
         self._variance -= gain @ towards.T
         self._variance = 0.5 * (self._variance + self._variance.T)
+        return np.asarray(-(seen.loose**2 * seen.by_joints).T @ weight @ lack)
 
     def error(self, number: int) -> float:
         """How far off a hold's place may be along each axis: the map's error, less what has been learned [m]."""

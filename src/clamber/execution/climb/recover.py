@@ -33,6 +33,10 @@ FIRMLY: Final = 0.04
 """... where it does so for this long [s]."""
 TOUCHES: Final = 3.0
 """A hook that feels more than this there, along its grab direction, has caught it [N]."""
+LOOKING: Final = 0.08
+"""For so long a hook that seems to have come off may show that it bears [s]."""
+IN_SLOT: Final = 0.008
+"""A hook that was leaving is still on where it is nearer to its hold than this [m]."""
 MOST_SLIPS: Final = 4
 """Hooks that may come off, one after the other, until the robot counts as fallen."""
 PITCH: Final = math.radians(10.0)
@@ -88,8 +92,14 @@ def catch(climber: Climber, lost: int) -> Hang | None:
         FallenError: If no limb is on a hold.
     """
     body = climber.body
+    climber.fall.reset()
+    climber.slip.reset()
+    lose = not _bears(climber, lost)
     for i, task in enumerate(body.tasks):
-        if i == lost or (task.doing not in ONWARDS and not (task.doing == "pull" and _hook_on(climber, i, AT_HOLD))):
+        if task.doing == "tip" and task.hold and math.dist(body.tip(i), task.place) < IN_SLOT:
+            task.doing = "cling"
+        off = task.doing not in ONWARDS and not (task.doing == "pull" and _hook_on(climber, i, AT_HOLD))
+        if off or (i == lost and lose):
             task.hold, task.doing, task.angles, task.rates = 0, "joints", body.q[i].copy(), np.zeros(2)
     on = [i for i, task in enumerate(body.tasks) if task.hold]
     if not on:
@@ -117,6 +127,29 @@ def catch(climber: Climber, lost: int) -> Hang | None:
     climber.balance = None
     climber.wait(RESTING)
     return None
+
+
+def _bears(climber: Climber, i: int) -> bool:
+    """Whether a hook that seems to have come off bears all the same: it has slid home, or joints have crossed their play.
+
+    What pushes meanwhile, and may have lifted the body, pushes no more.
+    """
+    for task in climber.body.tasks:
+        if task.doing == "pull":
+            task.force, task.tug = np.zeros(2), np.zeros(2)
+    felt, period = 0.0, climber.plant.period
+    try:
+        for _ in range(round(LOOKING / period)):
+            climber.tick()
+            felt = felt + period if _pull_of(climber, i) > CAUGHT else 0.0
+            if felt > FIRMLY:
+                return True
+    except SlippedError as another:
+        if another.limb != i:
+            task = climber.body.tasks[i]
+            task.hold, task.doing, task.angles, task.rates = 0, "joints", climber.body.q[i].copy(), np.zeros(2)
+            raise
+    return False
 
 
 def _snatch(climber: Climber, hang: Hang, lost: int) -> bool:

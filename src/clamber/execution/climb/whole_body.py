@@ -167,6 +167,8 @@ class WholeBody:
         self.torques = np.zeros((n, 2))
         self.play = np.zeros((n, 2))
         """How far each joint's output is believed to lag its encoder, the side of the play it rests on [rad]."""
+        self.sure = np.zeros((n, 2))
+        """How sure that side is, by what loads the joint: 0, it may be anywhere in its play, to 1 [-]."""
         self.settled_tips = np.zeros((n, 2))
         """Tips in the body frame with the play counted."""
         self.settled = np.zeros(3)
@@ -195,7 +197,7 @@ class WholeBody:
             at.CUTS: self._cuts, at.DRAGS: np.zeros((n, 2)), at.LEAST: np.full(n, gains.least_pull),
             at.PRESSED: np.zeros(n, np.int64), at.LOADS: np.zeros((n, 2)), at.LAG: self._lag, at.LOADS_NOW: np.zeros(2),
             at.WANTED: np.zeros(3), at.FED: np.zeros(3), at.LIMB_AIM: self._aim, at.STATES: self._states,
-            at.FELT: np.zeros((1, AXES)), at.TORQUES: self.torques,
+            at.FELT: np.zeros((1, AXES)), at.TORQUES: self.torques, at.SURE: self.sure,
         }  # fmt: skip
         self._table = np.zeros(TABLE, np.int64)
         for place, array in self._arrays.items():
