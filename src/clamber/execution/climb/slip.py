@@ -35,7 +35,7 @@ class SlipWatch:
         self._pairs = list(combinations(hooked, 2))
         self._rate = min(1.0, body.period / FORGOTTEN)
         self._before: dict[tuple[int, int], tuple[int, int, list[float]]] = {}
-        """Pair -> its holds, and the first tip less the second as it lately was, world frame [m]: by encoders, then with the play counted."""
+        """Pair -> its holds, and the first tip less the second as it lately was, by encoders and with the play counted, world frame [m]."""
         self.moved = 0.0
         """Farthest that two tips have moved against each other of late [m]."""
 
