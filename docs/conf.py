@@ -6,6 +6,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parent))  # for the pages made here
 
 from api_pages import write_api_pages
+from json_pages import write_json_page
 
 from clamber import __version__
 
@@ -34,3 +35,4 @@ html_css_files = ["wide-tables.css"]
 html_show_sourcelink = False
 
 write_api_pages(Path(__file__).parent)
+write_json_page(Path(__file__).parent)

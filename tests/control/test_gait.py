@@ -21,6 +21,7 @@ from clamber.control.gait import (
     slide_seconds,
     speed_of_gait,
 )
+from clamber.control.support import support_margin
 from clamber.control.track import (
     Track,
     along_twist,
@@ -32,7 +33,7 @@ from clamber.control.track import (
     toward,
     turn_about,
 )
-from clamber.control.walker_balance import mass_centre, mass_moment, support_margin
+from clamber.control.walker_balance import mass_centre, mass_moment
 from clamber.robots.library import load_robot
 from clamber.robots.walker import TwoFrames, WalkerRobot
 from clamber.robots.walker.weight import arm_places, weight_of

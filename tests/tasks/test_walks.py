@@ -94,6 +94,8 @@ def test_a_walk_may_be_the_user_s_own_file(tmp_path: Path) -> None:
         (["arm=['0 deg']"], "4 entries"),
         (["ground.slope=30deg"], "legs of"),
         (["start.x=20m"], "no ground"),
+        (["start.twist=60deg"], "start.*actuators of .* they can be 50 to 300 mm"),
+        (["start.offset=['0 m', '0.12 m']", "start.twist=40deg"], "of the way to a singular posture.*0.9 is allowed"),
         (["robot=libra"], "must be 'walker'"),
         (["ground=slop"], "slope"),
         (["wey=1"], "way"),

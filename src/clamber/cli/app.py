@@ -24,6 +24,7 @@ from .inventory import inventory
 from .learn import learn
 from .limb import limb
 from .list import list_names
+from .most import most
 from .new import new
 from .plan import plan
 from .plant import plant
@@ -31,6 +32,7 @@ from .polish import polish
 from .press import press
 from .reach import reach
 from .run import run
+from .schema import schema
 from .show import show
 from .study import study
 from .sweep import sweep
@@ -54,6 +56,7 @@ app.command("run")(run)
 app.command("press")(press)
 app.command("follow")(follow)
 app.command("trials")(trials)
+app.command("most")(most)
 app.command("show")(show)
 app.command("view")(view)
 app.command("export")(export)
@@ -67,6 +70,7 @@ app.command("reach")(reach)
 app.command("calibrate")(calibrate)
 app.command("ditch")(ditch)
 app.command("study")(study)
+app.command("schema")(schema)
 app.command("doctor")(doctor)
 
 

@@ -9,6 +9,7 @@ from threading import Thread
 from typing import Any
 
 from rich.console import Console
+from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
@@ -37,6 +38,11 @@ def plain_table(*columns: str, right: tuple[str, ...] = ()) -> Table:
     for column in columns:
         table.add_column(Text(column), justify="right" if column in right else "left", overflow="fold")
     return table
+
+
+def print_indented(console: Console, words: str, indent: int = 2) -> None:
+    """Print a paragraph whose lines all start further in."""
+    console.print(Padding(Text(words), (0, 0, 0, indent), expand=False))
 
 
 def announce_compilation(kernel: str = "replay", *, quiet: bool = False) -> None:

@@ -13,6 +13,7 @@ from ..planning.progress import Moment, progress_text
 from ..planning.result import Furthest, PlanResult
 from ..tasks import Task
 from .live_line import LiveLine
+from .output import print_indented
 
 
 class ProgressLine(LiveLine):
@@ -56,9 +57,10 @@ def print_lesson(console: Console, task: Task, lesson: Lesson, output: Path | No
         return
     for macro in lesson.macros:
         console.print(f"{macro.name}: {macro_text(task, macro)}", style="bold green")
-        console.print(
-            f"  {macro.gain:.3f} m in {len(macro.codes)} actions; works from {macro.starts} of {macro.tried} starts, "
-            f"{macro.from_start} times in a row from the task's own"
+        print_indented(
+            console,
+            f"{macro.gain:.3f} m in {len(macro.codes)} actions; works from {macro.starts} of {macro.tried} starts, "
+            f"{macro.from_start} times in a row from the task's own",
         )
     console.print(f"{lesson.plans} plans, {lesson.evaluations} evaluations")
     if output is not None:

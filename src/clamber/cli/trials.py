@@ -61,6 +61,23 @@ def trials(
         }  # fmt: skip
         walk_trials_of(what, overrides or (), noise or (), range(seed, seed + n), _share(at_least), for_climbs, words)
         return
+    from ..experiments.walk.planned import open_planned_walk
+    from ..experiments.walk.run_walk import split_walk_settings
+
+    planned = open_planned_walk(what, task, split_walk_settings(overrides or ())[0])
+    if planned is not None:
+        from .trials_walk import planned_walk_trials_of
+
+        for_climbs = {
+            "--no-replan": not replan,
+            "--force": force,
+            "--replay": replay is not None,
+            "--output": words.output is not None,
+        }
+        planned_walk_trials_of(
+            what, *planned, overrides or (), noise or (), planner, seconds, range(seed, seed + n), _share(at_least), for_climbs, words
+        )  # fmt: skip
+        return
     from ..actions.plan_source import is_plan
     from ..experiments.climb.noise import named_noise, read_noise
     from ..experiments.climb.run_plan import open_climb

@@ -80,10 +80,20 @@ def test_without_levelling_a_slope_downhill_topples_it() -> None:
     assert not run.done
     assert run.reason.startswith("fell")
     assert run.margin < 0.0
-    # it is told long before the robot lies: within a second of balance lost, while it has tilted by less than 2 deg
     lost = run.true.time[np.flatnonzero(run.true.margins > 0.0)[-1]]
-    assert run.report.seconds - lost < 1.0
-    assert abs(run.true.tilts[-1] - run.true.tilts[run.walking][0]) < math.radians(2.0)
+    assert 0.0 < run.report.seconds - lost < 0.2
+    assert abs(run.true.tilts[-1] - run.true.tilts[run.walking][0]) < math.radians(0.1)
+
+
+@pytest.mark.parametrize("uphill", [0.0, 90.0, 180.0])
+def test_a_start_tilted_by_ten_degrees_returns_to_level(uphill: float) -> None:
+    noise = read_walk_noise(named_walk_noise("usual"), ["inclinometer_offset=0deg"])
+    run = walked(
+        "slope-walk", "start.plate=ground", f"ground.uphill={uphill}deg", "way.0.distance=2cm", noise=noise, seed=3
+    )
+    assert run.done, run.reason
+    assert run.true.tilts[0] == pytest.approx(math.radians(10.0), abs=math.radians(0.4))
+    assert run.tilt < math.radians(0.1)
 
 
 def test_noise_is_drawn_key_by_key() -> None:

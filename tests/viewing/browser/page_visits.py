@@ -11,7 +11,7 @@ from clamber.viewing.browser.app import App
 from clamber.viewing.browser.climb_scenery import FOV
 
 PICTURES = Path(__file__).resolve().parents[3] / "out" / "screenshots"
-PATIENCE = 120_000  # [ms], far above what any step takes: pictures are drawn without a graphics card
+PATIENCE = 45_000  # [ms], far above what any step takes: pictures are drawn without a graphics card
 
 
 class Visit:

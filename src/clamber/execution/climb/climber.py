@@ -92,6 +92,8 @@ class Climber:
         self.ticks = 0
         self.latest = -1
         """Index of the limb that took its hold last."""
+        self.proven = True
+        """Whether it has carried there."""
         self._strained = self._slipped = self._pinned = 0
 
     @property
@@ -122,7 +124,6 @@ class Climber:
             self.grips[i] = number > 0
             self.body.tasks[i] = task
         self.body.hand_over([i for i, task in enumerate(self.body.tasks) if task.doing == "hold"])
-        self.map.know(number for number in holds.values() if number)
         self.plant.reset(pose, q)
         self.body.pose[:], self.body.settled[:], self.body.aim[:] = pose, pose, pose
         self.body.aim_speed[:] = 0.0
@@ -230,12 +231,18 @@ class Climber:
         if len(holding) == 2:
             self.learn(self.body.tasks[holding[0]].hold, holding[0], holding[1:])
 
+    def learn_start(self) -> None:
+        """Correct the map by all limbs that are on holds: at the start they are at rest, on holds that may be as far off as any."""
+        on = sorted(
+            (i for i, task in enumerate(self.body.tasks) if task.hold), key=lambda i: not self.body.tasks[i].holds
+        )
+        for k, i in enumerate(on[1:], 1):
+            self.learn(self.body.tasks[i].hold, i, on[:k])
+
     def seen(self, i: int, j: int) -> TipDifference:
         """Where the tip of limb `i` is from that of limb `j`."""
-        c, s = math.cos(self.body.settled[2]), math.sin(self.body.settled[2])
         place = self.body.tip(i) - self.body.tip(j)
-        turn = np.array(((c, -s), (s, c)))
-        by_joints = np.hstack([turn @ self._by_joint(i), -turn @ self._by_joint(j)])
+        by_joints = np.hstack([self.body.turned_by_joints(i), -self.body.turned_by_joints(j)])
         sides = np.concatenate([self._sides(i), self._sides(j)])
         loose = 0.5 * self.body.backlash * (1.0 - self.body.sure[[i, j]].ravel())
         return TipDifference(place, np.array((place[1], -place[0])), -by_joints @ sides, by_joints, loose)
@@ -244,11 +251,3 @@ class Climber:
         """Which side of its play each joint of a limb rests on, -1 to 1, shape (2,)."""
         half = 0.5 * self.body.backlash
         return self.body.play[i] / half if half > 0.0 else np.ones(2)
-
-    def _by_joint(self, i: int) -> Floats:
-        """How a limb's tip moves with its joints, body frame, shape (2, 2) [m/rad]."""
-        body, limb = self.body, self.robot.limbs[i]
-        first = limb.port_angle + body.q[i, 0] - body.play[i, 0]
-        second = first + body.q[i, 1] - body.play[i, 1] + limb.hook_beta
-        x, y = -limb.l2_effective * math.sin(second), limb.l2_effective * math.cos(second)
-        return np.array(((x - limb.l1 * math.sin(first), x), (y + limb.l1 * math.cos(first), y)))

@@ -10,7 +10,7 @@ import numpy as np
 from ...types import Floats
 from .approach import SHIFTS, Approach, free_distance
 from .climber import Climber, Grabbed
-from .parking import park, poses_between
+from .parking import park, passes, poses_between
 
 BODY_SPEED: Final = 0.08
 """Of the body's aim, at most [m/s]."""
@@ -42,10 +42,14 @@ FREE: Final = 0.005
 """Least distance from the nearest place where the hold may be for all of that [m]."""
 TUG: Final = 10.0
 """Pull on a hook that has stopped: a quarter of LIBRA's weight; more would lift the limb below off its hold [N]."""
-LIFT: Final = (0.001, 0.003)
+LIFT: Final = (0.003, 0.006)
 """A push that lifts the body this far weakens, to a third at the second: it bears already, and other hooks would come off [m]."""
 SLIDING: Final = (0.003, 0.006)
 """So does one under which the tips of holding limbs come apart this far: a hook is coming off, unless joints cross their play [m]."""
+FIRM: Final = 0.7
+"""A push that has weakened to less of itself tells no seat [-]: it begins anew from where the body has come to rest ..."""
+ANEW: Final = 2
+"""... so often at most."""
 TUG_RISE: Final = 0.1
 """In which the tug grows to its full size [s]."""
 BORNE_TIME: Final = 0.05
@@ -68,12 +72,17 @@ WIDE_RATE: Final = 2.5
 """... and so slow that it moves the hook across by millimetres [Hz]."""
 STUCK: Final = 0.8
 """At most for that long without an advance [s]."""
+PROVING: Final = 0.2
+"""For so long a hook that carries for the first time does so before the limb that carried until then leaves its own hold: one that has
+stopped on its flare slides home in it, or off [s]."""
 HANGING: Final = 0.4
 """Part of these forces where the body hangs on one limb, which gives way [-]."""
 CENTRING: Final = 150.0
 """Pull towards the believed hold across the hook [N/m]."""
 ADVANCE: Final = 0.0015
 """A tip that advances less than this along the grab direction has stopped [m]."""
+CREEP: Final = 0.0006
+"""So has one under a tug that advances less than this: a hook creeps in on its flare [m]."""
 STOPPED: Final = 0.2
 """For that long, a period of the dither, before the tug begins [s]."""
 STILL: Final = 0.25
@@ -87,8 +96,10 @@ WEAKER: Final = 3.0
 MOST_SHIFTS: Final = 2
 """That often the body makes room for one way: its limbs are elsewhere after the first [-]."""
 ASTRAY: Final = 0.05
-"""A body may be as far from where a plan has it when a limb takes a hold, if the others hold no worse there [m], [rad]."""
-SLACK: Final = 0.004
+"""A body may be as far from where a plan has it when a limb takes a hold, if the others hold no worse there, along x and y [m] ..."""
+TURNED: Final = 0.05
+"""... and turned by as much [rad]."""
+SLACK: Final = 0.008
 """Beyond its doubt, how far a seated hook may be from where it should be: play and backlash [m]."""
 
 
@@ -212,6 +223,9 @@ def release(climber: Climber, i: int) -> None:
     """
     _lean_on_the_others(climber, i)
     climber.carry_with_all(but=i)
+    if climber.latest >= 0 and not climber.proven:
+        climber.wait(PROVING)
+        climber.proven = True
     body, task = climber.body, climber.body.tasks[i]
     away = stand_off_of(climber, i, climber.map.error(task.hold)) + AWAY
     start, g = _draw_back(climber, i, away)
@@ -298,10 +312,18 @@ def _room_to_leave(climber: Climber, i: int, start: Floats, back: Floats) -> tup
 
 
 def _stands(climber: Climber) -> Callable[[Floats], bool]:
-    """Whether the limbs that hold can at another pose of the body, hardly worse than here."""
+    """Whether the body can go to another pose: limbs that hold do so hardly worse than here, and free ones meet no hold on the way."""
     body = climber.body
     least = min(0.0, body.stands(body.settled)) - WEAKER
-    return lambda pose: body.stands(pose) >= least
+    free = [(i, body.q[i] - body.play[i]) for i, task in enumerate(body.tasks) if not task.hold]
+
+    def stands(pose: Floats) -> bool:
+        if body.stands(pose) < least:
+            return False
+        way = poses_between(body.settled, pose)
+        return all(passes(climber.approaches, i, q, way, climber.holds) for i, q in free)
+
+    return stands
 
 
 def grab(climber: Climber, i: int, number: int, *, elbow: int = 0, home: Floats | None = None) -> Grabbed:
@@ -345,7 +367,7 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0, home: Floats 
         along, across = float(off @ g), float(off @ h)
         if stopped and math.hypot(along, across) < room:
             climber.learn(number, i, climber.holding())
-            climber.latest = i
+            climber.latest, climber.proven = i, False
             task.doing, task.hold, task.place = "cling", number, climber.holds[number].copy()
             climber.wait(0.1)
             return Grabbed(True, tries, along, across)
@@ -383,7 +405,8 @@ def _come_near(
 def may_stay(climber: Climber, i: int, pose: Floats) -> bool:
     """Whether limb `i` may take a hold from where the body is, near another pose: the limbs that then carry hold no worse here."""
     body = climber.body
-    if climber.hangs or float(np.abs(pose - body.aim).max()) > ASTRAY:
+    off = np.abs(pose - body.aim)
+    if climber.hangs or off[:2].max() > ASTRAY or off[2] > TURNED:
         return False
     others = [j for j, task in enumerate(body.tasks) if j != i and task.hold]
     return body.stands(body.aim, others) >= min(0.0, body.stands(pose, others))
@@ -405,7 +428,7 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bo
     # believed to press from the start: in free air the tip is then farther in than believed, never less far
     task.doing, task.pressed, task.tug = "pull", True, np.zeros(2)
     stage, still, tugged, phase, borne = "push", 0.0, 0.0, 0.0, 0.0
-    seated, marks = False, np.full(2, -np.inf)
+    seated, marks, anew = False, np.full(2, -np.inf), 0
     rested, apart = body.pose[:2].copy(), _apart(climber)
     part = HANGING if climber.hangs else 1.0
     for _ in range(round(PATIENCE / period)):
@@ -418,7 +441,8 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bo
             size += float(np.interp(free, (0.0, FREE), (0.0, HASTE)))
         # a joint that crosses its play, or is wrongly believed to, is seen in one of both; a hook that slides, in both
         slid = float(np.linalg.norm(_apart(climber) - apart, axis=1).min())
-        size *= part * min(np.interp(lifted, LIFT, (1.0, 1 / 3)), np.interp(slid, SLIDING, (1.0, 1 / 3)))
+        faded = min(np.interp(lifted, LIFT, (1.0, 1 / 3)), np.interp(slid, SLIDING, (1.0, 1 / 3)))
+        size *= part * faded
         strength, rate = (WIDE_DITHER, WIDE_RATE) if stage == "coax" else (DITHER, DITHER_RATE)
         phase += 2 * np.pi * rate * period
         side = part * strength * np.sin(phase)
@@ -435,7 +459,7 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bo
         climber.tick()
         # the play is crossed without a motor that turns, and the belief about it lags: both must have come to rest
         reached = np.array((body.felt_tip(i) @ g, body.tip(i) @ g))
-        advanced = reached > marks + ADVANCE
+        advanced = reached > marks + (ADVANCE if stage == "push" else CREEP)
         marks = np.where(advanced, reached, marks)
         still = 0.0 if advanced.any() else still + period
         ahead = float((place - body.tip(i)) @ g)
@@ -447,8 +471,11 @@ def _push(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bo
         elif stage == "coax" and (still > STUCK or ahead < 0.5 * SHORT):
             stage, still = "tug", 0.0
         elif stage == "tug" and tugged > TUG_RISE and still > STILL:
-            seated = True
-            break
+            if faded > FIRM or anew == ANEW:
+                seated = True
+                break
+            # a weak push lets a hook rest on its flare: from where the body is now, with all of it
+            rested, apart, still, anew = body.pose[:2].copy(), _apart(climber), 0.0, anew + 1
     task.pressed, task.tug = False, np.zeros(2)
     return seated
 

@@ -24,6 +24,7 @@ from ...sim.walker_plant import WalkerSim
 from ...tasks.walks import Walk
 from ...types import Floats, Json
 from ...units import parse_quantity
+from .ditch_crossing import lay_crossing
 from .held_point import HeldPoint, LaidHold, lay_hold
 from .noise import WalkNoise, named_walk_noise
 
@@ -156,6 +157,8 @@ def gait_of(walk: Walk) -> Gait:
 
 def own_way(walk: Walk) -> Lay:
     """How the way of a walk's file is laid out from where the robot stands."""
+    if walk.way[0].ditch is not None:
+        return lay_crossing(walk)
     return lambda pose: TrackCourse(lay_track(walk, pose), neutral=walk.start.twist)
 
 
@@ -186,8 +189,9 @@ def run_walk(
     plant = TracedPlant(WalkerSim(walk.robot, walk.ground, drawn))
     how = settings
     if how is None:
-        # a plan knows of steps between its footholds, the walker does not: its feet stay up until they are over the next
-        how = WalkSettings(level=walk.level, probe=walk.probe, clear=WalkSettings().clear if lay is None else None)
+        # where ground may be higher than the walker can tell, its feet stay up until they are over their next footholds
+        clear = WalkSettings().clear if lay is None and walk.probe == 0.0 else None
+        how = WalkSettings(level=walk.level, probe=walk.probe, clear=clear)
     walker = TracedWalker(walk.robot, plant, settings=how, payload=walk.payload)
     holds: list[LaidHold] = []
 

@@ -11,6 +11,7 @@ from ...types import Json
 from ...worlds.library import read_ground
 from ..overrides import apply_overrides, split_override
 from .path_file import read_path
+from .standing import check_mechanism, check_weight
 from .walk import SCHEMA, Walk, build_walk, walk_keys
 
 DATA: Final = Path(__file__).parent / "data"
@@ -62,7 +63,11 @@ def load_walk(name_or_path: str, overrides: Sequence[str] = ()) -> Walk:
     ground = read_ground(_named(source, "ground"), None if "ground" in here else document.folder)
     data |= {"robot": robot.data, "ground": ground.data, "labels": {"robot": robot.label, "ground": ground.label}}
     merged, keys = Document(document.label, data, (), document.folder), walk_keys()
-    return build_walk(_with_paths(apply_overrides(merged, rest, keys["walk"], keys["robot"], {})))
+    whole = _with_paths(apply_overrides(merged, rest, keys["walk"], keys["robot"], {}))
+    walk = build_walk(whole)
+    check_mechanism(walk, whole)
+    check_weight(walk, whole)
+    return walk
 
 
 def walk_from_document(document: Json, label: str = "stored walk") -> Walk:

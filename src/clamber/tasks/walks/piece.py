@@ -17,9 +17,10 @@ KINDS: Final[dict[str, tuple[str, ...]]] = {
     "twist": ("twist", "lasts"),
     "to": ("to",),
     "through": ("through",),
+    "ditch": ("ditch", "ahead"),
 }
 """Kind of a piece, by a key of its own -> all that it must state."""
-OPTIONS: Final = {"about": "turn", "heading": "to", "path": "through"}
+OPTIONS: Final = {"about": "turn", "heading": "to", "path": "through", "along": "ditch"}
 """Key that a piece may have besides -> kind that has it."""
 
 
@@ -53,7 +54,7 @@ class Stop:
 
 @spec
 class Piece:
-    """A piece of the way: `direction` and `distance`, or `turn`, or `twist` and `lasts`, or `to`, or `through`, or `path`."""
+    """A piece of the way: direction and distance, turn, twist and lasts, to, through, path, or ditch and ahead."""
 
     direction: Angle | None = None
     """Seen from the Delta-frame; the heading is kept [rad]."""
@@ -76,10 +77,17 @@ class Piece:
     path: StrictStr | None = None
     """CSV file with such places in its columns x, y and perhaps heading; they are read into `through` when the walk is loaded."""
 
+    ditch: PositiveLength | None = None
+    """Width of a straight ditch to be crossed [m]; both frames end behind it."""
+    ahead: PositiveLength | None = None
+    """How far ahead of the Delta-frame's origin its near edge is [m] ..."""
+    along: Angle | None = None
+    """... in this direction, seen from the Delta-frame, which the ditch lies across; 0 unless given [rad]."""
+
     def whole_twist(self) -> Floats:
         """What the Delta-frame does, in its own frame: x, y [m] and heading [rad], each at a constant rate, shape (3,).
 
-        Not of `to` and `through`, which depend on where the robot is.
+        Not of `to`, `through` and `ditch`, which depend on where the robot is.
         """
         if self.twist is not None:
             assert self.lasts is not None
@@ -114,6 +122,8 @@ def check_way(way: tuple[Piece, ...], document: Document) -> None:
         raise document.problem("way", "must have a piece or more")
     for i, piece in enumerate(way):
         _check_piece(piece, f"way.{i}", document)
+        if piece.ditch is not None and len(way) > 1:
+            raise document.problem(f"way.{i}", "must be the only piece: a ditch is crossed from where the walk starts")
 
 
 def _check_piece(piece: Piece, at: str, document: Document) -> None:
@@ -121,7 +131,8 @@ def _check_piece(piece: Piece, at: str, document: Document) -> None:
     kinds = [kind for kind, needs in KINDS.items() if given & set(needs)]
     if len(kinds) != 1:
         raise document.problem(
-            at, "must state one of: direction and distance, turn, twist and lasts, to, through, or path"
+            at,
+            "must state one of: direction and distance, turn, twist and lasts, to, through, path, or ditch and ahead",
         )
     kind = kinds[0]
     missing = set(KINDS[kind]) - given

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import field, replace
-from typing import Final, Literal
+from typing import Annotated, Final, Literal
 
 import numpy as np
 from pydantic import StrictBool, StrictStr
@@ -12,7 +12,7 @@ from ...files import Document, check_schema
 from ...robots.walker import WalkerRobot, build_walker
 from ...specs import Name, build_spec, field_names, spec
 from ...types import Floats, Json
-from ...units import Angle, Length, NonNegativeLength, NonNegativeMass, Point, PositiveLength
+from ...units import Angle, Length, NonNegativeMass, Point, PositiveLength, Quantity
 from ...worlds.ground import Ground, build_ground
 from .piece import Piece, check_way
 
@@ -64,8 +64,9 @@ class WalkSpec:
     """In order; one or more."""
     level: StrictBool = True
     """Whether the plate is kept level; if not, it keeps the tilt that it has at the start."""
-    probe: NonNegativeLength = 0.0
-    """Distance from a foothold at which the ground is felt for edges before a foot stands there [m]; 0: it is not."""
+    probe: Annotated[float, Quantity("length", at_least=0.0, at_most=0.005)] = 0.0
+    """By how much feet are pushed to every side where they have come down, before they are relied upon, on ground that may be rough [m];
+    0: they are not."""
     arm: tuple[Angle, ...] | None = None
     """Joint angles of the arm [rad]; those of the robot's file unless given."""
     payload: NonNegativeMass = 0.0
@@ -149,6 +150,13 @@ def build_walk(document: Document) -> Walk:
         raise document.problem("payload", "needs an arm to carry it, and the robot has none")
     if stated.hold is not None and robot.arm is None:
         raise document.problem("hold", "needs an arm, and the robot has none")
+    if stated.way[0].ditch is not None:
+        if stated.hold is not None:
+            raise document.problem("hold", "is for ways without a ditch")
+        if stated.start.offset != (0.0, 0.0):
+            raise document.problem(
+                "start.offset", "must be 0 before a ditch: the crossing begins with the frames on each other"
+            )
     if stated.arm is not None and len(stated.arm) != joints:
         raise document.problem("arm", f"must have {joints} entries, one for each joint of the robot's arm")
     rest = () if robot.arm is None else robot.arm.rest

@@ -17,6 +17,7 @@ from .climb_scenery import FOV
 from .exhibit import Exhibit, planned_exhibit, run_film
 from .inputs import by_hand, set_input
 from .playback import Playback
+from .run_film import ClimbFilm
 from .scenery import Camera
 from .solids import colour
 from .stage import Stage
@@ -127,8 +128,12 @@ class App:
     def choose(self, shown: str) -> None:
         """Show the plan, the run, or both, as far as they are there."""
         stage = self.stage
-        stage.shown = "plan" if shown == "plan" else "run" if shown == "run" else "both"
+        options = (
+            SHOWN if isinstance(stage.films.get("run"), ClimbFilm) else SHOWN[:2]
+        )  # walks don't tell where in a plan they are
+        stage.shown = "plan" if shown == "plan" else "run" if shown == "run" or shown not in options else "both"
         self._shown.visible = len(stage.films) > 1
+        self._shown.options = options
         set_input(self._shown, stage.shown)
         self.playback.load(stage.main)
 

@@ -1,5 +1,6 @@
 """The part of the panel that edits a board: pegs are dragged on the wall, or moved by their numbers; so is the goal."""
 
+import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Final
 
@@ -62,13 +63,14 @@ class BoardPanel:
             "/peg handle", scale=0.09, active_axes=(True, False, True), disable_rotations=True, depth_test=False, visible=False,
             line_width=3.0,
         )  # fmt: skip
-        self._editing.on_update(by_hand(lambda _: self.pick(self._picked())))
-        self._peg.on_update(by_hand(lambda _: self.pick(self._picked())))
-        self._place.on_update(by_hand(lambda _: self._typed_place()))
-        self._goal.on_update(by_hand(lambda _: self._typed_goal()))
-        self._buttons.on_click(lambda event: self._pressed(event.target.value))
-        self._gizmo.on_update(by_hand(self._dragged))
-        server.scene.on_click()(self._clicked)
+        lock = threading.RLock()  # the page's events come from many threads
+        self._editing.on_update(by_hand(lambda _: self.pick(self._picked()), lock))
+        self._peg.on_update(by_hand(lambda _: self.pick(self._picked()), lock))
+        self._place.on_update(by_hand(lambda _: self._typed_place(), lock))
+        self._goal.on_update(by_hand(lambda _: self._typed_goal(), lock))
+        self._buttons.on_click(by_hand(lambda event: self._pressed(event.target.value), lock))
+        self._gizmo.on_update(by_hand(self._dragged, lock))
+        server.scene.on_click()(by_hand(self._clicked, lock))
         self.pick(self._picked())
 
     def pick(self, number: int | None) -> None:

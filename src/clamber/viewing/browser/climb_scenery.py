@@ -19,7 +19,7 @@ FOV: Final = math.radians(40.0)
 """Of the camera, from the bottom to the top of the picture [rad]."""
 ASIDE: Final = (-0.38, 0.12)
 """From where the camera looks at the wall: to the left and up, over its distance [-]."""
-ROOM: Final = 1.12
+ROOM: Final = 1.2
 """Around what is shown [-]."""
 NARROW: Final = 0.9
 """Least width of a picture over its height that everything fits into [-]."""

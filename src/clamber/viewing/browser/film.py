@@ -14,6 +14,8 @@ from ..panel import Gauges
 from ..style import STRIP_WORDS
 from ..view import Moment, Part, View
 
+BEFORE: Final = 0.01
+"""So much before the next step a step is over, where none rests between them [s]."""
 RATE: Final = 15.0
 """Frames of `frames.FRAMES` in a second of a plan's film."""
 
@@ -75,6 +77,13 @@ class Film(ABC, Generic[Moment]):
         """Number of the step that is under way at a time; 0 is the start."""
         return max(0, int(np.searchsorted(self.starts, time, side="right")) - 1)
 
+    def rest(self, step: int) -> float:
+        """A time at which a step has been carried out and the next has not begun [s]."""
+        end = float(self.ends[step])
+        if step + 1 < len(self.starts):
+            end = min(end, max(float(self.starts[step + 1]) - BEFORE, float(self.starts[step])))
+        return end
+
     @property
     def worst(self) -> int | None:
         """The step that was the nearest to failing; None if none is told."""
@@ -99,11 +108,10 @@ class PlanFilm(Film[Moment]):
 
     Args:
         view: Of its replay.
-        name: What it is called beside others.
     """
 
-    def __init__(self, view: View[Moment], name: str = "plan") -> None:
-        self._view, self.name = view, name
+    def __init__(self, view: View[Moment]) -> None:
+        self._view = view
         self.title, self.gauges = view.title, view.gauges
         n = len(view.replay.reasons)
         self.steps = ("start", *(view.action(step) for step in range(1, n + 1)))

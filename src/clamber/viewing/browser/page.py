@@ -90,10 +90,10 @@ def panel_data(film: Film[Any], times: "np.ndarray[tuple[int], np.dtype[np.float
     return {
         "times": round_all(times / film.speed),
         "starts": round_all(film.starts / film.speed),
-        "ends": round_all(film.ends / film.speed),
+        "rests": round_all(film.rest(step) / film.speed for step in range(len(film.steps))),
         "steps": [
-            {"words": words, "grade": grade, "head": head_html(film, k, film.at(float(end))), "margins": margins_html(film.margins(k))}
-            for k, (words, grade, end) in enumerate(zip(film.steps, film.grades, film.ends, strict=True))
+            {"words": words, "grade": grade, "head": head_html(film, k, film.at(film.rest(k))), "margins": margins_html(film.margins(k))}
+            for k, (words, grade) in enumerate(zip(film.steps, film.grades, strict=True))
         ],
         "worst": film.worst,
         "strip": {"title": STRIPS[kind], "colours": style.STRIP, "words": film.words},

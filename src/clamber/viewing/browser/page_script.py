@@ -36,18 +36,18 @@ const items = D.steps.map((step, k) => {
   const li = document.createElement("li"), i = document.createElement("i"), b = document.createElement("b");
   i.style.background = k ? D.strip.colours[step.grade] : "transparent"; b.textContent = k; li.append(i, b, step.words);
   if (k === D.worst) li.classList.add("worst");
-  li.onclick = () => seek(D.ends[k]); list.append(li); return li;
+  li.onclick = () => seek(D.rests[k]); list.append(li); return li;
 });
 const rows = G.names.map(name => {
   const row = document.createElement("div"); row.className = "bar"; row.innerHTML = "<span></span><div><div></div></div><span></span>"; row.firstChild.textContent = name;
   for (const share of G.limits) { const i = document.createElement("i"); i.style.left = 100 * share + "%"; i.style.background = G.alert; row.children[1].append(i); }
   part("bars").append(row); return [row.children[1].firstChild, row.lastChild];
 });
-// The recording's own time bar: its number field tells the time, and takes another.
-const field = () => document.querySelector("#root .mantine-NumberInput-input");
+// The recording's own time bar tells the time; the number field beside it takes another.
+const field = () => document.querySelector("#root .mantine-NumberInput-input"), bar = () => document.querySelector("#root [role=slider]");
 function seek(time) {
   const input = field(); if (!input) return;
-  Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, "value").set.call(input, time.toFixed(2));
+  Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, "value").set.call(input, time.toFixed(4));
   input.dispatchEvent(new Event("input", { bubbles: true })); show(time);
 }
 function last(list, time) { let lo = 0, hi = list.length - 1; while (lo < hi) { const m = (lo + hi + 1) >> 1; list[m] <= time + 1e-6 ? lo = m : hi = m - 1; } return lo; }
@@ -73,9 +73,9 @@ function draw(step) {
   if (D.worst) g.strokeRect((D.worst - 1) / n * w + 1, 1, Math.max(w / n - 2, 2), h - 2);
   g.fillRect(Math.max(step - .5, 0) / n * w - 1, 0, 2, h);
 }
-strip.onclick = e => { const n = D.steps.length - 1; if (n) seek(D.ends[Math.min(n, 1 + Math.floor(e.offsetX / strip.clientWidth * n))]); };
+strip.onclick = e => { const n = D.steps.length - 1; if (n) seek(D.rests[Math.min(n, 1 + Math.floor(e.offsetX / strip.clientWidth * n))]); };
 show(0);
-setInterval(() => { const input = field(); if (input && document.activeElement !== input) show(Number(input.value) || 0); }, 80);
+setInterval(() => { const slider = bar(); if (slider) show(Number(slider.getAttribute("aria-valuenow")) || 0); }, 80);
 })();
 </script>
 """

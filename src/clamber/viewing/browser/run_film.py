@@ -22,14 +22,13 @@ class ClimbFilm(Film[Moment]):
 
     Args:
         view: Of the run.
-        name: What it is called beside others.
     """
 
     speed = USUAL
     words = OUTCOMES
 
-    def __init__(self, view: ClimbRunView, name: str = "run") -> None:
-        self._view, self.name = view, name
+    def __init__(self, view: ClimbRunView) -> None:
+        self._view = view
         self.title, self.gauges = view.title, view.gauges
         self.actions, self._trace = view.actions, view.trace
         self.seconds = float(self._trace.time[-1])

@@ -31,11 +31,10 @@ class PlannedWalkFilm(Film[WalkMoment]):
 
     Args:
         view: Of its replay.
-        name: What it is called beside others.
     """
 
-    def __init__(self, view: WalkerView, name: str = "plan") -> None:
-        self._film, self._task, self.name = PlanFilm(view, name), view.task, name
+    def __init__(self, view: WalkerView) -> None:
+        self._film, self._task = PlanFilm(view), view.task
         self._surface = Surface(view.task.world)
         film = self._film
         self.title, self.gauges, self.seconds, self.steps = film.title, film.gauges, film.seconds, film.steps
@@ -103,16 +102,13 @@ class WalkFilm(Film[WalkMoment]):
         trace: What happened.
         report: As the walk's log has it.
         title: Above all.
-        name: What it is called beside others.
     """
 
     speed = USUAL
     words = ("failed", "near tipping", "fair balance", "ample balance")
 
-    def __init__(
-        self, robot: WalkerRobot, ground: Ground, trace: TrueWalk, report: Json, title: str, name: str = "run"
-    ) -> None:
-        self._robot, self._trace, self.title, self.name = robot, trace, title, name
+    def __init__(self, robot: WalkerRobot, ground: Ground, trace: TrueWalk, report: Json, title: str) -> None:
+        self._robot, self._trace, self.title = robot, trace, title
         self.gauges = actuator_gauges(robot)
         self.seconds = float(trace.time[-1])
         self._steps: list[dict[str, Any]] = list(report.get("steps", ()))
@@ -128,8 +124,7 @@ class WalkFilm(Film[WalkMoment]):
 
     @staticmethod
     def _say(step: Json) -> str:
-        names = dict(zip(("delta", "y"), NAMES, strict=True))
-        return f"{names.get(step['frame'], step['frame'])} steps to {float(step['way']):.2f} m: {step['outcome']}"
+        return f"{step['frame']}-frame to {float(step['way']):.2f} m: {step['outcome']}"
 
     def _least_of(self, step: int) -> float:
         rows = slice(*np.searchsorted(self._trace.time, (self.starts[step], self.ends[step])))

@@ -49,7 +49,7 @@ class WalkScenery:
         middle = np.array((0.5 * (x0 + x1), 0.5 * (y0 + y1), 0.0))
         height = self.ground.heights(middle[:2])
         middle[2] = float(height) if np.isfinite(height) else 0.0
-        far = 0.62 * ROOM * math.hypot(x1 - x0, y1 - y0) / (2.0 * math.tan(0.5 * FOV))
+        far = 0.74 * ROOM * math.hypot(x1 - x0, y1 - y0) / (2.0 * math.tan(0.5 * FOV))
         ahead = np.array(FROM) / np.linalg.norm(FROM)
         return Camera(middle + far * ahead, middle)
 

@@ -74,7 +74,7 @@ class WalkerFigure:
         )
         self._arrows = None if self._ghost else server.scene.add_arrows(
             f"{name}/forces", np.array([[(0.0, 0.0, 0.0), (0.0, 0.0, 1e-3)]]), colour(style.FORCE),
-            shaft_radius=0.45 * r, head_radius=1.1 * r, head_length=2.6 * r, visible=False,
+            shaft_radius=0.95 * r, head_radius=1.9 * r, head_length=3.0 * r, visible=False,
         )  # fmt: skip
 
     def show(self, at: WalkMoment, grade: int = 3) -> None:

@@ -81,7 +81,7 @@ def _facts(run: ClimbRun) -> tuple[tuple[str, str], ...]:
         ("Robot", run.task.robot.title or run.task.robot.name),
         ("Actions", str(sum(action.last - action.first + 1 for action in report.actions))),
         ("Time", f"{report.seconds:.1f} s"),
-        ("Body at the end", f"x {x:.3f} m, y {y:.3f} m, {theta / DEGREE:.1f} deg"),
+        ("Body at the end", f"x {x:.3f} m, y {y:.3f} m, {round(theta / DEGREE, 1) + 0.0:.1f} deg"),
         ("From the goal", f"{MILLI * report.short:.0f} mm"),
         ("Seed of the noise", str(notes.get("seed", 0)) if run.drawn.pegs.any() or _noisy(notes) else "none drawn"),
     )
