@@ -9,7 +9,7 @@ import numpy as np
 import clamber
 
 
-def plan_widest(task, *, seed=0, width=300, longest=60):
+def plan_widest(task, *, seed=0, width=300, longest=200):
     """Plan layer by layer, keeping the `width` stances that have come farthest.
 
     Args:

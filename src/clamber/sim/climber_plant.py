@@ -130,7 +130,8 @@ class ClimberPlant:
             hold = int(np.argmin(off))
             if off[hold] < ON_HOLD:
                 fit = [one.angles for one in postures(limb, pose, self._pegs[hold]) if one.inside]
-                out[i] = min(fit, key=lambda angles, i=i: float(np.abs(angles - q[i]).max()), default=q[i])
+                if fit:
+                    out[i] = fit[int(np.argmin([np.abs(angles - q[i]).max() for angles in fit]))]
         return out
 
     def sense(self) -> BodySensed:
