@@ -130,7 +130,9 @@ class ClimberPlant:
             hold = int(np.argmin(off))
             if off[hold] < ON_HOLD:
                 fit = [one.angles for one in postures(limb, pose, self._pegs[hold]) if one.inside]
-                out[i] = min(fit, key=lambda angles, i=i: float(np.abs(angles - q[i]).max()), default=q[i])
+                changes = [float(np.abs(angles - q[i]).max()) for angles in fit]
+                if fit:
+                    out[i] = fit[int(np.argmin(changes))]
         return out
 
     def sense(self) -> BodySensed:
