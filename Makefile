@@ -12,7 +12,7 @@ export OPENBLAS_NUM_THREADS := 1
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test slow lint types architecture check bench study lock clean
+.PHONY: help setup demo test slow lint types architecture check bench study docs lock clean
 
 help:  ## list the targets
 	@grep -hE '^[a-z]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 14
@@ -65,6 +65,10 @@ bench: setup  ## speed and success beside DEAP, pymoo and pygad
 
 study: setup  ## one paper's results, ours beside the printed ones: make study STUDY=name
 	$(BIN)/clamber study $(STUDY)
+
+docs: setup  ## the documentation as a site: out/docs/index.html
+	$(BIN)/sphinx-build -q -W --keep-going -b html docs out/docs
+	@echo "Open out/docs/index.html"
 
 # The lock file carries hashes and no address of a package index.
 lock: setup  ## renew requirements.txt after a change of the dependencies in pyproject.toml

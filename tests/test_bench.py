@@ -1,6 +1,7 @@
 """The benchmarks' adapters do what they say; how fast, only the benchmarks themselves tell."""
 
 import math
+import platform
 import random
 from collections.abc import Generator, Mapping
 from dataclasses import replace
@@ -14,6 +15,7 @@ from clamber.actions.problem import CompiledProblem
 from clamber.actions.problems import pose_problem
 from clamber.experiments import batches, benches, peers, races, rows, speed, starts, workload
 from clamber.experiments.ablation import TASKS, VARIANTS, bench_ablation, varied
+from clamber.experiments.performance_page import performance_page
 from clamber.experiments.plain_problem import PlainProblem, plain_module
 from clamber.experiments.rows import NOTHING, Row, median_or_nothing
 from clamber.experiments.scaling import ScalingLaw
@@ -149,6 +151,16 @@ def test_the_scaling_law_keeps_its_limits() -> None:
         least = law.shortest_item(100 * cores, cores)
         assert law.efficiency(least, 100 * cores, cores) == pytest.approx(0.8, rel=1e-2)
     assert law.shortest_item(1, 10) == math.inf, "one item keeps nine cores idle"
+
+
+def test_a_page_of_figures_names_command_machine_and_every_row() -> None:
+    measured = {"one": [Row("a | b", 1.5, "s", "below 2")], "two": [Row("none", NOTHING, "1")]}
+    page = performance_page(measured, "clamber bench one two -o page.md")
+    assert "\n    clamber bench one two -o page.md\n" in page
+    assert f"Python {platform.python_version()}" in page
+    assert "| a \\| b | 1.5 | s | below 2 |" in page
+    assert "| none | none | 1 |  |" in page
+    assert page.index("## one") < page.index("## two")
 
 
 def test_a_small_batch_gives_every_row_of_the_jobs_benchmark() -> None:

@@ -513,8 +513,8 @@ def test_a_board_comes_from_a_table_of_coordinates(tmp_path: Path, text: str, un
         ("1,2\n", "kg", "has the unit 'kg'; units of length are m, cm, mm, in, ft"),
         ("x [in],y [cm]\n1,2\n", None, "wall.csv:1: names two units: cm, in"),
         ("x [in],y [in]\n1,2\n", "cm", "names the unit 'in'; but 'cm' was asked for"),
-        ("1,2\n1,2\n", "in", "holds 1 and 2 overlap"),
-        ("", "in", "the board has no holds"),
+        ("1,2\n\n1,2\n", "in", "wall.csv:3: hold 2; holds 1 and 2 (lines 1 and 3) overlap"),
+        ("", "in", "wall.csv: has no points; each line is x, y"),
     ],
 )
 def test_a_bad_table_is_refused_with_file_and_line(tmp_path: Path, text: str, unit: str | None, said: str) -> None:

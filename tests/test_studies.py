@@ -14,7 +14,7 @@ from clamber.studies.bevly_1997.printed_plans import PRINTED
 from clamber.studies.bevly_1997.replayed import limbed_task
 from clamber.studies.exhaust import exhaust
 from clamber.studies.library import ON_A_BODY, ON_ONE_LIMB, STUDIES
-from clamber.studies.report import write_report
+from clamber.studies.markdown import write_markdown
 
 BEVLY = STUDIES["bevly-1997"]
 LONG = ("no-rotation-free", "step-size", "modified-ladder-evolution", "h-evolution", "planner-success")
@@ -91,7 +91,7 @@ def test_exhaustion_without_an_answer_says_whether_it_was_complete() -> None:
 
 def test_report_has_a_page_for_each_result_and_its_pictures(tmp_path: Path) -> None:
     results = [BEVLY[name]() for name in ("inventory-size", "ladder-plan")]
-    write_report(results, tmp_path)
+    write_markdown(results, tmp_path)
     pages = tmp_path / "bevly-1997"
     assert "| modules without the no-op | 111 | 111 |" in (pages / "inventory-size.md").read_text(encoding="utf-8")
     page = (pages / "ladder-plan.md").read_text(encoding="utf-8")

@@ -48,6 +48,8 @@ def _is_deep(table: Mapping[str, Any]) -> bool:
 
 def _value(value: Any, *, in_line: bool = False) -> str:
     if isinstance(value, Mapping):
+        if not value:
+            return "{}"
         return "{ " + ", ".join(f"{_key(key)} = {_value(item, in_line=in_line)}" for key, item in value.items()) + " }"
     if isinstance(value, Sequence) and not isinstance(value, str):
         if value and all(isinstance(item, Mapping) for item in value) and not in_line:

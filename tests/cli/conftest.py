@@ -1,10 +1,16 @@
 """What the tests of the commands share: `clamber` itself, called with words as a shell would."""
 
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
+from clamber.actions.limbed_plans import thesis_code
+from clamber.actions.plan import Plan
 from clamber.cli import main
+from clamber.execution.climb.course import climbable
+from clamber.tasks import load_task
+from clamber.tasks.limbed import LimbedTask
 
 
 @pytest.fixture
@@ -20,3 +26,14 @@ def clamber(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) 
         return int(left.value.code or 0), out, err
 
     return call
+
+
+@pytest.fixture(scope="module")
+def example_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Where the examples of commands are run: it has a plan of two actions, `two.json`."""
+    made = tmp_path_factory.mktemp("examples")
+    task = load_task("ladder")
+    assert isinstance(task, LimbedTask)
+    strict = climbable(task)
+    Plan.of_codes(strict, [thesis_code(strict, number) for number in (300, 3)]).save(made / "two.json")
+    return made

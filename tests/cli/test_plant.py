@@ -13,9 +13,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from jsonschema import Draft202012Validator
 
 from clamber.actions.limbed_plans import thesis_code
 from clamber.actions.plan import Plan
+from clamber.cli.printed.library import schema_of
 from clamber.execution.climb.climb_trace import ClimbTrace
 from clamber.execution.climb.course import climbable
 from clamber.execution.log_files import read_log
@@ -179,3 +181,17 @@ def test_a_plan_for_a_plant_that_nobody_serves_moves_nothing(clamber: Any, tmp_p
     code, out, err = clamber("run", plan_file(tmp_path, 300), "--plant", "tcp://127.0.0.1:1", "-q")
     assert (code, out) == (2, "")
     assert "nothing answers there" in err
+
+
+def test_with_json_the_server_says_where_it_listens_in_one_value() -> None:
+    words = [sys.executable, "-c", SERVE, "plant", "serve", "ladder", "--json", "-q"]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as server:
+        assert server.stdout is not None
+        said = ""
+        while not said.endswith("}\n"):
+            said += server.stdout.readline()
+        told = json.loads(said)
+        Draft202012Validator(schema_of("plant serve")).validate(told)
+        assert told["address"].startswith("tcp:127.0.0.1:") and told["robot"] == "libra"
+        server.send_signal(signal.SIGTERM)
+        assert server.wait(timeout=PATIENCE) == 130

@@ -21,8 +21,19 @@ from clamber.control.gait import (
     slide_seconds,
     speed_of_gait,
 )
-from clamber.control.track import Track, along_twist, by_twist, compose, seen_from, straight, through, turn_about
-from clamber.control.walker_balance import mass_centre, mass_moment, support_margin
+from clamber.control.support import support_margin
+from clamber.control.track import (
+    Track,
+    along_twist,
+    by_twist,
+    compose,
+    seen_from,
+    straight,
+    through,
+    toward,
+    turn_about,
+)
+from clamber.control.walker_balance import mass_centre, mass_moment
 from clamber.robots.library import load_robot
 from clamber.robots.walker import TwoFrames, WalkerRobot
 from clamber.robots.walker.weight import arm_places, weight_of
@@ -76,12 +87,49 @@ def test_tracks_go_where_they_say() -> None:
     for way in np.linspace(0.0, round_it.length, 7):
         assert math.dist(round_it.pose(way)[:2], centre) == pytest.approx(math.dist(start[:2], centre))
     assert round_it.pose(round_it.length)[2] == pytest.approx(1.8)
-    points = np.array(((1.0, 0.0), (1.0, 1.0)))
-    walked = through(start, points, RADIUS)
+    walked = through(start, np.array(((1.0, 0.0, 0.7), (1.0, 1.0, 0.7))), RADIUS)
     np.testing.assert_allclose(walked.pose(walked.length), (1.0, 1.0, 0.7), atol=1e-12)
     np.testing.assert_allclose(walked.pose(math.dist(start[:2], (1.0, 0.0))), (1.0, 0.0, 0.7), atol=1e-12)
     spun = by_twist(start, np.array((0.002, 0.001, 0.01)), 100.0, RADIUS)
     np.testing.assert_allclose(spun.pose(spun.length), compose(start, along_twist(np.array((0.2, 0.1, 1.0)), 1.0)))
+
+
+@given(POSE, POSE)
+def test_a_twist_toward_a_pose_goes_there(a: Floats, b: Floats) -> None:
+    there = compose(a, along_twist(toward(a, b), 1.0))
+    np.testing.assert_allclose(there[:2], b[:2], atol=1e-9)
+    assert math.remainder(there[2] - b[2], math.tau) == pytest.approx(0.0, abs=1e-12)
+    assert abs(toward(a, b)[2]) <= math.pi
+
+
+@given(st.lists(POSE, min_size=1, max_size=8), st.sampled_from((0.0, 0.05, 0.3)))
+def test_a_track_through_poses_passes_each_of_them_in_order(poses: list[Floats], within: float) -> None:
+    every = np.array(poses)
+    track = through(START, every, RADIUS, within=within)
+    ways = np.linspace(0.0, track.length, 300)
+    gone = np.array([track.pose(way) for way in ways])
+    turns = np.remainder(gone[:, None, 2] - every[:, 2] + math.pi, math.tau) - math.pi
+    off = np.hypot(np.hypot(*(gone[:, None, :2] - every[:, :2]).transpose(2, 0, 1)), RADIUS * turns)
+    reached = 0
+    for k in range(len(every)):  # a pose is met after the one before it
+        near = np.flatnonzero(off[reached:, k] <= within + track.length / 150)
+        assert near.size, f"pose {k} is passed by {off[reached:, k].min()}"
+        reached += int(near[0])
+    end = track.pose(track.length)
+    assert np.hypot(*(end[:2] - every[-1, :2])) < 1e-9
+
+
+def test_many_points_of_a_smooth_path_become_few_pieces() -> None:
+    angles = np.linspace(0.0, math.pi, 400)
+    circle = np.column_stack((np.sin(angles), 1.0 - np.cos(angles), angles))
+    with_it = through(START, circle, RADIUS, within=1e-6)
+    assert len(with_it.twists) == 1  # an arc is one twist
+    np.testing.assert_allclose(with_it.twists[0], (math.pi, 0.0, math.pi), atol=1e-9)
+    circle[:, 2] = 0.0
+    kept = through(START, circle, RADIUS, within=5e-3)
+    assert 8 <= len(kept.twists) <= 20  # chords of 5 mm sagitta are 0.2 m long
+    there_and_back = np.array(((1.0, 0.0, 0.0), (0.5, 0.0, 0.0), (2.0, 0.0, 0.0)))
+    assert through(START, there_and_back, RADIUS, within=5e-3).length == pytest.approx(3.0)
 
 
 def test_lengths_are_those_of_the_mechanism() -> None:

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from clamber.control.inclination import Inclination, InclinometerTrust, load_slope, strain_of
+from clamber.control.inclination import Inclination, InclinometerTrust
 from clamber.control.posture import inclines_of_tilt, tilt_of_inclines
 from clamber.types import Floats
 
@@ -100,15 +100,6 @@ def test_a_foot_that_slips_off_something_is_believed_within_seconds_even_by_a_su
     assert error_after(2.0, InclinometerTrust(surprise=1e6)) > 0.2 * DEGREE
 
 
-def test_the_slope_of_loads_is_that_of_the_plane_through_them() -> None:
-    rng = np.random.default_rng(0)
-    places, stands = rng.uniform(-0.3, 0.3, (6, 2)), np.array([1, 0, 1, 1, 1, 0], np.int32)
-    loads = 100.0 + places @ np.array((30.0, -70.0))
-    loads[stands == 0] = 999.0
-    np.testing.assert_allclose(load_slope(places, loads, stands), (30.0, -70.0), atol=1e-9)
-    assert not load_slope(places, loads, np.array([1, 1, 0, 0, 0, 0], np.int32)).any()
-
-
 @pytest.mark.parametrize(
     "key", ["noise", "time_constant", "drift", "start", "give", "give_doubt", "give_drift", "surprise"]
 )
@@ -116,20 +107,3 @@ def test_trust_that_is_negative_or_endless_is_refused(key: str) -> None:
     for value in (-1.0, math.inf, math.nan):
         with pytest.raises(ValueError, match=key):
             InclinometerTrust(**{key: value})
-
-
-def test_what_legs_carry_beyond_their_share_is_no_force_and_no_moment() -> None:
-    rng = np.random.default_rng(1)
-    places, loads, stands = (
-        rng.uniform(-0.3, 0.3, (6, 2)),
-        rng.uniform(0, 300, 6),
-        np.array([1, 1, 1, 1, 1, 0], np.int32),
-    )
-    over = strain_of(places, loads, stands)
-    assert over[5] == 0.0
-    assert over.sum() == pytest.approx(0.0, abs=1e-9)
-    np.testing.assert_allclose(over @ places, 0.0, atol=1e-9)
-    even = (loads - over)[:5]
-    other = even + 10.0 * np.linalg.svd(np.column_stack([np.ones(5), places[:5]]).T)[2][3]  # same force, same moment
-    assert np.sum(even**2) < np.sum(other**2)
-    assert not strain_of(places, loads, np.array([1, 1, 1, 0, 0, 0], np.int32)).any()

@@ -19,7 +19,7 @@ from clamber.studies.bevly_1997.body_entries import EARLIER, JOINT_PD
 from clamber.studies.bevly_1997.body_push import tenfold
 from clamber.studies.bevly_1997.body_table import count_lost_pegs
 from clamber.studies.library import ON_A_BODY
-from clamber.studies.report import write_report
+from clamber.studies.markdown import write_markdown
 from clamber.studies.result import StudyResult
 
 QUICK = {"fig-4-15": "holds", "fig-4-16": "holds", "fig-4-18": "differs"}
@@ -41,7 +41,7 @@ def keeps_its_verdict(name: str, verdict: str) -> None:
 @pytest.mark.parametrize("name", QUICK)
 def test_quick_results_of_chapter_4_keep_their_verdicts(name: str, tmp_path: Path) -> None:
     keeps_its_verdict(name, QUICK[name])
-    write_report([told(name)], tmp_path)
+    write_markdown([told(name)], tmp_path)
     assert {path.suffix for path in (tmp_path / "bevly-1997").iterdir()} == {".md", ".png"}
 
 

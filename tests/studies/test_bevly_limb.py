@@ -20,7 +20,7 @@ from clamber.studies.bevly_1997.limb_entries import (
 )
 from clamber.studies.bevly_1997.limb_models import SIMPLE, drive_joint
 from clamber.studies.library import STUDIES
-from clamber.studies.report import write_report
+from clamber.studies.markdown import write_markdown
 from clamber.studies.result import StudyResult, Value
 
 BEVLY = STUDIES["bevly-1997"]
@@ -207,7 +207,7 @@ def test_the_stiffness_of_scct_is_that_of_its_formula() -> None:
 
 @pytest.mark.slow
 def test_pages_of_chapter_3_have_their_pictures(tmp_path: Path) -> None:
-    write_report([told(name) for name in FIGURES], tmp_path)
+    write_markdown([told(name) for name in FIGURES], tmp_path)
     pages = tmp_path / "bevly-1997"
     for name in FIGURES:
         page = (pages / f"{name}.md").read_text(encoding="utf-8")

@@ -10,7 +10,7 @@ from clamber.robots.walker import TwoFrames
 from clamber.robots.walker.slide_time import slide_seconds
 from clamber.studies.hoshino_1995.walker import hoshino
 from clamber.studies.library import OF_FRAMES, STUDIES
-from clamber.studies.report import write_report
+from clamber.studies.markdown import write_markdown
 
 
 def test_the_printed_numbers_come_out_to_their_last_place() -> None:
@@ -34,7 +34,7 @@ def test_a_wide_ditch_takes_a_pivot(tmp_path: Path) -> None:
     result = OF_FRAMES["fig-5"]()
     assert result.verdict == "holds"
     assert result.numbers["a ditch of 200 mm ahead, theta = 0, theta_w = 0: pivots"] > 0  # type: ignore[operator]
-    write_report([result, OF_FRAMES["fig-4"]()], tmp_path)
+    write_markdown([result, OF_FRAMES["fig-4"]()], tmp_path)
     pages = tmp_path / "hoshino-1995"
     for name in ("fig-4-regions", "fig-4-areas", "fig-5-maps", "fig-5-curves", "fig-5-crossing"):
         assert (pages / f"{name}.png").read_bytes().startswith(b"\x89PNG")

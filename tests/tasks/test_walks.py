@@ -11,7 +11,7 @@ from clamber.sim.walker_flaws import WalkerFlaws
 from clamber.sim.walker_plant import WalkerSim
 from clamber.tasks.walks import is_walk, load_walk, walk_names
 from clamber.tasks.walks.library import walk_from_document
-from clamber.tasks.walks.walk import Piece
+from clamber.tasks.walks.piece import BodyTwist, Piece
 
 FILE = """
 schema = "clamber-walk-1"
@@ -52,9 +52,9 @@ def test_a_plate_may_lie_as_the_ground(heading: float, uphill: float) -> None:
 def test_a_piece_turns_about_its_point() -> None:
     """The velocity of the point is zero: v + omega x r."""
     about = (0.3, -0.2)
-    x, y, turn = Piece(turn=0.5, about=about).twist()
+    x, y, turn = Piece(turn=0.5, about=about).whole_twist()
     assert (x - turn * about[1], y + turn * about[0]) == pytest.approx((0.0, 0.0))
-    assert Piece(direction=math.pi / 2, distance=2.0).twist() == pytest.approx((0.0, 2.0, 0.0))
+    assert Piece(direction=math.pi / 2, distance=2.0).whole_twist() == pytest.approx((0.0, 2.0, 0.0))
 
 
 def test_overrides_reach_walk_robot_and_ground() -> None:
@@ -87,17 +87,30 @@ def test_a_walk_may_be_the_user_s_own_file(tmp_path: Path) -> None:
     ("changes", "words"),
     [
         (["way=[]"], "way"),
-        (["way.0.turn=1deg"], "one of the three"),
+        (["way.0.turn=1deg"], "one of: direction"),
         (["way.0={ direction = '0 deg' }"], "both direction and distance"),
         (["way.0={ turn = '0 deg' }"], "must not be 0"),
-        (["way.0={ direction = '0 deg', distance = '1 m', about = ['0 m', '0 m'] }"], "is for a turn"),
+        (["way.0={ direction = '0 deg', distance = '1 m', about = ['0 m', '0 m'] }"], "is for a piece with 'turn'"),
         (["arm=['0 deg']"], "4 entries"),
         (["ground.slope=30deg"], "legs of"),
         (["start.x=20m"], "no ground"),
+        (["start.twist=60deg"], "start.*actuators of .* they can be 50 to 300 mm"),
+        (["start.offset=['0 m', '0.12 m']", "start.twist=40deg"], "of the way to a singular posture.*0.9 is allowed"),
         (["robot=libra"], "must be 'walker'"),
         (["ground=slop"], "slope"),
         (["wey=1"], "way"),
         (["start.plate=tilted"], "level"),
+        (["way=[{ twist = { vx = '1 mm/s' } }]"], "both twist and lasts"),
+        (["way=[{ twist = {}, lasts = '1 s' }]"], "way.0.twist.*must not be 0"),
+        (["way=[{ twist = { vx = '1 mm' }, lasts = '1 s' }]"], "way.0.twist.vx.*no unit of speed"),
+        (["way=[{ twist = { vz = '1 mm/s' }, lasts = '1 s' }]"], "vz.*unknown key; allowed are vx, vy, omega"),
+        (["way=[{ twist = { omega = '1 deg/s' }, lasts = '-1 s' }]"], "way.0.lasts.*more than 0 s"),
+        (["way=[{ through = [] }]"], "a place or more"),
+        (["way=[{ through = [{ x = '1 m' }] }]"], "way.0.through.0.y"),
+        (["way=[{ through = [{ x = '1 m', y = '0 m' }], turn = '3 deg' }]"], "must state one of"),
+        (["way=[{ path = 3 }]"], "way.0.path"),
+        (["way=[{ path = 'gone.csv' }]"], "gone.csv: does not exist"),
+        (["way=[{ path = 'gone.csv', through = [] }]"], "not both"),
         (["hold={ x = '1 m', y = '0.3 m' }"], "hold.z"),
         (["hold={ x = '1 m', y = '0.3 m', z = '0.6 s' }"], "hold.z"),
         (["hold={ x = '1 m', y = '0.3 m', z = '0.6 m', within = '0 m' }"], "hold.within"),
@@ -126,7 +139,72 @@ def test_a_payload_needs_an_arm(tmp_path: Path) -> None:
 def test_a_place_is_a_piece_of_the_way() -> None:
     walk = load_walk("level-walk", ("way=[{to=['1 m', '0.5 m'], heading='20 deg'}]",))
     assert walk.way[0].to == (1.0, 0.5) and walk.way[0].heading == pytest.approx(math.radians(20.0))
-    with pytest.raises(SpecError, match="place alone"):
+    with pytest.raises(SpecError, match="one of: direction"):
         load_walk("level-walk", ("way=[{to=['1 m', '0.5 m'], turn='20 deg'}]",))
     with pytest.raises(SpecError, match="heading"):
         load_walk("level-walk", ("way=[{turn='20 deg', heading='20 deg'}]",))
+
+
+def test_a_twist_covers_the_way_that_its_time_makes() -> None:
+    walk = load_walk(
+        "level-walk", ("way=[{ twist = { vx = '2 mm/s', vy = '-1 mm/s', omega = '0.1 deg/s' }, lasts = '5 min' }]",)
+    )
+    assert walk.way[0].twist == BodyTwist(vx=0.002, vy=-0.001, omega=math.radians(0.1))
+    np.testing.assert_allclose(walk.way[0].whole_twist(), (0.6, -0.3, math.radians(30.0)))
+
+
+PATH = """# measured on the plan
+x [mm], y [m], heading [deg]
+0, 0, 0
+
+500, 0.5, 90
+"""
+
+
+def test_a_path_is_read_beside_the_walk_and_from_where_an_override_is_typed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "there").mkdir()
+    (tmp_path / "there" / "path.csv").write_text(PATH, encoding="utf-8")
+    mine = tmp_path / "there" / "mine.toml"
+    mine.write_text(FILE.replace('direction = "0 deg", distance = "1 m"', 'path = "path.csv"'), encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    for walk in (load_walk(str(mine)), load_walk("level-walk", ("way=[{ path = 'there/path.csv' }]",))):
+        np.testing.assert_allclose(walk.way[0].poses(2.0), ((0.0, 0.0, 0.0), (0.5, 0.5, math.pi / 2)))
+        (tmp_path / "there" / "path.csv").rename(tmp_path / "there" / "gone.csv")
+        again = walk_from_document(walk.document)  # a worker needs no file
+        assert again.way == walk.way
+        (tmp_path / "there" / "gone.csv").rename(tmp_path / "there" / "path.csv")
+    with pytest.raises(ClamberError, match=r"path.csv: does not exist"):
+        load_walk(str(mine), ("way.0.path='path.csv'",))
+
+
+def test_places_without_a_heading_keep_the_one_before() -> None:
+    walk = load_walk(
+        "level-walk",
+        ("way=[{ through = [{x='1 m', y='0 m'}, {x='1 m', y='1 m', heading='1 rad'}, {x='2 m', y='1 m'}] }]",),
+    )
+    np.testing.assert_allclose(walk.way[0].poses(0.5)[:, 2], (0.5, 1.0, 1.0))
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "has no places"),
+        ("x [m], y [m]\n", "has no places"),
+        ("x [m]\n1\n", "names no column y"),
+        ("x [m], y [m], z [m]\n", "column 'z \\[m\\]'; there are x, y, heading"),
+        ("x, y\n", "names no unit of x; write 'x \\[m\\]'"),
+        ("x [m], x [m]\n", "names x twice"),
+        ("x [m], y [deg]\n", "'y \\[deg\\]' is no unit of length"),
+        ("x [m], y [m]\n1, 2, 3\n", ":2: has 3 columns"),
+        ("x [m], y [m]\n1, two\n", ":2: y = 'two'"),
+        ("x [m], y [m]\n1, inf\n", ":2: y = 'inf'"),
+        ("x [m], y [m]\n1, 1e300\n", "through.0.y.*far too large"),
+        ("x [m], y [m]\n" + 10_001 * "1, 2\n", "is place 10001; a path has at most 10000"),
+    ],
+)
+def test_a_file_that_is_no_path_is_named_with_its_line(tmp_path: Path, text: str, words: str) -> None:
+    (tmp_path / "path.csv").write_text(text, encoding="utf-8")
+    with pytest.raises(ClamberError, match=words):
+        load_walk("level-walk", (f"way=[{{ path = '{tmp_path / 'path.csv'}' }}]",))

@@ -1,7 +1,7 @@
 """The verdict on a plan: carried out again action by action, every check of every step, and the first violation."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,6 +10,7 @@ from ..statics.records import TOLERANCE, UNLIMITED
 from ..tasks import Task
 from ..types import Ints, Json
 from ..units import DEGREE, INCH, OZ_IN
+from .outside_checks import judge_outside
 from .plan import Plan
 from .plan_families import PlanFamily, plan_family
 from .planned import PlannedAction
@@ -194,6 +195,8 @@ def check_plan(
     nearest = [None] * len(plan.actions) if asked is None else family.nearest(task, problem, replay.stances, asked)
     hard = family.hard(task)
     rows = tuple(_judge(family, task, plan.actions[i], replay, i, hard, nearest[i]) for i in range(len(replay.reasons)))
+    theirs = judge_outside(task, rows, [check.name for check in family.checks])
+    rows = tuple(_with_outside(row, margins) for row, margins in zip(rows, theirs.rows, strict=True))
     held = [row for row in rows if row.ok]
     powers = [row.power for row in held if row.power is not None]
     last = replay.stances[-1] if go_on or replay.ok else replay.stances[-2]
@@ -212,10 +215,18 @@ def check_plan(
         energy=family.duration(task) * sum(powers),
         pose=family.pose(last),
         holds=family.holds(task, last),
-        checks=family.checks,
+        checks=(*family.checks, *theirs.checks),
         hard=hard,
-        notes=notes,
+        notes=(*notes, *theirs.notes),
     )
+
+
+def _with_outside(row: StepVerdict, margins: dict[str, float | None]) -> StepVerdict:
+    """A step with what other packages' checks say of it."""
+    if not margins:
+        return row
+    violated = (name for name, margin in margins.items() if margin is not None and margin < -TOLERANCE)
+    return replace(row, margins=row.margins | margins, reported=(*row.reported, *violated))
 
 
 def _judge(

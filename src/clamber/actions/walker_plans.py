@@ -7,7 +7,7 @@ import numpy as np
 from ..errors import describe_choices
 from ..robots.walker import FRAMES
 from ..statics.checks import Check
-from ..statics.walker import WALKER_CHECKS
+from ..statics.walker_checks import WALKER_CHECKS
 from ..tasks.walker import WalkerTask
 from ..types import Ints
 from .codes import MOVE, NONE, RELEASE, Code, pack

@@ -11,7 +11,8 @@ from ..errors import MISSING, SpecError
 from ..robots.walker import FRAMES
 from ..robots.walker.weight import Weight, weight_of
 from ..statics.records import TICKS
-from ..statics.walker import WALKER_CHECKS, WALKER_GOAL, WALKER_PARAMS, WALKER_STANCE
+from ..statics.walker import WALKER_GOAL, WALKER_PARAMS, WALKER_STANCE
+from ..statics.walker_checks import WALKER_CHECKS
 from ..tasks.walker import Goal, WalkerTask
 from ..types import Floats
 from .codes import MOVE, RELEASE, pack

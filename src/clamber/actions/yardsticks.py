@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 from ..statics.checks import LIMBED_CHECKS, Check
-from ..statics.walker import WALKER_CHECKS
+from ..statics.walker_checks import WALKER_CHECKS
 from ..tasks import Task
 from ..tasks.limbed import LimbedTask
 from ..tasks.walker import WalkerTask

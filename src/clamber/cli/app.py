@@ -16,12 +16,15 @@ from .body import body
 from .calibrate import calibrate
 from .check import check
 from .ditch import ditch
+from .doctor import doctor
+from .export import export
 from .follow import follow
 from .help_text import command_of
 from .inventory import inventory
 from .learn import learn
 from .limb import limb
 from .list import list_names
+from .most import most
 from .new import new
 from .plan import plan
 from .plant import plant
@@ -29,10 +32,12 @@ from .polish import polish
 from .press import press
 from .reach import reach
 from .run import run
+from .schema import schema
 from .show import show
 from .study import study
 from .sweep import sweep
 from .trials import trials
+from .view import view
 
 app = typer.Typer(
     name="clamber",
@@ -51,7 +56,10 @@ app.command("run")(run)
 app.command("press")(press)
 app.command("follow")(follow)
 app.command("trials")(trials)
+app.command("most")(most)
 app.command("show")(show)
+app.command("view")(view)
+app.command("export")(export)
 app.command("bench")(bench)
 app.command("sweep")(sweep)
 app.add_typer(limb, name="limb")
@@ -62,6 +70,8 @@ app.command("reach")(reach)
 app.command("calibrate")(calibrate)
 app.command("ditch")(ditch)
 app.command("study")(study)
+app.command("schema")(schema)
+app.command("doctor")(doctor)
 
 
 def _print_version(wanted: bool) -> None:

@@ -1,17 +1,23 @@
 """`clamber bench`: measure speed and success, beside peers."""
 
+import shlex
 from functools import partial
-from typing import Annotated
+from pathlib import Path
+from typing import Annotated, Final
 
 import typer
 
+from ..files import write_atomically
 from .crew import EndsLine, check_resume, executor_of
 from .options import AsJson, Output, Ray, Resume, Store, Workers
-from .output import announce_compilation, print_json, stderr, stdout
+from .output import announce_compilation, check_writable, print_json, stderr, stdout
+
+FIRST_KERNELS: Final = {"boards": "simulate", "control": "drive_at", "plant": "drive_at", "hexapod": "prepare"}
+"""Benchmark -> kernel that tells whether it has to compile first."""
 
 
 def bench(
-    name: Annotated[str | None, typer.Argument(help="One benchmark; all unless given.")] = None,
+    names: Annotated[list[str] | None, typer.Argument(help="Benchmarks, in this order; all unless given.")] = None,
     workers: Workers = None,
     ray: Ray = None,
     store: Store = None,
@@ -21,41 +27,59 @@ def bench(
 ) -> None:
     """Measure speed and success, ours beside those of peers; seeds, ablation and boards are batches, with workers and a store."""
     check_resume(resume, store)
-    from ..errors import UnknownNameError
     from ..experiments.benches import BATCHED, BENCHES, run_bench
     from ..experiments.trials import Crew
     from .study_text import print_rows
 
-    if name is not None and name not in BENCHES:
-        raise UnknownNameError("benchmark", name, tuple(BENCHES))
-    if (workers or ray or store) and name not in BATCHED:
-        raise typer.BadParameter(f"are for one of {', '.join(BATCHED)}", param_hint="--workers, --ray, --store")
-    if output is not None and name != "boards":
-        raise typer.BadParameter("is for boards: a picture or a table", param_hint="--output")
-    if name == "jobs" and (workers or store):
-        raise typer.BadParameter(
-            "measures workers and stores of its own; it takes --ray", param_hint="--workers, --store"
-        )
+    chosen = tuple(names or BENCHES)
+    only = chosen[0] if len(chosen) == 1 else None
+    _check_asked(chosen, only, batch=bool(workers or ray or store), own_crew=bool(workers or store), output=output)
     line = EndsLine(stderr(), "items", quiet=False)
     crew = Crew(executor=executor_of(ray, workers), store=store, resume=resume, progress=line.update)
     if ray is not None:
         crew.executor.check()
-    if ray is None:
-        announce_compilation(
-            {"boards": "simulate", "control": "drive_at", "plant": "drive_at", "hexapod": "prepare"}.get(
-                name or "", "rollout"
-            )
-        )
-    if name == "boards":
+    if ray is None and only != "start":
+        announce_compilation(FIRST_KERNELS.get(only or "", "rollout"))
+    if only == "boards":
         from .bench_boards import bench_boards
 
         bench_boards(crew, output=output, as_json=as_json)
         return
-    rows = []
-    for chosen in BENCHES if name is None else (name,):
-        stderr().print(f"measuring {chosen}")
-        rows += run_bench(chosen, partial(stderr().print, style="dim"), crew)
+    measured = {}
+    for name in chosen:
+        stderr().print(f"measuring {name}")
+        measured[name] = run_bench(name, partial(stderr().print, style="dim"), crew if name in BATCHED else None)
+    rows = [row for each in measured.values() for row in each]
+    if output is not None:
+        from ..experiments.performance_page import performance_page
+
+        write_atomically(
+            output, performance_page(measured, shlex.join(("clamber", "bench", *chosen, "-o", str(output))))
+        )
     if as_json:
         print_json([row.to_json() for row in rows])
     else:
         print_rows(stdout(), rows)
+
+
+def _check_asked(
+    chosen: tuple[str, ...], only: str | None, *, batch: bool, own_crew: bool, output: Path | None
+) -> None:
+    from ..errors import UnknownNameError
+    from ..experiments.benches import BATCHED, BENCHES
+
+    for name in chosen:
+        if name not in BENCHES:
+            raise UnknownNameError("benchmark", name, tuple(BENCHES))
+    if batch and only not in BATCHED:
+        raise typer.BadParameter(f"are for one of {', '.join(BATCHED)}", param_hint="--workers, --ray, --store")
+    if only == "jobs" and own_crew:
+        raise typer.BadParameter(
+            "measures workers and stores of its own; it takes --ray", param_hint="--workers, --store"
+        )
+    if output is not None and only != "boards":
+        check_writable(output)
+        if output.suffix.lower() != ".md":
+            raise typer.BadParameter(
+                f"{output}: a page is Markdown (.md); pictures are of `boards` alone", param_hint="--output"
+            )

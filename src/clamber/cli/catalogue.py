@@ -4,29 +4,24 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Final
 
+from ..extensions import outside_titles
 from ..files import data_names, read_toml
+
+PACKAGE: Final = Path(__file__).parents[1]
+GROUND_SCHEMA: Final = "clamber-ground-1"
 
 
 def _shipped(folder: str) -> list[tuple[str, str]]:
     """Name and title of the data files of a folder of the package."""
-    from .. import robots, tasks
-
-    data = {"robots": robots, "tasks": tasks}[folder].library.DATA
+    data = PACKAGE / folder / "data"
     return _titled(data, data_names(data))
 
 
 def _worlds(kind: str) -> list[tuple[str, str]]:
     """Those of one kind: boards, or grounds."""
-    from .. import worlds
-    from ..worlds.library import DATA
-
-    return _titled(DATA, worlds.ground_names() if kind == "grounds" else worlds.board_names())
-
-
-def _walks() -> list[tuple[str, str]]:
-    from ..tasks.walks.library import DATA, walk_names
-
-    return _titled(DATA, walk_names())
+    data = PACKAGE / "worlds" / "data"
+    grounds = {name for name in data_names(data) if read_toml(data / f"{name}.toml").data["schema"] == GROUND_SCHEMA}
+    return _titled(data, (name for name in data_names(data) if (name in grounds) == (kind == "grounds")))
 
 
 def _titled(data: Path, names: Iterable[str]) -> list[tuple[str, str]]:
@@ -34,17 +29,15 @@ def _titled(data: Path, names: Iterable[str]) -> list[tuple[str, str]]:
 
 
 def _plans() -> list[tuple[str, str]]:
-    from ..actions.plan_source import DATA, plan_names
-    from ..actions.thesis_plan import load_thesis_plan
-
-    plans = {name: load_thesis_plan(DATA / f"{name}.toml") for name in plan_names()}
-    return [(name, f"{plan.n_steps} actions for {plan.task}: {plan.source}") for name, plan in plans.items()]
+    data = PACKAGE / "actions" / "data"
+    plans = {name: read_toml(data / f"{name}.toml").data for name in data_names(data)}
+    return [(name, f"{said['n_steps']} actions for {said['task']}: {said['source']}") for name, said in plans.items()]
 
 
 def _planners() -> list[tuple[str, str]]:
-    from ..planning.planners import PLANNERS
+    from ..planning.planner_titles import PLANNER_TITLES
 
-    return [(name, _first_line(planner)) for name, planner in PLANNERS.items()]
+    return list(PLANNER_TITLES.items())
 
 
 def _controllers() -> list[tuple[str, str]]:
@@ -53,32 +46,36 @@ def _controllers() -> list[tuple[str, str]]:
     return list(LAW_TITLES.items())
 
 
-def _plants() -> list[tuple[str, str]]:
-    from ..sim.plants import PLANTS
+def _checks() -> list[tuple[str, str]]:
+    from ..statics.checks import LIMBED_CHECKS
+    from ..statics.walker_checks import WALKER_CHECKS
 
-    return [(name, _first_line(plant)) for name, plant in PLANTS.items()]
+    return [(check.name, f"[{check.unit}] {check.meaning}") for check in (*LIMBED_CHECKS, *WALKER_CHECKS)]
+
+
+def _plants() -> list[tuple[str, str]]:
+    from ..sim.plant_titles import PLANT_TITLES
+
+    return list(PLANT_TITLES.items())
 
 
 def _studies() -> list[tuple[str, str]]:
-    from ..studies.library import STUDIES
+    from ..studies.titles import RESULTS
 
-    return [(paper, ", ".join(results)) for paper, results in STUDIES.items()]
-
-
-def _first_line(thing: object) -> str:
-    return (thing.__doc__ or "").strip().partition("\n")[0]
+    return [(paper, ", ".join(results)) for paper, results in RESULTS.items()]
 
 
 ENTRIES: Final[dict[str, Callable[[], list[tuple[str, str]]]]] = {
-    "robots": lambda: _shipped("robots"),
+    "robots": lambda: [*_shipped("robots"), *outside_titles("robots")],
     "boards": lambda: _worlds("boards"),
     "grounds": lambda: _worlds("grounds"),
     "tasks": lambda: _shipped("tasks"),
-    "walks": _walks,
+    "walks": lambda: _shipped("tasks/walks"),
     "plans": _plans,
-    "planners": _planners,
-    "controllers": _controllers,
-    "plants": _plants,
+    "planners": lambda: [*_planners(), *outside_titles("planners")],
+    "checks": lambda: [*_checks(), *outside_titles("checks")],
+    "controllers": lambda: [*_controllers(), *outside_titles("controllers")],
+    "plants": lambda: [*_plants(), *outside_titles("plants")],
     "studies": _studies,
 }
 

@@ -1,13 +1,18 @@
 """`clamber follow`: a walker that stands follows a tool path with arm and body."""
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from ..errors import FileError, SpecError
 from .options import AsJson
-from .output import announce_compilation, check_writable, plain_table, print_json, stdout
+from .output import announce_compilation, check_writable, print_json, stdout
+
+if TYPE_CHECKING:
+    from ..experiments.cooperative.follow import FollowRun
+    from ..robots.walker import WalkerRobot
 
 Outputs = Annotated[
     list[Path] | None,
@@ -35,26 +40,16 @@ def follow(
 
     Exit code 1 if the tool does not come to the path's end or cannot reach points of it.
     """
-    from ..control.cooperative.planted_feet import SUPPORT_WORDS
-    from ..execution.log_files import SUFFIXES, write_log
     from ..experiments.cooperative.follow import FollowOptions, follow_path
     from ..experiments.cooperative.tool_path import load_tool_path
-    from ..robots.library import load_robot
-    from ..robots.walker import WalkerRobot
     from ..units import parse_quantity
-    from ..viewing.output import CANVASES
+    from .follow_text import print_follow
 
     if blind and not dynamics:
         raise typer.BadParameter("is for a robot in dynamics", param_hint="--blind")
     files = output or []
-    for file in files:
-        check_writable(file)
-        if file.suffix.lower() not in (*CANVASES, *SUFFIXES):
-            allowed = ", ".join((*CANVASES, *SUFFIXES))
-            raise FileError(str(file), f"no picture or log has the suffix '{file.suffix}'", f"allowed are {allowed}")
-    chosen = load_robot(robot)
-    if not isinstance(chosen, WalkerRobot) or chosen.arm is None:
-        raise SpecError(f"robot '{chosen.name}'", "arm", chosen.name, "must be a two-frame walker with an arm")
+    _check_files(files)
+    chosen = _load_robot_with_arm(robot)
     options = FollowOptions(
         dof=dof,
         gain=gain,
@@ -68,6 +63,39 @@ def follow(
     tool_path = load_tool_path(path)
     announce_compilation("prepare", quiet=as_json)
     run = follow_path(chosen, tool_path, options)
+    _write_files(run, files)
+    told = run.to_json()
+    if as_json:
+        print_json(told)
+    else:
+        print_follow(stdout(), run, tool_path)
+    raise typer.Exit(0 if told["reached"] and not run.unreachable else 1)
+
+
+def _check_files(files: Sequence[Path]) -> None:
+    from ..execution.log_files import SUFFIXES
+    from ..viewing.output import CANVASES
+
+    for file in files:
+        check_writable(file)
+        if file.suffix.lower() not in (*CANVASES, *SUFFIXES):
+            allowed = ", ".join((*CANVASES, *SUFFIXES))
+            raise FileError(str(file), f"no picture or log has the suffix '{file.suffix}'", f"allowed are {allowed}")
+
+
+def _load_robot_with_arm(name: str) -> "WalkerRobot":
+    from ..robots.library import load_robot
+    from ..robots.walker import WalkerRobot
+
+    chosen = load_robot(name)
+    if not isinstance(chosen, WalkerRobot) or chosen.arm is None:
+        raise SpecError(f"robot '{chosen.name}'", "arm", chosen.name, "must be a two-frame walker with an arm")
+    return chosen
+
+
+def _write_files(run: "FollowRun", files: Sequence[Path]) -> None:
+    from ..execution.log_files import SUFFIXES, write_log
+
     for file in files:
         if file.suffix.lower() in SUFFIXES:
             write_log(run.log(), file, "follow")
@@ -75,29 +103,3 @@ def follow(
             from ..viewing.follow_plot import draw_follow
 
             draw_follow(run, file)
-    told = run.to_json()
-    if as_json:
-        print_json(told)
-    else:
-        table = plain_table("", "", right=("",))
-        name, margin, time, unit = run.closest_range()
-        table.add_row("result", run.reason)
-        table.add_row("stands on", f"the {SUPPORT_WORDS[run.footing.support]}")
-        table.add_row("took", f"{told['seconds']:.1f} s, {1e3 * tool_path.length:.0f} mm of path")
-        table.add_row(
-            "off its place", f"{1e3 * told['rms_error_m']:.3f} mm rms, {1e3 * told['largest_error_m']:.3f} mm at most"
-        )
-        table.add_row(
-            "manipulability", f"{told['mean_manipulability']:.4f} mean, {told['least_manipulability']:.4f} least"
-        )
-        if run.options.gain > run.stable_gain:
-            table.add_row(
-                "gain", f"{run.options.gain:g} swings about summits of V; below {run.stable_gain:.3g} it does not"
-            )
-        table.add_row("closest limit", f"{name}, {margin:.3g} {unit} left at {time:.1f} s")
-        if run.unreachable:
-            table.add_row("out of reach", f"{len(run.unreachable)} of the points looked at beforehand")
-        stdout().print(table)
-        for note in tool_path.notes:
-            stdout().print(note)
-    raise typer.Exit(0 if told["reached"] and not run.unreachable else 1)

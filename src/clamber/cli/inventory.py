@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from .options import AsJson, Overrides
-from .output import plain_table, print_json, stdout
+from .output import plain_table, print_indented, print_json, stdout
 
 
 def inventory(
@@ -25,7 +25,7 @@ def inventory(
         return
     console = stdout()
     console.print(f"{task}: {report['modules']} modules of {report['full_size']}")
-    console.print("  " + ", ".join(report["names"]))
+    print_indented(console, ", ".join(report["names"]))
     table = plain_table("filter", "dropped", "why")
     for dropped in posed.dropped:
         table.add_row(dropped.filter, str(len(dropped.names)), dropped.reason)

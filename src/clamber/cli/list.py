@@ -19,6 +19,7 @@ class Listed(StrEnum):
     walks = "walks"
     plans = "plans"
     planners = "planners"
+    checks = "checks"
     controllers = "controllers"
     plants = "plants"
     studies = "studies"
@@ -28,7 +29,7 @@ def list_names(
     what: Annotated[Listed | None, typer.Argument(help="One kind; all kinds unless given.")] = None,
     as_json: AsJson = False,
 ) -> None:
-    """List robots, boards, grounds, tasks, walks, plans, planners, controllers, plants and studies by name."""
+    """List robots, boards, grounds, tasks, walks, plans, planners, checks, controllers, plants and studies by name."""
     from .catalogue import entries
 
     if as_json:

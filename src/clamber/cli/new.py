@@ -1,19 +1,48 @@
 """`clamber new`: write files to start from."""
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import typer
 
 from .options import AsJson
 from .output import announce_compilation, check_writable, print_json, stdout
 
-new = typer.Typer(help="Write a file to start from.", no_args_is_help=True)
+if TYPE_CHECKING:
+    from ..types import Json
+
+new = typer.Typer(help="Write a file to start from: robot, board or task.", no_args_is_help=True)
+
+Like: TypeAlias = Annotated[
+    str | None, typer.Option(metavar="NAME|FILE", help="Start from this one in place of a made-up one.")
+]
+Force: TypeAlias = Annotated[bool, typer.Option("--force", help="Write over a file that is there.")]
 
 
 @new.callback()
 def _kinds() -> None:
-    """Write a file to start from."""
+    """Write a file to start from: robot, board or task."""
+
+
+@new.command("robot")
+def robot(
+    limbs: Annotated[int | None, typer.Option(min=2, max=8, help="How many limbs; 4 unless given.")] = None,
+    like: Like = None,
+    force: Force = False,
+    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="File to write.")] = Path("robot.toml"),
+    as_json: AsJson = False,
+) -> None:
+    """Write a robot whose file tells of every key: what it means, its unit, what is allowed."""
+    if limbs is not None and like is not None:
+        raise typer.BadParameter("is for a made-up robot; take --limbs or --like", param_hint="--limbs")
+    _check_new(output, force)
+    from ..files import write_atomically
+    from .starters import robot_starter
+
+    made = robot_starter(output, limbs, like)
+    write_atomically(output, made.text)
+    told = f"robot '{made.data['name']}'"
+    _tell({"robot": str(output)}, {"name": made.data["name"]}, told, f"clamber check {output}", as_json)
 
 
 @new.command("board")
@@ -21,7 +50,19 @@ def board(
     random: Annotated[
         bool, typer.Option("--random", help="Holds scattered at random, the same for the same seed.")
     ] = False,
-    holds: Annotated[int, typer.Option(help="How many holds.")] = 100,
+    csv: Annotated[Path | None, typer.Option("--csv", metavar="FILE", help="Holds of a table: x, y per line.")] = None,
+    unit: Annotated[str | None, typer.Option(help="Of that table, such as cm, where its header names none.")] = None,
+    pixels: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Holds marked in a picture: x, y per line in pixels, y down.")
+    ] = None,
+    scale: Annotated[str | None, typer.Option(help="Size of such a pixel on the wall, such as 3.2mm.")] = None,
+    origin: Annotated[
+        str | None,
+        typer.Option(metavar="X,Y", help="Pixel of the board's origin; unless given, left of and below all holds."),
+    ] = None,
+    radius: Annotated[str | None, typer.Option(help="Of holds of a table or a picture, such as 5mm.")] = None,
+    like: Like = None,
+    holds: Annotated[int, typer.Option(help="How many random holds.")] = 100,
     density: Annotated[str, typer.Option(help="Holds per m^2, or with a unit, such as '2 holds/ft^2'.")] = "20",
     width: Annotated[str | None, typer.Option(help="Of the wall, such as 3m; as wide as high unless given.")] = None,
     least_gap: Annotated[
@@ -41,41 +82,120 @@ def board(
             "--set", metavar="KEY=VALUE", help="Change one key of that task, such as robot=gecko4 or rules.max_hangs=0."
         ),
     ] = None,
+    force: Force = False,
     output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="File to write.")] = Path("wall.toml"),
     as_json: AsJson = False,
 ) -> None:
-    """Write a board, and with --task a task on it that `clamber plan` takes at once."""
-    if not random:
-        raise typer.BadParameter("only random boards are written so far; add --random", param_hint="--random")
+    """Write a board: made up, at random, from a table or a picture; with --task also a task on it that `clamber plan` takes."""
+    sources = {"--random": random, "--csv": csv, "--pixels": pixels, "--like": like}
+    given = [name for name, value in sources.items() if value]
+    if len(given) > 1:
+        raise typer.BadParameter("are different ways to a board; take one", param_hint=", ".join(given))
+    for flag, value, way in (
+        ("--unit", unit, "--csv"),
+        ("--scale", scale, "--pixels"),
+        ("--origin", origin, "--pixels"),
+    ):
+        if value is not None and way not in given:
+            raise typer.BadParameter(f"is for {way}", param_hint=flag)
+    if pixels is not None and scale is None:
+        raise typer.BadParameter("needs the size of a pixel: --scale 3.2mm", param_hint="--pixels")
+    if radius is not None and not (csv or pixels):
+        raise typer.BadParameter("is for --csv and --pixels", param_hint="--radius")
     if overrides and not task:
         raise typer.BadParameter("changes the task; it needs --task", param_hint="--set")
-    if output.suffix != ".toml":
-        raise typer.BadParameter(f"'{output}' must end in .toml", param_hint="--output")
     board_file = output.with_name(f"{output.stem}-board.toml") if task else output
-    check_writable(output)
-    check_writable(board_file)
+    for path in (output, board_file):
+        _check_new(path, force or random)
+    from .new_files import points_data, random_data
+    from .starters import board_starter, board_text
+
+    data: Json
+    if random:
+        data = random_data(holds, density, width, least_gap, seed, board_file, listed=listed)
+    elif csv is not None or pixels is not None:
+        data = points_data(board_file, csv, unit, pixels, scale, origin, radius)
+    else:
+        data = board_starter(board_file, like).data
+    text = None if random else board_text(data, board_file)
+    _write_board(data, text, board_file, output if task else None, overrides or [], as_json)
+
+
+def _write_board(
+    data: "Json", text: str | None, board_file: Path, task_file: Path | None, overrides: list[str], as_json: bool
+) -> None:
     from ..files import write_atomically
     from ..toml_text import toml_text
-    from .new_files import board_data, task_data, wall_facts
+    from .new_files import task_data, wall_facts
 
-    data = board_data(holds, density, width, least_gap, seed, board_file, listed=listed)
-    written = {"board": str(board_file)}
     facts: dict[str, Any] = wall_facts(data, board_file)
-    if task:
+    written = {"board": str(board_file)}
+    following = f"clamber check {board_file}"
+    if task_file is not None:
         announce_compilation()
-        climb = task_data(data, board_file, output, overrides or ())
-        write_atomically(
-            output, toml_text(climb, "From the lowest stance that the rules allow to the top of a random board.")
+        climb = task_data(data, str(board_file), task_file, overrides)
+        comment = "From the lowest stance that the rules allow to the top of the board beside it."
+        write_atomically(task_file, toml_text(climb, comment))
+        written["task"] = str(task_file)
+        following = f"clamber show {task_file}; clamber plan {task_file} --planner auto"
+    write_atomically(board_file, toml_text(data) if text is None else text)
+    apart = f", at least {facts['gap_m']:.4g} m apart" if facts["gap_m"] is not None else ""
+    told = "{holds} holds on {width_m:.4g} x {height_m:.4g} m".format(**facts) + apart
+    _tell(written, facts, told, following, as_json)
+
+
+@new.command("task")
+def task(
+    robot: Annotated[str, typer.Option(metavar="NAME|FILE", help="A climber (`clamber list robots`).")] = "libra",
+    board: Annotated[str, typer.Option(metavar="NAME|FILE", help="A board (`clamber list boards`).")] = "ladder",
+    like: Annotated[
+        str | None, typer.Option(metavar="NAME|FILE", help="Start from this task; its robot may be a walker.")
+    ] = None,
+    overrides: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="KEY=VALUE", help="Change one key of the task, such as rules.max_hangs=0."),
+    ] = None,
+    force: Force = False,
+    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="File to write.")] = Path("task.toml"),
+    as_json: AsJson = False,
+) -> None:
+    """Write a task, from the lowest stance that the rules allow to the top of a board, whose file tells of every key."""
+    if like is not None and (overrides or robot != "libra" or board != "ladder"):
+        raise typer.BadParameter(
+            "has a robot, a board and rules of its own: edit them in the file", param_hint="--like"
         )
-        written["task"] = str(output)
-    write_atomically(board_file, toml_text(data))
+    _check_new(output, force)
+    if like is None:
+        announce_compilation()
+    from ..files import write_atomically
+    from .starters import task_starter
+
+    made = task_starter(output, robot, board, like, overrides or [])
+    write_atomically(output, made.text)
+    told = f"task '{made.data['name']}' for robot '{made.data['robot']}'"
+    following = f"clamber check {output}; clamber plan {output} --planner auto"
+    _tell({"task": str(output)}, {"name": made.data["name"], "start": made.data["start"]}, told, following, as_json)
+
+
+def _check_new(path: Path, force: bool) -> None:
+    """Makes sure that a file can be written, and that nobody's work is lost by it.
+
+    Raises:
+        FileError: If it can't, or is there already and `force` is not given.
+    """
+    from ..errors import FileError
+
+    check_writable(path)
+    if path.exists() and not force:
+        raise FileError(str(path), "is there already", "name another file, or write over it with --force")
+
+
+def _tell(written: dict[str, str], facts: dict[str, Any], told: str, following: str, as_json: bool) -> None:
     if as_json:
         print_json({"written": written, **facts})
         return
     console = stdout()
-    apart = f", at least {facts['gap_m']:.4g} m apart" if facts["gap_m"] is not None else ""
-    console.print("{holds} holds on {width_m:.4g} x {height_m:.4g} m".format(**facts) + apart)
+    console.print(told)
     for kind, path in written.items():
         console.print(f"{kind} written to {path}", soft_wrap=True)
-    if task:
-        console.print(f"next: clamber show {output}; clamber plan {output} --planner auto", soft_wrap=True)
+    console.print(f"next: {following}", soft_wrap=True)

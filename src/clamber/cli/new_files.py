@@ -1,19 +1,23 @@
 """What `clamber new` writes: documents of boards and tasks, made from the command's words."""
 
+import math
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 from ..errors import SpecError, UnitError
 from ..files import Document
 from ..types import Json
 from ..units import parse_quantity
 from ..worlds.board import Board, build_board
+from ..worlds.csv_board import DEFAULT_RADIUS, build_points_board, read_csv_board, read_pixel_board
 from ..worlds.random_board import random_board_data
 
+COMMAND: Final = "clamber new board"
 
-def board_data(
+
+def random_data(
     holds: int,
     density: str,
     width: str | None,
@@ -30,10 +34,10 @@ def board_data(
     """
     data = random_board_data(
         holds,
-        _quantity("--density", density, "number per area", "holds/m^2"),
+        quantity("--density", density, "number per area", "holds/m^2"),
         seed,
-        width=None if width is None else _quantity("--width", width, "length"),
-        least_gap=None if least_gap is None else _quantity("--least-gap", least_gap, "length"),
+        width=None if width is None else quantity("--width", width, "length"),
+        least_gap=None if least_gap is None else quantity("--least-gap", least_gap, "length"),
         name=name_of(path),
     )
     if not listed:
@@ -43,13 +47,62 @@ def board_data(
     return {**{key: value for key, value in data.items() if key != "random"}, "holds": rows}
 
 
-def task_data(board: Json, board_file: Path, path: Path, overrides: Sequence[str]) -> Json:
-    """The document of a task on a board that lies beside it."""
+def points_data(
+    path: Path,
+    csv: Path | None,
+    unit: str | None,
+    pixels: Path | None,
+    scale: str | None,
+    origin: str | None,
+    radius: str | None,
+) -> Json:
+    """The document of a board from a table of lengths, or from one of pixels; what is wrong with a hold is told by its line.
+
+    Raises:
+        FileError: If a line is no hold.
+        SpecError: If an option is none that it may be; the error names it.
+    """
+    size = DEFAULT_RADIUS if radius is None else f"{quantity('--radius', radius, 'length'):.9g} m"
+    if csv is not None:
+        source, document = csv, read_csv_board(csv, unit, size)
+    else:
+        assert pixels is not None and scale is not None
+        metres = quantity("--scale", scale, "length")
+        if not metres > 0.0:
+            raise SpecError(COMMAND, "--scale", scale, "must be more than 0 m")
+        source, document = pixels, read_pixel_board(pixels, metres, None if origin is None else _pixel(origin), size)
+    build_points_board(document, source)
+    return document.data | {"name": name_of(path)}
+
+
+def _pixel(text: str) -> tuple[float, float]:
+    try:
+        x, y = map(float, text.split(","))
+    except ValueError:
+        x = y = math.nan
+    if not (math.isfinite(x) and math.isfinite(y)):
+        raise SpecError(COMMAND, "--origin", text, "must be two numbers of pixels, such as 120,840")
+    return x, y
+
+
+def task_data(board: Json, label: str, path: Path, overrides: Sequence[str], robot: str = "libra") -> Json:
+    """The document of a task on a board, from the lowest stance to the top; it names the board by a file beside it.
+
+    Args:
+        board: The board's document.
+        label: What errors call it: the path of its file.
+        path: Of the task's file.
+        overrides: Texts "key=value" on keys of the task, or `robot=...`.
+        robot: Name or file of a limbed robot.
+
+    Raises:
+        SpecError: If the board has no stance that the rules allow.
+    """
     from ..actions.random_task import climb_data
 
-    data, _ = climb_data(board, str(board_file), name=name_of(path), overrides=overrides)
+    data, _ = climb_data(board, label, name=name_of(path), robot=robot, overrides=overrides)
     words = list(data.items())
-    return dict([*words[:4], ("board", board_file.name), *words[4:]])
+    return dict([*words[:4], ("board", Path(label).name), *words[4:]])
 
 
 def wall_facts(board: Json, path: Path) -> Json:
@@ -60,20 +113,25 @@ def wall_facts(board: Json, path: Path) -> Json:
     from scipy.spatial import cKDTree
 
     gap = float(cKDTree(points).query(points, k=2)[0][:, 1].min()) if len(points) > 1 else None
-    return {"holds": len(points), "width_m": width, "height_m": height, "gap_m": gap}
+    return {"name": built.name, "holds": len(points), "width_m": width, "height_m": height, "gap_m": gap}
 
 
-def name_of(path: Path) -> str:
+def name_of(path: Path, kind: str = "wall") -> str:
     """A name for what a file describes, from the file's."""
-    stem = re.sub(r"[^A-Za-z0-9_-]", "-", path.stem)[:60]
-    return stem if stem[:1].isalpha() else f"wall-{stem}"
+    stem = re.sub(r"[^A-Za-z0-9_-]", "-", path.stem)[:56]
+    return stem if stem[:1].isalpha() else f"{kind}-{stem}"
 
 
 def _board(data: Json) -> Board:
-    return build_board(Document("clamber new board", data))
+    return build_board(Document(COMMAND, data))
 
 
-def _quantity(option: str, text: str, dimension: str, unit: str = "") -> float:
+def quantity(option: str, text: str, dimension: str, unit: str = "") -> float:
+    """The SI value of an option; a bare number counts in `unit`, if there is one.
+
+    Raises:
+        SpecError: If it is no such quantity; the error names the option.
+    """
     try:
         bare: Any = float(text) if unit else None
     except ValueError:
@@ -81,5 +139,5 @@ def _quantity(option: str, text: str, dimension: str, unit: str = "") -> float:
     try:
         value = parse_quantity(text if bare is None else f"{text} {unit}", dimension)
     except UnitError as error:
-        raise SpecError("clamber new board", option, text, f"{error.problem}; {error.allowed}") from None
+        raise SpecError(COMMAND, option, text, f"{error.problem}; {error.allowed}") from None
     return value

@@ -3,10 +3,13 @@
 import json
 import os
 import sys
+import time
 from pathlib import Path
+from threading import Thread
 from typing import Any
 
 from rich.console import Console
+from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
@@ -37,12 +40,32 @@ def plain_table(*columns: str, right: tuple[str, ...] = ()) -> Table:
     return table
 
 
-def announce_compilation(kernel: str = "replay", *, quiet: bool = False) -> None:
-    """Tells on stderr that the first run compiles, if it does; `kernel` is the loop that the command runs."""
-    from ..compiled import is_compiled
+def print_indented(console: Console, words: str, indent: int = 2) -> None:
+    """Print a paragraph whose lines all start further in."""
+    console.print(Padding(Text(words), (0, 0, 0, indent), expand=False))
 
-    if not quiet and not is_compiled(kernel):
+
+def announce_compilation(kernel: str = "replay", *, quiet: bool = False) -> None:
+    """Tells on stderr that the first run compiles, if it does, and how far it is; `kernel` is the loop that the command runs."""
+    from .. import compiled
+
+    if not quiet and not compiled.is_compiled(kernel):
         stderr().print("compiling the kernels (about half a minute, once)")
+        Thread(target=_tell_compilation, args=(kernel, stderr()), daemon=True).start()
+
+
+def _tell_compilation(kernel: str, console: Console, every: float = 10.0) -> None:
+    """Tells now and then how many kernels there are, until `kernel` is among them."""
+    from .. import compiled
+
+    began, folder, told = time.monotonic(), compiled.cache_folder(), time.monotonic()
+    while not compiled.is_compiled(kernel):
+        time.sleep(0.5)
+        if time.monotonic() - told >= every:
+            told = time.monotonic()
+            count = sum(1 for _ in folder.glob("*.nbc"))
+            console.print(f"  {count} kernels compiled after {told - began:.0f} s", style="dim")
+    console.print(f"compiled in {time.monotonic() - began:.0f} s; from now on they are there", style="dim")
 
 
 def tell_cuts(cuts: int) -> None:

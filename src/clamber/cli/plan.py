@@ -5,7 +5,6 @@ from typing import Annotated, Any
 
 import typer
 
-from ..errors import UnknownNameError
 from .options import AsJson, Output, Overrides, Quiet, Ray, Workers
 from .output import announce_compilation, check_writable, print_json, stderr, stdout
 
@@ -67,13 +66,12 @@ def plan(
     problem = load_task(task, overrides or ())
     from ..planning.budgets import accepts
     from ..planning.learning import load_macros
-    from ..planning.planners import FIRST_LOOPS, PLANNERS, PROVERS
+    from ..planning.planners import PROVERS, find_planner, first_loop
     from .openings import Seeker
     from .plan_text import ProgressLine, print_result
 
-    if planner not in PLANNERS:
-        raise UnknownNameError("planner", planner, tuple(PLANNERS))
-    announce_compilation(FIRST_LOOPS["exact" if pareto is not None else planner], quiet=quiet)
+    search = find_planner(planner)
+    announce_compilation(first_loop("exact" if pareto is not None else planner), quiet=quiet)
     if pareto is not None:
         from .front import front
 
@@ -105,7 +103,7 @@ def plan(
         result = islands_result(problem, planner, options, islands, workers, ray, quiet=quiet)
     else:
         with seeker.told_of_start(), ProgressLine(stderr(), quiet=quiet) as line:
-            result = PLANNERS[planner](problem, progress=line.update, **options)
+            result = search(problem, progress=line.update, **options)
     if output is not None:
         result.plan.save(output)
     if history is not None:

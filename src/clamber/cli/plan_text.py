@@ -9,11 +9,11 @@ from ..actions.plan import Plan
 from ..actions.plan_families import plan_family
 from ..planning.genetic.learning import Macro
 from ..planning.learning import Lesson
-from ..planning.progress import Exploring, Layers, Moment, Relaxing, Routing, Shortening, Trying
+from ..planning.progress import Moment, progress_text
 from ..planning.result import Furthest, PlanResult
 from ..tasks import Task
-from ..units import OZ_IN
 from .live_line import LiveLine
+from .output import print_indented
 
 
 class ProgressLine(LiveLine):
@@ -22,38 +22,6 @@ class ProgressLine(LiveLine):
     def update(self, progress: Moment) -> None:
         """Show one moment of the search."""
         self.show(progress_text(progress))
-
-
-def progress_text(progress: Moment) -> str:
-    """One moment of a search in a line of at most 80 columns."""
-    if isinstance(progress, Routing):
-        return f"{progress.stances} stances, {progress.actions} actions, {100.0 * progress.share:.0f} % of the way"
-    if isinstance(progress, Exploring):
-        return f"{progress.stances} stances, {_bound_text(progress)}"
-    if isinstance(progress, Layers):
-        return f"layer {progress.layer}, {progress.stances} stances, best score {progress.best_score:.2f}"
-    if isinstance(progress, Shortening):
-        return f"a plan of {progress.length} actions"
-    if isinstance(progress, Relaxing):
-        return f"what would open it: {progress.searches} searches, now {progress.key}"
-    best = "" if progress.best_length is None else f", found {progress.best_length} actions"
-    if isinstance(progress, Trying):
-        how = best or f", progress {progress.value:.2f}"
-        return f"{progress.checks} actions judged{how}"
-    return (
-        f"generation {progress.generation}, {progress.evaluations} plans, fitness {progress.best_fitness:.2f}, "
-        f"{progress.furthest} steps, goal {progress.stage}/{progress.stages}{best}"
-    )
-
-
-def _bound_text(progress: Exploring) -> str:
-    if progress.cost == "length":
-        return f"no plan has fewer than {progress.lower_bound:.0f} actions"
-    if progress.cost == "torque":
-        return f"no plan has less than {progress.lower_bound / OZ_IN:.0f} oz-in"
-    if progress.cost == "energy":
-        return f"no plan's powers add up to less than {progress.lower_bound:.1f} W"
-    return f"no plan has less {progress.cost} than {progress.lower_bound:.4g}"
 
 
 def print_result(console: Console, result: PlanResult, output: Path | None) -> None:
@@ -89,9 +57,10 @@ def print_lesson(console: Console, task: Task, lesson: Lesson, output: Path | No
         return
     for macro in lesson.macros:
         console.print(f"{macro.name}: {macro_text(task, macro)}", style="bold green")
-        console.print(
-            f"  {macro.gain:.3f} m in {len(macro.codes)} actions; works from {macro.starts} of {macro.tried} starts, "
-            f"{macro.from_start} times in a row from the task's own"
+        print_indented(
+            console,
+            f"{macro.gain:.3f} m in {len(macro.codes)} actions; works from {macro.starts} of {macro.tried} starts, "
+            f"{macro.from_start} times in a row from the task's own",
         )
     console.print(f"{lesson.plans} plans, {lesson.evaluations} evaluations")
     if output is not None:

@@ -6,8 +6,8 @@ from typing import Annotated, NoReturn
 
 import typer
 
-from .options import NoiseTexts, Overrides, Quiet
-from .output import stderr
+from .options import AsJson, NoiseTexts, Overrides, Quiet
+from .output import print_json, stderr
 
 plant = typer.Typer(no_args_is_help=True, help="A robot in its own process, driven over a local socket.")
 
@@ -35,11 +35,12 @@ def serve(
     dac_bits: Annotated[
         int, typer.Option(min=0, max=24, help="Of the converters before the amplifiers; 0: as fine as a float.")
     ] = 0,
+    as_json: AsJson = False,
     quiet: Quiet = False,
 ) -> None:
     """Serve a task's simulated robot to one client at a time: volts in, counts out, 200 times a second (docs/hardware.md).
 
-    `clamber run TASK --plant ADDRESS` climbs through it. The address is the one line on stdout.
+    `clamber run TASK --plant ADDRESS` climbs through it. The address is the one line on stdout, with --json one value.
     """
     from ..execution.link.channel import Address, listen, read_address, unlink
     from ..experiments.climb.noise import NO_NOISE, check_noise, draw_for, read_noise
@@ -76,7 +77,15 @@ def serve(
             once=once,
             dac_bits=dac_bits,
         )
-        print(address, flush=True)
+        if as_json:
+            print_json(
+                {
+                    "address": str(address), "robot": chosen.robot.name, "board": chosen.world.name,
+                    "real_time": real_time,
+                }
+            )  # fmt: skip
+        else:
+            print(address, flush=True)
         say(
             f"'{chosen.robot.name}' on '{chosen.world.name}', {'in real time' if real_time else 'in lock-step'}; Ctrl-C ends"
         )

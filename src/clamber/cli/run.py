@@ -5,12 +5,17 @@ from typing import Annotated
 
 import typer
 
-from ..errors import UnknownNameError
 from .options import PLAN_SECONDS, AsJson, NoiseTexts, Overrides, PlanSeconds, Quiet
 from .output import announce_compilation, check_writable, print_json, stderr, stdout, tell_cuts
+from .repeat import repeat_words
+from .run_report import RunReport
+
+NOT_REPEATED = ("output", "save_plan", "report", "as_json", "quiet")
+"""Options that change nothing of a run."""
 
 
 def run(
+    context: typer.Context,
     what: Annotated[
         str,
         typer.Argument(
@@ -36,6 +41,10 @@ def run(
         typer.Option("--output", "-o", metavar="FILE", help="File to write; more than once for more."),
     ] = None,
     save_plan: Annotated[Path | None, typer.Option(metavar="FILE", help="Keep the plan (.json).")] = None,
+    report: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help="Write pages there: what was planned, what happened, where it was close."),
+    ] = None,
     as_json: AsJson = False,
     quiet: Quiet = False,
 ) -> None:
@@ -45,6 +54,7 @@ def run(
     (docs/climbing.md). A file of `-o` is a log (.mcap, .csv), an animation (.gif, .html, .mp4) or a picture (.png, .svg, .pdf).
     """
     outputs = list(dict.fromkeys(output or ()))
+    telling = RunReport(report, repeat_words(context, NOT_REPEATED))
     for file in (*outputs, save_plan):
         check_writable(file)
     from ..tasks.walks import is_walk
@@ -57,7 +67,9 @@ def run(
             "--peg-error": peg_error is not None, "--no-replan": not replan, "--plant": plant != "torques", "--force": force,
             "--save-plan": save_plan is not None,
         }  # fmt: skip
-        run_walk_file(what, overrides or (), noise or (), seed, outputs, for_climbs, as_json=as_json, quiet=quiet)
+        run_walk_file(
+            what, overrides or (), noise or (), seed, outputs, for_climbs, telling, as_json=as_json, quiet=quiet
+        )
         return
     from ..experiments.walk.planned import open_planned_walk
     from ..experiments.walk.run_walk import split_walk_settings
@@ -73,7 +85,7 @@ def run(
             "--force": force,
         }
         run_planned_walk(
-            what, *planned, overrides or (), noise or (), planner, seconds, seed, outputs, save_plan, for_climbs,
+            what, *planned, overrides or (), noise or (), planner, seconds, seed, outputs, save_plan, for_climbs, telling,
             as_json=as_json, quiet=quiet,
         )  # fmt: skip
         return
@@ -85,16 +97,16 @@ def run(
     from ..experiments.climb.planning import plan_to_climb, replanner
     from ..experiments.climb.rehearsal import rehearse
     from ..experiments.climb.run_plan import climbing_flaws, open_climb, run_plan
-    from ..planning.planners import FIRST_LOOPS, PLANNERS
+    from ..planning.planners import find_planner, first_loop
     from ..viewing.climb_run_view import check_run_suffix, write_run
     from .run_text import ClimbLine, print_run
 
     for file in outputs:
         check_run_suffix(file)
-    if planner not in PLANNERS:
-        raise UnknownNameError("planner", planner, tuple(PLANNERS))
+    telling.open("climb")
+    find_planner(planner)
     deviations = read_noise(NO_NOISE, [*(noise or ()), *(() if peg_error is None else (f"peg_error={peg_error}",))])
-    announce_compilation("replay" if is_plan(what) else FIRST_LOOPS[planner], quiet=quiet)
+    announce_compilation("replay" if is_plan(what) else first_loop(planner), quiet=quiet)
     chosen, plan, for_plant = open_climb(what, task, overrides or ())
     if for_plant and is_remote(plant):
         raise typer.BadParameter(f"{for_plant[0].partition('=')[0]} is the server's to set", param_hint="--set plant.")
@@ -131,8 +143,9 @@ def run(
     for file in outputs:
         if file != streamed:
             write_run(run, file)
+    page = telling.of_climb(run)
     if as_json:
         print_json(run.to_json())
     else:
-        print_run(stdout(), run, outputs)
+        print_run(stdout(), run, (*outputs, *page))
     raise typer.Exit(130 if run.report.reason == "interrupted" else 0 if run.report.done else 1)

@@ -9,6 +9,7 @@ from ..actions.plan import Plan
 from ..tasks.walker import WalkerTask
 from .output import announce_compilation, stderr
 from .plan_text import ProgressLine
+from .run_report import RunReport
 from .run_walk import refuse_climbs_options, walk_and_tell
 
 
@@ -24,6 +25,7 @@ def run_planned_walk(
     outputs: Sequence[Path],
     save_plan: Path | None,
     climbs_only: Mapping[str, bool],
+    telling: RunReport,
     *,
     as_json: bool,
     quiet: bool,
@@ -42,17 +44,16 @@ def run_planned_walk(
         outputs: Files to write.
         save_plan: Where the plan is kept.
         climbs_only: Options that only climbs have -> whether they are given.
+        telling: Its report, if one is asked for.
         as_json: Whether to print JSON alone.
         quiet: Whether to tell nothing on the way.
     """
-    from ..errors import UnknownNameError
     from ..experiments.walk.planned import careful, lay_plan, walk_of
-    from ..planning.planners import FIRST_LOOPS, PLANNERS, plan_task
+    from ..planning.planners import find_planner, first_loop, plan_task
 
     refuse_climbs_options(what, climbs_only)
-    if planner not in PLANNERS:
-        raise UnknownNameError("planner", planner, tuple(PLANNERS))
-    announce_compilation("replay" if plan is not None else FIRST_LOOPS[planner], quiet=quiet)
+    find_planner(planner)
+    announce_compilation("replay" if plan is not None else first_loop(planner), quiet=quiet)
     if plan is None:
         task = careful(task)
         with ProgressLine(stderr(), quiet=quiet) as line:
@@ -64,5 +65,6 @@ def run_planned_walk(
     if save_plan is not None:
         plan.save(save_plan)
     walk_and_tell(
-        walk_of(task), settings, noise, seed, outputs, lay_plan(task, plan, what), as_json=as_json, quiet=quiet
-    )
+        walk_of(task), settings, noise, seed, outputs, telling, lay_plan(task, plan, what), plan,
+        as_json=as_json, quiet=quiet,
+    )  # fmt: skip

@@ -39,9 +39,8 @@ def print_run(console: Console, run: ClimbRun, written: Sequence[Path] = ()) -> 
     speed = report.seconds / run.wall_seconds if run.wall_seconds > 0.0 else 0.0
     console.print(f"{report.seconds:.1f} s in {run.wall_seconds:.1f} s ({speed:.0f} times as fast as it happens)")
     x, y, theta = report.pose if report.true_pose is None else report.true_pose
-    console.print(
-        f"body at x {x:.3f} m, y {y:.3f} m, {np.degrees(theta):.1f} deg; {1e3 * report.short:.0f} mm from the goal"
-    )
+    turn = round(float(np.degrees(theta)), 1) + 0.0  # never "-0.0"
+    console.print(f"body at x {x:.3f} m, y {y:.3f} m, {turn:.1f} deg; {1e3 * report.short:.0f} mm from the goal")
     _print_close(console, report.actions)
     for note in report.replans:
         console.print(

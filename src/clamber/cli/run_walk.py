@@ -7,6 +7,7 @@ import numpy as np
 import typer
 from rich.console import Console
 
+from ..actions.plan import Plan
 from ..execution.walk.sequencer import Lay, WalkReport
 from ..experiments.walk.held_point import HeldPoint
 from ..experiments.walk.run_walk import WalkRun
@@ -14,6 +15,7 @@ from ..tasks.walks import Walk
 from ..units import DEGREE
 from .live_line import LiveLine
 from .output import plain_table, print_json, stderr, stdout
+from .run_report import RunReport
 
 
 class WalkLine(LiveLine):
@@ -31,6 +33,7 @@ def run_walk_file(
     seed: int,
     outputs: Sequence[Path],
     climbs_only: Mapping[str, bool],
+    telling: RunReport,
     *,
     as_json: bool,
     quiet: bool,
@@ -44,6 +47,7 @@ def run_walk_file(
         seed: Of the noise.
         outputs: Files to write.
         climbs_only: Options that only climbs have -> whether they are given.
+        telling: Its report, if one is asked for.
         as_json: Whether to print JSON alone.
         quiet: Whether to tell nothing on the way.
     """
@@ -52,7 +56,7 @@ def run_walk_file(
 
     refuse_climbs_options(what, climbs_only)
     walk = load_walk(what, split_walk_settings(settings)[0])
-    walk_and_tell(walk, settings, noise, seed, outputs, as_json=as_json, quiet=quiet)
+    walk_and_tell(walk, settings, noise, seed, outputs, telling, as_json=as_json, quiet=quiet)
 
 
 def refuse_climbs_options(what: str, climbs_only: Mapping[str, bool]) -> None:
@@ -68,7 +72,9 @@ def walk_and_tell(
     noise: Sequence[str],
     seed: int,
     outputs: Sequence[Path],
+    telling: RunReport,
     lay: Lay | None = None,
+    plan: Plan | None = None,
     *,
     as_json: bool,
     quiet: bool,
@@ -80,16 +86,18 @@ def walk_and_tell(
 
     for file in outputs:
         check_walk_suffix(file)
+    telling.open("walk")
     deviations = read_walk_noise(named_walk_noise("none"), noise)
     flaws = walk_flaws(walk, split_walk_settings(settings)[1])
     with WalkLine(stderr(), quiet=quiet) as line:
         run = run_walk(walk, flaws, noise=deviations, seed=seed, lay=lay, progress=line.update)
     for file in outputs:
         write_walk(run, file)
+    page = telling.of_walk(run, plan)
     if as_json:
         print_json(run.to_json())
     else:
-        print_walk(stdout(), run, outputs)
+        print_walk(stdout(), run, (*outputs, *page))
     raise typer.Exit(130 if run.report.reason == "interrupted" else 0 if run.done else 1)
 
 

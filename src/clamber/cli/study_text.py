@@ -6,7 +6,7 @@ from rich.console import Console
 
 from ..experiments.benches import Row
 from ..studies.result import StudyResult
-from .output import plain_table
+from .output import plain_table, print_indented
 
 STYLES = {"holds": "bold green", "differs": "bold red", "open": "bold yellow"}
 """Verdict -> colour."""
@@ -24,10 +24,10 @@ def print_results(console: Console, results: Iterable[StudyResult]) -> None:
     """Print each result: verdict, claim, numbers, deviations."""
     for result in results:
         console.print(f"{result.result}: {result.verdict}", style=STYLES[result.verdict])
-        console.print(f"  claim: {result.claim}")
+        print_indented(console, f"claim: {result.claim}")
         table = plain_table("  number", "value", right=("value",))
         for name, value in result.numbers.items():
             table.add_row(f"  {name}", f"{value:.6g}" if isinstance(value, float) else str(value))
         console.print(table)
         for deviation in result.deviations:
-            console.print(f"  deviation: {deviation}")
+            print_indented(console, f"deviation: {deviation}")

@@ -4,7 +4,6 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..errors import UnknownNameError
 from .crew import CrewWords
 from .option_holder import shares
 from .options import (
@@ -62,22 +61,38 @@ def trials(
         }  # fmt: skip
         walk_trials_of(what, overrides or (), noise or (), range(seed, seed + n), _share(at_least), for_climbs, words)
         return
+    from ..experiments.walk.planned import open_planned_walk
+    from ..experiments.walk.run_walk import split_walk_settings
+
+    planned = open_planned_walk(what, task, split_walk_settings(overrides or ())[0])
+    if planned is not None:
+        from .trials_walk import planned_walk_trials_of
+
+        for_climbs = {
+            "--no-replan": not replan,
+            "--force": force,
+            "--replay": replay is not None,
+            "--output": words.output is not None,
+        }
+        planned_walk_trials_of(
+            what, *planned, overrides or (), noise or (), planner, seconds, range(seed, seed + n), _share(at_least), for_climbs, words
+        )  # fmt: skip
+        return
     from ..actions.plan_source import is_plan
     from ..experiments.climb.noise import named_noise, read_noise
     from ..experiments.climb.run_plan import open_climb
     from ..experiments.climb.trial import TrialSetup
     from ..experiments.climb.trial_summary import sum_up
     from ..experiments.climb.trials import NoPlanError, run_trials, with_plan
-    from ..planning.planners import FIRST_LOOPS, PLANNERS
+    from ..planning.planners import find_planner, first_loop
     from .trials_text import TrialsLine, print_trials
 
     if words.output is not None:
         _check_suffix(words.output, replay)
-    if planner not in PLANNERS:
-        raise UnknownNameError("planner", planner, tuple(PLANNERS))
+    find_planner(planner)
     least = _share(at_least)
     widths = read_noise(named_noise("usual"), noise or ())
-    announce_compilation("replay" if is_plan(what) else FIRST_LOOPS[planner], quiet=words.quiet)
+    announce_compilation("replay" if is_plan(what) else first_loop(planner), quiet=words.quiet)
     executor = words.executor
     if replay is None:
         executor.check()  # before a minute is spent on a plan

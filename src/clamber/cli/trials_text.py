@@ -1,5 +1,6 @@
 """Many climbs as people read them: a live line on the way, then success, causes, times and what of the noise matters."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from rich.console import Console
@@ -64,7 +65,7 @@ def print_causes(console: Console, causes: tuple[Cause, ...]) -> None:
     """Print a row for each way in which climbs ended early, and the reason of the commonest."""
     table = plain_table("failed", "times", "of all, 95 %", "steps", "seeds", right=("times",))
     for cause in causes:
-        table.add_row(cause.words, str(cause.n), _range(cause.interval), _some(cause.steps), _some(cause.seeds))
+        table.add_row(cause.words, str(cause.n), share_range(cause.interval), some(cause.steps), some(cause.seeds))
     console.print(table)
     console.print(f"seed {causes[0].seeds[0]}: {causes[0].reason}")
 
@@ -100,10 +101,11 @@ def _reach(effect: Effect) -> str:
 def _percent(done: int, n: int) -> str:
     if n == 0:
         return "nothing to tell"
-    return f"{100.0 * done / n:.1f} % ({_range(wilson_interval(done, n))}, 95 %)"
+    return f"{100.0 * done / n:.1f} % ({share_range(wilson_interval(done, n))}, 95 %)"
 
 
-def _range(interval: tuple[float, float]) -> str:
+def share_range(interval: tuple[float, float]) -> str:
+    """An interval of a share, such as "92.6 to 100.0 %"."""
     low, high = interval
     return f"{100.0 * low:.1f} to {100.0 * high:.1f} %"
 
@@ -112,6 +114,7 @@ def _times(spread: Spread) -> str:
     return f"{spread.median:.1f} s (5 to 95 %: {spread.low:.1f} to {spread.high:.1f} s)"
 
 
-def _some(numbers: tuple[int, ...]) -> str:
+def some(numbers: Sequence[int]) -> str:
+    """The first few numbers of many."""
     shown = ", ".join(map(str, numbers[:MOST_NAMED]))
     return f"{shown} ..." if len(numbers) > MOST_NAMED else shown

@@ -3,7 +3,6 @@
 from rich.console import Console
 
 from ..actions.verdict import StepVerdict, Verdict
-from ..statics.checks import Check
 from ..units import DEGREE, INCH, OZ_IN
 from .output import plain_table
 
@@ -69,7 +68,9 @@ def _print_tightest(console: Console, verdict: Verdict) -> None:
         if check.name in tightest:
             margin, step = tightest[check.name]
             kind = "hard" if check.name in verdict.hard else "reports"
-            table.add_row(check.name, kind, margin_text(check, margin), str(step), _action(verdict.per_step[step - 1]))
+            table.add_row(
+                check.name, kind, margin_text(check.unit, margin), str(step), _action(verdict.per_step[step - 1])
+            )
     console.print(table)
 
 
@@ -84,7 +85,7 @@ def _print_steps(console: Console, verdict: Verdict) -> None:
             str(row.step),
             _action(row),
             "-" if row.max_torque is None else f"{row.max_torque / OZ_IN:.0f}",
-            *("-" if m is None else margin_text(checks[n], m) for n, m in zip(names, margins, strict=True)),
+            *("-" if m is None else margin_text(checks[n].unit, m) for n, m in zip(names, margins, strict=True)),
             " ".join(violated),
             style="bold red" if not row.ok else None,
         )
@@ -96,7 +97,7 @@ def _action(row: StepVerdict) -> str:
     return text if row.hold is None or text.endswith(f"{row.hold:02d}") else f"{text} -> {row.hold}"
 
 
-def margin_text(check: Check, margin: float) -> str:
-    """A margin with a unit that people read."""
-    factor, unit = SHOWN.get(check.unit, (1.0, check.unit))
+def margin_text(unit: str, margin: float) -> str:
+    """A margin, given in an SI unit, with a unit that people read."""
+    factor, unit = SHOWN.get(unit, (1.0, unit))
     return f"{margin * factor:+.4g} {unit}".rstrip()

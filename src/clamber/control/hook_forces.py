@@ -15,10 +15,12 @@ WISHED_CONE = math.radians(45.0)
 """Half angle about the grab direction within which the load of a hook that is fed forward is wished [rad]."""
 WIDEST_CONE = math.radians(70.0)
 """Likewise of all that it bears for a while, feedback included: friction and the hook's walls keep it on beyond."""
-WISHED_PULL = 3.0
-"""Pull along the grab direction that is wished of every hook [N]."""
+WISHED_PULL = 8.0
+"""Pull along the grab direction that is wished of every hook: what friction in its joints may hide, twice [N]."""
 LEAST_PULL = 1.5
 """Likewise for a while [N]."""
+ASLANT = 0.3
+"""What a newton beyond a cone counts where one that lacks of the pull is 1: a hook that is pulled aslant stays on while it is pulled."""
 WISHED_TORQUE = 0.5
 """Part of the motors' torque that is wished to carry [-]; the rest is for motion."""
 MOST_TORQUE = 0.95
@@ -150,8 +152,8 @@ def _add_cuts(leg, q, angle, force, ux, uy, size, wishes, cuts, count):
     if leg.hooked:
         for side in range(2):
             sign = 1.0 - 2.0 * side
-            cuts[count, 0] = cone_sin * pull + sign * cone_cos * across
-            cuts[count, 1] = cone_sin * pull_rate + sign * cone_cos * across_rate
+            cuts[count, 0] = ASLANT * (cone_sin * pull + sign * cone_cos * across)
+            cuts[count, 1] = ASLANT * (cone_sin * pull_rate + sign * cone_cos * across_rate)
             count += 1
         cuts[count, 0] = pull - least_pull
         cuts[count, 1] = pull_rate

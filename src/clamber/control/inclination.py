@@ -11,8 +11,9 @@ from typing import Final
 
 import numpy as np
 
-from ..types import Floats, Ints
+from ..types import Floats
 from .posture import inclines_of_tilt, tilt_of_inclines
+from .reading import weigh_reading
 
 DEGREE: Final = math.pi / 180.0
 
@@ -33,7 +34,7 @@ class InclinometerTrust:
     """Standard deviation of a reading [rad]."""
     time_constant: float = 0.2
     """Of the inclinometers' own filter [s]: readings nearer in time than this say the same."""
-    drift: float = 0.005 * DEGREE
+    drift: float = 0.0034 * DEGREE
     """How far the tilt that the legs say strays from the true one in a second: feet settle [rad/sqrt(s)]."""
     start: float = 0.1 * DEGREE
     """How unsure the tilt is at first [rad]."""
@@ -41,7 +42,7 @@ class InclinometerTrust:
     """By how much a foot sinks in under load, with the ground [m/N] ..."""
     give_doubt: float = 1e-5
     """... and how unsure that is at first [m/N]."""
-    give_drift: float = 2e-7
+    give_drift: float = 2e-8
     """How far that strays in a second: no foothold is like another [m/(N sqrt(s))]."""
     surprise: float = 4.0
     """Readings that differ for a second by more than this many of their deviations tell of something that nothing else told [-]."""
@@ -87,6 +88,11 @@ class Inclination:
         """Standard deviation of the tilt along the axis where it is larger, offsets aside [rad]."""
         return math.sqrt(max(self._covariance[0, 0], self._covariance[1, 1]))
 
+    @property
+    def unsure_give(self) -> float:
+        """Standard deviation of the give [m/N]."""
+        return math.sqrt(self._covariance[2, 2])
+
     def doubt(self, size: float) -> None:
         """Something may have tilted the plate by `size` [rad] that nothing else tells."""
         for k in range(2):
@@ -126,54 +132,13 @@ class Inclination:
         much = float(np.abs(self._differs).max())
         if much > self._surprising:
             self.doubt(min(much, MOST_DOUBT))
-        seen = self._covariance[:2, :2].copy()
-        seen[0, 0] += self._noise
-        seen[1, 1] += self._noise
-        if seen[0, 0] * seen[1, 1] <= 0.0:  # exact sensors and no doubt at all
+        move = np.zeros(3)
+        if not weigh_reading(
+            self._covariance, self._noise, off, self.learns, move
+        ):  # exact sensors and no doubt at all
             return 0.0, 0.0
-        gain = np.linalg.solve(seen, self._covariance[:2]).T
-        if not self.learns:
-            gain[2] = 0.0
-        move = gain @ off
-        rest = np.eye(3)
-        rest[:, :2] -= gain
-        # the form that holds for any gain
-        self._covariance = rest @ self._covariance @ rest.T + self._noise * gain @ gain.T
         self.give = min(MOST_GIVE, max(0.0, self.give + float(move[2])))
         # the late readings follow what is believed now, not late
         self._lagged += move[:2]
         seen_beta, seen_gamma = tilt_of_inclines(believed[0] + move[0], believed[1] + move[1])
         return seen_beta - beta, seen_gamma - gamma
-
-
-def load_slope(places: Floats, loads: Floats, stands: Ints) -> Floats:
-    """Slope of the plane that fits loads of legs best, along the plate's axes, shape (2,) [N/m]; 0 with fewer than three.
-
-    Args:
-        places: Of the legs in the plate, shape (n, 2) [m].
-        loads: Of the feet, shape (n,) [N].
-        stands: 1 for legs that count, shape (n,).
-    """
-    here = stands > 0
-    if here.sum() < 3:
-        return np.zeros(2)
-    about = places[here] - places[here].mean(axis=0)
-    x, y = about[:, 0], about[:, 1]
-    by_x, by_y, xy = float(x @ loads[here]), float(y @ loads[here]), float(x @ y)
-    xx, yy = float(x @ x), float(y @ y)
-    spread = xx * yy - xy * xy
-    return np.array((yy * by_x - xy * by_y, xx * by_y - xy * by_x)) / spread if spread > 0.0 else np.zeros(2)
-
-
-def strain_of(places: Floats, loads: Floats, stands: Ints) -> Floats:
-    """By how much each standing leg carries more than its even share, shape (n,) [N]; 0 for others.
-
-    The even shares are the plane through the loads: of all loads that carry the same weight at the same place they have the smallest
-    sum of squares. What is over adds up to no force and no moment: so six legs strain against each other.
-    """
-    here = stands > 0
-    strain = np.zeros(len(loads))
-    if here.sum() > 3:
-        about = places[here] - places[here].mean(axis=0)
-        strain[here] = loads[here] - loads[here].mean() - about @ load_slope(places, loads, stands)
-    return strain

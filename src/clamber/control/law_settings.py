@@ -9,6 +9,7 @@ from typing import Any, Final
 import numpy as np
 
 from ..errors import ClamberError, UnknownNameError, describe_choices
+from ..extensions import outside
 from ..types import Floats, Records
 from .chain import Chain, rotation
 from .drive import (
@@ -55,7 +56,6 @@ FRICTION_SOURCES: Final[dict[str, int]] = {
 }
 TORQUE_SENSORS: Final[dict[str, int]] = {"none": NOWHERE, "base": AT_BASE, "wrist": AT_WRIST}
 WORDS: Final[dict[str, tuple[str, ...]]] = {
-    "law": tuple(LAWS),
     "axes": AXIS_NAMES,
     "forced": AXIS_NAMES,
     "weight": ("inertia", "damping", "back-emf", "none"),
@@ -75,6 +75,11 @@ PLAIN: Final = (
     *("torque_gain", "torque_limit", "environment", "posture_kp", "posture_kd"),
 )
 """Settings that the kernels read as they are."""
+
+
+def law_names() -> tuple[str, ...]:
+    """Names of the laws, ours and those of other packages."""
+    return (*LAWS, *(name for name in outside("controllers") if name not in LAWS))
 
 
 class LawError(ClamberError):
@@ -172,8 +177,8 @@ class LawSettings:
     """Damping of what a redundant limb does beside its task [N m s/rad]."""
 
     def __post_init__(self) -> None:
-        if self.law not in tuple(LAWS):
-            raise UnknownNameError("controller", str(self.law), tuple(LAWS))
+        if self.law not in law_names():
+            raise UnknownNameError("controller", str(self.law), law_names())
         for field in fields(self):
             value = getattr(self, field.name)
             if isinstance(value, list):  # as files and command lines have it
@@ -181,7 +186,7 @@ class LawSettings:
                 object.__setattr__(self, field.name, value)
             if field.name in SWITCHES:
                 self._check_switch(field.name, value)
-            elif field.name not in WORDS:
+            elif field.name not in ("law", *WORDS):
                 self._check_numbers(field.name, value)
         for key, allowed in WORDS.items():
             self._check_words(key, getattr(self, key), allowed)
@@ -269,6 +274,8 @@ class LawSettings:
         Raises:
             LawError: If the settings do not fit the chain.
         """
+        if self.law not in LAWS:
+            raise LawError("controller", "law", self.law, "is another package's: it runs on the limb bench alone")
         rows = self.rows_of(chain)
         if len(rows) > chain.n:
             raise LawError(

@@ -157,6 +157,36 @@ def move_together(lengths, targets, moving, most):
 
 
 @kernel
+def trim_lag(lengths, sensed, before, raised, stands, still, slack, share, trims):
+    """Make up for a part of what loaded legs give way, where they are at rest: change what is added to their commands.
+
+    Args:
+        lengths: As wanted, shape (n,) [m].
+        sensed: As they are, shape (n,) [m].
+        before: As wanted a tick ago, shape (n,) [m].
+        raised: By how much all legs were to grow since then [m].
+        stands: 1 for legs that stand, shape (n,).
+        still: A leg that was to move by less beyond that is at rest [m].
+        slack: Smaller errors stay [m].
+        share: Of the error that is made up for now [-].
+        trims: Changed, shape (n,) [m].
+    """
+    for i in range(lengths.shape[0]):
+        if stands[i] and abs(lengths[i] - before[i] - raised) < still:
+            short = lengths[i] - sensed[i]
+            if abs(short) >= slack:
+                trims[i] += share * short
+
+
+@kernel
+def move_each(lengths, aims, most, stands):
+    """Move legs that do not stand towards their aims, each by `most` at most, shape (n,) [m]."""
+    for i in range(lengths.shape[0]):
+        if not stands[i]:
+            lengths[i] += min(most[i], max(-most[i], aims[i] - lengths[i]))
+
+
+@kernel
 def whole_steps(lengths, resolution, shortest, longest, most, steps):
     """Turn lengths into whole steps of the legs' motors, inside their stroke; a motor stays where it is while that is near enough.
 

@@ -6,6 +6,7 @@ Poses are x, y [m] and heading [rad], shape (3,).
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -86,8 +87,52 @@ def by_twist(start: Floats, twist: Floats, seconds: float, radius: float) -> Tra
     return Track.of(start, [seconds * np.asarray(twist, float)], radius)
 
 
-def through(start: Floats, points: Floats, radius: float) -> Track:
-    """Straight from point to point of the world, shape (n, 2) [m], the heading kept: the robot walks in any direction."""
-    ways = np.diff(np.concatenate([start[None, :2], points]), axis=0)
-    c, s = math.cos(start[2]), math.sin(start[2])
-    return Track.of(start, [np.array((c * x + s * y, c * y - s * x, 0.0)) for x, y in ways], radius)
+def toward(a: Floats, b: Floats) -> Floats:
+    """Twist that takes a frame from pose `a` to pose `b` at a constant rate, the shorter way round: `along_twist` undone, shape (3,)."""
+    x, y, turn = seen_from(a, b)
+    turn = math.remainder(turn, math.tau)
+    if abs(turn) < 1e-9:
+        return np.array((x + 0.5 * turn * y, y - 0.5 * turn * x, turn))
+    sine, rest = math.sin(turn) / turn, (1.0 - math.cos(turn)) / turn
+    square = sine * sine + rest * rest
+    return np.array(((sine * x + rest * y) / square, (sine * y - rest * x) / square, turn))
+
+
+def through(start: Floats, poses: Floats, radius: float, *, within: float = 0.0) -> Track:
+    """From pose to pose, each piece at a constant rate: straight where the heading is kept, else in an arc.
+
+    Poses that a longer piece passes closely enough are left out (after Ramer, and Douglas and Peucker): the frames wait for each other at
+    every corner of a track, so many short pieces would be many short steps.
+
+    Args:
+        start: Of the Delta-frame, shape (3,).
+        poses: One after another, world frame, shape (n, 3).
+        radius: A turn counts as the way of a foot so far from the frame's origin [m].
+        within: How far the track may pass a pose, at the same share of the way, a turn counted likewise [m].
+    """
+    every = np.vstack([start[None], poses])
+    ways = np.concatenate(([0.0], np.cumsum(_apart(every[:-1], every[1:], radius))))
+    corners, open_pieces = [0], [(0, len(every) - 1)]
+    while open_pieces:
+        i, j = open_pieces.pop()
+        off = _passed(every[i : j + 1], ways[i : j + 1], radius)[1:-1]
+        if off.max(initial=0.0) <= within:
+            corners.append(j)
+        else:
+            k = i + 1 + int(np.argmax(off))
+            open_pieces += [(k, j), (i, k)]
+    return Track.of(start, [toward(every[i], every[j]) for i, j in pairwise(corners)], radius)
+
+
+def _apart(a: Floats, b: Floats, radius: float) -> Floats:
+    """Distances of poses, shape (n,) [m]."""
+    turns = np.remainder(b[:, 2] - a[:, 2] + math.pi, math.tau) - math.pi
+    out: Floats = np.hypot(np.hypot(b[:, 0] - a[:, 0], b[:, 1] - a[:, 1]), radius * turns)
+    return out
+
+
+def _passed(poses: Floats, ways: Floats, radius: float) -> Floats:
+    """How far one piece from the first pose to the last passes each, shape (n,) [m]."""
+    twist, whole = toward(poses[0], poses[-1]), ways[-1] - ways[0]
+    shares = (ways - ways[0]) / whole if whole > 0.0 else np.zeros(len(ways))
+    return _apart(compose(poses[0], np.array([along_twist(twist, float(share)) for share in shares])), poses, radius)

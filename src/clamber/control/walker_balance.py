@@ -1,12 +1,10 @@
 """Where a walker's centre of mass is, with arm and payload, and how far inside its standing feet."""
 
-import math
-
 import numpy as np
 
 from ..robots.walker import WalkerRobot
 from ..robots.walker.weight import arm_places
-from ..types import Floats, Ints
+from ..types import Floats
 from .dead_reckoning import orient
 
 
@@ -36,27 +34,3 @@ def mass_centre(robot: WalkerRobot, pose: Floats, place: Floats, arm: Floats, pa
     orient(pose[3], pose[4], pose[5], matrix)
     centre: Floats = pose[:3] + matrix @ mass_moment(robot, place, arm, payload)[1]
     return centre
-
-
-def support_margin(feet: Floats, stands: Ints, point: Floats) -> float:
-    """How far a point lies inside the hull of the standing feet, seen from above [m]; negative outside, -inf with fewer than three.
-
-    Args:
-        feet: Shape (n, 2) or (n, 3) [m].
-        stands: 1 for feet that stand, shape (n,).
-        point: Shape (2,) or (3,) [m].
-    """
-    standing = feet[stands > 0, :2]
-    if len(standing) < 3:
-        return -math.inf
-    best = math.inf
-    for a in standing:
-        for b in standing:
-            way = b - a
-            length = math.hypot(way[0], way[1])
-            if length == 0.0:
-                continue
-            sides = (way[0] * (standing[:, 1] - a[1]) - way[1] * (standing[:, 0] - a[0])) / length
-            if sides.min() >= -1e-9:  # all others on the left: an edge of the hull
-                best = min(best, float(way[0] * (point[1] - a[1]) - way[1] * (point[0] - a[0])) / length)
-    return best

@@ -1,13 +1,14 @@
 """The closed loop: sense, command, actuate, step, and write down what happened."""
 
-from ..control.controller import Controller, MeasurementError
+from ..control.controller import MeasurementError
+from ..control.outside_law import LoopController
 from ..types import Records
 from .plant import LimbPlant
 from .recorder import Recorder
 from .trace import LimbTrace, empty_trace
 
 
-def close_loop(plant: LimbPlant, controller: Controller, aims: Records, *, keep: bool = False) -> LimbTrace:
+def close_loop(plant: LimbPlant, controller: LoopController, aims: Records, *, keep: bool = False) -> LimbTrace:
     """Run `controller` on `plant`, from where it is, through `aims`.
 
     Args:

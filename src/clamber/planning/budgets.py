@@ -6,7 +6,7 @@ from typing import Final
 
 from ..types import Json
 from .genetic.profile import profile_names
-from .planners import PLANNERS
+from .planners import PLANNERS, find_planner
 
 UNBOUNDED: Final = 1_000_000_000
 SEEDLESS: Final = ("exact", "greedy", "route")
@@ -71,5 +71,5 @@ def contenders() -> tuple[Contender, ...]:
 
 
 def accepts(planner: str, option: str) -> bool:
-    """Whether there is such a planner, with such an option."""
-    return planner in PLANNERS and option in inspect.signature(PLANNERS[planner]).parameters
+    """Whether a planner, ours or another package's, has such an option."""
+    return option in inspect.signature(find_planner(planner)).parameters

@@ -3,6 +3,8 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from ..units import OZ_IN
+
 
 @dataclass(frozen=True, slots=True)
 class Progress:
@@ -88,3 +90,35 @@ class Shortening:
 
 Moment = Progress | Exploring | Routing | Trying | Layers | Shortening | Relaxing
 Listener = Callable[[Moment], None]
+
+
+def progress_text(progress: Moment) -> str:
+    """One moment of a search in a line of at most 80 columns."""
+    if isinstance(progress, Routing):
+        return f"{progress.stances} stances, {progress.actions} actions, {100.0 * progress.share:.0f} % of the way"
+    if isinstance(progress, Exploring):
+        return f"{progress.stances} stances, {_bound_text(progress)}"
+    if isinstance(progress, Layers):
+        return f"layer {progress.layer}, {progress.stances} stances, best score {progress.best_score:.2f}"
+    if isinstance(progress, Shortening):
+        return f"a plan of {progress.length} actions"
+    if isinstance(progress, Relaxing):
+        return f"what would open it: {progress.searches} searches, now {progress.key}"
+    best = "" if progress.best_length is None else f", found {progress.best_length} actions"
+    if isinstance(progress, Trying):
+        how = best or f", progress {progress.value:.2f}"
+        return f"{progress.checks} actions judged{how}"
+    return (
+        f"generation {progress.generation}, {progress.evaluations} plans, fitness {progress.best_fitness:.2f}, "
+        f"{progress.furthest} steps, goal {progress.stage}/{progress.stages}{best}"
+    )
+
+
+def _bound_text(progress: Exploring) -> str:
+    if progress.cost == "length":
+        return f"no plan has fewer than {progress.lower_bound:.0f} actions"
+    if progress.cost == "torque":
+        return f"no plan has less than {progress.lower_bound / OZ_IN:.0f} oz-in"
+    if progress.cost == "energy":
+        return f"no plan's powers add up to less than {progress.lower_bound:.1f} W"
+    return f"no plan has less {progress.cost} than {progress.lower_bound:.4g}"

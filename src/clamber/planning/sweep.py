@@ -11,7 +11,7 @@ from typing import Final
 
 from .. import __version__
 from ..compiled import is_compiled
-from ..errors import ClamberError, SpecError, StartError, UnknownNameError
+from ..errors import ClamberError, SpecError, StartError
 from ..files import write_atomically
 from ..jobs import Executor, Outcome, map_items
 from ..tasks import Task, load_task, task_from_document
@@ -19,7 +19,7 @@ from ..types import Json
 from ..units import OZ_IN
 from .axes import Axis, Mark, check_axes
 from .budgets import accepts
-from .planners import FIRST_LOOPS, PLANNERS
+from .planners import find_planner, first_loop
 
 SUCCESS: Final = ("optimal", "found")
 NO_START: Final = "no start"
@@ -152,8 +152,7 @@ def run_sweep(
         ClusterError: If there is no cluster to run on, or it is lost.
     """
     check_axes(axes)
-    if planner not in PLANNERS:
-        raise UnknownNameError("planner", planner, tuple(PLANNERS))
+    find_planner(planner)
     places = list(product(*(axis.values for axis in axes)))
     loaded = [_load(name, (*overrides, *made)) for made in product(*(axis.overrides() for axis in axes))]
     tasks = [task for task in loaded if not isinstance(task, SpecError)]
@@ -198,7 +197,7 @@ def plan_point(item: Json) -> Json:
         The fields of `Point` beside `values` and `seconds`.
     """
     task = task_from_document(item["document"])
-    planner = PLANNERS[item["planner"]]
+    planner = find_planner(item["planner"])
     proves = accepts(item["planner"], "minimize")
     order: Json = {"minimize": ("length", "torque")} if proves else {}
     try:
@@ -230,10 +229,10 @@ def _load(name: str, overrides: Sequence[str]) -> Task | SpecError:
 
 def _compile(tasks: Sequence[Task], planner: str) -> None:
     """Compile the kernels here, once, and not in every worker at the same time."""
-    if is_compiled(FIRST_LOOPS[planner]) and is_compiled("replay"):
+    if is_compiled(first_loop(planner)) and is_compiled("replay"):
         return
     least = {option: 1 for option in _SMALLEST if accepts(planner, option)}
     for task in tasks:
         with suppress(ClamberError):
-            PLANNERS[planner](task, threads=1, **least).check()
+            find_planner(planner)(task, threads=1, **least).check()
             return

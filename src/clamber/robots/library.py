@@ -4,8 +4,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Final, TypeAlias
 
-from ..errors import describe_choices
-from ..files import Document, data_names, find_data, read_toml
+from ..errors import UnknownNameError, describe_choices
+from ..extensions import blamed, load_outside, outside
+from ..files import Document, data_names, find_data, is_path, read_toml
 from .limbed import LimbedRobot, build_limbed
 from .walker import WalkerRobot, build_walker
 
@@ -24,9 +25,23 @@ def robot_names(family: str | None = None) -> tuple[str, ...]:
 
 
 def read_robot(name_or_path: str, folder: Path | None = None) -> Document:
-    """The document of a robot, shipped or the user's own (a path, relative to `folder`)."""
-    path, label = find_data("robot", name_or_path, DATA, folder)
-    return read_toml(path, label)
+    """The document of a robot: shipped, of another package, or the user's own (a path, relative to `folder`).
+
+    Raises:
+        UnknownNameError: If no robot has that name.
+        FileError: If the file cannot be read.
+        ExtensionError: If another package's robot cannot be loaded.
+    """
+    shipped = data_names(DATA)
+    if is_path(name_or_path) or name_or_path in shipped:
+        path, label = find_data("robot", name_or_path, DATA, folder)
+        return read_toml(path, label)
+    theirs = outside("robots")
+    if name_or_path not in theirs:
+        raise UnknownNameError("robot", name_or_path, (*shipped, *theirs))
+    found = load_outside("robots", name_or_path)
+    with blamed("robots", name_or_path):
+        return read_toml(Path(found() if callable(found) else found))
 
 
 def family_of(document: Document) -> str:

@@ -70,13 +70,7 @@ def climber_spec(
     """
     import mujoco
 
-    spec = mujoco.MjSpec()
-    spec.option.timestep = 1.0 / flaws.physics_rate
-    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
-    spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
-    spec.option.impratio = 10.0
-    spec.compiler.degree = False
-    spec.option.gravity = (0.0, -GRAVITY, 0.0)
+    spec = _empty_spec(mujoco, flaws)
     places = board.positions() if pegs is None else pegs
     for hold, (x, y) in zip(board.holds, places, strict=True):
         spec.worldbody.add_geom(
@@ -101,6 +95,34 @@ def climber_spec(
     return spec
 
 
+def lone_climber_spec(robot: LimbedRobot, flaws: LimbFlaws, *, peg_radius: float) -> Any:
+    """An `MjSpec` of the robot by itself, as `climber_spec` has it.
+
+    Args:
+        robot: The climber.
+        flaws: Of joints and motors.
+        peg_radius: Of the pegs that its hooks and grippers are for [m].
+    """
+    import mujoco
+
+    spec = _empty_spec(mujoco, flaws)
+    body = _add_body(mujoco, spec, robot)
+    for limb in robot.limbs:
+        _add_limb(mujoco, spec, body, robot, limb, flaws, HookShape(), peg_radius)
+    return spec
+
+
+def _empty_spec(mujoco: Any, flaws: LimbFlaws) -> Any:
+    spec = mujoco.MjSpec()
+    spec.option.timestep = 1.0 / flaws.physics_rate
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    spec.option.impratio = 10.0
+    spec.compiler.degree = False
+    spec.option.gravity = (0.0, -GRAVITY, 0.0)
+    return spec
+
+
 def _contact(friction: float) -> dict[str, Any]:
     return {"solref": PEG_SOLREF, "solimp": PEG_SOLIMP, "condim": 3, "friction": (friction, 0.0, 0.0)}
 
@@ -110,6 +132,7 @@ def _add_body(mujoco: Any, spec: Any, robot: LimbedRobot) -> Any:
     body.explicitinertial = True
     body.mass, inertia = body_mass(robot), body_inertia(robot)
     body.inertia = (inertia / 2, inertia / 2, inertia)
+    body.ipos = np.zeros(3)  # else a file that MuJoCo writes of it has no mass
     for name, axis in (("x", (1, 0, 0)), ("y", (0, 1, 0))):
         body.add_joint(name=name, type=mujoco.mjtJoint.mjJNT_SLIDE, axis=axis)
     body.add_joint(name="theta", type=mujoco.mjtJoint.mjJNT_HINGE, axis=(0, 0, 1))

@@ -130,9 +130,8 @@ class ClimberPlant:
             hold = int(np.argmin(off))
             if off[hold] < ON_HOLD:
                 fit = [one.angles for one in postures(limb, pose, self._pegs[hold]) if one.inside]
-                changes = [float(np.abs(angles - q[i]).max()) for angles in fit]
                 if fit:
-                    out[i] = fit[int(np.argmin(changes))]
+                    out[i] = fit[int(np.argmin([np.abs(angles - q[i]).max() for angles in fit]))]
         return out
 
     def sense(self) -> BodySensed:

@@ -28,7 +28,7 @@ class InclinometerPair:
         # so that what comes out of the filter has the noise that is stated
         self._scale = 0.0 if seed is None else flaws.noise * math.sqrt((1.0 + self._keep) / (1.0 - self._keep))
         self._seed = seed
-        self._before = np.zeros(3)
+        self._before = (0.0, 0.0, 0.0)
         self.readings = np.zeros(2)
         """How far the plate's x axis and its y axis rise above the horizontal, shape (2,) [rad]."""
         self._filtered = np.zeros(2)
@@ -41,7 +41,7 @@ class InclinometerPair:
             axes: The plate's axes in the world, as columns, shape (3, 3).
             velocity: Of the inclinometers, world frame [m/s], shape (3,).
         """
-        self._before[:] = velocity
+        self._before = tuple(velocity.tolist())
         self._chance = np.random.default_rng(self._seed)
         self._filtered[:] = np.arcsin(axes[2, :2])
         if self._scale > 0.0:
@@ -50,11 +50,12 @@ class InclinometerPair:
 
     def see(self, axes: Floats, velocity: Floats) -> None:
         """Take in the period that has passed; arguments as in `reset`, at its end."""
-        force = (velocity - self._before) / self._period
-        force[2] += GRAVITY
-        self._before[:] = velocity
-        felt = np.arcsin(np.clip(axes[:, :2].T @ force / GRAVITY, -1.0, 1.0))
-        if self._scale > 0.0:
-            felt += self._scale * self._chance.standard_normal(2)
-        self._filtered += (1.0 - self._keep) * (felt - self._filtered)
-        np.add(self._filtered, self._offsets, out=self.readings)
+        (vx, vy, vz), (bx, by, bz) = velocity.tolist(), self._before
+        fx, fy, fz = (vx - bx) / self._period, (vy - by) / self._period, (vz - bz) / self._period + GRAVITY
+        self._before = (vx, vy, vz)
+        noise = self._chance.standard_normal(2).tolist() if self._scale > 0.0 else (0.0, 0.0)
+        for k in range(2):
+            along = (axes[0, k] * fx + axes[1, k] * fy + axes[2, k] * fz) / GRAVITY
+            felt = math.asin(min(1.0, max(-1.0, along))) + self._scale * noise[k]
+            self._filtered[k] += (1.0 - self._keep) * (felt - self._filtered[k])
+            self.readings[k] = self._filtered[k] + self._offsets[k]

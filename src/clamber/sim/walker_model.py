@@ -59,7 +59,7 @@ def frame_masses(robot: WalkerRobot) -> Floats:
 
 def walker_spec(
     robot: WalkerRobot,
-    ground: Ground,
+    ground: Ground | None,
     flaws: WalkerFlaws,
     *,
     build: WalkerBuild = WalkerBuild(),  # noqa: B008  # frozen
@@ -72,7 +72,7 @@ def walker_spec(
 
     Args:
         robot: The walker.
-        ground: What it stands on.
+        ground: What it stands on; None: nothing.
         flaws: Friction, masses and payload are read here.
         build: What the robot's file does not have.
         struts: Whether actuators are bodies that close a loop by constraints, rather than tendons.
@@ -87,8 +87,10 @@ def walker_spec(
     spec.option.noslip_iterations = NOSLIP
     spec.option.gravity = (0.0, 0.0, -GRAVITY)
     spec.compiler.degree = False
-    friction = ground.friction * flaws.friction
-    add_ground(mujoco, spec, ground, friction)
+    friction = flaws.friction
+    if ground is not None:
+        friction *= ground.friction
+        add_ground(mujoco, spec, ground, friction)
     delta = spec.worldbody.add_body(name="delta")
     delta.add_freejoint(name="plate")
     y = delta.add_body(name="y")

@@ -10,6 +10,7 @@ from ..execution.walk.plant import WalkerSensed, WalkerTruth
 from ..robots.walker import WalkerRobot
 from ..types import Floats
 from ..worlds.ground import Ground, Surface
+from .foot_forces import add_forces
 from .inclinometers import InclinometerPair
 from .walker_build import WalkerBuild
 from .walker_flaws import WalkerFlaws
@@ -202,19 +203,8 @@ class WalkerSim:
 
     def _foot_forces(self) -> Floats:
         """Of the ground on each foot in the last physics step, world frame [N], shape (6, 3)."""
-        forces = np.zeros((6, 3))
-        contact = self._data.contact
-        starts = contact.efc_address
-        if len(starts) == 0:
-            return forces
-        live = starts >= 0
-        pairs, frames = contact.geom[live], contact.frame[live].reshape(-1, 3, 3)
-        parts = self._data.efc_force[starts[live][:, None] + np.arange(3)]  # normal, then two across it
-        of_second = np.einsum("ni,nij->nj", parts, frames)
-        feet = self._foot_of[pairs]
-        for side, sign in ((0, -1.0), (1, 1.0)):
-            mine = feet[:, side] >= 0
-            np.add.at(forces, feet[mine, side], sign * of_second[mine])
+        forces, contact = np.zeros((6, 3)), self._data.contact
+        add_forces(contact.efc_address, contact.geom, contact.frame, self._data.efc_force, self._foot_of, forces)
         return forces
 
 

@@ -1,13 +1,11 @@
 """Judge one stance of the two-frame walker: records, checks, and their kernels (page "The walker's model")."""
 
 import math
-from typing import Final
 
 import numpy as np
 
 from ..compiled import carray, inlined, kernel, pointer
 from ..robots.kinematics import wrap
-from .checks import Check
 from .distances import inside, point_segment
 from .records import TOLERANCE, UNLIMITED
 
@@ -16,23 +14,6 @@ N_CHECKS = 5
 DELTA, Y = 0, 1
 """The frames, in the order of every array."""
 FEATURE_SLOTS = 8
-
-WALKER_CHECKS: Final[tuple[Check, ...]] = (
-    Check(
-        "stroke",
-        "m",
-        "how far the actuators' lengths lie inside their range, smallest of the three, less what the task asks for",
-    ),
-    Check("singular", "m", "guarded distance at which the mechanism is singular, less the distance of the origins"),
-    Check(
-        "foothold",
-        "m",
-        "distance of the standing feet from the nearest patch or edge of the ground, less what the task asks for",
-    ),
-    Check("balance", "m", "how far the centre of mass lies inside the standing feet, less what the task asks for"),
-    Check("legs", "m", "range of plate heights at which every leg has the length that its foot needs"),
-)
-"""In the order in which a failing check is named as the reason; all are hard unless the task says otherwise."""
 
 WALKER_PARAMS = np.dtype(
     [

@@ -35,6 +35,9 @@ from .boards_exact.torque_front import trade_length_for_torque
 from .hoshino_1995 import PAPER as HOSHINO
 from .hoshino_1995.ditches import draw_figure_5
 from .hoshino_1995.equation_19 import check_second_term
+from .hoshino_1995.fig_7 import compare_inclinations
+from .hoshino_1995.fig_8 import walk_level
+from .hoshino_1995.fig_9 import compare_directions
 from .hoshino_1995.fig_10 import compare_freedoms
 from .hoshino_1995.fig_11 import vary_gain
 from .hoshino_1995.printed_numbers import compare_numbers
@@ -66,6 +69,12 @@ ON_A_BODY: Final[dict[str, Repeat]] = {
 """Chapter 4 of Bevly 1997: the whole robot in contact dynamics."""
 OF_FRAMES: Final[dict[str, Repeat]] = {"table": compare_numbers, "fig-4": draw_figure_4, "fig-5": draw_figure_5}
 """Sections 2 and 3 of Hoshino 1995: geometry of the two frames."""
+OF_LEVELLING: Final[dict[str, Repeat]] = {
+    "fig-7": compare_inclinations,
+    "fig-8": walk_level,
+    "fig-9": compare_directions,
+}
+"""Sections 4 and 5: the upper surface inclined by its legs, and kept level on a slope."""
 OF_ARM_AND_BODY: Final[dict[str, Repeat]] = {
     "fig-10": compare_freedoms,
     "fig-11": vary_gain,
@@ -98,15 +107,24 @@ STUDIES: Final[dict[str, dict[str, Repeat]]] = {
         "narrowest-cone": narrow_cones,
         "peg-spacing": vary_spacing,
     },
-    HOSHINO: {**OF_FRAMES, **OF_ARM_AND_BODY},
+    HOSHINO: {**OF_FRAMES, **OF_LEVELLING, **OF_ARM_AND_BODY},
 }
 """Paper or subject -> result -> what repeats it; the command line, the pages and the tests read it."""
 
+TITLES: Final[dict[str, str]] = {
+    PAPER: "Bevly 1997: planning action modules for, and controlling, an experimental climbing robot",
+    BOARDS_EXACT: "What exact search proves about the boards of Bevly 1997",
+    HOSHINO: "Hoshino and others 1995: posture control of a six-legged robot that walks and manipulates",
+}
+"""Paper or subject -> what a reader is told of it."""
+
 
 def first_loop(result: Repeat) -> str:
-    """The kernel that a result runs first: plans are rolled out, laws ticked, frames' regions outlined, tools moved."""
+    """The kernel that a result runs first: plans rolled out, laws ticked, regions outlined, a plate reckoned with, tools moved."""
     if result in OF_FRAMES.values():
         return "outline"
+    if result in OF_LEVELLING.values():
+        return "reckon"
     if result in OF_ARM_AND_BODY.values():
         return "move_freely"
     return "drive" if result in (*ON_ONE_LIMB.values(), *ON_A_BODY.values()) else "rollout"

@@ -57,11 +57,15 @@ class StudyResult:
     """What we inferred, chose or left out, each in a sentence."""
     table: Table | None = None
     figures: tuple[Figure, ...] = ()
+    seeds: range = range(0)
+    """What it draws from; empty: nothing is drawn."""
+    options: str = ""
+    """Of the command that repeats it, where they are not its usual ones."""
 
     @property
     def command(self) -> str:
         """What repeats it."""
-        return f"clamber study {self.paper} {self.result}"
+        return f"clamber study {self.paper} {self.result} {self.options}".rstrip()
 
     @property
     def numbers(self) -> dict[str, Value]:
@@ -82,4 +86,6 @@ class StudyResult:
             "verdict": self.verdict,
             "numbers": self.numbers,
             "deviations": list(self.deviations),
+            "seeds": list(self.seeds),
+            "command": self.command,
         }

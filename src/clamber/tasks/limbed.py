@@ -43,9 +43,9 @@ class Step:
     """By how much one body move changes the pose."""
 
     length: Annotated[float, Quantity("length", at_least=1e-6)]
-    """[m]."""
+    """Of a move along x or y [m]."""
     angle: Annotated[float, Quantity("angle", at_least=1e-6)]
-    """[rad]; divides a turn."""
+    """Of a turn of the body [rad]; divides a turn."""
     duration: PositiveTime = 1.0
     """Time that one action takes, for the energy of a plan [s]; chosen, nobody prints it."""
 
@@ -76,13 +76,13 @@ class Keep:
 
     limb: StrictStr
     x_min: Length | None = None
-    """[m]."""
+    """Least x of its holds [m]."""
     x_max: Length | None = None
-    """[m]."""
+    """Largest x of its holds [m]."""
     y_min: Length | None = None
-    """[m]."""
+    """Least y of its holds [m]."""
     y_max: Length | None = None
-    """[m]."""
+    """Largest y of its holds [m]."""
 
 
 @spec
@@ -141,17 +141,17 @@ class Goal:
     at: Point | None = None
     """In a file, short for a box of half a step each way about this point [m]."""
     x_min: Length | None = None
-    """[m]."""
+    """Least x of the body's origin [m]."""
     x_max: Length | None = None
-    """[m]."""
+    """Largest x of the body's origin [m]."""
     y_min: Length | None = None
-    """[m]."""
+    """Least y of the body's origin [m]."""
     y_max: Length | None = None
-    """[m]."""
+    """Largest y of the body's origin [m]."""
     theta_min: Angle | None = None
-    """[rad]."""
+    """Least angle of the body [rad]."""
     theta_max: Angle | None = None
-    """[rad]."""
+    """Largest angle of the body [rad]."""
     region: Polygon | None = None
     """Corners of a region that the body's origin is in [m]."""
     holds: dict[str, StrictInt] = field(default_factory=dict)
@@ -159,7 +159,7 @@ class Goal:
     turns: Ratio | None = None
     """Turns of the body's origin about `centre`, at least so many; anticlockwise positive [-]."""
     centre: Point | None = None
-    """[m]."""
+    """What the turns are about [m]."""
 
     @property
     def box(self) -> tuple[float, float, float, float]:

@@ -11,7 +11,7 @@ from ..errors import describe_choices
 from ..files import Document, check_schema, content_hash
 from ..robots.walker import WalkerRobot, build_walker
 from ..specs import Name, build_spec, spec
-from ..statics.walker import WALKER_CHECKS
+from ..statics.walker_checks import WALKER_CHECKS
 from ..types import Json
 from ..units import Angle, Length, NonNegativeLength, NonNegativeMass, Point, Quantity
 from ..worlds.ground import Ground, build_ground
@@ -25,9 +25,9 @@ class Step:
     """By how much one action slides or turns the lifted frame."""
 
     length: Annotated[float, Quantity("length", at_least=1e-6)]
-    """[m]."""
+    """Of a slide [m]."""
     angle: Annotated[float, Quantity("angle", at_least=1e-6)]
-    """[rad]; divides a turn."""
+    """Of a turn [rad]; divides a turn."""
 
 
 @spec
@@ -74,17 +74,17 @@ class Goal:
     at: Point | None = None
     """In a file, short for a box of half a step each way about this point [m]."""
     x_min: Length | None = None
-    """[m]."""
+    """Least x of the Delta-frame's origin [m]."""
     x_max: Length | None = None
-    """[m]."""
+    """Largest x of the Delta-frame's origin [m]."""
     y_min: Length | None = None
-    """[m]."""
+    """Least y of the Delta-frame's origin [m]."""
     y_max: Length | None = None
-    """[m]."""
+    """Largest y of the Delta-frame's origin [m]."""
     theta_min: Angle | None = None
-    """[rad]."""
+    """Least angle of the Delta-frame [rad]."""
     theta_max: Angle | None = None
-    """[rad]."""
+    """Largest angle of the Delta-frame [rad]."""
 
     @property
     def box(self) -> tuple[float, float, float, float]:

@@ -81,13 +81,17 @@ class ClimbRunView(View[Moment]):
 
     def make_strip(self, place: Place) -> StepStrip:
         """The cell per action: what became of it."""
-        grades = [
+        return StepStrip(self.panel, self.grades, place, "What became of every action", OUTCOMES)
+
+    @property
+    def grades(self) -> list[int]:
+        """What became of every action, as indices into `OUTCOMES`."""
+        return [
             (2 if action.kind == "grab" and action.tries > 1 else 3)
             if action.outcome == "ok"
             else int(action.outcome == "stalled")
             for action in self.actions
         ]
-        return StepStrip(self.panel, grades, place, "What became of every action", OUTCOMES)
 
     def posture(self, k: int) -> Posture:
         """The posture of a sample."""

@@ -19,6 +19,8 @@ LAW_COLOURS: Final[dict[str, str]] = {
     "implicit-force": "#E69F00",
 }
 """Name of a law -> its colour."""
+OUTSIDE: Final = "#A6761D"
+"""Laws of other packages."""
 WANTED: Final = INK
 """What was asked for."""
 MATCH_LINES: Final[dict[str, Line]] = {

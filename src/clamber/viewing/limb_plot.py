@@ -12,7 +12,7 @@ from ..experiments.limb.measures import components, radial_error
 from ..experiments.limb.result import LimbResult, Row
 from ..types import Floats
 from . import style
-from .law_colours import LAW_COLOURS
+from .law_colours import LAW_COLOURS, OUTSIDE
 from .output import CANVASES, check_suffix, save_figure
 from .style import bare, styled
 
@@ -66,11 +66,11 @@ def _head(figure: Figure, result: LimbResult) -> None:
 
 
 def _look(row: Row, k: int) -> dict[str, Any]:
-    return {"color": LAW_COLOURS[row.entry.settings.law], "ls": LINES[k % len(LINES)], "lw": 1.5}
+    return {"color": LAW_COLOURS.get(row.entry.settings.law, OUTSIDE), "ls": LINES[k % len(LINES)], "lw": 1.5}
 
 
 def _faint(row: Row) -> dict[str, Any]:
-    return {"color": LAW_COLOURS[row.entry.settings.law], "lw": 0.6, "alpha": 0.7}
+    return {"color": LAW_COLOURS.get(row.entry.settings.law, OUTSIDE), "lw": 0.6, "alpha": 0.7}
 
 
 def _name(row: Row) -> str:

@@ -1,5 +1,7 @@
 """Which check is the nearest to failing: margins of different units, compared as shares of what is limited."""
 
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ..actions.problem import Replay
@@ -19,14 +21,19 @@ class Limiting:
     share: float
     """Margin over the size of what is limited [-]; negative: violated."""
 
-    def __str__(self) -> str:
+    @property
+    def value(self) -> str:
+        """The margin for people, with its sign and unit."""
         unit = self.check.unit
         value, shown = {"m": (100 * self.margin, "cm"), "rad": (self.margin / DEGREE, "deg")}.get(
             unit, (self.margin, "" if unit == "1" else unit)
         )
+        return f"{value:+.3g} {shown}".strip()
+
+    def __str__(self) -> str:
         name = self.check.name.replace("_", "-")
         share = "violated" if self.share < 0.0 else f"{100 * self.share:.0f} %"
-        return f"{name} {value:+.3g} {shown} ({share})".replace("  ", " ")
+        return f"{name} {self.value} ({share})"
 
 
 def limiting(yardsticks: Yardsticks, margins: Floats, reason: int) -> Limiting | None:
@@ -49,6 +56,22 @@ def limiting(yardsticks: Yardsticks, margins: Floats, reason: int) -> Limiting |
         if found is None or share < found.share:
             found = Limiting(check, margin, share)
     return found
+
+
+def named_limits(yardsticks: Yardsticks, margins: Mapping[str, float | None]) -> list[Limiting]:
+    """Each hard check that has a size to be measured against and a margin, the one nearest to failing first.
+
+    Args:
+        yardsticks: Those of the task.
+        margins: Check -> margin in its own unit; None where nothing limits it.
+    """
+    sizes = {name: size for name, size in yardsticks.sizes.items() if 0.0 < size < math.inf}
+    found = [
+        Limiting(check, margin, min(margin / sizes[check.name], 1.0))
+        for check in yardsticks.checks
+        if check.name in sizes and check.name in yardsticks.hard and (margin := margins.get(check.name)) is not None
+    ]
+    return sorted(found, key=lambda limit: limit.share)
 
 
 def all_limiting(yardsticks: Yardsticks, replay: Replay) -> list[Limiting | None]:

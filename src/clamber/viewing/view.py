@@ -132,6 +132,7 @@ class View(ABC, Generic[Moment]):
 
     def __init__(self, task: Any, replay: Replay, bounds: Bounds, gauges: Gauges, yardsticks: Yardsticks) -> None:
         self.title, self.replay, self.bounds, self.gauges = task.title or task.name, replay, bounds, gauges
+        self.yardsticks = yardsticks
         self.limiting: list[Limiting | None] = all_limiting(yardsticks, replay)
         height = max(gauges.height, TEXTS) if is_wide(bounds) else gauges.height + TEXTS
         self.layout = Layout(bounds, height)

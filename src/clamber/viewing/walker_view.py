@@ -7,7 +7,8 @@ from matplotlib.axes import Axes
 
 from ..actions.problem import Replay
 from ..actions.yardsticks import walker_yardsticks
-from ..statics.walker import WALKER_CHECKS
+from ..robots.walker import WalkerRobot
+from ..statics.walker_checks import WALKER_CHECKS
 from ..tasks.walker import WalkerTask
 from ..types import Floats, Json
 from ..units import DEGREE
@@ -33,7 +34,7 @@ class WalkerView(View[WalkerMoment]):
         self.task = task
         self.moments = [settled_moment(task, stance) for stance in replay.stances]
         bounds = walker_bounds(task, self.moments)
-        super().__init__(task, replay, bounds, actuator_gauges(task), walker_yardsticks(task))
+        super().__init__(task, replay, bounds, actuator_gauges(task.robot), walker_yardsticks(task))
         draw_ground(self.wall, task, bounds)
         self.robot = WalkerArtists(self.wall, task, bounds)
         for head, colour in zip(self.heads, COLOURS, strict=False):
@@ -72,9 +73,9 @@ class WalkerView(View[WalkerMoment]):
         return spread_moment(at)
 
 
-def actuator_gauges(task: WalkerTask) -> Gauges:
+def actuator_gauges(robot: WalkerRobot) -> Gauges:
     """One bar per actuator, from drawn in to extended."""
-    mechanism = task.robot.mechanism
+    mechanism = robot.mechanism
     return Gauges(
         title="Actuator lengths",
         names=("actuator 1", "actuator 2", "actuator 3"),

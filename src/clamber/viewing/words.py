@@ -24,7 +24,7 @@ def describe_pose(task: Task, x: float, y: float, angle: float) -> str:
     """A pose in words: x, y in the task's unit, angle in degrees."""
     unit, size = length_unit(task)
     turn = math.remainder(angle, math.tau) / DEGREE
-    return f"x {x / size:.1f} {unit},  y {y / size:.1f} {unit},  {turn + 0.0:.0f}°"
+    return f"x {x / size:.1f} {unit},  y {y / size:.1f} {unit},  {round(turn)}°"
 
 
 def describe_holds(task: LimbedTask, stance: np.void) -> str:

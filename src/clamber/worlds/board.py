@@ -45,7 +45,7 @@ class Hold:
     y: Length
     """Centre [m]."""
     radius: PositiveLength
-    """Radius of the disc that stands for it [m]."""
+    """Radius of the disc that stands for it; the board's `hold_radius` unless stated [m]."""
     direction: Angle | None = None
     """World direction about which it can be pulled [rad]; None: every direction."""
     cone: ConeAngle | None = None
@@ -112,7 +112,9 @@ class GridSpec:
     """Generates a jittered grid, numbered row by row from the bottom left; some holds take pull only within a cone."""
 
     columns: Annotated[int, Field(strict=True, ge=1, le=1000)]
+    """Holds side by side."""
     rows: Annotated[int, Field(strict=True, ge=1, le=1000)]
+    """Holds above one another."""
     spacing: PositiveLength
     """Distance of neighbours before the jitter [m]."""
     jitter: NonNegativeLength = 0.0
@@ -155,6 +157,7 @@ class RandomSpec:
     """Scatters holds at random over a rectangle whose lower left corner is the origin; its height follows from the density."""
 
     holds: Annotated[int, Field(strict=True, ge=1, le=100_000)]
+    """How many."""
     density: PositiveDensity
     """Holds per area [1/m^2]."""
     width: PositiveLength | None = None

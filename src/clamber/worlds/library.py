@@ -6,7 +6,7 @@ from typing import Final
 from ..files import Document, data_names, find_data, read_toml
 from .board import SCHEMA as BOARD_SCHEMA
 from .board import Board, build_board
-from .csv_board import read_csv_board
+from .csv_board import build_points_board, read_csv_board
 from .ground import SCHEMA as GROUND_SCHEMA
 from .ground import Ground, build_ground
 
@@ -45,7 +45,9 @@ def load_board(name_or_path: str, unit: str | None = None) -> Board:
         FileError: If the file cannot be read.
         SpecError: If the file says something that cannot be used.
     """
-    return build_board(read_board(name_or_path, unit=unit))
+    document = read_board(name_or_path, unit=unit)
+    path = Path(name_or_path)
+    return build_points_board(document, path) if path.suffix == ".csv" else build_board(document)
 
 
 def read_ground(name_or_path: str, folder: Path | None = None) -> Document:

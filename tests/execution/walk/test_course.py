@@ -1,6 +1,7 @@
 """Courses: a plan as steps, laid out from where the robot stands, and carried out."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -9,10 +10,12 @@ from springs_walker import flat
 
 from clamber.actions.codes import MOVE, NONE, RELEASE, pack
 from clamber.actions.walker_problem import WalkerProblem, walker_table
-from clamber.control.track import compose, seen_from
-from clamber.execution.walk.course import PlannedCourse, PlannedStep
+from clamber.control.gait import Limits
+from clamber.control.track import compose, seen_from, straight
+from clamber.execution.walk.course import PlannedCourse, PlannedStep, TrackCourse
 from clamber.execution.walk.planned_steps import plan_start, planned_steps
 from clamber.execution.walk.sequencer import WalkSequencer
+from clamber.execution.walk.settings import WalkSettings
 from clamber.tasks import load_task
 from clamber.tasks.walker import WalkerTask
 
@@ -73,3 +76,20 @@ def test_a_planned_step_is_not_tried_from_elsewhere() -> None:
     step = PlannedStep(1, walker.frames()[1:] + np.array((0.02, 0.0, 0.0)), standing)
     course = PlannedCourse([step], walker.frames()[0], walker.frames()[0], radius=ROBOT.legs.radius_y)
     assert course.next(walker) is None
+    assert course.obstacle(walker) == (
+        "the Delta-frame stands 30 mm and 0.0 deg from where the plan has it; 20 mm and 1.1 deg are allowed"
+    )
+
+
+@pytest.mark.parametrize(
+    ("limits", "words"),
+    [
+        (Limits(reserve=0.12), r"for the Delta-frame [\d.]+ mm are missing to the actuators' strokes"),
+        (Limits(balance=0.15), r"with the Y-frame lifted the centre of mass is \d+ mm inside .* and 150 mm are kept"),
+    ],
+)
+def test_a_frame_that_cannot_go_on_says_which_limit_keeps_it(limits: Limits, words: str) -> None:
+    walker, _ = stood(flat, settings=WalkSettings(limits=limits))
+    course = TrackCourse(straight(walker.frames()[0], 0.0, 1.0, ROBOT.legs.radius_delta))
+    assert course.next(walker) is None
+    assert re.search(words, course.obstacle(walker)), course.obstacle(walker)

@@ -83,8 +83,8 @@ def test_a_turn_on_the_spot_comes_to_its_heading() -> None:
 
 @pytest.mark.slow
 def test_a_path_round_a_corner_is_followed_with_the_heading_kept() -> None:
-    corners = np.array(((0.0, 0.15), (0.15, 0.15)))
-    report, trace, _ = walk(flat, lambda pose: through(pose, pose[:2] + corners, RADIUS))
+    corners = np.array(((0.0, 0.15, 0.0), (0.15, 0.15, 0.0)))
+    report, trace, _ = walk(flat, lambda pose: through(pose, pose + corners, RADIUS))
     assert report.done
     place = trace.true_pose[-1] - trace.true_pose[0]  # type: ignore[index]
     np.testing.assert_allclose(place[:2], (0.15, 0.15), atol=0.005)

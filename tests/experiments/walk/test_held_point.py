@@ -35,6 +35,22 @@ def test_the_tool_stays_within_millimetres_while_the_robot_walks_past(uphill: fl
     assert told["held_seconds"] > 60.0
 
 
+@pytest.mark.slow
+def test_balance_is_reckoned_with_the_arm_as_it_will_be() -> None:
+    # 6 kg go out by the arm while the robot walks, then stay beside it, then come back
+    walk = load_walk(
+        "slope-walk", ("hold={ x = '0.5 m', y = '0.35 m', z = '0.6 m', within = '15 cm' }", "payload=6kg", "way.0.distance=0.75m")
+    )  # fmt: skip
+    run = run_walk(walk, walk_flaws(walk, ()))
+    assert run.done, run.reason
+    true, margins = run.true, run.true.margins
+    for step in run.report.steps:
+        over = step.start + step.times.lift + step.times.slide + step.times.lower
+        rows = (true.time >= step.start) & (true.time <= over)
+        assert margins[rows].min() > step.balance - 1e-3
+    assert run.margin > 0.019
+
+
 def test_a_point_that_the_arm_cannot_reach_is_refused_before_a_step() -> None:
     walk = load_walk("slope-walk", ("hold={ x = '10 cm', y = '1.5 m', z = '0.6 m' }", "way.0.distance=20cm"))
     run = run_walk(walk, walk_flaws(walk, ()))

@@ -241,10 +241,8 @@ class Climber:
 
     def seen(self, i: int, j: int) -> TipDifference:
         """Where the tip of limb `i` is from that of limb `j`."""
-        c, s = math.cos(self.body.settled[2]), math.sin(self.body.settled[2])
         place = self.body.tip(i) - self.body.tip(j)
-        turn = np.array(((c, -s), (s, c)))
-        by_joints = np.hstack([turn @ self._by_joint(i), -turn @ self._by_joint(j)])
+        by_joints = np.hstack([self.body.turned_by_joints(i), -self.body.turned_by_joints(j)])
         sides = np.concatenate([self._sides(i), self._sides(j)])
         loose = 0.5 * self.body.backlash * (1.0 - self.body.sure[[i, j]].ravel())
         return TipDifference(place, np.array((place[1], -place[0])), -by_joints @ sides, by_joints, loose)
@@ -253,11 +251,3 @@ class Climber:
         """Which side of its play each joint of a limb rests on, -1 to 1, shape (2,)."""
         half = 0.5 * self.body.backlash
         return self.body.play[i] / half if half > 0.0 else np.ones(2)
-
-    def _by_joint(self, i: int) -> Floats:
-        """How a limb's tip moves with its joints, body frame, shape (2, 2) [m/rad]."""
-        body, limb = self.body, self.robot.limbs[i]
-        first = limb.port_angle + body.q[i, 0] - body.play[i, 0]
-        second = first + body.q[i, 1] - body.play[i, 1] + limb.hook_beta
-        x, y = -limb.l2_effective * math.sin(second), limb.l2_effective * math.cos(second)
-        return np.array(((x - limb.l1 * math.sin(first), x), (y + limb.l1 * math.cos(first), y)))

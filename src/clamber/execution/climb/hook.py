@@ -21,7 +21,9 @@ ASIDE: Final = (0.0, 0.8, -0.8, 1.4, -1.4, 0.0)
 MOST_SHIFTS: Final = 2
 """That often the body makes room for one way: its limbs are elsewhere after the first [-]."""
 ASTRAY: Final = 0.05
-"""A body may be as far from where a plan has it when a limb takes a hold, if the others hold no worse there [m], [rad]."""
+"""A body may be as far from where a plan has it when a limb takes a hold, if the others hold no worse there, along x and y [m] ..."""
+TURNED: Final = 0.05
+"""... and turned by as much [rad]."""
 SLACK: Final = 0.008
 """Beyond its doubt, how far a seated hook may be from where it should be: play and backlash [m]."""
 
@@ -74,7 +76,8 @@ def back_off(climber: Climber, i: int, hold: Floats, doubt: float, found: Approa
 def may_stay(climber: Climber, i: int, pose: Floats) -> bool:
     """Whether limb `i` may take a hold from where the body is, near another pose: the limbs that then carry hold no worse here."""
     body = climber.body
-    if climber.hangs or float(np.abs(pose - body.aim).max()) > ASTRAY:
+    off = np.abs(pose - body.aim)
+    if climber.hangs or off[:2].max() > ASTRAY or off[2] > TURNED:
         return False
     others = [j for j, task in enumerate(body.tasks) if j != i and task.hold]
     return body.stands(body.aim, others) >= min(0.0, body.stands(pose, others))

@@ -316,6 +316,14 @@ class WholeBody:
         ax, ay = vx - w * y, vy + w * x
         return np.array((self.twist[0] + c * ax - s * ay, self.twist[1] + s * ax + c * ay))
 
+    def turned_by_joints(self, i: int) -> Floats:
+        """How a limb's tip moves with its joints, world frame, one column a joint, shape (2, 2) [m/rad]."""
+        limb, angle = self.robot.limbs[i], float(self.settled[2])
+        first = angle + limb.port_angle + self.q[i, 0] - self.play[i, 0]
+        second = first + self.q[i, 1] - self.play[i, 1] + limb.hook_beta
+        x, y = -limb.l2_effective * math.sin(second), limb.l2_effective * math.cos(second)
+        return np.array(((x - limb.l1 * math.sin(first), x), (y + limb.l1 * math.cos(first), y)))
+
     def strain(self, i: int, j: int) -> float:
         """How far the distance of two holding tips is from that of their holds [m]."""
         apart = math.dist(self.tips[i].tolist(), self.tips[j].tolist())

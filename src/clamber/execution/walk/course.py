@@ -7,13 +7,17 @@ from typing import Protocol
 
 import numpy as np
 
-from ...control.gait import FINE, Step, farthest_step, look_at_step, up_to_corner
+from ...control.gait import FINE, Step, farthest_step, look_at_step, target_of, up_to_corner
 from ...control.track import Track, compose, seen_from
 from ...types import Floats
 from .walker import Walker
 
+NAMES = ("Delta-frame", "Y-frame")
+"""Of the frames, in the order of every array."""
 ASTRAY = 0.02
-"""A planned step is not tried where the frame that stands is farther than this from where the plan has it [m], [rad]."""
+"""A planned step is not tried where the frame that stands is farther than this from where the plan has it [m] ..."""
+TURNED = 0.02
+"""... or turned by more than this [rad]."""
 
 
 class Course(Protocol):
@@ -36,6 +40,10 @@ class Course(Protocol):
 
     def next(self, walker: Walker) -> Step | None:
         """The coming step; None where neither frame can go on."""
+        ...
+
+    def obstacle(self, walker: Walker) -> str:
+        """What keeps both frames from going on, where `next` is None: which limit, and by how much."""
         ...
 
     def landed(self, step: Step, walker: Walker) -> bool:
@@ -74,22 +82,57 @@ class TrackCourse:
             self._swing = int(np.argmax([0.0 if step is None else step.way for step in steps]))
         return self._farthest(walker, self._swing) or self._farthest(walker, 1 - self._swing)
 
+    def obstacle(self, walker: Walker) -> str:
+        """See `Course`: of a step of two millimetres."""
+        return "; ".join(self._lack(walker, swing) for swing in (0, 1))
+
     def landed(self, step: Step, walker: Walker) -> bool:
-        """See `Course`; a frame that edges sent elsewhere is where it was to be, for it has done what it could."""
+        """See `Course`."""
         before = self._ways[step.swing]
-        probed = walker.settings.probe > 0.0
-        self._ways[step.swing] = step.way if probed else self._way_of(step, walker.frames()[step.swing])
+        self._ways[step.swing] = self._way_of(step, walker.frames()[step.swing])
         self._swing = 1 - step.swing
         return bool(self._ways[step.swing] - before >= FINE)
+
+    def _lack(self, walker: Walker, swing: int) -> str:
+        name, limits = NAMES[swing], walker.settings.limits
+        if up_to_corner(self._track, self._ways, swing) < FINE:
+            return f"the {name} waits for the other at a corner of the way"
+        way = min(self.length, float(self._ways[swing]) + 2.0 * FINE)
+        end = target_of(self._track, way, swing, self._neutral)
+        looks = [
+            look_at_step(walker.robot, walker.frames(), swing, way, end, arm, walker.payload, limits)
+            for arm in walker.postures()
+        ]
+        step = min(looks, key=lambda look: look.balance)
+        if step.balance < limits.balance:
+            return (
+                f"with the {name} lifted the centre of mass is {1e3 * step.balance:.0f} mm inside the feet that stand, "
+                f"and {1e3 * limits.balance:.0f} mm are kept"
+            )
+        if step.room < 0.0:
+            return f"for the {name} {-1e3 * step.room:.1f} mm are missing to the actuators' strokes or to singular postures"
+        return f"the {name} can go on by less than {2e3 * FINE:.0f} mm"
 
     def _farthest(self, walker: Walker, swing: int) -> Step | None:
         room = up_to_corner(self._track, self._ways, swing)
         if room < FINE:
             return None
-        return farthest_step(
-            walker.robot, self._track, walker.frames(), self._ways, swing, neutral=self._neutral, arm=walker.arm,
-            payload=walker.payload, limits=walker.settings.limits, longest=min(room, walker.settings.longest),
-        )  # fmt: skip
+        frames, limits, postures = walker.frames(), walker.settings.limits, walker.postures()
+        longest, step = min(room, walker.settings.longest), None
+        for arm in postures:  # what one of them allows is looked at no farther in the others
+            step = farthest_step(
+                walker.robot, self._track, frames, self._ways, swing, neutral=self._neutral, arm=arm,
+                payload=walker.payload, limits=limits, longest=longest,
+            )  # fmt: skip
+            if step is None:
+                return None
+            longest = step.way - float(self._ways[swing])
+        assert step is not None
+        looks = [
+            look_at_step(walker.robot, frames, swing, step.way, step.end, arm, walker.payload, limits)
+            for arm in postures
+        ]
+        return min(looks, key=lambda look: look.balance)
 
     def _way_of(self, step: Step, landed: Floats) -> float:
         """Where on the track a frame that came down elsewhere than it was to is, by how far behind along the way it stands [m]."""
@@ -152,8 +195,7 @@ class PlannedCourse:
         """See `Course`: None where the frame that stands is not where the plan has it."""
         step, frames = self._steps[self._at], walker.frames()
         off = seen_from(step.stands, frames[1 - step.swing])
-        off[2] = math.remainder(off[2], math.tau)
-        if float(np.abs(off).max()) > ASTRAY:
+        if math.hypot(off[0], off[1]) > ASTRAY or abs(math.remainder(off[2], math.tau)) > TURNED:
             return None
         way, settings = self.way, walker.settings
         straight = look_at_step(
@@ -162,6 +204,16 @@ class PlannedCourse:
         if straight.room >= 0.0 and straight.balance >= settings.limits.balance:
             return straight
         return replace(straight, over=tuple(step.corners[:-1]))
+
+    def obstacle(self, walker: Walker) -> str:
+        """See `Course`."""
+        step = self._steps[self._at]
+        off = seen_from(step.stands, walker.frames()[1 - step.swing])
+        turned = abs(math.degrees(math.remainder(off[2], math.tau)))
+        return (
+            f"the {NAMES[1 - step.swing]} stands {1e3 * math.hypot(off[0], off[1]):.0f} mm and {turned:.1f} deg from where the plan "
+            f"has it; {1e3 * ASTRAY:.0f} mm and {math.degrees(TURNED):.1f} deg are allowed"
+        )
 
     def landed(self, step: Step, walker: Walker) -> bool:
         """See `Course`."""

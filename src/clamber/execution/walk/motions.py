@@ -4,6 +4,7 @@ A frame slides only while none of its feet is on the ground. Nothing else forbid
 """
 
 import math
+from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
@@ -21,6 +22,7 @@ from ...control.gait import (
 )
 from ...control.track import seen_from
 from ...types import Floats, Ints
+from .brake import OVER, Brake
 from .falls import LIGHT
 from .walker import LEGS, RefusedError, Walker, leg_name
 
@@ -30,7 +32,7 @@ PATIENCE: Final = 60.0
 """For levelling, at most [s]."""
 SETTLED: Final = 0.6
 """After a slide has sped up or slowed down, until the inclinometers have forgotten it [s]."""
-LOOSE: Final = 0.25
+LOOSE: Final = 0.5
 """A standing foot that feels less than this part of what counts as touching is lowered again before it has to carry [-]."""
 
 
@@ -141,6 +143,8 @@ def lower(walker: Walker, legs: range) -> list[int]:
 
 def expected_height(walker: Walker, i: int) -> float:
     """Height at which a leg that does not stand should find the ground, by the plane through the others [m]."""
+    if walker.settings.probe > 0.0 and walker.ground.known:
+        return float(walker.ground.heights(walker.soles[i : i + 1, :2])[0])
     stands = walker.stands > 0
     if stands.sum() < 3:
         return float(walker.soles[i, 2])
@@ -179,9 +183,13 @@ def lift(walker: Walker, frame: int, *ends: Floats, by: float | None = None) -> 
     clear = by if by is not None else settings.lift if settings.lift is not None else robot.legs.lift
     mine, spec = list(walker.of_frame(frame)), robot.legs
     low, high, lifts = walker.heights.copy(), walker.heights.copy(), np.zeros(LEGS)
-    rises = np.stack([np.zeros(3), *(_rises(walker, frame, end) for end in ends)])
-    low[mine] += rises.min(axis=0)
-    high[mine] += rises.max(axis=0)
+    if settings.probe > 0.0 and walker.ground.known:
+        clear = 0.0
+        low[mine], high[mine] = _reach_of_ground(walker, frame, ends)
+    else:
+        rises = np.stack([np.zeros(3), *(_rises(walker, frame, end) for end in ends)])
+        low[mine] += rises.min(axis=0)
+        high[mine] += rises.max(axis=0)
     lifts[mine] = clear
     height = height_for(walker, low, high, lifts)
     aims = np.clip(walker.targets(np.array((height, *walker.wanted[1:])), high + lifts), spec.shortest, spec.longest)
@@ -199,6 +207,22 @@ def lift(walker: Walker, frame: int, *ends: Floats, by: float | None = None) -> 
         walker.tick()
         if float((walker.soles[mine, 2] - high[mine]).min()) > need - 2.0 * spec.resolution:
             break
+
+
+def _reach_of_ground(walker: Walker, frame: int, ends: Sequence[Floats]) -> tuple[Floats, Floats]:
+    """How low a frame's feet may have to reach at the ends of its way, and how high they clear all that may lie on it, shape (3,) [m]."""
+    ground, mine = walker.ground, list(walker.of_frame(frame))
+    here = ground.heights(walker.soles[mine, :2])
+    there = [ground.heights(_feet_at(walker, frame, end)) for end in ends] or [here]
+    off = ground.rough + OVER
+    return np.min(there, axis=0) - off, np.max([here, *there], axis=0) + off
+
+
+def _feet_at(walker: Walker, frame: int, pose: Floats) -> Floats:
+    """Feet of a frame at a pose, seen from above, shape (3, 2) [m]; level."""
+    c, s = math.cos(pose[2]), math.sin(pose[2])
+    feet: Floats = np.asarray(pose[:2]) + walker.robot.feet()[frame] @ np.array(((c, s), (-s, c)))
+    return feet
 
 
 def _ease(walker: Walker, legs: list[int]) -> None:
@@ -247,14 +271,16 @@ def slide(walker: Walker, swing: int, end: Floats, *, lands: bool = True) -> Non
     before = walker.inclination.frozen
     late = settings.ramp + SETTLED
     walker.inclination.learns = True
-    for k in range(1, max(1, math.ceil(seconds / walker.period)) + 1):
-        time = k * walker.period
+    time, brake = 0.0, Brake(walker, swing)
+    while time < seconds:
+        brake.see()
+        time += brake.pace * walker.period
         walker.inclination.frozen = before or time < late or time > seconds - settings.ramp
         share = eased_share(time, seconds, settings.ramp)
         place = slide_places(still, first, last, swing, np.array([share]))
         walker.actuators[:] = lengths_at(robot, place)[0]
         if lands and settings.clear is not None:
-            _approach(walker, swing, end, seconds - time)
+            _approach(walker, swing, brake.free, end, seconds - time)
         walker.tick()
     walker.inclination.learns = False
     walker.inclination.frozen = True
@@ -270,19 +296,19 @@ def _rises(walker: Walker, frame: int, end: Floats) -> Floats:
 
     A frame slides in the plate's own plane, so what counts is how the ground rises against that.
     """
-    c, s = math.cos(end[2]), math.sin(end[2])
-    feet = np.asarray(end[:2]) + walker.robot.feet()[frame] @ np.array(((c, s), (-s, c)))
+    feet = _feet_at(walker, frame, end)
     against = walker.ground_slope() + walker.matrix[:2, 2] / walker.matrix[2, 2]
     rises: Floats = (feet - walker.soles[list(walker.of_frame(frame)), :2]) @ against
     return rises
 
 
-def _approach(walker: Walker, swing: int, end: Floats, seconds: float) -> None:
+def _approach(walker: Walker, swing: int, legs: list[int], end: Floats, seconds: float) -> None:
     """Let lifted feet go down towards the ground that is expected where a slide ends, in time to be `clear` above it then.
 
     Args:
         walker: The robot.
         swing: The lifted frame.
+        legs: Of it, those that may go down.
         end: Where it comes down, seen from above, shape (3,) [m], [rad].
         seconds: Until it is there [s].
     """
@@ -295,7 +321,7 @@ def _approach(walker: Walker, swing: int, end: Floats, seconds: float) -> None:
         np.maximum(0.0, _rises(walker, swing, end)) + settings.clear
     )  # over the highest ground from here on
     aims = np.clip(walker.targets(walker.wanted, heights), spec.shortest, spec.longest)
-    for i in mine:
+    for i in legs:
         if aims[i] - walker.lengths[i] >= spec.speed * (seconds - walker.period):
             walker.free_aims[i] = max(walker.free_aims[i], aims[i])
 

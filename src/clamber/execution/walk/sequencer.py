@@ -13,7 +13,7 @@ from ..plant import PlantStoppedError
 from . import motions
 from .calibrate import calibrate, feel_give
 from .course import Course
-from .footholds import choose_footing
+from .footholds import prove
 from .walk_trace import PHASES, TracedWalker
 from .walker import FallenError, RefusedError, leg_name
 
@@ -53,8 +53,9 @@ class StepReport:
     reason: str = ""
 
     def to_json(self) -> Json:
-        """Plain data."""
+        """Plain data; None for a distance that there is none of, such as that of a frame that never came down."""
         plain = {name: getattr(self, name) for name in self.__slots__}
+        plain |= {name: None for name in ("balance", "off") if not math.isfinite(plain[name])}
         return plain | {"times": {name: getattr(self.times, name) for name in PhaseTimes.__slots__}}
 
 
@@ -169,7 +170,8 @@ class WalkSequencer:
         while not course.done:
             step = course.next(self.walker)
             if step is None:
-                report.reason = f"stuck: neither frame can go on from {course.way:.3f} m of {course.length:.3f} m"
+                at = f"{course.way:.3f} m of {course.length:.3f} m"
+                report.reason = f"stuck: neither frame can go on from {at}: {course.obstacle(self.walker)}"
                 return
             if self._progress is not None:
                 self._progress(len(report.steps) + 1, course.way, course.length)
@@ -221,27 +223,28 @@ class WalkSequencer:
         walker.phase = PHASES.index("lower")
         outcome: Outcome = "ok"
         reason = ""
-        if settings.probe > 0.0:
-            found = choose_footing(walker, step.swing, step.end)
-            tries, reason = found.touches, found.reason
-            outcome = "no ground" if found.without else "ok" if not found.moved else "moved"
-        else:
-            without, tries = motions.lower(walker, walker.of_frame(step.swing)), 1
-            for share in SHORTER:
-                if not without:
-                    break
-                outcome = "moved"
-                reason = f"{leg_name(without[0])} found no ground at the end of the step"
-                back = start + share * (step.end - start)
-                motions.lift(walker, step.swing, back)
-                motions.slide(walker, step.swing, back)
-                without = motions.lower(walker, walker.of_frame(step.swing))
-                tries += 1
-            if without:
-                outcome, reason = "no ground", f"{leg_name(without[0])} finds no ground"
+        without, tries = motions.lower(walker, walker.of_frame(step.swing)), 1
+        for share in SHORTER:
+            if not without:
+                break
+            outcome = "moved"
+            reason = f"{leg_name(without[0])} found no ground at the end of the step"
+            back = start + share * (step.end - start)
+            motions.lift(walker, step.swing, back)
+            motions.slide(walker, step.swing, back)
+            without = motions.lower(walker, walker.of_frame(step.swing))
+            tries += 1
+        if without:
+            outcome, reason = "no ground", f"{leg_name(without[0])} finds no ground"
         marks.append(walker.time)
         walker.phase = PHASES.index("settle")
-        motions.settle(walker)
+        if settings.probe > 0.0 and not without:
+            slipped = prove(walker, step.swing)
+            tries += len(slipped)
+            if slipped:
+                reason = f"{leg_name(slipped[0])} slipped under trial"
+        else:
+            motions.settle(walker)
         marks.append(walker.time)
         return outcome, tries, reason
 

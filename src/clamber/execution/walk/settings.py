@@ -18,8 +18,9 @@ class WalkSettings:
     """By how much a lifted foot clears the ground that is expected on its way [m]; None: as the robot's file says."""
     clear: float | None = 0.02
     """A slide begins and ends with its feet so far above the expected ground [m], which saves time; None: by all of `lift`."""
-    touch: float = 30.0
-    """A foot that the ground pushes with more than this is on it [N]: the loads of standing feet are 60 N and more ..."""
+    touch: float = 15.0
+    """A foot that the ground pushes with more than this is on it [N]: seven deviations of a load cell. What it pushes back until it stops
+    tilts the plate; the loads of standing feet are 60 N and more ..."""
     touches: int = 2
     """... for so many samples."""
     settling: float = 2.0
@@ -36,20 +37,17 @@ class WalkSettings:
     """Part of what a leg carries beyond its even share that is passed on in a second while more than three stand [1/s]."""
     near: float = 0.004
     """From so far above the ground as it is expected, feet go down more slowly [m] ..."""
-    near_speed: float = 0.0025
+    near_speed: float = 0.0015
     """... at this speed [m/s]: what a leg goes on until it is stopped tilts the plate."""
     deepest: float = 0.06
     """A foot that finds no ground so far below the expected has none [m]."""
-    landing_doubt: float = math.radians(0.03)
+    landing_doubt: float = math.radians(0.017)
     """How far feet that take or lose load may tilt the plate without its legs telling [rad]."""
     level_within: float = math.radians(0.03)
     """The plate counts as level within this [rad]."""
     probe: float = 0.0
-    """Distance from a foothold at which the ground is probed for edges [m]; 0: it is not."""
-    even: float = 0.003
-    """Touches of a foot whose heights differ by more have an edge between them [m]."""
-    most_probes: int = 12
-    """Touches of a frame for one foothold, at most."""
+    """By how much feet are pushed to every side where they have come down, before they are relied upon [m]; 0: they are not. More than 0
+    also means that the ground may be rough: feet are lifted over all that has been found so far."""
     longest: float = math.inf
     """A step goes no farther than this [m]."""
 
@@ -64,16 +62,14 @@ class WalkSettings:
             "ease_speed",
             "near_speed",
             "longest",
-            "even",
         ):
             if not getattr(self, key) > 0.0:
                 raise ValueError(f"{key} = {getattr(self, key)}: must be more than 0")
         for key in ("trim", "share", "landing_doubt", "probe", "near"):
             if not 0.0 <= getattr(self, key) < math.inf:
                 raise ValueError(f"{key} = {getattr(self, key)}: must be 0 or more, and finite")
-        for key in ("touches", "most_probes"):
-            if getattr(self, key) < 1:
-                raise ValueError(f"{key} = {getattr(self, key)}: must be 1 or more")
+        if self.touches < 1:
+            raise ValueError(f"touches = {self.touches}: must be 1 or more")
         for key in ("lift", "clear"):
             value = getattr(self, key)
             if value is not None and not 0.0 < value < math.inf:

@@ -27,6 +27,10 @@ FINE: Final = 0.001
 """To which the way's nearest place to the point is found [m]."""
 EDGE: Final = 0.03
 """The tool comes so far inside where the arm can just reach, and leaves as early [m]: lifting moves the plate by a centimetre or two."""
+STEP: Final = 0.2
+"""A step takes the plate no farther [m]."""
+SHARES: Final = (0.25, 0.5, 0.75, 1.0)
+"""Of the arm's way to where it goes, at which balance is looked at [-]."""
 GENTLY: Final = 0.5
 """Share of its joints' speed at which the arm comes and leaves [-]."""
 PEAK: Final = 1.875
@@ -59,6 +63,11 @@ class HeldPart:
     """Least distance of a joint from an end of its range [rad]."""
     speed: float
     """Largest share of its speed that a joint had [-]."""
+
+    @property
+    def way(self) -> float:
+        """Over which the tool was to be held [m]."""
+        return self.last - self.first
 
     def to_json(self) -> Json:
         """Plain data."""
@@ -142,6 +151,17 @@ class ToolHold:
         if self._state == "leaving":
             return self._between(self._rest, now)[0]
         return self._rest
+
+    def ahead(self, walker: Walker) -> list[Floats]:
+        """See `ArmTask`; while the tool is held the plate goes on under it, which shifts less mass than the step reckons with."""
+        way, goal = self.way_of(walker.pose), None
+        if self._state == "away" and way >= self.first - self._lead - STEP:
+            goal = self._joints_at(walker)
+        elif self._state in ("coming", "there"):
+            goal = self._joints
+        elif self._state == "leaving" or (self._state == "holding" and way >= self.last - STEP):
+            goal = self._rest
+        return [] if goal is None else [walker.arm + share * (goal - walker.arm) for share in SHARES]
 
     def way_of(self, pose: Floats) -> float:
         """How far on the way the plate is [m]; it never goes back."""

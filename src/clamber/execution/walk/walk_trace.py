@@ -6,7 +6,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from ...control.walker_balance import support_margin
+from ...control.support import support_margin
 from ...robots.walker import FRAMES
 from ...types import Floats, Ints, Json
 from ..log import Log, LogError, split_title

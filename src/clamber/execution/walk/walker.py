@@ -6,18 +6,30 @@ from typing import Final, Protocol
 import numpy as np
 
 from ...control.dead_reckoning import leg_places, reckon, soles_in_world
-from ...control.inclination import Inclination, InclinometerTrust, load_slope, strain_of
-from ...control.posture import leg_lengths, level_heights, move_together, rise, tilt_of_inclines, whole_steps
-from ...control.walker_balance import mass_centre, support_margin
+from ...control.inclination import Inclination, InclinometerTrust
+from ...control.loads import plane_slope, sink_together, sink_unevenly, strain_of
+from ...control.posture import (
+    leg_lengths,
+    level_heights,
+    move_each,
+    move_together,
+    rise,
+    tilt_of_inclines,
+    trim_lag,
+    whole_steps,
+)
+from ...control.support import support_margin
+from ...control.walker_balance import mass_centre
 from ...robots.walker import WalkerRobot
 from ...robots.walker.two_frames import FOUND, follow_branch
 from ...robots.walker.weight import weight_of
 from ...types import Floats, Ints
 from ...units import GRAVITY
 from ..fallen import FallenError as FallenError
-from .falls import LIGHT, FallWatch
+from .falls import FallWatch
 from .plant import WalkerPlant
 from .settings import WalkSettings
+from .touched_ground import TouchedGround
 
 LEGS: Final = 6
 STILL: Final = 0.2
@@ -28,8 +40,6 @@ SLACK: Final = 0.6
 """Errors of a leg's length below this part of its motor's step stay [-]."""
 SMOOTHED: Final = 0.3
 """Time constant of the loads that tell how deep feet sink in [s]."""
-PART: Final = 0.75
-"""Part of what feet sink in that is made up for while others, which do not count as standing, carry, too [-]."""
 LEAST_GIVE: Final = 2e-6
 """A foot and its leg sink in by so much at least, where loads are shared [m/N]."""
 KICKED: Final = math.radians(0.5)
@@ -39,7 +49,7 @@ KICK: Final = 0.3
 
 
 class RefusedError(Exception):
-    """A motion would break a rule of the robot; nothing has moved.
+    """A motion would break a rule of the robot: it is not begun, or stops where it is.
 
     Args:
         reason: Which rule.
@@ -59,6 +69,10 @@ class ArmTask(Protocol):
 
     def aims(self, walker: "Walker") -> Floats:
         """Where its joints go by the end of the coming period, by what the walker believes at this tick, shape (joints,) [rad]."""
+        ...
+
+    def ahead(self, walker: "Walker") -> list[Floats]:
+        """Postures besides the present one that it may come through before the next step is over, each of shape (joints,) [rad]."""
         ...
 
 
@@ -102,6 +116,9 @@ class Walker:
         """1 for feet that stand."""
         self.anchors, self.heights = np.zeros((LEGS, 2)), np.zeros(LEGS)
         """Believed: where in the world the feet stand or stood last [m]."""
+        self.ground = TouchedGround()
+        self.strain = np.zeros(LEGS)
+        """By how much more than its even share each leg is to carry while more than three stand [N]; see `strain_of`."""
         self.places, self.soles, self.matrix = np.zeros((LEGS, 2)), np.zeros((LEGS, 3)), np.eye(3)
         self.sensed, self.forces, self.readings = np.zeros(LEGS), np.zeros(LEGS), np.zeros(2)
         """Lengths of the legs [m], forces along them [N], inclines [rad], as last sensed."""
@@ -127,6 +144,7 @@ class Walker:
         self.ticks = self.kicks = 0
         self._kicked = 0.0
         self._slope, self._loads = np.zeros(2), np.zeros(LEGS)
+        self._most_arm = plant.period * np.array(robot.arm.fastest if robot.arm is not None else ())
         self.left = 0.0
         """The longest way that a standing leg has still to go [m]."""
 
@@ -159,6 +177,7 @@ class Walker:
         self.ticks = self.kicks = 0
         self.lengths[:] = self.commanded[:] = self.free_aims[:] = np.asarray(legs, float).ravel()
         self._trims[:] = 0.0
+        self.ground = TouchedGround()
         self.place[:] = place
         self.pose[:2], self.pose[3] = pose[:2], pose[3]
         self.stands[:] = 0
@@ -181,6 +200,8 @@ class Walker:
         self.heights += self.pose[2]
         soles_in_world(self.pose, self.places, self.sensed, self.soles, self.matrix)
         self.anchors[:] = self.soles[:, :2]
+        for k in np.flatnonzero(self.stands):
+            self.ground.add(self.anchors[k], float(self.heights[k]))
         self._slope, self._loads = self._load_slope(), self.forces.copy()
         self.wanted[:] = self.pose[2], self.pose[4], self.pose[5]
         self.height = self.wanted[0]
@@ -219,6 +240,7 @@ class Walker:
         self._stand_on(i, 1)
         self._loads[i] = self.forces[i]
         self.anchors[i], self.heights[i] = self.soles[i, :2], self.soles[i, 2]
+        self.ground.add(self.anchors[i], float(self.heights[i]))
         self._trims[i], self.lengths[i] = self.commanded[i] - self.sensed[i], self.sensed[i]
 
     def leave(self, i: int) -> None:
@@ -238,7 +260,11 @@ class Walker:
 
     def margin(self, stands: Ints | None = None) -> float:
         """How far the centre of mass lies inside the standing feet, or inside others [m]."""
-        return support_margin(self.soles, self.stands if stands is None else stands, self.centre())
+        return float(support_margin(self.soles, self.stands if stands is None else stands, self.centre()))
+
+    def postures(self) -> list[Floats]:
+        """Of the arm, in which the next step has to be in balance: as it is now, and as its task may have it on the way [rad]."""
+        return [self.arm.copy(), *([] if self.arm_task is None else self.arm_task.ahead(self))]
 
     def tilt(self) -> float:
         """Angle of the plate from the horizontal, as believed [rad]."""
@@ -254,14 +280,7 @@ class Walker:
 
     def ground_slope(self) -> Floats:
         """How the ground rises along the world's x and y, by the plane through the feet that stand, shape (2,) [-]; flat with too few."""
-        here = self.stands > 0
-        if here.sum() < 3:
-            return np.zeros(2)
-        about = self.anchors[here] - self.anchors[here].mean(axis=0)
-        (xx, xy), (_, yy) = about.T @ about
-        x, y = about.T @ self.heights[here]
-        spread = xx * yy - xy * xy
-        return np.array((yy * x - xy * y, xx * y - xy * x)) / spread if spread > 0.0 else np.zeros(2)
+        return np.array(plane_slope(self.anchors, self.heights, self.stands))
 
     def targets(self, posture: Floats, heights: Floats) -> Floats:
         """Lengths of all legs with the plate at z [m], beta, gamma [rad] over these heights, shape (6,) [m]."""
@@ -285,17 +304,10 @@ class Walker:
         Only the plane through the loads counts. The weight alone decides that; the rest is how six legs strain against each other, and
         legs that answered to it would strain the more. It is smoothed, or it would answer to the robot's rocking on its feet.
         """
-        here = self.stands > 0
-        more = share * (self._load_slope() - self._slope)
-        self._slope = self._slope + more
-        c, s = math.cos(self.pose[3]), math.sin(self.pose[3])
-        change = np.array((c * more[0] + s * more[1], c * more[1] - s * more[0]))
-        # legs that are being lifted give way to what the others answer with: in full that could build up
-        part = PART if np.any(self.forces[~here] > LIGHT) else 1.0
-        self.heights[here] -= (
-            part * self.inclination.give * (self.places[here] - self.places[here].mean(axis=0)) @ change
+        x, y = sink_unevenly(
+            share, self.inclination.give, self.pose[3], self.places, self.forces, self.stands, self._slope, self.heights
         )
-        self.inclination.sink(-part * change)
+        self.inclination.sink(np.array((-x, -y)))
         self._settle_in(share)
 
     def _settle_in(self, share: float) -> None:
@@ -304,22 +316,15 @@ class Walker:
         How deep single feet go makes the legs share the load or tilts the plate, and is known from that. What all go together, the plate
         goes, and so does the height at which it is wanted: no leg moves for it.
         """
-        here = self.stands > 0
-        change = np.where(here, share * (self.forces - self._loads), 0.0)
-        self._loads += change
-        slope = self.ground_slope()
-        give = self.inclination.give / (
-            1.0 + float(slope @ slope)
-        )  # of the force along the normal, the part that is upright
-        self.anchors += give * change[:, None] * slope
-        down = give * float(change[here].mean()) if here.any() else 0.0
-        self.heights[here] -= down
+        down = sink_together(
+            share, self.inclination.give, self.forces, self.stands, self._loads, self.anchors, self.heights
+        )
         self.height -= down
         self.wanted[0] -= down
 
     def _load_slope(self) -> Floats:
         """Of the plane through the loads, along the world's axes, for the plate's turn, shape (2,) [N/m]."""
-        x, y = load_slope(self.places, self.forces, self.stands)
+        x, y = plane_slope(self.places, self.forces, self.stands)
         c, s = math.cos(self.pose[3]), math.sin(self.pose[3])
         return np.array((c * x - s * y, s * x + c * y))
 
@@ -346,7 +351,7 @@ class Walker:
             level_heights(beta, gamma, self.places, self.sensed, self.stands, *turn, self.heights)
             self.pose[4] += turn[0]
             self.pose[5] += turn[1]
-        why = self.falls.see(self.forces, tilted)
+        why = self.falls.see(self.forces, tilted, self.margin)
         if why:
             raise FallenError(why)
         self._kicked = self._kicked + self.period if tilted > KICKED else 0.0
@@ -357,7 +362,7 @@ class Walker:
 
     def _share_load(self) -> None:
         """Legs that carry too much while more than three stand are drawn in, others pushed out; the plane through the feet stays."""
-        over = strain_of(self.places, self.forces, self.stands)
+        over = strain_of(self.places, self.forces - self.strain, self.stands)
         give = max(self.inclination.give, LEAST_GIVE)
         self.heights += self.settings.share * self.period * give * over
 
@@ -369,20 +374,16 @@ class Walker:
         self.wanted[0] += min(GENTLY * most, max(-GENTLY * most, rise))
         before = self.lengths.copy()
         self.left = abs(rise) + move_together(self.lengths, self._targets, self.stands, most)
-        still = (np.abs(self.lengths - before - (self.wanted[0] - z)) < STILL * most) & (self.stands > 0)
-        short = self.lengths - self.sensed
-        short[np.abs(short) < SLACK * self.robot.legs.resolution] = 0.0
-        self._trims += np.where(still, self.settings.trim * self.period * short, 0.0)
+        trim_lag(
+            self.lengths, self.sensed, before, self.wanted[0] - z, self.stands, STILL * most,
+            SLACK * self.robot.legs.resolution, self.settings.trim * self.period, self._trims,
+        )  # fmt: skip
 
     def _move_free_legs(self) -> None:
-        free = self.stands == 0
-        most = self.free_speeds * self.period
-        change = np.clip(self.free_aims - self.lengths, -most, most)
-        self.lengths[free] += change[free]
+        move_each(self.lengths, self.free_aims, self.free_speeds * self.period, self.stands)
 
     def _move_arm(self) -> None:
         if self.robot.arm is not None:
             if self.arm_task is not None:
                 self.arm_aims[:] = self.arm_task.aims(self)
-            most = self.period * np.array(self.robot.arm.fastest)
-            self.arm += np.clip(self.arm_aims - self.arm, -most, most)
+            self.arm += np.minimum(np.maximum(self.arm_aims - self.arm, -self._most_arm), self._most_arm)

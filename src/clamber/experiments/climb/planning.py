@@ -14,7 +14,7 @@ from ...execution.climb.course import lay_course
 from ...execution.climb.here import GENERATORS, hold_document
 from ...execution.climb.sequencer import Replan
 from ...planning.budgets import accepts
-from ...planning.planners import PLANNERS
+from ...planning.planners import find_planner
 from ...planning.result import PlanResult
 from ...robots.hooks import HOOK_AHEAD, HOOK_WAY, HOOK_WIDTH
 from ...tasks.library import change_task, task_from_document
@@ -101,7 +101,7 @@ def plan_to_climb(
     options = {name: value for name, value in stated.items() if accepts(planner, name)}
 
     def search(task: LimbedTask) -> PlanResult:
-        result = PLANNERS[planner](task, **options)
+        result = find_planner(planner)(task, **options)
         if result.seconds >= seconds:
             cut()
         return result

@@ -43,6 +43,16 @@ class ClimbRun:
     wall_seconds: float
     """That it took, without compiling or loading kernels and without looking for new plans on the way."""
 
+    @property
+    def done(self) -> bool:
+        """Whether every action was carried out, and the body came to the goal with it."""
+        return self.report.done
+
+    @property
+    def reason(self) -> str:
+        """Why not; empty where it did."""
+        return self.report.reason
+
     def to_json(self) -> Json:
         """Plain data."""
         return self.report.to_json() | {"task": self.task.name, "wall_seconds": self.wall_seconds}

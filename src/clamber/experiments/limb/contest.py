@@ -9,8 +9,8 @@ from typing import Final
 import numpy as np
 
 from ...control.chain import Chain
-from ...control.controller import Controller
 from ...control.law_settings import LawSettings
+from ...control.outside_law import LoopController, controller_of
 from ...execution.closed_loop import close_loop
 from ...execution.trace import LimbTrace
 from ...sim.limb_flaws import ForceSensor, LimbFlaws
@@ -100,14 +100,14 @@ def run_contest(
     believed = believed_chain(limb.chain, flaws)
     out = []
     for entry in entries:
-        controller = Controller(believed, entry.settings, period=flaws.period)
+        controller = controller_of(believed, entry.settings, period=flaws.period)
         moved.reset(limb.q0)
         trace = close_loop(moved, controller, scenario.aims, keep=True)
         out.append(Run(entry, trace, _tick_seconds(controller, trace) if timed else math.nan))
     return out
 
 
-def _tick_seconds(controller: Controller, trace: LimbTrace, most: int = 200) -> float:
+def _tick_seconds(controller: LoopController, trace: LimbTrace, most: int = 200) -> float:
     """Seconds of one tick, by the law again on what was sensed: the best of three rounds."""
     rounds = []
     count = min(most, len(trace.time))

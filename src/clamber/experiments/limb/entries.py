@@ -8,7 +8,7 @@ from typing import Any, Final
 import numpy as np
 
 from ...control.chain import closed_branches
-from ...control.law_settings import LAWS, LawError, LawSettings
+from ...control.law_settings import LAWS, LawError, LawSettings, law_names
 from ...errors import UnitError, UnknownNameError, describe_choices
 from ...types import Floats
 from ...units import parse_quantity, si_unit
@@ -70,8 +70,8 @@ def read_law(text: str) -> LawSettings:
     """
     law, _, said = text.partition(":")
     law = law.strip()
-    if law not in LAWS:
-        raise UnknownNameError("controller", law, tuple(LAWS))
+    if law not in law_names():
+        raise UnknownNameError("controller", law, law_names())
     return LawSettings(law=law).with_changes(**_settings(law, said))
 
 
@@ -155,7 +155,7 @@ def make_entries(limb: BenchLimb, texts: Sequence[str], reference: LawSettings, 
         said = text.partition(":")[2]
         settings = read_law(text)
         stated = _settings(settings.law, said)
-        own = any(key in stated for key in GAINS)
+        own = settings.law not in LAWS or any(key in stated for key in GAINS)
         if not own and match == "none":
             settings = replace(settings, kp=reference.kp, kd=reference.kd)
         elif not own:

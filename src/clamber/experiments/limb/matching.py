@@ -11,8 +11,9 @@ from typing import Final, Literal, TypeAlias
 import numpy as np
 
 from ...control.chain import Chain
-from ...control.controller import Controller, still_aim
+from ...control.controller import still_aim
 from ...control.law_settings import LawError, LawSettings
+from ...control.outside_law import controller_of
 from ...types import Floats
 
 Match: TypeAlias = Literal["yy", "mean", "diagonal", "none"]
@@ -29,7 +30,7 @@ def tip_stiffness(chain: Chain, settings: LawSettings, q: Floats) -> Floats:
     """Stiffness of a law at the tip in x and y, at rest on its aim, from its own torques, shape (2, 2) [N/m]."""
     # at rest a derivative term has died away; in the tick after a nudge it has not
     bare = settings.with_changes(feed_gravity=False, feed_friction=0.0, derivative=0.0)
-    controller = Controller(chain, bare, period=0.005)
+    controller = controller_of(chain, bare, period=0.005)
     aim = still_aim(chain.place(q))
     states = np.zeros((1, 2, chain.n))
 

@@ -25,13 +25,18 @@ class HeldPoint:
     errors: Floats
     """Distance of the tool from the point then, shape (rows,) [m]."""
 
+    @property
+    def largest(self) -> float | None:
+        """Largest of the errors [m]; None where the robot did not come so far."""
+        return float(self.errors.max()) if len(self.errors) else None
+
     def to_json(self) -> Json:
         """Plain data."""
         held = len(self.errors) > 0
         return self.part.to_json() | {
             "true_point": self.point.tolist(),
             "held_seconds": float(self.time[-1] - self.time[0]) if held else 0.0,
-            "largest_error": float(self.errors.max()) if held else None,
+            "largest_error": self.largest,
             "mean_error": float(self.errors.mean()) if held else None,
         }
 

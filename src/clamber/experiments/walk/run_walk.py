@@ -9,7 +9,7 @@ from typing import Any, Final
 import numpy as np
 
 from ...control.quickest import Gait, quickest_way
-from ...control.track import Track
+from ...control.track import Track, through
 from ...errors import UnitError, describe_choices
 from ...execution.plant import PlantStoppedError
 from ...execution.walk.course import Course, TrackCourse
@@ -24,6 +24,7 @@ from ...sim.walker_plant import WalkerSim
 from ...tasks.walks import Walk
 from ...types import Floats, Json
 from ...units import parse_quantity
+from .ditch_crossing import lay_crossing
 from .held_point import HeldPoint, LaidHold, lay_hold
 from .noise import WalkNoise, named_walk_noise
 
@@ -31,6 +32,8 @@ SETTINGS: Final[dict[str, str]] = {"friction": "ratio", "payload": "mass", "phys
 """Settings of the plant that a user may change -> dimension. The payload is one that the robot does not know of."""
 LOST: Final = 0.02
 """A robot that ends farther from where it believes to be has not come to the end of its way [m]."""
+WITHIN: Final = 0.005
+"""So near are places of a path passed [m]."""
 PLANT: Final = "plant."
 """First word of settings that change the plant."""
 
@@ -127,12 +130,14 @@ def lay_track(walk: Walk, pose: Floats) -> Track:
     twists: list[Floats] = []
     radius = walk.robot.legs.radius_delta
     for piece in walk.way:
-        if piece.to is None:
-            twists.append(piece.twist())
-        else:
-            track = Track.of(pose, twists, radius)
-            here = track.pose(track.length)
+        track = Track.of(pose, twists, radius)
+        here = track.pose(track.length)
+        if piece.to is not None:
             twists += quickest_way(walk.robot, here, np.array(piece.to), piece.heading, gait_of(walk))[0].twists
+        elif piece.through is not None:
+            twists += list(through(here, piece.poses(float(here[2])), radius, within=WITHIN).twists)
+        else:
+            twists.append(piece.whole_twist())
     return Track.of(pose, twists, radius)
 
 
@@ -152,6 +157,8 @@ def gait_of(walk: Walk) -> Gait:
 
 def own_way(walk: Walk) -> Lay:
     """How the way of a walk's file is laid out from where the robot stands."""
+    if walk.way[0].ditch is not None:
+        return lay_crossing(walk)
     return lambda pose: TrackCourse(lay_track(walk, pose), neutral=walk.start.twist)
 
 
@@ -182,8 +189,9 @@ def run_walk(
     plant = TracedPlant(WalkerSim(walk.robot, walk.ground, drawn))
     how = settings
     if how is None:
-        # a plan knows of steps between its footholds, the walker does not: its feet stay up until they are over the next
-        how = WalkSettings(level=walk.level, probe=walk.probe, clear=WalkSettings().clear if lay is None else None)
+        # where ground may be higher than the walker can tell, its feet stay up until they are over their next footholds
+        clear = WalkSettings().clear if lay is None and walk.probe == 0.0 else None
+        how = WalkSettings(level=walk.level, probe=walk.probe, clear=clear)
     walker = TracedWalker(walk.robot, plant, settings=how, payload=walk.payload)
     holds: list[LaidHold] = []
 

@@ -9,17 +9,97 @@ from typing import Final
 
 import numpy as np
 
-from ...jobs import Executor, Outcome, map_items
+from ...actions.plan import Plan
+from ...jobs import Executor, Outcome, look_into, map_items
 from ...jobs.release import release
+from ...tasks import task_from_document
+from ...tasks.walker import WalkerTask
 from ...tasks.walks import Walk
 from ...tasks.walks.library import walk_from_document
 from ...types import Floats, Json
+from ...units import DEGREE
 from ..intervals import wilson_interval
 from .noise import WalkNoise
+from .planned import lay_plan, walk_of
 from .run_walk import run_walk, walk_flaws
 
+LEVEL: Final = 0.1 * DEGREE
+"""A plate counts as level within this [rad]: what the paper's robot levels itself to."""
 ERROR: Final = "error"
 """Start of the reason of a trial that raised, or whose workers died."""
+
+
+@dataclass(frozen=True, slots=True)
+class WalkSetup:
+    """What all trials have in common: a walk, or a task with its plan."""
+
+    walked: Walk | WalkerTask
+    noise: WalkNoise
+    plant: tuple[str, ...] = ()
+    """Settings of the plant, such as "friction=50%"."""
+    plan: Plan | None = None
+    """Of a task."""
+    planned: bool = False
+    """Whether a planner made the plan, so that it is no part of what was asked for."""
+
+    @property
+    def name(self) -> str:
+        """Of what is walked."""
+        return self.walked.name
+
+    @property
+    def title(self) -> str:
+        """The same in words."""
+        return f"walks '{self.name}'"
+
+    @property
+    def levels(self) -> bool:
+        """Whether the plate is to be kept level; in a plan it always is."""
+        return not isinstance(self.walked, Walk) or self.walked.level
+
+    def about(self) -> Json:
+        """What tells these trials from others; not how many, nor from which seed on."""
+        told = self._plain()
+        if isinstance(self.walked, WalkerTask):
+            told["plan"] = None if self.plan is None or self.planned else self.plan.to_json()
+        return told | {"release": release() | {"mujoco": version("mujoco")}}
+
+    def item(self, seed: int) -> Json:
+        """One trial for a worker."""
+        told = self._plain()
+        if self.plan is not None:
+            told["plan"] = self.plan.to_json() | {"document": {}}
+        return told | {"seed": seed}
+
+    def _plain(self) -> Json:
+        return {"document": self.walked.document, "plant": list(self.plant), "noise": self.noise.to_json()}
+
+    def stored_plan(self, store: Path | None) -> Plan | None:
+        """The plan that the store of these trials was begun with; None where there is none yet.
+
+        Raises:
+            StoreError: If the file can't be the store of these trials.
+        """
+        kept = None if store is None else look_into(store, run_walk_trial, about=self.about(), title=self.title)
+        if kept is None or kept.note is None:
+            return None
+        return Plan.from_json(kept.note, "plan of the store")
+
+
+@dataclass(frozen=True, slots=True)
+class WalkCause:
+    """Walks that ended early in the same way."""
+
+    words: str
+    """Such as "fell"."""
+    n: int
+    interval: tuple[float, float]
+    """Of their share of all walks, 95 %, Wilson's."""
+    steps: tuple[int, ...]
+    """At which, each once."""
+    seeds: tuple[int, ...]
+    reason: str
+    """Of the first one."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -43,6 +123,10 @@ class WalkTrial:
     turned: float | None
     """Heading from that at the end of the way [rad]."""
     kicks: int
+    held_way: float | None = None
+    """Way over which the tool was to be held at a point [m]; None where the walk has none, or ended before it was laid."""
+    held_error: float | None = None
+    """Largest distance of the tool from that point while it was held [m]; None where the robot did not come so far."""
 
     def to_json(self) -> Json:
         """Plain data."""
@@ -53,8 +137,7 @@ class WalkTrial:
 class WalkTrials:
     """Walks that ended."""
 
-    walk: Walk
-    noise: WalkNoise
+    setup: WalkSetup
     asked: int
     """How many there are to be."""
     ended: list[WalkTrial]
@@ -76,6 +159,25 @@ class WalkTrials:
         """Walks whose margin of balance was positive throughout, done or not."""
         return sum(trial.margin is not None and trial.margin > 0.0 for trial in self.ended)
 
+    @property
+    def level(self) -> int:
+        """Walks that came to their end with the plate never farther from level than `LEVEL` since the first step."""
+        return sum(trial.done and trial.tilt <= LEVEL for trial in self.ended)
+
+    def causes(self) -> tuple[WalkCause, ...]:
+        """Why walks ended early, the commonest first."""
+        early = [trial for trial in self.ended if not trial.done]
+        found: dict[str, list[WalkTrial]] = {}
+        for trial in early:
+            found.setdefault(cause_of(trial.reason), []).append(trial)
+        return tuple(
+            WalkCause(
+                words, len(alike), wilson_interval(len(alike), len(self.ended)), tuple(sorted({each.steps for each in alike})),
+                tuple(each.seed for each in alike), alike[0].reason,
+            )
+            for words, alike in sorted(found.items(), key=lambda pair: -len(pair[1]))
+        )  # fmt: skip
+
     def of(self, name: str) -> Floats:
         """A number of all walks that have it."""
         return np.array(
@@ -85,43 +187,58 @@ class WalkTrials:
     def to_json(self) -> Json:
         """Plain data."""
         return {
-            "walk": self.walk.name,
-            "noise": self.noise.to_json(),
+            "walk": self.setup.name,
+            "noise": self.setup.noise.to_json(),
             "asked": self.asked,
             "n": len(self.ended),
             "done": self.done,
             "interval": list(self.interval),
             "balanced": self.balanced,
+            "level": self.level,
+            "balanced_interval": list(wilson_interval(self.balanced, len(self.ended))),
+            "causes": [{name: getattr(cause, name) for name in WalkCause.__slots__} for cause in self.causes()],
             "trials": [trial.to_json() for trial in self.ended],
         }
+
+
+def cause_of(reason: str) -> str:
+    """The reason of a walk that ended early without its numbers, such as "fell" of "step 3: fell: the robot tips"."""
+    parts = [part.strip() for part in reason.split(":")]
+    return parts[1] if parts[0].startswith("step ") and len(parts) > 1 else parts[0]
 
 
 def run_walk_trial(item: Json) -> Json:
     """One walk; runs in a worker.
 
     Args:
-        item: `document` of the walk, settings of the `plant`, `noise` as plain data, `seed`.
+        item: As `WalkSetup.item` writes it.
 
     Returns:
         `WalkTrial.to_json`.
     """
-    walk = walk_from_document(item["document"])
-    run = run_walk(walk, walk_flaws(walk, item["plant"]), noise=WalkNoise(item["noise"]), seed=item["seed"])
+    lay = None
+    if "plan" in item:
+        task = task_from_document(item["document"])
+        assert isinstance(task, WalkerTask)
+        walk, lay = walk_of(task), lay_plan(task, Plan.from_json(item["plan"] | {"document": item["document"]}))
+    else:
+        walk = walk_from_document(item["document"])
+    run = run_walk(walk, walk_flaws(walk, item["plant"]), noise=WalkNoise(item["noise"]), seed=item["seed"], lay=lay)
     report, margin = run.report, run.margin
     off, turned = (None, None) if report.missed is None else report.missed
+    way, error = (None, None) if run.held is None else (run.held.part.way, run.held.largest)
     return WalkTrial(
         seed=item["seed"], done=run.done, reason=run.reason, seconds=report.seconds, steps=len(report.steps),
         tilt=run.tilt, margin=margin if np.isfinite(margin) else None, off=off, turned=turned, kicks=report.kicks,
+        held_way=way, held_error=error,
     ).to_json()  # fmt: skip
 
 
 def run_walk_trials(
-    walk: Walk,
-    noise: WalkNoise,
+    setup: WalkSetup,
     seeds: Sequence[int],
     *,
     executor: Executor,
-    plant: Sequence[str] = (),
     store: Path | None = None,
     resume: bool = False,
     told: Callable[[WalkTrials], None] | None = None,
@@ -129,12 +246,10 @@ def run_walk_trials(
     """Walk with every seed; each trial is stored, and told of, as it ends. Ctrl-C ends it early, with what there is.
 
     Args:
-        walk: What is walked.
-        noise: What deviates.
+        setup: What all trials have in common; a task with its plan.
         seeds: One trial each.
         executor: Who runs them.
-        plant: Settings of the plant, such as "friction=50%".
-        store: SQLite file that keeps the trials.
+        store: SQLite file that keeps the trials, and the plan.
         resume: Whether to go on with that file.
         told: Given what there is so far at each end.
 
@@ -142,8 +257,8 @@ def run_walk_trials(
         StoreError: If the file can't be the store of these trials.
         ClusterError: If there is no cluster to run on, or it is lost.
     """
-    trials = WalkTrials(walk, noise, len(seeds), [])
-    common = {"document": walk.document, "plant": list(plant), "noise": noise.to_json()}
+    assert isinstance(setup.walked, Walk) or setup.plan is not None, "plan first"
+    trials = WalkTrials(setup, len(seeds), [])
 
     def take(ended: int, total: int, outcome: Outcome) -> None:
         trials.wall_seconds += outcome.seconds
@@ -155,11 +270,12 @@ def run_walk_trials(
     with suppress(KeyboardInterrupt):
         outcomes = map_items(
             run_walk_trial,
-            [common | {"seed": seed} for seed in seeds],
+            [setup.item(seed) for seed in seeds],
             executor=executor,
             store=store,
-            about=common | {"release": release() | {"mujoco": version("mujoco")}},
-            title=f"walks '{walk.name}'",
+            about=setup.about(),
+            title=setup.title,
+            note=None if setup.plan is None else setup.plan.to_json(),
             resume=resume,
             progress=take,
         )

@@ -108,7 +108,7 @@ def explore(
                 params, search, state[0], memory.nodes, memory.labels, memory.keys, memory.heads, memory.steps, memory.table, codes,
                 stances, margins, words, row, tally, QUOTA,
             )  # fmt: skip
-            if tell is not None:
+            if tell is not None and status != EXHAUSTED:  # nothing is open any more, so there is no least cost of it
                 tell(int(state["nodes"][0]), _reached(state, search))
     except KeyboardInterrupt:
         interrupted = True

@@ -36,7 +36,7 @@ def plan_hybrid(
     threads: int | None = None,
     progress: Listener | None = None,
 ) -> PlanResult:
-    """Plan by genetic and exact search together: a plan soon, then how far it may be from the shortest, or the proof that it is that.
+    """Plan by genetic and exact search together: a plan soon, then how much shorter one may be, or that none is.
 
     The shortest way to the first sub-goal, if the task has one, seeds the population. The plan found is the upper bound of an exact
     search. Where the genetic search finds none, the way to where the exact search got furthest seeds a second one.

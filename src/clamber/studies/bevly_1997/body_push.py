@@ -93,6 +93,7 @@ def push_body() -> StudyResult:
             *(Compared(f"{label}, one push of {HARD:g} N: hooks", "on" if on else "came off") for label, on in kept.items()),
         ),
         deviations=_deviations(ratio, needed, stiffer),
+        seeds=range(SEEDS),
         table=_table(trials),
         figures=(_figure(runs),),
     )  # fmt: skip

@@ -102,6 +102,8 @@ def count_lost_pegs(
             f"`clamber study {PAPER} table-4-2 --seeds 200 --store rungs.db` takes 200 seeds.",
         ),
         table=_table(told),
+        seeds=range(seeds),
+        options="" if seeds == SEEDS else f"--seeds {seeds}",
     )
 
 

@@ -84,6 +84,7 @@ def follow_modified_ladder() -> StudyResult:
             f"{len(SEEDS)} seeds of at most {BUDGET} evaluations.",
             "The figure's numbers are not in the text that we have.",
         ),
+        seeds=SEEDS,
         table=Table(
             ("seed", "status", "generations", "passed at", "slope before [m/generation]", "slope after"), tuple(rows)
         ),
@@ -135,6 +136,7 @@ def follow_h() -> StudyResult:
             f"{len(SEEDS)} seeds of at most {BUDGET} evaluations.",
             "The sub-goals are boxes of 3 in each way about points read from the printed plan; the figure with them is not in our text.",
         ),
+        seeds=SEEDS,
         table=Table(
             ("seed", "status", "generations", "sub-goals at", "slope around [m/generation]", "slope elsewhere"),
             tuple(rows),

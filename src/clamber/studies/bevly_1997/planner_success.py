@@ -45,6 +45,7 @@ def count_successes_of(seeds: range, tasks: tuple[str, ...]) -> StudyResult:
             "Sub-goals are boxes, and hangs are allowed, as in the printed plans.",
             "The printed planner's plans exist for the modified ladder and H only; across and circle are printed as hand-made plans.",
         ),
+        seeds=seeds,
         table=Table(
             ("task", "found", "seeds", "evaluations, median", "evaluations, most", "actions, median"), tuple(rows)
         ),

@@ -94,6 +94,7 @@ def forbid_rotation_with(most: int, seeds: range, beams: tuple[Beam, ...]) -> St
             f"There exact search keeps {most} stances, genetic search tries {len(seeds)} seeds, beam search widths of "
             f"{' and '.join(str(beam.width) for beam in beams)}; where none finds a plan, that is no proof that there is none.",
         ),
+        seeds=seeds,
         table=Table(
             ("reading", "hangs", "exact search", "shortest plan known", "stances seen", "proved at least", "highest body [in]"),
             tuple(rows),

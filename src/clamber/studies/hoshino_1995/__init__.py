@@ -12,3 +12,11 @@ SIGNS: Final = (
     "Theta is the Y-frame's angle in the Delta-frame, -18 to 48 deg, with which the regions of figure 4 grow. The paper prints -48 to "
     "18 deg: that must be the body's angle in the Y-frame, which has the other sign, and is shown as printed where it is compared."
 )
+CAPTIONS: Final = (
+    "The captions of figures 8 and 9 are exchanged: the text has the walk in figure 8 and the steepest direction in figure 9, the "
+    "caption of the walk says figure 9. Results go by the text's numbers."
+)
+SIMULATED: Final = (
+    "Ours is a robot in contact dynamics, not the prototype: masses, stiffness, friction and legs are assumed (docs/walks.md says "
+    "which). The paper prints neither how far its robot went nor what it stood on."
+)

@@ -59,6 +59,7 @@ def vary_gain() -> StudyResult:
             "No limits: k_p = 5 asks more of body and joints than they can do. With limits see `clamber follow --gain`.",
             '"As printed" takes the gradient of the plain Jacobian\'s V (13, 16) in equation 19.',
         ),
+        seeds=range(RUNS),
         table=Table(("seed", "dof", *(f"mean V, k_p = {gain:g}" for gain in GAINS)), tuple(rows)),
         figures=(
             Figure(

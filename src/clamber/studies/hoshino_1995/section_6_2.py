@@ -58,6 +58,7 @@ def count_freedoms() -> StudyResult:
             "set and each k_p.",
             f"{RUNS} random ways as for figure 11.",
         ),
+        seeds=range(RUNS),
         table=Table(("k_p", "seed", *(f"mean V, {dof} dof" for dof in DOFS)), tuple(rows)),
         figures=(Figure("spread", "Mean V of each random way by degrees of freedom, one panel for each k_p.", spread),),
     )

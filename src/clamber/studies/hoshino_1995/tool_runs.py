@@ -77,6 +77,7 @@ def go(
     limited: bool = False,
     feedback: float = 0.0,
     speeds: Floats | None = None,
+    besides: int | None = None,
 ) -> ToolRun:
     """Go a straight way by equation 19.
 
@@ -89,6 +90,7 @@ def go(
         limited: Whether every limit is kept, with the speeds that actuators and legs have and the plate on its feet.
         feedback: Of the position error [1/s]; the paper has none.
         speeds: T_q's [m/s, rad/s], shape (10,); None: those of actuators and legs where limits are kept, else `BALANCED`.
+        besides: A freedom of the plate that takes part besides those of the set, by its place in q; not with limits.
     """
     robot = hoshino()
     freedoms = freedoms_of(dof, 4)
@@ -99,6 +101,8 @@ def go(
         speeds=speeds, tool_speeds=TOOL_SPEEDS, gain=gain, feedback=feedback, period=PERIOD, form=form, limited=limited
     )
     law, weights = Cooperator(robot, settings, footing), weights_of(freedoms, 4)
+    if besides is not None:
+        weights[besides] = 1.0
     if limited:
         law.check_start(start)
     rows = round(LASTS / PERIOD) + 1

@@ -1,6 +1,7 @@
 """Walks by name or path."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
@@ -9,6 +10,8 @@ from ...robots.library import family_of, read_robot
 from ...types import Json
 from ...worlds.library import read_ground
 from ..overrides import apply_overrides, split_override
+from .path_file import read_path
+from .standing import check_mechanism, check_weight
 from .walk import SCHEMA, Walk, build_walk, walk_keys
 
 DATA: Final = Path(__file__).parent / "data"
@@ -31,13 +34,13 @@ def load_walk(name_or_path: str, overrides: Sequence[str] = ()) -> Walk:
     """A walk by its shipped name, such as "slope-walk", or from the user's TOML file.
 
     Args:
-        name_or_path: Name, or a path that ends in .toml; robot and ground may be paths relative to it.
+        name_or_path: Name, or a path that ends in .toml; robot, ground and paths to follow may be paths relative to it.
         overrides: Texts "key=value", such as "level=false", "ground.slope=5deg", "way.0.distance=2m", "legs.speed=8mm/s",
             or "ground=steps" for another ground.
 
     Raises:
         UnknownNameError: If a name of walk, robot or ground does not exist.
-        FileError: If a file cannot be read.
+        FileError: If a file cannot be read, or a path to follow is none.
         SpecError: If a file or an override says something that cannot be used.
     """
     path, label = find_data("walk", name_or_path, DATA)
@@ -60,7 +63,11 @@ def load_walk(name_or_path: str, overrides: Sequence[str] = ()) -> Walk:
     ground = read_ground(_named(source, "ground"), None if "ground" in here else document.folder)
     data |= {"robot": robot.data, "ground": ground.data, "labels": {"robot": robot.label, "ground": ground.label}}
     merged, keys = Document(document.label, data, (), document.folder), walk_keys()
-    return build_walk(apply_overrides(merged, rest, keys["walk"], keys["robot"], {}))
+    whole = _with_paths(apply_overrides(merged, rest, keys["walk"], keys["robot"], {}))
+    walk = build_walk(whole)
+    check_mechanism(walk, whole)
+    check_weight(walk, whole)
+    return walk
 
 
 def walk_from_document(document: Json, label: str = "stored walk") -> Walk:
@@ -70,6 +77,25 @@ def walk_from_document(document: Json, label: str = "stored walk") -> Walk:
         SpecError: If the document is not one that this version can build.
     """
     return build_walk(Document(label, document))
+
+
+def _with_paths(document: Document) -> Document:
+    """The places of every `path` read into `through`; a path in an override starts where the user stands."""
+    way = document.data.get("way")
+    if not isinstance(way, list):
+        return document
+    pieces: list[object] = []
+    for i, piece in enumerate(way):
+        path = piece.get("path") if isinstance(piece, dict) else None
+        if isinstance(path, str):
+            if "through" in piece:
+                raise document.problem(f"way.{i}", "must state through or path, not both")
+            inside = document.label_of(f"way.{i}.path") == document.label and document.folder is not None
+            file = Path(path).expanduser()
+            pieces.append(piece | {"through": read_path(document.folder / file if inside else file)})  # type: ignore[operator]
+        else:
+            pieces.append(piece)
+    return replace(document, data=document.data | {"way": pieces})
 
 
 def _named(document: Document, key: str) -> str:

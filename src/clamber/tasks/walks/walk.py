@@ -3,7 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import field, replace
-from typing import Final, Literal
+from typing import Annotated, Final, Literal
 
 import numpy as np
 from pydantic import StrictBool, StrictStr
@@ -12,8 +12,9 @@ from ...files import Document, check_schema
 from ...robots.walker import WalkerRobot, build_walker
 from ...specs import Name, build_spec, field_names, spec
 from ...types import Floats, Json
-from ...units import Angle, Length, NonNegativeLength, NonNegativeMass, Point, PositiveLength
+from ...units import Angle, Length, NonNegativeMass, Point, PositiveLength, Quantity
 from ...worlds.ground import Ground, build_ground
+from .piece import Piece, check_way
 
 SCHEMA: Final = "clamber-walk-1"
 
@@ -34,32 +35,6 @@ class WalkStart:
     """Angle of the Y-frame in the Delta-frame [rad]; it keeps this at the same place of the way."""
     plate: Literal["level", "ground"] = "level"
     """Whether the plate is level and the legs make up for the ground, or the legs are of one length and the plate lies as the ground."""
-
-
-@spec
-class Piece:
-    """A piece of the way: `direction` and `distance` for a straight one, `turn` for a turn, `to` for a place."""
-
-    direction: Angle | None = None
-    """Seen from the Delta-frame; the heading is kept [rad]."""
-    distance: PositiveLength | None = None
-    """Over ground, seen from above [m]."""
-    turn: Angle | None = None
-    """Of the heading [rad]."""
-    about: Point | None = None
-    """Point that it turns about, in the Delta-frame as it is then; on the spot unless given [m]."""
-    to: Point | None = None
-    """Place in the world, reached straight or after a pivot, whichever takes less time [m]."""
-    heading: Angle | None = None
-    """At that place, world frame; any unless given [rad]."""
-
-    def twist(self) -> Floats:
-        """What the Delta-frame does, in its own frame: x, y [m] and heading [rad], each at a constant rate, shape (3,); not of `to`."""
-        if self.turn is not None:
-            x, y = (0.0, 0.0) if self.about is None else self.about
-            return self.turn * np.array((y, -x, 1.0))
-        assert self.direction is not None and self.distance is not None
-        return self.distance * np.array((math.cos(self.direction), math.sin(self.direction), 0.0))
 
 
 @spec
@@ -89,8 +64,9 @@ class WalkSpec:
     """In order; one or more."""
     level: StrictBool = True
     """Whether the plate is kept level; if not, it keeps the tilt that it has at the start."""
-    probe: NonNegativeLength = 0.0
-    """Distance from a foothold at which the ground is felt for edges before a foot stands there [m]; 0: it is not."""
+    probe: Annotated[float, Quantity("length", at_least=0.0, at_most=0.005)] = 0.0
+    """By how much feet are pushed to every side where they have come down, before they are relied upon, on ground that may be rough [m];
+    0: they are not."""
     arm: tuple[Angle, ...] | None = None
     """Joint angles of the arm [rad]; those of the robot's file unless given."""
     payload: NonNegativeMass = 0.0
@@ -168,12 +144,19 @@ def build_walk(document: Document) -> Walk:
 
     robot, ground = build_walker(part("robot")), build_ground(part("ground"))
     stated = build_spec(WalkSpec, document, without=("schema", "robot", "ground", "labels"))
-    _check_way(stated.way, document)
+    check_way(stated.way, document)
     joints = 0 if robot.arm is None else robot.arm.n_joints
     if stated.payload > 0.0 and robot.arm is None:
         raise document.problem("payload", "needs an arm to carry it, and the robot has none")
     if stated.hold is not None and robot.arm is None:
         raise document.problem("hold", "needs an arm, and the robot has none")
+    if stated.way[0].ditch is not None:
+        if stated.hold is not None:
+            raise document.problem("hold", "is for ways without a ditch")
+        if stated.start.offset != (0.0, 0.0):
+            raise document.problem(
+                "start.offset", "must be 0 before a ditch: the crossing begins with the frames on each other"
+            )
     if stated.arm is not None and len(stated.arm) != joints:
         raise document.problem("arm", f"must have {joints} entries, one for each joint of the robot's arm")
     rest = () if robot.arm is None else robot.arm.rest
@@ -193,27 +176,6 @@ def build_walk(document: Document) -> Walk:
     )
     _check_start(walk, document)
     return walk
-
-
-def _check_way(way: tuple[Piece, ...], document: Document) -> None:
-    if not way:
-        raise document.problem("way", "must have a piece or more")
-    for i, piece in enumerate(way):
-        if piece.to is not None:
-            if any(value is not None for value in (piece.direction, piece.distance, piece.turn, piece.about)):
-                raise document.problem(f"way.{i}", "must state a place alone, with a heading if one is wanted")
-            continue
-        if piece.heading is not None:
-            raise document.problem(f"way.{i}.heading", "is for a place that is gone to")
-        straight = piece.direction is not None or piece.distance is not None
-        if straight == (piece.turn is not None):
-            raise document.problem(f"way.{i}", "must state direction and distance, or turn, or to: one of the three")
-        if straight and (piece.direction is None or piece.distance is None):
-            raise document.problem(f"way.{i}", "must state both direction and distance")
-        if straight and piece.about is not None:
-            raise document.problem(f"way.{i}.about", "is for a turn")
-        if piece.turn == 0.0:
-            raise document.problem(f"way.{i}.turn", "must not be 0")
 
 
 def _check_start(walk: Walk, document: Document) -> None:

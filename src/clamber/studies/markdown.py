@@ -1,4 +1,4 @@
-"""Studies as pages: one Markdown page and its pictures per result, and one page over all results of a paper."""
+"""Studies as Markdown: one page and its pictures per result, and one page over all results of a paper."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -9,7 +9,7 @@ from .library import STUDIES
 from .result import StudyResult, Table, Value
 
 
-def write_report(results: Sequence[StudyResult], folder: Path) -> None:
+def write_markdown(results: Sequence[StudyResult], folder: Path) -> None:
     """Write FOLDER/PAPER/RESULT.md with its pictures for each result; with all results of a paper, FOLDER/PAPER.md too.
 
     Raises:
@@ -35,7 +35,7 @@ def paper_page(paper: str, results: Sequence[StudyResult]) -> str:
     lines = [
         f"# Study {paper}",
         "",
-        f"Written by `clamber study {paper} --report docs/studies`; do not edit by hand.",
+        f"Written by `clamber study {paper} --markdown docs/studies`; do not edit by hand.",
         "",
         "| result | verdict | claim |",
         "|---|---|---|",

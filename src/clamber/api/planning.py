@@ -1,0 +1,174 @@
+"""Plan, check a plan, look for what would open a task; and what a planner of one's own needs to answer."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..actions.plan import Plan
+from ..actions.plan_families import plan_family
+from ..actions.plan_source import open_plan
+from ..actions.verdict import Verdict, check_plan
+from ..errors import PlannerError, SpecError
+from ..inspection.finding import Finding
+from ..inspection.open_file import inspect_file
+from ..openings.find import find_openings as _find_openings
+from ..openings.result import Openings
+from ..planning.budgets import accepts
+from ..planning.exact.costs import read_costs
+from ..planning.planners import find_planner
+from ..planning.result import PlanResult, Status, furthest_of
+from ..tasks import Task, load_task
+from ..types import Ints
+
+USUAL = {"seed": 0, "seconds": None, "threads": None}
+"""Options that are left away where a planner has none of the kind."""
+
+
+def plan(task: Task | str, planner: str = "auto", *, minimize: str | None = None, **options: Any) -> PlanResult:
+    """Find a plan for a task, prove that there is none, or say how far it came.
+
+    Args:
+        task: A task, or its name or file.
+        planner: Its name (`clamber list planners`), ours or another package's.
+        minimize: Costs for the exact planner, the first one first, such as "length,torque".
+        options: Of the planner: `seed`, `seconds` (most time [s]), `threads`, `max_checks` (single actions judged), ...
+
+    Returns:
+        The answer, with `status`, `plan`, `reason` and `check()`; no plan is an answer and no error.
+
+    Raises:
+        ClamberError: If the task cannot be had, its start does not hold, or the planner has no such option.
+    """
+    chosen = load_task(task) if isinstance(task, str) else task
+    search = find_planner(planner)
+    if minimize is not None:
+        options["minimize"] = read_costs("minimize", minimize)
+    for name in options:
+        if not accepts(planner, name):
+            raise PlannerError(planner, chosen.name, f"it has no option '{name}'")
+    usual = {name: value for name, value in USUAL.items() if accepts(planner, name)}
+    return search(chosen, **(usual | options))
+
+
+def check(what: Plan | PlanResult | str | Path, task: Task | str | None = None, *, go_on: bool = False) -> Verdict:
+    """Carry a plan out again, without whoever made it, and judge every step by every check.
+
+    Args:
+        what: A plan, a planner's answer, or a plan's name or file.
+        task: To carry it out in; None: its own.
+        go_on: Whether to go on past a violation.
+
+    Returns:
+        The verdict: `ok`, `reached`, `per_step`, `tightest()`, `first_violation`. Margins are signed, positive holds.
+
+    Raises:
+        ClamberError: If the plan cannot be read, or has actions that the task has not.
+    """
+    if isinstance(what, str | Path):
+        opened = open_plan(what, task if isinstance(task, str) else None)
+        return check_plan(opened.task if task is None or isinstance(task, str) else task, opened.plan, go_on=go_on)
+    made = what.plan if isinstance(what, PlanResult) else what
+    if task is None:
+        own: Task = what.task if isinstance(what, PlanResult) else made.rebuild_task()
+    else:
+        own = load_task(task) if isinstance(task, str) else task
+    return check_plan(own, made, go_on=go_on)
+
+
+def inspect(what: str | Path) -> Finding:
+    """What a robot's, board's, ground's, task's or walk's file is, whether a task's start holds, and what is odd about it.
+
+    Args:
+        what: Its name or file.
+
+    Returns:
+        The finding: `kind`, `ok`, `facts`, `margins` of a task's start, `odd`.
+
+    Raises:
+        ClamberError: If it breaks a rule of its format; the error names file and key.
+    """
+    return inspect_file(str(what))
+
+
+def find_openings(task: Task | PlanResult | str, *, seconds: float = 60.0, threads: int | None = None) -> Openings:
+    """Which single, smallest changes of an infeasible task would allow a plan.
+
+    Args:
+        task: A task, an answer about one, or its name or file.
+        seconds: Most time to look [s].
+        threads: Threads; None for one a core.
+
+    Returns:
+        `openings` (key, from, to, plan length), `shut` (what does not help), `places` for one hold more.
+
+    Raises:
+        ClamberError: If the task cannot be had.
+    """
+    chosen = task.task if isinstance(task, PlanResult) else load_task(task) if isinstance(task, str) else task
+    return _find_openings(chosen, seconds=seconds, threads=threads)
+
+
+def load_plan(name_or_path: str | Path, task: str | None = None) -> Plan:
+    """A plan by its name or from the file that `clamber plan -o` or `Plan.save` wrote.
+
+    Args:
+        name_or_path: Name (`clamber list plans`) or file.
+        task: Of a plan in the thesis's numbers: the task that it is for, in place of the one that it names.
+
+    Raises:
+        ClamberError: If it cannot be read.
+    """
+    return open_plan(name_or_path, task).plan
+
+
+def answer(
+    task: Task,
+    codes: Sequence[int] | Ints,
+    *,
+    planner: str,
+    seed: int = 0,
+    reason: str = "",
+    checks: int = 0,
+    seconds: float = 0.0,
+    status: Status | None = None,
+) -> PlanResult:
+    """What a planner of one's own answers, from the actions that it chose; they are carried out and judged here.
+
+    Args:
+        task: What was planned.
+        codes: Packed actions as `Problem.replay` takes them, shape (n,): the plan, or what leads furthest.
+        planner: Its name.
+        seed: Of what it drew at random.
+        reason: Why it ended, in a sentence.
+        checks: Single actions that it judged.
+        seconds: That it took [s].
+        status: "optimal", "infeasible" or "bounded" only where that is proved; None: "found" if the goal is reached, else "stopped".
+
+    Raises:
+        SpecError: If an action violates a hard check.
+    """
+    packed = np.asarray(codes, np.int32)
+    family = plan_family(task)
+    problem = family.problem(task)
+    replay = problem.replay(packed)
+    if not replay.ok:
+        step, check_ = len(replay.reasons), family.checks[int(replay.reasons[-1])]
+        raise SpecError(
+            planner, f"actions.{step - 1}", int(packed[step - 1]), f"violates the hard check '{check_.name}'"
+        )
+    reached = problem.is_done(replay.stances[-1:])
+    return PlanResult(
+        status=status or ("found" if reached else "stopped"),
+        plan=Plan.of_codes(task, packed, seed=seed, planner=planner),
+        task=task,
+        reason=reason or ("every goal is reached" if reached else "stopped before the goal"),
+        evaluations=0,
+        checks=checks,
+        seconds=seconds,
+        seed=seed,
+        planner=planner,
+        max_torque=float(np.max([family.torque(stance) for stance in replay.stances[1:]], initial=0.0)),
+        furthest=None if reached else furthest_of(task, problem, packed),
+    )

@@ -1,0 +1,50 @@
+"""`clamber export`: a robot, a plan or a run as a file that other programs read."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from .options import AsJson, Overrides
+from .output import announce_compilation, check_writable, print_json, stdout
+
+
+def export(
+    thing: Annotated[
+        str,
+        typer.Argument(
+            metavar="ROBOT|PLAN|LOG", help="A robot's or a plan's name or file, or the log of a run (.mcap, .csv)."
+        ),
+    ],
+    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="File to write.")],
+    task: Annotated[str | None, typer.Option(help="For a plan: in this task, in place of its own.")] = None,
+    overrides: Overrides = None,
+    as_json: AsJson = False,
+) -> None:
+    """Write a robot, a plan or a run for other programs; the file's suffix says as what.
+
+    A robot: .xml (MJCF), .urdf. A plan: .csv and .json (joints over time; JSON in the fields of ROS 2's JointTrajectory), .md (a
+    table). A run's log: .csv, .json. Pictures and animations are made by `clamber show` and `clamber run`.
+    """
+    check_writable(output)
+    from ..exports.library import export as write
+    from ..exports.library import kind_of
+
+    if kind_of(thing) == "plan":
+        announce_compilation()
+    written = write(thing, output, task, overrides or ())
+    if as_json:
+        print_json(
+            {
+                "written": str(written.path),
+                "kind": written.kind,
+                "format": written.format,
+                "bytes": written.path.stat().st_size,
+                "notes": list(written.notes),
+            }
+        )
+        return
+    console = stdout()
+    console.print(f"{written.kind} as {written.format}: {written.path}", soft_wrap=True)
+    for note in written.notes:
+        console.print(note)

@@ -1,0 +1,218 @@
+"""What `list`, `show`, `view`, `export`, `study`, `doctor`, `new` and `plant serve` print, and `check` of all but plans."""
+
+from typing import Any, Literal
+
+from pydantic import Field
+
+from .base import Count, Printed
+
+
+class Entry(Printed):
+    """A name, and what it stands for."""
+
+    name: str
+    title: str
+
+
+class Listed(Printed):
+    """Names by kind; of one kind alone only that is there."""
+
+    robots: list[Entry] = Field(default=[])
+    boards: list[Entry] = Field(default=[])
+    grounds: list[Entry] = Field(default=[])
+    tasks: list[Entry] = Field(default=[])
+    walks: list[Entry] = Field(default=[])
+    plans: list[Entry] = Field(default=[])
+    planners: list[Entry] = Field(default=[])
+    checks: list[Entry] = Field(default=[])
+    controllers: list[Entry] = Field(default=[])
+    plants: list[Entry] = Field(default=[])
+    studies: list[Entry] = Field(default=[])
+
+
+class Drawn(Printed):
+    """A picture that was written."""
+
+    written: str
+    """The file."""
+    task: str
+    steps: Count
+    """Actions that it shows."""
+    bytes: Count
+
+
+class Opened(Printed):
+    """Printed once the viewer listens."""
+
+    url: str
+    title: str
+
+
+class Saved(Printed):
+    """`--save`: a page that was written."""
+
+    written: str
+    title: str
+    bytes: Count
+
+
+class StartMargin(Printed):
+    """One check of a task's start."""
+
+    check: str
+    unit: str
+    margin: float | None
+    """Signed, in `unit`; null where nothing limits it."""
+    hard: bool
+    """Whether the task's rules forbid what violates it."""
+    holds: bool
+
+
+class Finding(Printed):
+    """What a file is, and what is to be said of it; one that breaks its format is an error, exit code 2."""
+
+    kind: Literal["robot", "board", "ground", "task", "walk"]
+    ok: bool
+    """Whether every hard check of the start holds; files without a start are always."""
+    name: str
+    title: str
+    facts: dict[str, str]
+    """Word to value with its unit, for people."""
+    odd: list[str]
+    """What is allowed and yet most likely not meant."""
+    margins: list[StartMargin]
+    """Of a task's start."""
+
+
+class Exported(Printed):
+    """A file that was written for other programs."""
+
+    written: str
+    kind: Literal["robot", "plan", "run"]
+    format: str
+    """In words."""
+    bytes: Count
+    notes: list[str]
+    """What the reader should know, such as what the format cannot say."""
+
+
+class StudyResult(Printed):
+    """A published result and ours; `study PAPER` prints a list of them."""
+
+    paper: str
+    result: str
+    claim: str
+    verdict: Literal["holds", "differs", "open"]
+    """holds: we get it too; differs: we do not; open: what is printed, or what we did, does not decide it."""
+    numbers: dict[str, int | float | str | None]
+    """Name to our value, each printed one under the same name with ", printed"."""
+    deviations: list[str]
+    seeds: list[int]
+    """What it is drawn from; empty: nothing is drawn."""
+    command: str
+    """What repeats it."""
+
+
+class Installed(Printed):
+    """Clamber itself."""
+
+    version: str
+    folder: str
+
+
+class Python(Printed):
+    """The interpreter."""
+
+    version: str
+    executable: str
+
+
+class Machine(Printed):
+    """The machine."""
+
+    system: str
+    cores: int | None
+    memory: int | None
+    """[bytes]; null where the system does not tell."""
+    memory_free: int | None
+
+
+class Extension(Printed):
+    """What another package adds."""
+
+    kind: str
+    name: str
+    package: str
+    error: str | None
+
+
+class Kernels(Printed):
+    """Compiled kernels."""
+
+    folder: str
+    compiled: bool
+    functions: Count
+    bytes: Count
+    older_folders: Count
+    older_bytes: Count
+    writable: bool
+
+
+class Health(Printed):
+    """What is installed and what is wrong; exit code 1 where something is."""
+
+    clamber: Installed
+    python: Python
+    machine: Machine
+    required: dict[str, str | None]
+    """Package to its version; null: missing."""
+    optional: dict[str, dict[str, str | None]]
+    """Optional part to its packages."""
+    extensions: list[Extension]
+    kernels: Kernels
+    gl: str | None
+    """How a picture can be rendered without a screen."""
+    ffmpeg: str | None
+    chromium: str | None
+    problems: list[str]
+
+
+class NewBoard(Printed):
+    """A board that was written."""
+
+    written: dict[str, str]
+    """board, and with --task the task, to the file."""
+    name: str
+    holds: Count
+    width_m: float
+    height_m: float
+    gap_m: float | None
+    """Least distance of two holds."""
+
+
+class NewRobot(Printed):
+    """A robot that was written."""
+
+    written: dict[str, str]
+    """robot, to the file."""
+    name: str
+
+
+class NewTask(Printed):
+    """A task that was written."""
+
+    written: dict[str, str]
+    """task, to the file."""
+    name: str
+    start: dict[str, Any]
+    """The start that was found, as the file has it."""
+
+
+class Served(Printed):
+    """Printed once the server listens."""
+
+    address: str
+    """For `clamber run --plant`."""
+    robot: str
+    board: str
+    real_time: bool

@@ -1,0 +1,167 @@
+"""The texts of files to start from: a document's values, and above each key what its spec says of it."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+from ..files import Document, find_data, is_path, read_toml
+from ..robots.library import family_of, read_robot
+from ..robots.limbed import LimbedRobot
+from ..robots.starter import starter_robot
+from ..robots.walker import WalkerRobot
+from ..spec_text import spec_text
+from ..tasks.library import DATA, TASK_FAMILIES
+from ..tasks.limbed import TaskSpec
+from ..tasks.walker import WalkerTaskSpec
+from ..types import Json
+from ..worlds.board import BoardSpec
+from ..worlds.library import read_board
+from ..worlds.starter import starter_board
+from .new_files import name_of, task_data
+
+ROBOTS: Final[dict[str, type[Any]]] = {"limbed": LimbedRobot, "walker": WalkerRobot}
+TASKS: Final[dict[str, type[Any]]] = {"limbed": TaskSpec, "walker": WalkerTaskSpec}
+HOW: Final = (
+    'A quantity is a text such as "15 cm", or { value = 15, unit = "cm", source = "datasheet" }.\n'
+    'A line that begins with "#" and no blank is a key that is not stated: take the "#" away to state it.'
+)
+LIMBS: Final = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Starter:
+    """A file to write."""
+
+    data: Json
+    text: str
+
+
+def robot_starter(path: Path, limbs: int | None, like: str | None) -> Starter:
+    """A robot's file: equal limbs about a body, or one that there is, told key by key.
+
+    Raises:
+        ClamberError: If there is no robot to be like.
+    """
+    name = name_of(path, "robot")
+    data = starter_robot(name, limbs or LIMBS) if like is None else read_robot(like).data | {"name": name}
+    family = family_of(Document(like or name, data))
+    lead = (
+        ("schema", data["schema"], "The format of this file."),
+        ("family", family, "limbed: a climber of limbs in a plane; walker: two frames of three legs."),
+    )
+    title = f"A robot ({family}); `clamber check {path.name}` says what is wrong or odd with it.\n{HOW}"
+    return Starter(data, spec_text(ROBOTS[family], data, header=title, lead=lead, examples=EXAMPLES))
+
+
+def board_starter(path: Path, like: str | None) -> Starter:
+    """A board's file: a grid of holds, or one that there is, told key by key.
+
+    Raises:
+        ClamberError: If there is no board to be like.
+    """
+    name = name_of(path)
+    data = starter_board(name) if like is None else read_board(like).data | {"name": name}
+    return Starter(data, board_text(data, path))
+
+
+def board_text(data: Json, path: Path) -> str:
+    """A board's document, told key by key."""
+    title = (
+        f"A board; `clamber check {path.name}` says what is wrong or odd with it.\n"
+        f"It states exactly one of holds, [ladder], [grid], [random].\n{HOW}"
+    )
+    lead = (("schema", data["schema"], "The format of this file."),)
+    return spec_text(BoardSpec, data, header=title, lead=lead, examples=EXAMPLES)
+
+
+def task_starter(path: Path, robot: str, board: str, like: str | None, overrides: Sequence[str]) -> Starter:
+    """A task's file: from the lowest stance on a board to its top, or one that there is, told key by key.
+
+    Paths of robot and board are from where the user stands; the file names them from where it lies.
+
+    Raises:
+        SpecError: If the board has no stance that the rules allow.
+        ClamberError: If there is no such robot, board or task.
+    """
+    name = name_of(path, "task")
+    if like is None:
+        data = task_data(read_board(board).data, board, path, overrides, robot) | {"name": name}
+        data |= {"robot": _from(path, robot), "board": _from(path, board)}
+        family = "limbed"
+    else:
+        data, family = _task_like(like)
+        data |= {"name": name}
+    world = TASK_FAMILIES[family].world_key
+    lead = (
+        ("schema", data["schema"], "The format of this file."),
+        ("robot", data["robot"], "Name (`clamber list robots`) or path of the robot's file, from here."),
+        (world, data[world], f"Name (`clamber list {world}s`) or path of the {world}'s file, from here."),
+    )
+    title = f"A task; `clamber check {path.name}` says whether its start holds, and by how much.\n{HOW}"
+    return Starter(data, spec_text(TASKS[family], data, header=title, lead=lead, examples=EXAMPLES))
+
+
+def _task_like(like: str) -> tuple[Json, str]:
+    path, label = find_data("task", like, DATA)
+    document = read_toml(path, label)
+    robot = document.data.get("robot")
+    if not isinstance(robot, str):
+        raise document.problem("robot", "must name a robot, or give the path of its file, in quotes")
+    family = family_of(read_robot(robot, document.folder))
+    data = dict(document.data)
+    for key in ("robot", TASK_FAMILIES[family].world_key):
+        said = data.get(key)
+        if isinstance(said, str) and said.endswith((".toml", ".csv")):
+            data[key] = str((path.parent / said).resolve())
+    return data, family
+
+
+def _from(path: Path, named: str) -> str:
+    """What a file at `path` calls a robot or a board that the user named from where they stand."""
+    if not is_path(named):
+        return named
+    target, folder = Path(named).expanduser().resolve(), path.resolve().parent
+    return str(target.relative_to(folder)) if target.is_relative_to(folder) else str(target)
+
+
+EXAMPLES: Final[Mapping[tuple[str, str], Any]] = {
+    ("Joint", "torque_limit"): "5 N m",
+    ("Joint", "no_load_speed"): "4 rad/s",
+    ("EndEffector", "cone"): "70 deg",
+    ("EndEffector", "friction"): 0.5,
+    ("EndEffector", "strength"): "30 N",
+    ("EndEffector", "opening"): "5 cm",
+    ("Motor", "amplifier_gain"): "0.5 A/V",
+    ("Motor", "control_rate"): "500 Hz",
+    ("LimbedRobot", "opposed"): [["limb-1", "limb-2"]],
+    ("BoardSpec", "keep_out"): [[["-40 cm", "0 cm"], ["-30 cm", "0 cm"], ["-30 cm", "20 cm"]]],
+    ("BoardSpec", "added"): [{"number": 900, "x": "-1 m", "y": "0 m"}],
+    ("BoardSpec", "hold_radius"): "5 mm",
+    ("LadderSpec", "rungs"): 11,
+    ("LadderSpec", "spacing"): "15 cm",
+    ("LadderSpec", "width"): "45 cm",
+    ("LadderSpec", "removed"): [7],
+    ("GridSpec", "columns"): 5,
+    ("GridSpec", "rows"): 8,
+    ("GridSpec", "spacing"): "15 cm",
+    ("GridSpec", "strength"): "30 N",
+    ("RandomSpec", "holds"): 100,
+    ("RandomSpec", "density"): "20 holds/m^2",
+    ("RandomSpec", "width"): "2 m",
+    ("RandomSpec", "least_gap"): "8 cm",
+    ("Rules", "max_power"): "80 W",
+    ("Rules", "allowed"): ["move", "grab", "release"],
+    ("Goal", "at"): ["30 cm", "90 cm"],
+    ("Goal", "x_min"): "0 cm",
+    ("Goal", "x_max"): "60 cm",
+    ("Goal", "y_min"): "80 cm",
+    ("Goal", "y_max"): "1.2 m",
+    ("Goal", "theta_min"): "-15 deg",
+    ("Goal", "theta_max"): "15 deg",
+    ("Goal", "region"): [["0 cm", "60 cm"], ["60 cm", "60 cm"], ["30 cm", "1 m"]],
+    ("Goal", "centre"): ["30 cm", "50 cm"],
+    ("Mechanism", "radius_delta"): "30 cm",
+    ("Mechanism", "radius_y"): "30 cm",
+}
+"""Values of keys that are not stated, where the spec has no default to show."""

@@ -1,0 +1,1 @@
+"""Robots, plans and runs as other programs read them."""

@@ -1,0 +1,162 @@
+"""What can be written of what: robots, plans and runs, each by the suffixes that other programs know."""
+
+import json
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, Final, Literal, TypeAlias
+
+from ..actions.plan_source import OpenedPlan, is_plan, open_plan, plan_names
+from ..errors import ClamberError, SpecError, UnknownNameError, describe_choices
+from ..execution.log_files import SUFFIXES as LOGS
+from ..files import is_path, write_atomically
+from ..robots.library import Robot, load_robot, robot_names
+from .joint_trajectory import JointTrajectory
+from .plan_table import plan_table
+from .plan_trajectories import plan_trajectory
+from .run_trajectories import run_trajectory
+
+Kind: TypeAlias = Literal["robot", "plan", "run"]
+
+
+class ExportError(ClamberError):
+    """A thing cannot be written as a file's suffix says."""
+
+    def __init__(self, path: str, kind: str, allowed: tuple[str, ...], instead: str | None) -> None:
+        super().__init__(path, kind, allowed, instead)
+        self.path, self.kind, self.allowed, self.instead = path, kind, allowed, instead
+
+    def __str__(self) -> str:
+        suffix = Path(self.path).suffix
+        shown = (
+            f"no {self.kind} can be exported as '{suffix}'" if suffix else "the name has no suffix that says the format"
+        )
+        hint = "" if self.instead is None else f"; {self.instead}"
+        return f"{self.path}: {shown}; allowed are {describe_choices(suffix, self.allowed)}{hint}"
+
+
+@dataclass(frozen=True, slots=True)
+class Content:
+    """What goes into a file."""
+
+    text: str
+    format: str
+    """In words."""
+    notes: tuple[str, ...] = ()
+    """What the reader should know, such as what the format cannot say."""
+
+
+@dataclass(frozen=True, slots=True)
+class Exported:
+    """A file that was written."""
+
+    path: Path
+    kind: Kind
+    format: str
+    notes: tuple[str, ...]
+
+
+def mjcf(robot: Robot) -> Content:
+    """A robot for MuJoCo."""
+    from ..sim.lone_robot import lone_robot
+    from ..sim.mjcf_file import mjcf_text
+
+    return Content(mjcf_text(lone_robot(robot)), "MJCF")
+
+
+def urdf(robot: Robot) -> Content:
+    """A robot for ROS, Pinocchio and others."""
+    from ..sim.lone_robot import lone_robot
+    from ..sim.urdf_file import urdf_of
+
+    written = urdf_of(lone_robot(robot))
+    return Content(written.text, "URDF", tuple(f"not in it: {loss}" for loss in written.losses))
+
+
+def _table(trajectory: JointTrajectory) -> Content:
+    return Content(trajectory.to_csv(), "joint trajectory, CSV")
+
+
+def _message(trajectory: JointTrajectory) -> Content:
+    return Content(json.dumps(trajectory.to_json(), allow_nan=False) + "\n", "trajectory_msgs/JointTrajectory, JSON")
+
+
+def _of_plan(content: Content, plan: OpenedPlan) -> Content:
+    """The same with a word about the first action that does not hold."""
+    first = plan.check().first_violation
+    if first is None:
+        return content
+    return replace(content, notes=(*content.notes, f"step {first.step} violates a hard check: {first.reason}"))
+
+
+FORMATS: Final[dict[Kind, dict[str, Callable[[Any], Content]]]] = {
+    "robot": {".xml": mjcf, ".mjcf": mjcf, ".urdf": urdf},
+    "plan": {
+        ".csv": lambda plan: _of_plan(_table(plan_trajectory(plan)), plan),
+        ".json": lambda plan: _of_plan(_message(plan_trajectory(plan)), plan),
+        ".md": lambda plan: _of_plan(Content(plan_table(plan), "table, Markdown"), plan),
+    },
+    "run": {
+        ".csv": lambda path: _table(run_trajectory(path)),
+        ".json": lambda path: _message(run_trajectory(path)),
+    },
+}
+"""Kind of thing -> suffix -> what writes it."""
+INSTEAD: Final[dict[Kind, str]] = {
+    "plan": "`clamber show PLAN -o FILE` draws it: .png .svg .pdf .gif .html .mp4",
+    "run": "`clamber run PLAN -o FILE` draws it as it runs: .png .svg .pdf .gif .html .mp4",
+}
+"""Kind -> where its other formats come from."""
+
+
+def kind_of(thing: str) -> Kind:
+    """Whether a text means a robot, a plan or the log of a run.
+
+    Raises:
+        UnknownNameError: If it looks like a name and nothing shipped has it.
+    """
+    path = Path(thing)
+    if path.suffix.lower() in LOGS:
+        return "run"
+    if is_plan(thing):
+        return "plan"
+    if thing in robot_names() or is_path(thing):
+        return "robot"
+    raise UnknownNameError("robot, plan or log", thing, (*robot_names(), *plan_names()))
+
+
+def export(thing: str, path: Path, task: str | None = None, overrides: Sequence[str] = ()) -> Exported:
+    """Write a thing as a file's suffix says, whole or not at all.
+
+    Args:
+        thing: A robot's or a plan's name or file, or the log of a run.
+        path: The file.
+        task: For plans: a task in place of the one that the plan names.
+        overrides: For plans: texts "key=value" that change the task.
+
+    Raises:
+        ExportError: If the suffix is none that the thing can be written as.
+        SpecError: If a task or overrides are given with something else than a plan.
+        ClamberError: As whatever reads the thing, and `write_atomically`.
+    """
+    kind = kind_of(thing)
+    check_export_suffix(kind, path)
+    for key, given in (("--task", task), ("--set", overrides)):
+        if given and kind != "plan":
+            raise SpecError(thing, key, given, f"is for plans; this is a {kind}")
+    source: Any = Path(thing)
+    if kind != "run":
+        source = load_robot(thing) if kind == "robot" else open_plan(thing, task, overrides)
+    content = FORMATS[kind][path.suffix.lower()](source)
+    write_atomically(path, content.text)
+    return Exported(path, kind, content.format, content.notes)
+
+
+def check_export_suffix(kind: Kind, path: Path) -> None:
+    """Makes sure that a kind of thing can be written as a file's suffix says.
+
+    Raises:
+        ExportError: If not; it names what can.
+    """
+    if path.suffix.lower() not in FORMATS[kind]:
+        raise ExportError(str(path), kind, tuple(FORMATS[kind]), INSTEAD.get(kind))

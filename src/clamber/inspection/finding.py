@@ -1,0 +1,62 @@
+"""What an inspection answers."""
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+from ..types import Json
+
+Kind = Literal["robot", "board", "ground", "task", "walk", "plan"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Margin:
+    """One check of a start stance."""
+
+    check: str
+    unit: str
+    margin: float | None
+    """Signed, in `unit`: positive holds; None where nothing limits it."""
+    hard: bool
+    """Whether the task's rules forbid what violates it."""
+    meaning: str
+
+    @property
+    def holds(self) -> bool:
+        """Whether it does."""
+        return self.margin is None or self.margin >= 0.0
+
+    def to_json(self) -> Json:
+        """Plain data."""
+        return {"check": self.check, "unit": self.unit, "margin": self.margin, "hard": self.hard, "holds": self.holds}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Finding:
+    """What a file is and what is to be said of it; a file that breaks a rule of its format is an error and has none."""
+
+    kind: Kind
+    name: str
+    title: str
+    facts: dict[str, str]
+    """Word -> value with its unit, for people."""
+    odd: tuple[str, ...] = ()
+    """What is allowed and yet most likely not meant, in sentences."""
+    margins: tuple[Margin, ...] = field(default=())
+    """Of a task's start stance, in the order of its checks."""
+
+    @property
+    def ok(self) -> bool:
+        """Whether every hard check holds; files without a start are always."""
+        return all(margin.holds for margin in self.margins if margin.hard)
+
+    def to_json(self) -> Json:
+        """Plain data."""
+        return {
+            "kind": self.kind,
+            "ok": self.ok,
+            "name": self.name,
+            "title": self.title,
+            "facts": self.facts,
+            "odd": list(self.odd),
+            "margins": [margin.to_json() for margin in self.margins],
+        }

@@ -1,0 +1,56 @@
+"""The results of every study by name: for lists, which must not wait until all studies are loaded."""
+
+from typing import Final
+
+RESULTS: Final[dict[str, tuple[str, ...]]] = {
+    "bevly-1997": (
+        "inventory-size",
+        "ladder-plan",
+        "h-hand-plan",
+        "h-planner-plan",
+        "modified-ladder-plan",
+        "across-plan",
+        "circle-plan",
+        "hook-check",
+        "nominal-gait",
+        "no-rotation",
+        "no-rotation-free",
+        "step-size",
+        "h-torques",
+        "modified-ladder-evolution",
+        "h-evolution",
+        "planner-success",
+        "fig-3-9",
+        "fig-3-10",
+        "fig-3-11",
+        "fig-3-12",
+        "fig-3-13",
+        "fig-3-14",
+        "fig-4-15",
+        "fig-4-16",
+        "fig-4-17",
+        "fig-4-18",
+        "fig-4-19",
+        "section-4-4-4",
+        "table-4-2",
+    ),
+    "boards-exact": (
+        "optima",
+        "h-torque-front",
+        "least-torque",
+        "no-rotation",
+        "hook-cost",
+        "narrowest-cone",
+        "peg-spacing",
+    ),
+    "hoshino-1995": (
+        "table",
+        "fig-4",
+        "fig-5",
+        "fig-10",
+        "fig-11",
+        "section-6-2",
+        "equation-19",
+    ),
+}
+"""Paper or subject -> its results, as in `library.STUDIES`."""

@@ -1,0 +1,206 @@
+"""The viewer's server: its panel, its lights and its camera, from the first picture to its end."""
+
+import contextlib
+import io
+import socket
+from typing import TYPE_CHECKING, Final
+
+from ...actions.plan import Plan
+from ...errors import ClamberError
+from ...experiments.climb.run_plan import ClimbRun
+from ...experiments.walk.run_walk import WalkRun
+from ...tasks import Task
+from ...tasks.limbed import LimbedTask
+from .. import style
+from .board_panel import BoardPanel
+from .climb_scenery import FOV
+from .exhibit import Exhibit, planned_exhibit, run_film
+from .inputs import by_hand, set_input
+from .playback import Playback
+from .run_film import ClimbFilm
+from .scenery import Camera
+from .solids import colour
+from .stage import Stage
+from .wall_scene import WallScene
+from .work_panel import WorkPanel
+
+if TYPE_CHECKING:
+    import viser
+
+LOOPBACK: Final = "127.0.0.1"
+SHOWN: Final = ("plan", "run", "both")
+WIDTH: Final = 400.0
+"""Of the panel [pixels]."""
+
+
+class MissingViserError(ClamberError):
+    """The viewer is asked for without the package that it is made with."""
+
+    def __str__(self) -> str:
+        return "the viewer needs the package 'viser', which is not installed; pip install \"clamber[view]\""
+
+
+class PortError(ClamberError):
+    """The viewer cannot listen where it is asked to."""
+
+    def __init__(self, host: str, port: int, why: str) -> None:
+        super().__init__(host, port, why)
+        self.host, self.port, self.why = host, port, why
+
+    def __str__(self) -> str:
+        return f"cannot listen on {self.host}, port {self.port}: {self.why}; name another with --port, or none for any that is free"
+
+
+def check_viser() -> None:
+    """Makes sure that the viewer can be made.
+
+    Raises:
+        MissingViserError: If its package is missing.
+    """
+    try:
+        import viser  # noqa: F401
+    except ImportError:
+        raise MissingViserError from None
+
+
+def free_port(host: str, port: int) -> int:
+    """The port if it is free, or with 0 one that is.
+
+    Raises:
+        PortError: If it cannot be listened on.
+    """
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    with socket.socket(family, socket.SOCK_STREAM) as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind((host, port))
+        except (OSError, OverflowError) as error:
+            raise PortError(host, port, getattr(error, "strerror", None) or str(error)) from None
+        return int(probe.getsockname()[1])
+
+
+class App:
+    """A viewer that is open.
+
+    Args:
+        exhibit: What is shown.
+        host: Where to listen; only this machine can reach the usual one.
+        port: Where to listen; 0: any that is free.
+
+    Raises:
+        MissingViserError: If its package is missing.
+        PortError: If it cannot listen there.
+    """
+
+    def __init__(self, exhibit: Exhibit, host: str = LOOPBACK, port: int = 0) -> None:
+        check_viser()
+        import viser
+
+        with contextlib.redirect_stdout(io.StringIO()):  # it greets; who opens it says where it is
+            self.server = viser.ViserServer(host=host, port=free_port(host, port), label="Clamber", verbose=False)
+        self.exhibit = exhibit
+        server = self.server
+        light_scene(server)
+        server.gui.configure_theme(show_logo=False, show_share_button=False, brand_color=colour(style.PARTS[0]))
+        server.gui.set_panel_label(exhibit.title)
+        server.gui.main_panel.dock_right()
+        server.gui.main_panel.set_width(WIDTH)
+        self.stage = Stage(server, exhibit.scenery)
+        self.stage.set_film("plan", exhibit.plan_film)
+        self.stage.set_film("run", exhibit.run_film)
+        self.stage.shown = "both" if len(self.stage.films) > 1 else "plan"
+        tabs = server.gui.add_tab_group()
+        with tabs.add_tab("Play", viser.Icon.PLAYER_PLAY):
+            self._shown = server.gui.add_dropdown("show", SHOWN, initial_value="both", visible=False)
+            self.stage.add_head()
+            self.playback = Playback(server, self.stage.show, self.stage.main)
+            self.stage.add_details()
+        self._shown.on_update(by_hand(lambda _: self.choose(self._shown.value)))
+        self.work: WorkPanel | None = None
+        self.board: BoardPanel | None = None
+        if exhibit.task is not None:
+            limbed = isinstance(exhibit.task, LimbedTask)
+            with tabs.add_tab("Board" if limbed else "Plan", viser.Icon.EDIT if limbed else viser.Icon.ROUTE):
+                self._add_work(exhibit.task)
+        self.choose("both")
+        aim_camera(server, exhibit.scenery.camera())
+
+    def choose(self, shown: str) -> None:
+        """Show the plan, the run, or both, as far as they are there."""
+        stage = self.stage
+        options = (
+            SHOWN if isinstance(stage.films.get("run"), ClimbFilm) else SHOWN[:2]
+        )  # walks don't tell where in a plan they are
+        stage.shown = "plan" if shown == "plan" else "run" if shown == "run" or shown not in options else "both"
+        self._shown.visible = len(stage.films) > 1
+        self._shown.options = options
+        set_input(self._shown, stage.shown)
+        self.playback.load(stage.main)
+
+    def show_task(self, task: Task, plan: Plan | None = None) -> None:
+        """Show a task with a plan, or its start.
+
+        Raises:
+            ClamberError: If its start violates a hard check.
+        """
+        self.exhibit = exhibit = planned_exhibit(task, plan)
+        with self.playback.still():
+            self.stage.set_scenery(exhibit.scenery)
+            self.stage.set_film("plan", exhibit.plan_film)
+            self.choose("plan")
+
+    def show_run(self, run: ClimbRun | WalkRun) -> None:
+        """Play a run beside its plan."""
+        self.exhibit.run_film = run_film(self.exhibit, run)
+        with self.playback.still():
+            self.stage.set_film("run", self.exhibit.run_film)
+            self.choose("both")
+        self.playback.play(True)
+
+    def _add_work(self, task: Task) -> None:
+        if isinstance(task, LimbedTask):
+            self.board = BoardPanel(self.server, task, self._wall, self.show_task)
+        self.work = WorkPanel(
+            self.server,
+            (lambda: task) if self.board is None else self.board.task,
+            lambda: self.exhibit.plan,
+            self.show_task,
+            lambda task, plan, run: self.show_run(run),
+        )
+
+    def _wall(self) -> WallScene:
+        assert isinstance(self.stage.world, WallScene)  # a climber's
+        return self.stage.world
+
+    @property
+    def url(self) -> str:
+        """Where the page is."""
+        host = self.server.get_host()
+        shown = {"0.0.0.0": LOOPBACK, "::": "[::1]"}.get(host, f"[{host}]" if ":" in host else host)
+        return f"http://{shown}:{self.server.get_port()}"
+
+    def close(self) -> None:
+        """End the work, the clock and the server."""
+        if self.work is not None:
+            self.work.labour.stop(wait=1.0)
+        self.playback.stop()
+        with contextlib.redirect_stdout(io.StringIO()):  # its last words
+            self.server.stop()
+
+
+def aim_camera(server: "viser.ViserServer", at: Camera) -> None:
+    """Set where pages look from when they open."""
+    camera = server.initial_camera
+    camera.position, camera.look_at, camera.fov = tuple(at.position), tuple(at.look_at), FOV
+    camera.near, camera.far = 0.01, 200.0
+
+
+def light_scene(server: "viser.ViserServer") -> None:
+    """Set light and background: the sun comes over the viewer's left shoulder, and shadows are soft."""
+    scene = server.scene
+    scene.set_up_direction("+z")
+    scene.configure_default_lights(enabled=False)
+    scene.configure_environment_map(None)  # plain lights look the same on every machine, and cost less
+    white = (255, 255, 255)
+    scene.add_light_hemisphere("/lights/sky", sky_color=white, ground_color=(170, 170, 180), intensity=1.5)
+    scene.add_light_directional("/lights/sun", color=white, intensity=2.0, cast_shadow=True, position=(-2.0, -5.0, 4.0))

@@ -1,0 +1,106 @@
+"""The viewer as one page that needs no server: the scene recorded, and what the panel says of it beside."""
+
+import contextlib
+import html
+import io
+import json
+from itertools import pairwise
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from ...files import write_atomically
+from ...types import Json
+from .. import style
+from ..output import check_suffix
+from ..player import round_all
+from .app import LOOPBACK, aim_camera, check_viser, free_port, light_scene
+from .exhibit import Exhibit
+from .film import Film
+from .page_script import PANEL
+from .panel_html import head_html, margins_html
+from .stage import STRIPS, Stage
+
+SUFFIXES: Final = (".html",)
+PICTURES: Final = 20.0
+"""Of a recording, in a second of it."""
+MOST: Final = 2400
+"""Pictures of a recording, at most: longer films get fewer in a second."""
+
+
+def write_page(exhibit: Exhibit, path: Path) -> int:
+    """Write a viewer's page with the recorded scene and the client inside; nothing is loaded from elsewhere.
+
+    Returns:
+        Its size [bytes].
+
+    Raises:
+        SuffixError: If the file's suffix is not .html.
+        MissingViserError: If the viewer's package is missing.
+        FileError: If the file cannot be written.
+    """
+    check_suffix(path, SUFFIXES)
+    check_viser()
+    import viser
+
+    with contextlib.redirect_stdout(io.StringIO()):  # it greets, and nobody is to come
+        server = viser.ViserServer(host=LOOPBACK, port=free_port(LOOPBACK, 0), verbose=False)
+        try:
+            page = _record(server, exhibit)
+        finally:
+            server.stop()
+    content = page.encode()
+    write_atomically(path, content)
+    return len(content)
+
+
+def _record(server: Any, exhibit: Exhibit) -> str:
+    stage = Stage(server, exhibit.scenery)
+    light_scene(server)
+    stage.set_film("plan", exhibit.plan_film)
+    stage.set_film("run", exhibit.run_film)
+    stage.shown = "both" if len(stage.films) > 1 else "plan"
+    aim_camera(server, exhibit.scenery.camera())
+    film = stage.main
+    times = _times(film)
+    stage.show(film, 0.0)
+    recorder = server.get_scene_serializer()
+    for before, now in pairwise(times.tolist()):
+        recorder.insert_sleep((now - before) / film.speed)
+        stage.show(film, now)
+    page: str = recorder.as_html()
+    data = json.dumps(panel_data(film, times, stage.main_kind), separators=(",", ":"), allow_nan=False)
+    data = data.replace("<", "\\u003c")  # so that no name in the data can end the script
+    panel = PANEL.replace("@TITLE@", html.escape(exhibit.title)).replace("@DATA@", data)
+    end = page.rindex("</body>")
+    return page[:end] + panel + page[end:]
+
+
+def _times(film: Film[Any]) -> "np.ndarray[tuple[int], np.dtype[np.float64]]":
+    """When the pictures are taken, in the film's time [s]."""
+    count = int(min(MOST, np.ceil(film.seconds / film.speed * PICTURES)))
+    return np.linspace(0.0, film.seconds, max(count, 1) + 1) if film.seconds > 0.0 else np.zeros(1)
+
+
+def panel_data(film: Film[Any], times: "np.ndarray[tuple[int], np.dtype[np.float64]]", kind: str) -> Json:
+    """What the page's own panel is given; times in seconds of the recording."""
+    gauges = film.gauges
+    moments = [film.at(float(time)) for time in times]
+    return {
+        "times": round_all(times / film.speed),
+        "starts": round_all(film.starts / film.speed),
+        "rests": round_all(film.rest(step) / film.speed for step in range(len(film.steps))),
+        "steps": [
+            {"words": words, "grade": grade, "head": head_html(film, k, film.at(film.rest(k))), "margins": margins_html(film.margins(k))}
+            for k, (words, grade) in enumerate(zip(film.steps, film.grades, strict=True))
+        ],
+        "worst": film.worst,
+        "strip": {"title": STRIPS[kind], "colours": style.STRIP, "words": film.words},
+        "bars": {
+            "title": gauges.title, "names": gauges.names, "colours": gauges.colours, "low": gauges.low.tolist(),
+            "high": gauges.high.tolist(), "limits": [share for share, _ in gauges.limits], "calm": gauges.calm,
+            "unit": gauges.unit, "alert": style.ALERT,
+        },
+        "values": [round_all(film.values(moment)) for moment in moments],
+    }  # fmt: skip

@@ -1,0 +1,82 @@
+# ruff: noqa: E501 - a part of a page, not code
+"""The panel of a page without a server: it follows the time bar of the recording, and sets it."""
+
+from typing import Final
+
+PANEL: Final = r"""<style>
+#clamber { position: fixed; left: 12px; top: 12px; width: 340px; max-height: calc(100vh - 76px); overflow: auto; z-index: 2; background: #fffffff2; color: #22303c;
+  font: 13px/1.4 system-ui, sans-serif; border-radius: 8px; box-shadow: 0 1px 8px #22303c2e; padding: 10px 0; box-sizing: border-box; }
+#clamber[hidden] { display: none; } #clamber h1 { font-size: 15px; margin: 0 40px 6px 12px; } #clamber h2 { font-size: 12px; margin: 10px 12px 3px; }
+#clamber ol { list-style: none; margin: 0; padding: 0; max-height: 200px; overflow: auto; border-block: 1px solid #dce1e6; }
+#clamber li { padding: 2px 12px; cursor: pointer; display: flex; gap: 8px; align-items: baseline; } #clamber li:hover { background: #f1f4f7; }
+#clamber li.now { background: #dfe8f0; font-weight: 600; } #clamber li.worst b { outline: 2px solid #22303c; }
+#clamber li i { width: 10px; height: 10px; flex: none; border-radius: 2px; } #clamber li b { min-width: 22px; text-align: right; color: #6e7b87; font-weight: 500; }
+#clamber canvas { width: calc(100% - 24px); height: 14px; margin: 3px 12px; display: block; cursor: pointer; }
+#clamber .bar { display: grid; grid-template-columns: 105px 1fr 74px; gap: 8px; padding: 1px 12px; align-items: center; font-size: 12px; }
+#clamber .bar > div { position: relative; height: 8px; background: #dce1e6; } #clamber .bar > div > div { height: 8px; } #clamber .bar > span:last-child { text-align: right; }
+#clamber .bar i { position: absolute; top: -2px; bottom: -2px; width: 2px; margin-left: -1px; }
+#clamber .legend { padding: 0 12px; font-size: 11px; color: #6e7b87; } #clamber .legend i { display: inline-block; width: 9px; height: 9px; margin: 0 3px 0 8px; }
+#clamber-fold { position: fixed; left: 318px; top: 16px; width: 28px; z-index: 3; font: 14px system-ui, sans-serif; background: none; border: 0; color: #6e7b87; cursor: pointer; }
+#clamber[hidden] + #clamber-fold { left: 12px; background: #fff; border-radius: 6px; box-shadow: 0 1px 8px #22303c2e; }
+</style>
+<aside id="clamber"><h1>@TITLE@</h1><div data-part="head"></div><h2 data-part="strip-title"></h2><canvas data-part="strip"></canvas><div class="legend"></div>
+<h2>Steps</h2><ol></ol><h2 data-part="bars-title"></h2><div data-part="bars"></div><h2>Margins</h2><div data-part="margins"></div></aside>
+<button id="clamber-fold" aria-label="Hide panel" title="Hide panel">&#x2715;</button>
+<script id="clamber-data" type="application/json">@DATA@</script>
+<script>
+"use strict";
+(() => {
+const D = JSON.parse(document.getElementById("clamber-data").textContent), panel = document.getElementById("clamber");
+const part = name => panel.querySelector('[data-part="' + name + '"]'), list = panel.querySelector("ol"), strip = part("strip"), G = D.bars;
+const fold = document.getElementById("clamber-fold");
+fold.onclick = () => { panel.hidden = !panel.hidden; const words = panel.hidden ? "Show panel" : "Hide panel"; fold.title = words; fold.setAttribute("aria-label", words); fold.textContent = panel.hidden ? "\u2630" : "\u2715"; };
+part("strip-title").textContent = D.strip.title; part("bars-title").textContent = G.title;
+D.strip.words.forEach((word, k) => { const i = document.createElement("i"); i.style.background = D.strip.colours[k]; panel.querySelector(".legend").append(i, word); });
+const items = D.steps.map((step, k) => {
+  const li = document.createElement("li"), i = document.createElement("i"), b = document.createElement("b");
+  i.style.background = k ? D.strip.colours[step.grade] : "transparent"; b.textContent = k; li.append(i, b, step.words);
+  if (k === D.worst) li.classList.add("worst");
+  li.onclick = () => seek(D.rests[k]); list.append(li); return li;
+});
+const rows = G.names.map(name => {
+  const row = document.createElement("div"); row.className = "bar"; row.innerHTML = "<span></span><div><div></div></div><span></span>"; row.firstChild.textContent = name;
+  for (const share of G.limits) { const i = document.createElement("i"); i.style.left = 100 * share + "%"; i.style.background = G.alert; row.children[1].append(i); }
+  part("bars").append(row); return [row.children[1].firstChild, row.lastChild];
+});
+// The recording's own time bar tells the time; the number field beside it takes another.
+const field = () => document.querySelector("#root .mantine-NumberInput-input"), bar = () => document.querySelector("#root [role=slider]");
+function seek(time) {
+  const input = field(); if (!input) return;
+  Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, "value").set.call(input, time.toFixed(4));
+  input.dispatchEvent(new Event("input", { bubbles: true })); show(time);
+}
+function last(list, time) { let lo = 0, hi = list.length - 1; while (lo < hi) { const m = (lo + hi + 1) >> 1; list[m] <= time + 1e-6 ? lo = m : hi = m - 1; } return lo; }
+let shown = -1;
+function show(time) {
+  const step = last(D.starts, time), values = D.values[last(D.times, time)];
+  values.forEach((v, q) => { const [fill, text] = rows[q], u = (Math.abs(v) - G.low[q]) / (G.high[q] - G.low[q]);
+    fill.style.width = 100 * Math.min(Math.max(u, 0), 1) + "%"; fill.style.background = u < G.calm[0] || u > G.calm[1] ? G.alert : G.colours[q];
+    text.textContent = (v / G.unit[1]).toFixed(G.unit[2]).replace(/^-(0\.?0*)$/, "$1") + " " + G.unit[0]; });
+  draw(step);
+  if (step === shown) return;
+  if (items[shown]) items[shown].classList.remove("now");
+  shown = step; items[step].classList.add("now"); panel.dataset.step = step;
+  const top = items[step].offsetTop - list.offsetTop; if (top < list.scrollTop + 20 || top > list.scrollTop + list.clientHeight - 40) list.scrollTop = top - list.clientHeight / 2;
+  part("head").innerHTML = D.steps[step].head; part("margins").innerHTML = D.steps[step].margins;
+}
+function draw(step) {
+  const r = window.devicePixelRatio || 1, w = Math.round(strip.clientWidth * r), h = Math.round(strip.clientHeight * r), n = D.steps.length - 1;
+  if (strip.width !== w || strip.height !== h) { strip.width = w; strip.height = h; }
+  const g = strip.getContext("2d"); g.clearRect(0, 0, w, h); if (!n) return;
+  for (let k = 1; k <= n; k++) { g.fillStyle = D.strip.colours[D.steps[k].grade]; g.fillRect((k - 1) / n * w, 0, w / n + .5, h); }
+  g.strokeStyle = g.fillStyle = "#22303c"; g.lineWidth = 2;
+  if (D.worst) g.strokeRect((D.worst - 1) / n * w + 1, 1, Math.max(w / n - 2, 2), h - 2);
+  g.fillRect(Math.max(step - .5, 0) / n * w - 1, 0, 2, h);
+}
+strip.onclick = e => { const n = D.steps.length - 1; if (n) seek(D.rests[Math.min(n, 1 + Math.floor(e.offsetX / strip.clientWidth * n))]); };
+show(0);
+setInterval(() => { const slider = bar(); if (slider) show(Number(slider.getAttribute("aria-valuenow")) || 0); }, 80);
+})();
+</script>
+"""
+"""`@TITLE@` and `@DATA@` are replaced; the data is JSON as `page.panel_data` makes it."""

@@ -1,0 +1,156 @@
+"""Solids that a scene is made of: sticks and balls in batches, whose places change, and meshes that are made once."""
+
+import math
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+import numpy.typing as npt
+from matplotlib.colors import to_rgb
+from matplotlib.path import Path as Outline
+from scipy.spatial import Delaunay
+
+from ...types import Floats, Ints
+
+if TYPE_CHECKING:
+    import viser
+
+Mesh = tuple[Floats, Ints]
+"""Vertices, shape (n, 3) [m], and triangles, shape (m, 3)."""
+Colours = npt.NDArray[np.uint8]
+"""Shape (n, 3)."""
+SIDES: Final = 20
+"""Flat sides of what is round."""
+
+
+def colour(name: str) -> tuple[int, int, int]:
+    """A colour as the browser takes it, from 0 to 255 each."""
+    red, green, blue = to_rgb(name)
+    return round(255 * red), round(255 * green), round(255 * blue)
+
+
+def lathe(profile: Floats) -> Mesh:
+    """The solid that a profile makes as it turns about z.
+
+    Args:
+        profile: Radius and height of its corners from the bottom to the top, both ends on the axis, shape (n, 2).
+    """
+    turn = np.arange(SIDES) * (math.tau / SIDES)
+    around = np.stack((np.cos(turn), np.sin(turn)), axis=-1)
+    rings = profile[:, None, :1] * around[None]
+    heights = np.broadcast_to(profile[:, 1, None, None], (len(profile), SIDES, 1))
+    corners = np.arange(len(profile) * SIDES).reshape(len(profile), SIDES)
+    low, high = corners[:-1], corners[1:]
+    quads = (low, np.roll(low, -1, axis=1), np.roll(high, -1, axis=1), high)
+    faces = np.concatenate([np.stack((quads[0], quads[k], quads[k + 1]), axis=-1).reshape(-1, 3) for k in (1, 2)])
+    return np.concatenate((rings, heights), axis=-1).reshape(-1, 3), faces
+
+
+def rod() -> Mesh:
+    """A rod of radius 1 from 0 to 1 along z."""
+    return lathe(np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]))
+
+
+def ball() -> Mesh:
+    """A ball of radius 1."""
+    rise = np.linspace(-0.5 * math.pi, 0.5 * math.pi, 13)
+    return lathe(np.stack((np.cos(rise), np.sin(rise)), axis=-1))
+
+
+def prism(outline: Floats, bottom: float, top: float) -> Mesh:
+    """What lies over a simple polygon between two heights along z.
+
+    Args:
+        outline: Corners, shape (n, 2) [m].
+        bottom: [m].
+        top: [m].
+    """
+    ways = np.roll(outline, -1, axis=0) - outline
+    if np.sum(outline[:, 0] * ways[:, 1] - outline[:, 1] * ways[:, 0]) < 0.0:
+        outline = outline[::-1]
+    n = len(outline)
+    vertices = np.concatenate([np.column_stack((outline, np.full(n, height))) for height in (bottom, top)])
+    lid = _triangles(outline)
+    here, then = np.arange(n), np.roll(np.arange(n), -1)
+    walls = np.concatenate([np.stack(three, axis=-1) for three in ((here, then, then + n), (here, then + n, here + n))])
+    return vertices, np.concatenate((lid[:, ::-1], lid + n, walls))
+
+
+def _triangles(outline: Floats) -> Ints:
+    """Triangles of a polygon's inside, anticlockwise, shape (m, 3)."""
+    found = Delaunay(outline).simplices
+    inside = Outline(outline).contains_points(outline[found].mean(axis=1))
+    kept = found[inside]
+    a, b, c = (outline[kept[:, k]] for k in range(3))
+    turned = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0]) < 0.0
+    kept[turned] = kept[turned][:, ::-1]
+    made: Ints = kept.astype(np.int32)
+    return made
+
+
+def along_z(ways: Floats) -> Floats:
+    """Quaternions w, x, y, z that turn the z axis into some directions, shape (n, 4).
+
+    Args:
+        ways: Of any length but none, shape (n, 3).
+    """
+    x, y, z = (ways / np.linalg.norm(ways, axis=1, keepdims=True)).T
+    turns = np.stack((1.0 + z, -y, x, np.zeros(len(z))), axis=-1)
+    turns[z < -1.0 + 1e-9] = (0.0, 1.0, 0.0, 0.0)
+    made: Floats = turns / np.linalg.norm(turns, axis=1, keepdims=True)
+    return made
+
+
+class Sticks:
+    """Straight round sticks, each with a colour and a radius of its own.
+
+    Args:
+        server: The scene's.
+        name: In the scene's tree.
+        colours: Of each, shape (n, 3).
+        radii: Shape (n,) [m].
+        opacity: Of all.
+    """
+
+    def __init__(
+        self, server: "viser.ViserServer", name: str, colours: Colours, radii: Floats, opacity: float = 1.0
+    ) -> None:
+        self._radii = radii
+        n = len(radii)
+        self.node = server.scene.add_batched_meshes_simple(
+            name, *rod(), np.tile((1.0, 0.0, 0.0, 0.0), (n, 1)), np.zeros((n, 3)), batched_scales=np.full((n, 3), 1e-6),
+            batched_colors=colours, opacity=None if opacity >= 1.0 else opacity, lod="off", cast_shadow=opacity >= 1.0,
+        )  # fmt: skip
+
+    def put(self, ends: Floats) -> None:
+        """Put every stick between its ends, shape (n, 2, 3) [m]; one without length, or with an end that is NaN, is not seen."""
+        ways = ends[:, 1] - ends[:, 0]
+        lengths = np.linalg.norm(ways, axis=1)
+        seen = np.asarray(lengths > 1e-6)  # NaN is not
+        self.node.batched_positions = np.where(seen[:, None], ends[:, 0], 0.0).astype(np.float32)
+        self.node.batched_wxyzs = along_z(np.where(seen[:, None], ways, (0.0, 0.0, 1.0))).astype(np.float32)
+        scales = np.column_stack((self._radii, self._radii, lengths))
+        self.node.batched_scales = np.where(seen[:, None], scales, 1e-6).astype(np.float32)
+
+
+class Balls:
+    """Balls, each with a colour and a radius of its own; arguments as those of `Sticks`."""
+
+    def __init__(
+        self, server: "viser.ViserServer", name: str, colours: Colours, radii: Floats, opacity: float = 1.0
+    ) -> None:
+        n = len(radii)
+        self._colours, self._scales = colours, np.repeat(radii[:, None], 3, axis=1).astype(np.float32)
+        self.node = server.scene.add_batched_meshes_simple(
+            name, *ball(), np.tile((1.0, 0.0, 0.0, 0.0), (n, 1)), np.zeros((n, 3)), batched_scales=self._scales,
+            batched_colors=colours, opacity=None if opacity >= 1.0 else opacity, lod="off", cast_shadow=opacity >= 1.0,
+        )  # fmt: skip
+
+    def put(self, centres: Floats, colours: Colours | None = None) -> None:
+        """Put every ball at its centre, shape (n, 3) [m]; one with NaN is not seen. Colours stay, unless given."""
+        seen = np.asarray(np.isfinite(centres).all(axis=1))
+        self.node.batched_positions = np.where(seen[:, None], centres, 0.0).astype(np.float32)
+        if not seen.all():
+            self.node.batched_scales = np.where(seen[:, None], self._scales, 1e-6).astype(np.float32)
+        if colours is not None and not np.array_equal(colours, self._colours):
+            self._colours = colours
+            self.node.batched_colors = colours

@@ -1,0 +1,230 @@
+"""Walks as films: as planned, and as they truly were."""
+
+import math
+from typing import Any, Final
+
+import numpy as np
+
+from ...execution.walk.true_walk import TrueWalk, hull_margins
+from ...execution.walk.walk_trace import WalkTrace
+from ...robots.walker import WalkerRobot
+from ...types import Floats, Json
+from ...units import DEGREE, GRAVITY
+from ...worlds.ground import Ground, Surface
+from ..walk_shapes import WalkShapes, shapes_at
+from ..walker_artists import NAMES
+from ..walker_motion import WalkerMoment
+from ..walker_view import WalkerView, actuator_gauges
+from .film import Film, MarginRow, PlanFilm
+from .walker_figure import WalkMoment
+
+USUAL: Final = 16.0
+"""A walk takes many minutes: it is played that much faster than it was [-]."""
+ENDED_WELL: Final = ("ok", "moved")
+"""Outcomes of steps after which the walk goes on."""
+LIFTED: Final = 0.6
+"""How high lifted feet are drawn in a plan, which knows no heights, over the clearance that the robot's legs lift to [-]."""
+
+
+class PlannedWalkFilm(Film[WalkMoment]):
+    """A planned walk: the plan's moments, which know no heights, put onto the ground.
+
+    Args:
+        view: Of its replay.
+    """
+
+    def __init__(self, view: WalkerView) -> None:
+        self._film, self._task = PlanFilm(view), view.task
+        self._surface = Surface(view.task.world)
+        film = self._film
+        self.title, self.gauges, self.seconds, self.steps = film.title, film.gauges, film.seconds, film.steps
+        self.grades, self.starts, self.ends = film.grades, film.starts, film.ends
+
+    def at(self, time: float) -> WalkMoment:
+        """See `Film`."""
+        return self.on_ground(self._film.at(time))
+
+    def on_ground(self, at: WalkerMoment) -> WalkMoment:
+        """A planned moment with heights: the plate is level, as high above the highest foot that stands as its legs usually are."""
+        robot, feet = self._task.robot, at.outline.feet
+        ground = self._surface.heights(feet)
+        ground = np.where(np.isfinite(ground), ground, 0.0)
+        lifts = np.array(at.lifts)
+        stands = lifts == 0.0
+        plate = float(ground[stands].max()) + robot.legs.nominal
+        soles = np.concatenate((feet, (ground + LIFTED * robot.legs.lift * lifts[:, None])[..., None]), axis=-1)
+
+        def level(points: Floats) -> Floats:
+            return np.concatenate((points, np.full((*points.shape[:-1], 1), plate)), axis=-1)
+
+        delta, star = (level(frame) for frame in at.outline.frames)
+        legs = np.stack((level(feet), soles), axis=2)
+        centre = np.array((*at.outline.centre_of_mass, plate))
+        touching = np.repeat(stands.astype(np.int32)[:, None], 3, axis=1)
+        shapes = WalkShapes(
+            (delta[[0, 1, 2, 0]], star[[1, 0, 2, 0, 3]]), level(at.outline.actuators), legs, touching, np.full((3, 3), np.nan), centre
+        )  # fmt: skip
+        return WalkMoment(shapes, np.zeros((2, 3, 3)), _weight(robot), at.poses)
+
+    def values(self, at: WalkMoment) -> Floats:
+        """See `Film`."""
+        return _lengths(at)
+
+    def facts(self, step: int, at: WalkMoment) -> tuple[tuple[str, str], ...]:
+        """See `Film`."""
+        words = []
+        for name, (x, y, angle), touching in zip(NAMES, at.poses.tolist(), at.shapes.touching, strict=True):
+            turn = math.remainder(angle, math.tau) / DEGREE
+            words.append(
+                (
+                    name,
+                    f"x {100 * x:.1f} cm,  y {100 * y:.1f} cm,  {turn + 0.0:.0f}°  ({'stands' if touching.all() else 'lifted'})",
+                )
+            )
+        return tuple(words)
+
+    def margins(self, step: int) -> list[MarginRow]:
+        """See `Film`."""
+        return self._film.margins(step)
+
+    @property
+    def worst(self) -> int | None:
+        """See `Film`."""
+        return self._film.worst
+
+
+class WalkFilm(Film[WalkMoment]):
+    """A walk as it truly was, in its own time.
+
+    Args:
+        robot: The walker.
+        ground: As it truly is.
+        trace: What happened.
+        report: As the walk's log has it.
+        title: Above all.
+    """
+
+    speed = USUAL
+    words = ("failed", "near tipping", "fair balance", "ample balance")
+
+    def __init__(self, robot: WalkerRobot, ground: Ground, trace: TrueWalk, report: Json, title: str) -> None:
+        self._robot, self._trace, self.title = robot, trace, title
+        self.gauges = actuator_gauges(robot)
+        self.seconds = float(trace.time[-1])
+        self._steps: list[dict[str, Any]] = list(report.get("steps", ()))
+        self.steps = ("start", *(self._say(step) for step in self._steps))
+        begins = [float(step["start"]) for step in self._steps]
+        self.starts = np.array([0.0, *begins])
+        self.ends = np.array([0.0, *begins[1:], self.seconds] if begins else [0.0])
+        self._weight = _weight(robot)
+        self._size = 0.5 * min(robot.legs.radius_delta, robot.legs.radius_y)
+        self._margins = _true_margins(trace)
+        self._least = [self._least_of(k) for k in range(1, len(self.steps))]
+        self.grades = (3, *(self._grade(step, least) for step, least in zip(self._steps, self._least, strict=True)))
+
+    @staticmethod
+    def _say(step: Json) -> str:
+        return f"{step['frame']}-frame to {float(step['way']):.2f} m: {step['outcome']}"
+
+    def _least_of(self, step: int) -> float:
+        rows = slice(*np.searchsorted(self._trace.time, (self.starts[step], self.ends[step])))
+        margins = self._margins[rows]
+        known = margins[np.isfinite(margins)]
+        return float(known.min()) if known.size else math.nan
+
+    def _grade(self, step: Json, least: float) -> int:
+        if step["outcome"] not in ENDED_WELL:
+            return 0
+        share = least / self._size
+        return 3 if math.isnan(share) or share >= 0.3 else 2 if share >= 0.1 else 1
+
+    def at(self, time: float) -> WalkMoment:
+        """See `Film`."""
+        trace = self._trace
+        k = min(int(np.searchsorted(trace.time, time)), len(trace.time) - 1)
+        shapes = shapes_at(self._robot, trace, k)
+        x, y, _, alpha = trace.pose[k, :4]
+        c, s = math.cos(alpha), math.sin(alpha)
+        px, py, theta = trace.place[k]
+        poses = np.array(((x, y, alpha), (x + c * px - s * py, y + s * px + c * py, alpha + theta)))
+        return WalkMoment(
+            shapes, trace.forces[k], self._weight, poses, float(trace.time[k]), float(trace.tilts[k]), float(self._margins[k])
+        )  # fmt: skip
+
+    def values(self, at: WalkMoment) -> Floats:
+        """See `Film`."""
+        return _lengths(at)
+
+    def facts(self, step: int, at: WalkMoment) -> tuple[tuple[str, str], ...]:
+        """See `Film`."""
+        x, y, alpha = at.poses[0]
+        balance = f"{1e3 * at.margin:.0f} mm inside the standing feet" if math.isfinite(at.margin) else "not told"
+        told = [
+            ("Time", f"{at.time:.0f} s"),
+            ("Plate", f"x {x:.3f} m,  y {y:.3f} m,  {alpha / DEGREE:.1f}°,  tilted {at.tilt / DEGREE:.2f}°"),
+            ("Balance", balance),
+        ]
+        if step:
+            about = self._steps[step - 1]
+            off = about.get("off")
+            words = about["outcome"] + (
+                f", {1e3 * off:.1f} mm off its aim" if isinstance(off, float) and math.isfinite(off) else ""
+            )
+            told.append(("Outcome", words))
+            if about.get("reason"):
+                told.append(("Why", str(about["reason"])))
+        return tuple(told)
+
+    def margins(self, step: int) -> list[MarginRow]:
+        """See `Film`: the least balance of a step."""
+        if step == 0 or math.isnan(self._least[step - 1]):
+            return []
+        least = self._least[step - 1]
+        meaning = "how far the centre of mass lies inside the standing feet, least of the step; against half the feet's circle"
+        return [MarginRow("balance", f"{1e3 * least:+.0f} mm", least / self._size, True, True, meaning)]
+
+    @property
+    def worst(self) -> int | None:
+        """See `Film`."""
+        known = [k for k, least in enumerate(self._least) if not math.isnan(least)]
+        return 1 + min(known, key=lambda k: self._least[k]) if known else None
+
+
+def logged_walk(trace: WalkTrace) -> TrueWalk:
+    """What a walk's log tells of the truth: the centre of mass and the tool are not in it, forces are those along the legs.
+
+    Where the plant told nothing, it is what the robot believed.
+    """
+    rows = len(trace.time)
+    pose = trace.believed if trace.true_pose is None else trace.true_pose
+    place = trace.place if trace.true_place is None else trace.true_place
+    nothing = np.full((rows, 3), np.nan)
+    feet = np.full((rows, 6, 3), np.nan) if trace.true_feet is None else trace.true_feet
+    ups = _normals(pose)
+    forces = (trace.forces * (trace.stands > 0))[..., None] * ups[:, None]
+    return TrueWalk(
+        trace.time, pose, place, feet.reshape(rows, 2, 3, 3), forces.reshape(rows, 2, 3, 3), nothing, nothing, trace.inclines
+    )  # fmt: skip
+
+
+def _normals(pose: Floats) -> Floats:
+    """The plate's normals in the world, shape (rows, 3)."""
+    (ca, cb, cg), (sa, sb, sg) = np.cos(pose[:, 3:].T), np.sin(pose[:, 3:].T)
+    return np.stack((ca * sb * cg + sa * sg, sa * sb * cg - ca * sg, cb * cg), axis=-1)
+
+
+def _true_margins(trace: TrueWalk) -> Floats:
+    if np.isnan(trace.centre).all():
+        return np.full(len(trace.time), np.nan)
+    rows = len(trace.time)
+    return hull_margins(trace.feet.reshape(rows, 6, 3), trace.touching.reshape(rows, 6), trace.centre)
+
+
+def _lengths(at: WalkMoment) -> Floats:
+    ends = at.shapes.actuators
+    lengths: Floats = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    return lengths
+
+
+def _weight(robot: WalkerRobot) -> float:
+    return GRAVITY * (robot.mass.frames + (0.0 if robot.arm is None else sum(robot.arm.masses)))

@@ -1,0 +1,53 @@
+"""`clamber list` reads names and titles without loading what they name; here both are held against each other."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import clamber
+from clamber.actions.plan_source import plan_names
+from clamber.cli.catalogue import entries
+from clamber.planning.planner_titles import PLANNER_TITLES
+from clamber.planning.planners import PLANNERS
+from clamber.robots import robot_names
+from clamber.sim.plant_titles import PLANT_TITLES
+from clamber.sim.plants import PLANTS
+from clamber.studies.library import STUDIES
+from clamber.studies.titles import RESULTS
+from clamber.tasks import task_names
+from clamber.tasks.walks.library import walk_names
+from clamber.worlds import board_names, ground_names
+
+
+def first_line(thing: object) -> str:
+    return (thing.__doc__ or "").strip().partition("\n")[0]
+
+
+def names(kind: str) -> tuple[str, ...]:
+    return tuple(name for name, _ in entries(kind))
+
+
+def test_data_are_listed_as_their_libraries_know_them() -> None:
+    assert names("robots") == robot_names()
+    assert names("boards") == board_names()
+    assert names("grounds") == ground_names()
+    assert names("tasks") == task_names()
+    assert names("walks") == walk_names()
+    assert names("plans") == plan_names()
+
+
+def test_titles_are_the_first_lines_of_what_they_tell_of() -> None:
+    assert {name: first_line(planner) for name, planner in PLANNERS.items()} == PLANNER_TITLES
+    assert {name: first_line(plant) for name, plant in PLANTS.items()} == PLANT_TITLES
+    assert {paper: tuple(results) for paper, results in STUDIES.items()} == RESULTS
+
+
+def test_listing_loads_nothing_that_is_slow_to_load() -> None:
+    code = (
+        "import sys\nfrom clamber.cli import main\ntry:\n    main(['list'])\nfinally:\n"
+        "    print('heavy:', sorted({'numba', 'scipy', 'mujoco', 'matplotlib'} & set(sys.modules)))"
+    )
+    environment = os.environ | {"PYTHONPATH": str(Path(clamber.__file__).parents[1])}
+    told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment, check=True)
+    assert told.stdout.endswith("heavy: []\n")

@@ -1,0 +1,54 @@
+"""Walks that cannot be: each ends with the limit that it meets and by how much, or is refused before it begins."""
+
+import re
+
+import numpy as np
+import pytest
+
+from clamber.errors import SpecError
+from clamber.execution.walk.true_walk import hull_margins
+from clamber.experiments.walk.run_walk import WalkRun, run_walk, walk_flaws
+from clamber.sim.walker_plant import WalkerSim
+from clamber.tasks.walks import load_walk
+from clamber.tasks.walks.standing import start_margin
+
+
+def walked(*changes: str) -> WalkRun:
+    walk = load_walk("level-walk", ("way.0.distance=10cm", *changes))
+    return run_walk(walk, walk_flaws(walk, ()))
+
+
+@pytest.mark.slow
+def test_a_payload_that_would_tip_it_on_three_feet_is_told_with_the_margin_that_is_left() -> None:
+    run = walked("payload=20kg")
+    assert not run.done
+    assert not run.report.steps  # nothing is lifted
+    margins = re.findall(r"centre of mass is (-?\d+) mm inside the feet that stand, and 20 mm are kept", run.reason)
+    assert len(margins) == 2, run.reason  # whichever frame is lifted
+    assert max(map(int, margins)) < 20
+    assert run.true.margins[-1] > 0.0  # it stands on six feet, and goes on standing
+
+
+def test_a_payload_that_would_tip_it_on_six_feet_is_refused_with_what_could_be_carried() -> None:
+    with pytest.raises(SpecError, match=r"payload.*mm outside the six feet.* up to ([\d.]+) kg") as refused:
+        load_walk("level-walk", ("payload=60kg",))
+    most = re.findall(r"up to ([\d.]+) kg", str(refused.value))[0]
+    walk = load_walk("level-walk", (f"payload={most}kg",))
+    assert 0.0 < start_margin(walk, walk.payload) < 1e-3
+    # the plant's own parts say the same of a load that it stands with: the bodies' centre of mass in the hull of the feet
+    walk = load_walk("level-walk", ("payload=10kg",))
+    sim = WalkerSim(walk.robot, walk.ground, walk_flaws(walk, ()))
+    sim.reset(walk.start_pose(), walk.start_place(), walk.start_legs(), np.array(walk.arm))
+    true = sim.truth()
+    margin = hull_margins(true.feet.reshape(1, 6, 3), np.ones((1, 6), np.int32), true.centre[None])[0]
+    assert margin == pytest.approx(start_margin(walk, walk.payload), abs=2e-3)
+
+
+def test_a_singular_start_is_refused_before_anything_moves() -> None:
+    with pytest.raises(SpecError, match=r"start.*actuators of 0 to 0 mm; they can be 50 to 300 mm"):
+        load_walk("level-walk", ("start.twist=60deg",))
+
+
+def test_a_foothold_beyond_the_legs_stroke_names_the_lengths() -> None:
+    with pytest.raises(SpecError, match=r"asks for legs of \d+ to \d+ mm; they can be 250 to 450 mm"):
+        load_walk("slope-walk", ("ground.slope=30deg",))

@@ -1,0 +1,67 @@
+"""A real browser with WebGL for the viewer; where there is none, its tests are skipped by name."""
+
+import shutil
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+from page_visits import Visit
+
+from clamber.viewing.browser.app import App
+from clamber.viewing.browser.exhibit import Exhibit
+
+FLAGS = (
+    "--no-sandbox",
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--disable-quic",
+    "--no-first-run",
+)
+
+
+@pytest.fixture(scope="session")
+def chromium() -> Iterator[Any]:
+    program = shutil.which("chromium") or shutil.which("chromium-browser")
+    if program is None:
+        pytest.skip("no chromium: install Debian's package 'chromium' to test the viewer in a browser")
+    playwright = pytest.importorskip("playwright.sync_api", reason="no playwright: install 'clamber[dev]'")
+    with playwright.sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=program, args=list(FLAGS))
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def visit(chromium: Any) -> Iterator[Callable[[str], Visit]]:
+    """Opens a page; a page on the disk is opened offline."""
+    contexts = []
+
+    def open_page(address: str) -> Visit:
+        context = chromium.new_context(viewport={"width": 1000, "height": 700}, offline=address.startswith("file:"))
+        contexts.append(context)
+        visit = Visit(context.new_page())
+        visit.page.goto(address)
+        visit.page.locator("canvas[data-engine]").wait_for()
+        return visit
+
+    yield open_page
+    for context in contexts:
+        context.close()
+
+
+@pytest.fixture
+def serve() -> Iterator[Callable[[Exhibit], App]]:
+    """Opens a viewer."""
+    apps = []
+
+    def open_app(exhibit: Exhibit) -> App:
+        apps.append(App(exhibit))
+        return apps[-1]
+
+    yield open_app
+    for app in apps:
+        app.close()

@@ -1,0 +1,149 @@
+"""Films: plans rest in their stances, runs are where their traces say, and the forces that a run tells carry the weight."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from clamber.actions.limbed_plans import thesis_code
+from clamber.actions.plan import Plan
+from clamber.errors import ClamberError, SpecError
+from clamber.execution.climb.climb_trace import TOPIC
+from clamber.execution.climb.course import climbable
+from clamber.execution.climb.legs import legs_of
+from clamber.execution.log import LogError
+from clamber.execution.log_files import write_log
+from clamber.experiments.climb.run_plan import ClimbRun, climbing_flaws, run_plan
+from clamber.tasks import load_task
+from clamber.tasks.limbed import LimbedTask
+from clamber.viewing.browser.climb_scenery import join
+from clamber.viewing.browser.exhibit import Exhibit, open_exhibit, planned_exhibit, run_film
+from clamber.viewing.browser.film import PlanFilm
+from clamber.viewing.browser.run_film import ClimbFilm
+from clamber.viewing.browser.walk_film import PlannedWalkFilm
+
+
+@pytest.fixture(scope="module")
+def climbed() -> ClimbRun:
+    task = load_task("ladder")
+    assert isinstance(task, LimbedTask)
+    strict = climbable(task)
+    return run_plan(strict, Plan.of_codes(strict, [thesis_code(strict, 300)]), climbing_flaws(strict, ()))
+
+
+@pytest.fixture(scope="module")
+def hand() -> Exhibit:
+    return open_exhibit(["ladder-hand"])
+
+
+def test_plan_rests_in_its_stances(hand: Exhibit) -> None:
+    film = hand.plan_film
+    assert isinstance(film, PlanFilm)
+    view = film._view
+    for step in range(len(film.steps)):
+        at, settled = film.at(float(film.ends[step])), view.settled(step)
+        np.testing.assert_allclose(at.posture.chains, settled.posture.chains, atol=1e-9)
+        np.testing.assert_allclose(at.torques, settled.torques, atol=1e-9)
+
+
+def test_plan_moves_without_jumps(hand: Exhibit) -> None:
+    film = hand.plan_film
+    assert film is not None
+    times = np.arange(0.0, film.seconds, 1.0 / 200.0)
+    tips = np.array([film.at(float(time)).posture.chains[:, 3] for time in times])
+    ways = np.linalg.norm(np.diff(tips, axis=0), axis=-1)
+    reach = 0.4  # [m]
+    assert ways.max() < 0.1 * reach  # a reach lasts half a second at least
+    assert [film.step_at(film.rest(step)) for step in range(len(film.steps))] == list(range(len(film.steps)))
+    assert film.step_at(0.0) == 0 and film.step_at(film.seconds) == len(film.steps) - 1
+
+
+def test_margins_of_a_step_are_those_of_the_replay(hand: Exhibit) -> None:
+    film = hand.plan_film
+    assert isinstance(film, PlanFilm)
+    worst = film.worst
+    assert worst is not None
+    shares = []
+    for step in range(1, len(film.steps)):
+        rows = film.margins(step)
+        marked = [row for row in rows if row.worst]
+        assert len(marked) == 1
+        hard = [row.share for row in rows if row.hard and np.isfinite(row.share)]
+        assert marked[0].share == pytest.approx(min(hard))
+        shares.append(marked[0].share)
+    assert int(np.argmin(shares)) + 1 == worst
+
+
+def test_run_is_where_its_trace_says(climbed: ClimbRun) -> None:
+    film = run_film(planned_exhibit(climbed.task, None), climbed)
+    for k in (0, len(climbed.trace.time) // 2, len(climbed.trace.time) - 1):
+        at = film.at(float(climbed.trace.time[k]))
+        assert climbed.trace.true_pose is not None
+        assert (at.posture.x, at.posture.y, at.posture.angle) == pytest.approx(tuple(climbed.trace.true_pose[k]))
+    assert film.seconds == climbed.trace.time[-1]
+    assert len(film.steps) == 1 + len(climbed.report.actions)
+    assert [film.step_at(film.rest(step)) for step in range(len(film.steps))] == list(range(len(film.steps)))
+
+
+def test_forces_of_a_climber_at_rest_carry_its_weight(climbed: ClimbRun) -> None:
+    """Statics: by the motors' torques alone the forces of the holds add up to the weight, but for what joints at rest rub."""
+    film = run_film(planned_exhibit(climbed.task, None), climbed)
+    at = film.at(0.2)  # it waits for half a second before its first action
+    assert min(at.posture.held) >= 0
+    unknown = np.zeros(2)
+    for (port, elbow, _, tip), leg in zip(at.posture.chains, legs_of(climbed.task.robot), strict=True):
+        arms = np.array([tip - port, tip - elbow])
+        jacobian = np.column_stack((-arms[:, 1], arms[:, 0])).T  # (axes, joints)
+        unknown += np.abs(np.linalg.inv(jacobian.T)) @ (leg["friction1"], leg["friction2"])
+    off = at.forces.sum(axis=0) - (0.0, climbed.task.robot.weight)
+    assert (np.abs(off) <= unknown).all()
+    assert (unknown < 0.4 * climbed.task.robot.weight).all()  # else this would say little
+
+
+def test_run_and_plan_are_shown_at_the_same_action(climbed: ClimbRun) -> None:
+    exhibit = planned_exhibit(climbed.task, climbed.plan)
+    film, plan = run_film(exhibit, climbed), exhibit.plan_film
+    assert isinstance(film, ClimbFilm) and isinstance(plan, PlanFilm)
+    for k, action in enumerate(climbed.report.actions, 1):
+        assert film.planned_time(float(film.starts[k]), plan) == pytest.approx(plan.starts[action.first])
+        assert film.planned_time(float(film.ends[k]) - 1e-9, plan) == pytest.approx(plan.ends[action.last], abs=1e-6)
+
+
+def test_log_shows_the_run_that_it_is_of(climbed: ClimbRun, tmp_path: Path) -> None:
+    path = tmp_path / "climb.mcap"
+    write_log(climbed.trace.to_log(), path, TOPIC)
+    exhibit = open_exhibit([str(path)])  # it says that its task is the ladder
+    film, straight = exhibit.run_film, run_film(planned_exhibit(climbed.task, None), climbed)
+    assert film is not None
+    assert (film.steps, film.grades, film.seconds) == (straight.steps, straight.grades, straight.seconds)
+    for time in np.linspace(0.0, film.seconds, 7):
+        np.testing.assert_allclose(film.at(time).posture.chains, straight.at(time).posture.chains)
+    with pytest.raises(LogError, match="robot 'gecko4' has other ones"):
+        open_exhibit([str(path), "gecko-climb"])
+    with pytest.raises(LogError, match="no log of a walk"):
+        open_exhibit(["patch-walk", str(path)])
+
+
+def test_planned_walk_stands_on_the_ground() -> None:
+    exhibit = open_exhibit(["terrace-walk"])
+    film = exhibit.plan_film
+    assert isinstance(film, PlannedWalkFilm)
+    shapes = film.at(0.0).shapes
+    stands = shapes.touching.astype(bool)
+    soles = shapes.legs[:, :, 1]
+    heights = film._surface.heights(soles[..., :2])
+    np.testing.assert_allclose(soles[stands, 2], heights[stands])
+    assert (soles[~stands, 2] > heights[~stands]).all()
+
+
+def test_things_that_do_not_go_together_are_named(tmp_path: Path) -> None:
+    with pytest.raises(SpecError, match="one can be shown at a time"):
+        open_exhibit(["ladder", "h"])
+    with pytest.raises(SpecError, match="run it first"):
+        open_exhibit(["level-walk"])
+    with pytest.raises(ClamberError, match="no task is called 'laddr'"):
+        open_exhibit(["laddr"])
+
+
+def test_joined_parts_hold_both() -> None:
+    assert join((0.0, 1.0, 0.0, 1.0), (-1.0, 0.5, 0.5, 2.0)) == (-1.0, 1.0, 0.0, 2.0)

@@ -1,0 +1,162 @@
+"""The viewer in a real browser: it loads without a word of complaint, plays, edits a board, plans and runs, all by clicks."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from page_visits import Visit, pixel, wait_for
+
+from clamber.actions.verdict import check_plan
+from clamber.viewing.browser.app import App
+from clamber.viewing.browser.exhibit import Exhibit, open_exhibit
+from clamber.viewing.browser.page import write_page
+from clamber.viewing.browser.wall_scene import WallScene
+
+Open = Callable[[str], Visit]
+Serve = Callable[[Exhibit], App]
+
+
+def test_plan_plays_and_jumps(serve: Serve, visit: Open) -> None:
+    app = serve(open_exhibit(["ladder-hand"]))
+    shown = visit(app.url)
+    shown.says("Start")
+    before = shown.picture("plan-start")
+    shown.press("Play")
+    wait_for(shown, lambda: app.playback.time > 1.0)
+    shown.press("Pause")
+    assert shown.picture("plan-playing") != before
+    shown.press("worst")
+    worst = app.playback.film.worst
+    assert worst is not None
+    shown.says(f"Step {worst} of 63")
+    shown.press("step ▶")
+    shown.says(f"Step {worst + 1} of 63")
+    assert shown.page.locator('[data-clamber="margins"] tr').count() > 5
+    assert shown.wrong == []
+    assert all(url.startswith((app.url, "blob:", "data:")) for url in shown.asked)
+
+
+@pytest.mark.slow
+def test_board_is_edited_planned_and_run_by_clicks(serve: Serve, visit: Open) -> None:
+    app = serve(open_exhibit(["ladder"]))
+    shown, board = visit(app.url), app.board
+    assert board is not None and isinstance(app.stage.world, WallScene)
+    page, depth = shown.page, app.stage.world.depth
+    page.get_by_role("tab", name="Board").click()
+    page.get_by_label("edit on the wall").check()
+
+    peg = board.draft.pegs[13]
+    page.mouse.click(*pixel(app, shown, np.array((peg.x, -depth, peg.y))))
+    wait_for(shown, lambda: page.get_by_label("peg", exact=True).input_value() == "13")
+    x, y = pixel(app, shown, np.array((peg.x + 0.05, -depth, peg.y)))  # the handle's arm to the right
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 8, y, steps=4)
+    page.mouse.move(x + 16, y, steps=4)
+    page.mouse.up()
+    wait_for(shown, lambda: board.draft.pegs[13].x > peg.x + 0.005)
+    assert board.draft.pegs[13].y == pytest.approx(peg.y, abs=1e-3)
+    shown.picture("board-dragged")
+
+    shown.press("add")
+    wait_for(shown, lambda: len(board.draft.pegs) == 23)
+    shown.press("remove")
+    wait_for(shown, lambda: len(board.draft.pegs) == 22)
+    goal = shown.vector("goal [in]").nth(1)
+    goal.fill("15")
+    goal.press("Enter")
+    wait_for(shown, lambda: app.exhibit.task is not None and app.exhibit.task.goals[-1].box[3] < 0.5)
+    assert app.exhibit.plan is None
+    assert shown.errors() == []
+
+    shown.press("Plan")
+    shown.says("with reserves for a run")
+    shown.picture("board-planned")
+    plan = app.exhibit.plan
+    assert plan is not None and check_plan(app.exhibit.task, plan).ok
+    shown.press("Run")
+    shown.says("climbed:")
+    run = app.exhibit.run_film
+    assert run is not None
+    wait_for(shown, lambda: app.playback.film is run and app.playback.time > 0.5 * run.seconds)  # it plays by itself
+    shown.picture("board-run")
+    assert shown.wrong == []
+
+
+@pytest.mark.slow
+def test_bad_boards_are_told_of_and_the_page_stays(serve: Serve, visit: Open) -> None:
+    app = serve(open_exhibit(["gap"]))
+    shown, board = visit(app.url), app.board
+    assert board is not None
+    shown.page.get_by_role("tab", name="Board").click()
+
+    place = shown.vector("its place [in]")
+    there = board.draft.pegs[2]
+    for field, value in zip((0, 1), (there.x, there.y), strict=True):
+        place.nth(field).fill(f"{value / 0.0254:.2f}")
+        place.nth(field).press("Enter")
+    shown.says("holds 1 and 2 overlap")
+    shown.press("Plan")
+    wait_for(shown, lambda: sum("overlap" in words for words in shown.errors()) == 2)  # beside the pegs and beside Plan
+    shown.picture("board-overlaps")
+
+    shown.press("as it was")
+    wait_for(shown, lambda: not board.draft.changed)
+    for _ in range(3):
+        shown.press("remove")
+    shown.says("the board has no holds; it needs at least one")
+
+    shown.press("as it was")
+    wait_for(shown, lambda: not board.draft.changed)
+    goal = shown.vector("goal [in]").nth(0)
+    goal.fill("900")
+    goal.press("Enter")
+    shown.says("from the nearest hold")
+    shown.press("Run")
+    shown.says("there is no plan to run")
+
+    shown.press("as it was")
+    wait_for(shown, lambda: not board.draft.changed)
+    goal.fill("26")  # within a limb's reach of peg 3, but no peg leads there
+    goal.press("Enter")
+    wait_for(shown, lambda: board.draft.changed)
+    shown.page.get_by_label("reserves").uncheck()
+    shown.press("Plan")
+    shown.says("no plan. ")
+    shown.picture("board-no-plan")
+    shown.press("as it was")
+    wait_for(shown, lambda: not board.draft.changed)
+    shown.page.get_by_role("tab", name="Play").click()
+    shown.says("Start")
+    assert shown.wrong == []
+
+
+@pytest.mark.slow
+def test_work_is_stopped_by_a_click(serve: Serve, visit: Open) -> None:
+    app = serve(open_exhibit(["h"]))
+    shown = visit(app.url)
+    shown.page.get_by_role("tab", name="Board").click()
+    shown.press("Plan")
+    shown.page.get_by_role("button", name="Stop", exact=True).click()
+    shown.says("stopped")
+    assert app.work is not None and not app.work.labour.busy
+    assert shown.wrong == []
+
+
+@pytest.mark.slow
+def test_page_on_the_disk_needs_nothing_else(tmp_path: Path, visit: Open) -> None:
+    page = tmp_path / "page.html"
+    write_page(open_exhibit(["ladder-hand"]), page)
+    shown = visit(page.as_uri())
+    panel = shown.page.locator("#clamber")
+    panel.locator("li").nth(12).click()
+    wait_for(shown, lambda: panel.get_attribute("data-step") == "12")
+    before = shown.picture("page-step-12")
+    panel.locator("li").nth(40).click()
+    wait_for(shown, lambda: panel.get_attribute("data-step") == "40")
+    assert shown.picture("page-step-40") != before
+    shown.press("Hide panel")
+    assert not panel.is_visible()
+    assert shown.wrong == []
+    assert [url for url in shown.asked if not url.startswith(("blob:", "data:"))] == [page.as_uri()]

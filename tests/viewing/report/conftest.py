@@ -1,0 +1,88 @@
+"""A real browser for the pages of reports; where there is none, tests of pages are skipped by name."""
+
+import shutil
+from collections.abc import Callable, Iterator
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+FLAGS = (
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+)
+PICTURES = Path(__file__).resolve().parents[3] / "out" / "screenshots"
+
+
+@pytest.fixture(scope="session")
+def chromium() -> Iterator[Any]:
+    program = shutil.which("chromium") or shutil.which("chromium-browser")
+    if program is None:
+        pytest.skip("no chromium: install Debian's package 'chromium' to test pages in a browser")
+    playwright = pytest.importorskip("playwright.sync_api", reason="no playwright: install 'clamber[dev]'")
+    with playwright.sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=program, args=list(FLAGS))
+        yield browser
+        browser.close()
+
+
+class Links(HTMLParser):
+    """What a page names in `href` and `src`, and its ids."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.links: list[str] = []
+        self.ids: set[str] = set()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        for name, value in attrs:
+            if name in ("href", "src") and value is not None:
+                self.links.append(value)
+            if name == "id" and value is not None:
+                self.ids.add(value)
+
+
+@pytest.fixture
+def visit(chromium: Any) -> Callable[..., Any]:
+    """Opens a page from the disk in a browser that is offline: no message on its console, every picture loaded, every link there."""
+
+    def open_page(path: Path, picture: str, *, width: int = 1100, dark: bool = False) -> Any:
+        messages: list[str] = []
+        context = chromium.new_context(
+            viewport={"width": width, "height": 900}, color_scheme="dark" if dark else "light", offline=True
+        )
+        page = context.new_page()
+        page.on("console", lambda message: messages.append(message.text))
+        page.on("pageerror", lambda error: messages.append(str(error)))
+        page.on("requestfailed", lambda request: messages.append(f"failed: {request.url}"))
+        page.goto(path.as_uri())
+        page.wait_for_load_state("load")
+        assert messages == []
+        widths = page.eval_on_selector_all("img", "all => all.map(one => one.naturalWidth)")
+        assert all(width > 0 for width in widths)
+        check_links(path)
+        PICTURES.mkdir(parents=True, exist_ok=True)
+        page.screenshot(path=PICTURES / f"{picture}.png")
+        return page
+
+    return open_page
+
+
+def check_links(path: Path) -> None:
+    page = Links()
+    page.feed(path.read_text(encoding="utf-8"))
+    for link in page.links:
+        if link.startswith("data:"):
+            continue
+        file, _, place = link.partition("#")
+        target = (path.parent / file).resolve() if file else path
+        assert target.is_file(), f"{path.name} names {link}"
+        if place:
+            there = Links()
+            there.feed(target.read_text(encoding="utf-8"))
+            assert place in there.ids, f"{path.name} names {link}"
