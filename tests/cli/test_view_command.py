@@ -21,7 +21,7 @@ def test_page_is_served_and_ends(clamber: Clamber, monkeypatch: pytest.MonkeyPat
     assert code == 0
     (url,) = opened
     assert re.fullmatch(r"http://127\.0\.0\.1:\d+", url)
-    assert out == f"LIBRA climbs a ladder of pegs: {url}  (Ctrl-C ends it)\n"
+    assert out == f"LIBRA climbs a ladder of pegs\n{url}  (Ctrl-C ends it)\n"
     assert "expose" not in err
 
 
