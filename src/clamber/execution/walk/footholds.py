@@ -31,7 +31,7 @@ AGAIN: Final = 4
 
 
 def prove(walker: Walker, frame: int) -> list[int]:
-    """Load the feet of a frame that has just come down, and push them about, until nothing gives way, at most `AGAIN` times; all stand then.
+    """Load the feet of a frame that has just come down, and push them about, until nothing gives way or it was `AGAIN` times.
 
     Args:
         walker: The robot, on six feet.
