@@ -4,12 +4,12 @@ from collections.abc import Callable
 
 import pytest
 
-from clamber.experiments.climb.planning import CAUTIONS, ROOMY
+from clamber.experiments.climb.cautions import CAUTIONS, STEADY
 
 
 @pytest.mark.parametrize("command", ["run", "trials"])
 def test_searches_that_seconds_ended_are_told(command: str, clamber: Callable[..., tuple[int, str, str]]) -> None:
     code, out, err = clamber(command, "ladder", "--planner", "greedy", "--seconds", "0")
     assert (code, out) == (1, "")
-    assert f"--seconds ended {len(CAUTIONS) + len(ROOMY) + 1} searches" in err
+    assert f"--seconds ended {len(CAUTIONS) + len(STEADY) + 1} searches" in err
     assert "nothing has moved" in err

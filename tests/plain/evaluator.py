@@ -272,6 +272,8 @@ class PlainEvaluator:
 
     def may_use(self, limb: int, number: int) -> bool:
         hold = self.holds[number]
+        if number in self.rules.barred.get(self.robot.limbs[limb].name, ()):
+            return False
         for keep in self.rules.keep:
             if keep.limb != self.robot.limbs[limb].name:
                 continue

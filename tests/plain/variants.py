@@ -66,6 +66,9 @@ def varied_rules(rng: random.Random, task: LimbedTask) -> Any:
         hook_way=aside.choice((0.0, 0.04)),
         hard=rng.choice(hard),
         keep=tuple(random_keep(rng, task) for _ in range(rng.choice((0, 0, 1, 2)))),
+        barred={
+            name: (aside.choice(task.world.holds).number,) for name in task.robot.limb_names if aside.random() < 0.2
+        },
     )
 
 

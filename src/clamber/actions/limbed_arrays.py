@@ -156,6 +156,9 @@ def _holds(task: LimbedTask) -> Records:
             )
             if not inside:
                 allowed &= ~(1 << task.robot.limb_index(keep.limb))
+        for name, barred in task.rules.barred.items():
+            if hold.number in barred:
+                allowed &= ~(1 << task.robot.limb_index(name))
         row["limbs"] = allowed
     return out
 

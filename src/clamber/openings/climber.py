@@ -83,7 +83,7 @@ def _actions(task: LimbedTask) -> Iterator[Relaxation]:
 
 
 def _boxes(task: LimbedTask) -> Iterator[Relaxation]:
-    """Boxes that limbs must keep to, and regions that nothing may enter: each by itself, then all."""
+    """Boxes that limbs must keep to, holds that they may not use, and regions that nothing may enter: each by itself, then all."""
     document = Document(task.name, task.document)
     for key, what, present in (
         ("rules.keep", "box", task.rules.keep),
@@ -99,3 +99,7 @@ def _boxes(task: LimbedTask) -> Iterator[Relaxation]:
         for rest, name in left:
             override = f"{key}={toml_value(rest)}"
             yield Switch(key=key, before=name, after="dropped", overrides=(override,), larger=name == "all")
+    if task.rules.barred:
+        yield Switch(
+            key="rules.barred", before="holds barred", after="dropped", overrides=("rules.barred={}",), larger=False
+        )

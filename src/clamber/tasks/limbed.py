@@ -131,6 +131,8 @@ class Rules:
     """Kinds or codes of the actions that may be used; None: all."""
     keep: tuple[Keep, ...] = ()
     """Boxes that limbs must keep to."""
+    barred: dict[str, tuple[StrictInt, ...]] = field(default_factory=dict)
+    """Limb -> numbers of holds that it may not use."""
 
 
 @spec
@@ -222,7 +224,7 @@ def build_limbed_task(document: Document) -> LimbedTask:
     stated = build_spec(TaskSpec, _with_place(document, board), without=("schema", "robot", "board", "labels"))
     _check_step(stated.step, document)
     _check_start(stated.start, robot, board, document)
-    _check_rules(stated.rules, robot, document)
+    _check_rules(stated.rules, robot, board, document)
     keys = (*(f"subgoals.{index}" for index in range(len(stated.subgoals))), "goal")
     goals = tuple(_resolve(goal, stated.step) for goal in (*stated.subgoals, stated.goal))
     for key, goal in zip(keys, goals, strict=True):
@@ -299,7 +301,7 @@ def _check_start(start: Start, robot: LimbedRobot, board: Board, document: Docum
         _check_limb(start.in_use, "start.in_use", robot, document)
 
 
-def _check_rules(rules: Rules, robot: LimbedRobot, document: Document) -> None:
+def _check_rules(rules: Rules, robot: LimbedRobot, board: Board, document: Document) -> None:
     for name in rules.hard:
         if name not in CHECK_NAMES:
             raise document.problem("rules.hard", f"unknown check '{name}'; {describe_choices(name, CHECK_NAMES)}")
@@ -314,6 +316,12 @@ def _check_rules(rules: Rules, robot: LimbedRobot, document: Document) -> None:
     for index, keep in enumerate(rules.keep):
         _check_limb(keep.limb, f"rules.keep.{index}.limb", robot, document)
         _check_order(keep, f"rules.keep.{index}", ("x", "y"), document)
+    _check_limbs(rules.barred, "rules.barred", robot, document)
+    known = {hold.number for hold in board.holds}
+    for limb, numbers in rules.barred.items():
+        if not known.issuperset(numbers):
+            allowed = f"names holds that board '{board.name}' does not have; {_listed(known)}"
+            raise document.problem(f"rules.barred.{limb}", allowed)
 
 
 def _check_goal(goal: Goal, key: str, robot: LimbedRobot, board: Board, document: Document) -> None:

@@ -7,7 +7,8 @@ from typing import Any
 import pytest
 
 from clamber.execution.climb.course import climbable
-from clamber.experiments.climb.planning import CAUTIONS, ROOMY, plan_to_climb, replanner
+from clamber.experiments.climb.cautions import CAUTIONS, STEADY
+from clamber.experiments.climb.planning import plan_to_climb, replanner
 from clamber.planning.planners import PLANNERS
 from clamber.planning.result import PlanResult
 from clamber.tasks import Task, load_task
@@ -33,7 +34,7 @@ def test_the_plan_is_the_same_on_any_number_of_threads(name: str) -> None:
     assert not cuts
 
 
-@pytest.mark.parametrize(("took", "cuts"), [(4.9, 0), (5.0, 1 + len(CAUTIONS + ROOMY))])
+@pytest.mark.parametrize(("took", "cuts"), [(4.9, 0), (5.0, 1 + len(CAUTIONS + STEADY))])
 def test_every_search_that_its_time_ended_is_told(took: float, cuts: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """A search that finds nothing and has taken all its seconds was ended by them: then another machine may find a plan."""
     given: list[dict[str, Any]] = []
@@ -49,4 +50,4 @@ def test_every_search_that_its_time_ended_is_told(took: float, cuts: int, monkey
     replan = replanner("slow", seconds=5.0, seed=7, threads=1, cut=lambda: told.append(1))
     assert replan(task) is None
     assert len(told) == cuts
-    assert given == [{"seed": 7, "seconds": 5.0, "threads": 1}] * (1 + len(CAUTIONS + ROOMY))
+    assert given == [{"seed": 7, "seconds": 5.0, "threads": 1}] * (1 + len(CAUTIONS + STEADY))

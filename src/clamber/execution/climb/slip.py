@@ -9,7 +9,7 @@ import numpy as np
 from .whole_body import WholeBody
 
 BEYOND: Final = 0.006
-"""What of that no play of their joints can be: how far a hook slides in its slot and sinks in, and what is learned of the map [m]."""
+"""What of that no play of their joints can be: a hook slides in its slot, sinks in, and the map is learned meanwhile [m]."""
 MOVED: Final = 0.0115
 """Two tips that have moved this far against each other are not both on their holds [m]. One joint that crosses its play moves them by less
 than 10 mm on LIBRA, a hook that slides in by 2 mm."""
@@ -20,10 +20,10 @@ FORGOTTEN: Final = 0.2
 class SlipWatch:
     """Looks at how the tips of hooks on holds lie to each other, tick by tick.
 
-    Against where the holds are believed to be they are off by as much as the map is, the play and the sensors; against where they were
-    a moment ago by little. Where a load turns round, several joints cross their play at once: their encoders move, the tips do not. The
-    belief of the play follows that, but moves tips itself where it lags or errs; a hook that comes off moves them by both. Of two that
-    move apart, that one has come off which moves the way it pulled: its hold is no longer in the way.
+    Against where the holds are believed to be they are off by as much as the map is, the play and the sensors; against where they were a
+    moment ago by little. Where a load turns round, several joints cross their play at once: their encoders move, the tips do not.
+    The belief of the play follows that, but moves tips itself where it lags or errs; a hook that comes off moves them by both. Of two
+    that move apart, that one has come off which moves the way it pulled: its hold is no longer in the way.
 
     Args:
         body: What knows the limbs and their tasks.
@@ -35,7 +35,7 @@ class SlipWatch:
         self._pairs = list(combinations(hooked, 2))
         self._rate = min(1.0, body.period / FORGOTTEN)
         self._before: dict[tuple[int, int], tuple[int, int, list[float]]] = {}
-        """Pair -> its holds, and the first tip less the second as it lately was, world frame: by encoders, then with the play [m]."""
+        """Pair -> its holds, and the first tip less the second as it lately was, by encoders and with the play counted, world frame [m]."""
         self.moved = 0.0
         """Farthest that two tips have moved against each other of late [m]."""
 

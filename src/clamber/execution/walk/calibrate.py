@@ -121,7 +121,7 @@ def _check_swing(walker: Walker, aims: Sequence[float]) -> None:
     least, arm, kept = math.inf, walker.arm.copy(), walker.settings.limits.balance
     for arm[0] in np.linspace(min(aims), max(aims), LOOKED_AT):
         centre = mass_centre(walker.robot, walker.pose, walker.place, arm, walker.payload)
-        least = min(least, support_margin(walker.soles, walker.stands, centre))
+        least = min(least, float(support_margin(walker.soles, walker.stands, centre)))
     if least < kept:
         raise RefusedError(
             f"with {walker.payload:g} kg the arm, swung to feel how the feet sink in, brings the centre of mass {1e3 * least:.0f} mm "

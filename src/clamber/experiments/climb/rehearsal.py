@@ -1,11 +1,12 @@
 """Plans climbed in simulation before anything moves, pegs a little off: no check of single stances sees all of a climb."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
 
 from ...actions.plan import Plan
+from ...execution.climb.climb_report import ClimbReport
 from ...sim.limb_flaws import LimbFlaws
 from ...tasks.limbed import LimbedTask
 from .noise import NO_NOISE, Noise, read_noise
@@ -25,6 +26,8 @@ class Rehearsal:
     """Climbs that were carried out whole."""
     share: float
     """Actions carried out, of all, in the mean [-]."""
+    failed: tuple[str, int] | None = field(default=None, compare=False)
+    """Limb and hold of the grab that the first climb that failed did not come beyond; None where there is none."""
 
     @property
     def flawless(self) -> bool:
@@ -41,11 +44,28 @@ def rehearse(task: LimbedTask, plan: Plan, flaws: LimbFlaws, noise: Noise = REHE
         flaws: Of the plant, as the controller believes them.
         noise: By how much pegs and plant differ from that.
     """
-    climbed, shares = 0, []
+    climbed, shares, failed = 0, [], None
     for seed in SEEDS:
         report = run_plan(task, plan, flaws, noise=noise, seed=seed).report
         climbed += report.done
         shares.append(sum(action.outcome == "ok" for action in report.actions) / max(1, len(plan.actions)))
         if not report.done:
+            failed = grab_at_fault(plan, report)
             break
-    return Rehearsal(climbed, float(np.mean(shares)))
+    return Rehearsal(climbed, float(np.mean(shares)), failed)
+
+
+def grab_at_fault(plan: Plan, report: ClimbReport) -> tuple[str, int] | None:
+    """Limb and hold of the grab with which a climb went wrong: that which failed, that of the hook that stays wedged, else the latest.
+
+    None where no grab has led to where it ended.
+    """
+    if not report.actions:
+        return None
+    step = report.actions[-1].first
+    last = plan.actions[step - 1]
+    for action in reversed(plan.actions[:step]):
+        if action.kind == "grab" and (last.kind != "release" or action.limb == last.limb):
+            assert action.limb is not None and action.hold is not None  # a plan names what it took
+            return action.limb, action.hold
+    return None

@@ -1,0 +1,83 @@
+"""Plans that are searched for anew without the grabs that failed in rehearsal."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from clamber.actions.plan import Plan
+from clamber.actions.plan_source import open_plan
+from clamber.errors import SpecError
+from clamber.execution.climb.climb_report import ActionReport, ClimbReport
+from clamber.experiments.climb.cautions import STEADY, cautious
+from clamber.experiments.climb.planning import plan_to_climb
+from clamber.experiments.climb.rehearsal import Rehearsal, grab_at_fault
+from clamber.experiments.climb.run_plan import climbing_task
+from clamber.planning.planners import PLANNERS
+from clamber.tasks import load_task
+from clamber.tasks.limbed import LimbedTask
+
+
+def grabs(plan: Plan) -> set[tuple[str | None, int | None]]:
+    return {(action.limb, action.hold) for action in plan.actions if action.kind == "grab"}
+
+
+def ended_at(step: int) -> ClimbReport:
+    return ClimbReport([ActionReport(step, step, "", "", "fell", 0.0, 1.0, 1, 0.0, None, None)])
+
+
+def test_a_climb_went_wrong_with_the_grab_that_failed_or_the_one_that_led_there() -> None:
+    plan = open_plan("ladder-hand").plan
+    steps = [step for step, action in enumerate(plan.actions, 1) if action.kind == "grab"]
+    taken = {step: (plan.actions[step - 1].limb, plan.actions[step - 1].hold) for step in steps}
+    assert grab_at_fault(plan, ended_at(steps[1])) == taken[steps[1]]
+    move = next(step for step in range(steps[1], len(plan.actions)) if plan.actions[step - 1].kind == "move")
+    assert grab_at_fault(plan, ended_at(move)) == taken[max(step for step in steps if step < move)]
+    first = next(step for step, action in enumerate(plan.actions, 1) if action.kind == "release" and step > steps[2])
+    own = [step for step in steps if step < first and taken[step][0] == plan.actions[first - 1].limb]
+    assert grab_at_fault(plan, ended_at(first)) == taken[own[-1]]
+    assert grab_at_fault(plan, ClimbReport()) is None
+
+
+@pytest.mark.parametrize("planner", ["beam", "exact"])
+def test_a_limb_never_takes_a_hold_that_is_barred_to_it(planner: str) -> None:
+    task = climbing_task(load_task("ladder"))
+    free = PLANNERS[planner](task, seconds=60.0).plan
+    limb, hold = next((action.limb, action.hold) for action in free.actions if action.kind == "grab")
+    assert limb is not None and hold is not None
+    barred = climbing_task(load_task("ladder", [f"rules.barred.{limb}=[{hold}]"]))
+    result = PLANNERS[planner](barred, seconds=60.0)
+    assert result.has_plan
+    assert (limb, hold) not in grabs(result.plan)
+
+
+def test_bars_name_limbs_and_holds_that_there_are() -> None:
+    with pytest.raises(SpecError, match=r"rules\.barred\.tail"):
+        load_task("ladder", ["rules.barred.tail=[1]"])
+    with pytest.raises(SpecError, match="does not have"):
+        load_task("ladder", ["rules.barred.left=[99]"])
+
+
+def test_cautions_bar_holds_besides_those_of_the_task() -> None:
+    task = climbing_task(load_task("ladder", ["rules.barred.left=[7]"]))
+    more = cautious(task, replace(STEADY[0], barred=(("left", 9), ("right", 8))))
+    assert {name: set(numbers) for name, numbers in more.rules.barred.items()} == {"left": {7, 9}, "right": {8}}
+
+
+def test_a_plan_is_searched_for_anew_without_the_grab_that_failed() -> None:
+    task = climbing_task(load_task("ladder"))
+    tried: list[Plan] = []
+
+    def stumbles(task: LimbedTask, plan: Plan) -> Rehearsal:
+        tried.append(plan)
+        if len(tried) == 3:
+            return Rehearsal(3, 1.0)
+        limb, hold = next((action.limb, action.hold) for action in plan.actions if action.kind == "grab")
+        assert limb is not None and hold is not None
+        return Rehearsal(0, 0.1, (limb, hold))
+
+    plan = plan_to_climb(task, "auto", seconds=60.0, seed=0, threads=1, rehearse=stumbles)
+    assert plan is tried[-1] and len(tried) == 3
+    lost = next((action.limb, action.hold) for action in tried[1].actions if action.kind == "grab")
+    assert lost not in grabs(tried[2])
+    assert not np.array_equal(tried[1].codes(task), tried[2].codes(task))
