@@ -4,9 +4,11 @@ An error inside such a package is an `ExtensionError`, which names the thing, it
 """
 
 import importlib.metadata
+import sys
 import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import cache
 from importlib.metadata import EntryPoint
 from pathlib import Path
 from typing import Any, Final
@@ -48,6 +50,12 @@ def outside(kind: str) -> dict[str, EntryPoint]:
 
 def all_outside(kind: str) -> tuple[EntryPoint, ...]:
     """Every entry point of one kind, those of a name that is taken twice too."""
+    return _all_outside(kind, tuple(sys.path))
+
+
+@cache
+def _all_outside(kind: str, path: tuple[str, ...]) -> tuple[EntryPoint, ...]:
+    """Looked for once for each search path: every verdict asks for checks."""
     return tuple(importlib.metadata.entry_points(group=GROUPS[kind]))
 
 

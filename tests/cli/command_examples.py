@@ -44,7 +44,7 @@ LONG = (
     "trials two.json -n 2 --workers 1",
     "trials two.json --replay 1",
     "trials level-walk -n 2 --workers 1 --set way.0.distance=3cm",
-    "bench plant",
+    "most level-walk --set way.0.distance=3cm --vary payload=5kg..40kg:2",
     "calibrate --seeds 1",
     "ditch --straight",
     "ditch --width 180mm",
@@ -56,11 +56,14 @@ LONG = (
     "limb force -c hybrid --friction-compensation none",
     "limb portrait scct",
     "limb sweep --scenario step --vary kp=1000..5000:2 --kd 4 --kp 100 -c scct --workers 1",
-    "limb tune scct --workers 1",
     "body circle --lap 3 --laps 1 --flaws ideal -c scct",
     "body push-up -c scct",
     "body push -c scct",
     "body push --trials 2 --limit thesis -c scct",
 )
-ELSEWHERE = {"plant serve": "tests/cli/test_plant.py", "schema": "below"}
-"""Commands that need a partner, or print schemas themselves."""
+ELSEWHERE = {
+    "plant serve": "tests/cli/test_plant.py",
+    "bench": "tests/test_boards.py",
+    "limb tune": "tests/experiments/limb/test_limb_tune.py",
+}
+"""Commands that need a partner, the machine for themselves, or minutes, and the tests that hold them against their schemas."""

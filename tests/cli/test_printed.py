@@ -15,6 +15,8 @@ from clamber.cli.help_text import command_of, commands_below
 from clamber.cli.printed.library import PRINTED, schema_of
 from clamber.cli.printed.tables import tables_of, top_of
 
+ROOT = Path(__file__).parents[2]
+
 
 def command_in(words: str) -> str:
     """The longest beginning of some words that is a command."""
@@ -63,6 +65,8 @@ def test_every_command_has_json_and_a_schema() -> None:
 
 def test_every_command_has_an_example_here() -> None:
     assert {command_in(words) for words in (*QUICK, *LONG)} == set(PRINTED) - set(ELSEWHERE)
+    for command, test in ELSEWHERE.items():
+        assert f'schema_of("{command}")' in (ROOT / test).read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("command", PRINTED)

@@ -74,3 +74,44 @@ def test_the_command_prints_what_walks_say_together(clamber: Any) -> None:
     assert "2 of 2 walks" in out and "tilt [deg]" in out
     code, _, err = clamber("trials", "level-walk", "--replay", "3", "-q")
     assert code == 2 and "climbs" in err
+
+
+@pytest.mark.slow
+def test_a_task_is_planned_once_and_walked_with_every_seed(clamber: Any, tmp_path: Path) -> None:
+    near = (
+        "goal.x_min=2cm",
+        "goal.x_max=8cm",
+        "goal.y_min=-2cm",
+        "goal.y_max=2cm",
+        "goal.theta_min=-1deg",
+        "goal.theta_max=1deg",
+    )
+    sets = [word for text in near for word in ("--set", text)]
+    words = (
+        "trials",
+        "terrace-walk",
+        *sets,
+        "--planner",
+        "exact",
+        "--noise",
+        "none",
+        "--workers",
+        "1",
+        "--store",
+        str(tmp_path / "t.db"),
+    )
+    code, out, _ = clamber(*words, "-n", "1", "-q")
+    assert code == 0
+    assert "1 of 1 walks 'terrace-walk'" in out and "kept their balance" in out
+    code, out, err = clamber(*words, "-n", "2", "--resume", "--json")
+    said = json.loads(out)
+    assert code == 0 and said["done"] == 2
+    code, _, err = clamber("trials", "terrace-walk", "--replay", "3", "-q")
+    assert code == 2 and "climbs" in err
+
+
+@pytest.mark.slow
+def test_a_ditch_that_is_too_wide_leaves_with_1(run: Any) -> None:
+    code, out, _ = run("ditch-walk", "--set", "way.0.ditch=30cm", "-q")
+    assert code == 1
+    assert "refused: the ditch cannot be crossed" in " ".join(out.split())

@@ -31,7 +31,9 @@ def understood(words: tuple[str, ...]) -> None:
 def test_command_of_a_page_is_understood(told: Told) -> None:
     if told.is_pattern or (not told.block and len(told.words) == 1):
         name = told.words[0]
-        assert name in {"--version", "--help"} or command_of(app).commands.get(name) is not None, told  # type: ignore[union-attr]
+        top = command_of(app)
+        options = {option for parameter in top.params for option in parameter.opts}
+        assert name in {"--help", *options, *top.commands}, told  # type: ignore[union-attr]
         return
     try:
         understood(told.words)

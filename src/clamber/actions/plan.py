@@ -141,13 +141,13 @@ class Plan:
         check_schema(document, SCHEMA)
         return build_spec(cls, document, without=("schema",))
 
-    def save(self, path: Path) -> None:
+    def save(self, path: str | Path) -> None:
         """Write it as JSON; a crash never leaves half a file.
 
         Raises:
             FileError: If the folder is missing or cannot be written.
         """
-        write_atomically(path, json.dumps(self.to_json(), indent=1) + "\n")
+        write_atomically(Path(path), json.dumps(self.to_json(), indent=1) + "\n")
 
 
 def load_plan(path: Path) -> Plan:

@@ -7,7 +7,6 @@ from typing import Annotated, Final
 
 import typer
 
-from ..files import write_atomically
 from .crew import EndsLine, check_resume, executor_of
 from .options import AsJson, Output, Ray, Resume, Store, Workers
 from .output import announce_compilation, check_writable, print_json, stderr, stdout
@@ -38,7 +37,7 @@ def bench(
     crew = Crew(executor=executor_of(ray, workers), store=store, resume=resume, progress=line.update)
     if ray is not None:
         crew.executor.check()
-    if ray is None:
+    if ray is None and only != "start":
         announce_compilation(FIRST_KERNELS.get(only or "", "rollout"))
     if only == "boards":
         from .bench_boards import bench_boards
@@ -52,6 +51,7 @@ def bench(
     rows = [row for each in measured.values() for row in each]
     if output is not None:
         from ..experiments.performance_page import performance_page
+        from ..files import write_atomically
 
         write_atomically(
             output, performance_page(measured, shlex.join(("clamber", "bench", *chosen, "-o", str(output))))

@@ -9,6 +9,8 @@ from .output import plain_table, print_json, stderr, stdout
 
 if TYPE_CHECKING:
     from ..experiments.walk.most import Most
+    from ..sim.walker_flaws import WalkerFlaws
+    from ..tasks.walks import Walk
 
 
 def most(
@@ -23,6 +25,7 @@ def most(
     quiet: Quiet = False,
 ) -> None:
     """Find the largest of N values with which a walk comes to its end in balance, by bisection; without noise unless asked for."""
+    from ..errors import SpecError
     from ..experiments.walk.most import Tried, find_most
     from ..experiments.walk.noise import named_walk_noise, read_walk_noise
     from ..experiments.walk.run_walk import run_walk, split_walk_settings, walk_flaws
@@ -32,15 +35,21 @@ def most(
     axis = range_axis(vary)
     sizes = read_walk_noise(named_walk_noise("none"), noise or ())
 
-    def tried(value: str) -> Tried:
+    def opened(value: str) -> "tuple[Walk, WalkerFlaws]":
         for_walk, for_plant = split_walk_settings([*(overrides or ()), f"{axis.key}={value}"])
         chosen = load_walk(walk, for_walk)
+        return chosen, walk_flaws(chosen, for_plant)
+
+    def tried(value: str) -> Tried:
         if not quiet:
             stderr().print(f"{axis.key} = {value} ...", style="dim")
-        return Tried.of(value, run_walk(chosen, walk_flaws(chosen, for_plant), noise=sizes, seed=seed))
+        try:
+            chosen, flaws = opened(value)
+        except SpecError as cannot:  # the least can be: so this one is too much
+            return Tried.refused(value, cannot.allowed)
+        return Tried.of(value, run_walk(chosen, flaws, noise=sizes, seed=seed))
 
-    for value in (axis.values[0], axis.values[-1]):  # what cannot be is told before anything walks
-        load_walk(walk, split_walk_settings([*(overrides or ()), f"{axis.key}={value}"])[0])
+    opened(axis.values[0])  # what cannot be is told before anything walks
     found = find_most(axis.values, tried)
     if as_json:
         told = {"borne": found.borne, "refused": found.refused}

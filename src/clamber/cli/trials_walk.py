@@ -174,7 +174,7 @@ def print_walk_trials(console: Console, trials: WalkTrials) -> None:
             told = (*np.percentile(values, (50.0, 5.0, 95.0)), values.min(), values.max())
             table.add_row(title, *(f"{value:.{digits}f}" for value in told))
     console.print(table)
-    if trials.walk.level:
+    if trials.setup.levels:
         low, high = wilson_interval(trials.level, n)
         console.print(
             f"{trials.level} of {n} came to their end with the plate never more than {LEVEL / DEGREE:g} deg from level: "

@@ -88,6 +88,11 @@ class Inclination:
         """Standard deviation of the tilt along the axis where it is larger, offsets aside [rad]."""
         return math.sqrt(max(self._covariance[0, 0], self._covariance[1, 1]))
 
+    @property
+    def unsure_give(self) -> float:
+        """Standard deviation of the give [m/N]."""
+        return math.sqrt(self._covariance[2, 2])
+
     def doubt(self, size: float) -> None:
         """Something may have tilted the plate by `size` [rad] that nothing else tells."""
         for k in range(2):

@@ -18,7 +18,7 @@ from .rows import Row as Row
 from .rows import Say, keep_quiet
 from .seeds import bench_seeds
 from .speed import speed_rows
-from .starts import start_rows
+from .starts import command_rows, start_rows
 from .trials import Crew
 from .walls import wall_rows
 
@@ -31,6 +31,7 @@ def bench_plan(*, say: Say = keep_quiet) -> list[Row]:
 
 BENCHES: Final[dict[str, Callable[..., list[Row]]]] = {
     "plan": bench_plan,
+    "start": command_rows,
     "exact": bench_exact,
     "gaps": bench_gaps,
     "seeds": bench_seeds,

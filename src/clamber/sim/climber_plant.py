@@ -1,11 +1,12 @@
 """The whole climber in MuJoCo as a plant: encoders of every joint and of the body's angle in, torques out, the truth for logs and tests."""
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
 from ..control.chain import chain_of_limb
+from ..execution.climb.postures import postures
 from ..execution.plant import BodySensed, BodyTruth
 from ..execution.wiring import encoder_resolution
 from ..robots.limbed import LimbedRobot
@@ -17,6 +18,9 @@ from .grippers import Grippers
 from .limb_flaws import ForceSensor, LimbFlaws
 from .pinned_tips import pin_tips
 from .wrench_reader import WrenchReader
+
+ON_HOLD: Final = 1e-4
+"""A tip this near to a hold is on it [m]."""
 
 
 class ClimberPlant:
@@ -83,8 +87,10 @@ class ClimberPlant:
         self._wanted_by_limb = self._wanted.reshape(-1, 2)
         self._motor_speeds = np.zeros((1, n))
         self._pushed = self._data.xfrc_applied[self.model.body("body").id]
-        radius, places = max(hold.radius for hold in board.holds), board.positions() if pegs is None else pegs
-        self.grippers = Grippers(robot, places, radius, self.model, self._data, self.period)
+        self._believed = board.positions()
+        self._pegs = self._believed if pegs is None else pegs
+        radius = max(hold.radius for hold in board.holds)
+        self.grippers = Grippers(robot, self._pegs, radius, self.model, self._data, self.period)
         self._grips = np.zeros(len(robot.limbs), np.int32)
         self._press: WrenchReader | None = None
         if presser is not None and flaws.wall is not None:
@@ -98,18 +104,35 @@ class ClimberPlant:
         return self.tick * self.period
 
     def reset(self, pose: Floats, q: Floats) -> None:
-        """Put the body at a pose (x, y, theta) with joint angles q, shape (limbs, 2), at rest."""
+        """Put the body at a pose (x, y, theta) with joint angles q, shape (limbs, 2), at rest.
+
+        Tips that are then where a hold is believed to be are put on that hold, where it truly is.
+        """
         import mujoco
 
         mujoco.mj_resetData(self.model, self._data)
         self._qpos[:3] = pose
         self._qpos[self._at[1:]] = np.ravel(q)
         mujoco.mj_forward(self.model, self._data)
+        self._qpos[self._at[1:]] = self._seated(pose, q).ravel()
+        mujoco.mj_forward(self.model, self._data)
         self._wanted[:] = 0.0
         self._grips[:] = 0
         self.grippers.reset()
         self._ring[:] = 0.0
         self.tick = 0
+
+    def _seated(self, pose: Floats, q: Floats) -> Floats:
+        """Joint angles with tips on the true holds, of limbs that reach them, shape (limbs, 2) [rad]."""
+        out = q.copy()
+        for i, (limb, tip) in enumerate(zip(self.robot.limbs, self._site_places[self._sites, :2], strict=True)):
+            off = np.hypot(*(self._believed - tip).T)
+            hold = int(np.argmin(off))
+            if off[hold] < ON_HOLD:
+                fit = [one.angles for one in postures(limb, pose, self._pegs[hold]) if one.inside]
+                if fit:
+                    out[i] = fit[int(np.argmin([np.abs(angles - q[i]).max() for angles in fit]))]
+        return out
 
     def sense(self) -> BodySensed:
         """Read the sensors, once a tick."""

@@ -7,8 +7,9 @@ import pytest
 from spring_walks import stood
 from springs_walker import slope
 
+from clamber.control.gait import DELTA
 from clamber.execution.walk import motions
-from clamber.execution.walk.calibrate import calibrate, feel_give, offsets_from
+from clamber.execution.walk.calibrate import calibrate, feel_give, offsets_from, shift_load
 
 
 def test_offsets_and_slope_are_told_apart_by_two_headings() -> None:
@@ -39,3 +40,16 @@ def test_the_arm_tells_how_far_feet_sink_in(give: float) -> None:
     motions.settle(walker, 4.0)
     feel_give(walker)
     assert walker.inclination.give == pytest.approx(give, abs=5e-6)  # believed to be 1e-5 before
+
+
+@pytest.mark.parametrize(("give", "seed"), [(7e-6, 6), (7e-6, 7), (1.5e-5, 8)])
+def test_a_frame_that_shifts_tells_more_closely_how_far_feet_sink_in(give: float, seed: int) -> None:
+    walker, _ = stood(give=give, seed=seed)
+    motions.settle(walker, 4.0)
+    motions.lift(walker, DELTA)
+    home = walker.frames()[DELTA].copy()
+    shift_load(walker)
+    unsure = walker.inclination.unsure_give
+    assert unsure < 8e-7  # 1e-5 before
+    assert abs(walker.inclination.give - give) < 3.0 * unsure
+    np.testing.assert_allclose(walker.frames()[DELTA], home, atol=1e-4)

@@ -29,8 +29,7 @@ from clamber.worlds.library import load_board
 
 FLAWS = LimbFlaws(backlash=2.0 * DEGREE, physics_rate=1000.0)
 BOARD = load_board("ladder")
-HOLDS = np.zeros(len(BOARD.holds), bool)
-"""None of them known."""
+HOLDS = len(BOARD.holds)
 START = np.array((0.2286, 0.1374, 0.0))
 ON = {"right": 4, "left": 3, "bottom": 2}
 
@@ -66,15 +65,28 @@ def test_draws_fill_their_widths_evenly_and_scale_with_them() -> None:
     assert 0.004 < np.abs(pegs).max() <= 0.00635
 
 
-def test_holds_that_the_robot_is_put_on_are_where_the_map_says() -> None:
-    usual, known = named_noise("usual"), HOLDS.copy()
-    known[1:4] = True
-    drawn, free = draw(usual, libra(), known, 3), draw(usual, libra(), HOLDS, 3)
-    np.testing.assert_array_equal(drawn.pegs[known], 0.0)
-    np.testing.assert_array_equal(drawn.pegs[~known], free.pegs[~known])
-    far = np.hypot(*free.pegs.T)
-    assert free.to_json()["peg_error"] == far.max()
-    assert drawn.to_json(np.array([1, 6, 8], np.int32))["peg_error"] == max(far[6], far[8])
+def test_of_pegs_the_largest_distance_of_those_that_count_is_told() -> None:
+    drawn = draw(named_noise("usual"), libra(), HOLDS, 3)
+    far = np.hypot(*drawn.pegs.T)
+    assert drawn.to_json()["peg_error"] == far.max()
+    assert drawn.to_json(np.array([1, 6, 8], np.int32))["peg_error"] == max(far[1], far[6], far[8])
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_robot_is_put_on_its_holds_where_they_truly_are_and_stays_on_them(seed: int) -> None:
+    drawn = draw(named_noise("usual"), libra(), HOLDS, seed)
+    pegs = BOARD.positions() + drawn.pegs
+    climber = Climber(libra(), BOARD, ClimberPlant(libra(), BOARD, FLAWS, pegs=pegs), map_error=0.00635)
+    climber.start(START, ON, idle="bottom", elbows={})
+    numbers = [hold.number for hold in BOARD.holds]
+    on = np.array([pegs[numbers.index(ON[limb.name])] for limb in libra().limbs])
+    np.testing.assert_allclose(climber.plant.truth().tips, on, atol=1e-9)
+    before = {number: place.copy() for number, place in climber.holds.items()}
+    climber.wait(0.5)
+    climber.learn_start()
+    np.testing.assert_allclose(climber.plant.truth().tips, on, atol=0.002)  # the slot's play
+    span, true = climber.holds[4] - climber.holds[3], on[0] - on[1]
+    assert np.abs(span - true).max() < max(0.003, 0.6 * np.abs(before[4] - before[3] - true).max())
 
 
 def test_no_noise_leaves_the_nominal_plant() -> None:

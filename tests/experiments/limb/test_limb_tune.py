@@ -1,5 +1,6 @@
 """Tuning: the stored gains come to rest, too large ones do not, and the procedure finds them again."""
 
+import json
 import math
 from dataclasses import replace
 from pathlib import Path
@@ -8,7 +9,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from jsonschema import Draft202012Validator
 
+from clamber.cli.printed.library import schema_of
 from clamber.control.law_settings import LAWS, LawSettings
 from clamber.control.recommended import (
     RecommendationError,
@@ -199,6 +202,7 @@ def test_a_tuning_does_not_depend_on_the_number_of_workers(limb: BenchLimb, flaw
         for workers in (1, 3)
     )
     assert alone == together
+    Draft202012Validator(schema_of("limb tune")).validate(json.loads(json.dumps(alone)))
 
 
 @pytest.mark.slow

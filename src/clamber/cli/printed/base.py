@@ -1,6 +1,6 @@
 """What all of it has in common."""
 
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -17,4 +17,4 @@ Interval: TypeAlias = Annotated[list[float], Field(min_length=2, max_length=2)]
 Pose: TypeAlias = Annotated[list[float], Field(min_length=3, max_length=3)]
 """x [m], y [m], angle [rad]."""
 Pair: TypeAlias = Annotated[list[float], Field(min_length=2, max_length=2)]
-Never: TypeAlias = Literal[None]
+"""Two numbers that belong together, such as x and y."""

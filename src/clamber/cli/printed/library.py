@@ -20,7 +20,7 @@ from .limbs import (
     Tuned,
 )
 from .plans import Front, Inventory, Learned, NoStart, Planned, Polished, Verdict
-from .runs import Climbed, ClimbTrials, Pressed, ReplayedTrial, Walked, WalkTrials
+from .runs import Climbed, ClimbTrials, Most, Pressed, ReplayedTrial, Walked, WalkTrials
 from .searches import BenchRow, Reach, Sweep
 from .things import (
     Drawn,
@@ -49,6 +49,7 @@ PRINTED: Final[dict[str, Any]] = {
     "press": Pressed,
     "follow": Followed,
     "trials": ClimbTrials | WalkTrials | ReplayedTrial,
+    "most": Most,
     "show": Drawn,
     "view": Opened | Saved,
     "export": Exported,

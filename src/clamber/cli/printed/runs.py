@@ -306,8 +306,22 @@ class WalkTrial(Printed):
     """Largest distance of the tool from that point while it was held [m]."""
 
 
+class WalkCause(Printed):
+    """Walks that ended early in the same way."""
+
+    words: str
+    n: Count
+    interval: Interval
+    """Of their share of all walks, 95 % (Wilson)."""
+    steps: list[Count]
+    """At which they ended, each once."""
+    seeds: list[Count]
+    reason: str
+    """Of the first one."""
+
+
 class WalkTrials(Printed):
-    """Many walks."""
+    """Many walks, of a walk or of a walker's plan."""
 
     walk: str
     noise: dict[str, float]
@@ -317,9 +331,42 @@ class WalkTrials(Printed):
     done: Count
     interval: Interval
     """95 % interval (Wilson) of the share that came to the end."""
-    balanced: float | int | None
-    """Walks that came to the end without ever losing balance."""
+    balanced: Count
+    """Walks whose margin of balance was positive throughout, done or not."""
+    level: Count
+    """Walks that came to their end with the plate never more than 0.1 deg from level."""
+    balanced_interval: Interval
+    """Of the share of those that were balanced, 95 % (Wilson)."""
+    causes: list[WalkCause]
+    """Why walks ended early, the commonest first."""
     trials: list[WalkTrial]
+
+
+class TriedWalk(Printed):
+    """A walk with one value of a setting."""
+
+    value: str
+    borne: bool
+    """Whether it came to its end in balance."""
+    reason: str
+    """Why not; empty where it did."""
+    margin: float | None
+    """Least margin of balance [m]; null where fewer than three feet were on the ground at a time, or it did not begin."""
+    tilt: float
+    """Largest angle of the plate from level [rad]."""
+
+
+class Most(Printed):
+    """The most that a walk bears; exit code 1 where it does not bear even the least."""
+
+    walk: str
+    key: str
+    tried: list[TriedWalk]
+    """In the order of their values."""
+    borne: str | None
+    """The largest value found to be borne."""
+    refused: str | None
+    """The next one, which is not; null where the largest asked for is borne."""
 
 
 class Pressed(Printed):

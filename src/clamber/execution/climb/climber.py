@@ -92,6 +92,8 @@ class Climber:
         self.ticks = 0
         self.latest = -1
         """Index of the limb that took its hold last."""
+        self.proven = True
+        """Whether it has carried there."""
         self._strained = self._slipped = self._pinned = 0
 
     @property
@@ -122,7 +124,6 @@ class Climber:
             self.grips[i] = number > 0
             self.body.tasks[i] = task
         self.body.hand_over([i for i, task in enumerate(self.body.tasks) if task.doing == "hold"])
-        self.map.know(number for number in holds.values() if number)
         self.plant.reset(pose, q)
         self.body.pose[:], self.body.settled[:], self.body.aim[:] = pose, pose, pose
         self.body.aim_speed[:] = 0.0
@@ -229,6 +230,14 @@ class Climber:
         holding = sorted(self.holding(), key=lambda i: i != self.latest)
         if len(holding) == 2:
             self.learn(self.body.tasks[holding[0]].hold, holding[0], holding[1:])
+
+    def learn_start(self) -> None:
+        """Correct the map by all limbs that are on holds: at the start they are at rest, on holds that may be as far off as any."""
+        on = sorted(
+            (i for i, task in enumerate(self.body.tasks) if task.hold), key=lambda i: not self.body.tasks[i].holds
+        )
+        for k, i in enumerate(on[1:], 1):
+            self.learn(self.body.tasks[i].hold, i, on[:k])
 
     def seen(self, i: int, j: int) -> TipDifference:
         """Where the tip of limb `i` is from that of limb `j`."""

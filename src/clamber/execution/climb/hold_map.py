@@ -1,7 +1,7 @@
 """What the climber knows of its holds' places and of its sensors' errors: an extended Kalman filter that learns from hooks on holds."""
 
 import math
-from collections.abc import Iterable, MutableMapping
+from collections.abc import MutableMapping
 from dataclasses import dataclass
 from typing import Final
 
@@ -11,12 +11,10 @@ from ...types import Floats
 
 TIP_ERROR: Final = 0.001
 """Standard deviation of a difference of two tips on their holds, each joint surely on one side of its play, along each axis [m]."""
-KNOWN: Final = 0.001
-"""Standard deviation of the place of a hold that the robot was put on, along each axis [m]."""
 ODD: Final = 4.0
 """What differs from what is expected by more than so many standard deviations was learned from a hook that was not home [-]."""
-ANGLE_ERROR: Final = math.radians(0.3)
-"""Standard deviation of the offset of the body's own encoder: half a degree either way, evenly spread [rad]."""
+ANGLE_ERROR: Final = math.radians(1.0) / math.sqrt(3.0)
+"""Standard deviation of the offset of the body's own encoder: a degree either way, evenly spread [rad]."""
 PLAY_ERROR: Final = math.radians(0.15)
 """Standard deviation of half the backlash that is reckoned with: a quarter of a degree either way, evenly spread [rad]."""
 
@@ -34,7 +32,7 @@ class TipDifference:
     by_joints: Floats
     """Change of `place` per angle at the gear output of each joint of the one limb, then of the other, shape (2, joints) [m/rad]."""
     loose: Floats
-    """How far each of these may be off where a joint rests on no side of its play for sure, standard deviations, shape (joints,) [rad]."""
+    """How far off each of these may be where its joint is on no side of its play for sure, standard deviations, shape (joints,) [rad]."""
 
     @property
     def unsure(self) -> Floats:
@@ -64,13 +62,6 @@ class HoldMap:
         own = np.full(2 * len(places) + 2, max(error, 1e-6) ** 2 / 3.0)
         own[-2], own[-1] = ANGLE_ERROR**2, PLAY_ERROR**2 if backlash > 0.0 else 0.0
         self._variance = np.diag(own)
-
-    def know(self, numbers: Iterable[int]) -> None:
-        """Count some holds as known: the robot has been put on them."""
-        for number in numbers:
-            for k in (self._row[number], self._row[number] + 1):
-                self._variance[k], self._variance[:, k] = 0.0, 0.0
-                self._variance[k, k] = KNOWN**2
 
     def learn(self, number: int, other: int, seen: TipDifference) -> Floats:
         """Two hooks are on their holds: the difference of their tips corrects all that hangs together with it.

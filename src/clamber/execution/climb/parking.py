@@ -24,6 +24,28 @@ def poses_between(start: Floats, end: Floats) -> list[Floats]:
     return [start + u * change for u in np.linspace(0.0, 1.0, 2 + int(length / LOOKS))]
 
 
+def room_along(
+    approaches: Approaches, i: int, angles: Floats, poses: Sequence[Floats], holds: Mapping[int, Floats]
+) -> float:
+    """Clearance of a limb, joints at angles, shape (2,) [rad], from all holds as the body goes along poses; negative: it meets one [m]."""
+    leg, robot = approaches.legs[i], approaches.robot
+    every = np.concatenate([discs_near(holds, pose, approaches.peg_radius) for pose in poses])
+    return float(clearance(leg, angles[0], angles[1], every, approaches.wall, robot.link_radius, HOOK))
+
+
+def passes(
+    approaches: Approaches, i: int, angles: Floats, poses: Sequence[Floats], holds: Mapping[int, Floats]
+) -> bool:
+    """Whether the body may go along poses with a free limb: it meets no hold, or can first go to where it meets none.
+
+    Args: As `park`.
+    """
+    if room_along(approaches, i, angles, poses, holds) >= 0.0:
+        return True
+    way = park(approaches, i, angles, poses, holds)
+    return way is not None and room_along(approaches, i, way[-1], poses, holds) >= 0.0
+
+
 def park(
     approaches: Approaches, i: int, angles: Floats, poses: Sequence[Floats], holds: Mapping[int, Floats]
 ) -> Floats | None:

@@ -33,8 +33,8 @@ FIRMLY: Final = 0.04
 """... where it does so for this long [s]."""
 TOUCHES: Final = 3.0
 """A hook that feels more than this there, along its grab direction, has caught it [N]."""
-LOOKING: Final = 0.08
-"""For so long a hook that seems to have come off may show that it bears [s]."""
+LOOKING: Final = 0.25
+"""For so long a hook that seems to have come off may show that it bears, unless it moves on and is told again [s]."""
 IN_SLOT: Final = 0.008
 """A hook that was leaving is still on where it is nearer to its hold than this [m]."""
 MOST_SLIPS: Final = 4
@@ -94,11 +94,13 @@ def catch(climber: Climber, lost: int) -> Hang | None:
     body = climber.body
     climber.fall.reset()
     climber.slip.reset()
-    lose = not _bears(climber, lost)
     for i, task in enumerate(body.tasks):
         if task.doing == "tip" and task.hold and math.dist(body.tip(i), task.place) < IN_SLOT:
             task.doing = "cling"
-        off = task.doing not in ONWARDS and not (task.doing == "pull" and _hook_on(climber, i, AT_HOLD))
+    others = sum(i != lost and task.doing in (*ONWARDS, "pull") for i, task in enumerate(body.tasks))
+    lose = others < 2 or not _bears(climber, lost)  # a body that hangs on one hook swings at once
+    for i, task in enumerate(body.tasks):
+        off = task.doing not in ONWARDS and not (lose and task.doing == "pull" and _hook_on(climber, i, AT_HOLD))
         if off or (i == lost and lose):
             task.hold, task.doing, task.angles, task.rates = 0, "joints", body.q[i].copy(), np.zeros(2)
     on = [i for i, task in enumerate(body.tasks) if task.hold]

@@ -83,6 +83,7 @@ class Sequencer:
         try:
             self.start()
             climber.wait(0.5)
+            climber.learn_start()
             while self._carry_out() is False:
                 pass
         except KeyboardInterrupt:

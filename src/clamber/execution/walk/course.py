@@ -99,7 +99,11 @@ class TrackCourse:
             return f"the {name} waits for the other at a corner of the way"
         way = min(self.length, float(self._ways[swing]) + 2.0 * FINE)
         end = target_of(self._track, way, swing, self._neutral)
-        step = look_at_step(walker.robot, walker.frames(), swing, way, end, walker.arm, walker.payload, limits)
+        looks = [
+            look_at_step(walker.robot, walker.frames(), swing, way, end, arm, walker.payload, limits)
+            for arm in walker.postures()
+        ]
+        step = min(looks, key=lambda look: look.balance)
         if step.balance < limits.balance:
             return (
                 f"with the {name} lifted the centre of mass is {1e3 * step.balance:.0f} mm inside the feet that stand, "

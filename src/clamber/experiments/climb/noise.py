@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
 from ...errors import ClamberError, UnitError, describe_choices
 from ...robots.limbed import Limb, LimbedRobot
@@ -185,7 +184,7 @@ class Drawn:
         return {"peg_error": float((off if pegs is None else off[pegs]).max(initial=0.0))} | told
 
 
-def draw(noise: Noise, robot: LimbedRobot, known: npt.NDArray[np.bool_], seed: int) -> Drawn:
+def draw(noise: Noise, robot: LimbedRobot, n_holds: int, seed: int) -> Drawn:
     """What a seed makes of a noise.
 
     Each key draws from a stream of its own, and its draw is a share of its width: whatever becomes of other keys, it stays.
@@ -193,7 +192,7 @@ def draw(noise: Noise, robot: LimbedRobot, known: npt.NDArray[np.bool_], seed: i
     Args:
         noise: Widths.
         robot: As believed.
-        known: Which holds the robot is put on at the start: the map is measured from there, so it is right about them, shape (n_holds,).
+        n_holds: Of the board; those that the robot is put on at the start are as far off as any.
         seed: Of all draws.
     """
     n = len(robot.limbs)
@@ -203,7 +202,7 @@ def draw(noise: Noise, robot: LimbedRobot, known: npt.NDArray[np.bool_], seed: i
         return noise.widths[key] * stream.uniform(-1.0, 1.0, shape)
 
     return Drawn(
-        pegs=np.where(known[:, None], 0.0, share("peg_error", len(known), 2)),
+        pegs=share("peg_error", n_holds, 2),
         joint_friction=share("joint_friction", n, 2),
         joint_angle=share("joint_angle", n, 2),
         **{
@@ -222,10 +221,8 @@ def draw(noise: Noise, robot: LimbedRobot, known: npt.NDArray[np.bool_], seed: i
 
 
 def draw_for(task: LimbedTask, noise: Noise, seed: int) -> Drawn:
-    """What a seed makes of a noise for a task, whose start's holds are known (`draw`)."""
-    started = set(task.start.holds.values())
-    known = np.array([hold.number in started for hold in task.world.holds])
-    return draw(noise, task.robot, known, seed)
+    """What a seed makes of a noise for a task (`draw`)."""
+    return draw(noise, task.robot, len(task.world.holds), seed)
 
 
 def check_noise(noise: Noise, robot: LimbedRobot, flaws: LimbFlaws) -> None:

@@ -198,11 +198,11 @@ class LimbResult:
         """Label -> every tick of the first trial of each law."""
         return run_logs(self.limb, self.flaws, ((row.entry.label, row.run.trace) for row in self.rows))
 
-    def save(self, path: Path) -> None:
+    def save(self, path: str | Path) -> None:
         """Write `to_json` to a file, whole or not at all."""
-        write_atomically(path, json.dumps(self.to_json(), indent=2, allow_nan=False) + "\n")
+        write_atomically(Path(path), json.dumps(self.to_json(), indent=2, allow_nan=False) + "\n")
 
-    def save_table(self, path: Path) -> None:
+    def save_table(self, path: str | Path) -> None:
         """Write one line of CSV for each trial of each law, whole or not at all; an empty field is a time that never came."""
         lines = []
         for row in self.rows:
@@ -219,7 +219,7 @@ class LimbResult:
         table = csv.DictWriter(text, columns, restval="", lineterminator="\n")
         table.writeheader()
         table.writerows({key: "" if value is None else value for key, value in line.items()} for line in lines)
-        write_atomically(path, text.getvalue())
+        write_atomically(Path(path), text.getvalue())
 
 
 def _gains(settings: LawSettings) -> Json:

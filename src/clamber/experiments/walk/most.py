@@ -31,6 +31,11 @@ class Tried:
         reason = run.reason or ("" if balanced else "the centre of mass left the feet on the ground")
         return cls(value, not reason, reason, margin, run.tilt)
 
+    @classmethod
+    def refused(cls, value: str, reason: str) -> "Tried":
+        """A value with which the walk cannot begin."""
+        return cls(value, False, reason, None, 0.0)
+
     def to_json(self) -> Json:
         """Plain data."""
         return {name: getattr(self, name) for name in self.__slots__}

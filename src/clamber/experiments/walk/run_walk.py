@@ -22,6 +22,7 @@ from ...sim.limb_flaws import PlantError
 from ...sim.walker_flaws import WalkerFlaws
 from ...sim.walker_plant import WalkerSim
 from ...tasks.walks import Walk
+from ...tasks.walks.standing import why_it_tips
 from ...types import Floats, Json
 from ...units import parse_quantity
 from .ditch_crossing import lay_crossing
@@ -211,8 +212,11 @@ def run_walk(
         walker.start(walk.start_pose(), walk.start_place(), walk.start_legs(), np.array(walk.arm))
         report = sequencer.run()
     except (FallenError, PlantStoppedError) as fall:  # before the first tick
+        why = why_it_tips(walk)
         report = WalkReport(
-            reason=f"fell: {fall}", seconds=walker.time, true_pose=tuple(map(float, plant.trace().pose[-1]))
+            reason=f"fell: {fall}" + (f": {why}" if why else ""),
+            seconds=walker.time,
+            true_pose=tuple(map(float, plant.trace().pose[-1])),
         )
     notes = report.to_json() | {"walk": walk.name, "noise": noise.to_json(), "seed": seed}
     true = plant.trace()

@@ -52,6 +52,11 @@ class WalkSetup:
         """The same in words."""
         return f"walks '{self.name}'"
 
+    @property
+    def levels(self) -> bool:
+        """Whether the plate is to be kept level; in a plan it always is."""
+        return not isinstance(self.walked, Walk) or self.walked.level
+
     def about(self) -> Json:
         """What tells these trials from others; not how many, nor from which seed on."""
         told = self._plain()

@@ -32,22 +32,18 @@ def check_mechanism(walk: Walk, document: Document) -> None:
         )
 
 
-def check_weight(walk: Walk, document: Document) -> None:
-    """Makes sure that a robot that starts level does not tip with what it carries.
-
-    Raises:
-        SpecError: If it does; it names by how much, and what it could carry so.
-    """
-    if walk.start.plate != "level" or walk.payload == 0.0 or start_margin(walk, walk.payload) > 0.0:
-        return
+def why_it_tips(walk: Walk) -> str:
+    """How far what a level robot carries puts its centre of mass outside its six feet, and what it could carry; empty where it stands."""
+    margin = start_margin(walk, walk.payload)
+    if walk.start.plate != "level" or margin > 0.0:
+        return ""
     low, high = 0.0, walk.payload
     while high - low > 0.01:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if start_margin(walk, middle) > 0.0 else (low, middle)
-    raise document.problem(
-        "payload",
-        f"puts the centre of mass {-1e3 * start_margin(walk, walk.payload):.0f} mm outside the six feet that it starts on; with the arm "
-        f"like this up to {math.floor(10.0 * low) / 10.0:.1f} kg do not tip it",
+    return (
+        f"{walk.payload:g} kg put the centre of mass {-1e3 * margin:.0f} mm outside the six feet that it starts on; "
+        f"with the arm like this up to {math.floor(10.0 * low) / 10.0:.1f} kg do not tip it"
     )
 
 

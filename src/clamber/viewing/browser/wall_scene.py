@@ -21,6 +21,8 @@ PEGS: Final = 9.0
 """How far pegs stand out of the wall, in radii of a link [-]."""
 THICK: Final = 0.03
 """Of the wall [m]."""
+DISC: Final = np.stack((np.cos(np.arange(24) * np.pi / 12.0), np.sin(np.arange(24) * np.pi / 12.0)), axis=-1)
+"""Corners of a round mark of radius 1."""
 EDGE: Final = 0.04
 """How much of the wall is shown beyond all that is on it [m]."""
 MOST_NUMBERS: Final = 80
@@ -92,21 +94,26 @@ class WallScene:
             )  # fmt: skip
 
     def _draw_goals(self) -> None:
+        """Draw every goal's region, or discs about the pegs and the centre that it names, with its name."""
         for k, goal in enumerate(self.task.goals):
             corners = goal_outline(goal, self.bounds)
+            pegs = [self.task.world.by_number(number) for number in goal.holds.values()]
+            places = [(peg.x, peg.y) for peg in pegs] + ([] if goal.centre is None else [goal.centre])
+            discs = [np.array(place) + DISC * max(3.0 * self._least, 0.012) for place in places]
             last = k == len(self.task.goals) - 1
-            if corners is None:
-                continue
             depth = 0.004 if last else 0.003
-            self._server.scene.add_mesh_simple(
-                f"/wall/goals/{k + 1}", *prism(corners, 0.0, depth), color=colour(style.GOAL), opacity=0.45 if last else 0.22,
-                flat_shading=True, wxyz=TURN, cast_shadow=False,
-            )  # fmt: skip
-            at = np.array((corners[:, 0].min(), corners[:, 1].max()))
-            self._server.scene.add_label(
-                f"/wall/goals/{k + 1}/name", goal_label(self.task, k), anchor="bottom-left",
-                position=(float(at[0]), float(at[1]), depth), font_screen_scale=0.9,
-            )  # fmt: skip
+            for part, outline in enumerate([*([] if corners is None else [corners]), *discs]):
+                self._server.scene.add_mesh_simple(
+                    f"/wall/goals/{k + 1}/{part + 1}", *prism(outline, 0.0, depth), color=colour(style.GOAL),
+                    opacity=0.45 if last else 0.22, flat_shading=True, wxyz=TURN, cast_shadow=False,
+                )  # fmt: skip
+            named = corners if corners is not None else np.array(discs[0]) if discs else None
+            if named is not None:
+                at = in_space(np.array((named[:, 0].min(), named[:, 1].max())), depth)
+                self._server.scene.add_label(
+                    f"/wall/goals/{k + 1}/name", goal_label(self.task, k), anchor="bottom-left", position=tuple(at),
+                    font_screen_scale=0.9,
+                )  # fmt: skip
 
     def remove(self) -> None:
         """Take all of it away."""

@@ -1,0 +1,140 @@
+"""The viewer behind its page: the clock, what is shown of a plan and its run, and work that fails without harm."""
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from clamber.errors import ClamberError, StartError
+from clamber.viewing.browser.app import App, PortError, free_port
+from clamber.viewing.browser.exhibit import Exhibit, open_exhibit
+from clamber.viewing.browser.film import Film
+from clamber.viewing.browser.run_film import ClimbFilm
+
+Serve = Callable[[Exhibit], App]
+
+
+def eventually(holds: Callable[[], Any], seconds: float = 120.0) -> None:
+    end = time.monotonic() + seconds
+    while not holds():
+        assert time.monotonic() < end, "still not so"
+        time.sleep(0.02)
+
+
+def shown_figures(app: App) -> set[str]:
+    return {name for name, figure in app.stage._figures.items() if figure.root.visible}  # type: ignore[attr-defined]
+
+
+def test_clock_plays_pauses_and_ends(serve: Serve) -> None:
+    playback = serve(open_exhibit(["ladder-hand"])).playback
+    assert not playback.playing
+    playback.play(True)
+    eventually(lambda: playback.time > 0.2)
+    playback.toggle()
+    at = playback.time
+    time.sleep(0.2)
+    assert playback.time == at
+    playback.seek(1e9)
+    assert playback.time == playback.film.seconds
+    playback.play(True)  # from the start again
+    eventually(lambda: 0.0 < playback.time < 1.0)
+    playback.seek(playback.film.seconds - 0.05)
+    eventually(lambda: not playback.playing)
+    assert playback.time == playback.film.seconds
+
+
+def test_steps_are_jumped_to_within_the_plan(serve: Serve) -> None:
+    playback = serve(open_exhibit(["ladder-hand"])).playback
+    for asked, shown in ((5, 5), (-3, 0), (999, 63)):
+        playback.jump(asked)
+        assert playback.step == shown
+
+
+def test_texts_follow_the_step(serve: Serve) -> None:
+    app = serve(open_exhibit(["ladder-hand"]))
+    app.playback.jump(7)
+    texts = app.stage._texts
+    assert "Step 7 of 63" in texts["head"].content
+    assert texts["margins"].content.count("font-weight:700") == 1
+    assert "right shoulder" in texts["bars"].content
+
+
+def test_plan_and_run_are_made_and_shown_together(serve: Serve, compiled: None) -> None:
+    app = serve(open_exhibit(["ladder"]))
+    board, work = app.board, app.work
+    assert board is not None and work is not None
+    board.draft.set_goal(9 * 0.0254, 12 * 0.0254)
+    board.apply()
+    assert app.exhibit.task is not None and app.exhibit.plan is None
+    work._reserves.value = False
+    work.plan()
+    eventually(lambda: not work.labour.busy)
+    assert app.exhibit.plan is not None and set(app.stage.films) == {"plan"}
+    work._reserves.value = True
+    work.plan()
+    eventually(lambda: not work.labour.busy)
+    work.run()
+    eventually(lambda: not work.labour.busy)
+    film = app.exhibit.run_film
+    assert isinstance(film, ClimbFilm) and app.playback.film is film
+    assert app.stage.shown == "both" and set(app.stage.films) == {"plan", "run"}
+    app.playback.jump(1)
+    assert shown_figures(app) == {"run", "plan ghost"}
+    app.choose("plan")
+    plan: Film[Any] = app.stage.films["plan"]
+    assert app.playback.film is plan
+    assert shown_figures(app) == {"plan"}
+    board.apply()  # another board has no plan yet
+    assert app.exhibit.plan is None and set(app.stage.films) == {"plan"}
+
+
+def test_bad_board_is_drawn_and_told_of_and_nothing_else_changes(serve: Serve) -> None:
+    app = serve(open_exhibit(["gap"]))
+    board = app.board
+    assert board is not None
+    before = app.exhibit
+    peg = board.draft.pegs[1]
+    board.draft.move(2, peg.x, peg.y)
+    board.apply()
+    assert "holds 1 and 2 overlap" in board._peg_words.content and board._goal_words.content == ""
+    assert app.exhibit is before
+    drawn = app._wall()._pegs
+    assert drawn is not None
+    np.testing.assert_allclose(drawn.node.batched_positions[1], drawn.node.batched_positions[0])
+    for number in (1, 2, 3):
+        board.draft.remove(number)
+    board.apply()
+    assert "no holds" in board._peg_words.content
+    board._pressed("add")
+    assert tuple(board.draft.pegs) == (1,)
+    board._pressed("as it was")
+    assert board._peg_words.content == "" and app.exhibit.task is not None
+    assert app.exhibit.task.world.holds == board.draft.task.world.holds  # type: ignore[union-attr]
+
+
+def test_start_that_does_not_hold_is_told_of(serve: Serve) -> None:
+    app = serve(open_exhibit(["gap"]))
+    board = app.board
+    assert board is not None
+    peg = board.draft.pegs[1]
+    board.draft.move(1, peg.x - 1.0, peg.y)  # out of the reach of the limb that is on it
+    with pytest.raises(StartError):
+        app.show_task(board.task())
+    board.apply()
+    assert "start" in board._peg_words.content
+
+
+def test_run_without_a_plan_is_told_of(serve: Serve) -> None:
+    work = serve(open_exhibit(["gap"])).work
+    assert work is not None
+    work.run()
+    assert "press Plan first" in work._run_words.content
+
+
+def test_ports_are_checked() -> None:
+    assert free_port("127.0.0.1", 0) > 0
+    with pytest.raises(PortError, match=r"cannot listen on 192\.0\.2\.1"):
+        free_port("192.0.2.1", 0)  # of no machine
+    assert issubclass(PortError, ClamberError)
