@@ -196,3 +196,27 @@ def test_motions_on_flat_ground_keep_the_feet_that_stand_where_they_are() -> Non
     true = plant.truth()
     np.testing.assert_allclose(walker.pose[:2], true.pose[:2], atol=1e-3)
     np.testing.assert_allclose(walker.frames()[:, 1], (0.11, 0.16), atol=1e-3)
+
+
+def test_feet_that_land_early_on_a_terrace_take_no_load_from_those_that_stand() -> None:
+    """Two of three land 30 mm above the third. They wait for it with what stopped them: five feet share a load most evenly in a way that
+    may ask one of the old ones to pull.
+    """
+    walker, plant = stood(
+        lambda x, y: 0.03 if y > 0.15 and abs(x) > 0.1 else 0.0, noise=0.0, settings=WalkSettings(clear=None)
+    )
+    end = forward(walker, Y, 0.06)
+    motions.lift(walker, Y, end)
+    motions.slide(walker, Y, end)
+    before, lost, worst, tick = plant.forces[:3].copy(), 0.0, 0.0, walker.tick
+
+    def watched() -> None:
+        nonlocal lost, worst
+        tick()
+        lost, worst = max(lost, float((before - plant.forces[:3]).max())), max(worst, plant.tilt())
+
+    walker.tick = watched  # type: ignore[method-assign]
+    assert not motions.lower(walker, walker.of_frame(Y))
+    assert np.ptp(walker.heights[3:]) == pytest.approx(0.03, abs=2e-3)
+    assert lost < 3.0 * walker.settings.touch
+    assert math.degrees(worst) < 0.1

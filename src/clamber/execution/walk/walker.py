@@ -361,7 +361,13 @@ class Walker:
             self.inclination.frozen = False
 
     def _share_load(self) -> None:
-        """Legs that carry too much while more than three stand are drawn in, others pushed out; the plane through the feet stays."""
+        """Legs that carry too much while all stand are drawn in, others pushed out; the plane through the feet stays.
+
+        While a foot is still on its way down, those that have landed before it are not to take more: four or five feet share a load
+        most evenly in a way that may ask one of them to pull.
+        """
+        if not self.stands.all():
+            return
         over = strain_of(self.places, self.forces - self.strain, self.stands)
         give = max(self.inclination.give, LEAST_GIVE)
         self.heights += self.settings.share * self.period * give * over
