@@ -1,6 +1,8 @@
 """Plans that are searched for anew without the grabs that failed in rehearsal."""
 
 from dataclasses import replace
+from pathlib import Path
+from typing import Final
 
 import numpy as np
 import pytest
@@ -9,6 +11,7 @@ from clamber.actions.plan import Plan
 from clamber.actions.plan_source import open_plan
 from clamber.errors import SpecError
 from clamber.execution.climb.climb_report import ActionReport, ClimbReport
+from clamber.execution.climb.course import lay_course
 from clamber.experiments.climb.cautions import STEADY, cautious
 from clamber.experiments.climb.planning import plan_to_climb
 from clamber.experiments.climb.rehearsal import Rehearsal, grab_at_fault
@@ -16,6 +19,8 @@ from clamber.experiments.climb.run_plan import climbing_task
 from clamber.planning.planners import PLANNERS
 from clamber.tasks import load_task
 from clamber.tasks.limbed import LimbedTask
+
+EXAMPLES: Final = Path(__file__).parents[3] / "examples"
 
 
 def grabs(plan: Plan) -> set[tuple[str | None, int | None]]:
@@ -39,16 +44,20 @@ def test_a_climb_went_wrong_with_the_grab_that_failed_or_the_one_that_led_there(
     assert grab_at_fault(plan, ClimbReport()) is None
 
 
-@pytest.mark.parametrize("planner", ["beam", "exact"])
-def test_a_limb_never_takes_a_hold_that_is_barred_to_it(planner: str) -> None:
+def test_a_limb_never_takes_a_hold_that_is_barred_to_it() -> None:
     task = climbing_task(load_task("ladder"))
-    free = PLANNERS[planner](task, seconds=60.0).plan
+    free = PLANNERS["beam"](task, seconds=60.0).plan
     limb, hold = next((action.limb, action.hold) for action in free.actions if action.kind == "grab")
     assert limb is not None and hold is not None
     barred = climbing_task(load_task("ladder", [f"rules.barred.{limb}=[{hold}]"]))
-    result = PLANNERS[planner](barred, seconds=60.0)
+    result = PLANNERS["beam"](barred, seconds=60.0)
     assert result.has_plan
     assert (limb, hold) not in grabs(result.plan)
+
+
+def test_nothing_speaks_against_the_plan_for_the_circle_under_the_rules_that_can_be_carried_out() -> None:
+    opened = open_plan(EXAMPLES / "circle" / "plan.json")
+    assert lay_course(climbing_task(opened.task), opened.plan).objections == ()
 
 
 def test_bars_name_limbs_and_holds_that_there_are() -> None:
