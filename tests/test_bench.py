@@ -185,3 +185,17 @@ class Nobody(LocalProcesses):
     def run(self, name: str, items: Mapping[str, str]) -> Generator[End]:
         assert not items
         yield from ()
+
+
+def test_commands_that_compute_nothing_are_timed_as_whole_processes(monkeypatch: pytest.MonkeyPatch) -> None:
+    ran: list[tuple[str, ...]] = []
+
+    def run_command(words: tuple[str, ...], cache: Path) -> tuple[float, float]:
+        ran.append(words)
+        return 1.0 / len(ran), 10.0
+
+    monkeypatch.setattr(starts, "run_command", run_command)
+    rows = starts.command_rows()
+    assert [row.aim for row in rows] == ["under 0.3 s", None, "under 1 s", None]
+    assert set(ran) == {("--help",), ("--version",), ("list",), ("doctor",)}
+    assert rows[0].value == 1.0 / starts.STARTS, "the best of several"

@@ -135,6 +135,24 @@ def test_its_planner_plans_and_its_check_reports(install: Any, run: Run, tmp_pat
     assert heights[-1] == pytest.approx(0.0254 * inches - 1.0, abs=1e-9)
 
 
+def test_its_planner_takes_part_where_ours_are_given_usual_options(install: Any, run: Run) -> None:
+    install()
+    words = (
+        "sweep",
+        "ladder",
+        "--planner",
+        "own-planner",
+        "--vary",
+        "step.length=3in..4in:2",
+        "--workers",
+        "1",
+        "--json",
+    )
+    code, out, err = run(*words)
+    assert code == 0, err
+    assert {point["status"] for point in json.loads(out)["points"]} <= {"optimal", "infeasible"}
+
+
 def test_its_law_moves_the_tip_as_ours_of_the_same_equation_does(install: Any) -> None:
     """Where gravity does not act and nothing limits the motors, J^T (kp e - kd v) is our jacobian-transpose."""
     install()

@@ -4,11 +4,12 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from threading import Event
 
 import pytest
 
 import clamber
-from clamber.cli import output
+from clamber.cli import main, output
 
 
 def run(cache: Path) -> subprocess.CompletedProcess[str]:
@@ -37,18 +38,32 @@ def test_progress_counts_what_is_there_until_the_kernel_is(
 
     folder = compiled.cache_folder()
     folder.mkdir()
-    naps: list[float] = []
+    naps: list[float | None] = []
 
-    def nap(seconds: float) -> None:
-        naps.append(seconds)
-        name = "replay" if len(naps) == 3 else f"kernel{len(naps)}"
-        (folder / f"module.{name}-1.py311.1.nbc").write_bytes(b"")
+    class Compiling(Event):
+        def wait(self, timeout: float | None = None) -> bool:
+            naps.append(timeout)
+            name = "replay" if len(naps) == 3 else f"kernel{len(naps)}"
+            (folder / f"module.{name}-1.py311.1.nbc").write_bytes(b"")
+            return False
 
-    monkeypatch.setattr(output.time, "sleep", nap)
-    output._tell_compilation("replay", output.stderr(), every=0.0)
+    output._tell_compilation("replay", output.stderr(), every=0.0, ended=Compiling())
     lines = capsys.readouterr().err.splitlines()
     assert [line.split()[0] for line in lines] == ["1", "2", "3", "compiled"]
     assert len(naps) == 3
+
+
+def test_progress_falls_silent_with_its_command(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("CLAMBER_CACHE", str(tmp_path))
+    ended = Event()
+    ended.set()
+    output._tell_compilation("replay", output.stderr(), every=0.0, ended=ended)
+    assert capsys.readouterr().err == ""
+    with pytest.raises(SystemExit):
+        main(["check", "no-such-thing"])
+    assert output._command_ended.is_set()
 
 
 def test_nothing_is_told_where_nothing_compiles(

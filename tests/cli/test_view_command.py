@@ -21,7 +21,7 @@ def test_page_is_served_and_ends(clamber: Clamber, monkeypatch: pytest.MonkeyPat
     assert code == 0
     (url,) = opened
     assert re.fullmatch(r"http://127\.0\.0\.1:\d+", url)
-    assert out == f"LIBRA climbs a ladder of pegs: {url}  (Ctrl-C ends it)\n"
+    assert out == f"LIBRA climbs a ladder of pegs\n{url}  (Ctrl-C ends it)\n"
     assert "expose" not in err
 
 
@@ -40,6 +40,24 @@ def test_page_answers_on_loopback(monkeypatch: pytest.MonkeyPatch) -> None:
         assert app.server.get_host() == "127.0.0.1"
         with urllib.request.urlopen(app.url, timeout=10.0) as page:
             assert b"<html" in page.read()
+    finally:
+        app.close()
+
+
+@pytest.mark.parametrize(("origin", "answer"), [("http://evil.example", 403), (None, 101), ("own", 101)])
+def test_pages_of_others_are_refused(origin: str | None, answer: int) -> None:
+    from clamber.viewing.browser.app import App
+    from clamber.viewing.browser.exhibit import open_exhibit
+
+    app = App(open_exhibit(["gap"]))
+    try:
+        port = app.server.get_port()
+        with socket.create_connection(("127.0.0.1", port), timeout=10.0) as line:
+            head = ["GET / HTTP/1.1", f"Host: 127.0.0.1:{port}", "Upgrade: websocket", "Connection: Upgrade"]
+            head += ["Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==", "Sec-WebSocket-Version: 13"]
+            head += [] if origin is None else [f"Origin: {app.url if origin == 'own' else origin}"]
+            line.sendall(("\r\n".join(head) + "\r\n\r\n").encode())
+            assert int(line.recv(1000).split()[1]) == answer
     finally:
         app.close()
 

@@ -7,7 +7,7 @@ import pytest
 
 from clamber.execution.climb.climb_trace import TracedClimber
 from clamber.execution.climb.climber import ASTRAY, TURNED, FallenError
-from clamber.execution.climb.motions import grab
+from clamber.execution.climb.ends import grab
 from clamber.robots.library import load_robot
 from clamber.robots.limbed import LimbedRobot
 from clamber.sim.climber_model import HookShape

@@ -8,7 +8,7 @@ import pytest
 
 from clamber.execution.climb.approach import HOOK, LEAST_CLEARANCE, Approaches
 from clamber.execution.climb.legs import legs_of
-from clamber.execution.climb.parking import SPARE, park, poses_between
+from clamber.execution.climb.parking import SPARE, park, passes, poses_between
 from clamber.execution.climb.postures import postures
 from clamber.execution.climb.whole_body import LimbTask, WholeBody
 from clamber.robots.library import load_robot
@@ -82,6 +82,19 @@ def test_a_parked_limb_meets_no_peg_along_the_way_of_the_body(board: str, seed: 
     for a, b in pairwise(way):
         for u in np.linspace(0.0, 1.0, 20):
             assert least_room(ways.robot, i, a + u * (b - a), poses[0], holds) > LEAST_CLEARANCE - 0.003
+
+
+@pytest.mark.parametrize("board", ["modified-ladder", "circle"])
+@pytest.mark.parametrize("seed", range(6))
+def test_the_body_may_pass_where_its_free_limb_can_first_go_elsewhere_and_not_where_it_cannot(
+    board: str, seed: int
+) -> None:
+    ways, holds = approaches(), places_of(board)
+    i, angles, poses = blocked(board, seed)
+    assert passes(ways, i, angles, poses, holds)
+    around = poses[-1][:2] + 0.2 * np.array([(np.cos(a), np.sin(a)) for a in np.linspace(0.0, 2.0 * np.pi, 80)])
+    ring = {100 + k: place for k, place in enumerate(around)}  # no limb reaches out of it, nor has it room inside
+    assert not passes(ways, i, angles, [poses[0], poses[-1]], ring)
 
 
 def test_a_limb_with_room_stays_where_it_is() -> None:

@@ -26,6 +26,7 @@ from .limb import limb
 from .list import list_names
 from .most import most
 from .new import new
+from .output import fall_silent
 from .plan import plan
 from .plant import plant
 from .polish import polish
@@ -100,3 +101,5 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except ClamberError as error:
         print(f"clamber: {error}", file=sys.stderr)
         sys.exit(2)
+    finally:
+        fall_silent()

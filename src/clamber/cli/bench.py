@@ -7,7 +7,6 @@ from typing import Annotated, Final
 
 import typer
 
-from ..files import write_atomically
 from .crew import EndsLine, check_resume, executor_of
 from .options import AsJson, Output, Ray, Resume, Store, Workers
 from .output import announce_compilation, check_writable, print_json, stderr, stdout
@@ -52,6 +51,7 @@ def bench(
     rows = [row for each in measured.values() for row in each]
     if output is not None:
         from ..experiments.performance_page import performance_page
+        from ..files import write_atomically
 
         write_atomically(
             output, performance_page(measured, shlex.join(("clamber", "bench", *chosen, "-o", str(output))))

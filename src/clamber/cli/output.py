@@ -5,8 +5,8 @@ import os
 import sys
 import time
 from pathlib import Path
-from threading import Thread
-from typing import Any
+from threading import Event, Thread
+from typing import Any, Final
 
 from rich.console import Console
 from rich.padding import Padding
@@ -51,16 +51,27 @@ def announce_compilation(kernel: str = "replay", *, quiet: bool = False) -> None
 
     if not quiet and not compiled.is_compiled(kernel):
         stderr().print("compiling the kernels (about half a minute, once)")
+        _command_ended.clear()
         Thread(target=_tell_compilation, args=(kernel, stderr()), daemon=True).start()
 
 
-def _tell_compilation(kernel: str, console: Console, every: float = 10.0) -> None:
-    """Tells now and then how many kernels there are, until `kernel` is among them."""
+_command_ended: Final = Event()
+"""What tells on the way falls silent with its command, though the process may live on."""
+
+
+def fall_silent() -> None:
+    """Ends what is told on the way; a command that ends calls it."""
+    _command_ended.set()
+
+
+def _tell_compilation(kernel: str, console: Console, every: float = 10.0, ended: Event = _command_ended) -> None:
+    """Tells now and then how many kernels there are, until `kernel` is among them or the command has ended."""
     from .. import compiled
 
     began, folder, told = time.monotonic(), compiled.cache_folder(), time.monotonic()
     while not compiled.is_compiled(kernel):
-        time.sleep(0.5)
+        if ended.wait(0.5):
+            return
         if time.monotonic() - told >= every:
             told = time.monotonic()
             count = sum(1 for _ in folder.glob("*.nbc"))

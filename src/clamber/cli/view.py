@@ -67,7 +67,7 @@ def view(
         if as_json:
             print_json({"url": app.url, "title": exhibit.title})
         else:
-            stdout().print(f"{exhibit.title}: {app.url}  (Ctrl-C ends it)", soft_wrap=True)
+            stdout().print(f"{exhibit.title}\n{app.url}  (Ctrl-C ends it)")
         if browser:
             import webbrowser
 

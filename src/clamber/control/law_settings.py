@@ -275,7 +275,8 @@ class LawSettings:
             LawError: If the settings do not fit the chain.
         """
         if self.law not in LAWS:
-            raise LawError("controller", "law", self.law, "is another package's: it runs on the limb bench alone")
+            allowed = "is another package's, in Python: what needs compiled laws (tuning, bodies) can't take it"
+            raise LawError("controller", "law", self.law, allowed)
         rows = self.rows_of(chain)
         if len(rows) > chain.n:
             raise LawError(

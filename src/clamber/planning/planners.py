@@ -50,6 +50,10 @@ FIRST_LOOPS: Final = {
 """Name -> the compiled loop that a planner's first run needs."""
 
 
+USUAL: Final = ("progress", "seconds", "seed", "threads")
+"""Options that all our planners are given; another package's may do without."""
+
+
 def first_loop(planner: str) -> str:
     """The compiled loop that a planner's first run needs; of another package's, that of the replay which proves its plan."""
     return FIRST_LOOPS.get(planner, "replay")
@@ -79,10 +83,9 @@ def _guarded(name: str, planner: Callable[..., Any]) -> Planner:
 
     @wraps(planner)
     def plan(task: Task, **options: Any) -> PlanResult:
-        if "progress" not in known:
-            options.pop("progress", None)
+        taken = {key: value for key, value in options.items() if key in known or key not in USUAL}
         with blamed("planners", name):
-            result = planner(task, **options)
+            result = planner(task, **taken)
         if not isinstance(result, PlanResult):
             raise failure("planners", name, f"answered a {type(result).__name__}; a planner answers a PlanResult")
         if result.has_plan and not result.check().ok:

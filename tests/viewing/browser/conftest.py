@@ -7,8 +7,10 @@ from typing import Any
 import pytest
 from page_visits import Visit
 
+from clamber.tasks import load_task
 from clamber.viewing.browser.app import App
 from clamber.viewing.browser.exhibit import Exhibit
+from clamber.viewing.browser.undertakings import carry_out, make_plan
 
 FLAGS = (
     "--no-sandbox",
@@ -33,6 +35,15 @@ def chromium() -> Iterator[Any]:
         browser = driver.chromium.launch(executable_path=program, args=list(FLAGS))
         yield browser
         browser.close()
+
+
+@pytest.fixture(scope="session")
+def compiled() -> None:
+    """Everything that plans and runs is compiled, so that no test waits for that while it waits for something else."""
+    task = load_task("ladder", ["goal={ y_min = '9 in' }"])
+    answer = make_plan(task, "auto", 600.0, lambda words, share=None: None, reserves=True)
+    assert answer.plan is not None, answer.words
+    carry_out(task, answer.plan, lambda words, share=None: None)
 
 
 @pytest.fixture

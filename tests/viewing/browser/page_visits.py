@@ -11,7 +11,7 @@ from clamber.viewing.browser.app import App
 from clamber.viewing.browser.climb_scenery import FOV
 
 PICTURES = Path(__file__).resolve().parents[3] / "out" / "screenshots"
-PATIENCE = 45_000  # [ms], far above what any step takes: pictures are drawn without a graphics card
+PATIENCE = 120_000  # [ms], far above what any step takes: pictures are drawn without a graphics card
 
 
 class Visit:
@@ -51,7 +51,7 @@ class Visit:
         return texts
 
 
-def wait_for(visit: Visit, holds: Any, seconds: float = 60.0) -> None:
+def wait_for(visit: Visit, holds: Any, seconds: float = 120.0) -> None:
     """Wait until something holds of the viewer behind a page."""
     for _ in range(int(10 * seconds)):
         if holds():

@@ -61,7 +61,7 @@ def test_texts_follow_the_step(serve: Serve) -> None:
     assert "right shoulder" in texts["bars"].content
 
 
-def test_plan_and_run_are_made_and_shown_together(serve: Serve) -> None:
+def test_plan_and_run_are_made_and_shown_together(serve: Serve, compiled: None) -> None:
     app = serve(open_exhibit(["ladder"]))
     board, work = app.board, app.work
     assert board is not None and work is not None

@@ -38,7 +38,7 @@ def test_plan_plays_and_jumps(serve: Serve, visit: Open) -> None:
 
 
 @pytest.mark.slow
-def test_board_is_edited_planned_and_run_by_clicks(serve: Serve, visit: Open) -> None:
+def test_board_is_edited_planned_and_run_by_clicks(serve: Serve, visit: Open, compiled: None) -> None:
     app = serve(open_exhibit(["ladder"]))
     shown, board = visit(app.url), app.board
     assert board is not None and isinstance(app.stage.world, WallScene)
@@ -85,7 +85,7 @@ def test_board_is_edited_planned_and_run_by_clicks(serve: Serve, visit: Open) ->
 
 
 @pytest.mark.slow
-def test_bad_boards_are_told_of_and_the_page_stays(serve: Serve, visit: Open) -> None:
+def test_bad_boards_are_told_of_and_the_page_stays(serve: Serve, visit: Open, compiled: None) -> None:
     app = serve(open_exhibit(["gap"]))
     shown, board = visit(app.url), app.board
     assert board is not None
@@ -133,7 +133,7 @@ def test_bad_boards_are_told_of_and_the_page_stays(serve: Serve, visit: Open) ->
 
 
 @pytest.mark.slow
-def test_work_is_stopped_by_a_click(serve: Serve, visit: Open) -> None:
+def test_work_is_stopped_by_a_click(serve: Serve, visit: Open, compiled: None) -> None:
     app = serve(open_exhibit(["h"]))
     shown = visit(app.url)
     shown.page.get_by_role("tab", name="Board").click()

@@ -11,8 +11,9 @@ from .climber import Climber, Grabbed
 from .course import Course, swings
 from .ends import grab, release
 from .hang import Hang
+from .hook import may_stay
 from .let_go import let_go
-from .motions import clear_the_way, may_stay, move_body
+from .motions import clear_the_way, move_body
 
 ELSEWHERE: Final = ((0.0, 0.0), (0.0, 0.02), (0.0, -0.02), (0.025, 0.0), (-0.025, 0.0))
 """Where the body goes for another approach after a miss, from the plan's pose [m]."""

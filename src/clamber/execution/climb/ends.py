@@ -1,35 +1,25 @@
-"""Grab and release with whatever a limb ends in: one pair of motions per kind of end effector."""
+"""Grab and release with whatever a limb ends in."""
 
-from collections.abc import Callable
 from typing import Final
 
 from ...types import Floats
-from . import grip, motions
+from . import grabbing, grip, hook
 from .climber import Climber, Grabbed
 
-GRABS: Final[dict[str, Callable[..., Grabbed]]] = {
-    "hook": motions.grab,
-    "foot": motions.grab,
-    "gripper": grip.grab_with_gripper,
-}
-"""Kind of end effector -> how it takes a hold."""
-RELEASES: Final[dict[str, Callable[[Climber, int], None]]] = {
-    "hook": motions.release,
-    "foot": motions.release,
-    "gripper": grip.release_gripper,
-}
-"""Kind of end effector -> how it leaves its hold."""
+ENDS: Final[dict[str, grabbing.End]] = {"hook": hook, "foot": hook, "gripper": grip}
+"""Kind of end effector -> how it takes holds and leaves them."""
 
 
 def grab(climber: Climber, i: int, number: int, *, elbow: int = 0, home: Floats | None = None) -> Grabbed:
-    """Bring limb `i` to a hold and hold on, with the elbow on a side: +1, -1, or 0 for either.
+    """Bring limb `i` to a hold and hold on, with the elbow on a side: +1, -1, or 0 for either (`grabbing.grab`).
 
     The body goes to the pose `home` first where there is no way from where it is.
 
     Raises:
         FallenError: If the robot falls.
     """
-    return GRABS[climber.robot.limbs[i].end.kind](climber, i, number, elbow=elbow, home=home)
+    end = ENDS[climber.robot.limbs[i].end.kind]
+    return grabbing.grab(climber, i, number, end, elbow=elbow, home=home)
 
 
 def release(climber: Climber, i: int) -> None:
@@ -38,4 +28,4 @@ def release(climber: Climber, i: int) -> None:
     Raises:
         FallenError: If the robot falls.
     """
-    RELEASES[climber.robot.limbs[i].end.kind](climber, i)
+    ENDS[climber.robot.limbs[i].end.kind].release(climber, i)

@@ -1,13 +1,15 @@
 """Grab and release with a gripper: bring the open jaws about the hold, close them, look whether they hold; open them and back off."""
 
+from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
 
 from ...types import Floats
-from .climber import Climber, Grabbed
+from .approach import Approach
+from .climber import Climber
 from .grip_ways import way_in, way_out
-from .motions import follow, move_body, move_tip
+from .motions import move_body, move_tip
 
 AROUND: Final = ((0.0, 0.0), (0.8, 0.0), (-0.8, 0.0), (0.0, 0.8), (0.0, -0.8), (0.8, 0.8), (-0.8, -0.8))
 """Where each try closes, along and across the grab direction from the hold as believed, in errors of the map [-]."""
@@ -19,7 +21,7 @@ TUG_RISE: Final = 0.2
 """In which it grows; it then stays as long [s]."""
 
 
-def release_gripper(climber: Climber, i: int) -> None:
+def release(climber: Climber, i: int) -> None:
     """Hand the load over, open the jaws, and back off."""
     climber.carry_with_all(but=i)
     task = climber.body.tasks[i]
@@ -29,26 +31,10 @@ def release_gripper(climber: Climber, i: int) -> None:
     task.hold, task.doing, task.angles = 0, "joints", climber.body.q[i].copy()
 
 
-def grab_with_gripper(climber: Climber, i: int, number: int, *, elbow: int = 0, home: Floats | None = None) -> Grabbed:
-    """Bring a limb to a hold and close its jaws; try again beside where they close on nothing.
-
-    Args:
-        climber: The robot.
-        i: Index of the limb.
-        number: Of the hold.
-        elbow: Side of the elbow to hold with: +1, -1, or 0 for the jaws most on top.
-        home: Pose to which the body goes where there is no way from where it is, before it makes room; None: it is there.
-
-    Raises:
-        FallenError: If the robot falls.
-    """
-    body, task = climber.body, climber.body.tasks[i]
-    if task.hold:
-        release_gripper(climber, i)
-    else:
-        climber.carry_with_all(but=i)
+def come_near(climber: Climber, i: int, number: int, doubt: float, elbow: int, home: Floats | None) -> Approach | None:
+    """Move the body to where there is a way for the open jaws, and find the way from there; None where there is none."""
+    body, hold = climber.body, climber.holds[number]
     climber.grips[i] = 0
-    hold, doubt = climber.holds[number], climber.doubt(number, i)
     found = way_in(climber, i, hold, elbow, doubt)
     if home is not None and (found is None or found.shift.any()):
         move_body(climber, home)
@@ -56,31 +42,31 @@ def grab_with_gripper(climber: Climber, i: int, number: int, *, elbow: int = 0, 
     if found is not None and found.shift.any():
         move_body(climber, body.aim + np.array((*found.shift, 0.0)))
         found = way_in(climber, i, hold, elbow, doubt) or found
-    if found is None:
-        return Grabbed(False, 0, 0.0, 0.0)
-    follow(climber, i, found.way)
-    climber.wait(0.15)
+    return found
+
+
+def places(climber: Climber, i: int, hold: Floats, doubt: float, found: Approach) -> Iterator[Floats]:
+    """Where each try closes: at the hold as believed, then around it."""
     g = found.grab
-    h = np.array((-g[1], g[0]))
-    along = across = 0.0
-    for tries, (forth, aside) in enumerate(AROUND, 1):
-        aim = hold + doubt * (forth * g + aside * h)
-        move_tip(climber, i, aim, 0.6)
-        climber.wait(0.1)
-        climber.grips[i] = 1
-        task.doing, task.place = "cling", aim.copy()  # the jaws draw the tip to the hold
-        climber.wait(CLOSED)
-        if climber.gripped[i] and _holds(climber, i, g):
-            off = body.tip(i) - hold
-            along, across = float(off @ g), float(off @ h)
-            climber.learn(number, i, [j for j, other in enumerate(body.tasks) if other.doing == "hold"])
-            task.doing, task.hold, task.place = "cling", number, climber.holds[number].copy()
-            climber.wait(0.1)
-            return Grabbed(True, tries, along, across)
-        climber.grips[i] = 0
-        move_tip(climber, i, hold - found.stand_off * g, 0.5)
-    task.doing, task.angles = "joints", body.q[i].copy()
-    return Grabbed(False, len(AROUND), along, across)
+    for forth, aside in AROUND:
+        yield hold + doubt * (forth * g + aside * np.array((-g[1], g[0])))
+
+
+def close(climber: Climber, i: int, hold: Floats, doubt: float, found: Approach, place: Floats, tries: int) -> bool:
+    """Shut the jaws about a place; whether they hold something."""
+    task = climber.body.tasks[i]
+    move_tip(climber, i, place, 0.6)
+    climber.wait(0.1)
+    climber.grips[i] = 1
+    task.doing, task.place = "cling", place.copy()  # the jaws draw the tip to the hold
+    climber.wait(CLOSED)
+    return bool(climber.gripped[i]) and _holds(climber, i, found.grab)
+
+
+def back_off(climber: Climber, i: int, hold: Floats, doubt: float, found: Approach) -> None:
+    """Open the jaws, and back to where they came in from."""
+    climber.grips[i] = 0
+    move_tip(climber, i, hold - found.stand_off * found.grab, 0.5)
 
 
 def _holds(climber: Climber, i: int, g: Floats) -> bool:

@@ -94,10 +94,12 @@ def catch(climber: Climber, lost: int) -> Hang | None:
     body = climber.body
     climber.fall.reset()
     climber.slip.reset()
-    lose = not _bears(climber, lost)
     for i, task in enumerate(body.tasks):
         if task.doing == "tip" and task.hold and math.dist(body.tip(i), task.place) < IN_SLOT:
             task.doing = "cling"
+    others = sum(i != lost and task.doing in (*ONWARDS, "pull") for i, task in enumerate(body.tasks))
+    lose = others < 2 or not _bears(climber, lost)  # a body that hangs on one hook swings at once
+    for i, task in enumerate(body.tasks):
         off = task.doing not in ONWARDS and not (lose and task.doing == "pull" and _hook_on(climber, i, AT_HOLD))
         if off or (i == lost and lose):
             task.hold, task.doing, task.angles, task.rates = 0, "joints", body.q[i].copy(), np.zeros(2)

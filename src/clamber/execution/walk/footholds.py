@@ -31,7 +31,7 @@ AGAIN: Final = 4
 
 
 def prove(walker: Walker, frame: int) -> list[int]:
-    """Load the feet of a frame that has just come down, and push them about, until nothing gives way; all of them stand in the end.
+    """Load the feet of a frame that has just come down, and push them about, until nothing gives way or `AGAIN` times; all stand then.
 
     Args:
         walker: The robot, on six feet.

@@ -7,7 +7,7 @@ from typing import Final, Literal, TypeAlias
 
 import numpy as np
 
-from ...control.gait import PhaseTimes, Step
+from ...control.gait import DELTA, PhaseTimes, Step, Y
 from ...types import Floats, Json
 from ..plant import PlantStoppedError
 from . import motions
@@ -156,6 +156,9 @@ class WalkSequencer:
             raise RefusedError(f"{leg_name(none[0])} finds no ground")
         if walker.settings.level:
             motions.level(walker)
+        if walker.settings.probe > 0.0:
+            for frame in (DELTA, Y):  # nobody has chosen where it stands either
+                prove(walker, frame)
         feel_give(walker)
         if not self._calibrated:
             calibrate(walker)

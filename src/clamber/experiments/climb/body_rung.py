@@ -11,7 +11,8 @@ from ... import __version__
 from ...errors import ClamberError
 from ...execution.climb.climb_trace import TracedClimber
 from ...execution.climb.climber import Climber, FallenError
-from ...execution.climb.motions import grab, move_body, release
+from ...execution.climb.ends import grab, release
+from ...execution.climb.motions import move_body
 from ...execution.climb.whole_body import BodyGains
 from ...jobs import Executor, map_items
 from ...sim.climber_plant import ClimberPlant
@@ -114,6 +115,7 @@ def _climb(climber: Climber) -> str:
     climber.start(start, {"right": 4, "left": 3, "bottom": 2}, idle="bottom", elbows=ELBOWS)
     try:
         climber.wait(0.5)
+        climber.learn_start()
         for limb, number, elbow in GRABS:
             if not grab(climber, names.index(limb), number, elbow=elbow).held:
                 return f"the {limb} limb missed {number}"

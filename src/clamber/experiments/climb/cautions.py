@@ -35,6 +35,12 @@ class Caution:
     """What of it limbs leave that hold; None: all of it [in]."""
     room: float | None = None
     """Between other holds, and links of limbs and the body; None: links may lie on holds [mm]."""
+    flare: float = 0.0
+    """Likewise between holds and hooks, besides their own width, where `room` is given [mm]."""
+    inside: bool = False
+    """Whether the weight stays between the holds that carry it: a hook beside both, or above one, bears next to nothing."""
+    aloof: bool = False
+    """Whether free limbs that ride with the body keep clear of holds, too, and all second links of the body."""
     barred: tuple[tuple[str, int], ...] = ()
     """Limbs and numbers of holds that they may not take."""
 
@@ -49,12 +55,16 @@ CAUTIONS: Final = (
 )
 """The next where there is no plan that is easy in every stance; then the easiest."""
 STEADY: Final = (
-    Caution(hook_cone=60.0, hold_cone=90.0, strength=3.0, pull=0.2, share=0.6, spare=0.5, bend=0.2, room=4.0),
-    Caution(hook_cone=60.0, hold_cone=75.0, strength=2.0, pull=0.2, share=0.5, bend=0.5, room=4.0),
+    Caution(pull=0.2, bend=0.0, room=3.0, flare=3.0, inside=True),
+    Caution(hook_cone=60.0, hold_cone=75.0, strength=2.0, pull=0.2, share=0.5, bend=0.5, room=4.0, aloof=True),
+    Caution(
+        hook_cone=60.0, hold_cone=90.0, strength=3.0, pull=0.2, share=0.6, spare=0.5, bend=0.2, room=4.0, aloof=True
+    ),
 )
-"""Where even the easiest of those is hard, or none is carried out: hooks pull more, holders and the ways of their hooks keep clear of other
-holds (`holder_peg`), and so do the links of free limbs that ride with the body (`limb_peg`), which may find no way out between holds."""
-CLEAR: Final = ("holder_peg", "limb_peg", "limb_body")
+"""Where even the easiest of those is hard, or none is carried out, the more cautious first: hooks pull more, holders and the ways of
+their hooks keep clear of other holds, and either the weight is between them or free limbs keep clear of holds, too."""
+INSIDE: Final = ("stability",)
+ALOOF: Final = ("limb_peg", "limb_body")
 """Checks that are hard then."""
 
 
@@ -87,14 +97,14 @@ def cautious(task: LimbedTask, caution: Caution) -> LimbedTask:
         f"motor.torque_limit={caution.share * task.robot.motor.torque_limit!r} N m",
     ]
     if caution.room is not None:
-        room = caution.room * MM
-        hard = dict.fromkeys((*rules.hard, "holder_peg"))
+        flare = caution.flare * MM
+        hard = dict.fromkeys((*rules.hard, "holder_peg", *INSIDE * caution.inside, *ALOOF * caution.aloof))
         settings += [
             f"rules.hard=[{', '.join(repr(name) for name in hard)}]",
-            f"rules.hook_width={HOOK_WIDTH + 2.0 * room!r} m",
+            f"rules.hook_width={HOOK_WIDTH + 2.0 * flare!r} m",
             f"rules.hook_ahead={HOOK_AHEAD!r} m",  # no room there: its own hold stops it
-            f"rules.hook_way={HOOK_WAY + room!r} m",
-            f"link_radius={task.robot.link_radius + room!r} m",
+            f"rules.hook_way={HOOK_WAY + flare!r} m",
+            f"link_radius={task.robot.link_radius + caution.room * MM!r} m",
         ]
     cautious_task = change_task(changed, settings)
     assert isinstance(cautious_task, LimbedTask)  # the robot stays what it is

@@ -19,10 +19,11 @@ ANGLE: Final = 5.0
 """From level [deg]; the paper prints none."""
 DIRECTIONS: Final = (0, 45, 90, 135, 180, 225, 270, 315)
 """Of the steepest ascent, from the plate's heading, one after another [deg]; then back to level."""
-RESTS: Final = 6.0
+RESTS: Final = 8.0
 """For which the robot stands after each motion [s] ..."""
-READ: Final = 1.0
-"""... of which the inclinometers' readings are averaged over the last [s]."""
+READ: Final = 4.0
+"""... of which the inclinometers' readings are averaged over the last [s]: of readings 0.2 s apart, which their filter makes alike, 1 s
+would leave 0.03 deg along each axis, a third of what is to be shown, and 4 s leave half of that."""
 NOISE: Final = 0.05 * DEGREE
 """Of a reading [rad]."""
 MOVES: Final = 0.005

@@ -16,8 +16,8 @@ from .board_panel import BoardPanel
 from .climb_scenery import FOV
 from .exhibit import Exhibit, planned_exhibit, run_film
 from .inputs import by_hand, set_input
+from .own_pages import own_pages_only
 from .playback import Playback
-from .run_film import ClimbFilm
 from .scenery import Camera
 from .solids import colour
 from .stage import Stage
@@ -96,8 +96,10 @@ class App:
         check_viser()
         import viser
 
-        with contextlib.redirect_stdout(io.StringIO()):  # it greets; who opens it says where it is
-            self.server = viser.ViserServer(host=host, port=free_port(host, port), label="Clamber", verbose=False)
+        chosen = free_port(host, port)
+        guard = own_pages_only(chosen) if host == LOOPBACK else contextlib.nullcontext()
+        with guard, contextlib.redirect_stdout(io.StringIO()):  # it greets; who opens it says where it is
+            self.server = viser.ViserServer(host=host, port=chosen, label="Clamber", verbose=False)
         self.exhibit = exhibit
         server = self.server
         light_scene(server)
@@ -128,12 +130,8 @@ class App:
     def choose(self, shown: str) -> None:
         """Show the plan, the run, or both, as far as they are there."""
         stage = self.stage
-        options = (
-            SHOWN if isinstance(stage.films.get("run"), ClimbFilm) else SHOWN[:2]
-        )  # walks don't tell where in a plan they are
-        stage.shown = "plan" if shown == "plan" else "run" if shown == "run" or shown not in options else "both"
+        stage.shown = "plan" if shown == "plan" else "run" if shown == "run" else "both"
         self._shown.visible = len(stage.films) > 1
-        self._shown.options = options
         set_input(self._shown, stage.shown)
         self.playback.load(stage.main)
 

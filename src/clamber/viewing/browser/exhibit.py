@@ -19,12 +19,14 @@ from ...execution.log_files import SUFFIXES, read_log
 from ...execution.walk.walk_trace import WalkTrace
 from ...experiments.climb.run_plan import ClimbRun
 from ...experiments.walk.run_walk import WalkRun
+from ...robots.walker import WalkerRobot
 from ...tasks import Task, load_task
 from ...tasks.library import task_names
 from ...tasks.limbed import LimbedTask
 from ...tasks.walker import WalkerTask
 from ...tasks.walks import Walk, is_walk, load_walk, walk_names
 from ...types import Json
+from ...worlds.ground import Ground
 from ..climb_run_view import ClimbRunView
 from ..climb_view import ClimbView
 from ..walker_view import WalkerView
@@ -134,7 +136,7 @@ def _walk(walk: Walk, log: Log | None) -> Exhibit:
     trace = _walk_trace(log)
     bounds = walk_bounds(trace.believed[:, :2])
     scenery = WalkScenery(walk.robot, walk.ground, (), bounds)
-    film = WalkFilm(walk.robot, walk.ground, logged_walk(trace), trace.notes or {}, title)
+    film = _logged_film(walk.robot, walk.ground, trace, title)
     return Exhibit(title, scenery, None, film)
 
 
@@ -151,8 +153,13 @@ def _with_log(exhibit: Exhibit, log: Log) -> Exhibit:
     assert isinstance(exhibit.scenery, WalkScenery)
     bounds = join(exhibit.scenery.bounds, walk_bounds(trace.believed[:, :2]))
     exhibit.scenery = WalkScenery(task.robot, task.world, task.goals, bounds)
-    exhibit.run_film = WalkFilm(task.robot, task.world, logged_walk(trace), trace.notes or {}, exhibit.title)
+    exhibit.run_film = _logged_film(task.robot, task.world, trace, exhibit.title)
     return exhibit
+
+
+def _logged_film(robot: WalkerRobot, ground: Ground, trace: WalkTrace, title: str) -> WalkFilm:
+    margins = trace.margin if trace.true_margin is None else trace.true_margin
+    return WalkFilm(robot, ground, logged_walk(trace), trace.notes or {}, title, margins)
 
 
 def _climb_trace(log: Log, task: LimbedTask) -> tuple[ClimbTrace, list[ActionReport]]:

@@ -77,6 +77,10 @@ class Film(ABC, Generic[Moment]):
         """Number of the step that is under way at a time; 0 is the start."""
         return max(0, int(np.searchsorted(self.starts, time, side="right")) - 1)
 
+    def planned_time(self, time: float, plan: "Film[Moment]") -> float | None:
+        """The time of its plan's film that a time of a run belongs to; None where there is none, as in a plan itself."""
+        return None
+
     def rest(self, step: int) -> float:
         """A time at which a step has been carried out and the next has not begun [s]."""
         end = float(self.ends[step])

@@ -9,7 +9,7 @@ from ...control.felt_force import feel_forces
 from ...execution.climb.legs import legs_of
 from ...types import Floats
 from ..climb_run_view import OUTCOMES, ClimbRunView, Moment
-from .film import Film, MarginRow, PlanFilm
+from .film import Film, MarginRow
 
 USUAL: Final = 8.0
 """A climb takes minutes: it is played that much faster than it was [-]."""
@@ -86,8 +86,8 @@ class ClimbFilm(Film[Moment]):
         """See `Film`."""
         return 1 + int(np.argmin(self.grades[1:])) if len(self.grades) > 1 and min(self.grades[1:]) < 3 else None
 
-    def planned_time(self, time: float, plan: PlanFilm[Moment]) -> float | None:
-        """The time of the plan's film that a time of the run belongs to; None after another plan took its place."""
+    def planned_time(self, time: float, plan: Film[Moment]) -> float | None:
+        """See `Film`: as far in the same action; None after another plan took its place."""
         step = self.step_at(time)
         if step == 0:
             return 0.0

@@ -3,9 +3,8 @@
 import time
 from typing import TYPE_CHECKING, Any, Final, Literal
 
-from .film import Film, PlanFilm
+from .film import Film
 from .panel_html import bars_html, head_html, margins_html, strip_html
-from .run_film import ClimbFilm
 from .scenery import Figure, Scenery, World
 
 if TYPE_CHECKING:
@@ -85,11 +84,9 @@ class Stage:
         moment = film.at(at)
         kind = "run" if film is self.films.get("run") else "plan"
         ghost = None
-        if kind == "run" and self.shown == "both" and "plan" in self.films and isinstance(film, ClimbFilm):
-            plan = self.films["plan"]
-            assert isinstance(plan, PlanFilm)
-            then = film.planned_time(at, plan)
-            ghost = None if then is None else plan.at(then)
+        if kind == "run" and self.shown == "both" and "plan" in self.films:
+            then = film.planned_time(at, self.films["plan"])
+            ghost = None if then is None else self.films["plan"].at(then)
         with self.server.atomic():
             self._figure(kind).show(moment, film.grades[step])
             for name, figure in self._figures.items():

@@ -20,6 +20,8 @@ from .walker_figure import WalkMoment
 
 USUAL: Final = 16.0
 """A walk takes many minutes: it is played that much faster than it was [-]."""
+SAMPLED: Final = 0.05
+"""Between two moments of a plan among which the nearest is looked for [s]."""
 ENDED_WELL: Final = ("ok", "moved")
 """Outcomes of steps after which the walk goes on."""
 LIFTED: Final = 0.6
@@ -39,6 +41,7 @@ class PlannedWalkFilm(Film[WalkMoment]):
         film = self._film
         self.title, self.gauges, self.seconds, self.steps = film.title, film.gauges, film.seconds, film.steps
         self.grades, self.starts, self.ends = film.grades, film.starts, film.ends
+        self._sampled: tuple[Floats, Floats] | None = None
 
     def at(self, time: float) -> WalkMoment:
         """See `Film`."""
@@ -65,6 +68,17 @@ class PlannedWalkFilm(Film[WalkMoment]):
             (delta[[0, 1, 2, 0]], star[[1, 0, 2, 0, 3]]), level(at.outline.actuators), legs, touching, np.full((3, 3), np.nan), centre
         )  # fmt: skip
         return WalkMoment(shapes, np.zeros((2, 3, 3)), _weight(robot), at.poses)
+
+    def nearest(self, poses: Floats) -> float:
+        """When the frames of the plan are nearest to some poses, shape (2, 3) [s]: the sum of squares tells, turns at the feet's circle."""
+        if self._sampled is None:
+            times = np.arange(0.0, self.seconds + SAMPLED, SAMPLED)
+            self._sampled = times, np.array([self._film.at(float(time)).poses for time in times])
+        times, there = self._sampled
+        off = there - poses
+        radius = max(self._task.robot.legs.radius_delta, self._task.robot.legs.radius_y)
+        off[..., 2] = 2.0 * radius * np.sin(0.5 * off[..., 2])
+        return float(times[np.argmin(np.square(off).sum(axis=(1, 2)))])
 
     def values(self, at: WalkMoment) -> Floats:
         """See `Film`."""
@@ -102,12 +116,21 @@ class WalkFilm(Film[WalkMoment]):
         trace: What happened.
         report: As the walk's log has it.
         title: Above all.
+        margins: How far the centre of mass is inside the standing feet at each row [m]; None: as the trace has it.
     """
 
     speed = USUAL
     words = ("failed", "near tipping", "fair balance", "ample balance")
 
-    def __init__(self, robot: WalkerRobot, ground: Ground, trace: TrueWalk, report: Json, title: str) -> None:
+    def __init__(
+        self,
+        robot: WalkerRobot,
+        ground: Ground,
+        trace: TrueWalk,
+        report: Json,
+        title: str,
+        margins: Floats | None = None,
+    ) -> None:
         self._robot, self._trace, self.title = robot, trace, title
         self.gauges = actuator_gauges(robot)
         self.seconds = float(trace.time[-1])
@@ -118,7 +141,7 @@ class WalkFilm(Film[WalkMoment]):
         self.ends = np.array([0.0, *begins[1:], self.seconds] if begins else [0.0])
         self._weight = _weight(robot)
         self._size = 0.5 * min(robot.legs.radius_delta, robot.legs.radius_y)
-        self._margins = _true_margins(trace)
+        self._margins = _true_margins(trace) if margins is None else margins
         self._least = [self._least_of(k) for k in range(1, len(self.steps))]
         self.grades = (3, *(self._grade(step, least) for step, least in zip(self._steps, self._least, strict=True)))
 
@@ -150,6 +173,10 @@ class WalkFilm(Film[WalkMoment]):
         return WalkMoment(
             shapes, trace.forces[k], self._weight, poses, float(trace.time[k]), float(trace.tilts[k]), float(self._margins[k])
         )  # fmt: skip
+
+    def planned_time(self, time: float, plan: Film[WalkMoment]) -> float | None:
+        """See `Film`: where the plan's frames are nearest to those of the run."""
+        return plan.nearest(self.at(time).poses) if isinstance(plan, PlannedWalkFilm) else None
 
     def values(self, at: WalkMoment) -> Floats:
         """See `Film`."""
@@ -214,8 +241,6 @@ def _normals(pose: Floats) -> Floats:
 
 
 def _true_margins(trace: TrueWalk) -> Floats:
-    if np.isnan(trace.centre).all():
-        return np.full(len(trace.time), np.nan)
     rows = len(trace.time)
     return hull_margins(trace.feet.reshape(rows, 6, 3), trace.touching.reshape(rows, 6), trace.centre)
 

@@ -1,0 +1,82 @@
+"""The outline of a grab, whatever a limb ends in: off the old hold, near the new one, closed there in one place after another."""
+
+from collections.abc import Iterable
+from typing import Final, Protocol
+
+from ...types import Floats
+from .approach import Approach
+from .climber import Climber, Grabbed
+from .motions import follow
+
+CALM: Final = 0.15
+"""After the way to a hold, until the limb has come to rest [s]."""
+HELD: Final = 0.1
+"""After a hold is taken [s]."""
+
+
+class End(Protocol):
+    """What differs between the ends of limbs. Limb `i` is free but in `release`, the hold as believed, with its doubt either way [m]."""
+
+    def release(self, climber: Climber, i: int) -> None:
+        """Take the limb off its hold; the others carry. It may cling to it as before, where it does not come off."""
+
+    def come_near(
+        self, climber: Climber, i: int, number: int, doubt: float, elbow: int, home: Floats | None
+    ) -> Approach | None:
+        """Move the body to where there is a way for the limb, and find the way from there; None where there is none."""
+
+    def places(self, climber: Climber, i: int, hold: Floats, doubt: float, found: Approach) -> Iterable[Floats]:
+        """Where each try closes, world frame [m]."""
+
+    def close(
+        self, climber: Climber, i: int, hold: Floats, doubt: float, found: Approach, place: Floats, tries: int
+    ) -> bool:
+        """Close on a place at the try of that number, from 1; whether it holds."""
+
+    def back_off(self, climber: Climber, i: int, hold: Floats, doubt: float, found: Approach) -> None:
+        """Come off where it did not."""
+
+
+def grab(climber: Climber, i: int, number: int, end: End, *, elbow: int = 0, home: Floats | None = None) -> Grabbed:
+    """Bring a limb to a hold and hold on; try again beside where it misses (Bevly 1997, Fig. 4.14).
+
+    Args:
+        climber: The robot.
+        i: Index of the limb.
+        number: Of the hold.
+        end: What the limb ends in.
+        elbow: Side of the elbow to hold with: +1, -1, or 0 for the end most on top.
+        home: Pose to which the body goes where there is no way from where it is, before it makes room; None: it is there.
+
+    Raises:
+        FallenError: If the robot falls.
+    """
+    body, task = climber.body, climber.body.tasks[i]
+    if task.hold:
+        end.release(climber, i)
+    else:
+        climber.carry_with_all(but=i)
+    if task.hold:
+        return Grabbed(False, 0, 0.0, 0.0)
+    doubt = climber.doubt(number, i)
+    found = end.come_near(climber, i, number, doubt, elbow, home)
+    if found is None:
+        return Grabbed(False, 0, 0.0, 0.0)
+    follow(climber, i, found.way)
+    climber.wait(CALM)
+    climber.learn_again()
+    hold, (x, y) = climber.holds[number].copy(), found.grab
+    tries, along, across = 0, 0.0, 0.0
+    for tries, place in enumerate(end.places(climber, i, hold, doubt, found), 1):
+        holds = end.close(climber, i, hold, doubt, found, place, tries)
+        off = body.tip(i) - hold
+        along, across = float(x * off[0] + y * off[1]), float(x * off[1] - y * off[0])
+        if holds:
+            climber.learn(number, i, climber.holding())
+            climber.latest, climber.proven = i, False
+            task.doing, task.hold, task.place = "cling", number, climber.holds[number].copy()
+            climber.wait(HELD)
+            return Grabbed(True, tries, along, across)
+        end.back_off(climber, i, hold, doubt, found)
+    task.doing, task.angles = "joints", body.q[i].copy()
+    return Grabbed(False, tries, along, across)

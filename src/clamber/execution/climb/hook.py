@@ -1,0 +1,87 @@
+"""Grab and release with a hook, or a foot: straight in from off the hold, pushed until it stops, tugged; straight back off it."""
+
+import math
+from collections.abc import Callable, Iterator
+from typing import Final
+
+import numpy as np
+
+from ...types import Floats
+from .approach import Approach
+from .climber import Climber
+from .hook_push import push_on
+from .hook_release import release as release
+from .hook_release import stand_off_of
+from .motions import may_move, move_body, move_tip
+
+NEAR: Final = 0.022
+"""From here on, and the hold's doubt farther off, the hook is pushed, not placed: nearer, its flare would meet the hold sideways [m]."""
+ASIDE: Final = (0.0, 0.8, -0.8, 1.4, -1.4, 0.0)
+"""Across the hook, where each try aims, in doubts of the map [-]."""
+MOST_SHIFTS: Final = 2
+"""That often the body makes room for one way: its limbs are elsewhere after the first [-]."""
+ASTRAY: Final = 0.05
+"""A body may be as far from where a plan has it when a limb takes a hold, if the others hold no worse there, along x and y [m] ..."""
+TURNED: Final = 0.05
+"""... and turned by as much [rad]."""
+SLACK: Final = 0.008
+"""Beyond its doubt, how far a seated hook may be from where it should be: play and backlash [m]."""
+
+
+def come_near(climber: Climber, i: int, number: int, doubt: float, elbow: int, home: Floats | None) -> Approach | None:
+    """Move the body to where there is a way for a limb, and find the way from there; None where there is none."""
+    body, hold = climber.body, climber.holds[number].copy()
+    wished, near = stand_off_of(climber, i, doubt), NEAR + doubt
+
+    def way(stands: Callable[[Floats], bool]) -> Approach | None:
+        climber.plant.pause()
+        return climber.approaches.find(
+            i, body.q[i] - body.play[i], body.settled, hold, climber.holds, elbow=elbow, stand_off=wished, near=near,
+            stands=stands,
+        )  # fmt: skip
+
+    if home is not None:
+        found = way(_stays)
+        if found is not None:
+            return found
+        move_body(climber, home)
+    for left in reversed(range(MOST_SHIFTS + 1)):
+        found = way(may_move(climber) if left and not climber.hangs else _stays)
+        if found is None or not found.shift.any():
+            return found
+        move_body(climber, body.aim + np.array((*found.shift, 0.0)))
+    return None
+
+
+def places(climber: Climber, i: int, hold: Floats, doubt: float, found: Approach) -> Iterator[Floats]:
+    """Where each try aims: at the hold as believed, then beside it, across the hook."""
+    across = np.array((-found.grab[1], found.grab[0]))
+    for part in ASIDE:
+        yield hold + part * doubt * across
+
+
+def close(climber: Climber, i: int, hold: Floats, doubt: float, found: Approach, place: Floats, tries: int) -> bool:
+    """Push the hook on at a place; whether it came to rest where the hold may be."""
+    move_tip(climber, i, place - (NEAR + doubt) * found.grab, 0.5 if tries > 1 else 0.2)
+    room = SLACK + doubt
+    stopped = push_on(climber, i, place, found.grab, room)
+    return stopped and math.dist(climber.body.tip(i), hold) < room
+
+
+def back_off(climber: Climber, i: int, hold: Floats, doubt: float, found: Approach) -> None:
+    """Bring the hook off where it missed."""
+    move_tip(climber, i, hold - stand_off_of(climber, i, doubt) * found.grab, 0.5)
+
+
+def may_stay(climber: Climber, i: int, pose: Floats) -> bool:
+    """Whether limb `i` may take a hold from where the body is, near another pose: the limbs that then carry hold no worse here."""
+    body = climber.body
+    off = np.abs(pose - body.aim)
+    if climber.hangs or off[:2].max() > ASTRAY or off[2] > TURNED:
+        return False
+    others = [j for j, task in enumerate(body.tasks) if j != i and task.hold]
+    return body.stands(body.aim, others) >= min(0.0, body.stands(pose, others))
+
+
+def _stays(pose: Floats) -> bool:
+    return False
