@@ -60,7 +60,8 @@ def press(
         table.add_row("farthest off, mean over 20 ms", f"{100 * result.steady_ripple:.1f} %")
         table.add_row("root mean square", f"{100 * result.spread:.1f} %")
         table.add_row("time within 10 %", f"{100 * result.within:.1f} %")
-        table.add_row("body went", f"{1e3 * result.way[0]:.1f}, {1e3 * result.way[1]:.1f} mm")
+        x, y = (round(1e3 * float(part), 1) + 0.0 for part in result.way)  # never "-0.0"
+        table.add_row("body went", f"{x:.1f}, {y:.1f} mm")
         stdout().print(table)
         if result.reason:
             stdout().print(f"fell: {result.reason}")
