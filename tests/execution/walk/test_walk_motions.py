@@ -67,7 +67,10 @@ def test_a_slide_takes_the_frame_where_it_is_to_go_and_the_other_stays(swing: in
     c, s = math.cos(end[2]), math.sin(end[2])
     np.testing.assert_allclose(feet[:, :2], end[:2] + ROBOT.feet()[swing] @ ((c, s), (-s, c)), atol=1e-3)
     np.testing.assert_allclose(plant.truth().feet[1 - swing, :, :2], before[:, :2], atol=1e-3)
-    assert np.all(plant.forces[3 * swing : 3 * swing + 3] > walker.settings.touch)
+    # they have stopped on the ground; those that landed first lose a little to those that came after
+    assert np.all(plant.forces[3 * swing : 3 * swing + 3] > 0.5 * walker.settings.touch)
+    motions.settle(walker, 4.0)
+    assert np.all(plant.forces[3 * swing : 3 * swing + 3] > 60.0)
 
 
 def test_six_feet_down_forbid_a_slide_and_nothing_moves() -> None:
@@ -154,8 +157,8 @@ def test_a_foot_over_a_hole_finds_no_ground_and_the_others_stand() -> None:
     motions.slide(walker, Y, end)
     without = motions.lower(walker, walker.of_frame(Y))
     assert without == [5]
-    assert plant.forces[3] > 20.0
-    assert plant.forces[4] > 20.0
+    assert plant.forces[3] > 0.5 * walker.settings.touch  # they wait for the third with what stopped them
+    assert plant.forces[4] > 0.5 * walker.settings.touch
     assert walker.soles[5, 2] == pytest.approx(-walker.settings.deepest, abs=2e-3)
 
 
