@@ -1,5 +1,6 @@
 """Grippers in MuJoCo: they catch what is between their jaws and nothing else, hold in every direction, and slip above their strength."""
 
+import mujoco
 import numpy as np
 import pytest
 
@@ -34,6 +35,10 @@ def placed(pegs: Floats | None = None) -> ClimberPlant:
         place = board.positions()[number - 1]
         q[i] = next(one.angles for one in postures(robot().limbs[i], POSE, place) if one.angles[1] * elbow > 0.0)
     plant.reset(POSE, q)
+    plant._qpos[plant._at[1:]] = (
+        q.ravel()
+    )  # the plant begins on the true pegs; here the tips stay where the map has them
+    mujoco.mj_forward(plant.model, plant._data)
     return plant
 
 

@@ -1,6 +1,5 @@
-"""A real browser with WebGL for the viewer; where there is none, its tests are skipped by name."""
+"""Viewers, and visits to them in a real browser."""
 
-import shutil
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -11,30 +10,6 @@ from clamber.tasks import load_task
 from clamber.viewing.browser.app import App
 from clamber.viewing.browser.exhibit import Exhibit
 from clamber.viewing.browser.undertakings import carry_out, make_plan
-
-FLAGS = (
-    "--no-sandbox",
-    "--use-gl=angle",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--disable-quic",
-    "--no-first-run",
-)
-
-
-@pytest.fixture(scope="session")
-def chromium() -> Iterator[Any]:
-    program = shutil.which("chromium") or shutil.which("chromium-browser")
-    if program is None:
-        pytest.skip("no chromium: install Debian's package 'chromium' to test the viewer in a browser")
-    playwright = pytest.importorskip("playwright.sync_api", reason="no playwright: install 'clamber[dev]'")
-    with playwright.sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=program, args=list(FLAGS))
-        yield browser
-        browser.close()
 
 
 @pytest.fixture(scope="session")

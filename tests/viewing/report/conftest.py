@@ -1,34 +1,13 @@
-"""A real browser for the pages of reports; where there is none, tests of pages are skipped by name."""
+"""Visits to the pages of reports in a real browser."""
 
-import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-FLAGS = (
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--no-first-run",
-)
 PICTURES = Path(__file__).resolve().parents[3] / "out" / "screenshots"
-
-
-@pytest.fixture(scope="session")
-def chromium() -> Iterator[Any]:
-    program = shutil.which("chromium") or shutil.which("chromium-browser")
-    if program is None:
-        pytest.skip("no chromium: install Debian's package 'chromium' to test pages in a browser")
-    playwright = pytest.importorskip("playwright.sync_api", reason="no playwright: install 'clamber[dev]'")
-    with playwright.sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=program, args=list(FLAGS))
-        yield browser
-        browser.close()
 
 
 class Links(HTMLParser):
