@@ -26,7 +26,7 @@ def test_quick_results_of_bevly_keep_their_verdicts(name: str) -> None:
     assert result.result == name
     assert result.verdict == ("differs" if name == "hook-check" else "holds")
     told = result.to_json()
-    assert set(told) == {"paper", "result", "claim", "verdict", "numbers", "deviations"}
+    assert set(told) == {"paper", "result", "claim", "verdict", "numbers", "deviations", "seeds", "command"}
     json.dumps(told, allow_nan=False)
 
 

@@ -186,12 +186,11 @@ def test_a_plan_for_a_plant_that_nobody_serves_moves_nothing(clamber: Any, tmp_p
 def test_with_json_the_server_says_where_it_listens_in_one_value() -> None:
     words = [sys.executable, "-c", SERVE, "plant", "serve", "ladder", "--json", "-q"]
     with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as server:
-        assert server.stdout is not None
-        said = ""
-        while not said.endswith("}\n"):
-            said += server.stdout.readline()
-        told = json.loads(said)
-        Draft202012Validator(schema_of("plant serve")).validate(told)
-        assert told["address"].startswith("tcp:127.0.0.1:") and told["robot"] == "libra"
-        server.send_signal(signal.SIGTERM)
-        assert server.wait(timeout=PATIENCE) == 130
+        try:
+            told = json.loads(said_until(server.stdout, "}\n"))
+            Draft202012Validator(schema_of("plant serve")).validate(told)
+            assert told["address"].startswith("tcp://127.0.0.1:") and told["robot"] == "libra"
+            server.send_signal(signal.SIGTERM)
+            assert server.wait(timeout=PATIENCE) == 130
+        finally:
+            server.kill()  # what fails above must not leave it waiting for ever

@@ -93,7 +93,6 @@ def test_a_success_that_is_asked_for_decides_how_it_leaves(clamber: Any, tmp_pat
         (("ladder", "--at-least", "3"), "100 %"),
         (("ladder", "--task", "h"), "--task"),
         (("ladder", "--set", "plant.backlsh=1deg"), "backlash"),
-        (("patch-walk",), "climber"),
         (("missing.json",), "missing.json"),
         (("ladder-hand", "--ray", "nowhere"), "--ray"),
     ],
