@@ -139,10 +139,10 @@ def test_a_robot_that_cannot_stand_falls_at_the_start() -> None:
 
 
 @pytest.mark.slow
-def test_a_robot_that_is_held_by_a_step_it_does_not_know_of_is_lost() -> None:
-    """A step higher than feet are lifted: they push against it, and the robot reckons on."""
-    changes = ("start.x=35cm", "way.0.distance=30cm", "ground.blocks.0.height=7cm", "ground.blocks.1.height=7cm")
+def test_a_step_that_no_foot_gets_over_stops_the_robot_with_the_reason() -> None:
+    """A step higher than feet can be drawn up: they stay before it, and it says that it cannot go on."""
+    changes = ("start.x=35cm", "way.0.distance=30cm", "ground.blocks.0.height=12cm", "ground.blocks.1.height=12cm")
     walk = load_walk("step-walk", changes)
     run = run_walk(walk, walk_flaws(walk, ()))
-    assert not run.done
+    assert not run.done and "higher than it can be lifted" in run.reason
     assert run.true.pose[-1, 0] < 0.6
