@@ -1,5 +1,6 @@
 """What benchmarks measured, as a page that says on which machine."""
 
+import math
 import os
 import platform
 from collections.abc import Mapping, Sequence
@@ -62,7 +63,7 @@ def processor() -> str:
 
 
 def _value(row: Row) -> str:
-    return f"{row.value:.4g}" if row.value == row.value else "none"
+    return f"{row.value:.4g}" if math.isfinite(row.value) else "none"
 
 
 def _cell(text: str) -> str:
