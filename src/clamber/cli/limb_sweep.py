@@ -7,7 +7,7 @@ import typer
 
 from . import limb_options as opt
 from .crew import CrewWords
-from .option_holder import shares
+from .option_holder import takes_words
 from .output import announce_compilation, print_json, stdout
 
 
@@ -26,7 +26,7 @@ class ScenarioChoice(StrEnum):
     push = "push"
 
 
-@shares(CrewWords)
+@takes_words
 def sweep(
     vary: Annotated[
         list[str],

@@ -7,11 +7,11 @@ import typer
 
 from . import limb_options as opt
 from .crew import CrewWords
-from .option_holder import shares
+from .option_holder import takes_words
 from .output import announce_compilation, check_writable, print_json, stdout
 
 
-@shares(CrewWords)
+@takes_words
 def tune(
     controllers: Annotated[
         list[str] | None,

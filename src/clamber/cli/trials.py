@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from .crew import CrewWords
-from .option_holder import shares
+from .option_holder import takes_words
 from .options import (
     PLAN_SECONDS,
     NoiseTexts,
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ..experiments.climb.trial import TrialSetup
 
 
-@shares(CrewWords)
+@takes_words
 def trials(
     what: Annotated[
         str,
