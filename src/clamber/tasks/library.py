@@ -13,7 +13,8 @@ from ..specs import field_names
 from ..types import Json
 from ..worlds.board import SHORT_KEYS
 from ..worlds.library import read_board, read_ground
-from .limbed import LimbedTask, TaskSpec, build_limbed_task
+from .limbed import LimbedTask, TaskSpec
+from .limbed_build import build_limbed_task
 from .overrides import apply_overrides, split_override
 from .walker import WalkerTask, WalkerTaskSpec, build_walker_task
 
