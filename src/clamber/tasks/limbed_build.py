@@ -10,7 +10,8 @@ from ..specs import build_spec
 from ..worlds.board import Board, build_board
 from .limbed import FREE, LimbedTask, Start, TaskSpec
 from .limbed_checks import check_centres, check_goal, check_rules, check_start, listed
-from .task_file import SCHEMA, check_angle, hashes_of, parts_of
+from .parts import parts_of
+from .task_file import SCHEMA, check_angle, hashes_of
 
 DEFAULT_FOOT: Final = 0.6
 """A limb that starts free points straight out from its port, this share of its length [-]."""

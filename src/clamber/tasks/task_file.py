@@ -1,4 +1,4 @@
-"""What task files of every family have in common: their format, their parts, and rules for these."""
+"""What task files of every family have in common: their format, the hashes of their parts, and rules for steps and checks."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -8,17 +8,6 @@ from ..errors import describe_choices
 from ..files import Document, content_hash
 
 SCHEMA: Final = "clamber-task-1"
-
-
-def parts_of(document: Document, world: str) -> dict[str, Document]:
-    """The documents of robot and world that a merged document has in place of their names; `world` is the world's key."""
-    return {section: document.section(section, _label(document, section)) for section in ("robot", world)}
-
-
-def _label(document: Document, section: str) -> str:
-    labels = document.data.get("labels")
-    label = labels.get(section) if isinstance(labels, dict) else None
-    return label if isinstance(label, str) else f"{document.label} [{section}]"
 
 
 def hashes_of(document: Document, parts: Mapping[str, Document]) -> dict[str, str]:

@@ -15,7 +15,8 @@ from ..types import Json
 from ..units import Angle, Length, NonNegativeLength, NonNegativeMass, Point, Quantity
 from ..worlds.ground import Ground, build_ground
 from .goal_box import GoalBox
-from .task_file import SCHEMA, check_angle, check_hard, hashes_of, parts_of
+from .parts import parts_of
+from .task_file import SCHEMA, check_angle, check_hard, hashes_of
 
 CHECK_NAMES: Final = tuple(check.name for check in WALKER_CHECKS)
 
