@@ -15,6 +15,10 @@ def polish(
     overrides: Overrides = None,
     width: Annotated[int, typer.Option(min=0, help="Width of the beam about the plan; 0 for none.")] = 300,
     effort: Annotated[int, typer.Option(min=0, help="Most stances of the exact searches about it.")] = 300_000,
+    steady: Annotated[
+        int | None,
+        typer.Option(metavar="STEP", help="Of a climber: then make this step's grab where limbs are least stretched."),
+    ] = None,
     seconds: Annotated[float | None, typer.Option(min=0.0, help="Most time to take.")] = None,
     output: Output = None,
     as_json: AsJson = False,
@@ -32,6 +36,10 @@ def polish(
         result = polish_plan(
             opened.task, opened.plan, width=width, effort=effort, seconds=seconds, progress=line.update, label=str(plan)
         )
+    if steady is not None:
+        from ..experiments.climb.steadying import steadied_result
+
+        result = steadied_result(result, steady, str(plan))
     if output is not None:
         result.plan.save(output)
     if as_json:
