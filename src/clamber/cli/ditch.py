@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from .name_completion import names_of
 from .options import AsJson, Output
 from .output import announce_compilation, check_writable, plain_table, print_json, stdout
 
@@ -18,7 +19,10 @@ MM = 1e3
 
 def ditch(
     robot: Annotated[
-        str, typer.Argument(help="A walker's name (`clamber list robots`), or its TOML file.")
+        str,
+        typer.Argument(
+            help="A walker's name (`clamber list robots`), or its TOML file.", autocompletion=names_of("robots")
+        ),
     ] = "hoshino",
     width: Annotated[
         str | None, typer.Option(metavar="LENGTH", help="Cross a ditch as wide; else tell the widest.")

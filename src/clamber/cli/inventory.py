@@ -4,12 +4,12 @@ from typing import Annotated
 
 import typer
 
-from .options import AsJson, Overrides
+from .options import AsJson, Overrides, TaskName
 from .output import plain_table, print_indented, print_json, stdout
 
 
 def inventory(
-    task: Annotated[str, typer.Argument(help="A task's name (`clamber list tasks`), or the path of its TOML file.")],
+    task: TaskName,
     overrides: Overrides = None,
     length: Annotated[int, typer.Option(min=1, help="Actions of a plan, for the size of the search.")] = 60,
     as_json: AsJson = False,

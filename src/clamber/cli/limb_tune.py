@@ -7,6 +7,7 @@ import typer
 
 from . import limb_options as opt
 from .crew import CrewWords
+from .name_completion import names_of
 from .option_holder import shares
 from .output import announce_compilation, check_writable, print_json, stdout
 
@@ -15,7 +16,11 @@ from .output import announce_compilation, check_writable, print_json, stdout
 def tune(
     controllers: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[NAME[:KEY=VALUE,...]]...", help="Laws without their gains; all of them unless given."),
+        typer.Argument(
+            metavar="[NAME[:KEY=VALUE,...]]...",
+            help="Laws without their gains; all of them unless given.",
+            autocompletion=names_of("controllers"),
+        ),
     ] = None,
     margin: Annotated[float, typer.Option(help="Largest stable gains over the recommended ones; 2 is 6 dB.")] = 2.0,
     robot: opt.Robot = "libra",

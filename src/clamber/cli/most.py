@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from .name_completion import names_of
 from .options import AsJson, NoiseTexts, Overrides, Quiet
 from .output import plain_table, print_json, stderr, stdout
 
@@ -14,7 +15,12 @@ if TYPE_CHECKING:
 
 
 def most(
-    walk: Annotated[str, typer.Argument(help="A walk's name (`clamber list walks`), or its TOML file.")],
+    walk: Annotated[
+        str,
+        typer.Argument(
+            help="A walk's name (`clamber list walks`), or its TOML file.", autocompletion=names_of("walks")
+        ),
+    ],
     vary: Annotated[
         str, typer.Option(metavar="KEY=LOW..HIGH:N", help="A setting and its range, such as payload=5kg..25kg:21.")
     ],

@@ -5,13 +5,13 @@ from typing import Annotated, Any
 
 import typer
 
-from .options import AsJson, Output, Overrides, Quiet, Ray, Workers
+from .options import AsJson, Output, Overrides, PlannerName, Quiet, Ray, TaskName, Workers
 from .output import announce_compilation, check_writable, print_json, stderr, stdout
 
 
 def plan(
-    task: Annotated[str, typer.Argument(help="A task's name (`clamber list tasks`), or the path of its TOML file.")],
-    planner: Annotated[str, typer.Option(help="How to search (`clamber list planners`).")] = "genetic",
+    task: TaskName,
+    planner: PlannerName = "genetic",
     profile: Annotated[str, typer.Option(help="The planner's settings: default, or thesis.")] = "default",
     overrides: Overrides = None,
     seed: Annotated[int, typer.Option(min=0, help="Same seed, same plan, on any number of threads.")] = 0,

@@ -6,12 +6,16 @@ import typer
 
 from ..errors import SpecError
 from .limb_options import Flaws, FlawsChoice, Settings
+from .name_completion import names_of
 from .options import AsJson, Output
 from .output import check_writable, plain_table, print_json, stdout
 
 
 def press(
-    robot: Annotated[str, typer.Option(help="LIBRA with hooks or grippers, or a file of one like it.")] = "libra",
+    robot: Annotated[
+        str,
+        typer.Option(help="LIBRA with hooks or grippers, or a file of one like it.", autocompletion=names_of("robots")),
+    ] = "libra",
     force: Annotated[str, typer.Option(help="On the wall.")] = "20N",
     way: Annotated[str, typer.Option(metavar="X,Y", help="Of the body while the force is held.")] = "0,5cm",
     seconds: Annotated[float, typer.Option(min=0.1, help="That the way takes.")] = 2.0,

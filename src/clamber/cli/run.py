@@ -5,7 +5,8 @@ from typing import Annotated
 
 import typer
 
-from .options import PLAN_SECONDS, AsJson, NoiseTexts, Overrides, PlanSeconds, Quiet
+from .name_completion import names_of
+from .options import PLAN_SECONDS, AsJson, NoiseTexts, Overrides, PlannerName, PlanSeconds, Quiet
 from .output import announce_compilation, check_writable, print_json, stderr, stdout, tell_cuts
 from .repeat import repeat_words
 from .run_report import RunReport
@@ -19,11 +20,16 @@ def run(
     what: Annotated[
         str,
         typer.Argument(
-            metavar="TASK|PLAN|WALK", help="A task, to be planned first, a plan, or a walk: names or files."
+            metavar="TASK|PLAN|WALK",
+            help="A task, to be planned first, a plan, or a walk: names or files.",
+            autocompletion=names_of("tasks", "plans", "walks"),
         ),
     ],
-    task: Annotated[str | None, typer.Option(help="Carry the plan out in this task, in place of its own.")] = None,
-    planner: Annotated[str, typer.Option(help="How to search (`clamber list planners`).")] = "auto",
+    task: Annotated[
+        str | None,
+        typer.Option(help="Carry the plan out in this task, in place of its own.", autocompletion=names_of("tasks")),
+    ] = None,
+    planner: PlannerName = "auto",
     seconds: PlanSeconds = PLAN_SECONDS,
     overrides: Overrides = None,
     noise: NoiseTexts = None,

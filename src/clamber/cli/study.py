@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from .crew import EndsLine, executor_of
+from .name_completion import names_of
 from .options import AsJson, Quiet, Resume, Store, Workers
 from .output import announce_compilation, print_json, stderr, stdout
 
@@ -17,9 +18,24 @@ if TYPE_CHECKING:
 ALL = "all"
 
 
+def results_of(context: typer.Context, incomplete: str) -> list[str]:
+    """What completes the name of a result of the study that is named before it."""
+    from ..studies.titles import RESULTS
+
+    return [name for name in RESULTS.get(context.params.get("paper", ""), ()) if name.startswith(incomplete)]
+
+
 def study(
-    paper: Annotated[str, typer.Argument(help="A paper or subject (`clamber list studies`), or all.")],
-    result: Annotated[str | None, typer.Argument(help="One of its results; all unless given.")] = None,
+    paper: Annotated[
+        str,
+        typer.Argument(
+            help="A paper or subject (`clamber list studies`), or all.",
+            autocompletion=names_of("studies", besides=("all",)),
+        ),
+    ],
+    result: Annotated[
+        str | None, typer.Argument(help="One of its results; all unless given.", autocompletion=results_of)
+    ] = None,
     as_json: AsJson = False,
     report: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Write a site there: DIR/index.html and a page for each result.")

@@ -5,11 +5,13 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from .crew import CrewWords
+from .name_completion import names_of
 from .option_holder import shares
 from .options import (
     PLAN_SECONDS,
     NoiseTexts,
     Overrides,
+    PlannerName,
     PlanSeconds,
 )
 from .output import announce_compilation, print_json, stderr, stdout, tell_cuts
@@ -24,13 +26,20 @@ if TYPE_CHECKING:
 def trials(
     what: Annotated[
         str,
-        typer.Argument(metavar="TASK|PLAN|WALK", help="A task, to be planned once, a plan, or a walk: names or files."),
+        typer.Argument(
+            metavar="TASK|PLAN|WALK",
+            help="A task, to be planned once, a plan, or a walk: names or files.",
+            autocompletion=names_of("tasks", "plans", "walks"),
+        ),
     ],
     n: Annotated[int, typer.Option("-n", min=1, help="How many climbs.")] = 24,
     seed: Annotated[int, typer.Option(min=0, help="Of the first climb; each further one has the next.")] = 0,
     noise: NoiseTexts = None,
-    task: Annotated[str | None, typer.Option(help="Carry the plan out in this task, in place of its own.")] = None,
-    planner: Annotated[str, typer.Option(help="How to search (`clamber list planners`).")] = "auto",
+    task: Annotated[
+        str | None,
+        typer.Option(help="Carry the plan out in this task, in place of its own.", autocompletion=names_of("tasks")),
+    ] = None,
+    planner: PlannerName = "auto",
     seconds: PlanSeconds = PLAN_SECONDS,
     overrides: Overrides = None,
     replan: Annotated[bool, typer.Option(help="Plan again where a hold cannot be had.")] = True,
