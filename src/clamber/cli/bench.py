@@ -24,7 +24,10 @@ def bench(
     output: Output = None,
     as_json: AsJson = False,
 ) -> None:
-    """Measure speed and success, ours beside those of peers; seeds, ablation and boards are batches, with workers and a store."""
+    """Measure speed and success, ours beside those of peers; seeds, ablation and boards are batches, with workers and a store.
+
+    Leaves with 1 where a plant in real time stopped because the machine was too busy: that benchmark is left out.
+    """
     check_resume(resume, store)
     from ..experiments.benches import BATCHED, BENCHES, run_bench
     from ..experiments.trials import Crew
@@ -44,10 +47,15 @@ def bench(
 
         bench_boards(crew, output=output, as_json=as_json)
         return
+    from ..execution.plant import PlantStoppedError
+
     measured = {}
     for name in chosen:
         stderr().print(f"measuring {name}")
-        measured[name] = run_bench(name, partial(stderr().print, style="dim"), crew if name in BATCHED else None)
+        try:
+            measured[name] = run_bench(name, partial(stderr().print, style="dim"), crew if name in BATCHED else None)
+        except PlantStoppedError as stop:
+            stderr().print(f"{name} is left out: {stop}; is the machine too busy for a plant in real time?")
     rows = [row for each in measured.values() for row in each]
     if output is not None:
         from ..experiments.performance_page import performance_page
@@ -60,6 +68,7 @@ def bench(
         print_json([row.to_json() for row in rows])
     else:
         print_rows(stdout(), rows)
+    raise typer.Exit(0 if len(measured) == len(chosen) else 1)
 
 
 def _check_asked(
