@@ -3,16 +3,13 @@
 import shlex
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Final
+from typing import Annotated
 
 import typer
 
 from .crew import EndsLine, check_resume, executor_of
 from .options import AsJson, Output, Ray, Resume, Store, Workers
 from .output import announce_compilation, check_writable, print_json, stderr, stdout
-
-FIRST_KERNELS: Final = {"boards": "simulate", "control": "drive_at", "plant": "drive_at", "hexapod": "prepare"}
-"""Benchmark -> kernel that tells whether it has to compile first."""
 
 
 def bench(
@@ -41,7 +38,7 @@ def bench(
     if ray is not None:
         crew.executor.check()
     if ray is None and only != "start":
-        announce_compilation(FIRST_KERNELS.get(only or "", "rollout"))
+        announce_compilation()
     if only == "boards":
         from .bench_boards import bench_boards
 

@@ -111,7 +111,7 @@ def run_bench(words: BodyWords, stand: "BodyStand", scenario: "BodyScenario", fl
     from ..experiments.climb.body_measures import measure_body
     from .body_text import print_bodies
 
-    announce_compilation("drive", quiet=words.quiet)
+    announce_compilation(quiet=words.quiet)
     runs = run_bodies(stand, scenario, words.build_entries(stand), flaws)
     measured = [measure_body(run, scenario) for run in runs]
     if words.output is not None:

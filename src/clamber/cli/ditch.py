@@ -53,7 +53,7 @@ def ditch(
     if not isinstance(made, WalkerRobot):
         raise SpecError(f"robot '{made.name}'", "family", made.name, "must be a two-frame walker")
     footing = Footing.of(made, margin=parse_quantity(margin, "length"))
-    announce_compilation("widest_map")
+    announce_compilation()
     if width is None:
         _tell_widest(footing, not straight, as_json, output)
         return

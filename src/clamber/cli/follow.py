@@ -65,7 +65,7 @@ def follow(
         felt=not blind,
     )
     tool_path = load_tool_path(path)
-    announce_compilation("prepare", quiet=as_json)
+    announce_compilation(quiet=as_json)
     run = follow_path(chosen, tool_path, options)
     _write_files(run, files)
     told = run.to_json()

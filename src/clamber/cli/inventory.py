@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from .options import AsJson, Overrides, TaskName
-from .output import plain_table, print_indented, print_json, stdout
+from .output import announce_compilation, plain_table, print_indented, print_json, stdout
 
 
 def inventory(
@@ -18,6 +18,7 @@ def inventory(
     from ..actions.problems import pose_problem
     from ..tasks import load_task
 
+    announce_compilation(quiet=as_json)
     posed = pose_problem(load_task(task, overrides or ()))
     report = posed.to_json(length)
     if as_json:

@@ -23,7 +23,7 @@ def learn(
     from ..tasks import load_task
 
     loaded = load_task(task, overrides or ())
-    announce_compilation("rollout", quiet=quiet)
+    announce_compilation(quiet=quiet)
     from ..planning.learning import learn_macros
     from .plan_text import ProgressLine, print_lesson
 

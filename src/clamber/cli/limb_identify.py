@@ -74,7 +74,7 @@ def identify(
     mapping = read_mapping(columns or (), chosen | {"output angle": output_angle})
     known = Known.read(torque_constant, gear, gain)
     read = read_log(log, topic)
-    announce_compilation("accelerate", quiet=as_json)
+    announce_compilation(quiet=as_json)
     result = identify_log(
         read,
         robot=robot,

@@ -222,7 +222,7 @@ def run_bench(words: BenchWords, limb: "BenchLimb", scenario: "Scenario", flaws:
     from ..experiments.limb.result import compare_laws
     from .limb_text import print_limb_result, write_limb_result
 
-    announce_compilation("drive", quiet=words.quiet)  # gains are matched by the laws themselves
+    announce_compilation(quiet=words.quiet)  # gains are matched by the laws themselves
     at = match_pose(limb, scenario)
     entries, reference = words.build_laws(limb, at)
     line = EndsLine(stderr(), "trials", quiet=words.quiet or words.trials == 1)

@@ -46,7 +46,7 @@ def portrait(
     from .limb_portrait_text import check_folder, draw_portraits, print_markdown, print_portraits
 
     check_folder(folder)
-    announce_compilation("drive", quiet=quiet)
+    announce_compilation(quiet=quiet)
     matched = None if reference is None else read_law(reference)
     portraits = paint_portraits(
         () if laws == ["all"] else laws, robot=robot, limb=limb, matched=matched, match=match.value, seed=seed

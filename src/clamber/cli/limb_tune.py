@@ -55,7 +55,7 @@ def tune(
     at = (0.22, 0.0) if start is None else read_point("start", start)
     chosen = bench_limb(robot, limb, at, elbow=read_elbow(elbow), upright=plant.upright)
     laws = [] if controllers in (None, ["all"]) else list(controllers or ())
-    announce_compilation("drive", quiet=words.quiet)
+    announce_compilation(quiet=words.quiet)
     result = find(
         chosen, laws, plant, robot=robot, margin=margin, executor=words.executor, store=words.store, resume=words.resume,
         progress=words.line("searches").update,

@@ -6,7 +6,7 @@ import typer
 
 from .name_completion import names_of
 from .options import AsJson, NoiseTexts, Overrides, Quiet
-from .output import plain_table, print_json, stderr, stdout
+from .output import announce_compilation, plain_table, print_json, stderr, stdout
 
 if TYPE_CHECKING:
     from ..experiments.walk.most import Most
@@ -56,6 +56,7 @@ def most(
         return Tried.of(value, run_walk(chosen, flaws, noise=sizes, seed=seed))
 
     opened(axis.values[0])  # what cannot be is told before anything walks
+    announce_compilation(quiet=quiet)
     found = find_most(axis.values, tried)
     if as_json:
         told = {"borne": found.borne, "refused": found.refused}

@@ -66,12 +66,12 @@ def plan(
     problem = load_task(task, overrides or ())
     from ..planning.budgets import accepts
     from ..planning.learning import load_macros
-    from ..planning.planners import PROVERS, find_planner, first_loop
+    from ..planning.planners import PROVERS, find_planner
     from .openings import Seeker
     from .plan_text import ProgressLine, print_result
 
     search = find_planner(planner)
-    announce_compilation(first_loop("exact" if pareto is not None else planner), quiet=quiet)
+    announce_compilation(quiet=quiet)
     if pareto is not None:
         from .front import front
 

@@ -26,7 +26,7 @@ def polish(
 ) -> None:
     """Make a plan that reaches its goal shorter, by search about it; every check of the task still holds."""
     check_writable(output)
-    announce_compilation("search_window", quiet=quiet)
+    announce_compilation(quiet=quiet)
     from ..actions.plan_source import open_plan
     from ..planning.polishing import polish_plan
     from .plan_text import ProgressLine, print_result

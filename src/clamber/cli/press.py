@@ -8,7 +8,7 @@ from ..errors import SpecError
 from .limb_options import Flaws, FlawsChoice, Settings
 from .name_completion import names_of
 from .options import AsJson, Output
-from .output import check_writable, plain_table, print_json, stdout
+from .output import announce_compilation, check_writable, plain_table, print_json, stdout
 
 
 def press(
@@ -49,6 +49,7 @@ def press(
     if not wanted > 0.0:
         raise SpecError("--force", "force", force, "must be more than 0 N")
     plant = read_flaws(named_flaws(flaws.value, chosen).with_changes(physics_rate=PHYSICS_RATE), settings or ())
+    announce_compilation(quiet=as_json)
     result = run_press(
         chosen, load_board("ladder"), plant, force=wanted, way=read_point("way", way, "length"), seconds=seconds
     )

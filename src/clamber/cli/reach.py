@@ -38,7 +38,7 @@ def reach(
     from ..planning.reach.layers import choose_layer
 
     shown = choose_layer(loaded, layer)
-    announce_compilation("spread", quiet=quiet)
+    announce_compilation(quiet=quiet)
     from ..planning.reach.reach import find_reach
     from .reach_text import FloodLine, print_reach
 

@@ -98,12 +98,11 @@ def run(
     from ..experiments.climb.plants import check_plant, is_remote
 
     check_plant(plant)
-    from ..actions.plan_source import is_plan
     from ..experiments.climb.noise import NO_NOISE, check_noise, read_noise
     from ..experiments.climb.planning import plan_to_climb, replanner
     from ..experiments.climb.rehearsal import rehearse
     from ..experiments.climb.run_plan import climbing_flaws, open_climb, run_plan
-    from ..planning.planners import find_planner, first_loop
+    from ..planning.planners import find_planner
     from ..viewing.climb_run_view import check_run_suffix, write_run
     from .run_text import ClimbLine, print_run
 
@@ -112,7 +111,7 @@ def run(
     telling.open("climb")
     find_planner(planner)
     deviations = read_noise(NO_NOISE, [*(noise or ()), *(() if peg_error is None else (f"peg_error={peg_error}",))])
-    announce_compilation("replay" if is_plan(what) else first_loop(planner), quiet=quiet)
+    announce_compilation(quiet=quiet)
     chosen, plan, for_plant = open_climb(what, task, overrides or ())
     if for_plant and is_remote(plant):
         raise typer.BadParameter(f"{for_plant[0].partition('=')[0]} is the server's to set", param_hint="--set plant.")

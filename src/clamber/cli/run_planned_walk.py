@@ -49,11 +49,11 @@ def run_planned_walk(
         quiet: Whether to tell nothing on the way.
     """
     from ..experiments.walk.planned import careful, lay_plan, walk_of
-    from ..planning.planners import find_planner, first_loop, plan_task
+    from ..planning.planners import find_planner, plan_task
 
     refuse_climbs_options(what, climbs_only)
     find_planner(planner)
-    announce_compilation("replay" if plan is not None else first_loop(planner), quiet=quiet)
+    announce_compilation(quiet=quiet)
     if plan is None:
         task = careful(task)
         with ProgressLine(stderr(), quiet=quiet) as line:

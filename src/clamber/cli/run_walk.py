@@ -14,7 +14,7 @@ from ..experiments.walk.run_walk import WalkRun
 from ..tasks.walks import Walk
 from ..units import DEGREE
 from .live_line import LiveLine
-from .output import plain_table, print_json, stderr, stdout
+from .output import announce_compilation, plain_table, print_json, stderr, stdout
 from .run_report import RunReport
 
 
@@ -56,6 +56,7 @@ def run_walk_file(
 
     refuse_climbs_options(what, climbs_only)
     walk = load_walk(what, split_walk_settings(settings)[0])
+    announce_compilation(quiet=quiet)
     walk_and_tell(walk, settings, noise, seed, outputs, telling, as_json=as_json, quiet=quiet)
 
 

@@ -54,7 +54,7 @@ def study(
     A report of all takes hours: it is whole after every result, and --resume leaves out what it has from the same Clamber.
     """
     from ..errors import UnknownNameError
-    from ..studies.library import SEEDED, STUDIES, first_loop
+    from ..studies.library import SEEDED, STUDIES
     from .study_text import print_results
 
     if paper != ALL and paper not in STUDIES:
@@ -76,7 +76,7 @@ def study(
     ]
     results: list[StudyResult] = []
     for number, (name, chosen) in enumerate(wanted, start=1):
-        announce_compilation(first_loop(STUDIES[name][chosen]), quiet=quiet)
+        announce_compilation(quiet=quiet)
         if not quiet:
             stderr().print(f"{number} of {len(wanted)}: working on {chosen}")
         began = time.perf_counter()

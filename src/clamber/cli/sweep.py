@@ -45,11 +45,10 @@ def sweep(
     check_axes(axes)
     marks = [read_mark(text, axes) for text in mark or ()]
     from ..planning.budgets import accepts
-    from ..planning.planners import FIRST_LOOPS
     from .sweep_text import print_sweep
 
     if words.ray is None:
-        announce_compilation(FIRST_LOOPS.get(planner, "rollout"), quiet=words.quiet)
+        announce_compilation(quiet=words.quiet)
     from ..planning.sweep import run_sweep
 
     stated = {"max_evaluations": evaluations, "max_stances": stances}

@@ -87,13 +87,12 @@ def trials(
             what, *planned, overrides or (), noise or (), planner, seconds, range(seed, seed + n), _share(at_least), for_climbs, words
         )  # fmt: skip
         return
-    from ..actions.plan_source import is_plan
     from ..experiments.climb.noise import named_noise, read_noise
     from ..experiments.climb.run_plan import open_climb
     from ..experiments.climb.trial import TrialSetup
     from ..experiments.climb.trial_summary import sum_up
     from ..experiments.climb.trials import NoPlanError, run_trials, with_plan
-    from ..planning.planners import find_planner, first_loop
+    from ..planning.planners import find_planner
     from .trials_text import TrialsLine, print_trials
 
     if words.output is not None:
@@ -101,7 +100,7 @@ def trials(
     find_planner(planner)
     least = _share(at_least)
     widths = read_noise(named_noise("usual"), noise or ())
-    announce_compilation("replay" if is_plan(what) else first_loop(planner), quiet=words.quiet)
+    announce_compilation(quiet=words.quiet)
     executor = words.executor
     if replay is None:
         executor.check()  # before a minute is spent on a plan

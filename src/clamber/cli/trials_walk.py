@@ -61,6 +61,7 @@ def walk_trials_of(
     walk = load_walk(what, for_walk)
     walk_flaws(walk, for_plant)  # what cannot be is told before workers start
     words.executor.check()
+    announce_compilation(quiet=words.quiet)
     _try_and_tell(WalkSetup(walk, sizes, tuple(for_plant)), seeds, least, words)
 
 
@@ -97,7 +98,7 @@ def planned_walk_trials_of(
     from ..experiments.walk.planned import careful, lay_plan, walk_of
     from ..experiments.walk.run_walk import split_walk_settings, walk_flaws
     from ..experiments.walk.trials import WalkSetup
-    from ..planning.planners import FIRST_LOOPS, PLANNERS, plan_task
+    from ..planning.planners import PLANNERS, plan_task
 
     _refuse(what, climbs_only)
     if planner not in PLANNERS:
@@ -109,7 +110,7 @@ def planned_walk_trials_of(
     setup = WalkSetup(task, sizes, for_plant, plan, plan is None)
     walk_flaws(walk_of(task), for_plant)
     plan = plan or setup.stored_plan(words.store)
-    announce_compilation("replay" if plan is not None else FIRST_LOOPS[planner], quiet=words.quiet)
+    announce_compilation(quiet=words.quiet)
     if plan is None:
         with ProgressLine(stderr(), quiet=words.quiet) as line:
             result = plan_task(task, planner, seed=0, seconds=seconds, progress=line.update)
