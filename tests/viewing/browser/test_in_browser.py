@@ -7,14 +7,16 @@ import numpy as np
 import pytest
 from page_visits import Visit, pixel, wait_for
 
+from clamber.actions.plan import load_plan
 from clamber.actions.verdict import check_plan
+from clamber.tasks import load_task
 from clamber.viewing.browser.app import App
-from clamber.viewing.browser.exhibit import Exhibit, open_exhibit
+from clamber.viewing.browser.exhibit import open_exhibit
 from clamber.viewing.browser.page import write_page
 from clamber.viewing.browser.wall_scene import WallScene
 
 Open = Callable[[str], Visit]
-Serve = Callable[[Exhibit], App]
+Serve = Callable[..., App]
 
 
 def test_plan_plays_and_jumps(serve: Serve, visit: Open) -> None:
@@ -38,8 +40,10 @@ def test_plan_plays_and_jumps(serve: Serve, visit: Open) -> None:
 
 
 @pytest.mark.slow
-def test_board_is_edited_planned_and_run_by_clicks(serve: Serve, visit: Open, compiled: None) -> None:
-    app = serve(open_exhibit(["ladder"]))
+def test_board_is_edited_planned_saved_and_run_by_clicks(
+    serve: Serve, visit: Open, compiled: None, tmp_path: Path
+) -> None:
+    app = serve(open_exhibit(["ladder"]), folder=tmp_path)
     shown, board = visit(app.url), app.board
     assert board is not None and isinstance(app.stage.world, WallScene)
     page, depth = shown.page, app.stage.world.depth
@@ -75,6 +79,11 @@ def test_board_is_edited_planned_and_run_by_clicks(serve: Serve, visit: Open, co
     shown.picture("board-planned")
     plan = app.exhibit.plan
     assert plan is not None and check_plan(app.exhibit.task, plan).ok
+    shown.press("Save")
+    shown.says("written to")
+    assert check_plan(
+        load_task(str(tmp_path / "ladder-edited.toml")), load_plan(tmp_path / "ladder-edited-plan.json")
+    ).ok
     shown.press("Run")
     shown.says("climbed:")
     run = app.exhibit.run_film

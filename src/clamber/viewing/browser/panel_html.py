@@ -68,8 +68,8 @@ def strip_html(film: Film[Any], step: int, name: str) -> str:
     )
 
 
-def margins_html(rows: list[MarginRow]) -> str:
-    """A bar for every check, the nearest to failing in bold; checks that only report are paler."""
+def margins_html(rows: list[MarginRow], whose: str = "") -> str:
+    """A bar for every check, the nearest to failing in bold; checks that only report are paler; `whose` says what they are of."""
     if not rows:
         return f'<div style="font-size:12px;color:{style.QUIET};{PAD}">Nothing judges this.</div>'
     made = []
@@ -91,8 +91,9 @@ def margins_html(rows: list[MarginRow]) -> str:
             f'<td style="{CELL};text-align:right">{escape(row.value)}</td></tr>'
         )
     note = "share of what is limited; paler: checks that only report"
+    head = f'<div style="font-size:12px">{escape(whose)}</div>' if whose else ""
     return (
-        f'<div data-clamber="margins" style="{PAD}"><table style="font-size:12px;width:100%;border-spacing:0">{"".join(made)}</table>'
+        f'<div data-clamber="margins" style="{PAD}">{head}<table style="font-size:12px;width:100%;border-spacing:0">{"".join(made)}</table>'
         f'<div style="font-size:11px;color:{style.QUIET}">{note}</div></div>'
     )
 
