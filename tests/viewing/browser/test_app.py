@@ -103,7 +103,10 @@ def test_bad_board_is_drawn_and_told_of_and_nothing_else_changes(serve: Serve) -
     peg = board.draft.pegs[1]
     board.draft.move(2, peg.x, peg.y)
     board.apply()
-    assert "holds 1 and 2 overlap" in board._peg_words.content and board._goal_words.content == ""
+    assert (
+        "the edited board: holds.2: holds 1 and 2 overlap" in board._peg_words.content
+        and board._goal_words.content == ""
+    )
     assert app.exhibit is before
     drawn = app._wall()._pegs
     assert drawn is not None

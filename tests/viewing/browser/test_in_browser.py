@@ -94,6 +94,31 @@ def test_board_is_edited_planned_saved_and_run_by_clicks(
 
 
 @pytest.mark.slow
+def test_clicks_on_the_wall_add_and_remove_pegs_and_set_the_goal(serve: Serve, visit: Open) -> None:
+    app = serve(open_exhibit(["gap"]))
+    shown, board = visit(app.url), app.board
+    assert board is not None and isinstance(app.stage.world, WallScene)
+    page, depth = shown.page, app.stage.world.depth
+    page.get_by_role("tab", name="Board").click()
+    page.get_by_label("edit on the wall").check()
+
+    def click(does: str, x: float, y: float, deep: float = 0.0) -> None:
+        page.get_by_label("a click on the wall").click()
+        page.get_by_role("option", name=does).click()
+        page.mouse.click(*pixel(app, shown, np.array((x, -deep, y))))
+
+    click("adds a peg", 0.4, 0.0)
+    wait_for(shown, lambda: len(board.draft.pegs) == 4)
+    assert (board.draft.pegs[4].x, board.draft.pegs[4].y) == pytest.approx((0.4, 0.0), abs=5e-3)
+    click("removes a peg", 0.4, 0.0, 0.5 * depth)  # half-way along it
+    wait_for(shown, lambda: set(board.draft.pegs) == {1, 2, 3})
+    click("sets the goal", 0.3, 0.25)
+    wait_for(shown, lambda: board.draft.goal is not None)
+    assert board.draft.goal == pytest.approx((0.3, 0.25), abs=5e-3)
+    assert shown.errors() == [] and shown.wrong == []
+
+
+@pytest.mark.slow
 def test_bad_boards_are_told_of_and_the_page_stays(serve: Serve, visit: Open, compiled: None) -> None:
     app = serve(open_exhibit(["gap"]))
     shown, board = visit(app.url), app.board

@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Final
 
 from ...errors import ClamberError, FileError, SpecError
 from ...files import write_atomically
+from .. import style
 from .inputs import by_hand
 from .panel_html import message_html
+from .solids import colour
 
 if TYPE_CHECKING:
     import viser
@@ -35,7 +37,7 @@ class SavePanel:
         gui = server.gui
         with gui.add_folder("Save"):
             self._name = gui.add_text("name", name, hint=f"Files go to {self._folder}")
-            self._button = gui.add_button("Save")
+            self._button = gui.add_button("Save", color=colour(style.PARTS[0]))
             self._words = gui.add_html("")
         self._button.on_click(by_hand(lambda _: self.save()))
 

@@ -115,7 +115,7 @@ class WorkPanel:
         if self.labour.busy:
             self._say(words, "other work is under way; stop it first", bad=True)
             return
-        self._say(words, "", bad=False)
+        self.clear()
         self._show_work(True)
         self.labour.begin(work, ended, failed)
 
