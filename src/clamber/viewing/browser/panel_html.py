@@ -20,7 +20,7 @@ FAIR: Final = 0.15
 def head_html(film: Film[Any], step: int, moment: Any) -> str:
     """The step and what is to be said of the moment."""
     last = len(film.steps) - 1
-    title = f"Step {step} of {last}: {film.steps[step]}" if step else "Start"
+    title = f"{film.noun} {step} of {last}: {film.steps[step]}" if step else "Start"
     ink = style.ALERT if step and film.grades[step] == 0 else style.INK
     rows = "".join(
         f'<tr><td style="{CELL};color:{style.QUIET};vertical-align:top">{escape(name)}</td><td>{escape(words)}</td></tr>'
@@ -60,7 +60,7 @@ def strip_html(film: Film[Any], step: int, name: str) -> str:
         f'<span style="margin-right:9px">{escape(word)}</span>'
         for shade, word in zip(style.STRIP, film.words, strict=True)
     )
-    told = "" if worst is None else f"; framed: the worst, step {worst}"
+    told = "" if worst is None else f"; framed: the worst, {film.noun.lower()} {worst}"
     return (
         f'<div data-clamber="strip" style="font-size:11px;color:{style.QUIET};{PAD}"><div>{escape(name)}{told}</div>'
         f'<svg viewBox="0 0 {n} 10" preserveAspectRatio="none" style="width:100%;height:14px;display:block;margin:3px 0">'
