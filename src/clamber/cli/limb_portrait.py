@@ -7,7 +7,7 @@ import typer
 
 from . import limb_options as opt
 from .name_completion import names_of
-from .options import AsJson, Quiet
+from .options import ROBOT, AsJson, Quiet
 from .output import announce_compilation, print_json, stdout
 
 
@@ -30,7 +30,7 @@ def portrait(
         ),
     ] = None,
     match: opt.Matched = opt.MatchChoice.yy,
-    robot: opt.Robot = "libra",
+    robot: opt.Robot = ROBOT,
     limb: opt.LimbName = None,
     seed: Annotated[int, typer.Option(min=0, help="Draws play and encoder phase of the nominal limb.")] = 1,
     markdown: Annotated[bool, typer.Option("--markdown", help="Print the tables as a page has them.")] = False,

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Final, TypeAlias
 import typer
 
 from .name_completion import names_of
-from .options import AsJson
+from .options import BOARD, ROBOT, AsJson
 from .output import announce_compilation, check_writable, print_json, stdout
 
 if TYPE_CHECKING:
@@ -148,11 +148,11 @@ def task(
     robot: Annotated[
         str,
         typer.Option(metavar="NAME|FILE", help="A climber (`clamber list robots`).", autocompletion=names_of("robots")),
-    ] = "libra",
+    ] = ROBOT,
     board: Annotated[
         str,
         typer.Option(metavar="NAME|FILE", help="A board (`clamber list boards`).", autocompletion=names_of("boards")),
-    ] = "ladder",
+    ] = BOARD,
     like: Annotated[
         str | None,
         typer.Option(
@@ -170,7 +170,7 @@ def task(
     as_json: AsJson = False,
 ) -> None:
     """Write a task, from the lowest stance that the rules allow to the top of a board, whose file tells of every key."""
-    if like is not None and (overrides or robot != "libra" or board != "ladder"):
+    if like is not None and (overrides or (robot, board) != (ROBOT, BOARD)):
         raise typer.BadParameter(
             "has a robot, a board and rules of its own: edit them in the file", param_hint="--like"
         )

@@ -1,11 +1,16 @@
 """Options and arguments that several commands share."""
 
 from pathlib import Path
-from typing import Annotated, TypeAlias
+from typing import Annotated, Final, TypeAlias
 
 import typer
 
 from .name_completion import names_of
+
+ROBOT: Final = "libra"
+"""The climber of commands that are told of none."""
+BOARD: Final = "ladder"
+"""Its board."""
 
 TaskName: TypeAlias = Annotated[
     str,

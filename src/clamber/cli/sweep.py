@@ -5,12 +5,12 @@ from typing import Annotated
 import typer
 
 from .crew import CrewWords
-from .option_holder import shares
+from .option_holder import takes_words
 from .options import Overrides, PlannerName, TaskName
 from .output import announce_compilation, print_json, stdout
 
 
-@shares(CrewWords)
+@takes_words
 def sweep(
     task: TaskName,
     vary: Annotated[
