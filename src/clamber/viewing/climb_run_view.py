@@ -204,7 +204,7 @@ def _whole(view: ClimbRunView) -> Figure:
     for k in pick_ghosts(poses[ends, :2])[:-1]:
         ghost = ClimberArtists(view.wall, view.task, view.bounds, alpha=0.25, arrows=False)
         ghost.update(Snapshot(view.posture(int(ends[k])), unloaded, unloaded))
-        label_ghost(view.wall, k, *(float(part) for part in poses[ends[k], :2]))
+        label_ghost(view.wall, k, *(float(part) for part in poses[ends[k], :2]), noun="action")
     draw_way(view.wall, poses[:, :2])
     return view.figure
 

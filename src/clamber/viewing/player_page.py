@@ -54,7 +54,7 @@ button:focus-visible, select:focus-visible, input:focus-visible { outline: 2px s
 <aside>
 <dl id="facts"></dl>
 <div><h2 id="gauges"></h2><div id="bars"></div></div>
-<h2 style="margin:0">Steps</h2><ol id="list"></ol>
+<h2 id="counted" style="margin:0"></h2><ol id="list"></ol>
 </aside>
 </main>
 <footer>
@@ -77,7 +77,7 @@ const starts = []; let total = 0;
 for (const f of F) { starts.push(total); total += f[1] / RATE; }
 const firstFrame = D.steps.map((_, s) => { let k = F.findIndex(f => f[0] > s); return k < 0 ? F.length - 1 : Math.max(k - 1, 0); });
 let now = 0, playing = false, last = 0, shown = -1;
-el("title").textContent = D.title; el("time").max = total;
+el("title").textContent = D.title; el("counted").textContent = D.noun + "s"; el("time").max = total;
 
 D.rows.forEach(name => { const dt = document.createElement("dt"); dt.textContent = name; el("facts").append(dt, document.createElement("dd")); });
 const facts = [...el("facts").querySelectorAll("dd")], G = D.bars;
