@@ -204,7 +204,8 @@ def _whole(view: ClimbRunView) -> Figure:
     for k in pick_ghosts(poses[ends, :2])[:-1]:
         ghost = ClimberArtists(view.wall, view.task, view.bounds, alpha=0.25, arrows=False)
         ghost.update(Snapshot(view.posture(int(ends[k])), unloaded, unloaded))
-        label_ghost(view.wall, k, *(float(part) for part in poses[ends[k], :2]), noun="action")
+        x, y = poses[ends[k], :2].tolist()
+        label_ghost(view.wall, k, x, y, "action")
     draw_way(view.wall, poses[:, :2])
     return view.figure
 
