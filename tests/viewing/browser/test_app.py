@@ -9,14 +9,17 @@ import numpy as np
 import pytest
 
 from clamber.actions.plan import load_plan
+from clamber.actions.plan_source import open_plan
 from clamber.actions.verdict import check_plan
 from clamber.errors import ClamberError, StartError
-from clamber.tasks import load_task
+from clamber.tasks import Task, load_task
 from clamber.tasks.limbed import LimbedTask
+from clamber.viewing.browser import work_panel
 from clamber.viewing.browser.app import App, PortError, free_port
 from clamber.viewing.browser.exhibit import open_exhibit
 from clamber.viewing.browser.film import Film
 from clamber.viewing.browser.run_film import ClimbFilm
+from clamber.viewing.browser.undertakings import Planned
 
 Serve = Callable[..., App]
 
@@ -206,7 +209,7 @@ def test_a_page_that_others_can_reach_saves_nothing(serve: Serve) -> None:
 
 
 def test_a_run_that_nothing_judges_shows_the_margins_of_its_plan(serve: Serve, compiled: None) -> None:
-    app = serve(open_exhibit(["gap"]))
+    app = serve(open_exhibit(["ladder"], overrides=["goal={ y_min = '9 in' }"]))
     work = app.work
     assert work is not None
     for act in (work.plan, work.run):
@@ -217,3 +220,26 @@ def test_a_run_that_nothing_judges_shows_the_margins_of_its_plan(serve: Serve, c
     app.choose("run")
     app.playback.jump(1)
     assert "Nothing judges this" in app.stage._texts["margins"].content
+
+
+def test_what_is_found_for_a_board_that_was_changed_meanwhile_is_left_out(
+    serve: Serve, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    app = serve(open_exhibit(["ladder"]))
+    board, work = app.board, app.work
+    assert board is not None and work is not None
+    answer = Planned(open_plan("ladder-hand").plan, "found")
+
+    def edited_meanwhile(task: Task, *rest: Any, **options: Any) -> Planned:
+        board.draft.move(22, 0.5, 1.6)
+        board.apply()
+        return answer
+
+    monkeypatch.setattr(work_panel, "make_plan", edited_meanwhile)
+    work.plan()
+    eventually(lambda: not work.labour.busy)
+    assert "changed meanwhile" in work._plan_words.content and app.exhibit.plan is None
+    monkeypatch.setattr(work_panel, "make_plan", lambda *rest, **options: answer)
+    work.plan()
+    eventually(lambda: not work.labour.busy)
+    assert "found" in work._plan_words.content and app.exhibit.plan is answer.plan

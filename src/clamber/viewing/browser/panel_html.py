@@ -98,6 +98,14 @@ def margins_html(rows: list[MarginRow], whose: str = "") -> str:
     )
 
 
+def step_margins_html(film: Film[Any], step: int, plan: Film[Any] | None, planned: int | None) -> str:
+    """The checks of a step; of a run that nothing judges those of its plan at the step that belongs to it, if there is one."""
+    rows = film.margins(step)
+    if rows or plan is None or not planned:
+        return margins_html(rows)
+    return margins_html(plan.margins(planned), f"of the plan, at its step {planned}")
+
+
 def bars_html(gauges: Gauges, values: Floats) -> str:
     """A bar for every value between its ends, with lines at its limits, red beyond what is calm."""
     low, high = gauges.calm

@@ -4,7 +4,7 @@ import time
 from typing import TYPE_CHECKING, Any, Final, Literal
 
 from .film import Film
-from .panel_html import bars_html, head_html, margins_html, strip_html
+from .panel_html import bars_html, head_html, step_margins_html, strip_html
 from .scenery import Figure, Scenery, World
 
 if TYPE_CHECKING:
@@ -111,16 +111,9 @@ class Stage:
             "head": head_html(film, step, moment),
             "bars": bars_html(film.gauges, film.values(moment)),
             "strip": strip_html(film, step, STRIPS[kind]),
-            "margins": self._margins(film, step, planned),
+            "margins": step_margins_html(film, step, self.films.get("plan"), planned),
         }
         self._told = now, step
         for name, words in texts.items():
             if name in self._texts and self._texts[name].content != words:
                 self._texts[name].content = words
-
-    def _margins(self, film: Film[Any], step: int, planned: int | None) -> str:
-        """The checks of a step; those of the plan beside a run that nothing judges."""
-        rows = film.margins(step)
-        if rows or not planned:
-            return margins_html(rows)
-        return margins_html(self.films["plan"].margins(planned), f"of the plan, at its step {planned}")
