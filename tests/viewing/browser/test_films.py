@@ -1,5 +1,6 @@
 """Films: plans rest in their stances, runs are where their traces say, and the forces that a run tells carry the weight."""
 
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +17,7 @@ from clamber.execution.climb.legs import legs_of
 from clamber.execution.log import LogError
 from clamber.execution.log_files import write_log
 from clamber.experiments.climb.run_plan import ClimbRun, climbing_flaws, run_plan
+from clamber.planning.planners import plan_task
 from clamber.tasks import load_task
 from clamber.tasks.limbed import LimbedTask
 from clamber.viewing.browser.climb_scenery import join
@@ -148,6 +150,20 @@ def test_a_planned_walks_standing_feet_carry_its_weight() -> None:
     assert (at.forces[~stands] == 0.0).all()
     arms = at.shapes.legs[:, :, 1] - at.shapes.centre
     np.testing.assert_allclose(np.cross(arms, at.forces).sum(axis=(0, 1))[:2], 0.0, atol=1e-9 * at.weight)
+
+
+def test_a_walks_plan_is_found_again_step_by_step_from_where_its_frames_are() -> None:
+    task = load_task("patch-walk")
+    planned = plan_task(task, "auto", seed=0)
+    film = planned_exhibit(task, planned.plan).plan_film
+    assert isinstance(film, PlannedWalkFilm) and len(film.steps) > 20
+    rests = [film.rest(step) for step in range(len(film.steps))]
+    times = [film.nearest(film._film.at(rest).poses) for rest in rests]
+    assert all(a <= b for a, b in pairwise(times)), "it never goes back"
+    steps = [film.step_at(time) for time in times]
+    assert all(abs(found - step) <= 1 for step, found in enumerate(steps)), (
+        steps
+    )  # frames that land stay where they are
 
 
 @given(shares=st.tuples(st.floats(0.01, 1.0), st.floats(0.01, 1.0), st.floats(0.01, 1.0)), far=st.floats(1.5, 9.0))
