@@ -14,6 +14,8 @@ import clamber
 from clamber.cli.app import app
 from clamber.cli.catalogue import ENTRIES, entries
 from clamber.cli.help_text import command_of, commands_below
+from clamber.experiments.climb.body_entries import CONTROLS
+from clamber.experiments.cooperative.tool_path import DATA as PATHS
 
 SLOW = ("numba", "scipy", "mujoco", "matplotlib", "viser")
 ASK = f"""
@@ -69,6 +71,11 @@ def test_names_of_things_are_completed_and_nothing_slow_is_loaded(typed: str, ki
 def test_names_that_begin_so_are_offered_and_files_where_there_is_none() -> None:
     assert set(complete("clamber most slope").stdout.split()) == {"slope-walk"}
     assert complete("clamber plan ./mine").stdout.split() == []  # an empty answer lets the shell offer files
+
+
+def test_words_that_are_not_listed_are_those_that_are_taken() -> None:
+    assert set(complete("clamber body push -c ").stdout.split()) <= set(CONTROLS)
+    assert set(complete("clamber follow ").stdout.split()) == {path.stem for path in PATHS.glob("*.csv")}
 
 
 def test_results_of_a_study_are_completed() -> None:

@@ -22,7 +22,13 @@ Outputs = Annotated[
 
 
 def follow(
-    path: Annotated[str, typer.Argument(help="File with columns x, y, z and perhaps t, or one of: circle, wide.")],
+    path: Annotated[
+        str,
+        typer.Argument(
+            help="File with columns x, y, z and perhaps t, or one of: circle, wide.",
+            autocompletion=names_of(besides=("circle", "wide")),
+        ),
+    ],
     robot: Annotated[
         str,
         typer.Option(help="A two-frame walker with an arm, by name or file.", autocompletion=names_of("robots")),
