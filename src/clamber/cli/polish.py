@@ -5,13 +5,17 @@ from typing import Annotated
 
 import typer
 
+from .name_completion import names_of
 from .options import AsJson, Output, Overrides, Quiet
 from .output import announce_compilation, check_writable, print_json, stderr, stdout
 
 
 def polish(
     plan: Annotated[Path, typer.Argument(help="A plan: JSON of `clamber plan -o`, or TOML in the thesis's numbers.")],
-    task: Annotated[str | None, typer.Option(help="Polish it in this task, in place of its own.")] = None,
+    task: Annotated[
+        str | None,
+        typer.Option(help="Polish it in this task, in place of its own.", autocompletion=names_of("tasks")),
+    ] = None,
     overrides: Overrides = None,
     width: Annotated[int, typer.Option(min=0, help="Width of the beam about the plan; 0 for none.")] = 300,
     effort: Annotated[int, typer.Option(min=0, help="Most stances of the exact searches about it.")] = 300_000,
@@ -26,7 +30,7 @@ def polish(
 ) -> None:
     """Make a plan that reaches its goal shorter, by search about it; every check of the task still holds."""
     check_writable(output)
-    announce_compilation("search_window", quiet=quiet)
+    announce_compilation(quiet=quiet)
     from ..actions.plan_source import open_plan
     from ..planning.polishing import polish_plan
     from .plan_text import ProgressLine, print_result

@@ -16,7 +16,7 @@ from ..tasks.walks import Walk
 from ..units import DEGREE
 from .for_climbs import refuse_for_walk
 from .live_line import LiveLine
-from .output import plain_table, print_json, stderr, stdout
+from .output import announce_compilation, plain_table, print_json, stderr, stdout
 from .run_report import RunReport
 from .run_words import RunWords
 
@@ -44,6 +44,7 @@ def run_walk_file(what: str, words: RunWords, telling: RunReport) -> None:
     from ..tasks.walks import load_walk
 
     refuse_for_walk(what, words, CLIMBS_ONLY)
+    announce_compilation(quiet=words.quiet)
     walk_and_tell(load_walk(what, split_walk_settings(words.overrides or ())[0]), words, telling)
 
 
