@@ -8,6 +8,7 @@ from spring_walks import BEST, RADIUS, ROBOT, stood
 from springs_walker import SpringsWalker, flat, slope
 
 from clamber.control.track import straight
+from clamber.control.walker_balance import mass_centre
 from clamber.execution.walk.course import TrackCourse
 from clamber.execution.walk.sequencer import WalkSequencer
 from clamber.execution.walk.settings import WalkSettings
@@ -111,3 +112,24 @@ def test_feet_that_sink_in_do_not_raise_what_is_believed(uphill: float | None) -
     assert report.done, report.reason
     assert len(report.steps) > 5
     assert walker.pose[2] - walker.plant.truth().pose[2] - off == pytest.approx(0.0, abs=1.5e-3)  # type: ignore[union-attr]
+
+
+def test_an_arm_that_would_tip_the_robot_on_its_way_to_the_point_is_refused_before_it_moves() -> None:
+    """30 kg are borne at rest, 0.59 m out; stretched to 0.78 m the centre of mass leaves less than is kept, by the closed form."""
+    assert ARM is not None
+    payload, out = 30.0, 0.78
+    walker, _ = stood(flat, noise=0.0, payload=payload)
+    normal = np.array(
+        (math.cos(math.radians(60.0)), math.sin(math.radians(60.0)), 0.0)
+    )  # across an edge of the six feet
+    point = out * normal + (0.0, 0.0, walker.pose[2] + ARM.up)
+    hold = ToolHold(walker, straight(np.zeros(3), math.radians(150.0), 0.3, RADIUS), point, 0.02)
+    before, time = walker.arm.copy(), walker.time
+    with pytest.raises(RefusedError, match="swung to the point to hold, brings the centre of mass") as refused:
+        hold.start(walker)
+    assert walker.time == time
+    np.testing.assert_array_equal(walker.arm, before)
+    centre = mass_centre(ROBOT, walker.pose, walker.place, hold._joints, payload)
+    a, b = walker.soles[3, :2], walker.soles[0, :2]  # the ends of that edge
+    margin = float(np.linalg.det([b - a, centre[:2] - a]) / np.linalg.norm(b - a))
+    assert refused.value.margin == pytest.approx(margin - walker.settings.limits.balance, abs=1e-9)

@@ -19,6 +19,7 @@ from ...control.cooperative.tool_chain import POSE
 from ...control.track import Track
 from ...robots.walker import WalkerRobot
 from ...types import Floats, Json
+from .arm_swing import check_swing
 from .walker import RefusedError, Walker
 
 GRID: Final = 0.02
@@ -119,8 +120,11 @@ class ToolHold:
         """Take the arm over; where the way begins so near, the tool comes to the point before the robot goes on.
 
         Raises:
+            RefusedError: If the arm would tip the robot there, with what it carries; the margin is what is missing.
             FallenError: If the robot falls.
         """
+        if self.way_of(walker.pose) >= self.first - self._lead:
+            check_swing(walker, walker.arm, self._joints, "swung to the point to hold")
         walker.arm_task = self
         while self.way_of(walker.pose) >= self.first - self._lead and self._state in ("away", "coming"):
             walker.tick()
