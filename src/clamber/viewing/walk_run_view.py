@@ -206,7 +206,7 @@ def _arrange(figure: Figure, side: float, top: float) -> dict[str, Axes]:
 
     The curves are beside the view from above, or below it where it is so wide that they would be small there.
     """
-    whole = WIDTH - 2.0 * WORDS
+    whole = WIDTH - WORDS
     height = min(TALLEST, (whole - WORDS - CURVE[0]) / top)
     rows, side_height = 2.0 * (CURVE[1] + WORDS), whole / side
     if height + WORDS >= rows:
@@ -218,7 +218,7 @@ def _arrange(figure: Figure, side: float, top: float) -> dict[str, Axes]:
         )
     else:
         height = whole / top
-        figure.set_size_inches(WIDTH, side_height + height + 1.5 * CURVE[1] + 5.0 * WORDS)
+        figure.set_size_inches(WIDTH, side_height + height + 1.5 * CURVE[1] + 6.0 * WORDS)
         places = figure.subplot_mosaic(
             [["side", "side"], ["top", "top"], ["tilt", "margin"]],
             height_ratios=(side_height + WORDS, height + WORDS, 1.5 * CURVE[1] + 2.0 * WORDS),

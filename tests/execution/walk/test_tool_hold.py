@@ -68,7 +68,7 @@ def test_the_tool_comes_stays_and_leaves_within_range_and_speed(monkeypatch: pyt
     ys = np.array([pose[1] for pose, _ in held])
     assert ys.min() == pytest.approx(told.first, abs=3e-3)
     assert ys.max() == pytest.approx(told.last, abs=3e-3)
-    errors = [float(np.linalg.norm(tool_of(pose, joints) - told.point)) for pose, joints in held]
+    errors = [float(np.linalg.norm(tool_of(pose, joints) - told.points[0])) for pose, joints in held]
     assert max(errors) < 3e-3  # the plate's tilt is left out, and what the robot is off by its own reckoning
     assert ARM is not None
     arms = np.array([joints for _, _, joints in plant.kept])
@@ -76,6 +76,36 @@ def test_the_tool_comes_stays_and_leaves_within_range_and_speed(monkeypatch: pyt
     assert (arms <= np.array(ARM.highest) + 1e-9).all()
     assert (np.abs(np.diff(arms, axis=0)) <= walker.period * np.array(ARM.fastest) + 1e-9).all()
     np.testing.assert_allclose(arms[-1], ARM.rest, atol=1e-6)
+
+
+def test_the_tool_goes_along_a_line_evenly_with_the_way(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Through a corner, 0.13 m of line on 0.12 m of way; the tool waits wherever the robot stands."""
+    monkeypatch.setattr("spring_walks.SpringsWalker", Watched)
+    walker, plant = stood(flat, noise=0.0)
+    holds: list[ToolHold] = []
+    up = walker.pose[2] + 0.2
+    line = np.array(((0.3, 0.12, up), (0.3, 0.2, up), (0.3, 0.2, up + 0.05)))
+
+    def lay(pose: Floats) -> TrackCourse:
+        track = straight(pose, BEST, 0.3, RADIUS)
+        holds.append(ToolHold(walker, track, line, 0.06))
+        holds[0].start(walker)
+        return TrackCourse(track)
+
+    assert WalkSequencer(walker, lay).run().done
+    told = holds[0].told()
+    assert (told.began, told.ended) != (None, None)
+    assert told.missed < 5e-4
+    middle = 0.185  # where the way passes half of the line's length
+    np.testing.assert_allclose((told.first, told.last), (middle - 0.06, middle + 0.06), atol=1e-3)
+    assert isinstance(plant, Watched)
+    assert told.began is not None
+    assert told.ended is not None
+    for time, pose, joints in plant.kept:
+        if told.began < time <= told.ended:
+            gone = 0.13 * np.clip((pose[1] - told.first) / (told.last - told.first), 0.0, 1.0)
+            place = line[0] + (0.0, min(gone, 0.08), max(0.0, gone - 0.08))
+            assert np.linalg.norm(tool_of(pose, joints) - place) < 4e-3
 
 
 def test_the_reach_that_is_told_is_that_of_the_stretched_arm() -> None:

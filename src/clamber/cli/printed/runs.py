@@ -100,10 +100,10 @@ class StepDone(Printed):
 
 
 class Held(Printed):
-    """Where the tool was held at a point of the world, and how well."""
+    """Where the tool was held at a point of the world, or led along a line, and how well."""
 
-    point: Pose
-    """World, as believed [m]."""
+    points: list[Pose]
+    """The point, or those that the tool was to go through: world, as believed [m]."""
     first: float
     """Way of the Delta-frame from which on the tool is held [m]."""
     last: float
@@ -121,9 +121,10 @@ class Held(Printed):
     speed: float
     """Largest share of its speed that a joint had [-]."""
     true_point: Pose
+    """Where the tool was to be at first, as it truly lies [m]."""
     held_seconds: float
     largest_error: float | None
-    """Largest true distance of the tool from the point while it was held [m]."""
+    """Largest true distance of the tool from where it was to be while it was held [m]."""
     mean_error: float | None
 
 

@@ -32,18 +32,24 @@ def check_mechanism(walk: Walk, document: Document) -> None:
         )
 
 
-def why_it_tips(walk: Walk) -> str:
-    """How far what a level robot carries puts its centre of mass outside its six feet, and what it could carry; empty where it stands."""
+def why_it_tips(walk: Walk, kept: float) -> str:
+    """Where what a level robot carries puts its centre of mass, and what it could carry; empty where it is far enough inside its six feet.
+
+    Args:
+        walk: With start and payload.
+        kept: Margin of balance that is asked for [m]: feet that give way tip it sooner than rigid ones.
+    """
     margin = start_margin(walk, walk.payload)
-    if walk.start.plate != "level" or margin > 0.0:
+    if walk.start.plate != "level" or margin > kept:
         return ""
     low, high = 0.0, walk.payload
     while high - low > 0.01:
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if start_margin(walk, middle) > 0.0 else (low, middle)
+        low, high = (middle, high) if start_margin(walk, middle) > kept else (low, middle)
+    side = "inside" if margin > 0.0 else "outside"
     return (
-        f"{walk.payload:g} kg put the centre of mass {-1e3 * margin:.0f} mm outside the six feet that it starts on; "
-        f"with the arm like this up to {math.floor(10.0 * low) / 10.0:.1f} kg do not tip it"
+        f"{walk.payload:g} kg put the centre of mass {1e3 * abs(margin):.0f} mm {side} the six feet that it starts on, and "
+        f"{1e3 * kept:.0f} mm are kept: with the arm like this up to {math.floor(10.0 * low) / 10.0:.1f} kg"
     )
 
 
