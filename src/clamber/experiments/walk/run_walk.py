@@ -212,7 +212,7 @@ def run_walk(
         walker.start(walk.start_pose(), walk.start_place(), walk.start_legs(), np.array(walk.arm))
         report = sequencer.run()
     except (FallenError, PlantStoppedError) as fall:  # before the first tick
-        why = why_it_tips(walk, walker.settings.limits.balance)
+        why = why_it_tips(walk)
         report = WalkReport(
             reason=f"fell: {fall}" + (f": {why}" if why else ""),
             seconds=walker.time,
