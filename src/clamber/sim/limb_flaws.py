@@ -2,16 +2,15 @@
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 from .plant_rules import (
+    Flaws,
     PlantError,
     check_finite,
     check_not_negative,
     check_part,
     check_rates,
     check_seed,
-    with_changes,
 )
 
 
@@ -89,7 +88,7 @@ class ForceSensor:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class LimbFlaws:
+class LimbFlaws(Flaws):
     """What makes a plant differ from the robot's file, and its sensors from the truth. The defaults are an ideal limb with friction."""
 
     backlash: float = 0.0
@@ -140,21 +139,3 @@ class LimbFlaws:
             if not isinstance(getattr(self, key), int) or getattr(self, key) < 0:
                 raise PlantError(key, getattr(self, key), "must be a whole number, 0 or more")
         check_rates(self.control_rate, self.physics_rate)
-
-    @property
-    def period(self) -> float:
-        """Of the control [s]."""
-        return 1.0 / self.control_rate
-
-    @property
-    def steps(self) -> int:
-        """Physics steps in a control period."""
-        return round(self.physics_rate / self.control_rate)
-
-    def with_changes(self, **changes: Any) -> "LimbFlaws":
-        """A copy with some properties changed.
-
-        Raises:
-            PlantError: If there is no such property, or its value is not allowed.
-        """
-        return with_changes(self, changes)

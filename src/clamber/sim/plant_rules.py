@@ -3,14 +3,9 @@
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import fields, replace
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, Self
 
 from ..errors import ClamberError, describe_choices
-
-if TYPE_CHECKING:
-    from _typeshed import DataclassInstance
-
-    Properties = TypeVar("Properties", bound=DataclassInstance)
 
 
 class PlantError(ClamberError):
@@ -67,14 +62,33 @@ def check_rates(control: float, physics: float) -> None:
         )
 
 
-def with_changes(properties: "Properties", changes: Mapping[str, Any]) -> "Properties":
-    """A copy with some properties changed: name -> value.
+class Flaws:
+    """Properties of a plant, a frozen dataclass: what those of every kind of plant have in common."""
 
-    Raises:
-        PlantError: If there is no such property, or its value is not allowed.
-    """
-    known = tuple(field.name for field in fields(properties))
-    for key, value in changes.items():
-        if key not in known:
-            raise PlantError(key, value, f"no such property; there are {describe_choices(key, known)}")
-    return replace(properties, **changes)
+    __slots__ = ()
+    control_rate: float
+    """Ticks per second [Hz]."""
+    physics_rate: float
+    """Steps of the simulation per second [Hz]; a whole multiple of the control rate."""
+
+    @property
+    def period(self) -> float:
+        """Of the control [s]."""
+        return 1.0 / self.control_rate
+
+    @property
+    def steps(self) -> int:
+        """Physics steps in a control period."""
+        return round(self.physics_rate / self.control_rate)
+
+    def with_changes(self, **changes: Any) -> Self:
+        """A copy with some properties changed.
+
+        Raises:
+            PlantError: If there is no such property, or its value is not allowed.
+        """
+        known = tuple(field.name for field in fields(self))  # type: ignore[arg-type]
+        for key, value in changes.items():
+            if key not in known:
+                raise PlantError(key, value, f"no such property; there are {describe_choices(key, known)}")
+        return replace(self, **changes)  # type: ignore[type-var]

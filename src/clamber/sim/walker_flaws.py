@@ -2,9 +2,8 @@
 
 import math
 from dataclasses import dataclass, field
-from typing import Any
 
-from .plant_rules import PlantError, check_not_negative, check_part, check_rates, check_seed, with_changes
+from .plant_rules import Flaws, PlantError, check_not_negative, check_part, check_rates, check_seed
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -25,7 +24,7 @@ class Inclinometers:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class WalkerFlaws:
+class WalkerFlaws(Flaws):
     """What makes a simulated walker differ from its file, and its sensors from the truth. The defaults are as the file says."""
 
     inclinometers: Inclinometers = field(default_factory=Inclinometers)
@@ -52,21 +51,3 @@ class WalkerFlaws:
         chancy = {"inclinometers.noise": self.inclinometers.noise, "force_noise": self.force_noise}
         check_seed(self.seed, chancy | {"mass_error": self.mass_error})
         check_rates(self.control_rate, self.physics_rate)
-
-    @property
-    def period(self) -> float:
-        """Of the control [s]."""
-        return 1.0 / self.control_rate
-
-    @property
-    def steps(self) -> int:
-        """Physics steps in a control period."""
-        return round(self.physics_rate / self.control_rate)
-
-    def with_changes(self, **changes: Any) -> "WalkerFlaws":
-        """A copy with some properties changed.
-
-        Raises:
-            PlantError: If there is no such property, or its value is not allowed.
-        """
-        return with_changes(self, changes)
