@@ -58,6 +58,7 @@ PARAMS = np.dtype(
         ("clearance", "f8"),
         ("inside", "f8"),
         ("max_power", "f8"),
+        ("max_swing", "f8"),  # pi: any
         ("link_radius", "f8"),
         ("body_margin", "f8"),
         ("hook_width", "f8"),  # 0: hooks are points
