@@ -39,7 +39,9 @@ CAUGHT: Final = 0.015
 STRAIGHT: Final = math.radians(8.0)
 """A limb whose elbow is straighter is at the end of its reach [rad]."""
 ON_TOP: Final = 0.5
-"""A hook that pulls less downwards might come off [-]."""
+"""A hook that pulls less downwards might come off where it bears the weight [-]."""
+NOT_UNDER: Final = -0.1
+"""Likewise that which leaves, and bears next to nothing [-]."""
 
 
 def let_go(climber: Climber, i: int, stay: int) -> Hang | None:
@@ -147,7 +149,7 @@ def _well_on(climber: Climber, i: int, pose: Floats, off: float) -> Floats | Non
     """Angles of a limb on its hold at a pose, its elbow on the side where it is, its hook well on top, and room to lift it off by `off`."""
     limb, task, side = climber.robot.limbs[i], climber.body.tasks[i], climber.body.q[i, 1]
     on = [one for one in postures(limb, pose, task.place) if one.inside and one.angles[1] * side > 0.0]
-    if not on or on[0].on_top < ON_TOP or abs(on[0].angles[1]) < STRAIGHT:
+    if not on or on[0].on_top < (NOT_UNDER if off > 0.0 else ON_TOP) or abs(on[0].angles[1]) < STRAIGHT:
         return None
     if off > 0.0 and _bent(limb, pose, task.place - off * on[0].grab, side) is None:
         return None
