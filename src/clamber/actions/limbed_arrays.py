@@ -184,6 +184,7 @@ def _goals(task: LimbedTask, polygons: list[tuple[tuple[float, float], ...]], n_
             row["vertex"], row["n_vertices"] = n_vertices, len(goal.region)
             polygons.append(goal.region)
             n_vertices += len(goal.region)
+        row["hangs"] = goal.hangs
         row["hold"] = -1
         for name, number in goal.holds.items():
             row["hold"][task.robot.limb_index(name)] = numbers[number]

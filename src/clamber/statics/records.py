@@ -164,6 +164,7 @@ GOAL = np.dtype(
         ("rise_after", "f8"),  # of them, fewest steps up
         ("vertex", "i8"),
         ("n_vertices", "i8"),
+        ("hangs", "i4"),  # whether the robot may hang on the way to it
         ("hold", "i4", (LIMBS,)),  # index of the hold that limb must hold; -1: any
     ],
     align=True,

@@ -160,6 +160,8 @@ class Goal:
     """Corners of a region that the body's origin is in [m]."""
     holds: dict[str, StrictInt] = field(default_factory=dict)
     """Limb name -> number of the hold it is on."""
+    hangs: StrictBool = True
+    """Whether the robot may hang on one limb on the way to it, where the rules allow it."""
     turns: Ratio | None = None
     """Turns of the body's origin about `centre`, at least so many; anticlockwise positive [-]."""
     centre: Point | None = None
