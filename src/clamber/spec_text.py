@@ -83,10 +83,17 @@ def _docs(cls: type[Any]) -> dict[str, str]:
             continue
         tree = ast.parse(textwrap.dedent(inspect.getsource(base))).body[0]
         assert isinstance(tree, ast.ClassDef)
-        for before, after in zip(tree.body, tree.body[1:], strict=False):
-            if isinstance(before, ast.AnnAssign) and isinstance(before.target, ast.Name) and _is_text(after):
-                found[before.target.id] = " ".join(inspect.cleandoc(after.value.value).split())  # type: ignore[attr-defined]
+        found |= field_docs(tree)
     return found
+
+
+def field_docs(tree: ast.ClassDef) -> dict[str, str]:
+    """Field -> the text below it, in one line, of those fields of a class that have one."""
+    return {
+        before.target.id: " ".join(inspect.cleandoc(after.value.value).split())  # type: ignore[attr-defined]
+        for before, after in zip(tree.body, tree.body[1:], strict=False)
+        if isinstance(before, ast.AnnAssign) and isinstance(before.target, ast.Name) and _is_text(after)
+    }
 
 
 def _is_text(node: ast.stmt) -> bool:

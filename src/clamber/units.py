@@ -215,7 +215,6 @@ Length = Annotated[float, Quantity("length")]
 PositiveLength = Annotated[float, Quantity("length", above=0.0)]
 NonNegativeLength = Annotated[float, Quantity("length", at_least=0.0)]
 Angle = Annotated[float, Quantity("angle")]
-PositiveAngle = Annotated[float, Quantity("angle", above=0.0)]
 NonNegativeAngle = Annotated[float, Quantity("angle", at_least=0.0)]
 ConeAngle = Annotated[float, Quantity("angle", above=0.0, at_most=math.pi / 2)]
 """Half angle of a cone [rad], over 0 and at most a right angle."""

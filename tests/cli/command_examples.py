@@ -63,7 +63,7 @@ LONG = (
 )
 ELSEWHERE = {
     "plant serve": "tests/cli/test_plant.py",
-    "bench": "tests/test_boards.py",
+    "bench": "tests/experiments/test_boards.py",
     "limb tune": "tests/experiments/limb/test_limb_tune.py",
 }
 """Commands that need a partner, the machine for themselves, or minutes, and the tests that hold them against their schemas."""

@@ -1,6 +1,7 @@
 """What commands print with `--json` is what their schemas say: on a small example of each, and of each kind of answer."""
 
 import json
+import re
 import shlex
 from collections.abc import Iterator
 from pathlib import Path
@@ -96,3 +97,13 @@ def test_a_field_that_no_schema_names_is_noticed() -> None:
     assert not validator.is_valid(told | {"more": 1})
     assert not validator.is_valid({"written": "a", "task": "b", "steps": 1})
     assert not validator.is_valid(told | {"steps": "1"})
+
+
+def test_fields_mean_what_they_mean_where_they_are_made_and_have_null_where_python_has_none() -> None:
+    objects = schema_of("limb step")["$defs"]
+    assert objects["TipErrors"]["properties"]["lag"]["description"] == (
+        "Mean angle behind the aim on a circle, last lap [rad]."
+    )
+    assert objects["TipErrors"]["properties"]["on_aim"]["description"].endswith("[s]; null: never.")
+    told = [row[2] for command in PRINTED for table in tables_of(schema_of(command)) for row in table.rows]
+    assert [meaning for meaning in told if re.search(r"\b(None|NaN)\b", meaning)] == []

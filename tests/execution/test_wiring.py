@@ -15,7 +15,8 @@ from clamber.experiments.limb.bench_limb import bench_limb
 from clamber.robots.library import load_robot
 from clamber.robots.limbed import LimbedRobot
 from clamber.sim.climber_plant import ClimberPlant
-from clamber.sim.limb_flaws import LimbFlaws, PlantError
+from clamber.sim.limb_flaws import LimbFlaws
+from clamber.sim.plant_rules import PlantError
 from clamber.sim.plants import PLANTS
 from clamber.sim.wires import Amplifiers, ClimberWires, LimbWires
 from clamber.types import Floats, Ints

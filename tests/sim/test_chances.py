@@ -8,8 +8,9 @@ import pytest
 from clamber.experiments.limb.bench_limb import bench_limb
 from clamber.experiments.limb.contest import MISBELIEVED, believed_chain
 from clamber.sim.chances import Chances
-from clamber.sim.limb_flaws import LimbFlaws, PlantError
+from clamber.sim.limb_flaws import LimbFlaws
 from clamber.sim.mujoco_limb import MujocoLimb
+from clamber.sim.plant_rules import PlantError
 from clamber.sim.plants import PLANTS, plant_maker
 
 LIMB = bench_limb()

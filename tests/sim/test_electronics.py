@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from clamber.experiments.limb.bench_limb import BenchLimb, bench_limb
 from clamber.sim.electronics import limit_torques
 from clamber.sim.limb_electronics import LimbElectronics
-from clamber.sim.limb_flaws import LimbFlaws, PlantError
+from clamber.sim.limb_flaws import LimbFlaws
+from clamber.sim.plant_rules import PlantError
 from clamber.sim.plants import PLANTS
 
 

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from clamber.experiments.limb.bench_limb import BenchLimb, bench_limb
-from clamber.sim.limb_flaws import ForceSensor, LimbFlaws, PlantError, Push, Wall
+from clamber.sim.limb_flaws import ForceSensor, LimbFlaws, Push, Wall
 from clamber.sim.mujoco_limb import MujocoLimb
+from clamber.sim.plant_rules import PlantError
 from clamber.sim.wrench_reader import WrenchReader
 
 

@@ -8,7 +8,7 @@ import pytest
 from walker_by_hand import LEVEL, hoshino, legs_with, lengths, standing
 
 from clamber.sim.inclinometers import InclinometerPair
-from clamber.sim.limb_flaws import PlantError
+from clamber.sim.plant_rules import PlantError
 from clamber.sim.walker_flaws import Inclinometers, WalkerFlaws
 from clamber.sim.walker_model import walker_spec
 from clamber.sim.walker_plant import plate_quaternion

@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from clamber.sim.limb_flaws import LimbFlaws, PlantError, Push
+from clamber.sim.limb_flaws import LimbFlaws, Push
+from clamber.sim.plant_rules import PlantError
 
 
 @pytest.mark.parametrize(

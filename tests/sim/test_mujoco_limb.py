@@ -16,8 +16,9 @@ from clamber.experiments.limb.bench_limb import BenchLimb, bench_limb
 from clamber.experiments.limb.scenario import step_scenario
 from clamber.robots.library import load_robot, robot_names
 from clamber.robots.limbed import LimbedRobot
-from clamber.sim.limb_flaws import LimbFlaws, PlantError, Push
+from clamber.sim.limb_flaws import LimbFlaws, Push
 from clamber.sim.mujoco_limb import MujocoLimb
+from clamber.sim.plant_rules import PlantError
 from clamber.types import Floats
 
 FREE = LimbFlaws(motor_limits=False)

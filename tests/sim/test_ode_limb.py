@@ -14,10 +14,11 @@ from clamber.control.law_settings import LawSettings
 from clamber.execution.closed_loop import close_loop
 from clamber.experiments.limb.bench_limb import BenchLimb, bench_limb
 from clamber.sim import limb_model
-from clamber.sim.limb_flaws import LimbFlaws, PlantError, Push, Wall
+from clamber.sim.limb_flaws import LimbFlaws, Push, Wall
 from clamber.sim.mujoco_limb import MujocoLimb
 from clamber.sim.ode_limb import OdeLimb
 from clamber.sim.ode_steps import step_joint
+from clamber.sim.plant_rules import PlantError
 from clamber.types import Floats
 
 FREE = LimbFlaws(motor_limits=False)

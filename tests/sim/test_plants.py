@@ -11,7 +11,8 @@ from clamber.experiments.limb.contest import Entry, run_contest
 from clamber.experiments.limb.scenario import step_scenario
 from clamber.robots.library import load_robot, robot_names
 from clamber.robots.limbed import LimbedRobot
-from clamber.sim.limb_flaws import LimbFlaws, PlantError, Push
+from clamber.sim.limb_flaws import LimbFlaws, Push
+from clamber.sim.plant_rules import PlantError
 from clamber.sim.plants import PLANTS
 
 

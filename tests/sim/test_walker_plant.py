@@ -9,7 +9,7 @@ from walker_by_hand import POSE, hoshino, legs_with, lengths, let_pass, standing
 
 from clamber.execution.plant import PlantStoppedError
 from clamber.execution.walk.plant import WalkerPlant
-from clamber.sim.limb_flaws import PlantError
+from clamber.sim.plant_rules import PlantError
 from clamber.sim.walker_flaws import Inclinometers, WalkerFlaws
 from clamber.sim.walker_plant import plate_angles, plate_axes, plate_quaternion
 from clamber.units import GRAVITY

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 from clamber.experiments.limb.bench_limb import BenchLimb, bench_limb
-from clamber.sim.limb_flaws import LimbFlaws, PlantError, Wall
+from clamber.sim.limb_flaws import LimbFlaws, Wall
 from clamber.sim.limb_model import limb_spec
 from clamber.sim.mujoco_limb import MujocoLimb
+from clamber.sim.plant_rules import PlantError
 from clamber.sim.wall_model import plate_mass
 
 

@@ -3,16 +3,14 @@
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from ..extensions import ExtensionError, blamed, failure, load_outside, outside
 from ..statics.checks import Check
 from ..tasks import Task
+from .step_verdict import StepVerdict
 
-if TYPE_CHECKING:
-    from .verdict import StepVerdict
-
-MarginOf: TypeAlias = "Callable[[Task, StepVerdict], float | None]"
+MarginOf: TypeAlias = Callable[[Task, StepVerdict], float | None]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,7 +36,7 @@ class Judged:
     """Which of them could not be had, and why."""
 
 
-def judge_outside(task: Task, steps: "Sequence[StepVerdict]", taken: Sequence[str]) -> Judged:
+def judge_outside(task: Task, steps: Sequence[StepVerdict], taken: Sequence[str]) -> Judged:
     """The margins of every check that other packages add, for each step; one that fails is a note and no error.
 
     Args:
@@ -71,7 +69,7 @@ def _loaded(name: str) -> OutsideCheck:
     return check
 
 
-def _margin(name: str, check: OutsideCheck, task: Task, step: "StepVerdict") -> float | None:
+def _margin(name: str, check: OutsideCheck, task: Task, step: StepVerdict) -> float | None:
     with blamed("checks", name):
         margin = check.margin(task, step)
         return None if margin is None or math.isnan(margin) else float(margin)

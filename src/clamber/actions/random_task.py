@@ -8,8 +8,10 @@ from ..files import Document
 from ..robots.library import read_robot
 from ..robots.limbed import build_limbed
 from ..tasks.library import TASK_FAMILIES
-from ..tasks.limbed import SCHEMA, LimbedTask, build_limbed_task
+from ..tasks.limbed import LimbedTask
+from ..tasks.limbed_build import build_limbed_task
 from ..tasks.overrides import apply_overrides, split_override
+from ..tasks.task_file import SCHEMA
 from ..types import Json
 from ..worlds.board import build_board
 from ..worlds.random_board import random_board_data

@@ -5,10 +5,10 @@ from typing import Annotated
 import typer
 
 from .body_options import BodyWords, run_bench
-from .option_holder import shares
+from .option_holder import takes_words
 
 
-@shares(BodyWords)
+@takes_words
 def circle(
     radius: Annotated[str, typer.Option(help="Such as 5cm.")] = "5cm",
     lap: Annotated[float, typer.Option(help="Time of one lap, in seconds.")] = 6.0,

@@ -6,11 +6,11 @@ import typer
 
 from .body_options import BodyWords, run_bench
 from .crew import EndsLine
-from .option_holder import shares
+from .option_holder import takes_words
 from .output import announce_compilation, print_json, stderr, stdout
 
 
-@shares(BodyWords)
+@takes_words
 def push(
     force: Annotated[str, typer.Option(metavar="FX,FY", help="At the body's centre.")] = "60N,0N",
     seconds: Annotated[float, typer.Option(help="How long it acts, as half a sine, in seconds.")] = 0.5,

@@ -5,10 +5,10 @@ from typing import Annotated
 import typer
 
 from .body_options import BodyWords, run_bench
-from .option_holder import shares
+from .option_holder import takes_words
 
 
-@shares(BodyWords)
+@takes_words
 def push_up(
     height: Annotated[str, typer.Option(help="Such as 7.5cm.")] = "7.5cm",
     seconds: Annotated[float, typer.Option(help="In so many seconds.")] = 0.5,

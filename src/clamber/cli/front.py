@@ -11,33 +11,25 @@ from ..planning.exact.planner import MOST_STANCES
 from ..tasks import Task
 from .output import plain_table, print_json, stderr, stdout
 from .plan_text import ProgressLine
+from .plan_words import PlanWords
 
 
-def front(
-    task: Task,
-    costs: str,
-    seconds: float | None,
-    threads: int | None,
-    stances: int | None,
-    output: Path | None,
-    *,
-    as_json: bool,
-    quiet: bool,
-) -> int:
-    """Find a front, print it, and draw it or write it to `output` (png, svg, pdf; json); returns the exit status."""
+def front(task: Task, costs: str, words: PlanWords) -> int:
+    """Find a front, print it, and draw it or write it to the output (png, svg, pdf; json); returns the exit status."""
     first, second = read_costs("--pareto", costs, least=2, most=2)
+    output = words.output
     drawn = output is not None and output.suffix.lower() != ".json"
     if drawn and output is not None:
         from ..viewing.output import CANVASES, check_suffix
 
         check_suffix(output, (".json", *CANVASES))
-    with ProgressLine(stderr(), quiet=quiet) as line:
+    with ProgressLine(stderr(), quiet=words.quiet) as line:
         found = plan_front(
             task,
             (first, second),
-            seconds=seconds,
-            threads=threads,
-            max_stances=MOST_STANCES if stances is None else stances,
+            seconds=words.seconds,
+            threads=words.threads,
+            max_stances=MOST_STANCES if words.stances is None else words.stances,
             progress=line.update,
         )
     if drawn and output is not None:
@@ -46,7 +38,7 @@ def front(
         draw_front(found, output)
     elif output is not None:
         found.save(output)
-    if as_json:
+    if words.as_json:
         print_json(found.to_json())
     else:
         print_front(stdout(), found, output)

@@ -5,10 +5,10 @@ from typing import Annotated
 import typer
 
 from .limb_options import BenchWords, run_bench
-from .option_holder import shares
+from .option_holder import takes_words
 
 
-@shares(BenchWords)
+@takes_words
 def circle(
     centre: Annotated[str, typer.Option(metavar="X,Y", help="Of the circle, port frame.")] = "22cm,0",
     radius: Annotated[str, typer.Option(help="Such as 5cm.")] = "5cm",

@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from . import limb_options as opt
-from .options import AsJson, Output, Quiet
+from .options import ROBOT, AsJson, Output, Quiet
 from .output import announce_compilation
 
 
@@ -33,7 +33,7 @@ def force(
     slide: Annotated[str, typer.Option(help="Way along the wall at full force.")] = "3cm",
     gap: Annotated[str, typer.Option(help="From the start to the wall.")] = "2mm",
     tolerance: Annotated[str, typer.Option(help="Largest error of a force that is held.")] = "1N",
-    robot: opt.Robot = "libra",
+    robot: opt.Robot = ROBOT,
     limb: opt.LimbName = None,
     start: opt.Start = None,
     elbow: opt.Elbow = None,

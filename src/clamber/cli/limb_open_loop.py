@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from . import limb_options as opt
-from .options import AsJson, Output, Quiet
+from .options import ROBOT, AsJson, Output, Quiet
 from .output import announce_compilation
 
 
@@ -20,7 +20,7 @@ def open_loop(
     renewed: Annotated[
         bool, typer.Option("--renewed", help="Let the torques follow the pose instead of standing still.")
     ] = False,
-    robot: opt.Robot = "libra",
+    robot: opt.Robot = ROBOT,
     limb: opt.LimbName = None,
     start: opt.Start = None,
     elbow: opt.Elbow = None,

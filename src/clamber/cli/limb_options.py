@@ -11,7 +11,7 @@ import typer
 from rich.console import Console
 
 from .crew import EndsLine
-from .options import AsJson, Output, Quiet
+from .options import ROBOT, AsJson, Output, Quiet
 from .output import announce_compilation, check_writable, print_json, stderr, stdout
 
 if TYPE_CHECKING:
@@ -94,7 +94,7 @@ class BenchWords:
     kd: Kd = None
     match: Matched = MatchChoice.yy
     reference: Reference = "scct"
-    robot: Robot = "libra"
+    robot: Robot = ROBOT
     limb: LimbName = None
     start: Start = None
     elbow: Elbow = None

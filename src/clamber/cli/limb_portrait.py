@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from . import limb_options as opt
-from .options import AsJson, Quiet
+from .options import ROBOT, AsJson, Quiet
 from .output import announce_compilation, print_json, stdout
 
 
@@ -20,7 +20,7 @@ def portrait(
         typer.Option(metavar="NAME[:KEY=VALUE,...]", help="Match gains to this law, such as scct:kp=200,kd=10."),
     ] = None,
     match: opt.Matched = opt.MatchChoice.yy,
-    robot: opt.Robot = "libra",
+    robot: opt.Robot = ROBOT,
     limb: opt.LimbName = None,
     seed: Annotated[int, typer.Option(min=0, help="Draws play and encoder phase of the nominal limb.")] = 1,
     markdown: Annotated[bool, typer.Option("--markdown", help="Print the tables as a page has them.")] = False,

@@ -5,10 +5,10 @@ from typing import Annotated
 import typer
 
 from .limb_options import BenchWords, run_bench
-from .option_holder import shares
+from .option_holder import takes_words
 
 
-@shares(BenchWords)
+@takes_words
 def push(
     force: Annotated[str, typer.Option(metavar="FX,FY", help="On the tip, such as 10N,0.")] = "10N,0",
     begin: Annotated[float, typer.Option("--from", help="When the push begins [s].")] = 0.5,

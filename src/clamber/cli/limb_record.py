@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from . import limb_options as opt
-from .options import AsJson, Quiet
+from .options import ROBOT, AsJson, Quiet
 from .output import announce_compilation, check_writable, print_json, stdout
 
 
@@ -15,7 +15,7 @@ def record(
     output: Annotated[
         Path, typer.Option("--output", "-o", metavar="FILE", help="The log to write (.csv, .mcap).")
     ] = Path("limb.csv"),
-    robot: opt.Robot = "libra",
+    robot: opt.Robot = ROBOT,
     flaws: opt.Flaws = opt.FlawsChoice.nominal,
     settings: opt.Settings = None,
     current_noise: Annotated[float, typer.Option(help="Standard deviation of the current sensors' noise [A].")] = 0.01,

@@ -5,10 +5,10 @@ from typing import Annotated
 import typer
 
 from .limb_options import BenchWords, run_bench
-from .option_holder import shares
+from .option_holder import takes_words
 
 
-@shares(BenchWords)
+@takes_words
 def step(
     by: Annotated[str, typer.Option(metavar="DX,DY", help="The step, such as 0,-2cm.")] = "0,-2cm",
     seconds: Annotated[float, typer.Option(help="Length of the run [s].")] = 6.0,

@@ -7,7 +7,8 @@ import typer
 
 from . import limb_options as opt
 from .crew import CrewWords
-from .option_holder import shares
+from .option_holder import takes_words
+from .options import ROBOT
 from .output import announce_compilation, print_json, stdout
 
 
@@ -26,7 +27,7 @@ class ScenarioChoice(StrEnum):
     push = "push"
 
 
-@shares(CrewWords)
+@takes_words
 def sweep(
     vary: Annotated[
         list[str],
@@ -52,7 +53,7 @@ def sweep(
     kd: opt.Kd = None,
     match: opt.Matched = opt.MatchChoice.yy,
     reference: opt.Reference = "scct",
-    robot: opt.Robot = "libra",
+    robot: opt.Robot = ROBOT,
     limb: opt.LimbName = None,
     start: opt.Start = None,
     elbow: opt.Elbow = None,

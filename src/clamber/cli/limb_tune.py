@@ -7,18 +7,19 @@ import typer
 
 from . import limb_options as opt
 from .crew import CrewWords
-from .option_holder import shares
+from .option_holder import takes_words
+from .options import ROBOT
 from .output import announce_compilation, check_writable, print_json, stdout
 
 
-@shares(CrewWords)
+@takes_words
 def tune(
     controllers: Annotated[
         list[str] | None,
         typer.Argument(metavar="[NAME[:KEY=VALUE,...]]...", help="Laws without their gains; all of them unless given."),
     ] = None,
     margin: Annotated[float, typer.Option(help="Largest stable gains over the recommended ones; 2 is 6 dB.")] = 2.0,
-    robot: opt.Robot = "libra",
+    robot: opt.Robot = ROBOT,
     limb: opt.LimbName = None,
     start: opt.Start = None,
     elbow: opt.Elbow = None,

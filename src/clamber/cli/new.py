@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import typer
 
-from .options import AsJson
+from .options import BOARD, ROBOT, AsJson
 from .output import announce_compilation, check_writable, print_json, stdout
 
 if TYPE_CHECKING:
@@ -146,8 +146,8 @@ def _write_board(
 
 @new.command("task")
 def task(
-    robot: Annotated[str, typer.Option(metavar="NAME|FILE", help="A climber (`clamber list robots`).")] = "libra",
-    board: Annotated[str, typer.Option(metavar="NAME|FILE", help="A board (`clamber list boards`).")] = "ladder",
+    robot: Annotated[str, typer.Option(metavar="NAME|FILE", help="A climber (`clamber list robots`).")] = ROBOT,
+    board: Annotated[str, typer.Option(metavar="NAME|FILE", help="A board (`clamber list boards`).")] = BOARD,
     like: Annotated[
         str | None, typer.Option(metavar="NAME|FILE", help="Start from this task; its robot may be a walker.")
     ] = None,
@@ -160,7 +160,7 @@ def task(
     as_json: AsJson = False,
 ) -> None:
     """Write a task, from the lowest stance that the rules allow to the top of a board, whose file tells of every key."""
-    if like is not None and (overrides or robot != "libra" or board != "ladder"):
+    if like is not None and (overrides or (robot, board) != (ROBOT, BOARD)):
         raise typer.BadParameter(
             "has a robot, a board and rules of its own: edit them in the file", param_hint="--like"
         )

@@ -13,6 +13,7 @@ from ..units import parse_quantity
 from ..worlds.board import Board, build_board
 from ..worlds.csv_board import DEFAULT_RADIUS, build_points_board, read_csv_board, read_pixel_board
 from ..worlds.random_board import random_board_data
+from .options import ROBOT
 
 COMMAND: Final = "clamber new board"
 
@@ -85,7 +86,7 @@ def _pixel(text: str) -> tuple[float, float]:
     return x, y
 
 
-def task_data(board: Json, label: str, path: Path, overrides: Sequence[str], robot: str = "libra") -> Json:
+def task_data(board: Json, label: str, path: Path, overrides: Sequence[str], robot: str = ROBOT) -> Json:
     """The document of a task on a board, from the lowest stance to the top; it names the board by a file beside it.
 
     Args:

@@ -1,9 +1,14 @@
 """Options and arguments that several commands share."""
 
 from pathlib import Path
-from typing import Annotated, TypeAlias
+from typing import Annotated, Final, TypeAlias
 
 import typer
+
+ROBOT: Final = "libra"
+"""The climber of commands that are told of none."""
+BOARD: Final = "ladder"
+"""Its board."""
 
 Overrides: TypeAlias = Annotated[
     list[str] | None,

@@ -6,12 +6,12 @@ import typer
 
 from ..errors import SpecError
 from .limb_options import Flaws, FlawsChoice, Settings
-from .options import AsJson, Output
+from .options import BOARD, ROBOT, AsJson, Output
 from .output import check_writable, plain_table, print_json, stdout
 
 
 def press(
-    robot: Annotated[str, typer.Option(help="LIBRA with hooks or grippers, or a file of one like it.")] = "libra",
+    robot: Annotated[str, typer.Option(help="LIBRA with hooks or grippers, or a file of one like it.")] = ROBOT,
     force: Annotated[str, typer.Option(help="On the wall.")] = "20N",
     way: Annotated[str, typer.Option(metavar="X,Y", help="Of the body while the force is held.")] = "0,5cm",
     seconds: Annotated[float, typer.Option(min=0.1, help="That the way takes.")] = 2.0,
@@ -46,7 +46,7 @@ def press(
         raise SpecError("--force", "force", force, "must be more than 0 N")
     plant = read_flaws(named_flaws(flaws.value, chosen).with_changes(physics_rate=PHYSICS_RATE), settings or ())
     result = run_press(
-        chosen, load_board("ladder"), plant, force=wanted, way=read_point("way", way, "length"), seconds=seconds
+        chosen, load_board(BOARD), plant, force=wanted, way=read_point("way", way, "length"), seconds=seconds
     )
     if output is not None:
         draw_press(result, output)

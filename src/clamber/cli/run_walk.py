@@ -1,7 +1,8 @@
 """`clamber run` of a walk: what the command says about two-frame walkers, and nothing of climbers."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Final
 
 import numpy as np
 import typer
@@ -10,12 +11,14 @@ from rich.console import Console
 from ..actions.plan import Plan
 from ..execution.walk.sequencer import Lay, WalkReport
 from ..experiments.walk.held_point import HeldPoint
-from ..experiments.walk.run_walk import WalkRun
+from ..experiments.walk.run_walk import WalkRun, run_walk, split_walk_settings, walk_flaws
 from ..tasks.walks import Walk
 from ..units import DEGREE
+from .for_climbs import refuse_for_walk
 from .live_line import LiveLine
 from .output import plain_table, print_json, stderr, stdout
 from .run_report import RunReport
+from .run_words import RunWords
 
 
 class WalkLine(LiveLine):
@@ -26,78 +29,45 @@ class WalkLine(LiveLine):
         self.show(f"step {step}: {way:.2f} of {whole:.2f} m")
 
 
-def run_walk_file(
-    what: str,
-    settings: Sequence[str],
-    noise: Sequence[str],
-    seed: int,
-    outputs: Sequence[Path],
-    climbs_only: Mapping[str, bool],
-    telling: RunReport,
-    *,
-    as_json: bool,
-    quiet: bool,
-) -> None:
+CLIMBS_ONLY: Final = ("task", "planner", "seconds", "save_plan", "peg_error", "replan", "plant", "force")
+"""Options of `run` that a walk has no use for."""
+
+
+def run_walk_file(what: str, words: RunWords, telling: RunReport) -> None:
     """Carry a walk out and say how it went; leaves with 1 where it did not come to its end.
 
     Args:
         what: The walk's name or file.
-        settings: Texts "key=value" of the walk, its robot, its ground, and its plant.
-        noise: Texts "key=size".
-        seed: Of the noise.
-        outputs: Files to write.
-        climbs_only: Options that only climbs have -> whether they are given.
+        words: How.
         telling: Its report, if one is asked for.
-        as_json: Whether to print JSON alone.
-        quiet: Whether to tell nothing on the way.
     """
-    from ..experiments.walk.run_walk import split_walk_settings
     from ..tasks.walks import load_walk
 
-    refuse_climbs_options(what, climbs_only)
-    walk = load_walk(what, split_walk_settings(settings)[0])
-    walk_and_tell(walk, settings, noise, seed, outputs, telling, as_json=as_json, quiet=quiet)
-
-
-def refuse_climbs_options(what: str, climbs_only: Mapping[str, bool]) -> None:
-    """Raises `BadParameter` if an option is given that only climbs have."""
-    for option, given in climbs_only.items():
-        if given:
-            raise typer.BadParameter(f"'{what}' is a walk, and this is for climbs", param_hint=option)
+    refuse_for_walk(what, words, CLIMBS_ONLY)
+    walk_and_tell(load_walk(what, split_walk_settings(words.overrides or ())[0]), words, telling)
 
 
 def walk_and_tell(
-    walk: Walk,
-    settings: Sequence[str],
-    noise: Sequence[str],
-    seed: int,
-    outputs: Sequence[Path],
-    telling: RunReport,
-    lay: Lay | None = None,
-    plan: Plan | None = None,
-    *,
-    as_json: bool,
-    quiet: bool,
+    walk: Walk, words: RunWords, telling: RunReport, lay: Lay | None = None, plan: Plan | None = None
 ) -> None:
     """Carry a walk out, along its own way or another course, write files and say how it went; leaves with 1 where it did not end well."""
     from ..experiments.walk.noise import named_walk_noise, read_walk_noise
-    from ..experiments.walk.run_walk import run_walk, split_walk_settings, walk_flaws
     from ..viewing.walk_run_view import check_walk_suffix, write_walk
 
-    for file in outputs:
+    for file in words.outputs:
         check_walk_suffix(file)
     telling.open("walk")
-    deviations = read_walk_noise(named_walk_noise("none"), noise)
-    flaws = walk_flaws(walk, split_walk_settings(settings)[1])
-    with WalkLine(stderr(), quiet=quiet) as line:
-        run = run_walk(walk, flaws, noise=deviations, seed=seed, lay=lay, progress=line.update)
-    for file in outputs:
+    deviations = read_walk_noise(named_walk_noise("none"), words.noise or ())
+    flaws = walk_flaws(walk, split_walk_settings(words.overrides or ())[1])
+    with WalkLine(stderr(), quiet=words.quiet) as line:
+        run = run_walk(walk, flaws, noise=deviations, seed=words.seed, lay=lay, progress=line.update)
+    for file in words.outputs:
         write_walk(run, file)
     page = telling.of_walk(run, plan)
-    if as_json:
+    if words.as_json:
         print_json(run.to_json())
     else:
-        print_walk(stdout(), run, (*outputs, *page))
+        print_walk(stdout(), run, (*words.outputs, *page))
     raise typer.Exit(130 if run.report.reason == "interrupted" else 0 if run.done else 1)
 
 

@@ -5,12 +5,12 @@ from typing import Annotated
 import typer
 
 from .crew import CrewWords
-from .option_holder import shares
+from .option_holder import takes_words
 from .options import Overrides
 from .output import announce_compilation, print_json, stdout
 
 
-@shares(CrewWords)
+@takes_words
 def sweep(
     task: Annotated[str, typer.Argument(help="A task's name (`clamber list tasks`), or the path of its TOML file.")],
     vary: Annotated[

@@ -1,25 +1,30 @@
 """`clamber trials` of a walk, or of a walker's task or plan: many seeds, and what they say together."""
 
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Final
 
 import numpy as np
 import typer
 from rich.console import Console
 
+from ..actions.plan import Plan
 from ..experiments.intervals import wilson_interval
-from ..experiments.walk.trials import LEVEL, WalkCause, WalkTrials
+from ..experiments.walk.noise import named_walk_noise, read_walk_noise
+from ..experiments.walk.planned import careful, lay_plan, walk_of
+from ..experiments.walk.run_walk import split_walk_settings, walk_flaws
+from ..experiments.walk.trials import LEVEL, WalkCause, WalkSetup, WalkTrials, run_walk_trials
+from ..planning.planners import find_planner, first_loop
+from ..tasks.walker import WalkerTask
+from ..tasks.walks import load_walk
 from ..units import DEGREE
 from .crew import CrewWords
+from .for_climbs import refuse_for_walk
 from .live_line import LiveLine
 from .output import announce_compilation, plain_table, print_json, stderr, stdout
-from .plan_text import ProgressLine
 from .trials_text import share_range, some
-
-if TYPE_CHECKING:
-    from ..actions.plan import Plan
-    from ..experiments.walk.trials import WalkSetup
-    from ..tasks.walker import WalkerTask
+from .trials_words import TrialsWords
+from .walk_plan import plan_walk
 
 
 class WalkTrialsLine(LiveLine):
@@ -30,106 +35,61 @@ class WalkTrialsLine(LiveLine):
         self.show(f"{len(trials.ended)} of {trials.asked} walks, {trials.done} to their end")
 
 
-def walk_trials_of(
-    what: str,
-    settings: Sequence[str],
-    noise: Sequence[str],
-    seeds: Sequence[int],
-    least: float | None,
-    climbs_only: Mapping[str, bool],
-    words: CrewWords,
-) -> None:
-    """Walk with every seed and print what came of it; leaves with 1 where a walk failed, or fewer than `least` for sure succeed.
+CLIMBS_ONLY: Final = ("replan", "force", "replay", "output")
+"""Options of `trials` that neither a walk nor a walker's task has a use for."""
+PLANS_ONLY: Final = ("task", "planner", "seconds")
+"""Those that a walk has no use for, as it needs no plan."""
+
+
+def walk_trials_of(what: str, asked: TrialsWords, words: CrewWords) -> None:
+    """Walk with every seed and print what came of it; leaves with 1 where a walk failed, or fewer than asked for succeed for sure.
 
     Args:
         what: The walk's name or file.
-        settings: Texts "key=value" of walk and plant.
-        noise: Texts "key=size", on top of the usual ones.
-        seeds: One walk each.
-        least: Share of success that is asked for; None: all.
-        climbs_only: Options that only climbs have -> whether they are given.
+        asked: How, and how often.
         words: Who runs them, where they are kept, how they are told.
     """
-    from ..experiments.walk.noise import named_walk_noise, read_walk_noise
-    from ..experiments.walk.run_walk import split_walk_settings, walk_flaws
-    from ..experiments.walk.trials import WalkSetup
-    from ..tasks.walks import load_walk
-
-    _refuse(what, climbs_only)
-    sizes = read_walk_noise(named_walk_noise("usual"), noise)
-    for_walk, for_plant = split_walk_settings(settings)
+    least = asked.least
+    refuse_for_walk(what, asked, (*PLANS_ONLY, *CLIMBS_ONLY))
+    refuse_for_walk(what, words, CLIMBS_ONLY)
+    sizes = read_walk_noise(named_walk_noise("usual"), asked.noise or ())
+    for_walk, for_plant = split_walk_settings(asked.overrides or ())
     walk = load_walk(what, for_walk)
     walk_flaws(walk, for_plant)  # what cannot be is told before workers start
     words.executor.check()
-    _try_and_tell(WalkSetup(walk, sizes, tuple(for_plant)), seeds, least, words)
+    _try_and_tell(WalkSetup(walk, sizes, tuple(for_plant)), asked.seeds, least, words)
 
 
 def planned_walk_trials_of(
-    what: str,
-    task: "WalkerTask",
-    plan: "Plan | None",
-    settings: Sequence[str],
-    noise: Sequence[str],
-    planner: str,
-    seconds: float,
-    seeds: Sequence[int],
-    least: float | None,
-    climbs_only: Mapping[str, bool],
-    words: CrewWords,
+    what: str, task: WalkerTask, plan: Plan | None, asked: TrialsWords, words: CrewWords
 ) -> None:
     """The same with a walker's task: planned once, or as the store has it planned, then walked with every seed.
 
     Args:
         what: The task's or plan's name or file.
         task: The task.
-        plan: Its plan; None: there is none yet.
-        settings: Texts "key=value" of task and plant.
-        noise: Texts "key=size", on top of the usual ones.
-        planner: How to search.
-        seconds: For which the planner may search [s].
-        seeds: One walk each; the plan does not depend on them.
-        least: As for `walk_trials_of`, as are `climbs_only` and `words`.
+        plan: Its plan, which does not depend on the seeds; None: there is none yet.
+        asked: How, and how often.
+        words: Who runs them, where they are kept, how they are told.
     """
-    from dataclasses import replace
-
-    from ..errors import UnknownNameError
-    from ..experiments.walk.noise import named_walk_noise, read_walk_noise
-    from ..experiments.walk.planned import careful, lay_plan, walk_of
-    from ..experiments.walk.run_walk import split_walk_settings, walk_flaws
-    from ..experiments.walk.trials import WalkSetup
-    from ..planning.planners import FIRST_LOOPS, PLANNERS, plan_task
-
-    _refuse(what, climbs_only)
-    if planner not in PLANNERS:
-        raise UnknownNameError("planner", planner, tuple(PLANNERS))
-    sizes = read_walk_noise(named_walk_noise("usual"), noise)
-    for_plant = tuple(split_walk_settings(settings)[1])
+    least = asked.least
+    refuse_for_walk(what, asked, CLIMBS_ONLY)
+    refuse_for_walk(what, words, CLIMBS_ONLY)
+    find_planner(asked.planner)
+    sizes = read_walk_noise(named_walk_noise("usual"), asked.noise or ())
+    for_plant = tuple(split_walk_settings(asked.overrides or ())[1])
     words.executor.check()  # before a minute is spent on a plan
     task = task if plan is not None else careful(task)
     setup = WalkSetup(task, sizes, for_plant, plan, plan is None)
     walk_flaws(walk_of(task), for_plant)
     plan = plan or setup.stored_plan(words.store)
-    announce_compilation("replay" if plan is not None else FIRST_LOOPS[planner], quiet=words.quiet)
-    if plan is None:
-        with ProgressLine(stderr(), quiet=words.quiet) as line:
-            result = plan_task(task, planner, seed=0, seconds=seconds, progress=line.update)
-        if not result.has_plan:
-            stderr().print(f"no plan for '{task.name}' that can bear to be walked: {result.reason}; nothing has moved")
-            raise typer.Exit(1)
-        plan = result.plan
+    announce_compilation("replay" if plan is not None else first_loop(asked.planner), quiet=words.quiet)
+    plan = plan or plan_walk(task, asked.planner, seconds=asked.seconds, seed=0, quiet=words.quiet)
     lay_plan(task, plan, what)  # what it violates is told before workers start
-    _try_and_tell(replace(setup, plan=plan), seeds, least, words)
+    _try_and_tell(replace(setup, plan=plan), asked.seeds, least, words)
 
 
-def _refuse(what: str, climbs_only: Mapping[str, bool]) -> None:
-    for option, given in climbs_only.items():
-        if given:
-            raise typer.BadParameter(f"'{what}' is a walk, and this is for climbs", param_hint=option)
-
-
-def _try_and_tell(setup: "WalkSetup", seeds: Sequence[int], least: float | None, words: CrewWords) -> None:
-    from ..experiments.walk.trials import run_walk_trials
-
+def _try_and_tell(setup: WalkSetup, seeds: Sequence[int], least: float | None, words: CrewWords) -> None:
     with WalkTrialsLine(stderr(), quiet=words.quiet) as line:
         trials = run_walk_trials(
             setup, seeds, executor=words.executor, store=words.store, resume=words.resume, told=line.update

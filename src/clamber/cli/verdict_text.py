@@ -2,7 +2,8 @@
 
 from rich.console import Console
 
-from ..actions.verdict import StepVerdict, Verdict
+from ..actions.step_verdict import StepVerdict
+from ..actions.verdict import Verdict
 from ..units import DEGREE, INCH, OZ_IN
 from .output import plain_table
 

@@ -1,7 +1,8 @@
 """A plan as a table in Markdown: each action, where it leads, and what limits it."""
 
 from ..actions.plan_source import OpenedPlan
-from ..actions.verdict import StepVerdict, Verdict
+from ..actions.step_verdict import StepVerdict
+from ..actions.verdict import Verdict
 from ..actions.yardsticks import yardsticks_of
 from ..units import DEGREE
 from ..viewing.margins import named_limits

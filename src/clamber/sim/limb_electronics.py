@@ -7,7 +7,8 @@ import numpy as np
 from ..control.chain import Chain
 from ..types import Floats
 from .electronics import limit_torques, read_encoders, take_torques
-from .limb_flaws import LimbFlaws, PlantError
+from .limb_flaws import LimbFlaws
+from .plant_rules import PlantError
 
 
 class LimbElectronics:

@@ -1,21 +1,17 @@
 """What is not ideal about a simulated limb: backlash, friction, encoders, delay, payload, and what pushes it; for every plant."""
 
 import math
-from dataclasses import dataclass, fields, replace
-from typing import Any
+from dataclasses import dataclass
 
-from ..errors import ClamberError, describe_choices
-
-
-class PlantError(ClamberError):
-    """A property of a plant that cannot be: names the key, the value and what is allowed."""
-
-    def __init__(self, key: str, value: object, allowed: str) -> None:
-        super().__init__(key, value, allowed)
-        self.key, self.value, self.allowed = key, value, allowed
-
-    def __str__(self) -> str:
-        return f"plant: {self.key} = {self.value}: {self.allowed}"
+from .plant_rules import (
+    Flaws,
+    PlantError,
+    check_finite,
+    check_not_negative,
+    check_part,
+    check_rates,
+    check_seed,
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,14 +32,10 @@ class Wall:
     contact, some newtons about a right mean."""
 
     def __post_init__(self) -> None:
-        for key in ("x", "y", "angle"):
-            if not math.isfinite(getattr(self, key)):
-                raise PlantError(f"wall.{key}", getattr(self, key), "must be a finite number")
+        check_finite(self, ("x", "y", "angle"), "wall.")
         if not 0.0 < self.stiffness < math.inf:
             raise PlantError("wall.stiffness", self.stiffness, "must be more than 0 N/m, and finite")
-        for key in ("damping", "friction"):
-            if not 0.0 <= getattr(self, key) < math.inf:
-                raise PlantError(f"wall.{key}", getattr(self, key), "must be 0 or more, and finite")
+        check_not_negative(self, ("damping", "friction"), "wall.")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,9 +49,7 @@ class Push:
     rise: float = 0.05
 
     def __post_init__(self) -> None:
-        for key in ("x", "y", "start", "end", "rise"):
-            if not math.isfinite(getattr(self, key)):
-                raise PlantError(f"push.{key}", getattr(self, key), "must be a finite number")
+        check_finite(self, ("x", "y", "start", "end", "rise"), "push.")
         if not self.start >= 0.0 or not self.end >= self.start:
             raise PlantError("push", (self.start, self.end), "must start at 0 s or later and end after its start")
         if not self.rise >= 0.0:
@@ -91,17 +81,14 @@ class ForceSensor:
     """Of the noise."""
 
     def __post_init__(self) -> None:
-        for key in ("noise", "moment_noise", "time_constant"):
-            if not 0.0 <= getattr(self, key) < math.inf:
-                raise PlantError(f"sensor.{key}", getattr(self, key), "must be 0 or more, and finite")
-        if not math.isfinite(self.bias):
-            raise PlantError("sensor.bias", self.bias, "must be a finite number")
+        check_not_negative(self, ("noise", "moment_noise", "time_constant"), "sensor.")
+        check_finite(self, ("bias",), "sensor.")
         if self.seed < 0:
             raise PlantError("sensor.seed", self.seed, "must be a whole number, 0 or more")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class LimbFlaws:
+class LimbFlaws(Flaws):
     """What makes a plant differ from the robot's file, and its sensors from the truth. The defaults are an ideal limb with friction."""
 
     backlash: float = 0.0
@@ -143,48 +130,12 @@ class LimbFlaws:
     """Senses what the limb does to its mount (Bevly 1997, 3.3.3; Morel and Dubowsky 1996)."""
 
     def __post_init__(self) -> None:
-        for key in ("backlash", "friction", "damping", "payload", "speed_noise", "wrench_noise", "model_error"):
-            if not 0.0 <= getattr(self, key) < math.inf:
-                raise PlantError(key, getattr(self, key), "must be 0 or more, and finite")
-        if not self.model_error < 1.0:
-            raise PlantError("model_error", self.model_error, "must be less than 1, that is 100 %")
-        if self.seed is not None and self.seed < 0:
-            raise PlantError("seed", self.seed, "must be a whole number, 0 or more")
-        for key in ("speed_noise", "wrench_noise", "model_error"):
-            if self.seed is None and getattr(self, key) > 0.0:
-                raise PlantError(key, getattr(self, key), "needs a seed")
+        sizes = ("backlash", "friction", "damping", "payload", "speed_noise", "wrench_noise", "model_error")
+        check_not_negative(self, sizes)
+        check_part("model_error", self.model_error)
+        chancy = ("speed_noise", "wrench_noise", "model_error")
+        check_seed(self.seed, {key: getattr(self, key) for key in chancy})
         for key in ("encoder_counts", "delay"):
             if not isinstance(getattr(self, key), int) or getattr(self, key) < 0:
                 raise PlantError(key, getattr(self, key), "must be a whole number, 0 or more")
-        for key in ("control_rate", "physics_rate"):
-            if not 0.0 < getattr(self, key) < math.inf:
-                raise PlantError(key, getattr(self, key), "must be more than 0 Hz, and finite")
-        steps = self.physics_rate / self.control_rate
-        if abs(steps - round(steps)) > 1e-9 * steps or round(steps) < 1:
-            raise PlantError(
-                "control_rate",
-                f"{self.control_rate:g} Hz",
-                f"must divide the physics rate of {self.physics_rate:g} Hz into whole steps; state plant.physics_rate too",
-            )
-
-    @property
-    def period(self) -> float:
-        """Of the control [s]."""
-        return 1.0 / self.control_rate
-
-    @property
-    def steps(self) -> int:
-        """Physics steps in a control period."""
-        return round(self.physics_rate / self.control_rate)
-
-    def with_changes(self, **changes: Any) -> "LimbFlaws":
-        """A copy with some properties changed.
-
-        Raises:
-            PlantError: If there is no such property, or its value is not allowed.
-        """
-        known = tuple(field.name for field in fields(self))
-        for key in changes:
-            if key not in known:
-                raise PlantError(key, changes[key], f"no such property; there are {describe_choices(key, known)}")
-        return replace(self, **changes)
+        check_rates(self.control_rate, self.physics_rate)

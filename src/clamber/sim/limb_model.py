@@ -7,7 +7,8 @@ import numpy as np
 from ..control.chain import Chain
 from ..types import Floats
 from .force_sensing import add_sensor, has_hand
-from .limb_flaws import LimbFlaws, PlantError
+from .limb_flaws import LimbFlaws
+from .plant_rules import PlantError
 from .wall_model import add_wall
 
 FRICTION_SOLREF: Final = (0.004, 1.0)

@@ -9,8 +9,9 @@ from ..execution.plant import Sensed, Truth
 from ..types import Floats
 from .chances import Chances
 from .limb_electronics import LimbElectronics
-from .limb_flaws import LimbFlaws, PlantError
+from .limb_flaws import LimbFlaws
 from .ode_steps import step_limbs
+from .plant_rules import PlantError
 
 
 class OdeLimb:

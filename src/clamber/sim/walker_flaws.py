@@ -1,11 +1,9 @@
 """What is not ideal about a simulated walker: inclinometers, load cells, friction, masses, payload, and what is left to chance."""
 
 import math
-from dataclasses import dataclass, field, fields, replace
-from typing import Any
+from dataclasses import dataclass, field
 
-from ..errors import describe_choices
-from .limb_flaws import PlantError
+from .plant_rules import Flaws, PlantError, check_not_negative, check_part, check_rates, check_seed
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -20,15 +18,13 @@ class Inclinometers:
     """Of their filter [s]; 0 for none."""
 
     def __post_init__(self) -> None:
-        for key in ("noise", "time_constant"):
-            if not 0.0 <= getattr(self, key) < math.inf:
-                raise PlantError(f"inclinometers.{key}", getattr(self, key), "must be 0 or more, and finite")
+        check_not_negative(self, ("noise", "time_constant"), "inclinometers.")
         if len(self.offsets) != 2 or not all(map(math.isfinite, self.offsets)):
             raise PlantError("inclinometers.offsets", self.offsets, "must be two finite numbers")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class WalkerFlaws:
+class WalkerFlaws(Flaws):
     """What makes a simulated walker differ from its file, and its sensors from the truth. The defaults are as the file says."""
 
     inclinometers: Inclinometers = field(default_factory=Inclinometers)
@@ -48,44 +44,10 @@ class WalkerFlaws:
     """Draws noise and masses; None: neither."""
 
     def __post_init__(self) -> None:
-        for key in ("force_noise", "mass_error", "payload"):
-            if not 0.0 <= getattr(self, key) < math.inf:
-                raise PlantError(key, getattr(self, key), "must be 0 or more, and finite")
-        if not self.mass_error < 1.0:
-            raise PlantError("mass_error", self.mass_error, "must be less than 1, that is 100 %")
-        for key in ("friction", "control_rate", "physics_rate"):
-            if not 0.0 < getattr(self, key) < math.inf:
-                raise PlantError(key, getattr(self, key), "must be more than 0, and finite")
-        if self.seed is not None and self.seed < 0:
-            raise PlantError("seed", self.seed, "must be a whole number, 0 or more")
+        check_not_negative(self, ("force_noise", "mass_error", "payload"))
+        check_part("mass_error", self.mass_error)
+        if not 0.0 < self.friction < math.inf:
+            raise PlantError("friction", self.friction, "must be more than 0, and finite")
         chancy = {"inclinometers.noise": self.inclinometers.noise, "force_noise": self.force_noise}
-        for key, value in (chancy | {"mass_error": self.mass_error}).items():
-            if self.seed is None and value > 0.0:
-                raise PlantError(key, value, "needs a seed")
-        steps = self.physics_rate / self.control_rate
-        if abs(steps - round(steps)) > 1e-9 * steps or round(steps) < 1:
-            raise PlantError(
-                "control_rate", f"{self.control_rate:g} Hz", f"must divide the physics rate of {self.physics_rate:g} Hz"
-            )
-
-    @property
-    def period(self) -> float:
-        """Of the control [s]."""
-        return 1.0 / self.control_rate
-
-    @property
-    def steps(self) -> int:
-        """Physics steps in a control period."""
-        return round(self.physics_rate / self.control_rate)
-
-    def with_changes(self, **changes: Any) -> "WalkerFlaws":
-        """A copy with some properties changed.
-
-        Raises:
-            PlantError: If there is no such property, or its value is not allowed.
-        """
-        known = tuple(each.name for each in fields(self))
-        for key in changes:
-            if key not in known:
-                raise PlantError(key, changes[key], f"no such property; there are {describe_choices(key, known)}")
-        return replace(self, **changes)
+        check_seed(self.seed, chancy | {"mass_error": self.mass_error})
+        check_rates(self.control_rate, self.physics_rate)

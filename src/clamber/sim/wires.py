@@ -8,7 +8,7 @@ from ..execution.hardware import Reading, flat_body_truth, flat_limb_truth
 from ..execution.plant import BodyPlant, LimbPlant
 from ..execution.wiring import COMMAND_LIMIT, Wiring, within
 from ..types import Floats
-from .limb_flaws import PlantError
+from .plant_rules import PlantError
 
 MOST_DAC_BITS: Final = 24
 

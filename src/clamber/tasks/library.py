@@ -13,8 +13,10 @@ from ..specs import field_names
 from ..types import Json
 from ..worlds.board import SHORT_KEYS
 from ..worlds.library import read_board, read_ground
-from .limbed import LimbedTask, TaskSpec, build_limbed_task
-from .overrides import apply_overrides, split_override
+from .limbed import LimbedTask, TaskSpec
+from .limbed_build import build_limbed_task
+from .overrides import apply_overrides
+from .parts import Naming, name_of
 from .walker import WalkerTask, WalkerTaskSpec, build_walker_task
 
 DATA: Final = Path(__file__).parent / "data"
@@ -69,7 +71,7 @@ def task_names(family: str | None = None) -> tuple[str, ...]:
 def _family_of_task(name: str) -> str:
     path, label = find_data("task", name, DATA)
     document = read_toml(path, label)
-    return family_of(read_robot(_named(document, "robot"), document.folder))
+    return family_of(read_robot(name_of(document, "robot"), document.folder))
 
 
 def load_task(name_or_path: str, overrides: Sequence[str] = ()) -> Task:
@@ -121,30 +123,8 @@ def task_from_document(document: Json, label: str = "stored task") -> Task:
 
 def _merge(document: Document, overrides: Sequence[str]) -> tuple[Document, list[str]]:
     """The task's document with its robot and world in place of their names, and the overrides still to apply."""
-    data = dict(document.data)
-    named: list[tuple[str, str]] = []
-    rest: list[str] = []
-    world_keys = {family.world_key for family in TASK_FAMILIES.values()}
-    for text in overrides:
-        key, value = split_override(text)
-        if key in {"robot", *world_keys}:
-            data[key] = value
-            named.append((key, text))
-        else:
-            rest.append(text)
-    source = Document(document.label, data, tuple(named), document.folder)
-    from_here = {key for key, _ in named}  # a path in an override starts where the user stands, not at the task
-    robot = read_robot(_named(source, "robot"), None if "robot" in from_here else document.folder)
+    naming = Naming.of(document, overrides, {"robot", *(family.world_key for family in TASK_FAMILIES.values())})
+    robot = naming.read("robot", read_robot)
     family = TASK_FAMILIES[family_of(robot)]
-    folder = None if family.world_key in from_here else document.folder
-    world = family.read_world(_named(source, family.world_key), folder)
-    data["robot"], data[family.world_key] = robot.data, world.data
-    data["labels"] = {"robot": robot.label, family.world_key: world.label}
-    return Document(document.label, data, (), document.folder), rest
-
-
-def _named(document: Document, key: str) -> str:
-    name = document.data.get(key)
-    if not isinstance(name, str) or not name:
-        raise document.problem(key, f"must name a {key}, or give the path of its file, in quotes")
-    return name
+    world = naming.read(family.world_key, family.read_world)
+    return naming.merged(robot=robot, **{family.world_key: world}), naming.others

@@ -2,21 +2,22 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import field, replace
+from dataclasses import field
 from typing import Annotated, Final, Literal
 
 from pydantic import StrictStr
 
-from ..errors import describe_choices
-from ..files import Document, check_schema, content_hash
+from ..files import Document, check_schema
 from ..robots.walker import WalkerRobot, build_walker
 from ..specs import Name, build_spec, spec
 from ..statics.walker_checks import WALKER_CHECKS
 from ..types import Json
 from ..units import Angle, Length, NonNegativeLength, NonNegativeMass, Point, Quantity
 from ..worlds.ground import Ground, build_ground
+from .goal_box import GoalBox
+from .parts import parts_of
+from .task_file import SCHEMA, check_angle, check_hard, hashes_of
 
-SCHEMA: Final = "clamber-task-1"
 CHECK_NAMES: Final = tuple(check.name for check in WALKER_CHECKS)
 
 
@@ -67,35 +68,8 @@ class Rules:
 
 
 @spec
-class Goal:
-    """A goal or sub-goal for the Delta-frame, world frame: all that is given must hold; boxes include their edges."""
-
-    name: StrictStr = ""
-    at: Point | None = None
-    """In a file, short for a box of half a step each way about this point [m]."""
-    x_min: Length | None = None
-    """Least x of the Delta-frame's origin [m]."""
-    x_max: Length | None = None
-    """Largest x of the Delta-frame's origin [m]."""
-    y_min: Length | None = None
-    """Least y of the Delta-frame's origin [m]."""
-    y_max: Length | None = None
-    """Largest y of the Delta-frame's origin [m]."""
-    theta_min: Angle | None = None
-    """Least angle of the Delta-frame [rad]."""
-    theta_max: Angle | None = None
-    """Largest angle of the Delta-frame [rad]."""
-
-    @property
-    def box(self) -> tuple[float, float, float, float]:
-        """x_min, x_max, y_min, y_max [m]; infinite where open."""
-        low, high = -math.inf, math.inf
-        return (
-            low if self.x_min is None else self.x_min,
-            high if self.x_max is None else self.x_max,
-            low if self.y_min is None else self.y_min,
-            high if self.y_max is None else self.y_max,
-        )
+class Goal(GoalBox):
+    """A goal or sub-goal, world frame, with the Delta-frame as the body: all that is given must hold; boxes include their edges."""
 
 
 @spec
@@ -138,50 +112,35 @@ def build_walker_task(document: Document) -> WalkerTask:
         SpecError: If any of the three breaks a rule, or they do not fit each other.
     """
     check_schema(document, SCHEMA)
-    robot_document = document.section("robot", _label(document, "robot"))
-    ground_document = document.section("ground", _label(document, "ground"))
-    stated = build_spec(WalkerTaskSpec, document, without=("schema", "robot", "ground", "labels"))
+    parts = parts_of(document, "ground")
+    stated = build_spec(WalkerTaskSpec, document, without=("schema", *parts, "labels"))
     _check(stated, document)
-    rest = {key: value for key, value in document.data.items() if key not in {"robot", "ground", "labels"}}
-    robot = build_walker(robot_document)
+    robot = build_walker(parts["robot"])
     _check_arm(stated.start, robot, document)
     return WalkerTask(
         name=stated.name,
         title=stated.title,
         robot=robot,
-        world=build_ground(ground_document),
+        world=build_ground(parts["ground"]),
         start=stated.start,
         step=stated.step,
-        goals=tuple(_resolve(goal, stated.step) for goal in (*stated.subgoals, stated.goal)),
+        goals=tuple(goal.around_point(stated.step.length) for goal in (*stated.subgoals, stated.goal)),
         rules=stated.rules,
         document=document.data,
-        hashes={
-            "robot": content_hash(robot_document.data),
-            "ground": content_hash(ground_document.data),
-            "task": content_hash(rest),
-        },
+        hashes=hashes_of(document, parts),
     )
 
 
-def _label(document: Document, section: str) -> str:
-    labels = document.data.get("labels")
-    label = labels.get(section) if isinstance(labels, dict) else None
-    return label if isinstance(label, str) else f"{document.label} [{section}]"
-
-
 def _check(stated: WalkerTaskSpec, document: Document) -> None:
-    steps = math.tau / stated.step.angle
-    if abs(steps - round(steps)) > 1e-9 * steps:
-        allowed = f"must divide a turn; {steps:.6g} steps fill one, so take '{360 / max(1, round(steps)):.6g} deg'"
-        raise document.problem("step.angle", allowed)
-    for name in stated.rules.hard:
-        if name not in CHECK_NAMES:
-            raise document.problem("rules.hard", f"unknown check '{name}'; {describe_choices(name, CHECK_NAMES)}")
-    if len(set(stated.rules.hard)) < len(stated.rules.hard):
-        raise document.problem("rules.hard", "names a check twice")
+    check_angle(stated.step.angle, document)
+    check_hard(stated.rules.hard, CHECK_NAMES, document)
     keys = (*(f"subgoals.{index}" for index in range(len(stated.subgoals))), "goal")
     for key, goal in zip(keys, (*stated.subgoals, stated.goal), strict=True):
-        _check_goal(goal, key, document)
+        goal.check_ranges(key, document)
+        if goal.at is None and goal.theta_min is None and not any(map(math.isfinite, goal.box)):
+            raise document.problem(
+                key, "asks for nothing; state x_min, x_max, y_min, y_max, at, or theta_min and theta_max"
+            )
 
 
 def _check_arm(start: Start, robot: WalkerRobot, document: Document) -> None:
@@ -199,31 +158,3 @@ def _check_arm(start: Start, robot: WalkerRobot, document: Document) -> None:
                 raise document.problem(
                     f"start.arm.{joint}", f"must be in the joint's range, {low:.6g} to {high:.6g} rad"
                 )
-
-
-def _check_goal(goal: Goal, key: str, document: Document) -> None:
-    if (goal.theta_min is None) != (goal.theta_max is None):
-        raise document.problem(key, "states theta_min and theta_max both or neither")
-    if goal.at is None and goal.theta_min is None and not any(map(math.isfinite, goal.box)):
-        raise document.problem(
-            key, "asks for nothing; state x_min, x_max, y_min, y_max, at, or theta_min and theta_max"
-        )
-    for axis in ("x", "y", "theta"):
-        low, high = getattr(goal, f"{axis}_min"), getattr(goal, f"{axis}_max")
-        if low is not None and high is not None and low > high:
-            raise document.problem(f"{key}.{axis}_min", f"must be at most {axis}_max")
-
-
-def _resolve(goal: Goal, step: Step) -> Goal:
-    """The goal with a point as a box of half a step each way, cut with the box that it states besides."""
-    if goal.at is None:
-        return goal
-    half, (x, y) = step.length / 2.0, goal.at
-    x_min, x_max, y_min, y_max = goal.box
-    return replace(
-        goal,
-        x_min=max(x_min, x - half),
-        x_max=min(x_max, x + half),
-        y_min=max(y_min, y - half),
-        y_max=min(y_max, y + half),
-    )

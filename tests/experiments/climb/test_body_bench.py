@@ -14,7 +14,8 @@ from clamber.experiments.climb.body_scenario import circle, push, push_up
 from clamber.experiments.climb.body_stand import BodyStand, bench_flaws, ladder_stand
 from clamber.experiments.climb.body_stiffness import body_stiffness, match_body, tip_wrench
 from clamber.experiments.climb.body_trials import push_trials
-from clamber.sim.limb_flaws import LimbFlaws, PlantError
+from clamber.sim.limb_flaws import LimbFlaws
+from clamber.sim.plant_rules import PlantError
 from clamber.types import Floats
 
 FREE = LimbFlaws(friction=0.0, damping=0.0, physics_rate=1000.0)

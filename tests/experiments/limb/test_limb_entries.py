@@ -27,7 +27,8 @@ from clamber.experiments.limb.flaw_texts import WHOLE, named_flaws, read_flaws
 from clamber.experiments.limb.matching import MATCHES, Match, tip_stiffness
 from clamber.experiments.limb.points import PointError, read_elbow, read_point
 from clamber.experiments.limb.scenario import circle_scenario, step_scenario
-from clamber.sim.limb_flaws import LimbFlaws, PlantError
+from clamber.sim.limb_flaws import LimbFlaws
+from clamber.sim.plant_rules import PlantError
 
 LIMB = bench_limb()
 REFERENCE = LawSettings(law="scct", kp=100.0, kd=10.0)

@@ -12,7 +12,8 @@ from clamber.experiments.limb.limb_sweep import LimbSweep, make_bench, run_limb_
 from clamber.experiments.limb.limb_sweep_point import Bench, Cell, find_boundary, run_point, try_laws
 from clamber.experiments.limb.measures import measure
 from clamber.planning.axes import range_axis
-from clamber.sim.limb_flaws import LimbFlaws, PlantError
+from clamber.sim.limb_flaws import LimbFlaws
+from clamber.sim.plant_rules import PlantError
 
 STIFF = {"kp": "1000"}
 TOO_STIFF = {"kp": "6000"}

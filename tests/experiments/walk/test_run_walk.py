@@ -9,7 +9,7 @@ import pytest
 from clamber.experiments.climb.noise import NoiseError
 from clamber.experiments.walk.noise import WALK_NOISE, named_walk_noise, read_walk_noise
 from clamber.experiments.walk.run_walk import WalkRun, run_walk, split_walk_settings, walk_flaws
-from clamber.sim.limb_flaws import PlantError
+from clamber.sim.plant_rules import PlantError
 from clamber.sim.walker_flaws import WalkerFlaws
 from clamber.tasks.walks import load_walk
 

@@ -7,18 +7,9 @@ from pydantic import TypeAdapter
 
 from ...errors import UnknownNameError
 from ...types import Json
-from .limbs import (
-    Bodies,
-    Contest,
-    Forces,
-    Identified,
-    LimbSweep,
-    OpenLoop,
-    Portraits,
-    PushTrial,
-    Recorded,
-    Tuned,
-)
+from .bodies import Bodies, PushTrial
+from .limb_logs import Identified, Recorded
+from .limbs import Contest, Forces, LimbSweep, OpenLoop, Portraits, Tuned
 from .plans import Front, Inventory, Learned, NoStart, Planned, Polished, Verdict
 from .runs import Climbed, ClimbTrials, Most, Pressed, ReplayedTrial, Walked, WalkTrials
 from .searches import BenchRow, Reach, Sweep

@@ -1,10 +1,11 @@
-"""What the commands of `limb` and `body` print."""
+"""What the commands of `limb` print that compare laws."""
 
 from typing import Any, TypeAlias
 
 from pydantic import Field
 
 from .base import Count, Pair, Printed
+from .meanings import means_as
 
 Properties: TypeAlias = dict[str, Any]
 """Name to value, SI units and radians; which names there are is up to the law or the plant."""
@@ -49,57 +50,41 @@ class Matching(Printed):
     """Laws that were to be matched and cannot be: those with one gain for all directions."""
 
 
+@means_as("experiments/limb/measures.py:TipMeasures")
 class TipErrors(Printed):
     """Errors of the tip; a measure that the scenario does not have is missing, one that never came is null."""
 
     across_max: float | None = None
-    """Largest distance from the line of the step or the push [m]."""
     across_rms: float | None = None
-    """The same, root of the mean square [m]."""
     along_max: float | None = None
-    """Largest yielding along a push [m]."""
     radial_rms: float | None = None
-    """Of the distance from a circle, last lap [m]."""
     radial_max: float | None = None
-    """Largest distance from a circle, last lap [m]."""
     lag: float | None = None
-    """Mean angle behind the aim on a circle, last lap [rad]."""
     overshoot: float | None = None
-    """Beyond the aim of a step, over its length."""
     settling: float | None = None
-    """Until the tip stays within 2 % of where it comes to rest [s]."""
     on_aim: float | None = None
-    """Until it stays within 2 % of the aim [s]."""
     rest: float | None = None
-    """Distance from the aim over the last tenth of the run, mean [m]."""
     iae: float | None = None
-    """Integral of the distance from the aim [m s]."""
     cycle: float | None = None
-    """Peak to peak of x or y after 5 s, the larger [m]."""
 
 
+@means_as("experiments/limb/measures.py:Measures")
 class Figures(Printed):
     """Mean or worst of the trials."""
 
     true: TipErrors
-    """By the true joint angles."""
     encoder: TipErrors
-    """By what the encoders told."""
     work: float | None
-    """Sum of what each motor gives or brakes [J]."""
     heat: float | None
-    """Lost in the windings [J]."""
     saturated: float | None
-    """Share of ticks with a joint at its motor's limit."""
     tick: float | None
-    """Of one call, measured on this machine [s]."""
 
 
+@means_as("experiments/limb/measures.py:Measures")
 class Measured(Figures):
     """What one run of one law gave."""
 
     unstable_at: float | None
-    """When the run left what can be called control [s]."""
 
 
 class LawRun(Printed):
@@ -173,68 +158,6 @@ class OpenLoop(Printed):
     transforms: list[Transform]
 
 
-class Recorded(Printed):
-    """A log that was written."""
-
-    file: str
-    rows: Count
-    seconds: float
-    columns: list[str]
-    notes: dict[str, str]
-
-
-class Estimate(Printed):
-    """One property of a joint."""
-
-    name: str
-    unit: str
-    value: float | None
-    standard_error: float | None
-    interval_95: Pair | None
-    method: str
-    needs: str | None
-    """What the log would have to hold for a value."""
-    stated: float | None
-    """What the robot's file says."""
-    difference: float | None
-    """Value over stated, less 1."""
-
-
-class Rough(Printed):
-    """The same by moves with constant torque."""
-
-    inertia: float | None
-    damping: float | None
-    friction: float | None
-    episodes: Count
-
-
-class Joint(Printed):
-    """What a log tells of one joint."""
-
-    joint: str
-    rows: Count
-    seconds: float
-    torque_from: str
-    lag: float | None
-    """Of the torque behind the angles [s]."""
-    residual_torque: float | None
-    """Root mean square of what the fit leaves [N m]."""
-    estimates: list[Estimate]
-    constant_torque: Rough
-
-
-class Identified(Printed):
-    """What a log tells of a limb."""
-
-    log: str
-    """The file."""
-    robot: str | None
-    limb: str | None
-    joints: list[Joint]
-    notes: list[str]
-
-
 class BenchedLimb(Printed):
     """The limb on the bench."""
 
@@ -243,29 +166,20 @@ class BenchedLimb(Printed):
     start: Pair
 
 
+@means_as("experiments/limb/force_result.py:ForceMeasures")
 class ForceErrors(Printed):
     """What one law did to a wall. Errors are actual less wanted force; null where it left the finite numbers."""
 
     mean_error: float | None
-    """[N]."""
     worst_standing: float | None
-    """Largest size of the error before and after the slide [N]."""
     worst_sliding: float | None
-    """During the slide [N]."""
     worst: float | None
-    """Of all [N]."""
     contact: float | None
-    """Share of ticks with the tip on the wall."""
     held: bool
-    """Whether the tip never left the wall and no error was beyond the tolerance."""
     bounces: int
-    """How often the tip left the wall before that."""
     peak: float | None
-    """Largest force of the whole run [N]."""
     off_line: float | None
-    """Largest error of the place along the wall [m]."""
     work: float | None
-    """Sum of what each motor gives or brakes [J]."""
 
 
 class ForceLaw(ForceErrors):
@@ -317,15 +231,14 @@ class SweepAxis(Printed):
     numbers: list[float] | None
 
 
+@means_as("experiments/limb/limb_sweep.py:Boundary")
 class Boundary(Printed):
     """Where one law changes from steady to not, along one axis."""
 
     label: str
     key: str
     at: float
-    """In the unit of that axis."""
     beside: float | None
-    """Value of the other axis, in its unit."""
     steady_below: bool
 
 
@@ -365,43 +278,35 @@ class LimbSweep(Printed):
     points: list[SweepPoint]
 
 
+@means_as("experiments/limb/tune.py:Edge")
 class Edge(Printed):
     """Where a law stops coming to rest, at one damping time."""
 
     damping_time: float
-    """kd over kp [s]."""
     kp: float
-    """Largest that was found steady, in the law's unit."""
     beyond: float
-    """Smallest that was found unsteady."""
     linear_kp: float
-    """Where the linear loop without play and Coulomb friction turns unstable."""
     situation: str
     overshoot: float
 
 
+@means_as("experiments/limb/tune.py:Tuned")
 class TunedLaw(Printed):
     """What was found for one law."""
 
     law: str
     edges: list[Edge]
     damping_time: float
-    """The one that was taken [s]."""
     limit_kp: float
     linear_kp: float
     kp: float
-    """Recommended."""
     kd: float
     stiffness: Pair
-    """Of the tip along x and y at the limb's start [N/m]."""
     peak_to_peak: float
-    """Largest of the true tip after 5 s at the recommended gains [m]."""
     situation: str
     lower: float
-    """The same at a half and a quarter of the gains [m]."""
     overshoot: float
     iae: float
-    """Of the true tip in a step of 2 cm [m s]."""
     steady: bool
 
 
@@ -416,47 +321,3 @@ class Tuned(Printed):
     threshold: float
     """Peak to peak below which a tip counts as steady [m]."""
     laws: list[TunedLaw]
-
-
-class BodyErrors(Printed):
-    """Of the measured part, by the truth."""
-
-    radial_rms: float | None
-    """Of a circle: how far from it [m]."""
-    behind_rms: float | None
-    """Distance from the aim [m]."""
-    x_max: float | None
-    """Largest way along x from the aim, less that at the beginning [m]."""
-    y_max: float | None
-    turn_max: float | None
-    """[rad]."""
-    rest: float | None
-    """Distance from the aim at the end [m]."""
-    off_max: float | None
-    """Largest distance of a holding tip from its peg [m]."""
-    unhooked_at: float | None
-    """When a hook came off [s]; null: never."""
-
-
-class BodyControl(BodyErrors):
-    """One control of the body."""
-
-    control: str
-    kp: list[float]
-    """Along x, y [N/m] and turning [N m/rad]."""
-    kd: list[float]
-
-
-class Bodies(Printed):
-    """Controls compared on a body that limbs hold; exit code 1 where a hook came off."""
-
-    kind: str
-    controls: list[BodyControl]
-
-
-class PushTrial(BodyErrors):
-    """One push."""
-
-    seed: int
-    side: int
-    """1 towards +x, -1 towards -x."""

@@ -5,22 +5,20 @@ from typing import Literal
 from pydantic import Field
 
 from .base import Count, Pose, Printed
+from .meanings import means_as
 
 
+@means_as("actions/planned.py:PlannedAction")
 class Action(Printed):
     """What the robot is told to do in one step, every choice made."""
 
     kind: Literal["none", "move", "release", "grab"]
     limb: str | None
-    """The limb or frame; null where the action has none."""
     hold: int | None
     """Number of the hold that a grab takes; null for other actions, and for a grab that found none."""
     delta: Pose | None
-    """A move's change of x [m], y [m] and angle [rad], world frame."""
     code: int | None
-    """The thesis's number with the hold that was taken; null where it has none."""
     gene: str | None
-    """What the action was before its hold was chosen, such as "192" or "nearest 2"."""
 
 
 class PlacedBody(Printed):
@@ -211,6 +209,7 @@ class Front(Printed):
     model: str
 
 
+@means_as("planning/genetic/learning.py:Macro")
 class Macro(Printed):
     """A learned module: several actions as one."""
 
@@ -218,14 +217,10 @@ class Macro(Printed):
     codes: list[int]
     """Packed actions."""
     gain: float
-    """Progress of the body in one go [m]."""
     starts: Count
-    """Of the starts that it was tried from, in how many it worked."""
     tried: Count
     seen: Count
-    """How often the plan itself has the sequence."""
     from_start: Count
-    """How often in a row it works from the task's own start."""
 
 
 class Learned(Printed):
@@ -263,29 +258,23 @@ class Inventory(Printed):
     log10_after: float
 
 
+@means_as("actions/step_verdict.py:StepVerdict")
 class StepJudged(Printed):
     """One step of a plan and what the checks say of it."""
 
     step: int
-    """From 1."""
     action: int | str
     """As the plan's file has it: the thesis's number where there is one, else in words."""
     ok: bool
-    """Whether every hard check holds."""
     check: str | None
-    """The first violated hard check."""
     reason: str | None
-    """The same in words, with the amount."""
     hold: int | None
-    """Number of the hold that was taken."""
     nearest: int | None
-    """Number of the hold that the rule "nearest" takes here, where the plan's file asks for it."""
     max_torque_oz_in: float | None
     """Largest joint torque."""
     power_W: float | None
     """Electrical power that holding the stance takes."""
     reported: list[str]
-    """Violated checks that only report."""
     margins: dict[str, float | None]
     """Check to its signed margin in SI units; null where nothing limits it."""
 

@@ -3,32 +3,27 @@
 from typing import Literal
 
 from .base import Count, Interval, Pair, Pose, Printed
+from .meanings import means_as
 
 
+@means_as("execution/climb/climb_report.py:ActionReport")
 class ActionDone(Printed):
     """What became of an action of a climb, or of like moves of the body that were carried out in one go."""
 
     first: int
-    """Step of the plan, from 1."""
     last: int
     kind: str
     """none, move, release or grab."""
     title: str
     outcome: Literal["ok", "stalled", "missed", "fell", "interrupted", "stopped", "not supported"]
     start: float
-    """When it began [s]."""
     seconds: float
     tries: int
-    """Pushes of the hook of a grab; ways of the body; 1 for the rest."""
     off: float
-    """Body from its aim at the end, as believed [m]."""
     body_error: float | None
-    """Body, believed from true, at the end [m]; null where nobody tells."""
     tip_error: float | None
-    """The same of the tip of the limb that acted [m]."""
     reason: str
     recovered: Count
-    """Hooks that came off meanwhile and were brought back."""
 
 
 class NewPlan(Printed):
@@ -42,22 +37,18 @@ class NewPlan(Printed):
     """Actions of the new plan."""
 
 
+@means_as("execution/climb/climb_report.py:ClimbReport")
 class Climbed(Printed):
     """A climb that was carried out; exit code 1 where it is not done."""
 
     done: bool
-    """Whether every action was carried out, and the body came to the goal with it."""
     reason: str
-    """Why it ended, where it is not done."""
     seconds: float
-    """Simulated, or on the robot's clock."""
     pose: Pose
     """Body at the end, as believed: x, y [m], angle [rad]."""
     true_pose: Pose | None
     short: float
-    """By how much the body misses the last goal's box [m]."""
     forced: list[str]
-    """Objections to the plan that were overridden."""
     replans: list[NewPlan]
     actions: list[ActionDone]
     task: str
@@ -74,52 +65,41 @@ class PhaseTimes(Printed):
     settle: float
 
 
+@means_as("execution/walk/sequencer.py:StepReport")
 class StepDone(Printed):
     """What became of a step of a walk."""
 
     number: int
-    """From 1."""
     frame: Literal["Delta", "Y"]
     way: float
-    """Where on the way the frame was to come down [m]."""
     outcome: Literal["ok", "moved", "no ground", "refused", "fell", "stopped", "interrupted"]
     start: float
-    """When it began [s]."""
     times: PhaseTimes
     balance: float | None
     """Least support margin that was reckoned with on the way [m]; null with fewer than three feet on the ground."""
     off: float | None
     """The frame from where it was to come down, as believed [m]; null where it never came down."""
     tries: Count
-    """How often its feet were lowered."""
     tilt: float
-    """The plate's angle from the horizontal at the end, as believed [rad]."""
     pose_error: float | None
-    """Plate, believed from true, seen from above, at the end [m]."""
     reason: str
 
 
+@means_as("execution/walk/tool_hold.py:HeldPart")
 class Held(Printed):
     """Where the tool was held at a point of the world, and how well."""
 
     point: Pose
-    """World, as believed [m]."""
     first: float
     """Way of the Delta-frame from which on the tool is held [m]."""
     last: float
     """Until where [m]."""
     reach: list[Pair]
-    """Parts of the way, of what was asked for, where the arm can reach the point [m]."""
     began: float | None
-    """When it was there [s]; null: the walk did not come so far."""
     ended: float | None
-    """When it left [s]; null: it was held to the end."""
     missed: float
-    """Farthest that the commanded tool was from the point by the believed pose [m]."""
     room: float
-    """Least distance of a joint from an end of its range [rad]."""
     speed: float
-    """Largest share of its speed that a joint had [-]."""
     true_point: Pose
     held_seconds: float
     largest_error: float | None
@@ -159,21 +139,19 @@ class Walked(Printed):
     """There only if the walk has a point to hold and its way was laid."""
 
 
+@means_as("experiments/climb/trial_summary.py:Cause")
 class Cause(Printed):
     """Climbs that ended in the same way."""
 
     outcome: str
     kind: str
-    """Of the action that ended them; empty before the first."""
     limb: str
-    """That acted; empty for the body."""
     n: Count
     interval: Interval
     """95 % interval of their share of all climbs."""
     steps: list[int]
     seeds: list[int]
     reason: str
-    """Of the first one."""
 
 
 class Spread(Printed):
@@ -196,19 +174,19 @@ class Third(Printed):
     interval: Interval
 
 
+@means_as("experiments/climb/sensitivity.py:Effect")
 class Effect(Printed):
     """What one key of the noise did to success."""
 
     key: str
     thirds: list[Third]
     share: float | None
-    """Chance that a failed climb drew more than one that was carried out; 0.5 if it makes no difference."""
     p: float | None
-    """Of the clearer of two rank tests, corrected for all tests of all keys."""
     verdict: str
     """In words."""
 
 
+@means_as("experiments/climb/trial.py:ClimbTrial")
 class ClimbTrial(Printed):
     """How one climb ended."""
 
@@ -217,35 +195,27 @@ class ClimbTrial(Printed):
     outcome: str
     """Of the last action: ok, or why the climb ended there; error where it raised."""
     step: Count
-    """Number of the last action in its plan, from 1; 0: none began."""
     kind: str
     limb: str
     reason: str
     seconds: float
-    """Simulated."""
     short: float
-    """By how much the body truly misses the goal's box [m]."""
     pushes: Count
-    """Of all grabs."""
     grabs: Count
     stalled: Count
-    """Moves of the body that did not arrive."""
     replans: Count
     recovered: Count
-    """Hooks that came off and were brought back."""
     drawn: dict[str, float]
-    """Deviation of each key of the noise, SI units."""
 
 
+@means_as("experiments/climb/trial_summary.py:TrialSummary")
 class ClimbTrials(Printed):
     """Many climbs of one plan."""
 
     task: str
     noise: str
-    """In words."""
     asked: Count
     n: Count
-    """That ended."""
     done: Count
     success: float | None
     """Share that was carried out."""
@@ -254,24 +224,16 @@ class ClimbTrials(Printed):
     causes: list[Cause]
     """Why the others ended, the commonest first."""
     seconds: Spread | None
-    """Simulated, of climbs that were carried out."""
     seconds_per_6in: Spread | None
     """The same for each 6 in of the body's way."""
     short: Spread | None
-    """By how much bodies truly missed the goal's box [m]."""
     speed: float | None
-    """Simulated over wall-clock time of one worker."""
     pushes_per_grab: float | None
     stalled: Count
-    """Moves of the body that did not arrive, in all climbs."""
     replanned: Count
-    """Climbs that took a new plan."""
     recovered: Count
-    """Hooks that came off and were brought back, in all climbs."""
     recovering: Count
-    """Climbs with such a hook."""
     saved: Count
-    """Those of them that succeeded."""
     forced: list[str]
     effects: list[Effect]
     trials: list[ClimbTrial]
@@ -283,6 +245,7 @@ class ReplayedTrial(Climbed):
     trial: ClimbTrial
 
 
+@means_as("experiments/walk/trials.py:WalkTrial")
 class WalkTrial(Printed):
     """How one walk ended."""
 
@@ -292,32 +255,24 @@ class WalkTrial(Printed):
     seconds: float
     steps: Count
     tilt: float
-    """Largest angle of the plate from level while it walked [rad]."""
     margin: float | None
-    """Least margin of balance while it walked [m]."""
     off: float | None
-    """From where the way ends [m]."""
     turned: float | None
-    """Heading from that at the end of the way [rad]."""
     kicks: Count
     held_way: float | None
-    """Way over which the tool was to be held at a point [m]."""
     held_error: float | None
-    """Largest distance of the tool from that point while it was held [m]."""
 
 
+@means_as("experiments/walk/trials.py:WalkCause")
 class WalkCause(Printed):
     """Walks that ended early in the same way."""
 
     words: str
     n: Count
     interval: Interval
-    """Of their share of all walks, 95 % (Wilson)."""
     steps: list[Count]
-    """At which they ended, each once."""
     seeds: list[Count]
     reason: str
-    """Of the first one."""
 
 
 class WalkTrials(Printed):
@@ -342,18 +297,15 @@ class WalkTrials(Printed):
     trials: list[WalkTrial]
 
 
+@means_as("experiments/walk/most.py:Tried")
 class TriedWalk(Printed):
     """A walk with one value of a setting."""
 
     value: str
     borne: bool
-    """Whether it came to its end in balance."""
     reason: str
-    """Why not; empty where it did."""
     margin: float | None
-    """Least margin of balance [m]; null where fewer than three feet were on the ground at a time, or it did not begin."""
     tilt: float
-    """Largest angle of the plate from level [rad]."""
 
 
 class Most(Printed):

@@ -8,7 +8,7 @@ from typing import Final
 from ...control.law_settings import FEELING, LAWS
 from ...errors import UnknownNameError
 from ...execution.climb.whole_body import BodyGains
-from ...sim.limb_flaws import PlantError
+from ...sim.plant_rules import PlantError
 from ...types import Floats
 from .body_bench import BodyEntry
 from .body_stand import BodyStand

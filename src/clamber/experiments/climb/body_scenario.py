@@ -6,7 +6,7 @@ from typing import Final, Literal, TypeAlias
 
 import numpy as np
 
-from ...sim.limb_flaws import PlantError
+from ...sim.plant_rules import PlantError
 from ...types import Floats
 
 Kind: TypeAlias = Literal["circle", "push-up", "push"]

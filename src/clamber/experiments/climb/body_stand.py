@@ -12,7 +12,8 @@ from ...robots.library import load_robot
 from ...robots.limbed import LimbedRobot
 from ...sim.climber_model import HookShape
 from ...sim.climber_plant import ClimberPlant
-from ...sim.limb_flaws import LimbFlaws, PlantError
+from ...sim.limb_flaws import LimbFlaws
+from ...sim.plant_rules import PlantError
 from ...types import Floats
 from ...units import INCH
 from ...worlds.board import Board

@@ -7,7 +7,8 @@ from typing import Any, Final
 
 from ...errors import UnitError, UnknownNameError, describe_choices
 from ...robots.limbed import LimbedRobot
-from ...sim.limb_flaws import ForceSensor, LimbFlaws, PlantError
+from ...sim.limb_flaws import ForceSensor, LimbFlaws
+from ...sim.plant_rules import PlantError
 from ...units import parse_quantity
 
 DIMENSIONS: Final[dict[str, str]] = {

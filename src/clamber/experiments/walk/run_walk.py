@@ -18,7 +18,7 @@ from ...execution.walk.settings import WalkSettings
 from ...execution.walk.true_walk import TracedPlant, TrueWalk
 from ...execution.walk.walk_trace import TracedWalker, WalkTrace
 from ...execution.walk.walker import FallenError
-from ...sim.limb_flaws import PlantError
+from ...sim.plant_rules import PlantError
 from ...sim.walker_flaws import WalkerFlaws
 from ...sim.walker_plant import WalkerSim
 from ...tasks.walks import Walk

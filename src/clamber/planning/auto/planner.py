@@ -2,14 +2,19 @@
 
 import math
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Final
 
 from ...actions.problem import CompiledProblem
 from ...actions.problems import pose_problem
 from ...tasks import Task
+from ..beam.planner import plan_beam
+from ..exact.planner import plan_exact
+from ..genetic.planner import plan_genetic
 from ..progress import Listener
 from ..result import PlanResult
+from ..route.planner import plan_route
 
 SMALL: Final = 1.0e8
 """Estimated stances up to which exact search is tried first: the five boards without hangs have up to 1.2e7 (docs/planning.md)."""
@@ -17,6 +22,13 @@ MEMORY: Final = 2_000_000
 """Stances that exact search may keep before the next planner has its turn."""
 MANY: Final = 1000
 """Holds from which a route over the board is planned first."""
+TRIED: Final[dict[str, Callable[..., PlanResult]]] = {
+    "genetic": plan_genetic,
+    "exact": plan_exact,
+    "beam": plan_beam,
+    "route": plan_route,
+}
+"""Planners that are chosen from, by name."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,17 +39,12 @@ class Choice:
     reason: str
 
 
-def choose(problem: CompiledProblem, known: tuple[str, ...]) -> Choice:
-    """Which planners to try, the first first.
-
-    Args:
-        problem: The task.
-        known: Names of the planners there are.
-    """
+def choose(problem: CompiledProblem) -> Choice:
+    """Which planners to try, the first first."""
     if problem.incomplete is not None:
         return Choice(("genetic",), "only genetic search takes rules.allowed with single grabs or releases")
     stances = problem.estimated_stances
-    if problem.landmarks >= MANY and "route" in known:
+    if problem.landmarks >= MANY:
         return Choice(("route", "beam", "genetic"), f"{problem.landmarks} holds are too many for one search")
     if math.isinf(stances):
         return Choice(("beam", "genetic"), "the space of stances is open (hangs, or poses of two bodies)")
@@ -68,11 +75,9 @@ def plan_auto(
     Returns:
         The answer of the first planner that finds or proves something, else of the last; its reason says which were tried.
     """
-    from ..planners import PLANNERS  # which has this planner in it
-
     started = time.monotonic()
     problem = pose_problem(task, threads=threads).problem
-    choice = choose(problem, tuple(PLANNERS))
+    choice = choose(problem)
     result: PlanResult | None = None
     bound: int | None = None
     model = ""
@@ -82,7 +87,7 @@ def plan_auto(
         if result is not None and left == 0.0:
             break
         options: dict[str, Any] = {"max_stances": MEMORY} if name == "exact" else {}
-        result = PLANNERS[name](task, seed=seed, seconds=left, threads=threads, progress=progress, **options)
+        result = TRIED[name](task, seed=seed, seconds=left, threads=threads, progress=progress, **options)
         tried.append(name)
         bound, model = (result.lower_bound, result.model) if name == "exact" else (bound, model)
         if result.has_plan or result.status == "infeasible" or "interrupted" in result.reason:

@@ -13,7 +13,6 @@ from .operators import breed, random_genes
 from .profile import Profile, Search
 
 Genes = npt.NDArray[np.int32]
-SELECTIONS = ("roulette", "rank")
 CROSSOVERS = ("tail", "one_point", "two_point")
 
 

@@ -9,7 +9,8 @@ from ...files import Document, data_names, find_data, read_toml
 from ...robots.library import family_of, read_robot
 from ...types import Json
 from ...worlds.library import read_ground
-from ..overrides import apply_overrides, split_override
+from ..overrides import apply_overrides
+from ..parts import Naming
 from .path_file import read_path
 from .standing import check_mechanism
 from .walk import SCHEMA, Walk, build_walk, walk_keys
@@ -44,26 +45,12 @@ def load_walk(name_or_path: str, overrides: Sequence[str] = ()) -> Walk:
         SpecError: If a file or an override says something that cannot be used.
     """
     path, label = find_data("walk", name_or_path, DATA)
-    document = read_toml(path, label)
-    data = dict(document.data)
-    named: list[tuple[str, str]] = []
-    rest: list[str] = []
-    for text in overrides:
-        key, value = split_override(text)
-        if key in ("robot", "ground"):
-            data[key] = value
-            named.append((key, text))
-        else:
-            rest.append(text)
-    source = Document(document.label, data, tuple(named), document.folder)
-    here = {key for key, _ in named}  # a path in an override starts where the user stands, not at the walk
-    robot = read_robot(_named(source, "robot"), None if "robot" in here else document.folder)
+    naming = Naming.of(read_toml(path, label), overrides, ("robot", "ground"))
+    robot = naming.read("robot", read_robot)
     if family_of(robot) != "walker":
         raise robot.problem("family", "must be 'walker': a walk is for a two-frame walker")
-    ground = read_ground(_named(source, "ground"), None if "ground" in here else document.folder)
-    data |= {"robot": robot.data, "ground": ground.data, "labels": {"robot": robot.label, "ground": ground.label}}
-    merged, keys = Document(document.label, data, (), document.folder), walk_keys()
-    whole = _with_paths(apply_overrides(merged, rest, keys["walk"], keys["robot"], {}))
+    merged, keys = naming.merged(robot=robot, ground=naming.read("ground", read_ground)), walk_keys()
+    whole = _with_paths(apply_overrides(merged, naming.others, keys["walk"], keys["robot"], {}))
     walk = build_walk(whole)
     check_mechanism(walk, whole)
     return walk
@@ -95,10 +82,3 @@ def _with_paths(document: Document) -> Document:
         else:
             pieces.append(piece)
     return replace(document, data=document.data | {"way": pieces})
-
-
-def _named(document: Document, key: str) -> str:
-    name = document.data.get(key)
-    if not isinstance(name, str) or not name:
-        raise document.problem(key, f"must name a {key}, or give the path of its file, in quotes")
-    return name

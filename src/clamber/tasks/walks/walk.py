@@ -14,6 +14,7 @@ from ...specs import Name, build_spec, field_names, spec
 from ...types import Floats, Json
 from ...units import Angle, Length, NonNegativeMass, Point, PositiveLength, Quantity
 from ...worlds.ground import Ground, build_ground
+from ..parts import parts_of
 from .piece import Piece, check_way
 
 SCHEMA: Final = "clamber-walk-1"
@@ -137,13 +138,9 @@ def build_walk(document: Document) -> Walk:
         SpecError: If any of the three breaks a rule, or they do not fit each other.
     """
     check_schema(document, SCHEMA)
-    labels = document.data.get("labels", {})
-
-    def part(key: str) -> Document:
-        return document.section(key, labels.get(key, f"{document.label} [{key}]"))
-
-    robot, ground = build_walker(part("robot")), build_ground(part("ground"))
-    stated = build_spec(WalkSpec, document, without=("schema", "robot", "ground", "labels"))
+    parts = parts_of(document, "ground")
+    robot, ground = build_walker(parts["robot"]), build_ground(parts["ground"])
+    stated = build_spec(WalkSpec, document, without=("schema", *parts, "labels"))
     check_way(stated.way, document)
     joints = 0 if robot.arm is None else robot.arm.n_joints
     if stated.payload > 0.0 and robot.arm is None:

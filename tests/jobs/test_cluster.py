@@ -15,6 +15,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from jobs_by_hand import batch, square
+from test_jobs import ran, rows_of, start_batch
 
 import clamber
 from clamber.actions.limbed_plans import thesis_code
@@ -25,12 +27,9 @@ from clamber.experiments.climb.trial import TrialSetup
 from clamber.experiments.climb.trials import run_trials
 from clamber.jobs import ClusterError, LocalProcesses, Outcome, RayCluster, cluster, map_items
 from clamber.planning.axes import range_axis
-from clamber.planning.sweep import run_sweep
+from clamber.planning.sweep import Sweep, run_sweep
 from clamber.tasks import load_task
 from clamber.tasks.limbed import LimbedTask
-from jobs_by_hand import batch, square
-from test_jobs import ran, rows_of, start_batch
-from test_sweep import numbers
 
 needs_ray = pytest.mark.skipif(importlib.util.find_spec("ray") is None, reason="Ray is optional")
 FOLDERS = os.pathsep.join((str(Path(clamber.__file__).parents[1]), str(Path(__file__).parent)))
@@ -40,6 +39,11 @@ LOOPBACK = {
     "RAY_AUTH_TOKEN": secrets.token_hex(16),
     "RAY_USAGE_STATS_ENABLED": "0",
 }
+
+
+def numbers(sweep: Sweep) -> list[dict[str, Any]]:
+    """All but the time that it took."""
+    return [{key: value for key, value in point.items() if key != "seconds"} for point in sweep.to_json()["points"]]
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ import pytest
 from clamber.cli import main
 from clamber.control.law_settings import LAWS
 
-PAGE = Path(__file__).parents[1] / "docs" / "controllers.md"
+PAGE = Path(__file__).parents[2] / "docs" / "controllers.md"
 TEXT = PAGE.read_text()
 NUMBER = re.compile(r"-?\d+\.\d+")
 MATCHED = ("jacobian-transpose", "operational-space", "joint-pd", "scct")

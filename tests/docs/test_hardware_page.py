@@ -21,7 +21,7 @@ from clamber.sim.climber_plant import ClimberPlant
 from clamber.sim.wires import ClimberWires
 from clamber.tasks import load_task
 
-PAGE = (Path(__file__).resolve().parent.parent / "docs" / "hardware.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).resolve().parents[2] / "docs" / "hardware.md").read_text(encoding="utf-8")
 
 
 class Card:

@@ -13,10 +13,10 @@ from contextlib import suppress
 from pathlib import Path
 
 import pytest
+from jobs_by_hand import batch, square
 
 import clamber
 from clamber.jobs import StoreError, look_into, map_items
-from jobs_by_hand import batch, square
 
 
 def ran(log: Path) -> Counter[int]:

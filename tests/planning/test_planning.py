@@ -226,7 +226,7 @@ def test_search_needs_nothing_of_a_family_but_arrays() -> None:
 
 
 def test_no_planner_mentions_a_family() -> None:
-    folder = Path(__file__).parent.parent / "src" / "clamber" / "planning"
+    folder = Path(__file__).parents[2] / "src" / "clamber" / "planning"
     for path in folder.rglob("*.py"):
         text = path.read_text().lower()
         assert "walker" not in text and "limbed" not in text and "libra" not in text, path

@@ -27,7 +27,7 @@ from clamber.planning.exact.explore import explore
 from clamber.planning.planners import PLANNERS
 from clamber.tasks import load_task, task_from_document
 from clamber.viewing.boards_plot import draw_boards
-from test_exact import breadth_first
+from plain.search import breadth_first
 
 FEW = Allowance(checks=100_000, seconds=0.3, patience=60.0)
 NO_HANGS = ("rules.max_hangs=0",)

@@ -1,4 +1,4 @@
-"""Functions that the worker processes of tests/test_jobs.py run, and the batch that it kills from outside."""
+"""Functions that the worker processes of tests/jobs/test_jobs.py run, and the batch that it kills from outside."""
 
 import os
 import signal

@@ -21,7 +21,7 @@ from clamber.planning.exact.front import plan_front
 from clamber.planning.exact.minimize import Minimizer
 from clamber.planning.exact.planner import plan_exact
 from clamber.tasks import load_task
-from test_exact import NO_HANGS, SMALL, keys_of, restored
+from plain.search import NO_HANGS, SMALL, keys_of, restored
 
 BOARD = ("modified-ladder", (NO_HANGS, "step.length=3in", "step.angle=45deg", "goal.y_min=24in"))
 ROOM = 400_000

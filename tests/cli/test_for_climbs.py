@@ -1,0 +1,39 @@
+"""Options of `run` and `trials` that climbs have and walks do not are refused by name, for a walk and for a walker's task."""
+
+from collections.abc import Callable
+from dataclasses import fields
+from typing import TypeAlias
+
+import pytest
+
+from clamber.cli import run_planned_walk, run_walk, trials_walk
+from clamber.cli.crew import CrewWords
+from clamber.cli.run_words import RunWords
+from clamber.cli.trials_words import TrialsWords
+
+Run: TypeAlias = Callable[..., tuple[int, str, str]]
+OF_PLANS = (("--task", "ladder"), ("--planner", "exact"), ("--seconds", "3"))
+OF_RUNS = (("--peg-error", "3mm"), ("--no-replan",), ("--plant", "volts"), ("--force",))
+OF_TRIALS = (("--no-replan",), ("--force",), ("--replay", "3"), ("--output", "trials.png"))
+
+
+def test_every_one_of_them_is_an_option() -> None:
+    of_run = {field.name for field in fields(RunWords)}
+    of_trials = {field.name for holder in (TrialsWords, CrewWords) for field in fields(holder)}
+    assert {*run_walk.CLIMBS_ONLY, *run_planned_walk.CLIMBS_ONLY} <= of_run
+    assert {*trials_walk.CLIMBS_ONLY, *trials_walk.PLANS_ONLY} <= of_trials
+
+
+@pytest.mark.parametrize(
+    ("command", "what", "option"),
+    [
+        *(("run", "level-walk", option) for option in (*OF_PLANS, *OF_RUNS, ("--save-plan", "plan.json"))),
+        *(("run", "terrace-walk", option) for option in OF_RUNS),
+        *(("trials", "level-walk", option) for option in (*OF_PLANS, *OF_TRIALS)),
+        *(("trials", "terrace-walk", option) for option in OF_TRIALS),
+    ],
+)
+def test_what_only_climbs_have_is_refused(command: str, what: str, option: tuple[str, ...], clamber: Run) -> None:
+    code, out, err = clamber(command, what, *option)
+    assert (code, out) == (2, "")
+    assert option[0] in err and f"'{what}' is a walk" in " ".join(err.split())
