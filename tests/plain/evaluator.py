@@ -375,6 +375,8 @@ class PlainEvaluator:
         )
         margins["support"] = float(len(holders) - rules.min_supports)
         margins["hangs"] = FAR if rules.max_hangs == -1 else float(rules.max_hangs - s.hangs)
+        if len(holders) == 1 and s.stage < len(self.task.goals) and not self.task.goals[s.stage].hangs:
+            margins["hangs"] = -1.0
 
         carriers = self.carriers(s, pose, usables)
         split, given = shared_load(carriers, self.task)
@@ -400,6 +402,8 @@ class PlainEvaluator:
         margins["swing"] = (
             FAR if swing is None else swing_clearance(self.task, swing.centre, swing.radius, swing.start, swing.turn)
         )
+        if swing is not None and rules.max_swing < math.pi:
+            margins["swing"] = min(margins["swing"], swing.radius * (rules.max_swing - abs(swing.turn)))
         own = [s.hold[i] if s.hold[i] is not None else s.left[i] for i in range(self.n)]
         margins.update(interference_margins(self.task, pose, taken, tips, own))
         margins["hook"], in_good = self.hook(carriers, taken, 0.0 if swing is None else swing.turn)

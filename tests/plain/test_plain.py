@@ -64,6 +64,7 @@ def make_task(holds: list[Any], held: dict[str, int], at: Point = (0.0, 0.0), **
         "hook_pull": 0.0,
         "holding_offset": 0.0,
         "inside": 0.0,
+        "max_swing": math.pi,
         "hook_width": 0.0,
         "hook_ahead": 0.0,
         "hook_way": 0.0,

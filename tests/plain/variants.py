@@ -61,6 +61,7 @@ def varied_rules(rng: random.Random, task: LimbedTask) -> Any:
         hook_pull=rng.choice((0.0, 0.0, 2.0, 8.0)),
         inside=aside.choice((0.0, 0.0, INCH)),
         holding_offset=aside.choice((0.0, 0.0, 0.5 * INCH)),
+        max_swing=math.radians(aside.choice((180.0, 180.0, 40.0))),
         hook_width=width,
         hook_ahead=aside.choice((0.0, 0.016)),
         hook_way=aside.choice((0.0, 0.04)),
@@ -175,5 +176,6 @@ def varied_goals(rng: random.Random, task: LimbedTask) -> tuple[Goal, ...]:
             made = {"turns": rng.choice((0.1, -0.1, 0.6, -0.6, 1.1)), "centre": centre}
         if rng.random() < 0.2:
             made["region"] = random_polygon(rng, task, 0.03)
+        made["hangs"] = copy.deepcopy(rng).random() < 0.7  # drawn aside, as the hooks' sizes
         goals.append(Goal(**made))
     return tuple(goals)

@@ -63,6 +63,7 @@ def _fill_rules(
     row["reach_offset"], row["holding_offset"] = rules.reach_offset, rules.holding_offset
     row["clearance"], row["inside"] = rules.clearance, rules.inside
     row["max_power"] = math.inf if rules.max_power is None else rules.max_power
+    row["max_swing"] = rules.max_swing
     row["link_radius"], row["body_margin"] = task.robot.link_radius, task.robot.body_margin
     row["hook_width"], row["hook_ahead"], row["hook_way"] = rules.hook_width, rules.hook_ahead, rules.hook_way
     row["grid_x"], row["grid_y"], row["grid_cell"], row["grid_nx"], row["grid_ny"] = grid
@@ -183,6 +184,7 @@ def _goals(task: LimbedTask, polygons: list[tuple[tuple[float, float], ...]], n_
             row["vertex"], row["n_vertices"] = n_vertices, len(goal.region)
             polygons.append(goal.region)
             n_vertices += len(goal.region)
+        row["hangs"] = goal.hangs
         row["hold"] = -1
         for name, number in goal.holds.items():
             row["hold"][task.robot.limb_index(name)] = numbers[number]

@@ -27,4 +27,7 @@ def hang(p, s):
     s.turned += turn
     place(p, s)
     near = arc_clearance(p, hold.x, hold.y, r, angle, turn)
-    return near - p.clearance if near < math.inf else UNLIMITED
+    margin = near - p.clearance if near < math.inf else UNLIMITED
+    if p.max_swing < math.pi:
+        margin = min(margin, r * (p.max_swing - abs(turn)))
+    return margin

@@ -9,7 +9,7 @@ from .interference import HOLDER_PEG, KEEP_OUT, LIMB_BODY, LIMB_LIMB, LIMB_PEG, 
 from .many import many_split
 from .near import nearest_hold
 from .pose import count_holders, joint_torques, usable
-from .records import LIMBS, TOLERANCE, UNLIMITED, holds, limbs, work
+from .records import LIMBS, TOLERANCE, UNLIMITED, goals, holds, limbs, work
 from .share import share
 
 REACH, JOINT, SUPPORT, HANGS, TORQUE, POWER, CLEARANCE, SWING = 0, 1, 2, 3, 4, 5, 6, 7
@@ -37,6 +37,8 @@ def judge(p, s, grabbing, swing, margins):
     if not holders:
         return SUPPORT
     margins[HANGS] = float(p.max_hangs - s.hangs) if p.max_hangs >= 0 else UNLIMITED
+    if holders == 1 and s.stage < p.n_goals and not goals(p)[s.stage].hangs:
+        margins[HANGS] = -1.0
     margins[SWING] = swing
     reach = math.inf
     joint = math.inf

@@ -58,6 +58,7 @@ PARAMS = np.dtype(
         ("clearance", "f8"),
         ("inside", "f8"),
         ("max_power", "f8"),
+        ("max_swing", "f8"),  # pi: any
         ("link_radius", "f8"),
         ("body_margin", "f8"),
         ("hook_width", "f8"),  # 0: hooks are points
@@ -163,6 +164,7 @@ GOAL = np.dtype(
         ("rise_after", "f8"),  # of them, fewest steps up
         ("vertex", "i8"),
         ("n_vertices", "i8"),
+        ("hangs", "i4"),  # whether the robot may hang on the way to it
         ("hold", "i4", (LIMBS,)),  # index of the hold that limb must hold; -1: any
     ],
     align=True,

@@ -89,6 +89,8 @@ class Rules:
     """Whether the robot must be held while a limb swings from hold to hold."""
     max_hangs: Annotated[int, Field(strict=True, ge=-1, lt=2**31)] = -1
     """How often the robot may come to hang on one limb; -1: any number."""
+    max_swing: Annotated[float, Quantity("angle", at_least=0.0, at_most=math.pi)] = math.pi
+    """Most that the body turns about its hold as it comes to hang, or with one action while it hangs [rad]."""
     min_supports: Annotated[int, Field(strict=True, ge=1)] = 1
     """How many limbs must hold."""
     limb_in_use: Literal["idle", "carries"] = "idle"
@@ -137,6 +139,8 @@ class Goal(GoalBox):
     """Corners of a region that the body's origin is in [m]."""
     holds: dict[str, StrictInt] = field(default_factory=dict)
     """Limb name -> number of the hold it is on."""
+    hangs: StrictBool = True
+    """Whether the robot may hang on one limb on the way to it, where the rules allow it."""
     turns: Ratio | None = None
     """Turns of the body's origin about `centre`, at least so many; anticlockwise positive [-]."""
     centre: Point | None = None

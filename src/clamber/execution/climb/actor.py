@@ -13,12 +13,16 @@ from .ends import grab, release
 from .hang import Hang
 from .hook import may_stay
 from .let_go import let_go
-from .motions import clear_the_way, move_body
+from .motions import clear_the_way, is_clear, move_body
 
 ELSEWHERE: Final = ((0.0, 0.0), (0.0, 0.02), (0.0, -0.02), (0.025, 0.0), (-0.025, 0.0))
 """Where the body goes for another approach after a miss, from the plan's pose [m]."""
 FARTHER: Final = ((0.0, 0.045), (0.0, -0.045), (0.05, 0.0), (-0.05, 0.0))
 """Likewise where a limb has found no way from any of these [m]."""
+DROPS: Final = (0.0, 0.02, 0.04, 0.06)
+"""By how much a body that hangs goes lower, in turn, for its free limbs to come out between holds [m]."""
+OUT: Final = 0.04
+"""Clearance of a free limb that is not between two holds of a row: from there it comes to any [m]."""
 WORST: Final = -8.0
 """How badly off the worst of hooks and motors may be where the body goes for that [N]."""
 ARRIVED: Final = 0.02
@@ -95,10 +99,22 @@ class Actor:
                 return "the weight cannot be brought below the hold that is to carry it alone"
         hanging = self.hanging
         assert hanging is not None
-        clear_the_way(climber, self.pose(step))
+        self._come_clear(hanging, self.pose(step))
         hanging.bring(self.pose(step))
         hanging.calm()
         return ""
+
+    def _come_clear(self, hanging: Hang, pose: Floats) -> None:
+        """Bring free limbs to where they meet no hold as the body goes to a pose, from lower down where they do not get out from here."""
+        climber = self.climber
+        for drop in DROPS:
+            lower = climber.body.settled.copy() if drop == 0.0 else pose - np.array((0.0, drop, 0.0))
+            if drop > 0.0:
+                hanging.bring(lower)
+                hanging.calm()
+            clear_the_way(climber, pose, OUT)
+            if is_clear(climber, pose, OUT):
+                return
 
     def _move(self, step: int) -> tuple[Outcome, int, str]:
         """The body goes to the plan's pose; once more where it does not come there."""

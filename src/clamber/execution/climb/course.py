@@ -155,7 +155,11 @@ def lay_course(task: LimbedTask, plan: Plan, label: str = "plan") -> Course:
 
 def swings(course: Course, step: int) -> bool:
     """Whether an action leaves the body to one limb, or moves it while it hangs."""
-    return abs(float(course.stances[step]["turned"])) > HANGING or alone(course, step) is not None
+    before, after = course.stances[step - 1], course.stances[step]
+    # a grab from another hold may hang on the way with no turn at all: where the weight is below the hold that stays
+    return bool(
+        abs(float(after["turned"])) > HANGING or after["hangs"] > before["hangs"] or alone(course, step) is not None
+    )
 
 
 def alone(course: Course, step: int) -> int | None:

@@ -5,12 +5,15 @@ from typing import Final
 
 import numpy as np
 
+from ...robots.limbed import Limb
 from ...types import Floats
+from .approach import free_distance
 from .climber import Climber, FallenError
 from .hang import DAMPING, Hang
+from .hook_release import AWAY
 from .motions import follow, move_body
 from .pendulum import Pendulum
-from .postures import postures
+from .postures import Posture, postures
 
 WAY: Final = 0.2
 """Turn of the body on one straight way of it [rad]."""
@@ -28,15 +31,17 @@ ROUNDS: Final = 5
 NEAR: Final = 0.002
 """Of the weight's place that they come to [m]."""
 OFF: Final = 0.022
-"""Way off a hold against the grab direction, after which a hook is out of its slot and its flare, and may go anywhere [m]."""
+"""Way off a hold against the grab direction, after which a hook is out of its slot and its flare [m]."""
 BACK: Final = 0.05
-"""Way back towards the limb's own shoulder after it [m]."""
+"""Way back towards the limb's own shoulder after it, where the limb does not reach to where its hook is clear of its hold all round [m]."""
 CAUGHT: Final = 0.015
 """A tip that is nearer to its hold after that has not come off [m]."""
 STRAIGHT: Final = math.radians(8.0)
 """A limb whose elbow is straighter is at the end of its reach [rad]."""
 ON_TOP: Final = 0.5
-"""A hook that pulls less downwards might come off [-]."""
+"""A hook that pulls less downwards might come off where it bears the weight [-]."""
+NOT_UNDER: Final = -0.1
+"""Likewise that which leaves, and bears next to nothing [-]."""
 
 
 def let_go(climber: Climber, i: int, stay: int) -> Hang | None:
@@ -78,13 +83,15 @@ def lift_off(climber: Climber, i: int) -> bool:
     body = climber.body
     task, limb = body.tasks[i], climber.robot.limbs[i]
     g, place, hold = body.grab_direction(i), body.tip(i), task.place.copy()
-    pose = body.settled
-    c, s = math.cos(pose[2]), math.sin(pose[2])
-    port = pose[:2] + np.array((c * limb.port_x - s * limb.port_y, s * limb.port_x + c * limb.port_y))
-    out = place - OFF * g
-    back = (port - out) / float(np.hypot(*(port - out)))
-    points = [place - part * OFF * g for part in (0.25, 0.5, 0.75, 1.0)]
-    points += [out + part * BACK * back for part in (0.5, 1.0)]
+    pose, clear = body.settled, _clear_off(climber, i)
+    far = _bent(limb, pose, place - clear * g, float(body.q[i, 1])) is not None
+    off = clear if far else OFF
+    points = [place - part * off * g for part in (0.25, 0.5, 0.75, 1.0)]
+    if not far:
+        c, s = math.cos(pose[2]), math.sin(pose[2])
+        port = pose[:2] + np.array((c * limb.port_x - s * limb.port_y, s * limb.port_x + c * limb.port_y))
+        back = (port - points[-1]) / float(np.hypot(*(port - points[-1])))
+        points += [points[-1] + part * BACK * back for part in (0.5, 1.0)]
     way = [body.q[i].copy()]
     for point in points:
         fit = [one for one in postures(limb, pose, point) if one.inside and one.angles[1] * way[0][1] > 0.0]
@@ -97,8 +104,21 @@ def lift_off(climber: Climber, i: int) -> bool:
 def pose_to_let_go(climber: Climber, i: int, stay: int) -> Floats | None:
     """The pose nearest to the present one in which both limbs are well on their holds and the weight is below that of `stay`.
 
-    Limb `i` can be lifted off there. None where there is none.
+    Limb `i` can be lifted off there, until its hook is clear of its hold all round if that can be. None where there is none.
     """
+    for off in (_clear_off(climber, i), OFF):
+        pose = _pose_to_lift(climber, i, stay, off)
+        if pose is not None:
+            return pose
+    return None
+
+
+def _clear_off(climber: Climber, i: int) -> float:
+    """How far limb `i` has to be lifted off its hold until its hook may go anywhere [m]."""
+    return free_distance(climber.peg_radius, climber.map.error(climber.body.tasks[i].hold)) + AWAY
+
+
+def _pose_to_lift(climber: Climber, i: int, stay: int, off: float) -> Floats | None:
     body, robot = climber.body, climber.robot
     pendulum, here, hold = Pendulum(robot, stay), body.settled.copy(), body.tasks[stay].place
     q = body.q - body.play
@@ -111,7 +131,7 @@ def pose_to_let_go(climber: Climber, i: int, stay: int) -> Floats | None:
                 pose = np.array((here[0] - now + wished, hold[1] - depth, here[2] + turn))
                 moved = q.copy()
                 for _ in range(ROUNDS):  # the weight moves with the limbs that reach for the holds
-                    holding, leaving = _well_on(climber, stay, pose, 0.0), _well_on(climber, i, pose, OFF)
+                    holding, leaving = _well_on(climber, stay, pose, 0.0), _well_on(climber, i, pose, off)
                     if holding is None or leaving is None:
                         break
                     moved[stay], moved[i] = holding, leaving
@@ -129,10 +149,14 @@ def _well_on(climber: Climber, i: int, pose: Floats, off: float) -> Floats | Non
     """Angles of a limb on its hold at a pose, its elbow on the side where it is, its hook well on top, and room to lift it off by `off`."""
     limb, task, side = climber.robot.limbs[i], climber.body.tasks[i], climber.body.q[i, 1]
     on = [one for one in postures(limb, pose, task.place) if one.inside and one.angles[1] * side > 0.0]
-    if not on or on[0].on_top < ON_TOP or abs(on[0].angles[1]) < STRAIGHT:
+    if not on or on[0].on_top < (NOT_UNDER if off > 0.0 else ON_TOP) or abs(on[0].angles[1]) < STRAIGHT:
         return None
-    if off > 0.0:
-        clear = postures(limb, pose, task.place - off * on[0].grab)
-        if not any(one.inside and one.angles[1] * side > 0.0 and abs(one.angles[1]) > STRAIGHT for one in clear):
-            return None
+    if off > 0.0 and _bent(limb, pose, task.place - off * on[0].grab, side) is None:
+        return None
     return on[0].angles
+
+
+def _bent(limb: Limb, pose: Floats, place: Floats, side: float) -> Posture | None:
+    """The posture with the tip at a place, the elbow bent to a side, within the joints' limits; None where there is none."""
+    fit = (one for one in postures(limb, pose, place) if one.inside and one.angles[1] * side > 0.0)
+    return next((one for one in fit if abs(one.angles[1]) > STRAIGHT), None)

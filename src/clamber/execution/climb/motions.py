@@ -8,7 +8,7 @@ import numpy as np
 
 from ...types import Floats
 from .climber import Climber
-from .parking import park, passes, poses_between
+from .parking import SPARE, park, passes, poses_between, room_along
 
 BODY_SPEED: Final = 0.08
 """Of the body's aim, at most [m/s]."""
@@ -74,17 +74,25 @@ def eased(t: float, length: float, rise: float) -> tuple[float, float]:
     return (way if t < left else length - way), speed
 
 
-def clear_the_way(climber: Climber, pose: Floats) -> None:
-    """Bring free limbs to where they meet no hold while the body goes straight to a pose."""
+def clear_the_way(climber: Climber, pose: Floats, spare: float = SPARE) -> None:
+    """Bring free limbs to where they are by `spare` clear of holds [m], or as far as they can be, while the body goes straight to a pose."""
     for i, task in enumerate(climber.body.tasks):
         if not task.hold:
-            _park(climber, i, pose)
+            _park(climber, i, pose, spare)
 
 
-def _park(climber: Climber, i: int, pose: Floats) -> None:
+def is_clear(climber: Climber, pose: Floats, spare: float) -> bool:
+    """Whether free limbs, where they are, are by `spare` clear of holds [m] while the body goes straight to a pose."""
+    body = climber.body
+    way, free = poses_between(body.settled, pose), [i for i, task in enumerate(body.tasks) if not task.hold]
+    return all(room_along(climber.approaches, i, body.q[i] - body.play[i], way, climber.holds) >= spare for i in free)
+
+
+def _park(climber: Climber, i: int, pose: Floats, spare: float) -> None:
     body = climber.body
     climber.plant.pause()
-    way = park(climber.approaches, i, body.q[i] - body.play[i], poses_between(body.settled, pose), climber.holds)
+    poses = poses_between(body.settled, pose)
+    way = park(climber.approaches, i, body.q[i] - body.play[i], poses, climber.holds, spare)
     if way is not None:
         follow(climber, i, way)
 

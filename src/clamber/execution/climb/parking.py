@@ -47,7 +47,12 @@ def passes(
 
 
 def park(
-    approaches: Approaches, i: int, angles: Floats, poses: Sequence[Floats], holds: Mapping[int, Floats]
+    approaches: Approaches,
+    i: int,
+    angles: Floats,
+    poses: Sequence[Floats],
+    holds: Mapping[int, Floats],
+    spare: float = SPARE,
 ) -> Floats | None:
     """A way of a free limb's joints to where it may wait, shape (n, 2) [rad]; None where it is well placed, or there is none better.
 
@@ -57,6 +62,7 @@ def park(
         angles: Where it is, shape (2,) [rad].
         poses: Of the body along its way, the present one first.
         holds: All holds by number.
+        spare: Clearance with which it is well placed [m].
     """
     limb, leg, robot = approaches.robot.limbs[i], approaches.legs[i], approaches.robot
     seen = [discs_near(holds, pose, approaches.peg_radius) for pose in poses]
@@ -66,7 +72,7 @@ def park(
         return float(clearance(leg, q[0], q[1], every, approaches.wall, robot.link_radius, HOOK))
 
     here = room(angles)
-    if here >= SPARE:
+    if here >= spare:
         return None
     lower = np.array((limb.shoulder.lower, limb.elbow.lower))
     upper = np.array((limb.shoulder.upper, limb.elbow.upper))
@@ -74,7 +80,7 @@ def park(
         np.array((a, b)) for a in np.linspace(lower[0], upper[0], PITCH) for b in np.linspace(lower[1], upper[1], PITCH)
     ]
     rooms = [room(q) for q in grid]
-    enough = min(SPARE, max(rooms))
+    enough = min(spare, max(rooms))
     if enough <= here:
         return None
     fit = [q for q, free in zip(grid, rooms, strict=True) if free >= enough - 1e-9]

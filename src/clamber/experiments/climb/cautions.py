@@ -41,6 +41,8 @@ class Caution:
     """Whether the weight stays between the holds that carry it: a hook beside both, or above one, bears next to nothing."""
     aloof: bool = False
     """Whether free limbs that ride with the body keep clear of holds, too, and all second links of the body."""
+    swing: float | None = None
+    """Most that the body turns as it comes to hang: its weight is below the hold that stays before the other hook comes off [deg]."""
     barred: tuple[tuple[str, int], ...] = ()
     """Limbs and numbers of holds that they may not take."""
 
@@ -63,6 +65,8 @@ STEADY: Final = (
 )
 """Where even the easiest of those is hard, or none is carried out, the more cautious first: hooks pull more, holders and the ways of
 their hooks keep clear of other holds, and either the weight is between them or free limbs keep clear of holds, too."""
+HANGING: Final = (Caution(hold_cone=90.0, bend=0.0, room=4.0, flare=3.0, swing=5.0),)
+"""Before those where a task allows hangs: a hook that is about to leave bears next to nothing, and may be pulled sideways."""
 INSIDE: Final = ("stability",)
 ALOOF: Final = ("limb_peg", "limb_body")
 """Checks that are hard then."""
@@ -71,6 +75,13 @@ ALOOF: Final = ("limb_peg", "limb_body")
 def hooked(task: LimbedTask) -> bool:
     """Whether any limb ends in what only pulls."""
     return any(limb.end.kind != "gripper" for limb in task.robot.limbs)
+
+
+def steady(task: LimbedTask) -> tuple[Caution, ...]:
+    """Cautions of steadier plans for a task, in the order in which they are tried."""
+    if not hooked(task):
+        return ()
+    return (*HANGING, *STEADY) if task.rules.max_hangs > 0 else STEADY
 
 
 def cautious(task: LimbedTask, caution: Caution) -> LimbedTask:
@@ -96,6 +107,9 @@ def cautious(task: LimbedTask, caution: Caution) -> LimbedTask:
         f"rules.holding_offset={max(rules.holding_offset, (caution.bend or 0.0) * INCH * hooks)!r} m",
         f"motor.torque_limit={caution.share * task.robot.motor.torque_limit!r} N m",
     ]
+    if caution.swing is not None:
+        # with a number of hangs, the same stance after fewer and more of them would be two
+        settings += [f"rules.max_swing={caution.swing!r} deg", "rules.max_hangs=-1"]
     if caution.room is not None:
         flare = caution.flare * MM
         hard = dict.fromkeys((*rules.hard, "holder_peg", *INSIDE * caution.inside, *ALOOF * caution.aloof))

@@ -15,7 +15,7 @@ from ...planning.budgets import accepts
 from ...planning.planners import PLANNERS, PROVERS
 from ...planning.result import PlanResult
 from ...tasks.limbed import LimbedTask
-from .cautions import CAUTIONS, STEADY, Caution, cautious, hooked
+from .cautions import CAUTIONS, Caution, cautious, steady
 from .rehearsal import Rehearsal
 from .steadying import steadied
 
@@ -74,13 +74,14 @@ def plan_to_climb(
         if result is None:
             return None
         # the same actions, for the robot and the board as they are
-        return Plan.of_codes(task, result.plan.codes(task), seed=seed, planner=result.plan.planner)
+        plan = Plan.of_codes(task, result.plan.codes(task), seed=seed, planner=result.plan.planner)
+        return None if lay_course(task, plan).objections else plan
 
     easy, hard = _by_ease(task, lambda caution: found_with(caution, planner))
     quick = QUICK if planner in PROVERS else planner
     if rehearse is None:
-        steady = (found_with(caution, quick) for caution in STEADY if hooked(task))
-        first = next((plan for plans in (easy, steady, hard) for plan in plans if plan is not None), None)
+        steadier = (found_with(caution, quick) for caution in steady(task))
+        first = next((plan for plans in (easy, steadier, hard) for plan in plans if plan is not None), None)
     else:
         first = _rehearsed(task, easy, hard, lambda caution: found_with(caution, quick), rehearse)
     if first is not None:
@@ -100,7 +101,7 @@ def _by_ease(task: LimbedTask, find: Callable[[Caution], Plan | None]) -> tuple[
             continue
         codes = plan.codes(task).tobytes()
         course = lay_course(task, plan)
-        if codes in seen or course.objections:
+        if codes in seen:
             continue
         seen.add(codes)
         own = float(np.maximum(course.against - EASY, 0.0).sum())
@@ -128,7 +129,7 @@ def _rehearsed(
     for plan in easy:
         if tried(plan).flawless:
             return plan
-    for caution in STEADY if hooked(task) else ():
+    for caution in steady(task):
         taught = _taught(task, caution, find, tried)
         if taught is not None:
             return taught

@@ -13,7 +13,7 @@ from ...errors import SpecError, StartError
 from ...planning.result import PlanResult
 from ...tasks.limbed import LimbedTask
 from ...types import Floats, Ints
-from .cautions import CAUTIONS, STEADY, cautious
+from .cautions import CAUTIONS, cautious, steady
 from .run_plan import climbing_task
 
 BENT: Final = ("reach", "joint")
@@ -101,7 +101,7 @@ def steadied_result(result: PlanResult, step: int, label: str = "plan") -> PlanR
 
 def _as_cautious(task: LimbedTask, codes: Ints) -> LimbedTask:
     """The task with the most caution that the plan keeps to."""
-    for caution in (*STEADY, *CAUTIONS):
+    for caution in (*steady(task), *CAUTIONS):
         held = cautious(task, caution)
         try:
             if plan_family(held).problem(held).replay(codes).ok:

@@ -1,0 +1,78 @@
+"""A grab from another hold that hangs on its way, plans that hang on a single row, and how a hook comes off for it."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from clamber.actions.plan import Plan, load_plan
+from clamber.actions.problems import pose_problem
+from clamber.execution.climb.course import Course, lay_course, swings
+from clamber.experiments.climb.cautions import HANGING, STEADY, cautious, steady
+from clamber.experiments.climb.run_plan import climbing_flaws, climbing_task, run_plan
+from clamber.planning.beam.planner import plan_beam
+from clamber.tasks import load_task
+from clamber.tasks.limbed import LimbedTask
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module")
+def task() -> LimbedTask:
+    return climbing_task(load_task("across-hanging"))
+
+
+@pytest.fixture(scope="module")
+def plan() -> Plan:
+    return load_plan(ROOT / "examples" / "across" / "plan.json")
+
+
+@pytest.fixture(scope="module")
+def course(task: LimbedTask, plan: Plan) -> Course:
+    return lay_course(task, plan)
+
+
+def test_a_grab_that_leaves_one_limb_on_its_hold_on_the_way_swings_however_little_it_turns(course: Course) -> None:
+    seen = 0
+    for step in range(1, len(course.stances)):
+        before = [limb for limb, number in course.holds(step - 1).items() if number]
+        action = course.actions[step - 1]
+        if action.kind == "grab" and len(before) == 2 and action.limb in before:
+            assert abs(float(course.stances[step]["turned"])) < 1e-9
+            assert swings(course, step)
+            seen += 1
+        elif action.kind == "grab" and len(before) == 3:
+            assert not swings(course, step)
+    assert seen == 4
+
+
+def test_the_saved_plan_hangs_only_beyond_the_second_third_and_within_its_rules(
+    task: LimbedTask, plan: Plan, course: Course
+) -> None:
+    assert not course.objections
+    replay = pose_problem(task).problem.replay(plan.codes(task))
+    assert replay.stances["stage"][-1] == 3
+    hung = np.flatnonzero(np.diff(replay.stances["hangs"]) > 0)
+    assert len(hung) == 5 and (replay.stances["stage"][hung] == 2).all()
+    # where the weight is as it lets go: straight below the hold that stays
+    assert np.abs(replay.stances["turned"]).max() < np.radians(5.0)
+
+
+def test_a_task_that_allows_hangs_is_searched_with_calm_hangs_first(task: LimbedTask) -> None:
+    assert steady(task) == (*HANGING, *STEADY)
+    assert steady(climbing_task(load_task("across"))) == STEADY
+    rules = cautious(task, HANGING[0]).rules
+    assert rules.max_hangs == -1 and rules.max_swing == pytest.approx(np.radians(5.0))
+
+
+@pytest.mark.slow
+def test_the_saved_plan_is_what_the_planner_finds(task: LimbedTask, plan: Plan) -> None:
+    result = plan_beam(cautious(task, HANGING[0]), seed=0)
+    assert result.plan is not None
+    assert list(result.plan.codes(task)) == list(plan.codes(task))
+
+
+@pytest.mark.slow
+def test_the_saved_plan_is_climbed_whole(task: LimbedTask, plan: Plan) -> None:
+    run = run_plan(task, plan, climbing_flaws(task, []), seed=0)
+    assert run.done, run.reason
