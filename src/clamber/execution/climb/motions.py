@@ -75,7 +75,7 @@ def eased(t: float, length: float, rise: float) -> tuple[float, float]:
 
 
 def clear_the_way(climber: Climber, pose: Floats, spare: float = SPARE) -> None:
-    """Bring free limbs to where they are by `spare` clear of holds [m], or as far as they can be, while the body goes straight to a pose."""
+    """Bring free limbs to where they are `spare` clear of holds [m], or as far as they can be, while the body goes to a pose."""
     for i, task in enumerate(climber.body.tasks):
         if not task.hold:
             _park(climber, i, pose, spare)
