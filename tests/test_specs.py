@@ -428,7 +428,7 @@ BOARD = 'schema = "clamber-board-1"\nname = "mine"\nhold_radius = "5 mm"\n'
         ("holds = []", "the board has no holds; it needs at least one"),
         ("", "exactly one of 'holds', [ladder], [grid], [random]; here: none"),
         ('holds = [{number = 1, x = "0 m", y = "0 m"}, {number = 1, x = "1 m", y = "0 m"}]', "1 is there twice"),
-        ('holds = [{number = 1, x = "0 m", y = "0 m"}, {number = 4, x = "9 mm", y = "0 m"}]', "holds.4 = "),
+        ('holds = [{number = 1, x = "0 m", y = "0 m"}, {number = 4, x = "9 mm", y = "0 m"}]', "holds.4: "),
         ('holds = [{number = 1, x = "0 m", y = "0 m"}, {number = 4, x = "9 mm", y = "0 m"}]', "1 and 4 overlap"),
         ('holds = [{number = 0, x = "0 m", y = "0 m"}]', "holds.0.number = 0: must be greater than or equal to 1"),
         ('holds = [{number = 3, x = inf, y = "0 m"}]', "holds.3.x = inf: is not a finite number"),

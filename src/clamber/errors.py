@@ -1,7 +1,7 @@
 """Everything Clamber raises on purpose, under one base; each error's `args` rebuild it in another process."""
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 
 def near_matches(name: str, known: Iterable[str], limit: int = 3) -> list[str]:
@@ -55,7 +55,8 @@ class SpecError(ClamberError):
     @property
     def headline(self) -> str:
         """The first problem alone, in one line."""
-        shown = "" if isinstance(self.value, _Missing) else f" = {_short(self.value)}"
+        told = not isinstance(self.value, _Missing) and not _is_table(self.value)
+        shown = f" = {_short(self.value)}" if told else ""
         return f"{self.file}: {self.key}{shown}: {self.allowed}"
 
     def __str__(self) -> str:
@@ -95,6 +96,11 @@ class _Missing:
 
 MISSING = _Missing()
 """The value of a `SpecError` about a key that the file does not have."""
+
+
+def _is_table(value: object) -> bool:
+    """Whether a value is a table of a file, to be looked at there, and no quantity that is written as one."""
+    return isinstance(value, Mapping) and "value" not in value
 
 
 def _short(value: object, limit: int = 120) -> str:

@@ -30,50 +30,38 @@ def test_the_second_start_compiles_nothing(tmp_path: Path) -> None:
     assert second.stderr == "" and second.stdout == first.stdout
 
 
-def test_progress_counts_what_is_there_until_the_kernel_is(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+class Compiling(Event):
+    """An end that comes after some looks into the folder; before each look, kernels come into it."""
+
+    def __init__(self, folder: Path, arrivals: list[int]) -> None:
+        super().__init__()
+        self.folder, self.arrivals = folder, arrivals
+
+    def wait(self, timeout: float | None = None) -> bool:
+        if not self.arrivals:
+            return True
+        there = len(list(self.folder.iterdir()))
+        for k in range(self.arrivals.pop(0)):
+            (self.folder / f"module.kernel{there + k}-1.py311.1.nbc").write_bytes(b"")
+        return False
+
+
+def test_compilation_is_told_of_while_kernels_come_and_not_longer(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setenv("CLAMBER_CACHE", str(tmp_path))
-    from clamber import compiled
-
-    folder = compiled.cache_folder()
-    folder.mkdir()
-    naps: list[float | None] = []
-
-    class Compiling(Event):
-        def wait(self, timeout: float | None = None) -> bool:
-            naps.append(timeout)
-            name = "replay" if len(naps) == 3 else f"kernel{len(naps)}"
-            (folder / f"module.{name}-1.py311.1.nbc").write_bytes(b"")
-            return False
-
-    output._tell_compilation("replay", output.stderr(), every=0.0, ended=Compiling())
+    output._tell_compilation(tmp_path, output.stderr(), every=0.0, ended=Compiling(tmp_path, [0, 2, 3, 1, 0, 0]))
     lines = capsys.readouterr().err.splitlines()
-    assert [line.split()[0] for line in lines] == ["1", "2", "3", "compiled"]
-    assert len(naps) == 3
+    assert [line.split()[0] for line in lines] == ["compiling", "5", "6"]
 
 
-def test_progress_falls_silent_with_its_command(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setenv("CLAMBER_CACHE", str(tmp_path))
-    ended = Event()
-    ended.set()
-    output._tell_compilation("replay", output.stderr(), every=0.0, ended=ended)
+def test_nothing_is_told_where_nothing_compiles(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "module.replay-1.py311.1.nbc").write_bytes(b"")
+    output._tell_compilation(tmp_path, output.stderr(), every=0.0, ended=Compiling(tmp_path, [0, 0, 0]))
+    output.announce_compilation(quiet=True)
     assert capsys.readouterr().err == ""
+
+
+def test_what_is_told_ends_with_its_command() -> None:
     with pytest.raises(SystemExit):
         main(["check", "no-such-thing"])
     assert output._command_ended.is_set()
-
-
-def test_nothing_is_told_where_nothing_compiles(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setenv("CLAMBER_CACHE", str(tmp_path))
-    from clamber import compiled
-
-    compiled.cache_folder().mkdir()
-    (compiled.cache_folder() / "module.replay-1.py311.1.nbc").write_bytes(b"")
-    output.announce_compilation("replay")
-    output.announce_compilation("replay", quiet=True)
-    assert capsys.readouterr().err == ""

@@ -85,14 +85,3 @@ def test_trials_over_workers_give_the_same_bytes(clamber: Any) -> None:
     assert told[0] == told[1] == told[2]
     measured = [trial["true"]["across_max"] for trial in json.loads(out)["laws"][0]["trials"]]
     assert len(set(measured)) > 1
-
-
-DRIVEN = ("fig-3-", "fig-4-", "section-4-", "table-4-")
-"""Results of chapters 3 and 4, by the beginnings of their names."""
-
-
-def test_a_study_announces_the_kernel_that_its_result_runs() -> None:
-    from clamber.studies.library import STUDIES, first_loop
-
-    for result, repeat in STUDIES["bevly-1997"].items():
-        assert first_loop(repeat) == ("drive" if result.startswith(DRIVEN) else "rollout")

@@ -1,9 +1,10 @@
 """The benchmarks' adapters do what they say; how fast, only the benchmarks themselves tell."""
 
+import json
 import math
 import platform
 import random
-from collections.abc import Generator, Mapping
+from collections.abc import Callable, Generator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ import pytest
 
 from clamber.actions.problem import CompiledProblem
 from clamber.actions.problems import pose_problem
+from clamber.execution.plant import PlantStoppedError
 from clamber.experiments import batches, benches, peers, races, rows, speed, starts, workload
 from clamber.experiments.ablation import TASKS, VARIANTS, bench_ablation, varied
 from clamber.experiments.performance_page import performance_page
@@ -199,3 +201,18 @@ def test_commands_that_compute_nothing_are_timed_as_whole_processes(monkeypatch:
     assert [row.aim for row in rows] == ["under 0.3 s", None, "under 1 s", None]
     assert set(ran) == {("--help",), ("--version",), ("list",), ("doctor",)}
     assert rows[0].value == 1.0 / starts.STARTS, "the best of several"
+
+
+def test_a_plant_that_stops_on_a_busy_machine_is_told_of_and_the_others_are_measured(
+    clamber: Callable[..., tuple[int, str, str]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def stops(**_: Any) -> list[Row]:
+        raise PlantStoppedError("the plant has made a safe stop: no command came for two ticks")
+
+    monkeypatch.setitem(benches.BENCHES, "plant", stops)
+    monkeypatch.setitem(benches.BENCHES, "control", lambda **_: [Row("a tick", 12.0, "us")])
+    code, out, err = clamber("bench", "plant", "control", "--json")
+    assert code == 1
+    assert "plant is left out: the plant has made a safe stop" in " ".join(err.split()) and "Traceback" not in err
+    assert [row["name"] for row in json.loads(out)] == ["a tick"]
+    assert clamber("bench", "control")[0] == 0

@@ -1,6 +1,7 @@
 """Pictures of walks: parts where the simulation has them, footprints where feet came down, files that can be opened."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,7 @@ from clamber.robots.walker import WalkerRobot
 from clamber.sim.walker_flaws import WalkerFlaws
 from clamber.sim.walker_plant import WalkerSim
 from clamber.viewing.output import SuffixError
-from clamber.viewing.walk_run_view import draw_walk, footprints
+from clamber.viewing.walk_run_view import WalkRunView, draw_walk, footprints
 from clamber.viewing.walk_shapes import plate_axes, shapes_at
 from clamber.worlds import Ground, load_ground
 
@@ -76,3 +77,25 @@ def test_walks_are_drawn_as_the_suffix_says(robot: WalkerRobot, walk: TrueWalk, 
             assert getattr(moving, "n_frames", 1) == 7  # a second of the walk each
     with pytest.raises(SuffixError):
         draw_walk(robot, load_ground(ground), walk, "a walk", tmp_path / "walk.html")
+
+
+@pytest.mark.parametrize("end", [(0.1, 0.0), (1.0, 0.0), (2.0, 0.0), (1.2, 1.2), (0.0, 2.0)])
+def test_views_fill_the_picture_whatever_the_way(
+    robot: WalkerRobot, walk: TrueWalk, end: tuple[float, float], tmp_path: Path
+) -> None:
+    """Both views keep their scales equal; four fifths and more of the place that they are given is theirs."""
+    gone = np.linspace(0.0, 1.0, len(walk.time))[:, None] * (*end, 0.0)
+    moved = replace(
+        walk,
+        pose=walk.pose + np.hstack([gone, np.zeros_like(gone)]),
+        feet=walk.feet + gone[:, None, None],
+        centre=walk.centre + gone,
+        tool=walk.tool + gone,
+    )
+    view = WalkRunView(robot, load_ground("level"), moved, "a walk")
+    view.figure.savefig(tmp_path / "walk.png", dpi=50)
+    for axes in (view.side, view.top):
+        given, taken = axes.get_position(original=True), axes.get_position()
+        assert taken.width > 0.8 * given.width
+        assert taken.height > 0.8 * given.height
+    assert view.figure.get_size_inches()[1] < 11.0

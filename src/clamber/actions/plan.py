@@ -147,7 +147,11 @@ class Plan:
         Raises:
             FileError: If the folder is missing or cannot be written.
         """
-        write_atomically(Path(path), json.dumps(self.to_json(), indent=1) + "\n")
+        write_atomically(Path(path), self.text())
+
+    def text(self) -> str:
+        """Its file, as JSON."""
+        return json.dumps(self.to_json(), indent=1) + "\n"
 
 
 def load_plan(path: Path) -> Plan:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from .limb_options import FlawsChoice
+from .name_completion import names_of
 from .options import AsJson, Output, Quiet
 from .output import announce_compilation, check_writable, print_json, stdout
 
@@ -35,6 +36,7 @@ class BodyWords:
         typer.Option(
             "--controller", "-c", metavar="NAME",
             help="A law, leg-by-leg:LAW, coordinated, or climber; scct and jacobian-transpose unless given.",
+            autocompletion=names_of(besides=("scct", "jacobian-transpose", "coordinated", "climber")),
         ),
     ] = None  # fmt: skip
     kp: Annotated[str, typer.Option(metavar="X,Y,THETA", help="Of the body, for scct; Table 4.1's.")] = "100,50,10"
@@ -111,7 +113,7 @@ def run_bench(words: BodyWords, stand: "BodyStand", scenario: "BodyScenario", fl
     from ..experiments.climb.body_measures import measure_body
     from .body_text import print_bodies
 
-    announce_compilation("drive", quiet=words.quiet)
+    announce_compilation(quiet=words.quiet)
     runs = run_bodies(stand, scenario, words.build_entries(stand), flaws)
     measured = [measure_body(run, scenario) for run in runs]
     if words.output is not None:

@@ -34,7 +34,7 @@ def push(
     size = read_point("force", force, "force")
     if trials == 1:
         run_bench(words, stand, pushed(stand.pose, flaws.period, force=size, seconds=seconds), flaws)
-    announce_compilation("drive", quiet=words.quiet)
+    announce_compilation(quiet=words.quiet)
     told = {}
     for entry in words.build_entries(stand):
         line = EndsLine(stderr(), f"pushes, {entry.label}", quiet=words.quiet)

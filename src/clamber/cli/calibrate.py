@@ -38,7 +38,7 @@ def calibrate(
         raise typer.BadParameter("must be on either side of 0 deg", param_hint="--least, --most")
     if published.step <= 0.0 or published.stroke <= 0.0:
         raise typer.BadParameter("must be more than 0", param_hint="--step, --stroke")
-    announce_compilation("outline")
+    announce_compilation()
     found = fit_families(published, range(seeds))
     if as_json:
         print_json([_plain(rivals) for rivals in found])

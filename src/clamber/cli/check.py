@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from .name_completion import names_of
 from .options import AsJson, Overrides
 from .output import announce_compilation, print_json, stdout
 
@@ -18,9 +19,13 @@ def check(
             metavar="FILE|NAME",
             help="A robot, board, ground, task, walk or plan: its file, or a name. Plans are JSON of `clamber plan -o`, "
             "TOML in the thesis's numbers, or names (`clamber list plans`).",
+            autocompletion=names_of("robots", "boards", "grounds", "tasks", "walks", "plans"),
         ),
     ],
-    task: Annotated[str | None, typer.Option(help="Check a plan in this task, in place of its own.")] = None,
+    task: Annotated[
+        str | None,
+        typer.Option(help="Check a plan in this task, in place of its own.", autocompletion=names_of("tasks")),
+    ] = None,
     overrides: Overrides = None,
     everything: Annotated[
         bool, typer.Option("--all", help="Of a plan: go on past a violation, and print every step.")

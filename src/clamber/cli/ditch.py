@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from .name_completion import names_of
 from .options import AsJson, Output
 from .output import announce_compilation, check_writable, plain_table, print_json, stdout
 
@@ -18,7 +19,10 @@ MM = 1e3
 
 def ditch(
     robot: Annotated[
-        str, typer.Argument(help="A walker's name (`clamber list robots`), or its TOML file.")
+        str,
+        typer.Argument(
+            help="A walker's name (`clamber list robots`), or its TOML file.", autocompletion=names_of("robots")
+        ),
     ] = "hoshino",
     width: Annotated[
         str | None, typer.Option(metavar="LENGTH", help="Cross a ditch as wide; else tell the widest.")
@@ -49,7 +53,7 @@ def ditch(
     if not isinstance(made, WalkerRobot):
         raise SpecError(f"robot '{made.name}'", "family", made.name, "must be a two-frame walker")
     footing = Footing.of(made, margin=parse_quantity(margin, "length"))
-    announce_compilation("widest_map")
+    announce_compilation()
     if width is None:
         _tell_widest(footing, not straight, as_json, output)
         return

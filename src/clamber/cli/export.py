@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from .name_completion import names_of
 from .options import AsJson, Overrides
 from .output import announce_compilation, check_writable, print_json, stdout
 
@@ -13,11 +14,16 @@ def export(
     thing: Annotated[
         str,
         typer.Argument(
-            metavar="ROBOT|PLAN|LOG", help="A robot's or a plan's name or file, or the log of a run (.mcap, .csv)."
+            metavar="ROBOT|PLAN|LOG",
+            help="A robot's or a plan's name or file, or the log of a run (.mcap, .csv).",
+            autocompletion=names_of("robots", "plans"),
         ),
     ],
     output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="File to write.")],
-    task: Annotated[str | None, typer.Option(help="For a plan: in this task, in place of its own.")] = None,
+    task: Annotated[
+        str | None,
+        typer.Option(help="For a plan: in this task, in place of its own.", autocompletion=names_of("tasks")),
+    ] = None,
     overrides: Overrides = None,
     as_json: AsJson = False,
 ) -> None:

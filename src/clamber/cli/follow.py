@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import FileError, SpecError
+from .name_completion import names_of
 from .options import AsJson
 from .output import announce_compilation, check_writable, print_json, stdout
 
@@ -21,8 +22,17 @@ Outputs = Annotated[
 
 
 def follow(
-    path: Annotated[str, typer.Argument(help="File with columns x, y, z and perhaps t, or one of: circle, wide.")],
-    robot: Annotated[str, typer.Option(help="A two-frame walker with an arm, by name or file.")] = "hoshino",
+    path: Annotated[
+        str,
+        typer.Argument(
+            help="File with columns x, y, z and perhaps t, or one of: circle, wide.",
+            autocompletion=names_of(besides=("circle", "wide")),
+        ),
+    ],
+    robot: Annotated[
+        str,
+        typer.Option(help="A two-frame walker with an arm, by name or file.", autocompletion=names_of("robots")),
+    ] = "hoshino",
     dof: Annotated[int, typer.Option(help="Degrees of freedom: 4 arm, 5 with height, 7 with tilts, 10 all.")] = 10,
     gain: Annotated[float, typer.Option(help="k_p of the manipulability's gradient.")] = 1.0,
     speed: Annotated[str, typer.Option(help="Largest of the tool, where the path has no times.")] = "50mm/s",
@@ -61,7 +71,7 @@ def follow(
         felt=not blind,
     )
     tool_path = load_tool_path(path)
-    announce_compilation("prepare", quiet=as_json)
+    announce_compilation(quiet=as_json)
     run = follow_path(chosen, tool_path, options)
     _write_files(run, files)
     told = run.to_json()

@@ -24,7 +24,7 @@ def print_follow(console: Console, run: FollowRun, path: ToolPath) -> None:
         table.add_row(
             "gain", f"{run.options.gain:g} swings about summits of V; below {run.stable_gain:.3g} it does not"
         )
-    table.add_row("closest limit", f"{name}, {margin:.3g} {unit} left at {time:.1f} s")
+    table.add_row("closest limit", f"{name}, {margin:.3g}{'' if unit == '1' else ' ' + unit} left at {time:.1f} s")
     if run.unreachable:
         table.add_row("out of reach", f"{len(run.unreachable)} of the points looked at beforehand")
     console.print(table)

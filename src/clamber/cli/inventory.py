@@ -4,12 +4,12 @@ from typing import Annotated
 
 import typer
 
-from .options import AsJson, Overrides
-from .output import plain_table, print_indented, print_json, stdout
+from .options import AsJson, Overrides, TaskName
+from .output import announce_compilation, plain_table, print_indented, print_json, stdout
 
 
 def inventory(
-    task: Annotated[str, typer.Argument(help="A task's name (`clamber list tasks`), or the path of its TOML file.")],
+    task: TaskName,
     overrides: Overrides = None,
     length: Annotated[int, typer.Option(min=1, help="Actions of a plan, for the size of the search.")] = 60,
     as_json: AsJson = False,
@@ -18,6 +18,7 @@ def inventory(
     from ..actions.problems import pose_problem
     from ..tasks import load_task
 
+    announce_compilation(quiet=as_json)
     posed = pose_problem(load_task(task, overrides or ()))
     report = posed.to_json(length)
     if as_json:

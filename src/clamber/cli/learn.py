@@ -4,12 +4,12 @@ from typing import Annotated
 
 import typer
 
-from .options import AsJson, Output, Overrides, Quiet
+from .options import AsJson, Output, Overrides, Quiet, TaskName
 from .output import announce_compilation, check_writable, print_json, stderr, stdout
 
 
 def learn(
-    task: Annotated[str, typer.Argument(help="A task's name (`clamber list tasks`), or the path of its TOML file.")],
+    task: TaskName,
     overrides: Overrides = None,
     seeds: Annotated[int, typer.Option(min=1, help="Most plans to look at.")] = 12,
     keep: Annotated[int, typer.Option(min=1, help="Most macros to keep.")] = 1,
@@ -23,7 +23,7 @@ def learn(
     from ..tasks import load_task
 
     loaded = load_task(task, overrides or ())
-    announce_compilation("rollout", quiet=quiet)
+    announce_compilation(quiet=quiet)
     from ..planning.learning import learn_macros
     from .plan_text import ProgressLine, print_lesson
 

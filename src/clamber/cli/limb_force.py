@@ -69,7 +69,7 @@ def force(
     )
     words = opt.BenchWords(robot=robot, limb=limb, start=start, elbow=elbow, flaws=flaws, settings=settings, seed=seed)
     properties = words.build_plant()
-    announce_compilation("drive", quiet=quiet)
+    announce_compilation(quiet=quiet)
     chosen = words.build_limb(properties)
     entries = force_entries(chosen, task, properties, controllers or (), compensations or ())
     result = run_force(chosen, task, entries, properties)

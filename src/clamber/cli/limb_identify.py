@@ -5,6 +5,7 @@ from typing import Annotated, TypeAlias
 
 import typer
 
+from .name_completion import names_of
 from .options import AsJson
 from .output import announce_compilation, check_writable, print_json, stdout
 
@@ -13,7 +14,10 @@ Column: TypeAlias = str | None
 
 def identify(
     log: Annotated[Path, typer.Argument(help="A log with named columns (.csv, .mcap).")],
-    robot: Annotated[str | None, typer.Option(help="A climber's name or file; as the log says unless given.")] = None,
+    robot: Annotated[
+        str | None,
+        typer.Option(help="A climber's name or file; as the log says unless given.", autocompletion=names_of("robots")),
+    ] = None,
     limb: Annotated[str | None, typer.Option(help="Its limb, by name or from 1.")] = None,
     joint: Annotated[
         list[str] | None, typer.Option(metavar="NAME", help="Only this joint of the log; repeat it.")
@@ -70,7 +74,7 @@ def identify(
     mapping = read_mapping(columns or (), chosen | {"output angle": output_angle})
     known = Known.read(torque_constant, gear, gain)
     read = read_log(log, topic)
-    announce_compilation("accelerate", quiet=as_json)
+    announce_compilation(quiet=as_json)
     result = identify_log(
         read,
         robot=robot,

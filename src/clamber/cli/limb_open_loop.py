@@ -47,7 +47,7 @@ def open_loop(
     properties = words.build_plant()
     chosen = words.build_limb(properties)
     size, angle = read_number("force", force, "force"), read_number("direction", direction, "angle")
-    announce_compilation("drive", quiet=quiet)
+    announce_compilation(quiet=quiet)
     result = compare_open_loop(
         chosen, properties, transforms or tuple(TRANSFORMS), force=size, direction=angle, seconds=seconds,
         renewed=renewed, plant=plant,

@@ -11,6 +11,7 @@ import typer
 from rich.console import Console
 
 from .crew import EndsLine
+from .name_completion import names_of
 from .options import ROBOT, AsJson, Output, Quiet
 from .output import announce_compilation, check_writable, print_json, stderr, stdout
 
@@ -49,6 +50,7 @@ Controllers: TypeAlias = Annotated[
     typer.Option(
         "--controller", "-c", metavar="NAME[:KEY=VALUE,...]",
         help="A law, such as scct or jacobian-transpose:kp=1000,kd=100; repeat it. A usual set unless given.",
+        autocompletion=names_of("controllers"),
     ),
 ]  # fmt: skip
 Kp: TypeAlias = Annotated[float | None, typer.Option(help="Stiffness of the reference law, in its unit.")]
@@ -57,14 +59,25 @@ Matched: TypeAlias = Annotated[
     MatchChoice,
     typer.Option("--match", help="Which tip stiffness laws without gains of their own share with the reference."),
 ]
-Reference: TypeAlias = Annotated[str, typer.Option(metavar="NAME[:KEY=VALUE,...]", help="Law that is matched to.")]
-Robot: TypeAlias = Annotated[str, typer.Option(help="A climber's name or file.")]
+Reference: TypeAlias = Annotated[
+    str,
+    typer.Option(
+        metavar="NAME[:KEY=VALUE,...]", help="Law that is matched to.", autocompletion=names_of("controllers")
+    ),
+]
+Robot: TypeAlias = Annotated[
+    str,
+    typer.Option(help="A climber's name or file.", autocompletion=names_of("robots")),
+]
 LimbName: TypeAlias = Annotated[str | None, typer.Option("--limb", help="Its limb, by name or from 1.")]
 Start: TypeAlias = Annotated[
     str | None, typer.Option(metavar="X,Y", help="Where the tip starts in the limb's port frame, such as 22cm,0.")
 ]
 Elbow: TypeAlias = Annotated[str | None, typer.Option(metavar="+|-", help="Sign of the elbow's angle.")]
-Plant: TypeAlias = Annotated[str, typer.Option(help="What simulates the limb.")]
+Plant: TypeAlias = Annotated[
+    str,
+    typer.Option(help="What simulates the limb.", autocompletion=names_of("plants")),
+]
 Flaws: TypeAlias = Annotated[
     FlawsChoice,
     typer.Option("--flaws", help="nominal: backlash, rate and encoders of the robot's file, one sample of delay."),
@@ -209,7 +222,7 @@ def run_bench(words: BenchWords, limb: "BenchLimb", scenario: "Scenario", flaws:
     from ..experiments.limb.result import compare_laws
     from .limb_text import print_limb_result, write_limb_result
 
-    announce_compilation("drive", quiet=words.quiet)  # gains are matched by the laws themselves
+    announce_compilation(quiet=words.quiet)  # gains are matched by the laws themselves
     at = match_pose(limb, scenario)
     entries, reference = words.build_laws(limb, at)
     line = EndsLine(stderr(), "trials", quiet=words.quiet or words.trials == 1)

@@ -6,18 +6,28 @@ from typing import Annotated
 import typer
 
 from . import limb_options as opt
+from .name_completion import names_of
 from .options import ROBOT, AsJson, Quiet
 from .output import announce_compilation, print_json, stdout
 
 
 def portrait(
-    laws: Annotated[list[str], typer.Argument(metavar="LAW...", help="Laws by name, or all.")],
+    laws: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="LAW...", help="Laws by name, or all.", autocompletion=names_of("controllers", besides=("all",))
+        ),
+    ],
     folder: Annotated[
         Path | None, typer.Option("--output", "-o", metavar="DIR", help="Write DIR/LAW.png for each law.")
     ] = None,
     reference: Annotated[
         str | None,
-        typer.Option(metavar="NAME[:KEY=VALUE,...]", help="Match gains to this law, such as scct:kp=200,kd=10."),
+        typer.Option(
+            metavar="NAME[:KEY=VALUE,...]",
+            help="Match gains to this law, such as scct:kp=200,kd=10.",
+            autocompletion=names_of("controllers"),
+        ),
     ] = None,
     match: opt.Matched = opt.MatchChoice.yy,
     robot: opt.Robot = ROBOT,
@@ -36,7 +46,7 @@ def portrait(
     from .limb_portrait_text import check_folder, draw_portraits, print_markdown, print_portraits
 
     check_folder(folder)
-    announce_compilation("drive", quiet=quiet)
+    announce_compilation(quiet=quiet)
     matched = None if reference is None else read_law(reference)
     portraits = paint_portraits(
         () if laws == ["all"] else laws, robot=robot, limb=limb, matched=matched, match=match.value, seed=seed

@@ -48,7 +48,7 @@ def record(
     properties = read_flaws(named_flaws(flaws.value, chosen.robot), settings or ())
     if properties.upright:
         chosen = bench_limb(robot, limb, upright=True)
-    announce_compilation("accelerate", quiet=quiet)
+    announce_compilation(quiet=quiet)
     log = record_log(chosen, properties, noise, output_encoder=output_encoder)
     write_log(log, output)
     summary = log_summary(log, output)

@@ -78,7 +78,7 @@ def sweep(
         kp=kp, kd=kd, match=match.value, reference=reference, robot=robot, limb=limb, start=start, elbow=elbow,
         flaws=flaws.value, settings=settings or (), recommended=gains is GainsChoice.recommended,
     )  # fmt: skip
-    announce_compilation("drive", quiet=words.quiet)
+    announce_compilation(quiet=words.quiet)
     result = run_limb_sweep(
         bench, axes, executor=words.executor, store=words.store, resume=words.resume,
         progress=words.line("points").update,

@@ -7,6 +7,7 @@ import typer
 
 from . import limb_options as opt
 from .crew import CrewWords
+from .name_completion import names_of
 from .option_holder import takes_words
 from .options import ROBOT
 from .output import announce_compilation, check_writable, print_json, stdout
@@ -16,7 +17,11 @@ from .output import announce_compilation, check_writable, print_json, stdout
 def tune(
     controllers: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[NAME[:KEY=VALUE,...]]...", help="Laws without their gains; all of them unless given."),
+        typer.Argument(
+            metavar="[NAME[:KEY=VALUE,...]]...",
+            help="Laws without their gains; all of them unless given.",
+            autocompletion=names_of("controllers"),
+        ),
     ] = None,
     margin: Annotated[float, typer.Option(help="Largest stable gains over the recommended ones; 2 is 6 dB.")] = 2.0,
     robot: opt.Robot = ROBOT,
@@ -51,7 +56,7 @@ def tune(
     at = (0.22, 0.0) if start is None else read_point("start", start)
     chosen = bench_limb(robot, limb, at, elbow=read_elbow(elbow), upright=plant.upright)
     laws = [] if controllers in (None, ["all"]) else list(controllers or ())
-    announce_compilation("drive", quiet=words.quiet)
+    announce_compilation(quiet=words.quiet)
     result = find(
         chosen, laws, plant, robot=robot, margin=margin, executor=words.executor, store=words.store, resume=words.resume,
         progress=words.line("searches").update,

@@ -4,8 +4,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from .name_completion import names_of
 from .options import AsJson, NoiseTexts, Overrides, Quiet
-from .output import plain_table, print_json, stderr, stdout
+from .output import announce_compilation, plain_table, print_json, stderr, stdout
 
 if TYPE_CHECKING:
     from ..experiments.walk.most import Most
@@ -14,7 +15,12 @@ if TYPE_CHECKING:
 
 
 def most(
-    walk: Annotated[str, typer.Argument(help="A walk's name (`clamber list walks`), or its TOML file.")],
+    walk: Annotated[
+        str,
+        typer.Argument(
+            help="A walk's name (`clamber list walks`), or its TOML file.", autocompletion=names_of("walks")
+        ),
+    ],
     vary: Annotated[
         str, typer.Option(metavar="KEY=LOW..HIGH:N", help="A setting and its range, such as payload=5kg..25kg:21.")
     ],
@@ -50,6 +56,7 @@ def most(
         return Tried.of(value, run_walk(chosen, flaws, noise=sizes, seed=seed))
 
     opened(axis.values[0])  # what cannot be is told before anything walks
+    announce_compilation(quiet=quiet)
     found = find_most(axis.values, tried)
     if as_json:
         told = {"borne": found.borne, "refused": found.refused}

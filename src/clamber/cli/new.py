@@ -1,10 +1,11 @@
 """`clamber new`: write files to start from."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, Final, TypeAlias
 
 import typer
 
+from .name_completion import names_of
 from .options import BOARD, ROBOT, AsJson
 from .output import announce_compilation, check_writable, print_json, stdout
 
@@ -13,9 +14,7 @@ if TYPE_CHECKING:
 
 new = typer.Typer(help="Write a file to start from: robot, board or task.", no_args_is_help=True)
 
-Like: TypeAlias = Annotated[
-    str | None, typer.Option(metavar="NAME|FILE", help="Start from this one in place of a made-up one.")
-]
+LIKE: Final = "Start from this one in place of a made-up one."
 Force: TypeAlias = Annotated[bool, typer.Option("--force", help="Write over a file that is there.")]
 
 
@@ -27,7 +26,7 @@ def _kinds() -> None:
 @new.command("robot")
 def robot(
     limbs: Annotated[int | None, typer.Option(min=2, max=8, help="How many limbs; 4 unless given.")] = None,
-    like: Like = None,
+    like: Annotated[str | None, typer.Option(metavar="NAME|FILE", help=LIKE, autocompletion=names_of("robots"))] = None,
     force: Force = False,
     output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="File to write.")] = Path("robot.toml"),
     as_json: AsJson = False,
@@ -61,7 +60,7 @@ def board(
         typer.Option(metavar="X,Y", help="Pixel of the board's origin; unless given, left of and below all holds."),
     ] = None,
     radius: Annotated[str | None, typer.Option(help="Of holds of a table or a picture, such as 5mm.")] = None,
-    like: Like = None,
+    like: Annotated[str | None, typer.Option(metavar="NAME|FILE", help=LIKE, autocompletion=names_of("boards"))] = None,
     holds: Annotated[int, typer.Option(help="How many random holds.")] = 100,
     density: Annotated[str, typer.Option(help="Holds per m^2, or with a unit, such as '2 holds/ft^2'.")] = "20",
     width: Annotated[str | None, typer.Option(help="Of the wall, such as 3m; as wide as high unless given.")] = None,
@@ -146,10 +145,21 @@ def _write_board(
 
 @new.command("task")
 def task(
-    robot: Annotated[str, typer.Option(metavar="NAME|FILE", help="A climber (`clamber list robots`).")] = ROBOT,
-    board: Annotated[str, typer.Option(metavar="NAME|FILE", help="A board (`clamber list boards`).")] = BOARD,
+    robot: Annotated[
+        str,
+        typer.Option(metavar="NAME|FILE", help="A climber (`clamber list robots`).", autocompletion=names_of("robots")),
+    ] = ROBOT,
+    board: Annotated[
+        str,
+        typer.Option(metavar="NAME|FILE", help="A board (`clamber list boards`).", autocompletion=names_of("boards")),
+    ] = BOARD,
     like: Annotated[
-        str | None, typer.Option(metavar="NAME|FILE", help="Start from this task; its robot may be a walker.")
+        str | None,
+        typer.Option(
+            metavar="NAME|FILE",
+            help="Start from this task; its robot may be a walker.",
+            autocompletion=names_of("tasks"),
+        ),
     ] = None,
     overrides: Annotated[
         list[str] | None,

@@ -5,11 +5,22 @@ from typing import Annotated, Final, TypeAlias
 
 import typer
 
+from .name_completion import names_of
+
 ROBOT: Final = "libra"
 """The climber of commands that are told of none."""
 BOARD: Final = "ladder"
 """Its board."""
 
+TaskName: TypeAlias = Annotated[
+    str,
+    typer.Argument(
+        help="A task's name (`clamber list tasks`), or the path of its TOML file.", autocompletion=names_of("tasks")
+    ),
+]
+PlannerName: TypeAlias = Annotated[
+    str, typer.Option(help="How to search (`clamber list planners`).", autocompletion=names_of("planners"))
+]
 Overrides: TypeAlias = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="KEY=VALUE", help="Change one key of task, board or robot, such as start.y=6.2in."),

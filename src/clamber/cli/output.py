@@ -45,14 +45,13 @@ def print_indented(console: Console, words: str, indent: int = 2) -> None:
     console.print(Padding(Text(words), (0, 0, 0, indent), expand=False))
 
 
-def announce_compilation(kernel: str = "replay", *, quiet: bool = False) -> None:
-    """Tells on stderr that the first run compiles, if it does, and how far it is; `kernel` is the loop that the command runs."""
+def announce_compilation(*, quiet: bool = False) -> None:
+    """Tells on stderr of kernels that are compiled while the command runs, here or in its workers, and how far that is."""
     from .. import compiled
 
-    if not quiet and not compiled.is_compiled(kernel):
-        stderr().print("compiling the kernels (about half a minute, once)")
+    if not quiet:
         _command_ended.clear()
-        Thread(target=_tell_compilation, args=(kernel, stderr()), daemon=True).start()
+        Thread(target=_tell_compilation, args=(compiled.cache_folder(), stderr()), daemon=True).start()
 
 
 _command_ended: Final = Event()
@@ -64,19 +63,23 @@ def fall_silent() -> None:
     _command_ended.set()
 
 
-def _tell_compilation(kernel: str, console: Console, every: float = 10.0, ended: Event = _command_ended) -> None:
-    """Tells now and then how many kernels there are, until `kernel` is among them or the command has ended."""
-    from .. import compiled
+def _tell_compilation(folder: Path, console: Console, every: float = 10.0, ended: Event = _command_ended) -> None:
+    """Tells that kernels are compiled as soon as the first one comes into their folder, and how many there are while more come."""
+    began = told = time.monotonic()
+    seen, announced = _count_kernels(folder), False
+    while not ended.wait(0.5):
+        now, count = time.monotonic(), _count_kernels(folder)
+        if not announced and count > seen:
+            console.print("compiling the kernels, once: about a minute, two where the machine is busy")
+            announced, told = True, now
+        elif announced and now - told >= every:
+            if count > seen:
+                console.print(f"  {count} kernels compiled after {now - began:.0f} s", style="dim")
+            seen, told = count, now
 
-    began, folder, told = time.monotonic(), compiled.cache_folder(), time.monotonic()
-    while not compiled.is_compiled(kernel):
-        if ended.wait(0.5):
-            return
-        if time.monotonic() - told >= every:
-            told = time.monotonic()
-            count = sum(1 for _ in folder.glob("*.nbc"))
-            console.print(f"  {count} kernels compiled after {told - began:.0f} s", style="dim")
-    console.print(f"compiled in {time.monotonic() - began:.0f} s; from now on they are there", style="dim")
+
+def _count_kernels(folder: Path) -> int:
+    return sum(1 for _ in folder.glob("*.nbc"))
 
 
 def tell_cuts(cuts: int) -> None:

@@ -1,10 +1,11 @@
 """`clamber plan`: find a plan for a task."""
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 import typer
 
 from .option_holder import takes_words
+from .options import TaskName
 from .output import announce_compilation, print_json, stderr, stdout
 from .plan_words import PlanWords
 
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 
 @takes_words
 def plan(
-    task: Annotated[str, typer.Argument(help="A task's name (`clamber list tasks`), or the path of its TOML file.")],
+    task: TaskName,
     *,
     words: PlanWords,
 ) -> None:
@@ -25,11 +26,11 @@ def plan(
     from ..tasks import load_task
 
     problem = load_task(task, words.overrides or ())
-    from ..planning.planners import PROVERS, find_planner, first_loop
+    from ..planning.planners import PROVERS, find_planner
     from .openings import Seeker
 
     find_planner(words.planner)
-    announce_compilation(first_loop("exact" if words.pareto is not None else words.planner), quiet=words.quiet)
+    announce_compilation(quiet=words.quiet)
     if words.pareto is not None:
         from .front import front
 

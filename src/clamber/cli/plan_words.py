@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 import typer
 
-from .options import AsJson, Output, Overrides, Quiet, Ray, Workers
+from .options import AsJson, Output, Overrides, PlannerName, Quiet, Ray, Workers
 from .output import check_writable
 
 
@@ -14,7 +14,7 @@ from .output import check_writable
 class PlanWords:
     """Options of `clamber plan`, as they came."""
 
-    planner: Annotated[str, typer.Option(help="How to search (`clamber list planners`).")] = "genetic"
+    planner: PlannerName = "genetic"
     profile: Annotated[str, typer.Option(help="The planner's settings: default, or thesis.")] = "default"
     overrides: Overrides = None
     seed: Annotated[int, typer.Option(min=0, help="Same seed, same plan, on any number of threads.")] = 0

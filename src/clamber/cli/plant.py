@@ -6,6 +6,7 @@ from typing import Annotated, NoReturn
 
 import typer
 
+from .name_completion import names_of
 from .options import AsJson, NoiseTexts, Overrides, Quiet
 from .output import print_json, stderr
 
@@ -14,7 +15,10 @@ plant = typer.Typer(no_args_is_help=True, help="A robot in its own process, driv
 
 @plant.command()
 def serve(
-    task: Annotated[str, typer.Argument(metavar="TASK", help="Whose robot is served, on whose board.")],
+    task: Annotated[
+        str,
+        typer.Argument(metavar="TASK", help="Whose robot is served, on whose board.", autocompletion=names_of("tasks")),
+    ],
     port: Annotated[int, typer.Option(min=0, max=65535, help="On 127.0.0.1; 0: any that is free.")] = 0,
     socket: Annotated[
         str | None, typer.Option(metavar="PATH", help="A Unix domain socket in place of a port; only you may connect.")

@@ -5,16 +5,24 @@ from typing import Annotated
 
 import typer
 
+from .name_completion import names_of
 from .options import AsJson, Output, Overrides, Quiet
 from .output import announce_compilation, check_writable, print_json, stderr, stdout
 
 
 def polish(
     plan: Annotated[Path, typer.Argument(help="A plan: JSON of `clamber plan -o`, or TOML in the thesis's numbers.")],
-    task: Annotated[str | None, typer.Option(help="Polish it in this task, in place of its own.")] = None,
+    task: Annotated[
+        str | None,
+        typer.Option(help="Polish it in this task, in place of its own.", autocompletion=names_of("tasks")),
+    ] = None,
     overrides: Overrides = None,
     width: Annotated[int, typer.Option(min=0, help="Width of the beam about the plan; 0 for none.")] = 300,
     effort: Annotated[int, typer.Option(min=0, help="Most stances of the exact searches about it.")] = 300_000,
+    steady: Annotated[
+        int | None,
+        typer.Option(metavar="STEP", help="Of a climber: then make this step's grab where limbs are least stretched."),
+    ] = None,
     seconds: Annotated[float | None, typer.Option(min=0.0, help="Most time to take.")] = None,
     output: Output = None,
     as_json: AsJson = False,
@@ -22,7 +30,7 @@ def polish(
 ) -> None:
     """Make a plan that reaches its goal shorter, by search about it; every check of the task still holds."""
     check_writable(output)
-    announce_compilation("search_window", quiet=quiet)
+    announce_compilation(quiet=quiet)
     from ..actions.plan_source import open_plan
     from ..planning.polishing import polish_plan
     from .plan_text import ProgressLine, print_result
@@ -32,6 +40,10 @@ def polish(
         result = polish_plan(
             opened.task, opened.plan, width=width, effort=effort, seconds=seconds, progress=line.update, label=str(plan)
         )
+    if steady is not None:
+        from ..experiments.climb.steadying import steadied_result
+
+        result = steadied_result(result, steady, str(plan))
     if output is not None:
         result.plan.save(output)
     if as_json:

@@ -6,12 +6,16 @@ import typer
 
 from ..errors import SpecError
 from .limb_options import Flaws, FlawsChoice, Settings
+from .name_completion import names_of
 from .options import BOARD, ROBOT, AsJson, Output
-from .output import check_writable, plain_table, print_json, stdout
+from .output import announce_compilation, check_writable, plain_table, print_json, stdout
 
 
 def press(
-    robot: Annotated[str, typer.Option(help="LIBRA with hooks or grippers, or a file of one like it.")] = ROBOT,
+    robot: Annotated[
+        str,
+        typer.Option(help="LIBRA with hooks or grippers, or a file of one like it.", autocompletion=names_of("robots")),
+    ] = ROBOT,
     force: Annotated[str, typer.Option(help="On the wall.")] = "20N",
     way: Annotated[str, typer.Option(metavar="X,Y", help="Of the body while the force is held.")] = "0,5cm",
     seconds: Annotated[float, typer.Option(min=0.1, help="That the way takes.")] = 2.0,
@@ -45,6 +49,7 @@ def press(
     if not wanted > 0.0:
         raise SpecError("--force", "force", force, "must be more than 0 N")
     plant = read_flaws(named_flaws(flaws.value, chosen).with_changes(physics_rate=PHYSICS_RATE), settings or ())
+    announce_compilation(quiet=as_json)
     result = run_press(
         chosen, load_board(BOARD), plant, force=wanted, way=read_point("way", way, "length"), seconds=seconds
     )

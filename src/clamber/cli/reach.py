@@ -4,12 +4,12 @@ from typing import Annotated
 
 import typer
 
-from .options import AsJson, Output, Overrides, Quiet
+from .options import AsJson, Output, Overrides, Quiet, TaskName
 from .output import announce_compilation, check_writable, print_json, stderr, stdout
 
 
 def reach(
-    task: Annotated[str, typer.Argument(help="A task's name (`clamber list tasks`), or the path of its TOML file.")],
+    task: TaskName,
     layer: Annotated[
         str | None,
         typer.Option(help="What to show of every place: force, payload, power, margin or steps.", show_default=False),
@@ -38,7 +38,7 @@ def reach(
     from ..planning.reach.layers import choose_layer
 
     shown = choose_layer(loaded, layer)
-    announce_compilation("spread", quiet=quiet)
+    announce_compilation(quiet=quiet)
     from ..planning.reach.reach import find_reach
     from .reach_text import FloodLine, print_reach
 

@@ -4,6 +4,7 @@ from typing import Annotated
 
 import typer
 
+from .name_completion import names_of
 from .option_holder import takes_words
 from .repeat import repeat_words
 from .run_report import RunReport
@@ -19,7 +20,9 @@ def run(
     what: Annotated[
         str,
         typer.Argument(
-            metavar="TASK|PLAN|WALK", help="A task, to be planned first, a plan, or a walk: names or files."
+            metavar="TASK|PLAN|WALK",
+            help="A task, to be planned first, a plan, or a walk: names or files.",
+            autocompletion=names_of("tasks", "plans", "walks"),
         ),
     ],
     *,

@@ -5,13 +5,12 @@ from collections.abc import Callable
 import typer
 
 from ..actions.plan import Plan
-from ..actions.plan_source import is_plan
 from ..experiments.climb.noise import NO_NOISE, check_noise, read_noise
 from ..experiments.climb.planning import plan_to_climb, replanner
 from ..experiments.climb.plants import check_plant, is_remote
 from ..experiments.climb.rehearsal import rehearse
 from ..experiments.climb.run_plan import climbing_flaws, open_climb, run_plan
-from ..planning.planners import find_planner, first_loop
+from ..planning.planners import find_planner
 from ..sim.limb_flaws import LimbFlaws
 from ..tasks.limbed import LimbedTask
 from ..viewing.climb_run_view import check_run_suffix, write_run
@@ -36,7 +35,7 @@ def run_climb(what: str, words: RunWords, telling: RunReport) -> None:
     find_planner(words.planner)
     peg_error = () if words.peg_error is None else (f"peg_error={words.peg_error}",)
     deviations = read_noise(NO_NOISE, [*(words.noise or ()), *peg_error])
-    announce_compilation("replay" if is_plan(what) else first_loop(words.planner), quiet=words.quiet)
+    announce_compilation(quiet=words.quiet)
     task, plan, for_plant = open_climb(what, words.task, words.overrides or ())
     if for_plant and is_remote(words.plant):
         raise typer.BadParameter(f"{for_plant[0].partition('=')[0]} is the server's to set", param_hint="--set plant.")

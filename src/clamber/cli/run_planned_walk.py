@@ -4,7 +4,7 @@ from typing import Final
 
 from ..actions.plan import Plan
 from ..experiments.walk.planned import careful, lay_plan, walk_of
-from ..planning.planners import find_planner, first_loop
+from ..planning.planners import find_planner
 from ..tasks.walker import WalkerTask
 from .for_climbs import refuse_for_walk
 from .output import announce_compilation
@@ -29,7 +29,7 @@ def run_planned_walk(what: str, task: WalkerTask, plan: Plan | None, words: RunW
     """
     refuse_for_walk(what, words, CLIMBS_ONLY)
     find_planner(words.planner)
-    announce_compilation("replay" if plan is not None else first_loop(words.planner), quiet=words.quiet)
+    announce_compilation(quiet=words.quiet)
     if plan is None:
         task = careful(task)
         plan = plan_walk(task, words.planner, seconds=words.seconds, seed=words.seed, quiet=words.quiet)

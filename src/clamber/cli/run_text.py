@@ -69,15 +69,15 @@ def _print_close(console: Console, actions: list[ActionReport]) -> None:
     for action in actions:
         if action.recovered:
             times = "once" if action.recovered == 1 else f"{action.recovered} times"
-            console.print(f"recovered {times}: step {action.first}, {action.title}: a hook had come off")
+            console.print(f"recovered {times}: step {action.steps}, {action.title}: a hook had come off")
     grabs = [action for action in actions if action.kind == "grab"]
     hardest = max(grabs, key=lambda action: action.tries, default=None)
     if hardest is not None and hardest.tries > 1:
-        console.print(f"hardest grab: step {hardest.first}, {hardest.title}: {hardest.tries} pushes")
+        console.print(f"hardest grab: step {hardest.steps}, {hardest.title}: {hardest.tries} pushes")
     moves = [action for action in actions if action.kind == "move"]
     farthest = max(moves, key=lambda action: action.off, default=None)
     if farthest is not None:
-        console.print(f"farthest from its aim: step {farthest.last}, {farthest.title}: {1e3 * farthest.off:.0f} mm")
+        console.print(f"farthest from its aim: step {farthest.steps}, {farthest.title}: {1e3 * farthest.off:.0f} mm")
 
 
 def _steps(action: ActionReport) -> int:

@@ -16,7 +16,7 @@ from ..tasks.walks import Walk
 from ..units import DEGREE
 from .for_climbs import refuse_for_walk
 from .live_line import LiveLine
-from .output import plain_table, print_json, stderr, stdout
+from .output import announce_compilation, plain_table, print_json, stderr, stdout
 from .run_report import RunReport
 from .run_words import RunWords
 
@@ -44,6 +44,7 @@ def run_walk_file(what: str, words: RunWords, telling: RunReport) -> None:
     from ..tasks.walks import load_walk
 
     refuse_for_walk(what, words, CLIMBS_ONLY)
+    announce_compilation(quiet=words.quiet)
     walk_and_tell(load_walk(what, split_walk_settings(words.overrides or ())[0]), words, telling)
 
 
@@ -104,11 +105,10 @@ def held_lines(held: HeldPoint) -> list[str]:
     lines = [f"the arm reaches the point from the way's {reach}; held from {part.first:.3f} to {part.last:.3f} m"]
     if not len(held.errors):
         return [*lines, "the robot did not come so far"]
+    where = "the point" if len(part.points) == 1 else "its place on the line"
     largest, mean = 1e3 * float(held.errors.max()), 1e3 * float(held.errors.mean())
     seconds = float(held.time[-1] - held.time[0])
-    lines.append(
-        f"held for {seconds:.0f} s: the tool at most {largest:.2f} mm from the point, {mean:.2f} mm on average"
-    )
+    lines.append(f"held for {seconds:.0f} s: the tool at most {largest:.2f} mm from {where}, {mean:.2f} mm on average")
     lines.append(
         f"joints {part.room / DEGREE:.1f} deg and more inside their ranges, at most {100.0 * part.speed:.0f} % of their speed"
     )

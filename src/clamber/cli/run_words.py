@@ -6,7 +6,8 @@ from typing import Annotated
 
 import typer
 
-from .options import PLAN_SECONDS, AsJson, NoiseTexts, Overrides, PlanSeconds, Quiet
+from .name_completion import names_of
+from .options import PLAN_SECONDS, AsJson, NoiseTexts, Overrides, PlannerName, PlanSeconds, Quiet
 from .output import check_writable
 
 
@@ -14,8 +15,11 @@ from .output import check_writable
 class RunWords:
     """Options of `clamber run`, as they came."""
 
-    task: Annotated[str | None, typer.Option(help="Carry the plan out in this task, in place of its own.")] = None
-    planner: Annotated[str, typer.Option(help="How to search (`clamber list planners`).")] = "auto"
+    task: Annotated[
+        str | None,
+        typer.Option(help="Carry the plan out in this task, in place of its own.", autocompletion=names_of("tasks")),
+    ] = None
+    planner: PlannerName = "auto"
     seconds: PlanSeconds = PLAN_SECONDS
     overrides: Overrides = None
     noise: NoiseTexts = None

@@ -5,16 +5,27 @@ from typing import Annotated
 
 import typer
 
+from .name_completion import names_of
 from .options import AsJson, Output, Overrides
 from .output import announce_compilation, check_writable, print_json, stdout
 
 
 def show(
-    thing: Annotated[str, typer.Argument(metavar="TASK|PLAN", help="A task's name or file, or a plan's file.")],
+    thing: Annotated[
+        str,
+        typer.Argument(
+            metavar="TASK|PLAN",
+            help="A task's name or file, or a plan's file.",
+            autocompletion=names_of("tasks", "plans"),
+        ),
+    ],
     output: Output = None,
     step: Annotated[int | None, typer.Option(min=0, help="Draw the stance after this step; 0 is the start.")] = None,
     torques: Annotated[bool, typer.Option("--torques", help="Draw the joint torques of every step.")] = False,
-    task: Annotated[str | None, typer.Option(help="Show a plan in this task, in place of its own.")] = None,
+    task: Annotated[
+        str | None,
+        typer.Option(help="Show a plan in this task, in place of its own.", autocompletion=names_of("tasks")),
+    ] = None,
     overrides: Overrides = None,
     as_json: AsJson = False,
 ) -> None:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from .crew import EndsLine, executor_of
+from .name_completion import names_of
 from .options import AsJson, Quiet, Resume, Store, Workers
 from .output import announce_compilation, print_json, stderr, stdout
 
@@ -17,9 +18,24 @@ if TYPE_CHECKING:
 ALL = "all"
 
 
+def results_of(context: typer.Context, incomplete: str) -> list[str]:
+    """What completes the name of a result of the study that is named before it."""
+    from ..studies.titles import RESULTS
+
+    return [name for name in RESULTS.get(context.params.get("paper", ""), ()) if name.startswith(incomplete)]
+
+
 def study(
-    paper: Annotated[str, typer.Argument(help="A paper or subject (`clamber list studies`), or all.")],
-    result: Annotated[str | None, typer.Argument(help="One of its results; all unless given.")] = None,
+    paper: Annotated[
+        str,
+        typer.Argument(
+            help="A paper or subject (`clamber list studies`), or all.",
+            autocompletion=names_of("studies", besides=("all",)),
+        ),
+    ],
+    result: Annotated[
+        str | None, typer.Argument(help="One of its results; all unless given.", autocompletion=results_of)
+    ] = None,
     as_json: AsJson = False,
     report: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Write a site there: DIR/index.html and a page for each result.")
@@ -38,7 +54,7 @@ def study(
     A report of all takes hours: it is whole after every result, and --resume leaves out what it has from the same Clamber.
     """
     from ..errors import UnknownNameError
-    from ..studies.library import SEEDED, STUDIES, first_loop
+    from ..studies.library import SEEDED, STUDIES
     from .study_text import print_results
 
     if paper != ALL and paper not in STUDIES:
@@ -60,7 +76,7 @@ def study(
     ]
     results: list[StudyResult] = []
     for number, (name, chosen) in enumerate(wanted, start=1):
-        announce_compilation(first_loop(STUDIES[name][chosen]), quiet=quiet)
+        announce_compilation(quiet=quiet)
         if not quiet:
             stderr().print(f"{number} of {len(wanted)}: working on {chosen}")
         began = time.perf_counter()

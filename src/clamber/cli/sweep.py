@@ -6,13 +6,13 @@ import typer
 
 from .crew import CrewWords
 from .option_holder import takes_words
-from .options import Overrides
+from .options import Overrides, PlannerName, TaskName
 from .output import announce_compilation, print_json, stdout
 
 
 @takes_words
 def sweep(
-    task: Annotated[str, typer.Argument(help="A task's name (`clamber list tasks`), or the path of its TOML file.")],
+    task: TaskName,
     vary: Annotated[
         list[str] | None,
         typer.Option(metavar="KEY=LOW..HIGH:N", help="A key and its range, such as motor.torque_limit=10Nm..21Nm:12."),
@@ -24,7 +24,7 @@ def sweep(
         list[str] | None,
         typer.Option(metavar="KEY=VALUE", help="Mark a value of a varied key, or low..high, in table and picture."),
     ] = None,
-    planner: Annotated[str, typer.Option(help="How to search (`clamber list planners`).")] = "exact",
+    planner: PlannerName = "exact",
     overrides: Overrides = None,
     seed: Annotated[int, typer.Option(min=0, help="Of the genetic planner.")] = 0,
     evaluations: Annotated[int, typer.Option(min=1, help="Most plans that the genetic planner tries.")] = 50_000,
@@ -45,11 +45,10 @@ def sweep(
     check_axes(axes)
     marks = [read_mark(text, axes) for text in mark or ()]
     from ..planning.budgets import accepts
-    from ..planning.planners import FIRST_LOOPS
     from .sweep_text import print_sweep
 
     if words.ray is None:
-        announce_compilation(FIRST_LOOPS.get(planner, "rollout"), quiet=words.quiet)
+        announce_compilation(quiet=words.quiet)
     from ..planning.sweep import run_sweep
 
     stated = {"max_evaluations": evaluations, "max_stances": stances}

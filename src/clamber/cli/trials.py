@@ -5,6 +5,7 @@ from typing import Annotated
 import typer
 
 from .crew import CrewWords
+from .name_completion import names_of
 from .option_holder import takes_words
 from .trials_words import TrialsWords
 
@@ -13,7 +14,11 @@ from .trials_words import TrialsWords
 def trials(
     what: Annotated[
         str,
-        typer.Argument(metavar="TASK|PLAN|WALK", help="A task, to be planned once, a plan, or a walk: names or files."),
+        typer.Argument(
+            metavar="TASK|PLAN|WALK",
+            help="A task, to be planned once, a plan, or a walk: names or files.",
+            autocompletion=names_of("tasks", "plans", "walks"),
+        ),
     ],
     *,
     asked: TrialsWords,

@@ -4,13 +4,12 @@ from pathlib import Path
 
 import typer
 
-from ..actions.plan_source import is_plan
 from ..experiments.climb.noise import named_noise, read_noise
 from ..experiments.climb.run_plan import open_climb
 from ..experiments.climb.trial import TrialSetup, climb_once
 from ..experiments.climb.trial_summary import sum_up
 from ..experiments.climb.trials import NoPlanError, run_trials, stored_trial, with_plan
-from ..planning.planners import find_planner, first_loop
+from ..planning.planners import find_planner
 from .crew import CrewWords
 from .output import announce_compilation, print_json, stderr, stdout, tell_cuts
 from .trials_text import TrialsLine, print_trials
@@ -63,7 +62,7 @@ def _check_suffix(output: Path, replay: int | None) -> None:
 def _planned(what: str, asked: TrialsWords, words: CrewWords) -> TrialSetup:
     """What every trial has in common, planned if it was not; leaves with 1 where there is no plan."""
     widths = read_noise(named_noise("usual"), asked.noise or ())
-    announce_compilation("replay" if is_plan(what) else first_loop(asked.planner), quiet=words.quiet)
+    announce_compilation(quiet=words.quiet)
     if asked.replay is None:
         words.executor.check()  # before a minute is spent on a plan
     task, plan, plant = open_climb(what, asked.task, asked.overrides or ())

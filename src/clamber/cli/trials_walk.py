@@ -14,7 +14,7 @@ from ..experiments.walk.noise import named_walk_noise, read_walk_noise
 from ..experiments.walk.planned import careful, lay_plan, walk_of
 from ..experiments.walk.run_walk import split_walk_settings, walk_flaws
 from ..experiments.walk.trials import LEVEL, WalkCause, WalkSetup, WalkTrials, run_walk_trials
-from ..planning.planners import find_planner, first_loop
+from ..planning.planners import find_planner
 from ..tasks.walker import WalkerTask
 from ..tasks.walks import load_walk
 from ..units import DEGREE
@@ -57,6 +57,7 @@ def walk_trials_of(what: str, asked: TrialsWords, words: CrewWords) -> None:
     walk = load_walk(what, for_walk)
     walk_flaws(walk, for_plant)  # what cannot be is told before workers start
     words.executor.check()
+    announce_compilation(quiet=words.quiet)
     _try_and_tell(WalkSetup(walk, sizes, tuple(for_plant)), asked.seeds, least, words)
 
 
@@ -83,7 +84,7 @@ def planned_walk_trials_of(
     setup = WalkSetup(task, sizes, for_plant, plan, plan is None)
     walk_flaws(walk_of(task), for_plant)
     plan = plan or setup.stored_plan(words.store)
-    announce_compilation("replay" if plan is not None else first_loop(asked.planner), quiet=words.quiet)
+    announce_compilation(quiet=words.quiet)
     plan = plan or plan_walk(task, asked.planner, seconds=asked.seconds, seed=0, quiet=words.quiet)
     lay_plan(task, plan, what)  # what it violates is told before workers start
     _try_and_tell(replace(setup, plan=plan), asked.seeds, least, words)

@@ -5,7 +5,8 @@ from typing import Annotated
 
 import typer
 
-from .options import PLAN_SECONDS, NoiseTexts, Overrides, PlanSeconds
+from .name_completion import names_of
+from .options import PLAN_SECONDS, NoiseTexts, Overrides, PlannerName, PlanSeconds
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,8 +16,11 @@ class TrialsWords:
     n: Annotated[int, typer.Option("-n", min=1, help="How many climbs.")] = 24
     seed: Annotated[int, typer.Option(min=0, help="Of the first climb; each further one has the next.")] = 0
     noise: NoiseTexts = None
-    task: Annotated[str | None, typer.Option(help="Carry the plan out in this task, in place of its own.")] = None
-    planner: Annotated[str, typer.Option(help="How to search (`clamber list planners`).")] = "auto"
+    task: Annotated[
+        str | None,
+        typer.Option(help="Carry the plan out in this task, in place of its own.", autocompletion=names_of("tasks")),
+    ] = None
+    planner: PlannerName = "auto"
     seconds: PlanSeconds = PLAN_SECONDS
     overrides: Overrides = None
     replan: Annotated[bool, typer.Option(help="Plan again where a hold cannot be had.")] = True

@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from .name_completion import names_of
 from .options import AsJson, Overrides
 from .output import announce_compilation, check_writable, print_json, stderr, stdout
 
@@ -16,9 +17,13 @@ def view(
         typer.Argument(
             metavar="TASK|PLAN|WALK|LOG...",
             help="A task, a plan or a log of a run (.mcap, .csv), by name or file; or a log and its plan.",
+            autocompletion=names_of("tasks", "plans", "walks"),
         ),
     ],
-    task: Annotated[str | None, typer.Option(help="Show a plan in this task, in place of its own.")] = None,
+    task: Annotated[
+        str | None,
+        typer.Option(help="Show a plan in this task, in place of its own.", autocompletion=names_of("tasks")),
+    ] = None,
     overrides: Overrides = None,
     port: Annotated[int, typer.Option(min=0, max=65535, help="Where to listen; 0: any port that is free.")] = 0,
     expose: Annotated[

@@ -117,14 +117,3 @@ TITLES: Final[dict[str, str]] = {
     HOSHINO: "Hoshino and others 1995: posture control of a six-legged robot that walks and manipulates",
 }
 """Paper or subject -> what a reader is told of it."""
-
-
-def first_loop(result: Repeat) -> str:
-    """The kernel that a result runs first: plans rolled out, laws ticked, regions outlined, a plate reckoned with, tools moved."""
-    if result in OF_FRAMES.values():
-        return "outline"
-    if result in OF_LEVELLING.values():
-        return "reckon"
-    if result in OF_ARM_AND_BODY.values():
-        return "move_freely"
-    return "drive" if result in (*ON_ONE_LIMB.values(), *ON_A_BODY.values()) else "rollout"

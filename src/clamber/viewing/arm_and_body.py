@@ -1,8 +1,10 @@
-"""A two-frame walker with its arm, as lines in 3-D axes."""
+"""A two-frame walker with its arm as lines, in space or seen from the side."""
 
+from collections.abc import Iterator
 from typing import Any, Final
 
 import numpy as np
+from matplotlib.axes import Axes
 
 from ..control.cooperative.planted import heading_of, turn_of
 from ..control.cooperative.planted_feet import PlantedFeet
@@ -24,6 +26,18 @@ def draw_robot(space: Any, footing: PlantedFeet, q: Floats, alpha: float) -> Non
         q: Freedoms of body and arm, shape (6 + joints,).
         alpha: Opacity.
     """
+    for points, colour, width in robot_lines(footing, q):
+        space.plot(*points.T, color=colour, lw=width, alpha=alpha, solid_capstyle="round")
+
+
+def draw_from_side(axes: Axes, footing: PlantedFeet, q: Floats, alpha: float) -> None:
+    """Draw the same as seen along y: x and z [m]."""
+    for points, colour, width in robot_lines(footing, q):
+        axes.plot(points[:, 0], points[:, 2], color=colour, lw=width, alpha=alpha, solid_capstyle="round")
+
+
+def robot_lines(footing: PlantedFeet, q: Floats) -> Iterator[tuple[Floats, str, float]]:
+    """Points, shape (n, 3) [m], colour and width of the lines of frames, standing legs and arm."""
     robot, turn, origin = footing.robot, turn_of(q[3:6]), q[:3]
     feet = footing.feet_on_ground()
     offset, twist = np.array(footing.offset), footing.twist
@@ -35,14 +49,13 @@ def draw_robot(space: Any, footing: PlantedFeet, q: Floats, alpha: float) -> Non
     plate[1] = plate[1] @ np.array([[c, s], [-s, c]]) + offset
     over = plate @ turn[:, :2].T + origin
     for frame, colour in enumerate((DELTA, Y)):
-        loop = np.vstack([over[frame], over[frame][:1]]) if frame == 0 else _spokes(over[1])
-        space.plot(*loop.T, color=colour, lw=2.0, alpha=alpha)
+        yield np.vstack([over[frame], over[frame][:1]]) if frame == 0 else _spokes(over[1]), colour, 2.0
         if frame in footing.standing():
             for top, foot in zip(over[frame], feet[frame], strict=True):
-                space.plot(*np.array([top, foot]).T, color=colour, lw=1.4, alpha=alpha)
+                yield np.array([top, foot]), colour, 1.4
     assert robot.arm is not None, "only robots with an arm follow paths"
-    arm = np.vstack([np.zeros(3), [0.0, 0.0, robot.arm.up], arm_places(robot.arm, q[6:].tolist())]) @ turn.T + origin
-    space.plot(*arm.T, color=ARM, lw=2.6, alpha=alpha, solid_capstyle="round")
+    arm = np.vstack([np.zeros(3), [0.0, 0.0, robot.arm.up], arm_places(robot.arm, q[6:].tolist())])
+    yield arm @ turn.T + origin, ARM, 2.6
 
 
 def set_space(space: Any) -> None:

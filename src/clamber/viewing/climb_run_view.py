@@ -26,7 +26,6 @@ from .climb_player import SCRIPT, climb_world, spread_snapshot
 from .climber import ClimberArtists, Snapshot
 from .geometry import Posture, body_outline
 from .output import CANVASES, check_suffix, save_figure
-from .panel import Place, StepStrip
 from .route import draw_way, label_ghost, pick_ghosts
 from .style import styled
 from .torques import torque_gauges
@@ -60,6 +59,10 @@ class ClimbRunView(View[Moment]):
     """
 
     rows = ("Time", "Pose", "Holds")
+    verdict_row = "Outcome"
+    noun = "Action"
+    strip_title = "What became of every action"
+    strip_words = OUTCOMES
     script = SCRIPT
 
     def __init__(
@@ -73,15 +76,10 @@ class ClimbRunView(View[Moment]):
         some = np.unique(np.linspace(0, len(trace.time) - 1, SHOWN).astype(int))
         bounds = find_bounds(task, [self.posture(int(k)) for k in some])
         super().__init__(task, _no_replay(len(actions)), bounds, torque_gauges(task), climber_yardsticks(task))
-        self.heads[-1].set_text("Outcome")
         draw_scene(self.wall, task, bounds)
         if pegs is not None:
             self.wall.plot(pegs[:, 0], pegs[:, 1], ls="none", marker="x", ms=3.0, mew=0.7, color=style.ALERT, zorder=9)
         self.robot = ClimberArtists(self.wall, task, bounds)
-
-    def make_strip(self, place: Place) -> StepStrip:
-        """The cell per action: what became of it."""
-        return StepStrip(self.panel, self.grades, place, "What became of every action", OUTCOMES)
 
     @property
     def grades(self) -> list[int]:
@@ -144,14 +142,17 @@ class ClimbRunView(View[Moment]):
         pose = describe_pose(self.task, posture.x, posture.y, posture.angle)
         return f"{at.time:.0f} s", pose, ", ".join(f"{a} {b}" for a, b in zip(names, numbers, strict=True))
 
-    def show(self, step: int, at: Moment) -> None:
-        """Set the picture to a moment of an action."""
-        super().show(step, at)
-        outcome = self.actions[step - 1].outcome if step else "at rest"
-        bad = outcome not in ("ok", "at rest")
-        self.texts[-1].set_text(outcome)
-        self.texts[-1].set_color(style.ALERT if bad else style.INK)
-        self.title_text.set_color(style.ALERT if bad else style.INK)
+    def verdict(self, step: int) -> str:
+        """What became of an action, and why; which steps of the plan it was."""
+        if not step:
+            return "at rest"
+        action = self.actions[step - 1]
+        why = f": {action.reason}" if action.reason else ""
+        return f"{action.outcome}{why} (plan: step {action.steps})"
+
+    def failed(self, step: int) -> bool:
+        """Whether an action came to another end than it should."""
+        return step > 0 and self.actions[step - 1].outcome != "ok"
 
     def world(self) -> Json:
         """Holds, keep-outs, goals and the shape of the robot."""
@@ -203,7 +204,8 @@ def _whole(view: ClimbRunView) -> Figure:
     for k in pick_ghosts(poses[ends, :2])[:-1]:
         ghost = ClimberArtists(view.wall, view.task, view.bounds, alpha=0.25, arrows=False)
         ghost.update(Snapshot(view.posture(int(ends[k])), unloaded, unloaded))
-        label_ghost(view.wall, k, *(float(part) for part in poses[ends[k], :2]))
+        x, y = poses[ends[k], :2].tolist()
+        label_ghost(view.wall, k, x, y, "action")
     draw_way(view.wall, poses[:, :2])
     return view.figure
 

@@ -10,7 +10,6 @@ from ..files import write_atomically
 from ..types import Json
 from . import style
 from .frames import Frame, make_frames
-from .margins import grade
 from .player_page import PAGE
 from .view import Moment, View
 
@@ -32,10 +31,12 @@ def player_data(view: View[Moment], frames: list[Frame[Moment]]) -> Json:
         "title": view.title,
         "bounds": round_all(view.bounds),
         "palette": {
-            "strip": style.STRIP, "words": style.STRIP_WORDS, "body": style.BODY, "hold": style.HOLD,
+            "strip": style.STRIP, "words": view.strip_words, "body": style.BODY, "hold": style.HOLD,
             "goal": style.GOAL, "force": style.FORCE, "alert": style.ALERT,
         },
-        "rows": [*view.rows, "Nearest limit"],
+        "noun": view.noun,
+        "strip": view.strip_title,
+        "rows": [*view.rows, view.verdict_row],
         "bars": {
             "title": gauges.title,
             "names": gauges.names,
@@ -58,11 +59,10 @@ def round_all(values: Iterable[float]) -> list[float]:
 
 
 def _step(view: View[Moment], step: int) -> Json:
-    limit = view.limit(step)
     return {
         "action": view.action(step) if step else "start",
-        "facts": [*view.facts(step, view.settled(step)), "not judged" if limit is None else str(limit)],
-        "grade": grade(limit),
+        "facts": [*view.facts(step, view.settled(step)), view.verdict(step)],
+        "grade": view.grades[step - 1] if step else 3,
     }
 
 

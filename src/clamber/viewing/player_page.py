@@ -54,14 +54,14 @@ button:focus-visible, select:focus-visible, input:focus-visible { outline: 2px s
 <aside>
 <dl id="facts"></dl>
 <div><h2 id="gauges"></h2><div id="bars"></div></div>
-<h2 style="margin:0">Steps</h2><ol id="list"></ol>
+<h2 id="counted" style="margin:0"></h2><ol id="list"></ol>
 </aside>
 </main>
 <footer>
 <button id="play">Play</button>
 <button id="back" aria-label="One step back" title="One step back (left arrow)">&#8249;</button>
 <button id="on" aria-label="One step on" title="One step on (right arrow)">&#8250;</button>
-<div><input id="time" type="range" min="0" step="any" aria-label="Time"><canvas id="strip" aria-label="Smallest margin of every step"></canvas>
+<div><input id="time" type="range" min="0" step="any" aria-label="Time"><canvas id="strip" ></canvas>
 <div id="legend"></div></div>
 <select id="speed" aria-label="Speed"><option value="0.25">0.25 ×</option><option value="0.5">0.5 ×</option><option value="1" selected>1 ×</option>
 <option value="2">2 ×</option><option value="4">4 ×</option></select>
@@ -77,7 +77,7 @@ const starts = []; let total = 0;
 for (const f of F) { starts.push(total); total += f[1] / RATE; }
 const firstFrame = D.steps.map((_, s) => { let k = F.findIndex(f => f[0] > s); return k < 0 ? F.length - 1 : Math.max(k - 1, 0); });
 let now = 0, playing = false, last = 0, shown = -1;
-el("title").textContent = D.title; el("time").max = total;
+el("title").textContent = D.title; el("counted").textContent = D.noun + "s"; el("time").max = total;
 
 D.rows.forEach(name => { const dt = document.createElement("dt"); dt.textContent = name; el("facts").append(dt, document.createElement("dd")); });
 const facts = [...el("facts").querySelectorAll("dd")], G = D.bars;
@@ -101,7 +101,7 @@ D.palette.words.forEach((w, k) => {
   const s = document.createElement("span"), i = document.createElement("i");
   i.style.background = D.palette.strip[k]; s.append(i, w); el("legend").append(s);
 });
-el("legend").prepend("Smallest margin of every step:");
+el("legend").prepend(D.strip + ":"); strip.setAttribute("aria-label", D.strip);
 
 function frameAt(t) { let lo = 0, hi = F.length - 1; while (lo < hi) { const m = (lo + hi + 1) >> 1; starts[m] <= t ? lo = m : hi = m - 1; } return lo; }
 function mix(a, b, u) { return a.map((v, k) => v + (b[k] - v) * u); }
@@ -165,7 +165,7 @@ function describe(step) {
   shown = step; items[step].classList.add("now");
   const list = el("list"), top = items[step].offsetTop - list.offsetTop;
   if (top < list.scrollTop + 20 || top > list.scrollTop + list.clientHeight - 50) list.scrollTop = top - list.clientHeight / 2;
-  el("head").textContent = step ? "Step " + step + " of " + (D.steps.length - 1) + ": " + s.action : "Start";
+  el("head").textContent = step ? D.noun + " " + step + " of " + (D.steps.length - 1) + ": " + s.action : "Start";
   el("head").style.color = s.grade === 0 ? D.palette.alert : "";
   s.facts.forEach((words, k) => { facts[k].textContent = words; });
   facts[facts.length - 1].style.color = [D.palette.alert, "#b35900", "", ""][s.grade];

@@ -36,10 +36,10 @@ def pick_ghosts(places: Floats, most: int = GHOSTS) -> list[int]:
     return sorted({0, *(int(np.searchsorted(way, mark - 1e-9)) for mark in marks[1:-1]), len(places) - 1})
 
 
-def label_ghost(wall: Axes, step: int, x: float, y: float) -> None:
-    """Write the number of a step beside a ghost's place, world frame [m]."""
+def label_ghost(wall: Axes, step: int, x: float, y: float, noun: str = "step") -> None:
+    """Write the number of a step, or what else is counted, beside a ghost's place, world frame [m]."""
     wall.annotate(
-        f"step {step}" if step else "start", (x, y), xytext=(7, -9), textcoords="offset points",
+        f"{noun} {step}" if step else "start", (x, y), xytext=(7, -9), textcoords="offset points",
         fontsize=6.5, color=style.INK, zorder=9, path_effects=[halo()],
     )  # fmt: skip
 

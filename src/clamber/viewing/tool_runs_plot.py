@@ -3,20 +3,25 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from ..control.cooperative.planted_feet import PlantedFeet
+from ..control.cooperative.tool_chain import POSE
 from ..types import Floats
+from ..units import DEGREE
 from . import style
-from .arm_and_body import draw_robot, set_space
+from .arm_and_body import draw_from_side
 from .output import CANVASES, check_suffix, save_figure
 from .style import styled
 
-ALPHAS: Final = (0.2, 0.45, 1.0)
+ALPHAS: Final = (0.35, 0.6, 1.0)
 """Of start, middle and end."""
+MOTION_COLOURS: Final = (style.INK, style.PARTS[0], style.PARTS[1], style.PARTS[2])
+DASHES: Final = ("-", (0, (4, 3)), "-", "-")
+"""The second motion may lie on the first."""
 COLOURS: Final = (style.QUIET, style.PARTS[0], style.PARTS[1], style.PARTS[2])
 
 
@@ -32,26 +37,42 @@ class Motion:
     """Of the tool [m], shape (rows, 3)."""
 
 
-def draw_motions(motions: Sequence[Motion], path: str | Path) -> None:
-    """Draw start, middle and end of each motion in space.
+def draw_motions(motions: Sequence[Motion], time: Floats, path: str | Path) -> None:
+    """Draw start, middle and end of each motion from the side, and below how far each joint of the arm turns in all of them.
+
+    Args:
+        motions: Each with a row for each time.
+        time: [s], shape (rows,).
+        path: A file (.png, .svg, .pdf).
 
     Raises:
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
     check_suffix(path, CANVASES)
+    joints = motions[0].q.shape[1] - POSE
     with styled():
-        figure = Figure(figsize=(3.9 * len(motions), 3.9))
-        figure.subplots_adjust(left=0.0, right=0.97, bottom=0.06, top=0.9, wspace=0.08)
-        for k, motion in enumerate(motions):
-            space: Any = figure.add_subplot(1, len(motions), k + 1, projection="3d")
+        figure = Figure(figsize=(12.0, 6.1), layout="constrained")
+        above, below = figure.subfigures(2, 1, squeeze=False, height_ratios=(1.4, 1.0))[:, 0]
+        sides = above.subplots(1, len(motions), sharex=True, sharey=True)
+        for side, motion, colour in zip(sides, motions, MOTION_COLOURS, strict=False):
             for row, alpha in zip((0, len(motion.q) // 2, -1), ALPHAS, strict=True):
-                draw_robot(space, motion.footing, motion.q[row], alpha)
-            space.plot(*motion.places.T, color=style.PARTS[0], lw=1.6)
-            set_space(space)
-            space.set(xlim=(-0.3, 0.75), ylim=(-0.3, 0.4), zlim=(0.0, 1.05))
-            space.set_aspect("equal")
-            space.set_title(motion.title, fontsize=9.5, loc="center")
+                draw_from_side(side, motion.footing, motion.q[row], alpha)
+            side.plot(motion.places[:, 0], motion.places[:, 2], color=style.PARTS[0], lw=2.0)
+            side.axhline(0.0, color=style.QUIET, lw=0.8)
+            side.set_aspect("equal")
+            side.set_title(motion.title, fontsize=9.5, color=colour)
+            side.set_xlabel("x [m]")
+            style.bare(side)
+        sides[0].set_ylabel("height [m]")
+        for joint, axes in enumerate(below.subplots(1, joints)):
+            for motion, colour, dashes in zip(motions, MOTION_COLOURS, DASHES, strict=False):
+                turned = (motion.q[:, POSE + joint] - motion.q[0, POSE + joint]) / DEGREE
+                axes.plot(time, turned, color=colour, lw=1.8, ls=dashes)
+            axes.set_title(f"$\\theta_{joint}$ from its start [deg]", fontsize=9, weight="normal")
+            axes.set_xlabel("time [s]")
+            axes.grid(color=style.FAINT, lw=0.6, axis="y")
+            style.bare(axes)
         save_figure(figure, path)
 
 

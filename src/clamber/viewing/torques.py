@@ -31,7 +31,7 @@ def torque_limits(task: LimbedTask) -> Floats:
 
 def show_torque(torque: float, *, ounces: bool) -> str:
     """A torque for people: ounce-inches beside a task in inches, else newton metres."""
-    return f"{torque / OZ_IN:.0f} oz-in" if ounces else f"{torque:.2f} N m"
+    return f"{round(torque / OZ_IN)} oz-in" if ounces else f"{round(torque, 2) + 0.0:.2f} N m"  # never "-0"
 
 
 def nice_force(weight: float) -> float:
@@ -51,7 +51,7 @@ def torque_gauges(task: LimbedTask) -> Gauges:
         high=limits,
         limits=((1.0, "limit"),),
         calm=(0.0, NEAR_LIMIT),
-        show=lambda torque: show_torque(torque if abs(torque) > 1e-9 else 0.0, ounces=ounces),
+        show=lambda torque: show_torque(torque, ounces=ounces),
         unit=("oz-in", OZ_IN, 0) if ounces else ("N m", 1.0, 2),
         group=2,
     )

@@ -124,7 +124,13 @@ class View(ABC, Generic[Moment]):
     """A picture of a replay that can be set to any moment of it; each family draws its own world and robot."""
 
     rows: ClassVar[tuple[str, ...]]
-    """Names of the facts in the panel; the nearest limit comes after them."""
+    """Names of the facts in the panel; the verdict comes after them."""
+    verdict_row: ClassVar[str] = "Nearest limit"
+    noun: ClassVar[str] = "Step"
+    """What is counted."""
+    strip_title: ClassVar[str] = "Smallest margin of every step"
+    strip_words: ClassVar[tuple[str, str, str, str]] = style.STRIP_WORDS
+    """What the grades mean."""
     script: ClassVar[str]
     """How the player draws the robot: JavaScript that defines `robot` (see `player_page`)."""
     robot: Robot[Moment]
@@ -139,7 +145,7 @@ class View(ABC, Generic[Moment]):
         self.figure, self.wall, self.panel, self.title_text = self.layout.figure("", self.title)
         height = self.layout.panel[1]
         left = PANEL_WIDTH + 0.4 if self.layout.below else 0.0
-        rows = (*self.rows, "Nearest limit")
+        rows = (*self.rows, self.verdict_row)
         self.heads, self.texts = [], []
         for k, row in enumerate(rows):
             y = height - (k * 2.2 * LINE)
@@ -148,13 +154,10 @@ class View(ABC, Generic[Moment]):
         text_end = height - len(rows) * 2.2 * LINE - 0.1
         self.bars = GaugeBars(self.panel, gauges, Place(left, height if self.layout.below else text_end, PANEL_WIDTH))
         top = text_end if self.layout.below else self.bars.bottom - 0.12
-        self.strip = self.make_strip(Place(0.0, top, PANEL_WIDTH - 0.1))
+        strip_place = Place(0.0, top, PANEL_WIDTH - 0.1)
+        self.strip = StepStrip(self.panel, self.grades, strip_place, self.strip_title, self.strip_words)
         self.layout.fix_panel(self.panel)
         self.key = Place(0.0, top - 0.92, PANEL_WIDTH)
-
-    def make_strip(self, place: Place) -> StepStrip:
-        """The cell per step."""
-        return StepStrip(self.panel, [grade(step) for step in self.limiting], place)
 
     @abstractmethod
     def settled(self, step: int) -> Moment:
@@ -193,6 +196,20 @@ class View(ABC, Generic[Moment]):
         """Number of the check that a step violates; -1: none."""
         return int(self.replay.reasons[step - 1]) if step else -1
 
+    @property
+    def grades(self) -> list[int]:
+        """What is to be thought of every step, as indices into `style.STRIP`."""
+        return [grade(limit) for limit in self.limiting]
+
+    def verdict(self, step: int) -> str:
+        """The same of one step in words; 0 is the start."""
+        limit = self.limit(step)
+        return "not judged" if limit is None else str(limit)
+
+    def failed(self, step: int) -> bool:
+        """Whether a step went wrong."""
+        return self.reason(step) >= 0
+
     def limit(self, step: int) -> Limiting | None:
         """What limits the stance after a step; None if nothing has judged it."""
         return self.limiting[step - 1] if step else None
@@ -205,14 +222,13 @@ class View(ABC, Generic[Moment]):
             at: What the robot looks like.
         """
         steps = len(self.replay.reasons)
-        self.title_text.set_text(f"Step {step} of {steps}: {self.action(step)}" if step else "Start")
-        self.title_text.set_color(style.ALERT if self.reason(step) >= 0 else style.INK)
-        limit = self.limit(step)
-        words = (*self.facts(step, at), "not judged" if limit is None else str(limit))
+        self.title_text.set_text(f"{self.noun} {step} of {steps}: {self.action(step)}" if step else "Start")
+        self.title_text.set_color(style.ALERT if self.failed(step) else style.INK)
+        words = (*self.facts(step, at), self.verdict(step))
         for text, line in zip(self.texts, words, strict=True):
             text.set_text(_shortened(line, 64))
             text.set_fontsize(8.5 if len(line) <= 50 else 7.0)
-        self.texts[-1].set_color((style.ALERT, "#B35900", style.INK, style.INK)[grade(limit)])
+        self.texts[-1].set_color((style.ALERT, "#B35900", style.INK, style.INK)[self.grades[step - 1] if step else 3])
         self.robot.update(at)
         self.bars.update(self.values(at))
         self.strip.update(step)

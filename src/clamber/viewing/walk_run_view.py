@@ -33,9 +33,19 @@ from .walk_shapes import WalkShapes, shapes_at
 COLOURS: Final = (style.PARTS[0], style.PARTS[1])
 """Of the Delta-frame and the Y-frame."""
 ROOM: Final = 0.45
-"""About the plate's way, that is shown [m]."""
+"""About the plate's way, that is shown [m] ..."""
+EDGE: Final = 0.05
+"""... and beyond the tool [m]."""
 SIDE: Final = 3.1
-"""Width of the side view over its height [-]."""
+"""Width of the side view over its height, at least [-]."""
+WIDTH: Final = 9.0
+"""Of a picture [inch]."""
+CURVE: Final = (2.7, 0.85)
+"""Least width and height of a curve over time [inch]."""
+TALLEST: Final = 5.0
+"""The view from above, at most [inch]."""
+WORDS: Final = 0.45
+"""What a title and an axis's numbers take, of height and width [inch]."""
 GHOSTS: Final = 5
 FRAMES: Final = 300
 """Of an animation, at most."""
@@ -68,20 +78,18 @@ class WalkRunView:
         self.robot, self.trace, self._surface = robot, trace, Surface(ground)
         way = trace.pose[-1, :2] - trace.pose[0, :2]
         self._along = way / np.hypot(*way) if np.hypot(*way) > 0.05 else np.array((1.0, 0.0))
-        self.figure = Figure(figsize=(9.0, 7.4), layout="constrained")
+        self.figure = Figure(layout="constrained")
         self.figure.set_facecolor(style.PAPER)
         self.figure.suptitle(title, x=0.01, ha="left", fontsize=11, weight="bold")
-        places = self.figure.subplot_mosaic(
-            [["side", "side"], ["top", "tilt"], ["top", "margin"]], height_ratios=(1.25, 1.0, 1.0), width_ratios=(1.3, 1.0)
-        )  # fmt: skip
+        side, top = self._side_box(), self._top_box()
+        places = _arrange(self.figure, _shape(side), _shape(top))
         self.side, self.top = places["side"], places["top"]
-        self._set_side()
-        self._set_top(ground)
+        self._set_side(side)
+        self._set_top(ground, top)
         self.clocks = [
             _curve(places["tilt"], trace, trace.tilts / DEGREE, "tilt of the plate [deg]"),
             _curve(places["margin"], trace, 1e3 * trace.margins, "margin of balance [mm]"),
         ]
-        places["margin"].set_xlabel("time [s]")
         self.walkers = [_Drawn(self.side, self.from_side), _Drawn(self.top, _from_above, support=True)]
         self.time_text = self.side.text(
             0.99, 0.97, "", transform=self.side.transAxes, ha="right", va="top", fontsize=8.5
@@ -114,14 +122,26 @@ class WalkRunView:
         """Points of the world as the side view has them: along the way, and height [m]."""
         return np.stack((points[..., :2] @ self._along, points[..., 2]), axis=-1)
 
-    def _set_side(self) -> None:
-        trace, axes = self.trace, self.side
+    def _side_box(self) -> Floats:
+        """What the side view shows: along the way and height, least and most, shape (2, 2) [m]."""
+        trace = self.trace
         along = trace.pose[:, :2] @ self._along
         bottom = float(np.nanmin(trace.feet[..., 2])) - 0.12
         top = float(np.fmax(trace.pose[:, 2], trace.tool[:, 2]).max()) + 0.15
-        middle, half = 0.5 * (along.min() + along.max()), 0.5 * (along.max() - along.min()) + ROOM
-        half = max(half, 0.5 * SIDE * (top - bottom))
-        low, high = middle - half, middle + half
+        low, high = float(along.min()) - ROOM, float(along.max()) + ROOM
+        high = float(np.fmax(high, trace.tool[-1, :2] @ self._along + EDGE))
+        middle, half = 0.5 * (low + high), max(0.5 * (high - low), 0.5 * SIDE * (top - bottom))
+        return np.array(((middle - half, bottom), (middle + half, top)))
+
+    def _top_box(self) -> Floats:
+        """What the view from above shows: x and y, least and most, shape (2, 2) [m]."""
+        way, tool = self.trace.pose[:, :2], self.trace.tool[-1, :2]  # on its way the arm may swing out of the picture
+        low, high = np.fmin(way.min(axis=0) - ROOM, tool - EDGE), np.fmax(way.max(axis=0) + ROOM, tool + EDGE)
+        return np.stack((low, high))
+
+    def _set_side(self, box: Floats) -> None:
+        trace, axes = self.trace, self.side
+        (low, bottom), (high, top) = box.tolist()
         across = np.array((-self._along[1], self._along[0]))
         ways = np.linspace(low, high, 600)
         offsets = trace.pose[0, :2] @ across + np.linspace(-0.3, 0.3, 7)
@@ -131,14 +151,14 @@ class WalkRunView:
         axes.plot(ways, heights[:, 3], color=style.QUIET, lw=1.2)
         axes.set_xlim(low, high)
         axes.set_ylim(bottom, top)
-        axes.set_aspect("equal", anchor="W")
+        axes.set_aspect("equal")
         axes.set_ylabel("height [m]")
         axes.set_title("from the side, along its way [m]", fontsize=9, weight="normal")
         bare(axes)
 
-    def _set_top(self, ground: Ground) -> None:
+    def _set_top(self, ground: Ground, box: Floats) -> None:
         trace, axes = self.trace, self.top
-        (x0, y0), (x1, y1) = trace.pose[:, :2].min(axis=0) - ROOM, trace.pose[:, :2].max(axis=0) + ROOM
+        (x0, y0), (x1, y1) = box.tolist()
         xs, ys = np.linspace(x0, x1, 300), np.linspace(y0, y1, 300)
         places = np.stack(np.meshgrid(xs, ys), axis=-1)
         rise = math.tan(ground.slope) * np.array((math.cos(ground.uphill), math.sin(ground.uphill)))
@@ -168,9 +188,44 @@ class WalkRunView:
             axes.annotate("", (x + dx, y + dy), (x - dx, y - dy), arrowprops=arrow)
             words = f"up {ground.slope / DEGREE:.0f}°"
             axes.text(x, y - 0.1, words, fontsize=7.5, ha="center", va="top", color=style.QUIET)
+        axes.set_xlim(x0, x1)
+        axes.set_ylim(y0, y1)
         axes.set_aspect("equal")
         axes.set_title("from above [m]", fontsize=9, weight="normal")
         bare(axes)
+
+
+def _shape(box: Floats) -> float:
+    """Width over height [-]."""
+    width, height = (box[1] - box[0]).tolist()
+    return float(width / height)
+
+
+def _arrange(figure: Figure, side: float, top: float) -> dict[str, Axes]:
+    """Axes for the side view, the view from above and two curves, so that views of these shapes fill theirs.
+
+    The curves are beside the view from above, or below it where it is so wide that they would be small there.
+    """
+    whole = WIDTH - WORDS
+    height = min(TALLEST, (whole - WORDS - CURVE[0]) / top)
+    rows, side_height = 2.0 * (CURVE[1] + WORDS), whole / side
+    if height + WORDS >= rows:
+        figure.set_size_inches(WIDTH, side_height + height + 3.0 * WORDS)
+        places = figure.subplot_mosaic(
+            [["side", "side"], ["top", "tilt"], ["top", "margin"]],
+            height_ratios=(side_height + WORDS, 0.5 * (height + WORDS), 0.5 * (height + WORDS)),
+            width_ratios=(height * top + WORDS, whole - height * top),
+        )
+    else:
+        height = whole / top
+        figure.set_size_inches(WIDTH, side_height + height + 1.5 * CURVE[1] + 6.0 * WORDS)
+        places = figure.subplot_mosaic(
+            [["side", "side"], ["top", "top"], ["tilt", "margin"]],
+            height_ratios=(side_height + WORDS, height + WORDS, 1.5 * CURVE[1] + 2.0 * WORDS),
+        )
+        places["tilt"].set_xlabel("time [s]")
+    places["margin"].set_xlabel("time [s]")
+    return places
 
 
 class _Drawn:

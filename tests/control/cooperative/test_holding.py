@@ -39,6 +39,19 @@ def test_the_part_of_a_way_where_a_point_can_be_held_ends_where_the_arm_is_stret
     assert last == pytest.approx(farthest_reach(), abs=2e-5)
 
 
+def test_a_line_that_goes_along_with_the_body_can_be_reached_as_far_as_one_likes() -> None:
+    """At each pose its own place, always beside the body; and a line that runs away ends where the stretched arm does."""
+    poses = way(21)
+    beside = np.column_stack([poses[:, 0], np.full(21, POINT[1]), np.full(21, POINT[2])])
+    assert reachable_part(hoshino(), poses, beside).parts == ((0.0, 20.0),)
+    half = farthest_reach()
+    twice = beside + np.column_stack(
+        [poses[:, 0], np.zeros((21, 2))]
+    )  # as far again ahead of the body as that has come
+    (part,) = reachable_part(hoshino(), poses, twice).parts
+    np.testing.assert_allclose((-1.0 + 0.1 * part[0], -1.0 + 0.1 * part[1]), (-half, half), atol=2e-5)
+
+
 def test_a_point_too_near_the_arms_axis_parts_the_way_in_two() -> None:
     """A point low beside the robot that the arm's folded links cannot come to, or one out of reach throughout."""
     nowhere = reachable_part(hoshino(), way(11), np.array([0.0, 2.0, 0.4]))

@@ -8,6 +8,7 @@ from spring_walks import BEST, RADIUS, ROBOT, stood
 from springs_walker import SpringsWalker, flat, slope
 
 from clamber.control.track import straight
+from clamber.control.walker_balance import mass_centre
 from clamber.execution.walk.course import TrackCourse
 from clamber.execution.walk.sequencer import WalkSequencer
 from clamber.execution.walk.settings import WalkSettings
@@ -67,7 +68,7 @@ def test_the_tool_comes_stays_and_leaves_within_range_and_speed(monkeypatch: pyt
     ys = np.array([pose[1] for pose, _ in held])
     assert ys.min() == pytest.approx(told.first, abs=3e-3)
     assert ys.max() == pytest.approx(told.last, abs=3e-3)
-    errors = [float(np.linalg.norm(tool_of(pose, joints) - told.point)) for pose, joints in held]
+    errors = [float(np.linalg.norm(tool_of(pose, joints) - told.points[0])) for pose, joints in held]
     assert max(errors) < 3e-3  # the plate's tilt is left out, and what the robot is off by its own reckoning
     assert ARM is not None
     arms = np.array([joints for _, _, joints in plant.kept])
@@ -75,6 +76,36 @@ def test_the_tool_comes_stays_and_leaves_within_range_and_speed(monkeypatch: pyt
     assert (arms <= np.array(ARM.highest) + 1e-9).all()
     assert (np.abs(np.diff(arms, axis=0)) <= walker.period * np.array(ARM.fastest) + 1e-9).all()
     np.testing.assert_allclose(arms[-1], ARM.rest, atol=1e-6)
+
+
+def test_the_tool_goes_along_a_line_evenly_with_the_way(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Through a corner, 0.13 m of line on 0.12 m of way; the tool waits wherever the robot stands."""
+    monkeypatch.setattr("spring_walks.SpringsWalker", Watched)
+    walker, plant = stood(flat, noise=0.0)
+    holds: list[ToolHold] = []
+    up = walker.pose[2] + 0.2
+    line = np.array(((0.3, 0.12, up), (0.3, 0.2, up), (0.3, 0.2, up + 0.05)))
+
+    def lay(pose: Floats) -> TrackCourse:
+        track = straight(pose, BEST, 0.3, RADIUS)
+        holds.append(ToolHold(walker, track, line, 0.06))
+        holds[0].start(walker)
+        return TrackCourse(track)
+
+    assert WalkSequencer(walker, lay).run().done
+    told = holds[0].told()
+    assert (told.began, told.ended) != (None, None)
+    assert told.missed < 5e-4
+    middle = 0.185  # where the way passes half of the line's length
+    np.testing.assert_allclose((told.first, told.last), (middle - 0.06, middle + 0.06), atol=1e-3)
+    assert isinstance(plant, Watched)
+    assert told.began is not None
+    assert told.ended is not None
+    for time, pose, joints in plant.kept:
+        if told.began < time <= told.ended:
+            gone = 0.13 * np.clip((pose[1] - told.first) / (told.last - told.first), 0.0, 1.0)
+            place = line[0] + (0.0, min(gone, 0.08), max(0.0, gone - 0.08))
+            assert np.linalg.norm(tool_of(pose, joints) - place) < 4e-3
 
 
 def test_the_reach_that_is_told_is_that_of_the_stretched_arm() -> None:
@@ -111,3 +142,24 @@ def test_feet_that_sink_in_do_not_raise_what_is_believed(uphill: float | None) -
     assert report.done, report.reason
     assert len(report.steps) > 5
     assert walker.pose[2] - walker.plant.truth().pose[2] - off == pytest.approx(0.0, abs=1.5e-3)  # type: ignore[union-attr]
+
+
+def test_an_arm_that_would_tip_the_robot_on_its_way_to_the_point_is_refused_before_it_moves() -> None:
+    """30 kg are borne at rest, 0.59 m out; stretched to 0.78 m the centre of mass leaves less than is kept, by the closed form."""
+    assert ARM is not None
+    payload, out = 30.0, 0.78
+    walker, _ = stood(flat, noise=0.0, payload=payload)
+    normal = np.array(
+        (math.cos(math.radians(60.0)), math.sin(math.radians(60.0)), 0.0)
+    )  # across an edge of the six feet
+    point = out * normal + (0.0, 0.0, walker.pose[2] + ARM.up)
+    hold = ToolHold(walker, straight(np.zeros(3), math.radians(150.0), 0.3, RADIUS), point, 0.02)
+    before, time = walker.arm.copy(), walker.time
+    with pytest.raises(RefusedError, match="swung to the point to hold, brings the centre of mass") as refused:
+        hold.start(walker)
+    assert walker.time == time
+    np.testing.assert_array_equal(walker.arm, before)
+    centre = mass_centre(ROBOT, walker.pose, walker.place, hold._joints, payload)
+    a, b = walker.soles[3, :2], walker.soles[0, :2]  # the ends of that edge
+    margin = float(np.linalg.det([b - a, centre[:2] - a]) / np.linalg.norm(b - a))
+    assert refused.value.margin == pytest.approx(margin - walker.settings.limits.balance, abs=1e-9)

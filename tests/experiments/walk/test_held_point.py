@@ -36,6 +36,27 @@ def test_the_tool_stays_within_millimetres_while_the_robot_walks_past(uphill: fl
 
 
 @pytest.mark.slow
+def test_the_tool_follows_a_line_while_the_robot_walks_up() -> None:
+    """0.2 m of line, ahead and upwards, on 0.2 m of way; seen from the plant's own tool point."""
+    line = "hold={ x = '10 cm', y = '0.3 m', z = '0.6 m', within = '10 cm', through = [{ x = '26 cm', y = '0.3 m', z = '72 cm' }] }"
+    walk = load_walk("slope-walk", (line, "way.0.distance=36cm"))
+    run = run_walk(walk, walk_flaws(walk, ()))
+    assert run.done, run.reason
+    held = run.held
+    assert held is not None
+    np.testing.assert_allclose(
+        held.part.reach, [(0.08, 0.28)], atol=2e-3
+    )  # about 0.18 m, where the line has its middle
+    rows = np.isin(run.true.time, held.time)
+    tool, gone = run.true.tool[rows], run.true.pose[rows, 0]
+    share = np.clip((gone - gone[0]) / (gone[-1] - gone[0]), 0.0, 1.0)
+    place = tool[0] + share[:, None] * (0.16, 0.0, 0.12)
+    assert np.linalg.norm(tool - place, axis=1).max() < 5e-3
+    assert held.errors.max() < 2.5e-3
+    assert run.tilt < math.radians(0.1)
+
+
+@pytest.mark.slow
 def test_balance_is_reckoned_with_the_arm_as_it_will_be() -> None:
     # 6 kg go out by the arm while the robot walks, then stay beside it, then come back
     walk = load_walk(

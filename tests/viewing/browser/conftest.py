@@ -1,13 +1,14 @@
 """Viewers, and visits to them in a real browser."""
 
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
 from page_visits import Visit
 
 from clamber.tasks import load_task
-from clamber.viewing.browser.app import App
+from clamber.viewing.browser.app import LOOPBACK, App
 from clamber.viewing.browser.exhibit import Exhibit
 from clamber.viewing.browser.undertakings import carry_out, make_plan
 
@@ -40,12 +41,12 @@ def visit(chromium: Any) -> Iterator[Callable[[str], Visit]]:
 
 
 @pytest.fixture
-def serve() -> Iterator[Callable[[Exhibit], App]]:
+def serve() -> Iterator[Callable[..., App]]:
     """Opens a viewer."""
     apps = []
 
-    def open_app(exhibit: Exhibit) -> App:
-        apps.append(App(exhibit))
+    def open_app(exhibit: Exhibit, host: str = LOOPBACK, *, folder: Path = Path()) -> App:
+        apps.append(App(exhibit, host, folder=folder))
         return apps[-1]
 
     yield open_app

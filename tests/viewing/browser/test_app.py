@@ -2,18 +2,26 @@
 
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from clamber.actions.plan import load_plan
+from clamber.actions.plan_source import open_plan
+from clamber.actions.verdict import check_plan
 from clamber.errors import ClamberError, StartError
+from clamber.tasks import Task, load_task
+from clamber.tasks.limbed import LimbedTask
+from clamber.viewing.browser import work_panel
 from clamber.viewing.browser.app import App, PortError, free_port
-from clamber.viewing.browser.exhibit import Exhibit, open_exhibit
+from clamber.viewing.browser.exhibit import open_exhibit
 from clamber.viewing.browser.film import Film
 from clamber.viewing.browser.run_film import ClimbFilm
+from clamber.viewing.browser.undertakings import Planned
 
-Serve = Callable[[Exhibit], App]
+Serve = Callable[..., App]
 
 
 def eventually(holds: Callable[[], Any], seconds: float = 120.0) -> None:
@@ -98,7 +106,10 @@ def test_bad_board_is_drawn_and_told_of_and_nothing_else_changes(serve: Serve) -
     peg = board.draft.pegs[1]
     board.draft.move(2, peg.x, peg.y)
     board.apply()
-    assert "holds 1 and 2 overlap" in board._peg_words.content and board._goal_words.content == ""
+    assert (
+        "the edited board: holds.2: holds 1 and 2 overlap" in board._peg_words.content
+        and board._goal_words.content == ""
+    )
     assert app.exhibit is before
     drawn = app._wall()._pegs
     assert drawn is not None
@@ -138,3 +149,97 @@ def test_ports_are_checked() -> None:
     with pytest.raises(PortError, match=r"cannot listen on 192\.0\.2\.1"):
         free_port("192.0.2.1", 0)  # of no machine
     assert issubclass(PortError, ClamberError)
+
+
+def test_an_edited_board_is_saved_with_its_task_and_its_plan(tmp_path: Path, serve: Serve) -> None:
+    app = serve(open_exhibit(["ladder-hand"]), folder=tmp_path)
+    board, saving = app.board, app.saving
+    assert board is not None and saving is not None
+    saving.save()
+    plan = tmp_path / "ladder-edited-plan.json"
+    assert check_plan(load_task(str(tmp_path / "ladder-edited.toml")), load_plan(plan)).ok
+    board.draft.move(22, 0.5, 1.6)
+    board.draft.set_goal(0.25, 1.0)
+    board.apply()
+    saving._name.value = "taller"
+    saving.save()
+    assert str(tmp_path) in saving._words.content and "taller-board.toml" in saving._words.content
+    saved, shown = load_task(str(tmp_path / "taller.toml")), app.exhibit.task
+    assert isinstance(saved, LimbedTask) and isinstance(shown, LimbedTask)
+    assert saved.world.holds == shown.world.holds and saved.goals == shown.goals
+    assert not (tmp_path / "taller-plan.json").exists()  # another board has no plan yet
+
+
+@pytest.mark.parametrize("name", ["", "../out", "/tmp/out", "a.toml", "a b"])
+def test_files_are_saved_in_one_folder_only(name: str, tmp_path: Path, serve: Serve) -> None:
+    saving = serve(open_exhibit(["gap"]), folder=tmp_path).saving
+    assert saving is not None
+    saving._name.value = name
+    saving.save()
+    assert "no path" in saving._words.content
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_files_of_others_are_not_written_over(tmp_path: Path, serve: Serve) -> None:
+    saving = serve(open_exhibit(["gap"]), folder=tmp_path).saving
+    assert saving is not None
+    theirs = tmp_path / "gap-edited.toml"
+    theirs.write_text("theirs")
+    saving.save()
+    assert "is there already" in saving._words.content
+    assert [path.read_text() for path in tmp_path.iterdir()] == ["theirs"]
+    theirs.unlink()
+    saving.save()
+    saving.save()  # its own it may
+    assert "written to" in saving._words.content
+
+
+def test_a_board_that_makes_no_task_is_not_saved(tmp_path: Path, serve: Serve) -> None:
+    app = serve(open_exhibit(["gap"]), folder=tmp_path)
+    assert app.board is not None and app.saving is not None
+    for number in tuple(app.board.draft.pegs):
+        app.board.draft.remove(number)
+    app.saving.save()
+    assert "no holds" in app.saving._words.content and list(tmp_path.iterdir()) == []
+
+
+def test_a_page_that_others_can_reach_saves_nothing(serve: Serve) -> None:
+    app = serve(open_exhibit(["gap"]), "0.0.0.0")
+    assert app.board is not None and app.saving is None
+
+
+def test_a_run_that_nothing_judges_shows_the_margins_of_its_plan(serve: Serve, compiled: None) -> None:
+    app = serve(open_exhibit(["ladder"], overrides=["goal={ y_min = '9 in' }"]))
+    work = app.work
+    assert work is not None
+    for act in (work.plan, work.run):
+        act()
+        eventually(lambda: not work.labour.busy)
+    app.playback.jump(1)
+    assert "of the plan, at its step" in app.stage._texts["margins"].content
+    app.choose("run")
+    app.playback.jump(1)
+    assert "Nothing judges this" in app.stage._texts["margins"].content
+
+
+def test_what_is_found_for_a_board_that_was_changed_meanwhile_is_left_out(
+    serve: Serve, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    app = serve(open_exhibit(["ladder"]))
+    board, work = app.board, app.work
+    assert board is not None and work is not None
+    answer = Planned(open_plan("ladder-hand").plan, "found")
+
+    def edited_meanwhile(task: Task, *rest: Any, **options: Any) -> Planned:
+        board.draft.move(22, 0.5, 1.6)
+        board.apply()
+        return answer
+
+    monkeypatch.setattr(work_panel, "make_plan", edited_meanwhile)
+    work.plan()
+    eventually(lambda: not work.labour.busy)
+    assert "changed meanwhile" in work._plan_words.content and app.exhibit.plan is None
+    monkeypatch.setattr(work_panel, "make_plan", lambda *rest, **options: answer)
+    work.plan()
+    eventually(lambda: not work.labour.busy)
+    assert "found" in work._plan_words.content and app.exhibit.plan is answer.plan

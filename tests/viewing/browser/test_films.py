@@ -1,9 +1,12 @@
 """Films: plans rest in their stances, runs are where their traces say, and the forces that a run tells carry the weight."""
 
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from clamber.actions.limbed_plans import thesis_code
 from clamber.actions.plan import Plan
@@ -14,13 +17,14 @@ from clamber.execution.climb.legs import legs_of
 from clamber.execution.log import LogError
 from clamber.execution.log_files import write_log
 from clamber.experiments.climb.run_plan import ClimbRun, climbing_flaws, run_plan
+from clamber.planning.planners import plan_task
 from clamber.tasks import load_task
 from clamber.tasks.limbed import LimbedTask
 from clamber.viewing.browser.climb_scenery import join
 from clamber.viewing.browser.exhibit import Exhibit, open_exhibit, planned_exhibit, run_film
 from clamber.viewing.browser.film import PlanFilm
 from clamber.viewing.browser.run_film import ClimbFilm
-from clamber.viewing.browser.walk_film import PlannedWalkFilm
+from clamber.viewing.browser.walk_film import PlannedWalkFilm, loads_at_rest
 
 
 @pytest.fixture(scope="module")
@@ -134,6 +138,40 @@ def test_planned_walk_stands_on_the_ground() -> None:
     heights = film._surface.heights(soles[..., :2])
     np.testing.assert_allclose(soles[stands, 2], heights[stands])
     assert (soles[~stands, 2] > heights[~stands]).all()
+
+
+def test_a_planned_walks_standing_feet_carry_its_weight() -> None:
+    film = open_exhibit(["terrace-walk"]).plan_film
+    assert isinstance(film, PlannedWalkFilm)
+    at = film.at(0.0)
+    stands = at.shapes.touching.astype(bool)
+    assert stands.any(axis=1).tolist().count(True) == 1
+    assert at.forces.sum(axis=(0, 1)) == pytest.approx((0.0, 0.0, at.weight))
+    assert (at.forces[~stands] == 0.0).all()
+    arms = at.shapes.legs[:, :, 1] - at.shapes.centre
+    np.testing.assert_allclose(np.cross(arms, at.forces).sum(axis=(0, 1))[:2], 0.0, atol=1e-9 * at.weight)
+
+
+def test_a_walks_plan_is_found_again_step_by_step_from_where_its_frames_are() -> None:
+    task = load_task("patch-walk")
+    planned = plan_task(task, "auto", seed=0)
+    film = planned_exhibit(task, planned.plan).plan_film
+    assert isinstance(film, PlannedWalkFilm) and len(film.steps) > 20
+    rests = [film.rest(step) for step in range(len(film.steps))]
+    times = [film.nearest(film._film.at(rest).poses) for rest in rests]
+    assert all(a <= b for a, b in pairwise(times)), "it never goes back"
+    steps = [film.step_at(time) for time in times]
+    assert all(abs(found - step) <= 1 for step, found in enumerate(steps)), (
+        steps
+    )  # frames that land stay where they are
+
+
+@given(shares=st.tuples(st.floats(0.01, 1.0), st.floats(0.01, 1.0), st.floats(0.01, 1.0)), far=st.floats(1.5, 9.0))
+def test_loads_at_rest_are_the_shares_that_put_the_centre_there(shares: tuple[float, ...], far: float) -> None:
+    feet = np.array([(0.3, 0.0), (-0.2, 0.25), (-0.1, -0.3)])
+    parts = np.array(shares) / sum(shares)
+    np.testing.assert_allclose(loads_at_rest(feet, parts @ feet, 200.0), 200.0 * parts, rtol=1e-9)
+    assert (loads_at_rest(feet, far * feet[0], 200.0) == 0.0).all()  # it tips
 
 
 def test_things_that_do_not_go_together_are_named(tmp_path: Path) -> None:

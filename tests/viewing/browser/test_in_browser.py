@@ -7,14 +7,16 @@ import numpy as np
 import pytest
 from page_visits import Visit, pixel, wait_for
 
+from clamber.actions.plan import load_plan
 from clamber.actions.verdict import check_plan
+from clamber.tasks import load_task
 from clamber.viewing.browser.app import App
-from clamber.viewing.browser.exhibit import Exhibit, open_exhibit
+from clamber.viewing.browser.exhibit import open_exhibit
 from clamber.viewing.browser.page import write_page
 from clamber.viewing.browser.wall_scene import WallScene
 
 Open = Callable[[str], Visit]
-Serve = Callable[[Exhibit], App]
+Serve = Callable[..., App]
 
 
 def test_plan_plays_and_jumps(serve: Serve, visit: Open) -> None:
@@ -38,8 +40,10 @@ def test_plan_plays_and_jumps(serve: Serve, visit: Open) -> None:
 
 
 @pytest.mark.slow
-def test_board_is_edited_planned_and_run_by_clicks(serve: Serve, visit: Open, compiled: None) -> None:
-    app = serve(open_exhibit(["ladder"]))
+def test_board_is_edited_planned_saved_and_run_by_clicks(
+    serve: Serve, visit: Open, compiled: None, tmp_path: Path
+) -> None:
+    app = serve(open_exhibit(["ladder"]), folder=tmp_path)
     shown, board = visit(app.url), app.board
     assert board is not None and isinstance(app.stage.world, WallScene)
     page, depth = shown.page, app.stage.world.depth
@@ -75,6 +79,11 @@ def test_board_is_edited_planned_and_run_by_clicks(serve: Serve, visit: Open, co
     shown.picture("board-planned")
     plan = app.exhibit.plan
     assert plan is not None and check_plan(app.exhibit.task, plan).ok
+    shown.press("Save")
+    shown.says("written to")
+    assert check_plan(
+        load_task(str(tmp_path / "ladder-edited.toml")), load_plan(tmp_path / "ladder-edited-plan.json")
+    ).ok
     shown.press("Run")
     shown.says("climbed:")
     run = app.exhibit.run_film
@@ -82,6 +91,31 @@ def test_board_is_edited_planned_and_run_by_clicks(serve: Serve, visit: Open, co
     wait_for(shown, lambda: app.playback.film is run and app.playback.time > 0.5 * run.seconds)  # it plays by itself
     shown.picture("board-run")
     assert shown.wrong == []
+
+
+@pytest.mark.slow
+def test_clicks_on_the_wall_add_and_remove_pegs_and_set_the_goal(serve: Serve, visit: Open) -> None:
+    app = serve(open_exhibit(["gap"]))
+    shown, board = visit(app.url), app.board
+    assert board is not None and isinstance(app.stage.world, WallScene)
+    page, depth = shown.page, app.stage.world.depth
+    page.get_by_role("tab", name="Board").click()
+    page.get_by_label("edit on the wall").check()
+
+    def click(does: str, x: float, y: float, deep: float = 0.0) -> None:
+        page.get_by_label("a click on the wall").click()
+        page.get_by_role("option", name=does).click()
+        page.mouse.click(*pixel(app, shown, np.array((x, -deep, y))))
+
+    click("adds a peg", 0.4, 0.0)
+    wait_for(shown, lambda: len(board.draft.pegs) == 4)
+    assert (board.draft.pegs[4].x, board.draft.pegs[4].y) == pytest.approx((0.4, 0.0), abs=5e-3)
+    click("removes a peg", 0.4, 0.0, 0.5 * depth)  # half-way along it
+    wait_for(shown, lambda: set(board.draft.pegs) == {1, 2, 3})
+    click("sets the goal", 0.3, 0.25)
+    wait_for(shown, lambda: board.draft.goal is not None)
+    assert board.draft.goal == pytest.approx((0.3, 0.25), abs=5e-3)
+    assert shown.errors() == [] and shown.wrong == []
 
 
 @pytest.mark.slow

@@ -87,9 +87,9 @@ class StepDone(Printed):
 
 @means_as("execution/walk/tool_hold.py:HeldPart")
 class Held(Printed):
-    """Where the tool was held at a point of the world, and how well."""
+    """Where the tool was held at a point of the world, or led along a line, and how well."""
 
-    point: Pose
+    points: list[Pose]
     first: float
     """Way of the Delta-frame from which on the tool is held [m]."""
     last: float
@@ -101,9 +101,10 @@ class Held(Printed):
     room: float
     speed: float
     true_point: Pose
+    """Where the tool was to be at first, as it truly lies [m]."""
     held_seconds: float
     largest_error: float | None
-    """Largest true distance of the tool from the point while it was held [m]."""
+    """Largest true distance of the tool from where it was to be while it was held [m]."""
     mean_error: float | None
 
 

@@ -22,6 +22,9 @@ class Unreachable(Printed):
     point: int
     """Of the path, from 0."""
     distance_m: float
+    """Of the closest reachable point from it."""
+    closest_m: list[float]
+    """The closest reachable point: x, y, z."""
     reason: str
     """The limit that keeps it away."""
 

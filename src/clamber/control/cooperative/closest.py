@@ -55,7 +55,8 @@ class Reach:
         if self.reached:
             return "reached"
         why = ", ".join(self.held_by) if self.held_by else "the arm is stretched out"
-        return f"out of reach: the closest reachable point is {1e3 * self.distance:.1f} mm away ({why})"
+        x, y, z = self.place.tolist()
+        return f"out of reach: the closest reachable point is x {x:.3f}, y {y:.3f}, z {z:.3f} m, {1e3 * self.distance:.1f} mm away ({why})"
 
 
 class ReachSearch:

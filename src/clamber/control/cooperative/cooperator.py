@@ -9,7 +9,7 @@ from ...robots.walker import WalkerRobot
 from ...types import Floats
 from .limits import Kept, chain_of, limit_names
 from .one_step import finish, move_freely, prepare, see
-from .planted_feet import BALANCE, N_ROWS, LimitError, PlantedFeet, Support
+from .planted_feet import BALANCE, N_ROWS, ROW_UNITS, LimitError, PlantedFeet, Support
 from .programme import calm, let_rest, make_programme
 from .scratch import make_scratch, see_bounds, see_tool
 from .settings import Cooperation, CooperationError, stretch, swerve
@@ -100,9 +100,11 @@ class Cooperator:
             raise CooperationError("q", q, f"must be {self._m} finite numbers")
         low, high = self.limits()
         values = self.limited_values(q)
-        for name, value, least, most in zip(self.names, values, low, high, strict=False):
+        units = ("rad",) * (self._m - POSE) + ROW_UNITS
+        for name, value, least, most, unit in zip(self.names, values, low, high, units, strict=False):
             if not least <= value <= most:
-                raise LimitError(name, float(value), f"allowed are {least:.6g} to {most:.6g}")
+                allowed = f"{least:.6g} to {most:.6g} {unit}" if np.isfinite(most) else f"{least:.6g} {unit} and more"
+                raise LimitError(f"{name} [{unit}]", float(value), f"allowed is {allowed}")
 
     def limits(self) -> tuple[Floats, Floats]:
         """Least and largest values in the order of `names`."""

@@ -60,26 +60,31 @@ class Reachable:
 
 
 def reachable_part(robot: WalkerRobot, poses: Floats, point: Floats) -> Reachable:
-    """Where along a way of the body the arm alone can hold a point.
+    """Where along a way of the body the arm alone can hold a point, or have the tool where it is to be at each pose.
 
     Args:
         robot: With an arm.
         poses: Of the plate along the way, near enough to each other that nothing happens between two, shape (poses, 6).
-        point: World [m], shape (3,).
+        point: World [m], shape (3,), or one for each pose, shape (poses, 3).
     """
     assert robot.arm is not None, "only robots with an arm move it"
+    points = np.broadcast_to(point, (len(poses), 3))
     n = robot.arm.n_joints
     footing = PlantedFeet(robot=robot, support="y", pose=poses[0])
     search = ReachSearch(robot, footing, weights_of("arm", n), kept="arm")
 
-    def at(pose: Floats, joints: Floats) -> tuple[float, Floats]:
-        found = search.find(np.concatenate([pose, joints]), point)
+    def at(place: float, joints: Floats) -> tuple[float, Floats]:
+        k = min(int(place), max(0, len(poses) - 2))
+        pose, target = (
+            (1.0 + k - place) * one[k] + (place - k) * one[min(k + 1, len(poses) - 1)] for one in (poses, points)
+        )
+        found = search.find(np.concatenate([pose, joints]), target)
         return found.distance, found.q[POSE:]
 
     distances, joints = np.empty(len(poses)), np.empty((len(poses), n))
     last = np.array(robot.arm.rest)
-    for k, pose in enumerate(poses):
-        distances[k], joints[k] = at(pose, last)
+    for k in range(len(poses)):
+        distances[k], joints[k] = at(float(k), last)
         last = joints[k]
     can = distances <= REACHED
     edges = []
@@ -88,8 +93,7 @@ def reachable_part(robot: WalkerRobot, poses: Floats, point: Floats) -> Reachabl
         here, there, known = float(inside), float(outside), joints[inside]
         while abs(here - there) > FINE:
             middle = 0.5 * (here + there)
-            share = middle - k
-            distance, found = at((1.0 - share) * poses[k] + share * poses[k + 1], known)
+            distance, found = at(middle, known)
             if distance <= REACHED:
                 here, known = middle, found
             else:

@@ -35,6 +35,11 @@ class ActionReport:
     recovered: int = 0
     """Hooks that came off meanwhile and were brought back."""
 
+    @property
+    def steps(self) -> str:
+        """Steps of the plan, in words."""
+        return str(self.first) if self.first == self.last else f"{self.first} to {self.last}"
+
     def to_json(self) -> Json:
         """Plain data."""
         return {name: getattr(self, name) for name in self.__slots__}

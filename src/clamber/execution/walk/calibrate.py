@@ -12,11 +12,10 @@ from typing import Final
 import numpy as np
 
 from ...control.gait import DELTA, look_at_step, room_at
-from ...control.support import support_margin
-from ...control.walker_balance import mass_centre
 from ...types import Floats
 from . import motions
-from .walker import RefusedError, Walker
+from .arm_swing import check_swing
+from .walker import Walker
 
 LOOK: Final = 45.0
 """For which readings are averaged at each heading [s]."""
@@ -26,8 +25,6 @@ SWINGS: Final = (1.5, -1.5)
 """Of the arm's first joint, from where it is, to shift the load [rad]."""
 SHIFTS: Final = (0.06, 0.05, 0.04, 0.03, 0.02)
 """By how much the lifted Delta-frame is shifted forth and back to shift more load, the first that mechanism and balance allow [m]."""
-LOOKED_AT: Final = 13
-"""Angles of a swing at which balance is looked at."""
 STEP: Final = math.radians(0.5)
 """To which the range of the turn is found [rad]."""
 
@@ -81,7 +78,8 @@ def feel_give(walker: Walker) -> None:
         return
     home = float(walker.arm[0])
     aims = [min(spec.highest[0], max(spec.lowest[0], home + turn)) for turn in (*SWINGS, 0.0)]
-    _check_swing(walker, aims)
+    ends = [np.array((aim, *walker.arm[1:])) for aim in (min(aims), max(aims))]
+    check_swing(walker, ends[0], ends[1], "swung to feel how the feet sink in")
     walker.inclination.learns = True
     for aim in aims:
         walker.arm_aims[0] = aim
@@ -114,20 +112,6 @@ def shift_load(walker: Walker) -> None:
                 walker.wait(REST)
                 walker.inclination.learns = False
             return
-
-
-def _check_swing(walker: Walker, aims: Sequence[float]) -> None:
-    """Refuse a swing of the arm's first joint between angles [rad] that would bring the centre of mass too near to an edge."""
-    least, arm, kept = math.inf, walker.arm.copy(), walker.settings.limits.balance
-    for arm[0] in np.linspace(min(aims), max(aims), LOOKED_AT):
-        centre = mass_centre(walker.robot, walker.pose, walker.place, arm, walker.payload)
-        least = min(least, float(support_margin(walker.soles, walker.stands, centre)))
-    if least < kept:
-        raise RefusedError(
-            f"with {walker.payload:g} kg the arm, swung to feel how the feet sink in, brings the centre of mass {1e3 * least:.0f} mm "
-            f"inside the feet that stand, and {1e3 * kept:.0f} mm are kept",
-            least - kept,
-        )
 
 
 def offsets_from(readings: Sequence[Floats], headings: Sequence[float]) -> Floats:

@@ -1,4 +1,6 @@
-"""The tool held at a point of the world while the robot walks past it: where on the way that can be, and the arm's aims at every tick.
+"""The tool held at a point of the world, or led along a line, while the robot walks past it.
+
+Where on the way that can be, and the arm's aims at every tick.
 
 The body belongs to the walk. The arm takes back what the plate does, as the robot reckons it: slides, lifts, levelling, feet that sink in.
 """
@@ -19,6 +21,8 @@ from ...control.cooperative.tool_chain import POSE
 from ...control.track import Track
 from ...robots.walker import WalkerRobot
 from ...types import Floats, Json
+from .arm_swing import check_swing
+from .tool_line import ToolLine, along
 from .walker import RefusedError, Walker
 
 GRID: Final = 0.02
@@ -45,8 +49,8 @@ GAIN: Final = 0.5
 class HeldPart:
     """Where the tool was to be held, and what became of it as the robot believes."""
 
-    point: tuple[float, float, float]
-    """World, as believed [m]."""
+    points: tuple[tuple[float, float, float], ...]
+    """Where the tool was to be, world, as believed [m]: a point, or what it was to go through."""
     first: float
     """Way of the Delta-frame from which on the tool is held [m] ..."""
     last: float
@@ -72,7 +76,7 @@ class HeldPart:
     def to_json(self) -> Json:
         """Plain data."""
         return {name: getattr(self, name) for name in self.__slots__} | {
-            "point": list(self.point),
+            "points": [list(point) for point in self.points],
             "reach": [list(part) for part in self.reach],
         }
 
@@ -83,22 +87,24 @@ class ToolHold:
     Args:
         walker: The robot, standing as it will walk.
         track: Where its Delta-frame goes.
-        point: World, as the robot believes [m], shape (3,).
-        within: It is held from so far before the way's nearest place to it until so far behind [m].
+        points: World, as the robot believes [m], shape (n, 3): one to stay at, or those that the tool goes through; (3,) is one.
+        within: It is held from so far before the way's nearest place to it, or to the middle of the tool's line, until so far behind [m].
 
     Raises:
         RefusedError: If the arm reaches it nowhere there; the margin is what is missing.
     """
 
-    def __init__(self, walker: Walker, track: Track, point: Floats, within: float) -> None:
+    def __init__(self, walker: Walker, track: Track, points: Floats, within: float) -> None:
         robot = walker.robot
         assert robot.arm is not None, "only robots with an arm hold something"
-        self.point, self._arm = np.array(point, float), robot.arm
+        self._arm = robot.arm
         self._rest = walker.arm.copy()
         self._ways = _spread(0.0, track.length, GRID)
         self._poses = _plate_poses(walker, track, self._ways)
         self._at = 0
-        asked = self._asked(track, within)
+        points = np.atleast_2d(np.asarray(points, float))
+        asked = self._asked(track, along(points, 0.5), within)
+        self.line = ToolLine(points, float(asked[0]), float(asked[-1]))
         self.reach = self._find_reach(robot, asked, _plate_poses(walker, track, asked))
         self.first, self.last = self._choose_part(asked)
         speeds = own_speeds(robot)
@@ -113,14 +119,18 @@ class ToolHold:
         self._state: Literal["away", "coming", "there", "holding", "leaving"] = "away"
         self._set_out_at, self._from = 0.0, self._rest
         self._times: list[float] = []
+        self._targets: list[tuple[float, Floats]] = []
         self._missed, self._room, self._speed = 0.0, math.inf, 0.0
 
     def start(self, walker: Walker) -> None:
         """Take the arm over; where the way begins so near, the tool comes to the point before the robot goes on.
 
         Raises:
+            RefusedError: If the arm would tip the robot there, with what it carries; the margin is what is missing.
             FallenError: If the robot falls.
         """
+        if self.way_of(walker.pose) >= self.first - self._lead:
+            check_swing(walker, walker.arm, self._joints, "swung to the point to hold")
         walker.arm_task = self
         while self.way_of(walker.pose) >= self.first - self._lead and self._state in ("away", "coming"):
             walker.tick()
@@ -140,12 +150,12 @@ class ToolHold:
             return aims
         if self._state == "there":
             if way < self.first:
-                return self._step(self._at_first(walker))
+                return self._step(self._at_first(walker), self.line.at(self.first))
             self._state = "holding"
             self._times.append(now)
         if self._state == "holding":
             if way <= self.last:
-                return self._hold(walker)
+                return self._hold(walker, way)
             self._times.append(now)
             self._set_out("leaving", walker)
         if self._state == "leaving":
@@ -178,14 +188,19 @@ class ToolHold:
     def told(self) -> HeldPart:
         """What became of it so far."""
         began, ended = (*self._times, None, None)[:2]
-        x, y, z = self.point.tolist()
-        return HeldPart(
-            (x, y, z), self.first, self.last, self.reach, began, ended, self._missed, self._room, self._speed
-        )
+        points = tuple((float(x), float(y), float(z)) for x, y, z in self.line.points)
+        return HeldPart(points, self.first, self.last, self.reach, began, ended, self._missed, self._room, self._speed)
 
-    def _hold(self, walker: Walker) -> Floats:
-        aims = self._step(walker.pose)
-        off = float(np.linalg.norm(self._law.place(np.concatenate([walker.pose, aims])) - self.point))
+    def wanted(self) -> tuple[Floats, Floats]:
+        """Times while it was held [s], shape (ticks,), and where the tool was to be a period later, as believed, shape (ticks, 3) [m]."""
+        times = np.array([time for time, _ in self._targets])
+        return times, np.array([place for _, place in self._targets]).reshape(-1, 3)
+
+    def _hold(self, walker: Walker, way: float) -> Floats:
+        target = self.line.at(way)
+        self._targets.append((walker.time, target))
+        aims = self._step(walker.pose, target)
+        off = float(np.linalg.norm(self._law.place(np.concatenate([walker.pose, aims])) - target))
         low, high = np.array(self._arm.lowest), np.array(self._arm.highest)
         share = np.abs(aims - walker.arm) / (walker.period * np.array(self._arm.fastest))
         self._missed = max(self._missed, off)
@@ -193,9 +208,9 @@ class ToolHold:
         self._speed = max(self._speed, float(share.max()))
         return aims
 
-    def _step(self, pose: Floats) -> Floats:
+    def _step(self, pose: Floats, target: Floats) -> Floats:
         assert self._holder is not None, "the arm is there before it holds"
-        joints: Floats = self._holder.step(pose, self.point, self._weights).q[POSE:]
+        joints: Floats = self._holder.step(pose, target, self._weights).q[POSE:]
         return joints
 
     def _at_first(self, walker: Walker) -> Floats:
@@ -221,15 +236,15 @@ class ToolHold:
     def _off(self, k: int, pose: Floats) -> float:
         return float(np.hypot(*(pose - self._poses[k])[:2])) + abs(float(pose[3] - self._poses[k, 3])) * GRID
 
-    def _asked(self, track: Track, within: float) -> Floats:
+    def _asked(self, track: Track, point: Floats, within: float) -> Floats:
         """Ways between which the tool is to be held, as far as the track goes [m]."""
         ways = _spread(0.0, track.length, FINE)
-        away = [float(np.hypot(*(track.pose(float(way))[:2] - self.point[:2]))) for way in ways]
+        away = [float(np.hypot(*(track.pose(float(way))[:2] - point[:2]))) for way in ways]
         nearest = float(ways[int(np.argmin(away))])
         return _spread(max(0.0, nearest - within), min(track.length, nearest + within), GRID)
 
     def _find_reach(self, robot: WalkerRobot, ways: Floats, poses: Floats) -> tuple[tuple[float, float], ...]:
-        found = reachable_part(robot, poses, self.point)
+        found = reachable_part(robot, poses, np.array([self.line.at(float(way)) for way in ways]))
         if not found.parts:
             short = float(found.distances.min())
             raise RefusedError(
@@ -249,12 +264,13 @@ class ToolHold:
     def _joints_at(self, walker: Walker) -> Floats:
         """Joints that bring the tool to the point from where it is first held, near those at rest."""
         pose, rest = self._at_first(walker), self._rest.copy()
-        x, y = self.point[:2] - pose[:2]
+        point = self.line.at(self.first)
+        x, y = point[:2] - pose[:2]
         low, high = self._arm.lowest[0], self._arm.highest[0]
         rest[0] = min(high, max(low, math.remainder(math.atan2(y, x) - pose[3], math.tau)))
         footing = PlantedFeet(robot=walker.robot, support="y", pose=pose)
         search = ReachSearch(walker.robot, footing, self._weights, kept="arm")
-        return search.find(np.concatenate([pose, rest]), self.point).q[POSE:]
+        return search.find(np.concatenate([pose, rest]), point).q[POSE:]
 
 
 def _spread(first: float, last: float, gap: float) -> Floats:

@@ -7,7 +7,8 @@ import numpy as np
 
 from ...control.dead_reckoning import leg_places, reckon, soles_in_world
 from ...control.inclination import Inclination, InclinometerTrust
-from ...control.loads import plane_slope, sink_together, sink_unevenly, strain_of
+from ...control.load_shares import over_share
+from ...control.loads import plane_slope, sink_together, sink_unevenly
 from ...control.posture import (
     leg_lengths,
     level_heights,
@@ -118,7 +119,7 @@ class Walker:
         """Believed: where in the world the feet stand or stood last [m]."""
         self.ground = TouchedGround()
         self.strain = np.zeros(LEGS)
-        """By how much more than its even share each leg is to carry while more than three stand [N]; see `strain_of`."""
+        """By how much more than its even share each leg is to carry while more than three stand [N]; see `over_share`."""
         self.places, self.soles, self.matrix = np.zeros((LEGS, 2)), np.zeros((LEGS, 3)), np.eye(3)
         self.sensed, self.forces, self.readings = np.zeros(LEGS), np.zeros(LEGS), np.zeros(2)
         """Lengths of the legs [m], forces along them [N], inclines [rad], as last sensed."""
@@ -368,7 +369,7 @@ class Walker:
         """
         if not self.stands.all():
             return
-        over = strain_of(self.places, self.forces - self.strain, self.stands)
+        over = over_share(self.places, self.forces - self.strain, self.stands, self.settings.touch)
         give = max(self.inclination.give, LEAST_GIVE)
         self.heights += self.settings.share * self.period * give * over
 

@@ -17,6 +17,7 @@ from ...planning.result import PlanResult
 from ...tasks.limbed import LimbedTask
 from .cautions import CAUTIONS, Caution, cautious, steady
 from .rehearsal import Rehearsal
+from .steadying import steadied
 
 Rehearse: TypeAlias = Callable[[LimbedTask, Plan], Rehearsal]
 """Climbs by a plan before anything moves."""
@@ -29,7 +30,7 @@ EASY: Final = 3.5
 QUICK: Final = "beam"
 """Planner in place of one that proves: what fails in rehearsal changes the task time and again."""
 LESSONS: Final = 10
-"""Most plans of one caution that are rehearsed, each without the grabs that failed in those before."""
+"""Most plans of one caution that are rehearsed, each without what failed in those before."""
 
 
 def plan_to_climb(
@@ -129,7 +130,7 @@ def _rehearsed(
         if tried(plan).flawless:
             return plan
     for caution in steady(task):
-        taught = _taught(caution, find, tried)
+        taught = _taught(task, caution, find, tried)
         if taught is not None:
             return taught
     for plan in hard:
@@ -139,11 +140,11 @@ def _rehearsed(
 
 
 def _taught(
-    caution: Caution, find: Callable[[Caution], Plan | None], tried: Callable[[Plan], Rehearsal]
+    task: LimbedTask, caution: Caution, find: Callable[[Caution], Plan | None], tried: Callable[[Plan], Rehearsal]
 ) -> Plan | None:
-    """A plan whose rehearsal is flawless: searched for time and again, without the grabs that failed in the rehearsals before."""
+    """A plan whose rehearsal is flawless: the grab that failed in the rehearsal before is made where it is steadier, or done without."""
+    plan = find(caution)
     for _ in range(LESSONS):
-        plan = find(caution)
         if plan is None:
             return None
         done = tried(plan)
@@ -151,7 +152,15 @@ def _taught(
             return plan
         if done.failed is None:
             return None
-        caution = replace(caution, barred=(*caution.barred, done.failed))
+        codes = plan.codes(task)
+        made = steadied(cautious(task, caution), codes, done.failed)
+        if not np.array_equal(made, codes):
+            plan = Plan.of_codes(task, made, seed=plan.seed, planner=plan.planner)
+            continue
+        grab = plan.actions[done.failed - 1]
+        assert grab.limb is not None and grab.hold is not None  # a plan names what it took
+        caution = replace(caution, barred=(*caution.barred, (grab.limb, grab.hold)))
+        plan = find(caution)
     return None
 
 

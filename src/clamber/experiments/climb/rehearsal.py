@@ -26,8 +26,8 @@ class Rehearsal:
     """Climbs that were carried out whole."""
     share: float
     """Actions carried out, of all, in the mean [-]."""
-    failed: tuple[str, int] | None = field(default=None, compare=False)
-    """Limb and hold of the grab that the first climb that failed did not come beyond; None where there is none."""
+    failed: int | None = field(default=None, compare=False)
+    """Step of the grab that the first climb that failed did not come beyond; None where there is none."""
 
     @property
     def flawless(self) -> bool:
@@ -55,17 +55,17 @@ def rehearse(task: LimbedTask, plan: Plan, flaws: LimbFlaws, noise: Noise = REHE
     return Rehearsal(climbed, float(np.mean(shares)), failed)
 
 
-def grab_at_fault(plan: Plan, report: ClimbReport) -> tuple[str, int] | None:
-    """Limb and hold of the grab with which a climb went wrong: that which failed, that of the hook that stays wedged, else the latest.
+def grab_at_fault(plan: Plan, report: ClimbReport) -> int | None:
+    """Step of the grab with which a climb went wrong: that which failed, that of the hook that stays wedged, else the latest.
 
     None where no grab has led to where it ended.
     """
     if not report.actions:
         return None
-    step = report.actions[-1].first
-    last = plan.actions[step - 1]
-    for action in reversed(plan.actions[:step]):
+    ended = report.actions[-1].first
+    last = plan.actions[ended - 1]
+    for step in range(ended, 0, -1):
+        action = plan.actions[step - 1]
         if action.kind == "grab" and (last.kind != "release" or action.limb == last.limb):
-            assert action.limb is not None and action.hold is not None  # a plan names what it took
-            return action.limb, action.hold
+            return step
     return None

@@ -166,7 +166,8 @@ class FollowRun:
             "closest_limit": {"name": name, "margin": margin, "unit": unit, "time": time},
             "held_by": self.held,
             "unreachable_points": [
-                {"point": k, "distance_m": reach.distance, "reason": reach.reason} for k, reach in self.unreachable
+                {"point": k, "distance_m": reach.distance, "closest_m": reach.place.tolist(), "reason": reach.reason}
+                for k, reach in self.unreachable
             ],
             "unsolved_periods": self.unsolved,
         }

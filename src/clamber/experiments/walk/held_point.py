@@ -19,11 +19,11 @@ class HeldPoint:
     part: HeldPart
     """Where on the way, and what the robot believes."""
     point: Floats
-    """World, truly [m], shape (3,)."""
+    """World, truly [m], shape (3,): where it was to be at first."""
     time: Floats
     """Of the ticks at which it was held, shape (rows,) [s]."""
     errors: Floats
-    """Distance of the tool from the point then, shape (rows,) [m]."""
+    """Distance of the tool from where it was to be then, shape (rows,) [m]."""
 
     @property
     def largest(self) -> float | None:
@@ -46,18 +46,28 @@ class LaidHold:
     """A hold, and where its point truly is."""
 
     hold: ToolHold
-    point: Floats
-    """World, truly [m], shape (3,)."""
+    believed: Floats
+    """Of the plate where the way begins: x, y, heading, height, shape (4,) [m], [rad] ..."""
+    true: Floats
+    """... and as it truly was: what the robot is to reach lies relative to it."""
+
+    def truly(self, points: Floats) -> Floats:
+        """Where points that the robot believes somewhere truly are, shape (n, 3) [m]."""
+        flat = [compose(self.true[:3], seen_from(self.believed[:3], np.array((x, y, 0.0))))[:2] for x, y, _ in points]
+        return np.column_stack([np.reshape(flat, (-1, 2)), points[:, 2] + (self.true[3] - self.believed[3])])
 
     def as_it_was(self, true: TrueWalk) -> HeldPoint:
         """What became of it."""
-        part = self.hold.told()
+        part, point = self.hold.told(), self.truly(self.hold.line.points[:1])[0]
         if part.began is None:
-            return HeldPoint(part, self.point, np.empty(0), np.empty(0))
+            return HeldPoint(part, point, np.empty(0), np.empty(0))
         until = np.inf if part.ended is None else part.ended
         # what is commanded at a tick is done at the next
         rows = (true.time > part.began) & (true.time <= until)
-        return HeldPoint(part, self.point, true.time[rows], np.linalg.norm(true.tool[rows] - self.point, axis=1))
+        time, wanted = self.hold.wanted()
+        before = np.maximum(0, np.searchsorted(time, true.time[rows] - 1e-6) - 1)
+        errors = np.linalg.norm(true.tool[rows] - self.truly(wanted)[before], axis=1)
+        return HeldPoint(part, point, true.time[rows], errors)
 
 
 def lay_hold(walker: Walker, track: Track, hold: Hold) -> LaidHold:
@@ -68,10 +78,10 @@ def lay_hold(walker: Walker, track: Track, hold: Hold) -> LaidHold:
     """
     true = walker.plant.truth()
     assert true is not None, "only simulated walks are measured"
-    frame = np.array((walker.pose[0], walker.pose[1], walker.pose[3]))
-    there = compose(frame, np.array((hold.x, hold.y, 0.0)))
-    point = np.array((there[0], there[1], walker.heights[walker.stands > 0].mean() + hold.z))
-    seen = seen_from(frame, np.array((point[0], point[1], 0.0)))
-    truly = compose(true.pose[[0, 1, 3]], seen)
-    at = np.array((truly[0], truly[1], true.pose[2] + point[2] - walker.pose[2]))
-    return LaidHold(ToolHold(walker, track, point, hold.within), at)
+    frame = walker.pose[[0, 1, 3]]
+    floor = walker.heights[walker.stands > 0].mean()
+    places = hold.points()
+    flat = [compose(frame, np.array((x, y, 0.0)))[:2] for x, y, _ in places]
+    points = np.column_stack([flat, floor + places[:, 2]])
+    believed, truly = walker.pose[[0, 1, 3, 2]], true.pose[[0, 1, 3, 2]]
+    return LaidHold(ToolHold(walker, track, points, hold.within), believed, truly)

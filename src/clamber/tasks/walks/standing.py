@@ -1,6 +1,7 @@
 """Whether a walk's robot can stand where it starts: its mechanism within reach, its weight within its six feet."""
 
 import math
+from typing import Final
 
 import numpy as np
 
@@ -8,6 +9,9 @@ from ...files import Document
 from ...robots.walker import TwoFrames
 from ...robots.walker.weight import weight_of
 from .walk import Walk
+
+HEAVIEST: Final = 1e4
+"""Loads are looked for up to this [kg]."""
 
 
 def check_mechanism(walk: Walk, document: Document) -> None:
@@ -33,17 +37,18 @@ def check_mechanism(walk: Walk, document: Document) -> None:
 
 
 def why_it_tips(walk: Walk) -> str:
-    """How far what a level robot carries puts its centre of mass outside its six feet, and what it could carry; empty where it stands."""
-    margin = start_margin(walk, walk.payload)
-    if walk.start.plate != "level" or margin > 0.0:
+    """Where what a level robot that has tipped carries puts its centre of mass, and what would do on rigid feet; empty without a load."""
+    if walk.start.plate != "level" or walk.payload <= 0.0:
         return ""
-    low, high = 0.0, walk.payload
+    margin = start_margin(walk, walk.payload)
+    low, high = 0.0, HEAVIEST
     while high - low > 0.01:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if start_margin(walk, middle) > 0.0 else (low, middle)
+    side = "inside" if margin > 0.0 else "outside"
     return (
-        f"{walk.payload:g} kg put the centre of mass {-1e3 * margin:.0f} mm outside the six feet that it starts on; "
-        f"with the arm like this up to {math.floor(10.0 * low) / 10.0:.1f} kg do not tip it"
+        f"{walk.payload:g} kg put the centre of mass {1e3 * abs(margin):.0f} mm {side} the six feet that it starts on; with the arm like "
+        f"this rigid feet would bear up to {math.floor(10.0 * low) / 10.0:.1f} kg, and those that give way less"
     )
 
 

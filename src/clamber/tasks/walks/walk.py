@@ -39,8 +39,20 @@ class WalkStart:
 
 
 @spec
+class ToolStop:
+    """A place that the tool goes on to, seen from where the way begins."""
+
+    x: Length
+    """Ahead of the Delta-frame's origin, along its heading [m]."""
+    y: Length
+    """To its left [m]."""
+    z: Length
+    """Above the middle of its feet [m]."""
+
+
+@spec
 class Hold:
-    """A point that the tool is held at while the robot walks past it, seen from where the way begins."""
+    """A point that the tool is held at while the robot walks past it, seen from where the way begins; or a line that it follows."""
 
     x: Length
     """Ahead of the Delta-frame's origin, along its heading [m]."""
@@ -50,6 +62,13 @@ class Hold:
     """Above the middle of its feet [m]."""
     within: PositiveLength = 0.5
     """It is held from so far before the place of the way that is nearest to it until so far behind, where the arm can reach it [m]."""
+    through: tuple[ToolStop, ...] = ()
+    """Places that the tool goes on to, straight from one to the next, evenly with the plate's way; the way's place nearest to the middle
+    of that line counts. Without them it stays at the point."""
+
+    def points(self) -> Floats:
+        """The point and those that the tool goes on to, shape (n, 3) [m]."""
+        return np.array([(self.x, self.y, self.z), *((stop.x, stop.y, stop.z) for stop in self.through)])
 
 
 @spec

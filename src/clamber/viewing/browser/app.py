@@ -3,14 +3,16 @@
 import contextlib
 import io
 import socket
+from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from ...actions.plan import Plan
-from ...errors import ClamberError
+from ...errors import ClamberError, SpecError
 from ...experiments.climb.run_plan import ClimbRun
 from ...experiments.walk.run_walk import WalkRun
 from ...tasks import Task
 from ...tasks.limbed import LimbedTask
+from ...tasks.task_files import task_files
 from .. import style
 from .board_panel import BoardPanel
 from .climb_scenery import FOV
@@ -18,6 +20,7 @@ from .exhibit import Exhibit, planned_exhibit, run_film
 from .inputs import by_hand, set_input
 from .own_pages import own_pages_only
 from .playback import Playback
+from .save_panel import SavePanel
 from .scenery import Camera
 from .solids import colour
 from .stage import Stage
@@ -86,13 +89,14 @@ class App:
         exhibit: What is shown.
         host: Where to listen; only this machine can reach the usual one.
         port: Where to listen; 0: any that is free.
+        folder: Where the page may save what was made on it; only where no other machine can reach the page.
 
     Raises:
         MissingViserError: If its package is missing.
         PortError: If it cannot listen there.
     """
 
-    def __init__(self, exhibit: Exhibit, host: str = LOOPBACK, port: int = 0) -> None:
+    def __init__(self, exhibit: Exhibit, host: str = LOOPBACK, port: int = 0, folder: Path = Path()) -> None:
         check_viser()
         import viser
 
@@ -120,10 +124,13 @@ class App:
         self._shown.on_update(by_hand(lambda _: self.choose(self._shown.value)))
         self.work: WorkPanel | None = None
         self.board: BoardPanel | None = None
+        self.saving: SavePanel | None = None
         if exhibit.task is not None:
             limbed = isinstance(exhibit.task, LimbedTask)
             with tabs.add_tab("Board" if limbed else "Plan", viser.Icon.EDIT if limbed else viser.Icon.ROUTE):
                 self._add_work(exhibit.task)
+                if host == LOOPBACK:  # nobody else is to write files on this machine
+                    self.saving = SavePanel(server, f"{exhibit.task.name}-edited", folder, self.files)
         self.choose("both")
         aim_camera(server, exhibit.scenery.camera())
 
@@ -165,6 +172,20 @@ class App:
             self.show_task,
             lambda task, plan, run: self.show_run(run),
         )
+
+    def files(self, name: str) -> dict[str, str]:
+        """Names of files and their texts, of what was made on the page: the task of the edited board, and the plan that is shown.
+
+        Raises:
+            ClamberError: If the board makes no task, or there is neither a board nor a plan.
+        """
+        plan = self.exhibit.plan
+        made = {} if self.board is None else task_files(self.board.task().document, name)
+        if plan is not None:
+            made[f"{name}-plan.json"] = plan.text()
+        if not made:
+            raise SpecError("save", "plan", "", "is none yet; press Plan first")
+        return made
 
     def _wall(self) -> WallScene:
         assert isinstance(self.stage.world, WallScene)  # a climber's

@@ -8,6 +8,7 @@ import numpy as np
 
 from ...errors import ClamberError
 from ...tasks.limbed import LimbedTask
+from ...types import Floats
 from ..words import length_unit
 from .board_draft import BoardDraft, is_about_goal
 from .inputs import by_hand, set_input
@@ -173,17 +174,19 @@ class BoardPanel:
         if not self._editing.value:
             return
         origin, way = np.array(event.ray_origin), np.array(event.ray_direction)
-        depth = self._scene().depth if self._click.value in (NOTHING, REMOVES) else 0.0
-        if abs(way[1]) < 1e-6 or (away := (-depth - origin[1]) / way[1]) <= 0.0:
+        if abs(way[1]) < 1e-6 or -origin[1] / way[1] <= 0.0:
             return
-        x, y = (round(part / FINE) * FINE for part in on_wall(origin + away * way))
+        tips, wall = (
+            np.array(on_wall(origin + (-depth - origin[1]) / way[1] * way)) for depth in (self._scene().depth, 0.0)
+        )
+        x, y = (round(part / FINE) * FINE for part in wall.tolist())
         if self._click.value == ADDS:
             self.pick(self.draft.add(x, y))
         elif self._click.value == GOES:
             self.draft.set_goal(x, y)
             set_input(self._goal, self._shown(x, y))
         else:
-            number = self._nearest(x, y)
+            number = self._nearest(tips, wall)
             if number is None:
                 return
             if self._click.value == NOTHING:
@@ -193,9 +196,21 @@ class BoardPanel:
             self.pick(None if not self.draft.pegs else min(self.draft.pegs))
         self.apply()
 
-    def _nearest(self, x: float, y: float) -> int | None:
-        """The peg by a place, if one is close."""
+    def _nearest(self, tips: Floats, wall: Floats) -> int | None:
+        """The peg that is seen nearest to a line of sight, if it is close.
+
+        Args:
+            tips: Where the line goes through the plane of the pegs' ends, shape (2,) [m].
+            wall: Where it meets the wall, shape (2,) [m].
+        """
         pegs = self.draft.pegs
-        away = {number: float(np.hypot(peg.x - x, peg.y - y)) for number, peg in pegs.items()}
+        away = {number: _distance(np.array((peg.x, peg.y)), tips, wall) for number, peg in pegs.items()}
         number = min(away, key=lambda number: away[number], default=None)
         return number if number is not None and away[number] < 0.03 + pegs[number].radius else None
+
+
+def _distance(point: Floats, start: Floats, end: Floats) -> float:
+    """From a point to a stretch of a line, shape (2,) each [m]."""
+    along = end - start
+    share = float(np.clip((point - start) @ along / max(float(along @ along), 1e-18), 0.0, 1.0))
+    return float(np.linalg.norm(point - start - share * along))

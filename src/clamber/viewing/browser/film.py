@@ -50,6 +50,8 @@ class Film(ABC, Generic[Moment]):
     """In words; the first is the start."""
     grades: tuple[int, ...]
     """Of the steps, as colours of `style.STRIP`; the start's does not count."""
+    noun: str = "Step"
+    """What is counted."""
     words: tuple[str, str, str, str] = STRIP_WORDS
     """What the grades mean."""
     starts: Floats

@@ -19,7 +19,7 @@ from .app import LOOPBACK, aim_camera, check_viser, free_port, light_scene
 from .exhibit import Exhibit
 from .film import Film
 from .page_script import PANEL
-from .panel_html import head_html, margins_html
+from .panel_html import head_html, step_margins_html
 from .stage import STRIPS, Stage
 
 SUFFIXES: Final = (".html",)
@@ -70,7 +70,9 @@ def _record(server: Any, exhibit: Exhibit) -> str:
         recorder.insert_sleep((now - before) / film.speed)
         stage.show(film, now)
     page: str = recorder.as_html()
-    data = json.dumps(panel_data(film, times, stage.main_kind), separators=(",", ":"), allow_nan=False)
+    data = json.dumps(
+        panel_data(film, times, stage.main_kind, exhibit.plan_film), separators=(",", ":"), allow_nan=False
+    )
     data = data.replace("<", "\\u003c")  # so that no name in the data can end the script
     panel = PANEL.replace("@TITLE@", html.escape(exhibit.title)).replace("@DATA@", data)
     end = page.rindex("</body>")
@@ -83,16 +85,23 @@ def _times(film: Film[Any]) -> "np.ndarray[tuple[int], np.dtype[np.float64]]":
     return np.linspace(0.0, film.seconds, max(count, 1) + 1) if film.seconds > 0.0 else np.zeros(1)
 
 
-def panel_data(film: Film[Any], times: "np.ndarray[tuple[int], np.dtype[np.float64]]", kind: str) -> Json:
-    """What the page's own panel is given; times in seconds of the recording."""
+def panel_data(
+    film: Film[Any], times: "np.ndarray[tuple[int], np.dtype[np.float64]]", kind: str, plan: Film[Any] | None
+) -> Json:
+    """What the page's own panel is given; times in seconds of the recording, `plan` the plan of a run."""
     gauges = film.gauges
+
+    def margins(step: int) -> str:
+        then = None if plan is None else film.planned_time(film.rest(step), plan)
+        return step_margins_html(film, step, plan, None if plan is None or then is None else plan.step_at(then))
+
     moments = [film.at(float(time)) for time in times]
     return {
         "times": round_all(times / film.speed),
         "starts": round_all(film.starts / film.speed),
         "rests": round_all(film.rest(step) / film.speed for step in range(len(film.steps))),
         "steps": [
-            {"words": words, "grade": grade, "head": head_html(film, k, film.at(film.rest(k))), "margins": margins_html(film.margins(k))}
+            {"words": words, "grade": grade, "head": head_html(film, k, film.at(film.rest(k))), "margins": margins(k)}
             for k, (words, grade) in enumerate(zip(film.steps, film.grades, strict=True))
         ],
         "worst": film.worst,

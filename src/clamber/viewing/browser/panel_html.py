@@ -20,7 +20,7 @@ FAIR: Final = 0.15
 def head_html(film: Film[Any], step: int, moment: Any) -> str:
     """The step and what is to be said of the moment."""
     last = len(film.steps) - 1
-    title = f"Step {step} of {last}: {film.steps[step]}" if step else "Start"
+    title = f"{film.noun} {step} of {last}: {film.steps[step]}" if step else "Start"
     ink = style.ALERT if step and film.grades[step] == 0 else style.INK
     rows = "".join(
         f'<tr><td style="{CELL};color:{style.QUIET};vertical-align:top">{escape(name)}</td><td>{escape(words)}</td></tr>'
@@ -60,7 +60,7 @@ def strip_html(film: Film[Any], step: int, name: str) -> str:
         f'<span style="margin-right:9px">{escape(word)}</span>'
         for shade, word in zip(style.STRIP, film.words, strict=True)
     )
-    told = "" if worst is None else f"; framed: the worst, step {worst}"
+    told = "" if worst is None else f"; framed: the worst, {film.noun.lower()} {worst}"
     return (
         f'<div data-clamber="strip" style="font-size:11px;color:{style.QUIET};{PAD}"><div>{escape(name)}{told}</div>'
         f'<svg viewBox="0 0 {n} 10" preserveAspectRatio="none" style="width:100%;height:14px;display:block;margin:3px 0">'
@@ -68,8 +68,8 @@ def strip_html(film: Film[Any], step: int, name: str) -> str:
     )
 
 
-def margins_html(rows: list[MarginRow]) -> str:
-    """A bar for every check, the nearest to failing in bold; checks that only report are paler."""
+def margins_html(rows: list[MarginRow], whose: str = "") -> str:
+    """A bar for every check, the nearest to failing in bold; checks that only report are paler; `whose` says what they are of."""
     if not rows:
         return f'<div style="font-size:12px;color:{style.QUIET};{PAD}">Nothing judges this.</div>'
     made = []
@@ -91,10 +91,19 @@ def margins_html(rows: list[MarginRow]) -> str:
             f'<td style="{CELL};text-align:right">{escape(row.value)}</td></tr>'
         )
     note = "share of what is limited; paler: checks that only report"
+    head = f'<div style="font-size:12px">{escape(whose)}</div>' if whose else ""
     return (
-        f'<div data-clamber="margins" style="{PAD}"><table style="font-size:12px;width:100%;border-spacing:0">{"".join(made)}</table>'
+        f'<div data-clamber="margins" style="{PAD}">{head}<table style="font-size:12px;width:100%;border-spacing:0">{"".join(made)}</table>'
         f'<div style="font-size:11px;color:{style.QUIET}">{note}</div></div>'
     )
+
+
+def step_margins_html(film: Film[Any], step: int, plan: Film[Any] | None, planned: int | None) -> str:
+    """The checks of a step; of a run that nothing judges those of its plan at the step that belongs to it, if there is one."""
+    rows = film.margins(step)
+    if rows or plan is None or not planned:
+        return margins_html(rows)
+    return margins_html(plan.margins(planned), f"of the plan, at its step {planned}")
 
 
 def bars_html(gauges: Gauges, values: Floats) -> str:

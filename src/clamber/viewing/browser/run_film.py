@@ -25,6 +25,7 @@ class ClimbFilm(Film[Moment]):
     """
 
     speed = USUAL
+    noun = "Action"
     words = OUTCOMES
 
     def __init__(self, view: ClimbRunView) -> None:
@@ -69,7 +70,12 @@ class ClimbFilm(Film[Moment]):
         told = list(zip(self._view.rows, self._view.facts(step, at), strict=True))
         if step:
             action = self.actions[step - 1]
-            words = [action.outcome, f"{action.seconds:.1f} s", f"body {1e3 * action.off:.1f} mm off its aim"]
+            words = [
+                action.outcome,
+                f"plan's step {action.steps}",
+                f"{action.seconds:.1f} s",
+                f"body {1e3 * action.off:.1f} mm off its aim",
+            ]
             words += [f"{action.tries} tries"] if action.kind == "grab" and action.tries > 1 else []
             words += [f"tip believed {1e3 * action.tip_error:.1f} mm off"] if action.tip_error is not None else []
             told.append(("Outcome", ", ".join(words)))

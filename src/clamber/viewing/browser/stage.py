@@ -4,7 +4,7 @@ import time
 from typing import TYPE_CHECKING, Any, Final, Literal
 
 from .film import Film
-from .panel_html import bars_html, head_html, margins_html, strip_html
+from .panel_html import bars_html, head_html, step_margins_html, strip_html
 from .scenery import Figure, Scenery, World
 
 if TYPE_CHECKING:
@@ -83,17 +83,19 @@ class Stage:
         step = film.step_at(at)
         moment = film.at(at)
         kind = "run" if film is self.films.get("run") else "plan"
-        ghost = None
+        ghost, planned = None, None
         if kind == "run" and self.shown == "both" and "plan" in self.films:
-            then = film.planned_time(at, self.films["plan"])
-            ghost = None if then is None else self.films["plan"].at(then)
+            plan = self.films["plan"]
+            then = film.planned_time(at, plan)
+            ghost = None if then is None else plan.at(then)
+            planned = None if then is None else plan.step_at(then)
         with self.server.atomic():
             self._figure(kind).show(moment, film.grades[step])
             for name, figure in self._figures.items():
                 figure.hide(not (name == kind or (name == "plan ghost" and ghost is not None)))
             if ghost is not None:
                 self._figure("plan ghost").show(ghost)
-            self._tell(film, kind, step, moment)
+            self._tell(film, kind, step, moment, planned)
 
     def _figure(self, name: str) -> Figure:
         if name not in self._figures:
@@ -101,7 +103,7 @@ class Stage:
             self._figures[name] = self.scenery.figure(self.server, f"/{name}", opacity)
         return self._figures[name]
 
-    def _tell(self, film: Film[Any], kind: str, step: int, moment: Any) -> None:
+    def _tell(self, film: Film[Any], kind: str, step: int, moment: Any, planned: int | None) -> None:
         now, (last, before) = time.perf_counter(), self._told
         if not self._texts or (step == before and now - last < WORDS_PERIOD):
             return
@@ -109,7 +111,7 @@ class Stage:
             "head": head_html(film, step, moment),
             "bars": bars_html(film.gauges, film.values(moment)),
             "strip": strip_html(film, step, STRIPS[kind]),
-            "margins": margins_html(film.margins(step)),
+            "margins": step_margins_html(film, step, self.films.get("plan"), planned),
         }
         self._told = now, step
         for name, words in texts.items():

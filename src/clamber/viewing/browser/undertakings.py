@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from ...actions.plan import Plan
+from ...compiled import is_compiled
 from ...experiments.climb.planning import plan_to_climb, replanner
 from ...experiments.climb.rehearsal import Rehearsal, rehearse
 from ...experiments.climb.run_plan import ClimbRun, climbing_flaws, climbing_task, run_plan
@@ -42,7 +43,7 @@ def make_plan(task: Task, planner: str, seconds: float, tell: Tell, *, reserves:
     Raises:
         ClamberError: If the planner cannot work on the task, or the start violates a hard check.
     """
-    tell("planning: looking for any plan")
+    tell(f"planning: looking for any plan{_unless_compiled(task)}")
     if reserves and not isinstance(task, LimbedTask):
         task = careful(task)
     result = plan_task(task, planner, seed=0, seconds=seconds, progress=_Listener(tell))
@@ -74,7 +75,7 @@ def carry_out(task: Task, plan: Plan, tell: Tell) -> ClimbRun | WalkRun:
     Raises:
         ClamberError: If something speaks against the plan.
     """
-    tell("making the robot ready")
+    tell(f"making the robot ready{_unless_compiled(task)}")
     if not isinstance(task, LimbedTask):
         walk, lay = walk_of(task), lay_plan(task, plan)
 
@@ -89,6 +90,12 @@ def carry_out(task: Task, plan: Plan, tell: Tell) -> ClimbRun | WalkRun:
 
     again = replanner("auto", seconds=60.0, seed=0)
     return run_plan(strict, plan, climbing_flaws(strict, ()), replan=again, progress=climbed)
+
+
+def _unless_compiled(task: Task) -> str:
+    """What to add where no such robot has moved on this machine: its kernels are compiled, and nothing is told meanwhile."""
+    moves = "command_tick" if isinstance(task, LimbedTask) else "level_heights"
+    return "" if is_compiled(moves) else "; kernels are compiled, once, which takes a minute or two"
 
 
 def outcome(run: ClimbRun | WalkRun) -> tuple[bool, str]:

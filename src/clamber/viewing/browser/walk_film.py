@@ -67,7 +67,11 @@ class PlannedWalkFilm(Film[WalkMoment]):
         shapes = WalkShapes(
             (delta[[0, 1, 2, 0]], star[[1, 0, 2, 0, 3]]), level(at.outline.actuators), legs, touching, np.full((3, 3), np.nan), centre
         )  # fmt: skip
-        return WalkMoment(shapes, np.zeros((2, 3, 3)), _weight(robot), at.poses)
+        weight, forces = _weight(robot), np.zeros((2, 3, 3))
+        if stands.sum() == 1:  # six feet share the weight in more ways than statics tells
+            standing = int(np.argmax(stands))
+            forces[standing, :, 2] = loads_at_rest(feet[standing], centre[:2], weight)
+        return WalkMoment(shapes, forces, weight, at.poses)
 
     def nearest(self, poses: Floats) -> float:
         """When the frames of the plan are nearest to some poses, shape (2, 3) [s]: the sum of squares tells, turns at the feet's circle."""
@@ -215,6 +219,20 @@ class WalkFilm(Film[WalkMoment]):
         """See `Film`."""
         known = [k for k, least in enumerate(self._least) if not math.isnan(least)]
         return 1 + min(known, key=lambda k: self._least[k]) if known else None
+
+
+def loads_at_rest(feet: Floats, centre: Floats, weight: float) -> Floats:
+    """What the ground carries at each of three feet while a robot rests on them, upwards, shape (3,) [N].
+
+    Force and moment balance of a weight over three points: barycentric coordinates. Zero where the centre is not between the feet.
+
+    Args:
+        feet: Seen from above, shape (3, 2) [m].
+        centre: Of mass, likewise, shape (2,) [m].
+        weight: Of the robot [N].
+    """
+    loads = weight * np.linalg.solve(np.vstack((np.ones(3), feet.T)), np.array((1.0, *centre)))
+    return loads if loads.min() >= 0.0 else np.zeros(3)
 
 
 def logged_walk(trace: WalkTrace) -> TrueWalk:

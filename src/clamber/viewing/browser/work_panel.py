@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Final
 
 from ...actions.plan import Plan
+from ...errors import ClamberError
 from ...planning.planners import PLANNERS
 from ...tasks import Task
 from .. import style
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     import viser
 
 PLANNER: Final = "auto"
+CHANGED: Final = "the board was changed meanwhile; what came of it as it was is left out: press Plan again"
 SECONDS: Final = 60.0
 """Most time for a search, unless the panel says otherwise [s]."""
 
@@ -73,6 +75,9 @@ class WorkPanel:
 
         def done(found: tuple[Task, Planned]) -> None:
             now, answer = found
+            if self._is_past(now):
+                self._say(self._plan_words, CHANGED, bad=True)
+                return
             if answer.plan is not None:
                 self._planned(now, answer.plan)
             self._say(self._plan_words, answer.words, bad=answer.plan is None)
@@ -92,6 +97,9 @@ class WorkPanel:
 
         def done(found: tuple[Task, Any]) -> None:
             now, run = found
+            if self._is_past(now):
+                self._say(self._run_words, CHANGED, bad=True)
+                return
             well, words = outcome(run)
             self._ran(now, plan, run)
             self._say(self._run_words, words, bad=not well)
@@ -102,6 +110,13 @@ class WorkPanel:
         """Forget what came of earlier work."""
         self._say(self._plan_words, "", bad=False)
         self._say(self._run_words, "", bad=False)
+
+    def _is_past(self, task: Task) -> bool:
+        """Whether the board was edited while a task of it was worked on."""
+        try:
+            return self._task().document != task.document
+        except ClamberError:
+            return True
 
     def _begin(self, work: Callable[[Any], Any], done: Callable[[Any], None], words: "viser.GuiHtmlHandle") -> None:
         def ended(found: Any) -> None:
@@ -115,7 +130,7 @@ class WorkPanel:
         if self.labour.busy:
             self._say(words, "other work is under way; stop it first", bad=True)
             return
-        self._say(words, "", bad=False)
+        self.clear()
         self._show_work(True)
         self.labour.begin(work, ended, failed)
 

@@ -153,7 +153,7 @@ def _most(actions: list[ActionReport], name: str) -> list[ActionReport]:
 
 
 def _where(action: ActionReport) -> str:
-    return f"step {action.first}: {action.title}"
+    return f"step {action.steps}: {action.title}"
 
 
 def _happened(actions: list[ActionReport]) -> Rows:
@@ -162,7 +162,7 @@ def _happened(actions: list[ActionReport]) -> Rows:
     )  # fmt: skip
     rows = tuple(
         (
-            str(one.first) if one.first == one.last else f"{one.first} to {one.last}",
+            one.steps,
             one.title,
             one.outcome,
             round(one.start, 1),

@@ -1,5 +1,6 @@
-"""Pictures of a climb under noise show the pegs as they truly are."""
+"""Pictures of a climb show the pegs as they truly are, and tell what became of every action, not margins that nothing judged."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,9 @@ from clamber.experiments.climb.run_plan import ClimbRun, climbing_flaws, run_pla
 from clamber.tasks import load_task
 from clamber.tasks.limbed import LimbedTask
 from clamber.viewing import style
-from clamber.viewing.climb_run_view import ClimbRunView, write_run
+from clamber.viewing.climb_run_view import OUTCOMES, ClimbRunView, write_run
+from clamber.viewing.frames import make_frames
+from clamber.viewing.player import player_data
 
 
 def climbed(noise: Noise) -> ClimbRun:
@@ -37,3 +40,20 @@ def test_true_pegs_are_crosses_where_they_are(tmp_path: Path) -> None:
     plain = climbed(NO_NOISE)
     write_run(plain, tmp_path / "plain.png")
     assert (tmp_path / "climb.png").read_bytes() != (tmp_path / "plain.png").read_bytes()
+
+
+def test_what_went_wrong_is_told_and_red_in_picture_and_player() -> None:
+    run = climbed(NO_NOISE)
+    first = run.report.actions[0]
+    missed = replace(first, first=2, last=4, kind="grab", outcome="missed", reason="the hook met nothing")
+    view = ClimbRunView(run.task, run.trace, [first, missed])
+    view.show(2, view.settled(2))
+    assert view.title_text.get_text().startswith("Action 2 of 2") and view.title_text.get_color() == style.ALERT
+    assert view.texts[-1].get_text() == "missed: the hook met nothing (plan: step 2 to 4)"
+    data = player_data(view, make_frames(view, 100))
+    assert (data["noun"], data["strip"]) == ("Action", "What became of every action")
+    assert data["palette"]["words"] == OUTCOMES and data["rows"][-1] == "Outcome"
+    assert [step["grade"] for step in data["steps"]] == [3, 3, 0]
+    assert data["steps"][2]["facts"][-1].startswith("missed")
+    view.show(1, view.settled(1))
+    assert view.title_text.get_color() == style.INK
