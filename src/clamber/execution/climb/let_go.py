@@ -21,7 +21,7 @@ SETTLING: Final = 0.3
 """Before the load passes to one limb [s]."""
 OFFSETS: Final = (0.0, 0.005, 0.01, 0.015)
 """How far the weight may be from below the hold that stays, on the side where it is, tried in turn [m]: from farther the other hook bears,
-and is caught on its hold."""
+and is caught on its hold. That counts for more than how far the hook can be lifted straight off."""
 TURNS: Final = np.radians(np.arange(-75.0, 76.0, 7.5))
 """Of the body from where it is that are tried [rad]."""
 DEPTHS: Final = np.arange(0.10, 0.33, 0.02)
@@ -106,10 +106,11 @@ def pose_to_let_go(climber: Climber, i: int, stay: int) -> Floats | None:
 
     Limb `i` can be lifted off there, until its hook is clear of its hold all round if that can be. None where there is none.
     """
-    for off in (_clear_off(climber, i), OFF):
-        pose = _pose_to_lift(climber, i, stay, off)
-        if pose is not None:
-            return pose
+    for offset in OFFSETS:
+        for off in (_clear_off(climber, i), OFF):
+            pose = _pose_to_lift(climber, i, stay, off, offset)
+            if pose is not None:
+                return pose
     return None
 
 
@@ -118,31 +119,31 @@ def _clear_off(climber: Climber, i: int) -> float:
     return free_distance(climber.peg_radius, climber.map.error(climber.body.tasks[i].hold)) + AWAY
 
 
-def _pose_to_lift(climber: Climber, i: int, stay: int, off: float) -> Floats | None:
+def _pose_to_lift(climber: Climber, i: int, stay: int, off: float, offset: float) -> Floats | None:
+    """The pose nearest to the present one where the weight is at most `offset` from below the hold of `stay`, with room to lift `i` off."""
     body, robot = climber.body, climber.robot
     pendulum, here, hold = Pendulum(robot, stay), body.settled.copy(), body.tasks[stay].place
     q = body.q - body.play
     now = (pendulum.arm(q) * complex(math.cos(here[2]), math.sin(here[2]))).real
-    for offset in OFFSETS:
-        wished = math.copysign(min(offset, abs(now)), now)
-        found = []
-        for turn in TURNS:
-            for depth in DEPTHS:
-                pose = np.array((here[0] - now + wished, hold[1] - depth, here[2] + turn))
-                moved = q.copy()
-                for _ in range(ROUNDS):  # the weight moves with the limbs that reach for the holds
-                    holding, leaving = _well_on(climber, stay, pose, 0.0), _well_on(climber, i, pose, off)
-                    if holding is None or leaving is None:
-                        break
-                    moved[stay], moved[i] = holding, leaving
-                    aside = (pendulum.arm(moved) * complex(math.cos(pose[2]), math.sin(pose[2]))).real - wished
-                    if abs(aside) < NEAR:
-                        found.append(pose)
-                        break
-                    pose[0] -= aside
-        if found:
-            return min(found, key=lambda pose: float(np.hypot(*(pose[:2] - here[:2])) + 0.2 * abs(pose[2] - here[2])))
-    return None
+    wished = math.copysign(min(offset, abs(now)), now)
+    found = []
+    for turn in TURNS:
+        for depth in DEPTHS:
+            pose = np.array((here[0] - now + wished, hold[1] - depth, here[2] + turn))
+            moved = q.copy()
+            for _ in range(ROUNDS):  # the weight moves with the limbs that reach for the holds
+                holding, leaving = _well_on(climber, stay, pose, 0.0), _well_on(climber, i, pose, off)
+                if holding is None or leaving is None:
+                    break
+                moved[stay], moved[i] = holding, leaving
+                aside = (pendulum.arm(moved) * complex(math.cos(pose[2]), math.sin(pose[2]))).real - wished
+                if abs(aside) < NEAR:
+                    found.append(pose)
+                    break
+                pose[0] -= aside
+    return min(
+        found, key=lambda pose: float(np.hypot(*(pose[:2] - here[:2])) + 0.2 * abs(pose[2] - here[2])), default=None
+    )
 
 
 def _well_on(climber: Climber, i: int, pose: Floats, off: float) -> Floats | None:
