@@ -46,7 +46,7 @@ test: setup  ## fast tests
 	$(BIN)/python -m pytest -n $(JOBS) -m "not slow"
 
 slow: setup  ## slow tests: published results, peers, long searches
-	$(BIN)/python -m pytest -n $(JOBS) -m slow
+	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal --durations 25 -m slow
 
 lint: setup  ## format and lint
 	$(BIN)/ruff format --check .
