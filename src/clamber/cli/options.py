@@ -21,6 +21,11 @@ TaskName: TypeAlias = Annotated[
 PlannerName: TypeAlias = Annotated[
     str, typer.Option(help="How to search (`clamber list planners`).", autocompletion=names_of("planners"))
 ]
+CarriedOutIn: TypeAlias = Annotated[
+    str | None,
+    typer.Option(help="Carry the plan out in this task, in place of its own.", autocompletion=names_of("tasks")),
+]
+Replan: TypeAlias = Annotated[bool, typer.Option(help="Plan again where a hold cannot be had.")]
 Overrides: TypeAlias = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="KEY=VALUE", help="Change one key of task, board or robot, such as start.y=6.2in."),

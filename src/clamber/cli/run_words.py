@@ -6,8 +6,7 @@ from typing import Annotated
 
 import typer
 
-from .name_completion import names_of
-from .options import PLAN_SECONDS, AsJson, NoiseTexts, Overrides, PlannerName, PlanSeconds, Quiet
+from .options import PLAN_SECONDS, AsJson, CarriedOutIn, NoiseTexts, Overrides, PlannerName, PlanSeconds, Quiet, Replan
 from .output import check_writable
 
 
@@ -15,17 +14,14 @@ from .output import check_writable
 class RunWords:
     """Options of `clamber run`, as they came."""
 
-    task: Annotated[
-        str | None,
-        typer.Option(help="Carry the plan out in this task, in place of its own.", autocompletion=names_of("tasks")),
-    ] = None
+    task: CarriedOutIn = None
     planner: PlannerName = "auto"
     seconds: PlanSeconds = PLAN_SECONDS
     overrides: Overrides = None
     noise: NoiseTexts = None
     peg_error: Annotated[str | None, typer.Option(help="Short for --noise peg_error=..., such as 3mm.")] = None
     seed: Annotated[int, typer.Option(min=0, help="Of planner and noise.")] = 0
-    replan: Annotated[bool, typer.Option(help="Plan again where a hold cannot be had.")] = True
+    replan: Replan = True
     plant: Annotated[str, typer.Option(help="What moves: torques, volts, or the ADDRESS of `clamber plant serve`.")] = (
         "torques"
     )

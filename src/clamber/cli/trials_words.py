@@ -5,8 +5,7 @@ from typing import Annotated
 
 import typer
 
-from .name_completion import names_of
-from .options import PLAN_SECONDS, NoiseTexts, Overrides, PlannerName, PlanSeconds
+from .options import PLAN_SECONDS, CarriedOutIn, NoiseTexts, Overrides, PlannerName, PlanSeconds, Replan
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,14 +15,11 @@ class TrialsWords:
     n: Annotated[int, typer.Option("-n", min=1, help="How many climbs.")] = 24
     seed: Annotated[int, typer.Option(min=0, help="Of the first climb; each further one has the next.")] = 0
     noise: NoiseTexts = None
-    task: Annotated[
-        str | None,
-        typer.Option(help="Carry the plan out in this task, in place of its own.", autocompletion=names_of("tasks")),
-    ] = None
+    task: CarriedOutIn = None
     planner: PlannerName = "auto"
     seconds: PlanSeconds = PLAN_SECONDS
     overrides: Overrides = None
-    replan: Annotated[bool, typer.Option(help="Plan again where a hold cannot be had.")] = True
+    replan: Replan = True
     force: Annotated[bool, typer.Option("--force", help="Carry out a plan that its checks refuse.")] = False
     at_least: Annotated[
         str | None, typer.Option(help="Leave with 0 only if success is at least this with 97.5 % confidence.")
