@@ -105,16 +105,20 @@ def test_who_pauses_may_be_late() -> None:
 
 
 def test_who_is_late_finds_the_plant_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
-    stopped = threading.Event()
+    stopped, looked = threading.Event(), threading.Event()
     monkeypatch.setattr("clamber.execution.link.server.HELD", 0.1)
-    with (
-        toy_server(real_time=True, told=lambda _: stopped.set()) as (address, server),
-        RemoteHardware(address) as remote,
-    ):
+
+    def told(_: str) -> None:
+        stopped.set()
+        assert looked.wait(20.0)
+
+    with toy_server(real_time=True, told=told) as (address, server), RemoteHardware(address) as remote:
         remote.reset(np.zeros(2))
+        remote.step()
+        assert stopped.wait(20.0)
+        remote.step()  # takes what was sent before the stop; that one was made is on the way
+        looked.set()
         with pytest.raises(PlantStoppedError, match="safe stop: no command came for two ticks"):
-            remote.step()
-            assert stopped.wait(20.0)
             remote.step()
     assert server.stops == [Stop.SILENT]
 
