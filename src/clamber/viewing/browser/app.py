@@ -18,7 +18,7 @@ from ...tasks.walks import Walk
 from .. import style
 from ..scene import Bounds
 from .board_panel import BoardPanel
-from .climb_scenery import FOV
+from .climb_scenery import FOV, join
 from .exhibit import Exhibit, planned_exhibit, run_film, walk_exhibit
 from .ground_panel import GroundPanel
 from .inputs import by_hand, set_input
@@ -154,6 +154,9 @@ class App:
             ClamberError: If its start violates a hard check.
         """
         exhibit = walk_exhibit(task) if isinstance(task, Walk) else planned_exhibit(task, plan)
+        # what was shown stays in sight, so that the world does not jump while it is edited
+        seen = join(self.stage.scenery.bounds, exhibit.scenery.bounds)
+        exhibit.scenery = exhibit.scenery.with_bounds(seen)
         self.exhibit = exhibit
         with self.playback.still():
             self.stage.set_scenery(exhibit.scenery)

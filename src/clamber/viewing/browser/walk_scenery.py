@@ -1,7 +1,7 @@
 """A walker and its ground, for the viewer."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -40,6 +40,10 @@ class WalkScenery:
     """The part of the ground that is shown."""
     way: Floats | None = None
     """Places that a walk's way leads along, seen from above, shape (n, 2) [m]; None: it is not known."""
+
+    def with_bounds(self, bounds: Bounds) -> "WalkScenery":
+        """See `Scenery`."""
+        return replace(self, bounds=bounds)
 
     def world(self, server: "viser.ViserServer") -> GroundScene:
         """See `Scenery`."""
