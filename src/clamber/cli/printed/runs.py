@@ -65,7 +65,7 @@ class PhaseTimes(Printed):
     settle: float
 
 
-@means_as("execution/walk/sequencer.py:StepReport")
+@means_as("execution/walk/walk_report.py:StepReport")
 class StepDone(Printed):
     """What became of a step of a walk."""
 
