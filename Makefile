@@ -12,7 +12,7 @@ export OPENBLAS_NUM_THREADS := 1
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test slow lint types architecture check bench study docs lock clean
+.PHONY: help setup demo test slow long lint types architecture check bench study docs lock clean
 
 help:  ## list the targets
 	@grep -hE '^[a-z]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 14
@@ -43,10 +43,13 @@ demo: setup  ## plan a climb up the ladder, climb it in contact dynamics, draw b
 	@echo "out/ladder.png (the plan in one picture) and out/ladder.json (the plan)."
 
 test: setup  ## fast tests
-	$(BIN)/python -m pytest -n $(JOBS) -m "not slow"
+	$(BIN)/python -m pytest -n $(JOBS) -m "not slow and not long"
 
-slow: setup  ## slow tests: published results, peers, long searches
+slow: setup  ## slow tests: peers, walks, climbs, every command of the pages
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal --durations 25 -m slow
+
+long: setup  ## the longest tests: published results that search or tune for minutes
+	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal --durations 25 -m long
 
 lint: setup  ## format and lint
 	$(BIN)/ruff format --check .
