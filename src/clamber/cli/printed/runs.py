@@ -37,6 +37,7 @@ class NewPlan(Printed):
     """Actions of the new plan."""
 
 
+@means_as("execution/run_report.py:RunReport")
 @means_as("execution/climb/climb_report.py:ClimbReport")
 class Climbed(Printed):
     """A climb that was carried out; exit code 1 where it is not done."""
@@ -108,6 +109,7 @@ class Held(Printed):
     mean_error: float | None
 
 
+@means_as("execution/run_report.py:RunReport")
 class Walked(Printed):
     """A walk that was carried out; exit code 1 where it is not done."""
 

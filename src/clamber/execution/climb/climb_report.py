@@ -47,6 +47,8 @@ class ActionReport:
 class ClimbReport(RunReport):
     """How a plan was carried out."""
 
+    pose: tuple[float, ...] = field(default=(0.0, 0.0, 0.0), kw_only=True)
+    """Body at the end, as believed [m], [rad]."""
     actions: list[ActionReport] = field(default_factory=list)
     replans: list[Json] = field(default_factory=list)
     """Where a new plan was made: after which of `actions`, its length, why."""
