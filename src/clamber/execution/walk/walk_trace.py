@@ -1,7 +1,7 @@
 """What happens in a walk, sample by sample, and the log that it becomes."""
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import numpy as np
@@ -9,7 +9,9 @@ import numpy as np
 from ...control.support import support_margin
 from ...robots.walker import FRAMES
 from ...types import Floats, Ints, Json
-from ..log import Log, LogError, split_title
+from ..log import Log, LogError
+from ..sample_log import fields_of, report_notes, report_of, sample_log, table_of, width
+from ..samples import Samples
 from .walker import LEGS, Walker
 
 EVERY: Final = 5
@@ -19,6 +21,10 @@ PLACE: Final = (("x", "m"), ("y", "m"), ("theta", "rad"))
 LEG_NAMES: Final = tuple(f"{frame} leg {i + 1}" for frame in FRAMES for i in range(3))
 PHASES: Final = ("prepare", "lift", "slide", "lower", "settle")
 """What a walk does, by number."""
+WHOLE: Final = frozenset({"step", "phase", "stands"})
+"""Fields of whole numbers."""
+NO_INSIDE: Final = -1.0
+"""What a log has for the margin where fewer than three feet stand, which is minus infinity: less than that of any robot that stands [m]."""
 
 
 def walk_titles(*, true: bool) -> dict[str, tuple[str, ...]]:
@@ -93,18 +99,10 @@ class WalkTrace:
 
     def to_log(self) -> Log:
         """Columns by name, with `notes` as JSON."""
-        columns: dict[str, Floats] = {}
-        units: dict[str, str] = {}
-        for field, titles in walk_titles(true=self.true_pose is not None).items():
-            values = np.asarray(getattr(self, field), dtype=np.float64).reshape(len(self.time), -1)
-            for k, (name, unit) in enumerate(map(split_title, titles)):
-                columns[name] = values[:, k]
-                if unit is not None:
-                    units[name] = unit
-        notes = {"walker": json.dumps(LEG_NAMES)}
-        if self.notes is not None:
-            notes["report"] = json.dumps(self.notes)
-        return Log(columns, units, notes, "walk")
+        notes = {"walker": json.dumps(LEG_NAMES)} | ({} if self.notes is None else report_notes(self.notes))
+        true = None if self.true_margin is None else np.maximum(self.true_margin, NO_INSIDE)
+        finite = replace(self, margin=np.maximum(self.margin, NO_INSIDE), true_margin=true)
+        return sample_log(finite, walk_titles(true=self.true_pose is not None), notes, "walk")
 
     @classmethod
     def from_log(cls, log: Log) -> "WalkTrace":
@@ -116,23 +114,17 @@ class WalkTrace:
         if "walker" not in log.notes:
             raise LogError(log.label, None, None, None, "is no log of a walk: its notes name no walker's legs")
         fields = walk_titles(true="plate x true" in log.columns)
-        table = np.stack([log.column(split_title(title)[0]) for titles in fields.values() for title in titles], axis=1)
-        return cls.from_table(table, json.loads(log.notes["report"]) if "report" in log.notes else None)
+        trace = cls.from_table(table_of(log, fields), report_of(log))
+        for margin in (trace.margin, trace.true_margin):
+            if margin is not None:
+                margin[margin <= NO_INSIDE] = -np.inf
+        return trace
 
     @classmethod
     def from_table(cls, table: Floats, notes: Json | None) -> "WalkTrace":
         """The trace of samples under `walk_titles`, shape (rows, columns)."""
-        true = table.shape[1] > sum(map(len, walk_titles(true=False).values()))
-        parts: dict[str, Any] = {}
-        start = 0
-        for field, titles in walk_titles(true=true).items():
-            values = np.ascontiguousarray(table[:, start : start + len(titles)])
-            start += len(titles)
-            if field in ("step", "phase", "stands"):
-                values = values.astype(np.int32)
-            if field == "true_feet":
-                values = values.reshape(-1, LEGS, 3)
-            parts[field] = values[:, 0] if len(titles) == 1 else values
+        titles = walk_titles(true=table.shape[1] > width(walk_titles(true=False)))
+        parts: dict[str, Any] = fields_of(table, titles, whole=WHOLE, shapes={"true_feet": (LEGS, 3)})
         return cls(notes=notes, **parts)
 
 
@@ -143,21 +135,14 @@ class TracedWalker(Walker):
         super().__init__(*args, **options)
         self.step, self.phase = 0, 0
         """Number of the step that is carried out, and which of `PHASES`."""
-        self._every, self._kept = every, -1
-        self._rows: list[Floats] = []
+        self.samples = Samples(self, every)
 
     def tick(self) -> None:
         """As a walker's, kept; the tick of a fall is, too."""
-        try:
-            super().tick()
-        except BaseException:
-            self.keep()
-            raise
-        if self.ticks % self._every == 0:
-            self.keep()
+        self.samples.over(super().tick)
 
-    def keep(self) -> None:
-        """Take a sample of now, in place of one that there is."""
+    def sample(self) -> Floats:
+        """Of now, in the order of `walk_titles`."""
         true = self.plant.truth()
         parts = [
             (self.time, self.step, self.phase), self.pose, self.place, self.sensed, self.commanded, self.actuators,
@@ -167,14 +152,8 @@ class TracedWalker(Walker):
             feet = true.feet.reshape(LEGS, 3)
             margin = support_margin(feet, true.touching.ravel(), true.centre)
             parts += [true.pose, true.place, (margin,), feet.ravel()]
-        row = np.concatenate([np.asarray(part, float) for part in parts])
-        if self._kept == self.ticks:
-            self._rows[-1] = row
-        else:
-            self._kept = self.ticks
-            self._rows.append(row)
+        return np.concatenate([np.asarray(part, float) for part in parts])
 
     def trace(self, notes: Json | None = None) -> WalkTrace:
         """All samples so far."""
-        self.keep()
-        return WalkTrace.from_table(np.array(self._rows), notes)
+        return WalkTrace.from_table(self.samples.table(), notes)

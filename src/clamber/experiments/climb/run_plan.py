@@ -10,11 +10,12 @@ from ...actions.plan import Plan
 from ...actions.plan_source import is_plan, open_plan
 from ...errors import SpecError
 from ...execution.climb.climb_report import ClimbReport
-from ...execution.climb.climb_trace import TOPIC, ClimbTrace, TracedClimber, limb_notes, report_notes
+from ...execution.climb.climb_trace import TOPIC, ClimbTrace, TracedClimber, limb_notes
 from ...execution.climb.climbing import Climbing, Progress, Replan
 from ...execution.climb.course import climbable, lay_course
 from ...execution.log_stream import LogStream
 from ...execution.plant import BodyPlant
+from ...execution.sample_log import report_notes
 from ...execution.sequencer import Sequencer
 from ...sim.limb_flaws import LimbFlaws
 from ...tasks import Task, load_task
@@ -166,11 +167,11 @@ def run_plan(
         sequencer = Sequencer(Climbing(climber, course, replan=again, force=force), progress=progress)
         stream = None if log is None else LogStream(log, climber.titles, limb_notes(climber.limbs), TOPIC)
         with nullcontext() if stream is None else stream:
-            climber.told = None if stream is None else stream.add
+            climber.samples.told = None if stream is None else stream.add
             report = sequencer.run()
             notes = report.to_json() | {"task": task.name, "noise": noise.to_json(), "seed": seed}
             if stream is not None:
-                stream.add(climber.last())
+                stream.add(climber.samples.last())
                 stream.finish(report_notes(notes))
     return ClimbRun(task, plan, report, climber.trace(notes), drawn, time.perf_counter() - began - planning)
 

@@ -11,14 +11,13 @@ import numpy as np
 from ...control.quickest import Gait, quickest_way
 from ...control.track import Track, through
 from ...errors import UnitError, describe_choices
-from ...execution.plant import PlantStoppedError
+from ...execution.run_ends import RunEndedError
 from ...execution.sequencer import Sequencer
 from ...execution.walk.course import Course, TrackCourse
 from ...execution.walk.settings import WalkSettings
 from ...execution.walk.true_walk import TracedPlant, TrueWalk
 from ...execution.walk.walk_report import WalkReport
 from ...execution.walk.walk_trace import TracedWalker, WalkTrace
-from ...execution.walk.walker import FallenError
 from ...execution.walk.walking import Lay, Progress, Walking
 from ...sim.plant_rules import PlantError
 from ...sim.walker_flaws import WalkerFlaws
@@ -209,10 +208,10 @@ def run_walk(
     try:
         walker.start(walk.start_pose(), walk.start_place(), walk.start_legs(), np.array(walk.arm))
         report = sequencer.run()
-    except (FallenError, PlantStoppedError) as fall:  # before the first tick
+    except RunEndedError as end:  # before the first tick
         why = why_it_tips(walk)
         report = WalkReport(
-            reason=f"fell: {fall}" + (f": {why}" if why else ""),
+            reason=f"{end.word}: {end}" + (f": {why}" if why else ""),
             seconds=walker.time,
             true_pose=tuple(map(float, plant.trace().pose[-1])),
         )
