@@ -27,8 +27,13 @@ NO_INSIDE: Final = -1.0
 """What a log has for the margin where fewer than three feet stand, which is minus infinity: less than that of any robot that stands [m]."""
 
 
-def walk_titles(*, true: bool) -> dict[str, tuple[str, ...]]:
-    """Field of `WalkTrace` -> titles of its columns in a log, in the order of a sample's numbers; `true`: of the truth, too."""
+def walk_titles(*, true: bool, arm: bool = False) -> dict[str, tuple[str, ...]]:
+    """Field of `WalkTrace` -> titles of its columns in a log, in the order of a sample's numbers.
+
+    Args:
+        true: Whether the truth is told, too.
+        arm: Whether that tells of a tool.
+    """
 
     def poses(word: str) -> tuple[str, ...]:
         return tuple(f"plate {axis} {word} [{unit}]" for axis, unit in POSE)
@@ -49,6 +54,11 @@ def walk_titles(*, true: bool) -> dict[str, tuple[str, ...]]:
         titles["true_pose"], titles["true_place"] = poses("true"), places("true")
         titles["true_margin"] = ("margin true [m]",)
         titles["true_feet"] = tuple(f"{leg} sole {axis} [m]" for leg in LEG_NAMES for axis in "xyz")
+        titles["true_forces"] = tuple(f"{leg} ground force {axis} [N]" for leg in LEG_NAMES for axis in "xyz")
+        titles["true_centre"] = tuple(f"centre of mass {axis} true [m]" for axis in "xyz")
+        titles["thrusts"] = tuple(f"actuator {i + 1} force [N]" for i in range(3))
+    if true and arm:
+        titles["true_tool"] = tuple(f"tool {axis} true [m]" for axis in "xyz")
     return titles
 
 
@@ -88,6 +98,14 @@ class WalkTrace:
     """Of the true centre of mass inside the feet that touch, shape (rows,) [m]."""
     true_feet: Floats | None = None
     """Soles, shape (rows, 6, 3) [m]."""
+    true_forces: Floats | None = None
+    """Of the ground on each foot, world frame, shape (rows, 6, 3) [N]."""
+    true_centre: Floats | None = None
+    """Centre of mass, shape (rows, 3) [m]."""
+    thrusts: Floats | None = None
+    """Of the actuators, truly, shape (rows, 3) [N]; positive pushes the frames' attachments apart."""
+    true_tool: Floats | None = None
+    """The arm's tool point, shape (rows, 3) [m]; None without an arm."""
     notes: Json | None = None
     """What came out, as the report has it."""
 
@@ -102,7 +120,8 @@ class WalkTrace:
         notes = {"walker": json.dumps(LEG_NAMES)} | ({} if self.notes is None else report_notes(self.notes))
         true = None if self.true_margin is None else np.maximum(self.true_margin, NO_INSIDE)
         finite = replace(self, margin=np.maximum(self.margin, NO_INSIDE), true_margin=true)
-        return sample_log(finite, walk_titles(true=self.true_pose is not None), notes, "walk")
+        titles = walk_titles(true=self.true_pose is not None, arm=self.true_tool is not None)
+        return sample_log(finite, titles, notes, "walk")
 
     @classmethod
     def from_log(cls, log: Log) -> "WalkTrace":
@@ -113,8 +132,8 @@ class WalkTrace:
         """
         if "walker" not in log.notes:
             raise LogError(log.label, None, None, None, "is no log of a walk: its notes name no walker's legs")
-        fields = walk_titles(true="plate x true" in log.columns)
-        trace = cls.from_table(table_of(log, fields), report_of(log))
+        titles = walk_titles(true="plate x true" in log.columns, arm="tool x true" in log.columns)
+        trace = cls.from_table(table_of(log, titles), report_of(log))
         for margin in (trace.margin, trace.true_margin):
             if margin is not None:
                 margin[margin <= NO_INSIDE] = -np.inf
@@ -123,8 +142,9 @@ class WalkTrace:
     @classmethod
     def from_table(cls, table: Floats, notes: Json | None) -> "WalkTrace":
         """The trace of samples under `walk_titles`, shape (rows, columns)."""
-        titles = walk_titles(true=table.shape[1] > width(walk_titles(true=False)))
-        parts: dict[str, Any] = fields_of(table, titles, whole=WHOLE, shapes={"true_feet": (LEGS, 3)})
+        true, arm = (table.shape[1] > width(walk_titles(true=true)) for true in (False, True))
+        shapes = {"true_feet": (LEGS, 3), "true_forces": (LEGS, 3)}
+        parts: dict[str, Any] = fields_of(table, walk_titles(true=true, arm=arm), whole=WHOLE, shapes=shapes)
         return cls(notes=notes, **parts)
 
 
@@ -151,7 +171,8 @@ class TracedWalker(Walker):
         if true is not None:
             feet = true.feet.reshape(LEGS, 3)
             margin = support_margin(feet, true.touching.ravel(), true.centre)
-            parts += [true.pose, true.place, (margin,), feet.ravel()]
+            parts += [true.pose, true.place, (margin,), feet.ravel(), true.forces.ravel(), true.centre, true.thrusts]
+            parts += [true.tool] if np.isfinite(true.tool).all() else []
         return np.concatenate([np.asarray(part, float) for part in parts])
 
     def trace(self, notes: Json | None = None) -> WalkTrace:
