@@ -1,5 +1,6 @@
 """Walks in contact dynamics: level, on a slope, without levelling, and what noise makes of the plant."""
 
+import json
 import math
 from pathlib import Path
 
@@ -140,8 +141,11 @@ def test_a_robot_that_cannot_stand_falls_at_the_start() -> None:
     assert run.to_json()["steps"] == []
 
 
-def test_a_plant_that_stops_at_the_start_has_not_fallen(monkeypatch: pytest.MonkeyPatch) -> None:
-    def stop(_: WalkerSim) -> None:
+@pytest.mark.parametrize("lost", [False, True])
+def test_a_plant_that_stops_at_the_start_has_not_fallen(lost: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    def stop(plant: WalkerSim) -> None:
+        if lost:
+            plant._qpos[0] = math.nan
         raise PlantStoppedError("the line is cut")
 
     monkeypatch.setattr(WalkerSim, "step", stop)
@@ -149,6 +153,8 @@ def test_a_plant_that_stops_at_the_start_has_not_fallen(monkeypatch: pytest.Monk
     run = run_walk(walk, walk_flaws(walk, ()))
     assert run.reason.startswith("stopped: the line is cut")
     assert not run.report.steps
+    assert (run.report.true_pose is None) == lost
+    json.dumps(run.to_json(), allow_nan=False)
 
 
 @pytest.mark.slow

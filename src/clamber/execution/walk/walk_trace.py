@@ -14,6 +14,8 @@ from ..sample_log import fields_of, report_notes, report_of, sample_log, table_o
 from ..samples import Samples
 from .walker import LEGS, Walker
 
+TOPIC: Final = "walk"
+"""Channel of its log."""
 EVERY: Final = 5
 """Ticks between samples; the last tick is always one."""
 POSE: Final = (("x", "m"), ("y", "m"), ("z", "m"), ("alpha", "rad"), ("beta", "rad"), ("gamma", "rad"))
@@ -24,7 +26,7 @@ PHASES: Final = ("prepare", "lift", "slide", "lower", "settle")
 WHOLE: Final = frozenset({"step", "phase", "stands"})
 """Fields of whole numbers."""
 NO_INSIDE: Final = -1.0
-"""What a log has for the margin where fewer than three feet stand, which is minus infinity: less than that of any robot that stands [m]."""
+"""What samples and logs have for a margin of minus infinity, where fewer than three feet stand: less than any where it stands [m]."""
 
 
 def walk_titles(*, true: bool, arm: bool = False) -> dict[str, tuple[str, ...]]:
@@ -60,6 +62,11 @@ def walk_titles(*, true: bool, arm: bool = False) -> dict[str, tuple[str, ...]]:
     if true and arm:
         titles["true_tool"] = tuple(f"tool {axis} true [m]" for axis in "xyz")
     return titles
+
+
+def walker_notes() -> dict[str, str]:
+    """What a walk's log says of itself from its start."""
+    return {"walker": json.dumps(LEG_NAMES)}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -117,11 +124,11 @@ class WalkTrace:
 
     def to_log(self) -> Log:
         """Columns by name, with `notes` as JSON."""
-        notes = {"walker": json.dumps(LEG_NAMES)} | ({} if self.notes is None else report_notes(self.notes))
+        notes = walker_notes() | ({} if self.notes is None else report_notes(self.notes))
         true = None if self.true_margin is None else np.maximum(self.true_margin, NO_INSIDE)
         finite = replace(self, margin=np.maximum(self.margin, NO_INSIDE), true_margin=true)
         titles = walk_titles(true=self.true_pose is not None, arm=self.true_tool is not None)
-        return sample_log(finite, titles, notes, "walk")
+        return sample_log(finite, titles, notes, TOPIC)
 
     @classmethod
     def from_log(cls, log: Log) -> "WalkTrace":
@@ -133,11 +140,7 @@ class WalkTrace:
         if "walker" not in log.notes:
             raise LogError(log.label, None, None, None, "is no log of a walk: its notes name no walker's legs")
         titles = walk_titles(true="plate x true" in log.columns, arm="tool x true" in log.columns)
-        trace = cls.from_table(table_of(log, titles), report_of(log))
-        for margin in (trace.margin, trace.true_margin):
-            if margin is not None:
-                margin[margin <= NO_INSIDE] = -np.inf
-        return trace
+        return cls.from_table(table_of(log, titles), report_of(log))
 
     @classmethod
     def from_table(cls, table: Floats, notes: Json | None) -> "WalkTrace":
@@ -145,6 +148,9 @@ class WalkTrace:
         true, arm = (table.shape[1] > width(walk_titles(true=true)) for true in (False, True))
         shapes = {"true_feet": (LEGS, 3), "true_forces": (LEGS, 3)}
         parts: dict[str, Any] = fields_of(table, walk_titles(true=true, arm=arm), whole=WHOLE, shapes=shapes)
+        for margin in ("margin", "true_margin"):
+            if margin in parts:
+                parts[margin] = np.where(parts[margin] > NO_INSIDE, parts[margin], -np.inf)
         return cls(notes=notes, **parts)
 
 
@@ -157,20 +163,27 @@ class TracedWalker(Walker):
         """Number of the step that is carried out, and which of `PHASES`."""
         self.samples = Samples(self, every)
 
+    @property
+    def titles(self) -> tuple[str, ...]:
+        """Of a sample's numbers, once the robot is on the ground."""
+        true = self.plant.truth()
+        fields = walk_titles(true=true is not None, arm=true is not None and bool(np.isfinite(true.tool).all()))
+        return tuple(title for titles in fields.values() for title in titles)
+
     def tick(self) -> None:
         """As a walker's, kept; the tick of a fall is, too."""
         self.samples.over(super().tick)
 
     def sample(self) -> Floats:
-        """Of now, in the order of `walk_titles`."""
+        """Of now, in the order of `titles`; finite."""
         true = self.plant.truth()
         parts = [
             (self.time, self.step, self.phase), self.pose, self.place, self.sensed, self.commanded, self.actuators,
-            self.forces, self.stands, self.readings, (self.margin(),),
+            self.forces, self.stands, self.readings, (max(self.margin(), NO_INSIDE),),
         ]  # fmt: skip
         if true is not None:
             feet = true.feet.reshape(LEGS, 3)
-            margin = support_margin(feet, true.touching.ravel(), true.centre)
+            margin = max(support_margin(feet, true.touching.ravel(), true.centre), NO_INSIDE)
             parts += [true.pose, true.place, (margin,), feet.ravel(), true.forces.ravel(), true.centre, true.thrusts]
             parts += [true.tool] if np.isfinite(true.tool).all() else []
         return np.concatenate([np.asarray(part, float) for part in parts])
