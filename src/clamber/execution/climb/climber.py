@@ -25,6 +25,8 @@ TURNED: Final = 0.6
 """Likewise turned this far from it [rad]."""
 PINNED: Final = (0.05, 1.0)
 """A body this far from its aim for so long is held there by what it cannot overcome [m], [s]."""
+RESTS: Final = (0.06, 0.5)
+"""A body that turns more slowly than this for so long rests [rad/s], [s]."""
 STRAINED: Final = 0.03
 """Two holding tips whose distance differs that much from that of their holds are not both on them [m]."""
 
@@ -189,6 +191,16 @@ class Climber:
         """Let time pass [s]."""
         for _ in range(round(seconds / self.plant.period)):
             self.tick()
+
+    def rest(self, patience: float) -> bool:
+        """Let time pass until the body has hardly turned for a while, at most so long [s]; whether it rests."""
+        quiet = 0.0
+        for _ in range(round(patience / self.plant.period)):
+            self.tick()
+            quiet = quiet + self.plant.period if abs(float(self.body.twist[2])) < RESTS[0] else 0.0
+            if quiet > RESTS[1]:
+                return True
+        return False
 
     def carry_with_all(self, but: int) -> None:
         """Let every limb on a hold carry, but one that is about to leave; the load passes while all are still on their holds."""
