@@ -172,7 +172,8 @@ class Sequencer:
             self._actor.limb(name): hold for name, hold in self.course.holds(step - 1).items() if hold and name != acts
         }
         elbows = {i: int(self.course.elbows[step - 1, i]) for i in held}
-        return recover(self.climber, slip, held, self._actor.pose(step - 1), elbows)
+        why = recover(self.climber, slip, held, self._actor.pose(step - 1), elbows)
+        return "" if not why or self._actor.catch_up(step) else why
 
     def _plan_again(self, step: int) -> bool:
         """Ask for a plan from where the robot is, without the holds that were missed; whether there is one."""
