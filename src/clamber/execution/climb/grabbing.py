@@ -76,7 +76,9 @@ def grab(climber: Climber, i: int, number: int, end: End, *, elbow: int = 0, hom
         if holds:
             climber.learn(number, i, climber.holding())
             climber.latest, climber.proven = i, False
-            task.doing, task.hold, task.place = "cling", number, climber.holds[number].copy()
+            task.hold, task.place = number, climber.holds[number].copy()
+            if not task.pressed:  # else a body that hangs leans on it, until both carry
+                task.doing = "cling"
             climber.wait(HELD)
             return Grabbed(True, tries, along, across)
         end.back_off(climber, i, hold, doubt, found)

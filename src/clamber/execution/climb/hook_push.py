@@ -42,8 +42,7 @@ STUCK: Final = 0.8
 HANGING: Final = 0.4
 """Part of these forces until the hook has stopped where the body hangs on one limb, which gives way to whatever knocks it [-]."""
 YIELDING: Final = 0.3
-"""Then the rest comes, over this long, and goes again after it: the joints' friction eats the small part, and the body goes with the
-hold that it pulls at, aside and not off its own [s]."""
+"""Then the rest comes, over this long: the joints' friction eats the small part, and the body goes aside, not off its own hold [s]."""
 CENTRING: Final = 150.0
 """Pull towards the believed hold across the hook [N/m]."""
 ADVANCE: Final = 0.0015
@@ -64,7 +63,8 @@ def push_on(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> 
     One that stops short of where its hold should be is coaxed across under the tug, as its flare may have met the hold.
 
     Returns:
-        Whether it came to rest under the tug, not farther in than a hold could be.
+        Whether it came to rest under the tug, not farther in than a hold could be. Where the body hangs, it then goes on pulling: what
+        let go of would swing.
     """
     body, task, period = climber.body, climber.body.tasks[i], climber.plant.period
     # believed to press from the start: in free air the tip is then farther in than believed, never less far
@@ -122,19 +122,10 @@ def push_on(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> 
             # a weak push lets a hook rest on its flare: from where the body is now, with all of it
             rested, apart, still, anew = body.pose[:2].copy(), _apart(climber), 0.0, anew + 1
     if hangs and seated:
-        _ease(climber, i)
+        task.force = size * along
+        return True
     task.pressed, task.tug = False, np.zeros(2)
     return seated
-
-
-def _ease(climber: Climber, i: int) -> None:
-    """Let a push fade, so that a body that hangs comes back to below its hold without a swing."""
-    task = climber.body.tasks[i]
-    count = round(YIELDING / climber.plant.period)
-    force, tug = task.force.copy(), task.tug.copy()
-    for k in reversed(range(count)):
-        task.force, task.tug = k / count * force, k / count * tug
-        climber.tick()
 
 
 def _apart(climber: Climber) -> Floats:
