@@ -9,11 +9,12 @@ from springs_walker import SpringsWalker, flat, slope
 
 from clamber.control.track import straight
 from clamber.control.walker_balance import mass_centre
+from clamber.execution.sequencer import Sequencer
 from clamber.execution.walk.course import TrackCourse
-from clamber.execution.walk.sequencer import WalkSequencer
 from clamber.execution.walk.settings import WalkSettings
 from clamber.execution.walk.tool_hold import ToolHold
 from clamber.execution.walk.walker import RefusedError
+from clamber.execution.walk.walking import Walking
 from clamber.types import Floats
 
 ARM = ROBOT.arm
@@ -57,7 +58,7 @@ def test_the_tool_comes_stays_and_leaves_within_range_and_speed(monkeypatch: pyt
         holds[0].start(walker)
         return TrackCourse(track)
 
-    report = WalkSequencer(walker, lay).run()
+    report = Sequencer(Walking(walker, lay)).run()
     assert report.done, report.reason
     told = holds[0].told()
     assert told.began is not None
@@ -92,7 +93,7 @@ def test_the_tool_goes_along_a_line_evenly_with_the_way(monkeypatch: pytest.Monk
         holds[0].start(walker)
         return TrackCourse(track)
 
-    assert WalkSequencer(walker, lay).run().done
+    assert Sequencer(Walking(walker, lay)).run().done
     told = holds[0].told()
     assert (told.began, told.ended) != (None, None)
     assert told.missed < 5e-4
@@ -136,7 +137,7 @@ def test_feet_that_sink_in_do_not_raise_what_is_believed(uphill: float | None) -
     """The springs give 0.9 mm under a frame that carries alone; without reckoning with it, every step would add as much."""
     ground = flat if uphill is None else slope(math.radians(5.0), uphill)
     walker, _ = stood(ground, noise=0.0, settings=WalkSettings(longest=0.08))
-    sequencer = WalkSequencer(walker, lambda pose: TrackCourse(straight(pose, BEST, 0.25, RADIUS)))
+    sequencer = Sequencer(Walking(walker, lambda pose: TrackCourse(straight(pose, BEST, 0.25, RADIUS))))
     off = walker.pose[2] - walker.plant.truth().pose[2]  # type: ignore[union-attr]
     report = sequencer.run()
     assert report.done, report.reason

@@ -9,7 +9,8 @@ import typer
 from rich.console import Console
 
 from ...actions.plan import Plan
-from ...execution.walk.sequencer import Lay, WalkReport
+from ...execution.walk.walk_report import WalkReport
+from ...execution.walk.walking import Lay
 from ...experiments.walk.held_point import HeldPoint
 from ...experiments.walk.run_walk import WalkRun, run_walk, split_walk_settings, walk_flaws
 from ...tasks.walks import Walk

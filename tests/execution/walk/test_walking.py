@@ -9,10 +9,12 @@ from spring_walks import BEST, NOISE, RADIUS, stood
 from springs_walker import Ground, flat, slope
 
 from clamber.control.track import straight, through, turn_about
+from clamber.execution.sequencer import Sequencer
 from clamber.execution.walk.course import TrackCourse
-from clamber.execution.walk.sequencer import WalkReport, WalkSequencer
 from clamber.execution.walk.settings import WalkSettings
+from clamber.execution.walk.walk_report import WalkReport
 from clamber.execution.walk.walk_trace import PHASES, WalkTrace
+from clamber.execution.walk.walking import Walking
 from clamber.types import Floats
 
 TEN = math.radians(10.0)
@@ -24,7 +26,7 @@ def ahead(distance: float, direction: float = BEST):  # type: ignore[no-untyped-
 
 def walk(ground: Ground, lay, *, calibrated: bool = True, neutral: float = 0.0, **options):  # type: ignore[no-untyped-def]
     walker, plant = stood(ground, **options)
-    sequencer = WalkSequencer(walker, lambda pose: TrackCourse(lay(pose), neutral=neutral), calibrated=calibrated)
+    sequencer = Sequencer(Walking(walker, lambda pose: TrackCourse(lay(pose), neutral=neutral), calibrated=calibrated))
     report = sequencer.run()
     return report, walker.trace(report.to_json()), plant
 
