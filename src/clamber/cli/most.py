@@ -18,7 +18,9 @@ def most(
     walk: Annotated[
         str,
         typer.Argument(
-            help="A walk's name (`clamber list walks`), or its TOML file.", autocompletion=names_of("walks")
+            metavar="WALK",
+            help="A walk's name (`clamber list walks`), or its TOML file.",
+            autocompletion=names_of("walks"),
         ),
     ],
     vary: Annotated[

@@ -35,8 +35,10 @@ def run(
     """
     telling = RunReport(words.report, repeat_words(context, NOT_REPEATED))
     words.check()
-    from ...tasks.walks import is_walk
+    from ...actions.plan_source import check_name
+    from ...tasks.walks import is_walk, walk_names
 
+    check_name(what, walk_names())
     if is_walk(what):
         from .walk import run_walk_file
 

@@ -30,8 +30,10 @@ def trials(
     --noise friction=30%` leaves one of them. `-o` writes a picture (.png, .svg, .pdf), or with `--replay` what `clamber run` writes.
     """
     words.check()
-    from ...tasks.walks import is_walk
+    from ...actions.plan_source import check_name
+    from ...tasks.walks import is_walk, walk_names
 
+    check_name(what, walk_names())
     if is_walk(what):
         from .walk import walk_trials_of
 
