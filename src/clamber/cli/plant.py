@@ -49,7 +49,8 @@ def serve(
     from ..execution.link.channel import Address, listen, read_address, unlink
     from ..experiments.climb.noise import NO_NOISE, check_noise, draw_for, read_noise
     from ..experiments.climb.plants import climb_server, drawn_plant
-    from ..experiments.climb.run_plan import climbing_flaws, climbing_task, split_settings
+    from ..experiments.climb.run_plan import climbing_flaws, climbing_task
+    from ..experiments.plant_settings import split_settings
     from ..tasks import load_task
 
     if pace != 1.0 and not real_time:
