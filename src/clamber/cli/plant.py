@@ -84,7 +84,8 @@ def serve(
     `clamber run TASK --plant ADDRESS` climbs through it. The address is the one line on stdout, with --json one value.
     """
     from ..execution.link.channel import listen, unlink
-    from ..experiments.climb.run_plan import climbing_task, split_settings
+    from ..experiments.climb.run_plan import climbing_task
+    from ..experiments.plant_settings import split_settings
     from ..tasks import load_task
 
     words.check()

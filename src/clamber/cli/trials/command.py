@@ -39,10 +39,10 @@ def trials(
 
         walk_trials_of(what, asked, words)
         return
+    from ...experiments.plant_settings import split_settings
     from ...experiments.walk.planned import open_planned_walk
-    from ...experiments.walk.run_walk import split_walk_settings
 
-    planned = open_planned_walk(what, asked.task, split_walk_settings(asked.overrides or ())[0])
+    planned = open_planned_walk(what, asked.task, split_settings(asked.overrides or ())[0])
     if planned is not None:
         from .walk import planned_walk_trials_of
 
