@@ -11,7 +11,7 @@ import pytest
 import typer
 
 import clamber
-from clamber.cli.app import app
+from clamber.cli.app import application
 from clamber.cli.catalogue import ENTRIES, entries
 from clamber.cli.help_text import command_of, commands_below
 from clamber.experiments.climb.body_entries import CONTROLS
@@ -91,7 +91,7 @@ def test_shells_that_show_meanings_get_titles() -> None:
 def test_words_that_are_said_to_be_listed_are_completed() -> None:
     """Wherever a command's help sends the reader to `clamber list KIND`, the shell offers those names."""
     told = 0
-    for path, command in commands_below(command_of(app)):
+    for path, command in commands_below(command_of(application())):
         context: Any = typer.Context(command)  # type: ignore[arg-type]
         for word in command.params:
             kinds = re.findall(r"`clamber list (\w+)`", getattr(word, "help", None) or "")

@@ -7,7 +7,7 @@ import pytest
 import typer
 from typer.main import get_command
 
-from clamber.cli.app import app
+from clamber.cli.app import application
 from clamber.cli.help_text import command_of, commands_below
 from clamber.cli.output import plain_table, stdout
 
@@ -19,7 +19,7 @@ TEXTS = {
         for text in (getattr(one, "help", None), getattr(one, "metavar", None))
         if text
     ]
-    for path, command in commands_below(get_command(app))
+    for path, command in commands_below(get_command(application()))
 }
 """Words of a command -> the texts of its help, as they are written."""
 

@@ -11,7 +11,7 @@ import pytest
 from command_examples import ELSEWHERE, LONG, QUICK
 from jsonschema import Draft202012Validator
 
-from clamber.cli.app import app
+from clamber.cli.app import application
 from clamber.cli.help_text import command_of, commands_below
 from clamber.cli.printed.library import PRINTED, schema_of
 from clamber.cli.printed.tables import tables_of, top_of
@@ -53,7 +53,7 @@ def test_output_of_what_takes_longer_is_too(printed: Any, words: str) -> None:
 
 
 def commands() -> Iterator[tuple[str, Any]]:
-    for path, command in commands_below(command_of(app)):
+    for path, command in commands_below(command_of(application())):
         if not hasattr(command, "commands"):
             yield " ".join(path), command
 

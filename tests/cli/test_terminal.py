@@ -7,10 +7,10 @@ from typing import Any
 import pytest
 from command_examples import LONG, QUICK
 
-from clamber.cli.app import app
+from clamber.cli.app import application
 from clamber.cli.help_text import command_of, commands_below
 
-HELP = [" ".join(path) for path, _ in commands_below(command_of(app))]
+HELP = [" ".join(path) for path, _ in commands_below(command_of(application()))]
 
 
 def check(clamber: Any, words: list[str]) -> None:

@@ -4,7 +4,7 @@ import click
 import pytest
 from told_commands import Told, pages, told_by
 
-from clamber.cli.app import app
+from clamber.cli.app import application
 from clamber.cli.help_text import command_of
 
 TOLD = [told for page in pages() for told in told_by(page)]
@@ -12,7 +12,7 @@ TOLD = [told for page in pages() for told in told_by(page)]
 
 def understood(words: tuple[str, ...]) -> None:
     """Read the words as the command line does, down to the last command, and carry nothing out."""
-    command: click.Command = command_of(app)
+    command: click.Command = command_of(application())
     rest, parent, name = list(words), None, "clamber"
     while True:
         # Eager options such as --version print and leave while they are read; no page's block asks for one alone.
@@ -31,7 +31,7 @@ def understood(words: tuple[str, ...]) -> None:
 def test_command_of_a_page_is_understood(told: Told) -> None:
     if told.is_pattern or (not told.block and len(told.words) == 1):
         name = told.words[0]
-        top = command_of(app)
+        top = command_of(application())
         options = {option for parameter in top.params for option in parameter.opts}
         assert name in {"--help", *options, *top.commands}, told  # type: ignore[union-attr]
         return

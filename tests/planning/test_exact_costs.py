@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 from clamber.actions.family import reflect
 from clamber.actions.problem import CompiledProblem
 from clamber.actions.problems import pose_problem
-from clamber.cli.app import app
+from clamber.cli.app import application
 from clamber.compiled import kernel
 from clamber.experiments.breadth import breadth_first
 from clamber.planning.exact.costs import Aim, CostError, read_costs
@@ -309,7 +309,9 @@ def test_the_command_line_draws_a_front(tmp_path) -> None:  # type: ignore[no-un
     name, overrides = BOARD
     sets = [word for override in overrides for word in ("--set", override)]
     picture = tmp_path / "front.svg"
-    run = CliRunner().invoke(app, ["plan", name, *sets, "--pareto", "length,torque", "--json", "-o", str(picture)])
+    run = CliRunner().invoke(
+        application(), ["plan", name, *sets, "--pareto", "length,torque", "--json", "-o", str(picture)]
+    )
     assert run.exit_code == 0 and picture.exists()
     told = json.loads(run.stdout)
     assert told["status"] == "optimal" and len(told["trades"]) > 1
