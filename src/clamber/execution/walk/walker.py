@@ -29,6 +29,7 @@ from ...units import GRAVITY
 from ..fallen import FallenError as FallenError
 from .falls import FallWatch
 from .plant import WalkerPlant
+from .plate_room import PlateRoom
 from .settings import WalkSettings
 from .touched_ground import TouchedGround
 
@@ -50,11 +51,9 @@ KICK: Final = 0.3
 
 
 class RefusedError(Exception):
-    """A motion would break a rule of the robot: it is not begun, or stops where it is.
+    """A motion would break a rule of the robot, told as `reason`: it is not begun, or stops where it is.
 
-    Args:
-        reason: Which rule.
-        margin: By how much it would be kept, negative [m]; NaN where that has no number.
+    `margin` is by how much it would be kept, negative [m]; NaN where that has no number.
     """
 
     def __init__(self, reason: str, margin: float = math.nan) -> None:
@@ -73,7 +72,11 @@ class ArmTask(Protocol):
         ...
 
     def ahead(self, walker: "Walker") -> list[Floats]:
-        """Postures besides the present one that it may come through before the next step is over, each of shape (joints,) [rad]."""
+        """Postures besides the present one that it may come through before the next step is over [rad]."""
+        ...
+
+    def raise_wished(self, walker: "Walker") -> float:
+        """By how much higher than walking has it the plate is to be in the coming step [m]."""
         ...
 
 
@@ -130,6 +133,8 @@ class Walker:
         """Where the legs that do not stand go, and how fast [m], [m/s]."""
         self.height = 0.0
         """Where the plate's height goes [m], slower than the legs can, so that levelling keeps up."""
+        self.room = PlateRoom()
+        """What the present phase leaves of the plate's freedoms."""
         self.wanted = np.zeros(3)
         """Height, beta and gamma of the plate that are kept [m], [rad]."""
         self.actuators = np.zeros(3)
