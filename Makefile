@@ -5,6 +5,7 @@ STUDY ?= bevly-1997
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
+RUN_STAMP := $(VENV)/.installed-to-run
 LOCKED := $(shell command -v flock >/dev/null 2>&1 && echo "flock $(VENV)/.lock")
 
 # Many small matrices: the threads of BLAS only get in each other's way.
@@ -12,27 +13,36 @@ export OPENBLAS_NUM_THREADS := 1
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test slow lint types architecture check bench study docs lock clean
+.PHONY: help setup demo test slow long lint types architecture check bench study docs lock clean
 
 help:  ## list the targets
 	@grep -hE '^[a-z]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 14
 
-setup: $(STAMP)  ## make .venv and install Clamber into it, once per change of the requirements
+setup: $(STAMP)  ## make .venv and install Clamber and all that its tests and documentation need, once per change of the requirements
 
 # Under a lock, and looking again inside it, so that two runs in one tree don't install over each other.
-$(STAMP): requirements.txt pyproject.toml
+# $(1): the requirements, $(2): the stamps to set.
+define install
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
 		{ echo "Clamber needs Python 3.11 or later; $(PYTHON) is older: make PYTHON=python3.11 ..." >&2; exit 1; }
 	@mkdir -p $(VENV)
 	@$(LOCKED) sh -eu -c '\
-		if [ -e $@ ] && [ ! requirements.txt -nt $@ ] && [ ! pyproject.toml -nt $@ ]; then exit 0; fi; \
+		if [ -e $@ ] && [ ! $(1) -nt $@ ] && [ ! pyproject.toml -nt $@ ]; then exit 0; fi; \
 		[ -x $(BIN)/python ] || $(PYTHON) -m venv $(VENV); \
 		echo "installing into $(VENV) (a minute or two, once)"; \
-		$(BIN)/python -m pip install --quiet --require-hashes -r requirements.txt; \
+		$(BIN)/python -m pip install --quiet --require-hashes -r $(1); \
 		$(BIN)/python -m pip install --quiet --no-deps --no-build-isolation -e .; \
-		touch $@'
+		touch $(2)'
+endef
 
-demo: setup  ## plan a climb up the ladder, climb it in contact dynamics, draw both
+$(STAMP): requirements.txt pyproject.toml
+	$(call install,requirements.txt,$(STAMP) $(RUN_STAMP))
+
+# A user's part of it: less than half to fetch.
+$(RUN_STAMP): requirements-run.txt pyproject.toml
+	$(call install,requirements-run.txt,$(RUN_STAMP))
+
+demo: $(RUN_STAMP)  ## plan a climb up the ladder, climb it in contact dynamics, draw both
 	@mkdir -p out
 	$(BIN)/clamber run ladder --peg-error 3mm --save-plan out/ladder.json -o out/climb.gif -o out/climb.mcap > out/climb.txt \
 		|| { cat out/climb.txt; exit 1; }
@@ -43,10 +53,13 @@ demo: setup  ## plan a climb up the ladder, climb it in contact dynamics, draw b
 	@echo "out/ladder.png (the plan in one picture) and out/ladder.json (the plan)."
 
 test: setup  ## fast tests
-	$(BIN)/python -m pytest -n $(JOBS) -m "not slow"
+	$(BIN)/python -m pytest -n $(JOBS) -m "not slow and not long"
 
-slow: setup  ## slow tests: published results, peers, long searches
+slow: setup  ## slow tests: peers, walks, climbs, every command of the pages
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal --durations 25 -m slow
+
+long: setup  ## the longest tests: published results that search or tune for minutes
+	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal --durations 25 -m long
 
 lint: setup  ## format and lint
 	$(BIN)/ruff format --check .
@@ -71,10 +84,12 @@ docs: setup  ## the documentation as a site: out/docs/index.html
 	@echo "Open out/docs/index.html"
 
 # The lock file carries hashes and no address of a package index.
-lock: setup  ## renew requirements.txt after a change of the dependencies in pyproject.toml
-	$(BIN)/pip-compile --quiet --extra dev --extra docs --extra view --extra bench --extra video --extra ray --allow-unsafe --generate-hashes --strip-extras \
-		--no-header --no-emit-index-url --no-emit-find-links --no-emit-trusted-host --no-emit-options \
-		-o requirements.txt pyproject.toml
+COMPILE := $(BIN)/pip-compile --quiet --allow-unsafe --generate-hashes --strip-extras --no-header --no-emit-index-url --no-emit-find-links \
+	--no-emit-trusted-host --no-emit-options
+
+lock: setup  ## renew requirements.txt and requirements-run.txt after a change of the dependencies in pyproject.toml
+	$(COMPILE) --extra dev --extra docs --extra view --extra bench --extra video --extra ray -o requirements.txt pyproject.toml
+	$(COMPILE) --extra view --extra video --build-deps-for editable -c requirements.txt -o requirements-run.txt pyproject.toml
 
 clean:  ## remove what the targets made, except .venv
 	rm -rf out build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -1,6 +1,7 @@
 """Wheel and sdist: built as a release is, with all that is needed and nothing else, installed into an empty environment."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -103,6 +104,26 @@ def test_it_installs_into_an_empty_environment_and_works_there(built: Path, tmp_
     run("new", "robot", "-o", "mine.toml")
     assert "OK" in run("check", "mine.toml")
     assert f'"version": "{VERSION}"' in run("doctor", "--json")
+
+
+def locked(name: str) -> dict[str, tuple[str, frozenset[str]]]:
+    """Package -> version and hashes."""
+    packages = (ROOT / name).read_text().replace("\\\n", " ").splitlines()
+    lines = [line.split() for line in packages if line and not line.startswith((" ", "#"))]
+    return {
+        package: (version, frozenset(word for word in words if word.startswith("--hash=")))
+        for (package, version), words in ((line[0].split("=="), line[1:]) for line in lines)
+    }
+
+
+def test_what_a_user_installs_is_part_of_what_is_tested() -> None:
+    run, tested = locked("requirements-run.txt"), locked("requirements.txt")
+    assert run.items() <= tested.items()
+    assert all(hashes for _, hashes in run.values())
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    extras = project["optional-dependencies"]
+    wanted = {re.split("[<>=~]", each)[0] for each in (*project["dependencies"], *extras["view"], *extras["video"])}
+    assert wanted <= run.keys()
 
 
 def test_what_a_release_needs_is_there() -> None:

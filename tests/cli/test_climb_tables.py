@@ -5,8 +5,8 @@ from typing import Any
 import pytest
 
 from clamber.cli.output import stdout
-from clamber.cli.run_text import print_run
-from clamber.cli.trials_text import print_trials
+from clamber.cli.run.text import print_run
+from clamber.cli.trials.text import print_trials
 from clamber.execution.climb.climb_report import ActionReport, ClimbReport
 from clamber.experiments.climb.run_plan import ClimbRun
 from clamber.experiments.climb.trial_summary import TrialSummary

@@ -6,10 +6,12 @@ from typing import TypeAlias
 
 import pytest
 
-from clamber.cli import run_planned_walk, run_walk, trials_walk
 from clamber.cli.crew import CrewWords
-from clamber.cli.run_words import RunWords
-from clamber.cli.trials_words import TrialsWords
+from clamber.cli.run import planned_walk as run_planned_walk
+from clamber.cli.run import walk as run_walk
+from clamber.cli.run.words import RunWords
+from clamber.cli.trials import walk as trials_walk
+from clamber.cli.trials.words import TrialsWords
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 OF_PLANS = (("--task", "ladder"), ("--planner", "exact"), ("--seconds", "3"))

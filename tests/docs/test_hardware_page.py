@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from clamber.execution.climb.climb_trace import TracedClimber
+from clamber.execution.climb.climbing import Climbing
 from clamber.execution.climb.course import lay_course
-from clamber.execution.climb.sequencer import Sequencer
 from clamber.execution.hardware import WiredClimber
 from clamber.execution.link.channel import read_address
 from clamber.execution.link.client import RemoteHardware
@@ -68,7 +68,7 @@ def test_the_driver_of_the_page_drives_a_robot_that_knows_no_truth(tmp_path: Pat
             reset(pose, q)
 
         plant.reset = by_hand  # type: ignore[method-assign]
-        Sequencer(climber, lay_course(task, gait_of(task), "gait")).start()
+        Climbing(climber, lay_course(task, gait_of(task), "gait")).start()
         climber.wait(0.5)
         assert plant.truth() is None
         assert climber.trace().true_pose is None

@@ -44,5 +44,5 @@ if __name__ == "__main__":
     for seed in range(first, first + n):
         word, climb = slip(seed)
         told[word] += 1
-        print(seed, word, climb.knocked, climb.sequencer.report.reason, flush=True)
+        print(seed, word, climb.knocked, climb.sequencer.performer.report.reason, flush=True)
     print(dict(told))

@@ -12,10 +12,11 @@ import pytest
 from clamber.actions.limbed_plans import thesis_code
 from clamber.actions.plan import Plan
 from clamber.execution.climb.climb_trace import TracedClimber
+from clamber.execution.climb.climbing import Climbing
 from clamber.execution.climb.course import alone, climbable, lay_course
 from clamber.execution.climb.hang import LAG
 from clamber.execution.climb.pendulum import Pendulum
-from clamber.execution.climb.sequencer import Sequencer
+from clamber.execution.sequencer import Sequencer
 from clamber.experiments.climb.hanging import hang_up, one_peg, push_while_hanging
 from clamber.experiments.climb.planning import plan_to_climb
 from clamber.planning.planners import PLANNERS
@@ -245,7 +246,7 @@ def test_the_gap_is_crossed_hanging_and_no_hook_is_lost(seed: int, friction: flo
             seen.append((climber.step, swing, float(np.hypot(*(true.tips[stay] - peg)))))
 
     climber.tick = watched  # type: ignore[method-assign]
-    report = Sequencer(climber, course).run()
+    report = Sequencer(Climbing(climber, course)).run()
     assert report.done, report.reason
     assert report.short < 0.01
     rows = np.array(seen)
@@ -265,7 +266,7 @@ def test_letting_go_where_the_weight_cannot_come_below_the_hold_is_refused() -> 
     chosen = Plan.of_codes(task, [thesis_code(task, 200)], planner="by hand")
     plant = ClimberPlant(task.robot, task.world, NOMINAL)
     climber = TracedClimber(task.robot, task.world, plant, map_error=0.004, truth=plant.truth)
-    report = Sequencer(climber, lay_course(task, chosen), force=True).run()
+    report = Sequencer(Climbing(climber, lay_course(task, chosen), force=True)).run()
     assert report.actions[-1].outcome == "not supported"
     assert "below the hold" in report.reason
     assert climber.body.tasks[1].hold == 3  # nothing has let go
@@ -278,7 +279,7 @@ def test_the_last_limb_that_holds_does_not_let_go() -> None:
     climber = TracedClimber(task.robot, task.world, plant, map_error=0.004, truth=plant.truth)
     course = lay_course(task, Plan.of_codes(task, codes, planner="by hand"))
     assert "support" in course.objections[0].reason
-    report = Sequencer(climber, course, force=True).run()
+    report = Sequencer(Climbing(climber, course, force=True)).run()
     assert report.actions[-1].outcome == "not supported"
     assert "last limb" in report.reason
     assert plant.truth().tips[RIGHT] == pytest.approx(climber.holds[2], abs=3e-3)

@@ -1,201 +1,266 @@
-"""A plan carried out action by action: a rung, what is refused, what a trace keeps, what becomes of a miss."""
+"""One sequencer for every kind of robot: a toy that only counts, a climber and a walker end alike, and all that happened is told."""
 
-import json
-from dataclasses import replace
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from clamber.actions.limbed_plans import thesis_code
-from clamber.actions.plan import Plan
-from clamber.execution.climb.climb_trace import ClimbTrace, TracedClimber
-from clamber.execution.climb.course import PlanRefusedError, climbable, lay_course
-from clamber.execution.climb.motions import move_body
-from clamber.execution.climb.sequencer import Sequencer
-from clamber.execution.log_files import read_log, write_log
+from clamber.control.track import straight
+from clamber.execution.climb.climb_trace import TracedClimber
+from clamber.execution.climb.climbing import Climbing
+from clamber.execution.climb.course import lay_course
+from clamber.execution.plant import PlantStoppedError
+from clamber.execution.run_ends import FallenError, RefusedError, StuckError
+from clamber.execution.run_report import Outcome, RunReport
+from clamber.execution.sequencer import MOST_RECOVERIES, MOST_REPLANS, Attempt, Performer, Sequencer
+from clamber.execution.walk.course import TrackCourse
+from clamber.execution.walk.true_walk import TracedPlant
+from clamber.execution.walk.walk_trace import TracedWalker
+from clamber.execution.walk.walking import Walking
+from clamber.experiments.climb.climb_work import two_rungs
 from clamber.sim.climber_plant import ClimberPlant
 from clamber.sim.limb_flaws import LimbFlaws
-from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
-from clamber.types import Floats
+from clamber.sim.walker_flaws import WalkerFlaws
+from clamber.sim.walker_plant import WalkerSim
+from clamber.tasks.walks import load_walk
 
-NOMINAL = LimbFlaws(backlash=np.radians(2.0), physics_rate=1000.0, encoder_counts=400, delay=1)
-RUNG = (106, 301, 205, 300, 3, 3)
-"""The gait of the thesis: the bottom limb stands on the lower right while the right one climbs, and so on."""
-
-
-def ladder() -> LimbedTask:
-    task = load_task("ladder")
-    assert isinstance(task, LimbedTask)
-    return task
+WORDS = ("ok", "stalled", "missed", "refused", "slipped", "fell", "stopped", "stuck", "interrupted")
+"""What may become of a toy's try."""
+ENDS = {"fell": FallenError, "stopped": PlantStoppedError, "refused": RefusedError, "stuck": StuckError}
 
 
-def plan_of(task: LimbedTask, *numbers: int) -> Plan:
-    strict = climbable(task)
-    return Plan.of_codes(strict, [thesis_code(strict, number) for number in numbers], planner="by hand")
+class SlippedError(FallenError):
+    """A fall that a toy recovers from."""
 
 
-def sequence(task: LimbedTask, plan: Plan, **options: object) -> Sequencer:
-    plant = ClimberPlant(task.robot, task.world, NOMINAL)
-    climber = TracedClimber(task.robot, task.world, plant, map_error=0.006, truth=plant.truth)
-    return Sequencer(climber, lay_course(task, plan), **options)  # type: ignore[arg-type]
+@dataclass
+class ToyReport(RunReport):
+    tried: list[tuple[int, Attempt]] = field(default_factory=list)
 
 
-def test_a_rung_is_climbed_and_every_action_is_reported_ok() -> None:
-    task = ladder()
-    told: list[tuple[int, int, str]] = []
-    sequencer = sequence(
-        task, plan_of(task, *RUNG), progress=lambda step, n, title, time: told.append((step, n, title))
-    )
-    report = sequencer.run()
-    assert report.done, report.reason
-    assert [(one.first, one.last, one.kind, one.outcome) for one in report.actions] == [
-        (1, 1, "grab", "ok"), (2, 2, "grab", "ok"), (3, 3, "grab", "ok"), (4, 4, "release", "ok"), (5, 6, "move", "ok"),
-    ]  # fmt: skip
-    assert [step for step, _, _ in told] == [1, 2, 3, 4, 5]
-    assert report.true_pose is not None
-    np.testing.assert_allclose(report.true_pose, sequencer.course.pose(6), atol=0.03)  # two steps up [m], [rad]
-    assert report.short == pytest.approx(60 * 0.0254 - report.true_pose[1])
-    times = [(one.start, one.start + one.seconds) for one in report.actions]
-    assert all(before[1] == pytest.approx(after[0]) for before, after in pairwise(times))
-    json.dumps(report.to_json(), allow_nan=False)
+class Toy(Performer[int, ToyReport, int]):
+    """Its actions are numbers; each try takes a second, and what becomes of it is given.
 
+    Args:
+        tries: What becomes of the tries of each action, one after another; `ok` from then on.
+        plans: How many new plans there are; each leads on with the next action.
+    """
 
-def test_elbows_keep_the_side_that_is_open_until_the_limb_leaves() -> None:
-    course = lay_course(ladder(), plan_of(ladder(), *RUNG))
-    assert course.elbows.shape == (7, 3)
-    np.testing.assert_array_equal(course.elbows[:, 0], -1)  # inwards, as the thesis climbs
-    np.testing.assert_array_equal(course.elbows[:, 1], 1)
-    np.testing.assert_array_equal(course.elbows[:, 2], (-1, -1, 1, 1, 0, 0, 0))
-    for step, stance in enumerate(course.stances):
-        for i in range(3):
-            if stance["hold"][i] >= 0:
-                branch = 0 if course.elbows[step, i] == 1 else 1
-                assert int(stance["open"][i]) >> branch & 1
+    goes_on = frozenset({"ok", "stalled"})
 
+    def __init__(self, *tries: list[str], plans: int = 0) -> None:
+        self._tries, self._plans = [list(one) for one in tries], plans
+        self._at, self._time = -1, 0.0
+        self.before = self.ended = 0
+        self.report = ToyReport()
 
-def test_like_moves_in_a_row_go_in_one_way() -> None:
-    course = lay_course(ladder(), plan_of(ladder(), 300, 3, 3, 4, 3))
-    assert course.groups() == [(1, 1), (2, 3), (4, 4), (5, 5)]
+    @property
+    def time(self) -> float:
+        return self._time
 
+    def begin(self) -> None:
+        self.before = 1
+        self._time = 0.5
 
-def test_a_plan_that_fails_its_check_is_refused_with_step_and_reason_unless_forced() -> None:
-    task = ladder()
-    bad = plan_of(task, 300, 3, 3, 3, 3, 3, 3, 3)
-    course = lay_course(task, bad)
-    first = course.objections[0]
-    assert first.step is not None and first.step > 1
-    assert "+y" in first.reason
-    with pytest.raises(PlanRefusedError, match=rf"step {first.step}: .*--force"):
-        sequence(task, bad)
-    assert f"step {first.step}" in sequence(task, bad, force=True).report.forced[0]
+    def next(self) -> int | None:
+        self._at += 1
+        return self._at if self._at < len(self._tries) else None
 
+    def told(self, action: int) -> tuple[int]:
+        return (action,)
 
-def test_a_plan_for_another_board_or_robot_is_refused() -> None:
-    task, plan = ladder(), plan_of(ladder(), *RUNG)
-    other = load_task("ladder", ["board.ladder.rungs=12"])
-    heavy = load_task("ladder", ["weight=45N"])
-    for changed, part in ((other, "board"), (heavy, "robot")):
-        assert isinstance(changed, LimbedTask)
-        with pytest.raises(PlanRefusedError, match=f"another {part}"):
-            sequence(changed, plan)
-    assert sequence(task, plan).course.objections == ()
-
-
-def test_hooks_must_only_pull_though_the_task_lets_them_push() -> None:
-    strict = climbable(ladder())
-    assert "hook" in strict.rules.hard
-    assert (strict.rules.branch, strict.rules.max_hangs) == ("kept", 0)
-
-
-def test_a_fall_ends_the_run_with_a_reason_and_a_trace_up_to_that_tick() -> None:
-    task = ladder()
-    plant = ClimberPlant(task.robot, task.world, NOMINAL)
-    climber = TracedClimber(task.robot, task.world, plant, map_error=0.006, truth=plant.truth)
-    told = lambda step, n, title, time: plant.push((0.0, 400.0) if step == 4 else (0.0, 0.0))  # noqa: E731
-    report = Sequencer(climber, lay_course(task, plan_of(task, 300, 3, 4, 3, 4)), progress=told).run()
-    assert not report.done
-    assert report.reason.startswith("fell: ")
-    assert report.actions[-1].outcome == "fell"
-    assert report.actions[-1].first == 4
-    trace = climber.trace(report.to_json())
-    assert trace.time[-1] == pytest.approx(report.seconds)
-    assert trace.step[-1] == 4
-    assert np.all(np.diff(trace.time) > 0.0)
-
-
-def test_ctrl_c_ends_the_run_and_keeps_what_there_is() -> None:
-    task = ladder()
-
-    def stop(step: int, *_: object) -> None:
-        if step == 2:
+    def carry_out(self, action: int) -> tuple[Outcome, int, str]:
+        self._time += 1.0
+        word = self._tries[action].pop(0) if self._tries[action] else "ok"
+        if word == "interrupted":
             raise KeyboardInterrupt
+        if word == "slipped":
+            raise SlippedError("off")
+        if word in ENDS:
+            raise ENDS[word](f"said {word}")
+        return word, 1, f"said {word}"
 
-    sequencer = sequence(task, plan_of(task, 300, 3, 4), progress=stop)
-    report = sequencer.run()
-    assert (report.done, report.reason, len(report.actions)) == (False, "interrupted", 1)
-    assert sequencer.climber.trace().time[-1] == pytest.approx(report.seconds)
+    def recover(self, action: int, fall: FallenError) -> str:
+        if not isinstance(fall, SlippedError):
+            raise fall
+        return ""
+
+    def record(self, action: int, attempt: Attempt) -> None:
+        self.report.tried.append((action, attempt))
+
+    def plan_again(self, action: int, outcome: Outcome) -> bool:
+        self._plans -= outcome == "missed"
+        return outcome == "missed" and self._plans >= 0
+
+    def name(self, action: int) -> str:
+        return f"action {action}"
+
+    def end(self) -> None:
+        self.ended += 1
 
 
-def test_a_trace_comes_back_from_its_log(tmp_path: Path) -> None:
-    task = ladder()
-    sequencer = sequence(task, plan_of(task, 300))
-    report = sequencer.run()
-    trace = sequencer.climber.trace(report.to_json())
-    write_log(trace.to_log(), tmp_path / "climb.mcap", "climb")
-    back = ClimbTrace.from_log(read_log(tmp_path / "climb.mcap"))
-    assert back.limbs == ("right", "left", "bottom")
-    assert back.notes == json.loads(json.dumps(report.to_json()))
-    arrays = ("time", "step", "believed", "aim", "angles", "torques", "holds", "carries", "true_pose", "true_angles")
-    for name in arrays:
-        np.testing.assert_array_equal(getattr(back, name), getattr(trace, name), err_msg=name)
-    assert trace.holds[0].tolist() == [4, 3, 2]
-    assert trace.holds[-1].tolist() == [4, 3, 0]
-    silent = replace(trace, true_pose=None, true_angles=None, notes=None)
-    assert ClimbTrace.from_log(silent.to_log()).true_pose is None
+def outcomes(toy: Toy) -> list[str]:
+    return [attempt.outcome for _, attempt in toy.report.tried]
 
 
-@pytest.mark.parametrize(("worse", "stays"), [(0.0, True), (1.0, False)])
-def test_a_limb_takes_its_hold_from_near_the_plans_pose_only_where_the_others_hold_no_worse(
-    worse: float, stays: bool, monkeypatch: pytest.MonkeyPatch
+def test_all_actions_are_carried_out_in_turn() -> None:
+    told: list[int] = []
+    toy = Toy([], ["stalled"], [])
+    report = Sequencer(toy, progress=told.append).run()
+    assert (report.done, report.reason, report.seconds) == (True, "", 3.5)
+    assert told == [0, 1, 2]
+    assert outcomes(toy) == ["ok", "stalled", "ok"]
+    assert [attempt.start for _, attempt in report.tried] == [0.5, 1.5, 2.5]
+
+
+@pytest.mark.parametrize(
+    ("word", "reason"),
+    [
+        ("missed", "action 1: missed: said missed"),
+        ("refused", "action 1: refused: said refused"),
+        ("fell", "fell: said fell"),
+        ("stopped", "stopped: said stopped"),
+        ("stuck", "stuck: said stuck"),
+        ("interrupted", "interrupted"),
+    ],
+)
+def test_what_ends_a_run_is_its_reason_and_the_outcome_of_the_action_that_it_ended(word: str, reason: str) -> None:
+    toy = Toy([], [word], [])
+    report = Sequencer(toy).run()
+    assert (report.done, report.reason, report.seconds) == (False, reason, 2.5)
+    assert outcomes(toy) == ["ok", word]
+    assert toy.ended == 1
+
+
+@pytest.mark.parametrize("error", [*ENDS.values(), KeyboardInterrupt])
+@pytest.mark.parametrize("where", ["begin", "next", "told", "done"])
+def test_nothing_that_ends_a_run_escapes(error: type[BaseException], where: str) -> None:
+    toy = Toy([], [])
+
+    def end(*_: object) -> None:
+        raise error("there")
+
+    setattr(toy, where, end)
+    report = Sequencer(toy, progress=lambda _: None).run()
+    assert not report.done
+    assert report.reason == ("interrupted" if error is KeyboardInterrupt else f"{error.word}: there")  # type: ignore[attr-defined]
+    assert len(report.tried) == (where == "done")
+    assert toy.ended == 1
+
+
+def test_a_users_mistake_is_none_of_a_runs_ends() -> None:
+    toy = Toy(["ok"])
+    toy.begin = lambda: int("no number")  # type: ignore[method-assign, assignment]
+    with pytest.raises(ValueError, match="no number"):
+        Sequencer(toy).run()
+
+
+@pytest.mark.parametrize("slips", range(MOST_RECOVERIES + 2))
+def test_an_action_begins_anew_after_falls_that_the_robot_recovers_from_but_not_for_ever(slips: int) -> None:
+    toy = Toy([], ["slipped"] * slips)
+    report = Sequencer(toy).run()
+    assert report.done == (slips <= MOST_RECOVERIES)
+    assert [attempt.recovered for _, attempt in report.tried] == [0, min(slips, MOST_RECOVERIES)]
+    assert report.reason == ("" if report.done else "fell: off")
+
+
+def test_a_fall_that_cannot_be_recovered_from_while_the_robot_still_holds_is_a_miss() -> None:
+    toy = Toy(["slipped"])
+    toy.recover = lambda action, fall: "no way back"  # type: ignore[method-assign]
+    report = Sequencer(toy).run()
+    assert (report.reason, outcomes(toy)) == ("action 0: missed: no way back", ["missed"])
+
+
+@pytest.mark.parametrize("misses", range(MOST_REPLANS + 2))
+def test_a_new_plan_leads_on_after_a_miss_but_not_for_ever(misses: int) -> None:
+    report = Sequencer(Toy(*[["missed"]] * misses, [], plans=9)).run()
+    assert report.done == (misses <= MOST_REPLANS)
+    assert len(report.tried) == min(misses, MOST_REPLANS) + 1
+
+
+def test_without_a_new_plan_a_miss_is_the_end() -> None:
+    assert Sequencer(Toy(["missed"], ["missed"], [], plans=1)).run().reason == "action 1: missed: said missed"
+
+
+def plainly(tries: list[list[str]], plans: int) -> tuple[list[str], bool]:
+    """Outcomes of a toy's actions, and whether it is done."""
+    told: list[str] = []
+    replans = 0
+    for words in tries:
+        slips = next((k for k, word in enumerate(words) if word != "slipped"), len(words))
+        word = "fell" if slips > MOST_RECOVERIES else "ok" if slips == len(words) else words[slips]
+        told.append(word)
+        if word == "missed" and replans < min(MOST_REPLANS, plans):
+            replans += 1
+        elif word not in Toy.goes_on:
+            return told, False
+    return told, True
+
+
+@given(st.lists(st.lists(st.sampled_from(WORDS), max_size=5), max_size=6), st.integers(0, 5))
+def test_whatever_happens_all_of_it_is_told_once(tries: list[list[str]], plans: int) -> None:
+    told: list[int] = []
+    toy = Toy(*tries, plans=plans)
+    report = Sequencer(toy, progress=told.append).run()
+    assert (outcomes(toy), report.done) == plainly(tries, plans)
+    assert report.done == (not report.reason)
+    assert [action for action, _ in report.tried] == told == list(range(len(told)))
+    assert report.seconds == toy.time
+    assert all(before.start < after.start for (_, before), (_, after) in pairwise(report.tried))
+    assert (toy.before, toy.ended) == (1, 1)
+
+
+def climber() -> tuple[Climbing, TracedClimber]:
+    task, plan = two_rungs()
+    plant = ClimberPlant(task.robot, task.world, LimbFlaws(physics_rate=1000.0))
+    robot = TracedClimber(task.robot, task.world, plant, truth=plant.truth)
+    return Climbing(robot, lay_course(task, plan)), robot
+
+
+def walker() -> tuple[Walking, TracedWalker]:
+    walk = load_walk("level-walk")
+    plant = TracedPlant(WalkerSim(walk.robot, walk.ground, WalkerFlaws()))
+    robot = TracedWalker(walk.robot, plant)
+    robot.start(walk.start_pose(), walk.start_place(), walk.start_legs(), np.array(walk.arm))
+    radius = walk.robot.legs.radius_delta
+    return Walking(robot, lambda pose: TrackCourse(straight(pose, 0.0, 0.5, radius))), robot
+
+
+@pytest.mark.parametrize("word", ["fell", "refused", "stopped", "interrupted"])
+@pytest.mark.parametrize("kind", [climber, walker])
+def test_a_robot_of_either_kind_ends_in_the_same_words_with_a_trace_up_to_that_tick(
+    kind: Callable[[], tuple[Climbing, TracedClimber] | tuple[Walking, TracedWalker]],
+    word: str,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    task = ladder()
-    sequencer = sequence(task, plan_of(task, 106))
-    climber = sequencer.climber
-    planned = sequencer.course.pose(1)
+    performer, robot = kind()
+    told: list[object] = []
+    ended: list[bool] = []
+    plant = robot.plant
+    go_on = plant.step
 
-    def start_off() -> None:
-        """With the body 20 mm above the plan's pose, where the others are said to hold worse by some newtons."""
-        begin()
-        move_body(climber, planned + np.array((0.0, 0.02, 0.0)))
+    def step() -> None:
+        """The run ends in the hundredth tick of the first action."""
+        ended.append(robot.step == 1)
+        if sum(ended) == 100:
+            raise KeyboardInterrupt if word == "interrupted" else ENDS[word]("the line is cut")
+        go_on()
 
-    def stands(pose: Floats, _: object = None) -> float:
-        return -worse if pose[1] > planned[1] + 0.01 else 0.0
-
-    begin = sequencer.start
-    monkeypatch.setattr(sequencer, "start", start_off)
-    monkeypatch.setattr(climber.body, "stands", stands)
-    report = sequencer.run()
-    assert [one.outcome for one in report.actions] == ["ok"]
-    assert climber.body.aim[1] - planned[1] == pytest.approx(0.02 if stays else 0.0, abs=1e-6)
-
-
-def test_where_a_hold_cannot_be_had_another_plan_is_asked_for_from_there() -> None:
-    task = ladder()
-    asked: list[LimbedTask] = []
-
-    def replan(here: LimbedTask) -> Plan:
-        asked.append(here)
-        return Plan.of_codes(here, [thesis_code(here, 104)])
-
-    sequencer = sequence(task, plan_of(task, 106), replan=replan)
-    sequencer.climber.holds[6] = np.array((3.0, 3.0))  # the robot believes it out of reach
-    report = sequencer.run()
-    assert [one.outcome for one in report.actions] == ["missed", "ok"]
-    assert report.done
-    assert 6 not in [hold.number for hold in asked[0].world.holds]
-    held = asked[0].start.holds
-    assert held["left"] == 3
-    assert report.replans[0]["without"] == [6]
+    monkeypatch.setattr(plant, "step", step)
+    report = Sequencer(performer, progress=lambda *said: told.append(said[0])).run()
+    records = report.actions if isinstance(performer, Climbing) else report.steps
+    assert told == [1]
+    assert [one.outcome for one in records] == [word]
+    said = {"interrupted": "interrupted", "refused": "refused: the line is cut"}.get(word, f"{word}: the line is cut")
+    assert report.reason == (f"{performer.name((1, 1))}: {said}" if word == "refused" else said)
+    assert not report.done
+    trace = robot.trace(report.to_json())
+    assert trace.time[-1] == report.seconds == robot.time == pytest.approx(records[0].start + 99 * plant.period)
+    assert (trace.step[0], trace.step[-1]) == (0, 1)
+    assert np.all(np.diff(trace.time) > 0.0)
+    assert report.true_pose is not None
+    np.testing.assert_array_equal(report.pose, trace.believed[-1])

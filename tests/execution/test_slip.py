@@ -10,9 +10,10 @@ import pytest
 from clamber.execution.climb.climb_report import ClimbReport
 from clamber.execution.climb.climb_trace import TracedClimber
 from clamber.execution.climb.climber import FallenError, SlippedError
+from clamber.execution.climb.climbing import Climbing
 from clamber.execution.climb.course import lay_course
-from clamber.execution.climb.sequencer import Sequencer
 from clamber.execution.climb.slip import MOVED
+from clamber.execution.sequencer import Sequencer
 from clamber.experiments.climb.climb_work import two_rungs
 from clamber.experiments.climb.noise import draw_for, named_noise
 from clamber.experiments.climb.plants import drawn_plant
@@ -52,7 +53,7 @@ class Knocked:
         self.plant: ClimberPlant = drawn_plant(task, climbing_flaws(task, ()), drawn)
         self.pegs: Floats = task.world.positions() + drawn.pegs
         self.climber = believing_climber(task, self.plant, named_noise("usual"), drawn)
-        self.sequencer = Sequencer(self.climber, lay_course(task, plan))
+        self.sequencer = Sequencer(Climbing(self.climber, lay_course(task, plan)))
         self._tick, self.climber.tick = self.climber.tick, self.tick  # type: ignore[method-assign]
         model = self.plant.model
         self._there = model.geom_contype.copy(), model.geom_conaffinity.copy()
@@ -160,7 +161,7 @@ def test_a_clinging_hook_takes_the_load_and_the_climb_goes_on(seed: int) -> None
     assert report.done, report.reason
     assert sum(action.recovered for action in report.actions) >= 1
     assert all(action.outcome == "ok" for action in report.actions)
-    course = climb.sequencer.course
+    course = climb.sequencer.performer.course
     np.testing.assert_allclose(climb.plant.truth().pose[:2], course.pose(len(course.actions))[:2], atol=0.02)
     told = report.to_json()["actions"]
     assert isinstance(told, list)

@@ -2,8 +2,9 @@
 
 import pytest
 
+from clamber.execution.climb.climbing import Climbing
 from clamber.execution.climb.course import lay_course
-from clamber.execution.climb.sequencer import Sequencer
+from clamber.execution.sequencer import Sequencer
 from clamber.experiments.benches import BENCHES
 from clamber.experiments.climb import speed
 from clamber.experiments.climb.climb_work import timed_trial, two_rungs
@@ -20,7 +21,7 @@ def test_the_raw_steps_are_those_of_the_climb() -> None:
     task, plan = two_rungs()
     plant = TapedClimberPlant(task.robot, task.world, climbing_flaws(task, ()))
     told = lambda step, *_: plant.push((20.0, 0.0) if step == 2 else (0.0, 0.0))  # noqa: E731
-    report = Sequencer(speed.climber_on(task, plant), lay_course(task, plan), progress=told).run()
+    report = Sequencer(Climbing(speed.climber_on(task, plant), lay_course(task, plan)), progress=told).run()
     assert report.done, report.reason
     end = plant.coordinates
     assert plant.steps == pytest.approx(1000.0 * report.seconds)

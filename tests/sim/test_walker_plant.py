@@ -1,6 +1,7 @@
 """The walker's plant: aims, sensors, truth, and that it keeps its protocol's word."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,9 +10,10 @@ from walker_by_hand import POSE, hoshino, legs_with, lengths, let_pass, standing
 
 from clamber.execution.plant import PlantStoppedError
 from clamber.execution.walk.plant import WalkerPlant
+from clamber.robots.walker import WalkerRobot
 from clamber.sim.plant_rules import PlantError
 from clamber.sim.walker_flaws import Inclinometers, WalkerFlaws
-from clamber.sim.walker_plant import plate_angles, plate_axes, plate_quaternion
+from clamber.sim.walker_plant import WalkerSim, plate_angles, plate_axes, plate_quaternion
 from clamber.units import GRAVITY
 from clamber.worlds import Ground
 from clamber.worlds.ground import Block
@@ -177,3 +179,54 @@ def test_a_simulation_that_loses_its_numbers_says_so(tmp_path: Path, monkeypatch
     sim._qvel[0] = math.nan
     with pytest.raises(PlantStoppedError, match="lost its numbers"):
         sim.step()
+
+
+def on_a_slope(robot: WalkerRobot) -> WalkerSim:
+    """Its plate as the ground, 10 degrees up along x, the Y-frame lifted; as soon as it has been put down."""
+    ground = Ground(name="slope", slope=math.radians(10.0))
+    sim = WalkerSim(robot, ground, WalkerFlaws())
+    assert robot.arm is not None
+    pose = np.array((0.0, 0.0, 0.35, 0.0, -ground.slope, 0.0))
+    sim.reset(pose, np.array((0.02, -0.03, 0.1)), legs_with(1), np.array(robot.arm.rest))
+    return sim
+
+
+@pytest.mark.parametrize("struts", [False, True])
+def test_actuators_hold_a_lifted_frame_on_a_slope(struts: bool) -> None:
+    """Force and moment balance of the Y-frame in its plane: three thrusts along the actuators against its weight down the slope."""
+    robot = hoshino()
+    ground = Ground(name="slope", slope=math.radians(10.0))
+    sim = standing(
+        (0.02, -0.03, 0.1), lifted=1, ground=ground, pose=np.array((0, 0, 0.35, 0, -ground.slope, 0)), struts=struts
+    )
+    let_pass(sim, 3.0)
+    true = sim.truth()
+    on_delta, on_y = robot.attachments()
+    c, s = math.cos(true.place[2]), math.sin(true.place[2])
+    arms = on_y @ np.array(((c, s), (-s, c)))
+    ways = arms + true.place[:2] - on_delta
+    pushes = true.thrusts[:, None] * ways / np.linalg.norm(ways, axis=1, keepdims=True)
+    mass = (1.0 - robot.mass.share_delta) * robot.mass.frames
+    down = plate_axes(*plate_quaternion(*true.pose[3:]))[2]  # the world's z in the plate's axes
+    assert down[0] == pytest.approx(math.sin(ground.slope), rel=0.05)  # legs give way a little under the weight
+    assert pushes.sum(axis=0) == pytest.approx(mass * GRAVITY * down[:2], abs=0.1)
+    turning = arms[:, 0] * pushes[:, 1] - arms[:, 1] * pushes[:, 0]
+    assert turning.sum() == pytest.approx(0.0, abs=0.05)
+
+
+def test_motors_give_no_more_than_their_files_say() -> None:
+    """A frame that its actuators cannot hold slides down the slope, at most as fast as its weight less their force makes it."""
+    robot = hoshino()
+    weak = replace(robot, mechanism=replace(robot.mechanism, force=5.0))
+    strong = replace(robot, mechanism=replace(robot.mechanism, force=500.0))
+    held, slid = on_a_slope(strong), on_a_slope(weak)
+    before = held.truth().place[0]
+    for sim in (held, slid):
+        let_pass(sim, 0.5)
+    assert held.truth().place[0] == pytest.approx(before, abs=1e-4)
+    assert slid.truth().place[0] < before - 0.01
+    assert np.abs(slid.truth().thrusts).max() <= 5.0
+    legs = replace(robot, legs=replace(robot.legs, force=100.0))  # three carry 262 N each
+    sunk = on_a_slope(legs)
+    height = on_a_slope(robot).truth().pose[2]
+    assert sunk.truth().pose[2] < height - 0.005

@@ -45,7 +45,7 @@ def test_quick_results_of_chapter_4_keep_their_verdicts(name: str, tmp_path: Pat
     assert {path.suffix for path in (tmp_path / "bevly-1997").iterdir()} == {".md", ".png"}
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", LONG)
 def test_long_results_of_chapter_4_keep_their_verdicts(name: str) -> None:
     keeps_its_verdict(name, LONG[name])

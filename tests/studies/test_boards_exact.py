@@ -109,7 +109,7 @@ def test_front_of_h_is_complete_and_every_plan_of_it_replays() -> None:
     assert torques[-1] == pytest.approx(start_torque("h") / OZ_IN)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", STUDIES[STUDY])
 def test_results_keep_their_verdicts(name: str) -> None:
     result = STUDIES[STUDY][name]()

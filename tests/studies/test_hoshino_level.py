@@ -42,7 +42,7 @@ def test_the_plate_is_inclined_to_a_tenth_of_a_degree_and_all_legs_end_together(
     np.testing.assert_allclose(angles, [*[ANGLE] * len(DIRECTIONS), 0.0], atol=1e-9)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_every_result_on_levelling_holds() -> None:
     results = {name: repeat() for name, repeat in OF_LEVELLING.items()}
     assert set(results) <= set(STUDIES["hoshino-1995"])

@@ -30,7 +30,7 @@ def test_quick_results_of_bevly_keep_their_verdicts(name: str) -> None:
     json.dumps(told, allow_nan=False)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", LONG)
 def test_long_results_of_bevly_keep_their_verdicts(name: str) -> None:
     assert BEVLY[name]().verdict == EXPECTED[name]

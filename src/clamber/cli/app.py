@@ -12,7 +12,7 @@ import typer
 from .. import __version__
 from ..errors import ClamberError
 from .bench import bench
-from .body import body
+from .body.commands import body
 from .calibrate import calibrate
 from .check import check
 from .ditch import ditch
@@ -22,22 +22,22 @@ from .follow import follow
 from .help_text import command_of
 from .inventory import inventory
 from .learn import learn
-from .limb import limb
+from .limb.commands import limb
 from .list import list_names
 from .most import most
 from .new import new
 from .output import fall_silent
-from .plan import plan
+from .plan.command import plan
 from .plant import plant
 from .polish import polish
 from .press import press
 from .reach import reach
-from .run import run
+from .run.command import run
 from .schema import schema
 from .show import show
 from .study import study
 from .sweep import sweep
-from .trials import trials
+from .trials.command import trials
 from .view import view
 
 app = typer.Typer(

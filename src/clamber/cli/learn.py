@@ -25,7 +25,7 @@ def learn(
     loaded = load_task(task, overrides or ())
     announce_compilation(quiet=quiet)
     from ..planning.learning import learn_macros
-    from .plan_text import ProgressLine, print_lesson
+    from .plan.text import ProgressLine, print_lesson
 
     with ProgressLine(stderr(), quiet=quiet) as line:
         lesson = learn_macros(loaded, seeds=range(seeds), threads=threads, progress=line.update, most=keep)

@@ -33,7 +33,7 @@ def polish(
     announce_compilation(quiet=quiet)
     from ..actions.plan_source import open_plan
     from ..planning.polishing import polish_plan
-    from .plan_text import ProgressLine, print_result
+    from .plan.text import ProgressLine, print_result
 
     opened = open_plan(plan, task, overrides or ())
     with ProgressLine(stderr(), quiet=quiet) as line:

@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from ..errors import SpecError
-from .limb_options import Flaws, FlawsChoice, Settings
+from .limb.options import Flaws, FlawsChoice, Settings
 from .name_completion import names_of
 from .options import BOARD, ROBOT, AsJson, Output
 from .output import announce_compilation, check_writable, plain_table, print_json, stdout

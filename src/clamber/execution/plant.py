@@ -4,13 +4,16 @@ from dataclasses import dataclass
 from typing import Protocol, TypeVar
 
 from ..types import Floats, Ints
+from .run_ends import RunEndedError
 
 SensedT_co = TypeVar("SensedT_co", covariant=True)
 TruthT_co = TypeVar("TruthT_co", covariant=True)
 
 
-class PlantStoppedError(Exception):
-    """The plant takes no more commands: lost, or stopped by its own side. A run ends with this reason; never a user's mistake."""
+class PlantStoppedError(RunEndedError):
+    """The plant takes no more commands: lost, or stopped by its own side."""
+
+    word = "stopped"
 
 
 class Plant(Protocol[SensedT_co, TruthT_co]):

@@ -131,7 +131,14 @@ def _weigh_frame(body: Any, robot: WalkerRobot, build: WalkerBuild, f: int) -> N
 
 
 def _add_motor(
-    mujoco: Any, spec: Any, name: str, kind: Any, servo: Servo, ends: tuple[float, float], speed: float
+    mujoco: Any,
+    spec: Any,
+    name: str,
+    kind: Any,
+    servo: Servo,
+    ends: tuple[float, float],
+    speed: float,
+    force: float | None = None,
 ) -> None:
     motor = spec.add_actuator(name=name, trntype=kind, target=name)
     motor.dyntype = mujoco.mjtDyn.mjDYN_INTEGRATOR
@@ -140,6 +147,8 @@ def _add_motor(
     motor.biasprm[1], motor.biasprm[2] = -servo.stiffness, -servo.damping
     motor.actlimited, motor.actrange = True, ends
     motor.ctrllimited, motor.ctrlrange = True, (-speed, speed)
+    if force is not None:
+        motor.forcelimited, motor.forcerange = True, (-force, force)
 
 
 def _add_leg(
@@ -155,7 +164,8 @@ def _add_leg(
     _weigh(leg, build.leg_mass, (rod, rod, 0.1 * rod), (0.0, 0.0, half))
     joint = leg.add_joint(name=leg.name, type=mujoco.mjtJoint.mjJNT_SLIDE, axis=(0, 0, -1))
     joint.armature = build.leg.armature
-    _add_motor(mujoco, spec, leg.name, mujoco.mjtTrn.mjTRN_JOINT, build.leg, (legs.shortest, legs.longest), legs.speed)
+    ends = legs.shortest, legs.longest
+    _add_motor(mujoco, spec, leg.name, mujoco.mjtTrn.mjTRN_JOINT, build.leg, ends, legs.speed, legs.force)
     foot = leg.add_body(name=foot_names()[3 * f + i], pos=(0.0, 0.0, radius))
     ball = 0.4 * build.foot_mass * max(radius, 0.02) ** 2
     _weigh(foot, build.foot_mass, (ball, ball, ball), (0.0, 0.0, 0.0))
@@ -201,7 +211,7 @@ def _add_tendons(mujoco: Any, spec: Any, bodies: tuple[Any, Any], robot: WalkerR
             site = body.add_site(name=f"{FRAMES[f]} attachment {i}", pos=(*places[f, i], 0.0))
             tendon.wrap_site(site.name)
         ends = mechanism.shortest, mechanism.longest
-        _add_motor(mujoco, spec, name, mujoco.mjtTrn.mjTRN_TENDON, servo, ends, mechanism.speed)
+        _add_motor(mujoco, spec, name, mujoco.mjtTrn.mjTRN_TENDON, servo, ends, mechanism.speed, mechanism.force)
 
 
 STRUT_MASS: Final = 1e-3
@@ -232,7 +242,7 @@ def _add_struts(mujoco: Any, spec: Any, bodies: tuple[Any, Any], robot: WalkerRo
             solimp=(0.999, 0.9999, 1e-5, 0.5, 2.0),
         )
         ends = mechanism.shortest, mechanism.longest
-        _add_motor(mujoco, spec, name, mujoco.mjtTrn.mjTRN_JOINT, servo, ends, mechanism.speed)
+        _add_motor(mujoco, spec, name, mujoco.mjtTrn.mjTRN_JOINT, servo, ends, mechanism.speed, mechanism.force)
 
 
 def strut_angles(robot: WalkerRobot, place: Floats) -> Floats:

@@ -170,6 +170,7 @@ class WalkerSim:
             self._forces.reshape(2, 3, 3).copy(),
             self._data.subtree_com[self._plate].copy(),
             np.full(3, math.nan) if self._tool is None else self._data.site_xpos[self._tool].copy(),
+            self._data.actuator_force[self._motors[:3]].copy(),
         )
 
     def _aim(self, aims: Floats) -> None:

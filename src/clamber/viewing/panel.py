@@ -47,6 +47,8 @@ class Gauges:
     """The same for the player: unit, its size in SI units, decimals."""
     group: int
     """Bars that stand close together."""
+    note: str = ""
+    """What is to be said of a full bar where it is no limit."""
 
     @property
     def height(self) -> float:

@@ -7,21 +7,16 @@ from matplotlib.axes import Axes
 
 from ..actions.problem import Replay
 from ..actions.yardsticks import walker_yardsticks
-from ..robots.walker import WalkerRobot
 from ..statics.walker_checks import WALKER_CHECKS
 from ..tasks.walker import WalkerTask
 from ..types import Floats, Json
 from ..units import DEGREE
-from . import style
-from .panel import Gauges
 from .view import Part, Spread, View
 from .walker_artists import COLOURS, NAMES, WalkerArtists, draw_ground, draw_key, walker_bounds
+from .walker_loads import actuator_gauges
 from .walker_motion import WalkerMoment, settled_moment, walker_motion
 from .walker_player import SCRIPT, spread_moment, walker_world
 from .words import describe_pose, length_unit
-
-NEAR_END = 0.05
-"""Share of the stroke from either end at which an actuator's bar turns red [-]."""
 
 
 class WalkerView(View[WalkerMoment]):
@@ -71,23 +66,6 @@ class WalkerView(View[WalkerMoment]):
     def spread(self, at: WalkerMoment) -> Spread:
         """Origins and lifts of the frames; their angles."""
         return spread_moment(at)
-
-
-def actuator_gauges(robot: WalkerRobot) -> Gauges:
-    """One bar per actuator, from drawn in to extended."""
-    mechanism = robot.mechanism
-    return Gauges(
-        title="Actuator lengths",
-        names=("actuator 1", "actuator 2", "actuator 3"),
-        colours=(style.HOLD,) * 3,
-        low=np.full(3, mechanism.shortest),
-        high=np.full(3, mechanism.longest),
-        limits=((0.0, "shortest"), (1.0, "longest")),
-        calm=(NEAR_END, 1.0 - NEAR_END),
-        show=lambda length: f"{100 * length:.1f} cm",
-        unit=("cm", 0.01, 1),
-        group=3,
-    )
 
 
 def describe_walk(task: WalkerTask, before: WalkerMoment, after: WalkerMoment, reason: int) -> str:

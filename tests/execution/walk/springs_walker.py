@@ -134,7 +134,7 @@ class SpringsWalker:
         return WalkerTruth(
             pose=np.array((*self.at, *angles)), place=self.place.copy(), feet=self._feet().reshape(2, 3, 3),
             touching=(self.forces > 0.0).astype(np.int32).reshape(2, 3), forces=upward.reshape(2, 3, 3),
-            centre=self.centre(), tool=np.full(3, np.nan),
+            centre=self.centre(), tool=np.full(3, np.nan), thrusts=np.zeros(3),
         )  # fmt: skip
 
     def centre(self) -> Floats:

@@ -12,10 +12,11 @@ from clamber.actions.codes import MOVE, NONE, RELEASE, pack
 from clamber.actions.walker_problem import WalkerProblem, walker_table
 from clamber.control.gait import Limits
 from clamber.control.track import compose, seen_from, straight
+from clamber.execution.sequencer import Sequencer
 from clamber.execution.walk.course import PlannedCourse, PlannedStep, TrackCourse
 from clamber.execution.walk.planned_steps import plan_start, planned_steps
-from clamber.execution.walk.sequencer import WalkSequencer
 from clamber.execution.walk.settings import WalkSettings
+from clamber.execution.walk.walking import Walking
 from clamber.tasks import load_task
 from clamber.tasks.walker import WalkerTask
 
@@ -59,7 +60,7 @@ def test_a_planned_walk_comes_to_the_plans_end() -> None:
     assert replay.ok
     steps, start = planned_steps(np.array(codes, np.int32), replay), plan_start(replay)
     walker, plant = stood(flat)
-    sequencer = WalkSequencer(walker, lambda pose: PlannedCourse(steps, start, pose, radius=0.2384))
+    sequencer = Sequencer(Walking(walker, lambda pose: PlannedCourse(steps, start, pose, radius=0.2384)))
     began = walker.frames()[0].copy()
     report = sequencer.run()
     assert report.done, report.reason

@@ -10,14 +10,15 @@ from springs_walker import SpringsWalker, flat, slope
 
 from clamber.control.track import straight
 from clamber.control.walker_balance import mass_centre
+from clamber.execution.sequencer import Sequencer
 from clamber.execution.walk.course import TrackCourse
 from clamber.execution.walk.motions import ROOM
 from clamber.execution.walk.rehearsed_heights import rehearse
-from clamber.execution.walk.sequencer import WalkSequencer
 from clamber.execution.walk.settings import WalkSettings
 from clamber.execution.walk.tool_hold import ToolHold
 from clamber.execution.walk.walk_trace import PHASES, TracedWalker
 from clamber.execution.walk.walker import RefusedError, Walker
+from clamber.execution.walk.walking import Walking
 from clamber.types import Floats
 
 ARM = ROBOT.arm
@@ -61,7 +62,7 @@ def test_the_tool_comes_stays_and_leaves_within_range_and_speed(monkeypatch: pyt
         holds[0].start(walker)
         return TrackCourse(track)
 
-    report = WalkSequencer(walker, lay).run()
+    report = Sequencer(Walking(walker, lay)).run()
     assert report.done, report.reason
     told = holds[0].told()
     assert told.began is not None
@@ -96,7 +97,7 @@ def test_the_tool_goes_along_a_line_evenly_with_the_way(monkeypatch: pytest.Monk
         holds[0].start(walker)
         return TrackCourse(track)
 
-    assert WalkSequencer(walker, lay).run().done
+    assert Sequencer(Walking(walker, lay)).run().done
     told = holds[0].told()
     assert (told.began, told.ended) != (None, None)
     assert told.missed < 5e-4
@@ -140,7 +141,7 @@ def test_feet_that_sink_in_do_not_raise_what_is_believed(uphill: float | None) -
     """The springs give 0.9 mm under a frame that carries alone; without reckoning with it, every step would add as much."""
     ground = flat if uphill is None else slope(math.radians(5.0), uphill)
     walker, _ = stood(ground, noise=0.0, settings=WalkSettings(longest=0.08))
-    sequencer = WalkSequencer(walker, lambda pose: TrackCourse(straight(pose, BEST, 0.25, RADIUS)))
+    sequencer = Sequencer(Walking(walker, lambda pose: TrackCourse(straight(pose, BEST, 0.25, RADIUS))))
     off = walker.pose[2] - walker.plant.truth().pose[2]  # type: ignore[union-attr]
     report = sequencer.run()
     assert report.done, report.reason
@@ -179,7 +180,7 @@ def test_the_tool_has_the_plates_height_only_while_a_frame_slides(monkeypatch: p
             holds[0].start(walker)
             return TrackCourse(track)
 
-        assert WalkSequencer(walker, lay).run().done
+        assert Sequencer(Walking(walker, lay)).run().done
         told[served] = holds[0].told()
         assert isinstance(plant, Watched)
         began, ended = told[served].began, told[served].ended
@@ -244,7 +245,7 @@ def test_the_rooms_that_are_rehearsed_are_those_of_the_walk(uphill: float | None
         walker.arm_task = Look()
         return TrackCourse(track)
 
-    report = WalkSequencer(walker, lay).run()
+    report = Sequencer(Walking(walker, lay)).run()
     assert report.done, report.reason
     assert len(told[0]) == len(report.steps) == len(rooms)
     np.testing.assert_allclose(told[0][:, [0, 2]], rooms, atol=2.5e-3)  # feet sink in, the plate is never quite level

@@ -48,6 +48,7 @@ class Counted:
             forces,
             np.full(3, 3 * k),
             np.full(3, 4 * k),
+            np.full(3, 5 * k),
         )
 
 

@@ -7,7 +7,8 @@ import pytest
 
 from clamber.actions.plan import Plan
 from clamber.execution.climb.climb_report import ClimbReport
-from clamber.execution.climb.sequencer import Sequencer
+from clamber.execution.climb.climbing import Climbing, Group
+from clamber.execution.sequencer import Sequencer
 from clamber.experiments.climb import run_plan as running
 from clamber.experiments.climb.climb_work import two_rungs
 from clamber.experiments.climb.run_plan import climbing_flaws, run_plan
@@ -46,13 +47,15 @@ def test_time_of_a_climb_has_neither_warming_up_nor_new_plans_in_it(monkeypatch:
         nonlocal now
         now += seconds
 
-    def climb(self: Sequencer) -> ClimbReport:
+    def climb(self: Sequencer[Group, ClimbReport, int, int, str, float]) -> ClimbReport:
+        climbing = self.performer
+        assert isinstance(climbing, Climbing)
+        assert climbing.replan is not None
         pass_by(3.0)
-        assert self._replan is not None
-        assert self._replan(task) is plan
-        self.start()
-        self.climber.tick()
-        return self.report
+        assert climbing.replan(task) is plan
+        climbing.start()
+        climbing.climber.tick()
+        return climbing.report
 
     def replan(task: LimbedTask) -> Plan:
         pass_by(10.0)

@@ -184,8 +184,13 @@ def test_an_unknown_law_is_refused_before_anything_runs(limb: BenchLimb, flaws: 
         tune(limb, ["scct", "nosuch"], flaws)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("law", LAWS)
+ONE_LAW = "jacobian-transpose"
+"""Found again wherever slow tests run; the others are `long`."""
+
+
+@pytest.mark.parametrize(
+    "law", [pytest.param(law, marks=pytest.mark.slow if law == ONE_LAW else pytest.mark.long) for law in LAWS]
+)
 def test_the_procedure_finds_the_stored_limit_again(limb: BenchLimb, flaws: LimbFlaws, law: str) -> None:
     found = stored(law)[1]
     time = min(DAMPING_TIMES, key=lambda each: abs(each - found.kd / found.kp))
@@ -195,7 +200,7 @@ def test_the_procedure_finds_the_stored_limit_again(limb: BenchLimb, flaws: Limb
     assert again.limit_kp == pytest.approx(again.linear_kp, rel=0.25)  # friction calms a little beyond the linear limit
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_tuning_does_not_depend_on_the_number_of_workers(limb: BenchLimb, flaws: LimbFlaws) -> None:
     alone, together = (
         tune(limb, ["scct", "joint-pd"], flaws, damping_times=(0.04,), effort="search", workers=workers).to_json()

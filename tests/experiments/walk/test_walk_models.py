@@ -3,11 +3,12 @@
 import numpy as np
 import pytest
 
-from clamber.execution.walk.sequencer import WalkSequencer
+from clamber.execution.sequencer import Sequencer
 from clamber.execution.walk.settings import WalkSettings
 from clamber.execution.walk.true_walk import TracedPlant, TrueWalk
 from clamber.execution.walk.walk_trace import TracedWalker
 from clamber.execution.walk.walker import Walker
+from clamber.execution.walk.walking import Walking
 from clamber.experiments.walk.run_walk import own_way
 from clamber.sim import ground_model
 from clamber.sim.walker_flaws import WalkerFlaws
@@ -18,7 +19,7 @@ from clamber.tasks.walks import Walk, load_walk
 def true_walk(walk: Walk, *, rate: float = 500.0, struts: bool = False) -> TrueWalk:
     plant = TracedPlant(WalkerSim(walk.robot, walk.ground, WalkerFlaws(physics_rate=rate), struts=struts))
     walker = TracedWalker(walk.robot, plant, settings=WalkSettings())
-    sequencer = WalkSequencer(walker, own_way(walk))
+    sequencer = Sequencer(Walking(walker, own_way(walk)))
     walker.start(walk.start_pose(), walk.start_place(), walk.start_legs(), np.array(walk.arm))
     report = sequencer.run()
     assert report.done, report.reason

@@ -1,10 +1,16 @@
 """What the panel says: the worst check is marked, and nothing that a file says becomes a part of the page."""
 
+from dataclasses import replace
+
 import numpy as np
 
+from clamber.robots.library import load_robot
+from clamber.robots.walker import WalkerRobot
+from clamber.viewing import style
 from clamber.viewing.browser.exhibit import open_exhibit
 from clamber.viewing.browser.film import MarginRow
-from clamber.viewing.browser.panel_html import bars_html, head_html, margins_html, message_html, strip_html
+from clamber.viewing.browser.panel_html import head_html, loads_html, margins_html, message_html, strip_html
+from clamber.viewing.walker_loads import leg_force_gauges
 
 
 def row(name: str, share: float, **keys: bool) -> MarginRow:
@@ -29,7 +35,7 @@ def test_texts_of_files_stay_texts() -> None:
         strip_html(film, 0, bad),
         margins_html([row(bad, 0.1)]),
         message_html(bad, bad=True),
-        bars_html(film.gauges, np.zeros(len(film.gauges.names))),
+        loads_html(film.gauges, (np.zeros(len(film.gauges[0].names)),)),
     ]
     assert all("<script" not in page for page in pages)
 
@@ -41,3 +47,16 @@ def test_strip_marks_the_worst_step() -> None:
     assert f"step {film.worst}" in page
     assert f'x="{film.worst - 1}" y="0" width="1"' in page
     assert 'x1="4.5"' in page
+
+
+def test_what_is_not_told_has_no_bar_and_a_limit_only_where_one_is_known() -> None:
+    robot = load_robot("hoshino")
+    assert isinstance(robot, WalkerRobot)
+    forces = np.array((100.0, 0.0, np.nan, 400.0, 400.0, 400.0))
+    page = loads_html((leg_force_gauges(robot, 800.0),), (forces,))
+    assert "400 N" in page and "&ndash;" in page and "nan" not in page
+    assert "red line" not in page and "its file states no limit" in page
+    limited = leg_force_gauges(replace(robot, legs=replace(robot.legs, force=420.0)), 800.0)
+    page = loads_html((limited,), (forces,))
+    assert "red line: limit" in page and "states no limit" not in page
+    assert page.count(f"background:{style.ALERT};height:8px;width:95.2%") == 3  # 400 of 420 N

@@ -37,6 +37,7 @@ class NewPlan(Printed):
     """Actions of the new plan."""
 
 
+@means_as("execution/run_report.py:RunReport")
 @means_as("execution/climb/climb_report.py:ClimbReport")
 class Climbed(Printed):
     """A climb that was carried out; exit code 1 where it is not done."""
@@ -65,7 +66,7 @@ class PhaseTimes(Printed):
     settle: float
 
 
-@means_as("execution/walk/sequencer.py:StepReport")
+@means_as("execution/walk/walk_report.py:StepReport")
 class StepDone(Printed):
     """What became of a step of a walk."""
 
@@ -110,6 +111,7 @@ class Held(Printed):
     mean_error: float | None
 
 
+@means_as("execution/run_report.py:RunReport")
 class Walked(Printed):
     """A walk that was carried out; exit code 1 where it is not done."""
 

@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 
 from ...types import Floats
-from .climb_report import Outcome
+from ..run_report import Outcome
 from .climber import Climber, Grabbed
 from .course import Course, swings
 from .ends import grab, release

@@ -2,12 +2,10 @@
 
 import math
 from dataclasses import dataclass, field
-from typing import Literal, TypeAlias
 
 from ...tasks.limbed import LimbedTask
 from ...types import Floats, Json
-
-Outcome: TypeAlias = Literal["ok", "stalled", "missed", "fell", "interrupted", "stopped", "not supported"]
+from ..run_report import Outcome, RunReport
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,23 +44,16 @@ class ActionReport:
 
 
 @dataclass(slots=True)
-class ClimbReport:
+class ClimbReport(RunReport):
     """How a plan was carried out."""
 
+    pose: tuple[float, ...] = field(default=(0.0, 0.0, 0.0), kw_only=True)
+    """Body at the end, as believed [m], [rad]."""
     actions: list[ActionReport] = field(default_factory=list)
     replans: list[Json] = field(default_factory=list)
     """Where a new plan was made: after which of `actions`, its length, why."""
     forced: list[str] = field(default_factory=list)
     """Objections to the plan that were overridden."""
-    done: bool = False
-    """Whether every action of the plan, or of those that took its place, was carried out, and the body came to the goal with it."""
-    seconds: float = 0.0
-    """Simulated, or on the robot's clock."""
-    reason: str = ""
-    """Why it ended, where it is not done."""
-    pose: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    """Body at the end, as believed [m], [rad]."""
-    true_pose: tuple[float, float, float] | None = None
     short: float = 0.0
     """By how much the body, truly where that is told, misses the last goal's box [m]."""
 

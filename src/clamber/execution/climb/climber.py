@@ -10,8 +10,8 @@ import numpy as np
 from ...robots.limbed import LimbedRobot
 from ...types import Floats, Ints
 from ...worlds.board import Board
-from ..fallen import FallenError as FallenError
 from ..plant import BodyPlant
+from ..run_ends import FallenError as FallenError
 from .approach import Approaches, rank
 from .fall import FallWatch
 from .hold_map import HoldMap, TipDifference

@@ -48,6 +48,8 @@ class WalkerTruth:
     """Centre of mass of the whole robot, arm and payload included, shape (3,) [m]."""
     tool: Floats
     """The arm's tool point, shape (3,) [m]; NaN without an arm."""
+    thrusts: Floats
+    """Of the actuators, shape (3,) [N]; positive pushes the frames' attachments apart."""
 
 
 class WalkerPlant(Plant[WalkerSensed, WalkerTruth | None], Protocol):

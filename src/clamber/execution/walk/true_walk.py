@@ -13,7 +13,8 @@ from .plant import WalkerPlant, WalkerSensed, WalkerTruth
 ROWS: Final = 4096
 """Room for so many ticks is made at a time."""
 SHAPES: Final[dict[str, tuple[int, ...]]] = {
-    "time": (), "pose": (6,), "place": (3,), "feet": (2, 3, 3), "forces": (2, 3, 3), "centre": (3,), "tool": (3,), "inclines": (2,),
+    "time": (), "pose": (6,), "place": (3,), "feet": (2, 3, 3), "forces": (2, 3, 3), "centre": (3,), "tool": (3,), "thrusts": (3,),
+    "inclines": (2,),
 }  # fmt: skip
 """Of a row of each field of a walk, in the order in which a tick is kept."""
 WIDTH: Final = sum(map(math.prod, SHAPES.values()))
@@ -37,6 +38,8 @@ class TrueWalk:
     """Centre of mass, shape (rows, 3) [m]."""
     tool: Floats
     """The arm's tool point, shape (rows, 3) [m]; NaN without an arm."""
+    thrusts: Floats
+    """Of the actuators, shape (rows, 3) [N]; positive pushes the frames' attachments apart."""
     inclines: Floats
     """By the inclinometers, shape (rows, 2) [rad]."""
 
@@ -122,7 +125,7 @@ class TracedPlant:
         row = self._table[self._rows]
         row[0] = self._ticks * self.period
         start = 1
-        parts = true.pose, true.place, true.feet, true.forces, true.centre, true.tool, self._inclines
+        parts = true.pose, true.place, true.feet, true.forces, true.centre, true.tool, true.thrusts, self._inclines
         for part in parts:
             row[start : start + part.size] = part.ravel()
             start += part.size

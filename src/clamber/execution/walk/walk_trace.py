@@ -21,8 +21,13 @@ PHASES: Final = ("prepare", "lift", "slide", "lower", "settle")
 """What a walk does, by number."""
 
 
-def walk_titles(*, true: bool) -> dict[str, tuple[str, ...]]:
-    """Field of `WalkTrace` -> titles of its columns in a log, in the order of a sample's numbers; `true`: of the truth, too."""
+def walk_titles(*, true: bool, arm: bool = False) -> dict[str, tuple[str, ...]]:
+    """Field of `WalkTrace` -> titles of its columns in a log, in the order of a sample's numbers.
+
+    Args:
+        true: Whether the truth is told, too.
+        arm: Whether that tells of a tool.
+    """
 
     def poses(word: str) -> tuple[str, ...]:
         return tuple(f"plate {axis} {word} [{unit}]" for axis, unit in POSE)
@@ -43,6 +48,11 @@ def walk_titles(*, true: bool) -> dict[str, tuple[str, ...]]:
         titles["true_pose"], titles["true_place"] = poses("true"), places("true")
         titles["true_margin"] = ("margin true [m]",)
         titles["true_feet"] = tuple(f"{leg} sole {axis} [m]" for leg in LEG_NAMES for axis in "xyz")
+        titles["true_forces"] = tuple(f"{leg} ground force {axis} [N]" for leg in LEG_NAMES for axis in "xyz")
+        titles["true_centre"] = tuple(f"centre of mass {axis} true [m]" for axis in "xyz")
+        titles["thrusts"] = tuple(f"actuator {i + 1} force [N]" for i in range(3))
+    if true and arm:
+        titles["true_tool"] = tuple(f"tool {axis} true [m]" for axis in "xyz")
     return titles
 
 
@@ -82,6 +92,14 @@ class WalkTrace:
     """Of the true centre of mass inside the feet that touch, shape (rows,) [m]."""
     true_feet: Floats | None = None
     """Soles, shape (rows, 6, 3) [m]."""
+    true_forces: Floats | None = None
+    """Of the ground on each foot, world frame, shape (rows, 6, 3) [N]."""
+    true_centre: Floats | None = None
+    """Centre of mass, shape (rows, 3) [m]."""
+    thrusts: Floats | None = None
+    """Of the actuators, truly, shape (rows, 3) [N]; positive pushes the frames' attachments apart."""
+    true_tool: Floats | None = None
+    """The arm's tool point, shape (rows, 3) [m]; None without an arm."""
     notes: Json | None = None
     """What came out, as the report has it."""
 
@@ -95,7 +113,7 @@ class WalkTrace:
         """Columns by name, with `notes` as JSON."""
         columns: dict[str, Floats] = {}
         units: dict[str, str] = {}
-        for field, titles in walk_titles(true=self.true_pose is not None).items():
+        for field, titles in walk_titles(true=self.true_pose is not None, arm=self.true_tool is not None).items():
             values = np.asarray(getattr(self, field), dtype=np.float64).reshape(len(self.time), -1)
             for k, (name, unit) in enumerate(map(split_title, titles)):
                 columns[name] = values[:, k]
@@ -115,22 +133,25 @@ class WalkTrace:
         """
         if "walker" not in log.notes:
             raise LogError(log.label, None, None, None, "is no log of a walk: its notes name no walker's legs")
-        fields = walk_titles(true="plate x true" in log.columns)
+        fields = walk_titles(true="plate x true" in log.columns, arm="tool x true" in log.columns)
         table = np.stack([log.column(split_title(title)[0]) for titles in fields.values() for title in titles], axis=1)
         return cls.from_table(table, json.loads(log.notes["report"]) if "report" in log.notes else None)
 
     @classmethod
     def from_table(cls, table: Floats, notes: Json | None) -> "WalkTrace":
         """The trace of samples under `walk_titles`, shape (rows, columns)."""
-        true = table.shape[1] > sum(map(len, walk_titles(true=False).values()))
+        true, arm = (
+            table.shape[1] > sum(map(len, titles.values()))
+            for titles in (walk_titles(true=False), walk_titles(true=True))
+        )
         parts: dict[str, Any] = {}
         start = 0
-        for field, titles in walk_titles(true=true).items():
+        for field, titles in walk_titles(true=true, arm=arm).items():
             values = np.ascontiguousarray(table[:, start : start + len(titles)])
             start += len(titles)
             if field in ("step", "phase", "stands"):
                 values = values.astype(np.int32)
-            if field == "true_feet":
+            if field in ("true_feet", "true_forces"):
                 values = values.reshape(-1, LEGS, 3)
             parts[field] = values[:, 0] if len(titles) == 1 else values
         return cls(notes=notes, **parts)
@@ -166,7 +187,8 @@ class TracedWalker(Walker):
         if true is not None:
             feet = true.feet.reshape(LEGS, 3)
             margin = support_margin(feet, true.touching.ravel(), true.centre)
-            parts += [true.pose, true.place, (margin,), feet.ravel()]
+            parts += [true.pose, true.place, (margin,), feet.ravel(), true.forces.ravel(), true.centre, true.thrusts]
+            parts += [true.tool] if np.isfinite(true.tool).all() else []
         row = np.concatenate([np.asarray(part, float) for part in parts])
         if self._kept == self.ticks:
             self._rows[-1] = row

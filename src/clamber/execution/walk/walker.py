@@ -26,7 +26,8 @@ from ...robots.walker.two_frames import FOUND, follow_branch
 from ...robots.walker.weight import weight_of
 from ...types import Floats, Ints
 from ...units import GRAVITY
-from ..fallen import FallenError as FallenError
+from ..run_ends import FallenError as FallenError
+from ..run_ends import RefusedError as RefusedError
 from .falls import FallWatch
 from .plant import WalkerPlant
 from .plate_room import PlateRoom
@@ -48,20 +49,6 @@ KICKED: Final = math.radians(0.5)
 """Inclinometers that differ so far from the legs tell of a foot that has slipped off something [rad] ..."""
 KICK: Final = 0.3
 """... if they do for so long [s]."""
-
-
-class RefusedError(Exception):
-    """A motion would break a rule of the robot, told as `reason`: it is not begun, or stops where it is.
-
-    `margin` is by how much it would be kept, negative [m]; NaN where that has no number.
-    """
-
-    def __init__(self, reason: str, margin: float = math.nan) -> None:
-        super().__init__(reason, margin)
-        self.reason, self.margin = reason, margin
-
-    def __str__(self) -> str:
-        return self.reason
 
 
 class ArmTask(Protocol):

@@ -9,8 +9,8 @@ import numpy as np
 
 from ...actions.plan import Plan
 from ...errors import StartError
+from ...execution.climb.climbing import Replan
 from ...execution.climb.course import lay_course
-from ...execution.climb.sequencer import Replan
 from ...planning.budgets import accepts
 from ...planning.planners import PLANNERS, PROVERS
 from ...planning.result import PlanResult

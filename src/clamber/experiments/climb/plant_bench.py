@@ -12,13 +12,14 @@ import numpy as np
 from ...actions.limbed_plans import thesis_code
 from ...actions.plan import Plan
 from ...execution.climb.climb_trace import TracedClimber
+from ...execution.climb.climbing import Climbing
 from ...execution.climb.course import lay_course
-from ...execution.climb.sequencer import Sequencer
 from ...execution.hardware import Hardware, Reading, WiredClimber
 from ...execution.link.channel import read_address
 from ...execution.link.client import RemoteHardware
 from ...execution.plant import PlantStoppedError
 from ...execution.posture_guard import PostureGuard, guard_of
+from ...execution.sequencer import Sequencer
 from ...execution.wiring import wiring_of
 from ...sim.climber_plant import ClimberPlant
 from ...sim.limb_flaws import LimbFlaws
@@ -180,13 +181,13 @@ def stopped_at(task: LimbedTask, flaws: LimbFlaws, tick: int, seed: int) -> Stop
     hardware = ClimberWires(plant, wiring)
     stopping = StoppingHardware(hardware, guard_of(task.robot, wiring, hardware.period), tick)
     climber = believing_climber(task, WiredClimber(stopping, wiring), noise, drawn)
-    Sequencer(climber, lay_course(task, gait_of(task), "gait")).run()
+    Sequencer(Climbing(climber, lay_course(task, gait_of(task), "gait"))).run()
     return stopping
 
 
 def _wait_through(task: LimbedTask, timed: TimedHardware, seconds: float) -> None:
     climber = TracedClimber(task.robot, task.world, WiredClimber(timed, wiring_of(task.robot)))
-    Sequencer(climber, lay_course(task, gait_of(task), "gait")).start()
+    Climbing(climber, lay_course(task, gait_of(task), "gait")).start()
     climber.wait(seconds)
 
 

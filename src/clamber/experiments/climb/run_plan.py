@@ -11,10 +11,11 @@ from ...actions.plan_source import is_plan, open_plan
 from ...errors import SpecError
 from ...execution.climb.climb_report import ClimbReport
 from ...execution.climb.climb_trace import TOPIC, ClimbTrace, TracedClimber, limb_notes, report_notes
+from ...execution.climb.climbing import Climbing, Progress, Replan
 from ...execution.climb.course import climbable, lay_course
-from ...execution.climb.sequencer import Progress, Replan, Sequencer
 from ...execution.log_stream import LogStream
 from ...execution.plant import BodyPlant
+from ...execution.sequencer import Sequencer
 from ...sim.limb_flaws import LimbFlaws
 from ...tasks import Task, load_task
 from ...tasks.limbed import LimbedTask
@@ -162,7 +163,7 @@ def run_plan(
     with climbing_plant(plant, task, lambda: drawn_plant(task, flaws, drawn)) as moved:
         climber = believing_climber(task, moved, noise, drawn)
         again = None if replan is None else timed_replan
-        sequencer = Sequencer(climber, course, replan=again, force=force, progress=progress)
+        sequencer = Sequencer(Climbing(climber, course, replan=again, force=force), progress=progress)
         stream = None if log is None else LogStream(log, climber.titles, limb_notes(climber.limbs), TOPIC)
         with nullcontext() if stream is None else stream:
             climber.told = None if stream is None else stream.add

@@ -10,8 +10,9 @@ from typing import Any, Final
 
 from ...actions.plan import Plan
 from ...execution.climb.climb_trace import TracedClimber
+from ...execution.climb.climbing import Climbing
 from ...execution.climb.course import lay_course
-from ...execution.climb.sequencer import Sequencer
+from ...execution.sequencer import Sequencer
 from ...jobs import LocalProcesses
 from ...sim.climber_plant import ClimberPlant
 from ...sim.limb_flaws import LimbFlaws
@@ -52,7 +53,7 @@ def shares_of(task: LimbedTask, plan: Plan, flaws: LimbFlaws) -> dict[str, float
     for part, places in PARTS.items():
         for owner, method in places:
             setattr(owners[owner], method, _clocked(getattr(owners[owner], method), part, times))
-    sequencer = Sequencer(climber, lay_course(task, plan))
+    sequencer = Sequencer(Climbing(climber, lay_course(task, plan)))
     start = time.perf_counter()
     sequencer.run()
     whole = time.perf_counter() - start
@@ -76,7 +77,7 @@ def loop_rows(*, rounds: int = ROUNDS, say: Say = keep_quiet) -> list[Row]:
     flaws = climbing_flaws(task, ())
     say("two rungs of the ladder, and their physics alone")
     plant = TapedClimberPlant(task.robot, task.world, flaws)
-    report = Sequencer(climber_on(task, plant), lay_course(task, plan)).run()
+    report = Sequencer(Climbing(climber_on(task, plant), lay_course(task, plan))).run()
     whole, bare = round_times((lambda: run_plan(task, plan, flaws), plant.replay), rounds).T
     rows = [
         Row("closed loop, one core", report.seconds / median(whole), "x real time", ">= 20"),

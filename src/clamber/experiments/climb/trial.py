@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 
 from ...actions.plan import Plan
-from ...execution.climb.sequencer import Progress, Replan
+from ...execution.climb.climbing import Progress, Replan
 from ...jobs.release import release
 from ...tasks import task_from_document
 from ...tasks.limbed import LimbedTask

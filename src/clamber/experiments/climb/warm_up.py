@@ -6,8 +6,9 @@ from typing import Final
 from ...actions.limbed_plans import thesis_code
 from ...actions.plan import Plan
 from ...execution.climb.climb_trace import TracedClimber
+from ...execution.climb.climbing import Climbing
 from ...execution.climb.course import climbable, lay_course
-from ...execution.climb.sequencer import Sequencer
+from ...execution.sequencer import Sequencer
 from ...sim.climber_plant import ClimberPlant
 from ...tasks import load_task
 from ...tasks.limbed import LimbedTask
@@ -25,4 +26,4 @@ def warm_up() -> None:
     task = climbable(ladder)
     plant = ClimberPlant(task.robot, task.world, named_flaws("nominal", task.robot))
     plan = Plan.of_codes(task, [thesis_code(task, FIRST_GRAB)])
-    Sequencer(TracedClimber(task.robot, task.world, plant), lay_course(task, plan)).run()
+    Sequencer(Climbing(TracedClimber(task.robot, task.world, plant), lay_course(task, plan))).run()

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 from ...control.gait import Limits
 from ...execution.walk.course import PlannedCourse, PlannedStep
-from ...execution.walk.sequencer import Lay
 from ...execution.walk.walker import RefusedError
+from ...execution.walk.walking import Lay
 from ...robots.walker.ditch import Footing
 from ...robots.walker.ditch_plan import Crossing, cross_ditch
 from ...robots.walker.weight import weight_of

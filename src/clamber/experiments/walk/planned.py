@@ -12,7 +12,7 @@ from ...control.gait import Limits
 from ...errors import SpecError
 from ...execution.walk.course import PlannedCourse
 from ...execution.walk.planned_steps import plan_start, planned_steps
-from ...execution.walk.sequencer import Lay
+from ...execution.walk.walking import Lay
 from ...tasks import Task, load_task
 from ...tasks.library import change_task
 from ...tasks.walker import WalkerTask

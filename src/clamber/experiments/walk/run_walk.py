@@ -12,12 +12,14 @@ from ...control.quickest import Gait, quickest_way
 from ...control.track import Track, through
 from ...errors import UnitError, describe_choices
 from ...execution.plant import PlantStoppedError
+from ...execution.sequencer import Sequencer
 from ...execution.walk.course import Course, TrackCourse
-from ...execution.walk.sequencer import Lay, Progress, WalkReport, WalkSequencer
 from ...execution.walk.settings import WalkSettings
 from ...execution.walk.true_walk import TracedPlant, TrueWalk
+from ...execution.walk.walk_report import WalkReport
 from ...execution.walk.walk_trace import TracedWalker, WalkTrace
 from ...execution.walk.walker import FallenError
+from ...execution.walk.walking import Lay, Progress, Walking
 from ...sim.plant_rules import PlantError
 from ...sim.walker_flaws import WalkerFlaws
 from ...sim.walker_plant import WalkerSim
@@ -202,12 +204,8 @@ def run_walk(
             holds[0].hold.start(walker)
         return (lay or own_way(walk))(walker.frames()[0])
 
-    sequencer = WalkSequencer(
-        walker,
-        lay_with_hold,
-        calibrated=noise.widths["inclinometer_offset"] == 0.0,
-        progress=progress,
-    )
+    calibrated = noise.widths["inclinometer_offset"] == 0.0
+    sequencer = Sequencer(Walking(walker, lay_with_hold, calibrated=calibrated), progress=progress)
     try:
         walker.start(walk.start_pose(), walk.start_place(), walk.start_legs(), np.array(walk.arm))
         report = sequencer.run()

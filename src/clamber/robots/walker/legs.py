@@ -1,7 +1,7 @@
 """The legs of a two-frame walker: one freedom each, normal to their frame."""
 
 from ...specs import spec
-from ...units import NonNegativeLength, PositiveLength, PositiveSpeed
+from ...units import NonNegativeLength, PositiveForce, PositiveLength, PositiveSpeed
 
 
 @spec
@@ -26,6 +26,8 @@ class Legs:
     """Fastest that a leg extends or draws in [m/s]."""
     resolution: PositiveLength
     """One step of a leg's motor [m]."""
+    force: PositiveForce | None = None
+    """Most that a leg's motor pushes or pulls with [N]; None: no limit is known."""
 
     @property
     def longest(self) -> float:

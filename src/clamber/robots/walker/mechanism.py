@@ -8,7 +8,7 @@ import numpy as np
 from ...files import Document
 from ...specs import spec
 from ...types import Floats
-from ...units import Angle, Length, PositiveLength, PositiveSpeed, Quantity
+from ...units import Angle, Length, PositiveForce, PositiveLength, PositiveSpeed, Quantity
 
 THIRD: Final = math.tau / 3.0
 Place = tuple[Length, Length]
@@ -43,6 +43,8 @@ class Mechanism:
     """Fastest that an actuator extends or draws in [m/s]."""
     guard: Annotated[float, Quantity("ratio", above=0.0, at_most=1.0)]
     """The mechanism stays nearer to its centre than this share of the way to where it is singular [-]."""
+    force: PositiveForce | None = None
+    """Most that an actuator pushes or pulls with [N]; None: no limit is known."""
 
     @property
     def longest(self) -> float:

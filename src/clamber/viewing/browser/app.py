@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 LOOPBACK: Final = "127.0.0.1"
 SHOWN: Final = ("plan", "run", "both")
-WIDTH: Final = 400.0
+WIDTH: Final = 360.0
 """Of the panel [pixels]."""
 
 

@@ -111,7 +111,8 @@ def run_film(exhibit: Exhibit, run: ClimbRun | WalkRun) -> Film[Any]:
     if isinstance(run, ClimbRun):
         pegs = run.task.world.positions() + run.drawn.pegs if run.drawn.pegs.any() else None
         return ClimbFilm(ClimbRunView(run.task, run.trace, run.report.actions, pegs))
-    return WalkFilm(run.walk.robot, run.walk.ground, run.true, run.report.to_json(), exhibit.title)
+    walk = run.walk
+    return WalkFilm(walk.robot, walk.ground, run.true, run.report.to_json(), exhibit.title, payload=walk.payload)
 
 
 def _climb(task: LimbedTask, replay: Replay, plan: Plan | None) -> Exhibit:
@@ -136,7 +137,7 @@ def _walk(walk: Walk, log: Log | None) -> Exhibit:
     trace = _walk_trace(log)
     bounds = walk_bounds(trace.believed[:, :2])
     scenery = WalkScenery(walk.robot, walk.ground, (), bounds)
-    film = _logged_film(walk.robot, walk.ground, trace, title)
+    film = _logged_film(walk.robot, walk.ground, trace, title, walk.payload)
     return Exhibit(title, scenery, None, film)
 
 
@@ -153,13 +154,16 @@ def _with_log(exhibit: Exhibit, log: Log) -> Exhibit:
     assert isinstance(exhibit.scenery, WalkScenery)
     bounds = join(exhibit.scenery.bounds, walk_bounds(trace.believed[:, :2]))
     exhibit.scenery = WalkScenery(task.robot, task.world, task.goals, bounds)
-    exhibit.run_film = _logged_film(task.robot, task.world, trace, exhibit.title)
+    exhibit.run_film = _logged_film(task.robot, task.world, trace, exhibit.title, task.start.payload)
     return exhibit
 
 
-def _logged_film(robot: WalkerRobot, ground: Ground, trace: WalkTrace, title: str) -> WalkFilm:
+def _logged_film(robot: WalkerRobot, ground: Ground, trace: WalkTrace, title: str, payload: float) -> WalkFilm:
     margins = trace.margin if trace.true_margin is None else trace.true_margin
-    return WalkFilm(robot, ground, logged_walk(trace), trace.notes or {}, title, margins)
+    return WalkFilm(
+        robot, ground, logged_walk(trace), trace.notes or {}, title,
+        payload=payload, margins=margins, exact=trace.true_forces is not None,
+    )  # fmt: skip
 
 
 def _climb_trace(log: Log, task: LimbedTask) -> tuple[ClimbTrace, list[ActionReport]]:

@@ -44,8 +44,8 @@ class Film(ABC, Generic[Moment]):
     """How long it takes at speed 1 [s]."""
     speed: float = 1.0
     """At which it is played unless asked otherwise [-]."""
-    gauges: Gauges
-    """Bars of what is limited."""
+    gauges: tuple[Gauges, ...]
+    """Blocks of bars, of what is limited."""
     steps: tuple[str, ...]
     """In words; the first is the start."""
     grades: tuple[int, ...]
@@ -64,8 +64,8 @@ class Film(ABC, Generic[Moment]):
         """The robot at a time [s]."""
 
     @abstractmethod
-    def values(self, at: Moment) -> Floats:
-        """What the bars show at a moment, SI units, shape (n,)."""
+    def values(self, at: Moment) -> tuple[Floats, ...]:
+        """What the bars of each block show at a moment, SI units, shape (n,) each; NaN where nothing is told."""
 
     @abstractmethod
     def facts(self, step: int, at: Moment) -> tuple[tuple[str, str], ...]:
@@ -118,7 +118,7 @@ class PlanFilm(Film[Moment]):
 
     def __init__(self, view: View[Moment]) -> None:
         self._view = view
-        self.title, self.gauges = view.title, view.gauges
+        self.title, self.gauges = view.title, (view.gauges,)
         n = len(view.replay.reasons)
         self.steps = ("start", *(view.action(step) for step in range(1, n + 1)))
         self.grades = (3, *(grade(limit) for limit in view.limiting))
@@ -152,9 +152,9 @@ class PlanFilm(Film[Moment]):
         ease = share if stretch.part.kind in EVEN else share * share * (3.0 - 2.0 * share)
         return stretch.part.at(ease, stretch.first + share * (stretch.last - stretch.first))
 
-    def values(self, at: Moment) -> Floats:
+    def values(self, at: Moment) -> tuple[Floats, ...]:
         """See `Film`."""
-        return self._view.values(at)
+        return (self._view.values(at),)
 
     def facts(self, step: int, at: Moment) -> tuple[tuple[str, str], ...]:
         """See `Film`."""

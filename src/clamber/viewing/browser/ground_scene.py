@@ -20,6 +20,7 @@ HIGHER: Final = "#E0C9A0"
 LOWER: Final = "#9FB0C0"
 SHADES: Final = ((-1e-6, LOWER), (1e-6, LEVEL), (np.inf, HIGHER))
 """Colour of a brick up to a height of its top above the slope [m]."""
+GRID: Final = "#A8A294"
 CRUST: Final = 0.12
 """How much of the ground is shown below its lowest part [m]."""
 LINES: Final = 0.25
@@ -82,8 +83,10 @@ class GroundScene:
             good = np.isfinite(joined).all(axis=(1, 2)) & (np.abs(np.diff(joined[:, :, 2], axis=1)[:, 0]) < 0.5 * fine)
             pieces.append(joined[good])
         every = np.concatenate(pieces)
+        there = every @ self._axes  # in the ground's frame, whose bricks end at the bounds
+        every = every[((there[..., :2] >= (x0, y0)) & (there[..., :2] <= (x1, y1))).all(axis=(1, 2))]
         if len(every):
-            self._server.scene.add_line_segments("/ground/lines", every, colour("#CFC9BA"), thickness=0.002)
+            self._server.scene.add_line_segments("/ground/lines", every, colour(GRID), thickness=0.002)
 
     def _draw_goal(self, goals: Sequence[Goal], k: int, corners: Floats | None) -> None:
         if corners is None:

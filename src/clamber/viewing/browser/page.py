@@ -11,9 +11,10 @@ from typing import Any, Final
 import numpy as np
 
 from ...files import write_atomically
-from ...types import Json
+from ...types import Floats, Json
 from .. import style
 from ..output import check_suffix
+from ..panel import Gauges
 from ..player import round_all
 from .app import LOOPBACK, aim_camera, check_viser, free_port, light_scene
 from .exhibit import Exhibit
@@ -89,7 +90,6 @@ def panel_data(
     film: Film[Any], times: "np.ndarray[tuple[int], np.dtype[np.float64]]", kind: str, plan: Film[Any] | None
 ) -> Json:
     """What the page's own panel is given; times in seconds of the recording, `plan` the plan of a run."""
-    gauges = film.gauges
 
     def margins(step: int) -> str:
         then = None if plan is None else film.planned_time(film.rest(step), plan)
@@ -105,11 +105,25 @@ def panel_data(
             for k, (words, grade) in enumerate(zip(film.steps, film.grades, strict=True))
         ],
         "worst": film.worst,
-        "strip": {"title": STRIPS[kind], "colours": style.STRIP, "words": film.words},
-        "bars": {
-            "title": gauges.title, "names": gauges.names, "colours": gauges.colours, "low": gauges.low.tolist(),
-            "high": gauges.high.tolist(), "limits": [share for share, _ in gauges.limits], "calm": gauges.calm,
-            "unit": gauges.unit, "alert": style.ALERT,
-        },
-        "values": [round_all(film.values(moment)) for moment in moments],
+        "strip": {"title": f"{STRIPS[kind]} {film.noun.lower()}", "colours": style.STRIP, "words": film.words},
+        "bars": [block_data(gauges) for gauges in film.gauges],
+        "values": [_numbers(film.values(moment)) for moment in moments],
     }  # fmt: skip
+
+
+def block_data(gauges: Gauges) -> Json:
+    """A block of bars for the page's panel."""
+    return {
+        "title": gauges.title, "names": gauges.names, "colours": gauges.colours, "low": gauges.low.tolist(),
+        "high": gauges.high.tolist(), "limits": gauges.limits, "calm": [gauges.calm[0], min(gauges.calm[1], 1e9)],
+        "unit": gauges.unit, "note": gauges.note, "alert": style.ALERT,
+    }  # fmt: skip
+
+
+def _numbers(blocks: tuple[Floats, ...]) -> list[float | None]:
+    """Values of all blocks in a row, those that are not told as None."""
+    flat = np.concatenate(blocks)
+    return [
+        number if known else None
+        for number, known in zip(round_all(np.nan_to_num(flat)), np.isfinite(flat), strict=True)
+    ]

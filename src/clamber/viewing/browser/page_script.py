@@ -19,29 +19,35 @@ PANEL: Final = r"""<style>
 #clamber-fold { position: fixed; left: 318px; top: 16px; width: 28px; z-index: 3; font: 14px system-ui, sans-serif; background: none; border: 0; color: #6e7b87; cursor: pointer; }
 #clamber[hidden] + #clamber-fold { left: 12px; background: #fff; border-radius: 6px; box-shadow: 0 1px 8px #22303c2e; }
 </style>
-<aside id="clamber"><h1>@TITLE@</h1><div data-part="head"></div><h2 data-part="strip-title"></h2><canvas data-part="strip"></canvas><div class="legend"></div>
-<h2>Steps</h2><ol></ol><h2 data-part="bars-title"></h2><div data-part="bars"></div><h2>Margins</h2><div data-part="margins"></div></aside>
+<aside id="clamber"><h1>@TITLE@</h1><div data-part="head"></div><h2 data-part="strip-title"></h2><canvas data-part="strip"></canvas><div class="legend" data-part="words"></div>
+<h2>Steps</h2><ol></ol><div data-part="bars"></div><h2>Margins</h2><div data-part="margins"></div></aside>
 <button id="clamber-fold" aria-label="Hide panel" title="Hide panel">&#x2715;</button>
 <script id="clamber-data" type="application/json">@DATA@</script>
 <script>
 "use strict";
 (() => {
 const D = JSON.parse(document.getElementById("clamber-data").textContent), panel = document.getElementById("clamber");
-const part = name => panel.querySelector('[data-part="' + name + '"]'), list = panel.querySelector("ol"), strip = part("strip"), G = D.bars;
+const part = name => panel.querySelector('[data-part="' + name + '"]'), list = panel.querySelector("ol"), strip = part("strip");
 const fold = document.getElementById("clamber-fold");
 fold.onclick = () => { panel.hidden = !panel.hidden; const words = panel.hidden ? "Show panel" : "Hide panel"; fold.title = words; fold.setAttribute("aria-label", words); fold.textContent = panel.hidden ? "\u2630" : "\u2715"; };
-part("strip-title").textContent = D.strip.title; part("bars-title").textContent = G.title;
-D.strip.words.forEach((word, k) => { const i = document.createElement("i"); i.style.background = D.strip.colours[k]; panel.querySelector(".legend").append(i, word); });
+part("strip-title").textContent = D.strip.title;
+D.strip.words.forEach((word, k) => { const i = document.createElement("i"); i.style.background = D.strip.colours[k]; part("words").append(i, word); });
 const items = D.steps.map((step, k) => {
   const li = document.createElement("li"), i = document.createElement("i"), b = document.createElement("b");
   i.style.background = k ? D.strip.colours[step.grade] : "transparent"; b.textContent = k; li.append(i, b, step.words);
   if (k === D.worst) li.classList.add("worst");
   li.onclick = () => seek(D.rests[k]); list.append(li); return li;
 });
-const rows = G.names.map(name => {
-  const row = document.createElement("div"); row.className = "bar"; row.innerHTML = "<span></span><div><div></div></div><span></span>"; row.firstChild.textContent = name;
-  for (const share of G.limits) { const i = document.createElement("i"); i.style.left = 100 * share + "%"; i.style.background = G.alert; row.children[1].append(i); }
-  part("bars").append(row); return [row.children[1].firstChild, row.lastChild];
+const make = (kind, words, into) => { const made = document.createElement(kind); made.textContent = words; into.append(made); return made; };
+const rows = D.bars.flatMap(G => {
+  make("h2", G.title, part("bars"));
+  const made = G.names.map((name, q) => {
+    const row = document.createElement("div"); row.className = "bar"; row.innerHTML = "<span></span><div><div></div></div><span></span>"; row.firstChild.textContent = name;
+    for (const [share] of G.limits) { const i = document.createElement("i"); i.style.left = 100 * share + "%"; i.style.background = G.alert; row.children[1].append(i); }
+    part("bars").append(row); return [G, q, row.children[1].firstChild, row.lastChild];
+  });
+  const said = [G.limits.length ? "red line: " + G.limits.map(limit => limit[1]).join(", ") : "", G.note].filter(Boolean).join("; ");
+  make("div", said, part("bars")).className = "legend"; return made;
 });
 // The recording's own time bar tells the time; the number field beside it takes another.
 const field = () => document.querySelector("#root .mantine-NumberInput-input"), bar = () => document.querySelector("#root [role=slider]");
@@ -54,9 +60,9 @@ function last(list, time) { let lo = 0, hi = list.length - 1; while (lo < hi) { 
 let shown = -1;
 function show(time) {
   const step = last(D.starts, time), values = D.values[last(D.times, time)];
-  values.forEach((v, q) => { const [fill, text] = rows[q], u = (Math.abs(v) - G.low[q]) / (G.high[q] - G.low[q]);
+  values.forEach((v, k) => { const [G, q, fill, text] = rows[k], u = v === null ? 0 : (Math.abs(v) - G.low[q]) / (G.high[q] - G.low[q]);
     fill.style.width = 100 * Math.min(Math.max(u, 0), 1) + "%"; fill.style.background = u < G.calm[0] || u > G.calm[1] ? G.alert : G.colours[q];
-    text.textContent = (v / G.unit[1]).toFixed(G.unit[2]).replace(/^-(0\.?0*)$/, "$1") + " " + G.unit[0]; });
+    text.textContent = v === null ? "\u2013" : (v / G.unit[1]).toFixed(G.unit[2]).replace(/^-(0\.?0*)$/, "$1") + " " + G.unit[0]; });
   draw(step);
   if (step === shown) return;
   if (items[shown]) items[shown].classList.remove("now");

@@ -1,5 +1,6 @@
 """What the panel says of a moment, as HTML: the step, its margins, the loads, and the strip of all steps."""
 
+import math
 from html import escape
 from typing import Any, Final
 
@@ -106,8 +107,13 @@ def step_margins_html(film: Film[Any], step: int, plan: Film[Any] | None, planne
     return margins_html(plan.margins(planned), f"of the plan, at its step {planned}")
 
 
+def loads_html(blocks: tuple[Gauges, ...], values: tuple[Floats, ...]) -> str:
+    """Blocks of bars, one below the other."""
+    return '<div style="height:8px"></div>'.join(map(bars_html, blocks, values))
+
+
 def bars_html(gauges: Gauges, values: Floats) -> str:
-    """A bar for every value between its ends, with lines at its limits, red beyond what is calm."""
+    """A bar for every value between its ends, with lines at its limits, red beyond what is calm; empty for one that is NaN: not told."""
     low, high = gauges.calm
     lines = "".join(
         f'<i style="position:absolute;left:calc({100.0 * share:.1f}% - 1px);top:-2px;bottom:-2px;width:2px;background:{style.ALERT}"></i>'
@@ -116,18 +122,20 @@ def bars_html(gauges: Gauges, values: Floats) -> str:
     made = []
     for name, own, value, share in zip(gauges.names, gauges.colours, values, gauges.shares(values), strict=True):
         shade = own if low <= share <= high else style.ALERT
-        width = 100.0 * float(np.clip(share, 0.0, 1.0))
+        told = not math.isnan(share)
+        width = 100.0 * float(np.clip(share, 0.0, 1.0)) if told else 0.0
         made.append(
             f'<tr><td style="{CELL}">{escape(name)}</td><td style="width:45%;padding-right:8px">'
             f'<div style="background:{style.FAINT};height:8px;position:relative">'
             f'<div style="background:{shade};height:8px;width:{width:.1f}%"></div>{lines}</div></td>'
-            f'<td style="{CELL};text-align:right">{escape(gauges.show(float(value)))}</td></tr>'
+            f'<td style="{CELL};text-align:right">{escape(gauges.show(float(value))) if told else "&ndash;"}</td></tr>'
         )
-    words = ", ".join(word for _, word in gauges.limits)
+    limits = "red line: " + ", ".join(word for _, word in gauges.limits) if gauges.limits else ""
+    words = "; ".join(filter(None, (limits, gauges.note)))
     return (
         f'<div data-clamber="bars" style="{PAD};font-size:12px"><b>{escape(gauges.title)}</b>'
         f'<table style="font-size:12px;width:100%;border-spacing:0">{"".join(made)}</table>'
-        f'<div style="font-size:11px;color:{style.QUIET}">red line: {escape(words)}</div></div>'
+        f'<div style="font-size:11px;color:{style.QUIET}">{escape(words)}</div></div>'
     )
 
 

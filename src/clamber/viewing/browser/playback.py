@@ -18,7 +18,7 @@ PERIOD: Final = 1.0 / 30.0
 BAR_PERIOD: Final = 0.12
 """Between two moves of the time bar while it plays [s]."""
 SPEEDS: Final = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0)
-LISTED: Final = 7
+LISTED: Final = 5
 """Steps that the list shows at once."""
 SHADES: Final = (style.ALERT, "#D98324", "#8FA9BD", "#6C93B5")
 """Of the list's buttons by the grade of their step: those of the strip, dark enough for white letters."""

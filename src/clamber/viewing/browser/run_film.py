@@ -30,7 +30,7 @@ class ClimbFilm(Film[Moment]):
 
     def __init__(self, view: ClimbRunView) -> None:
         self._view = view
-        self.title, self.gauges = view.title, view.gauges
+        self.title, self.gauges = view.title, (view.gauges,)
         self.actions, self._trace = view.actions, view.trace
         self.seconds = float(self._trace.time[-1])
         self.steps = ("start", *(action.title for action in self.actions))
@@ -61,9 +61,9 @@ class ClimbFilm(Film[Moment]):
         )  # fmt: skip
         return -forces
 
-    def values(self, at: Moment) -> Floats:
+    def values(self, at: Moment) -> tuple[Floats, ...]:
         """See `Film`."""
-        return self._view.values(at)
+        return (self._view.values(at),)
 
     def facts(self, step: int, at: Moment) -> tuple[tuple[str, str], ...]:
         """See `Film`: the moment, and what was reported of the step."""

@@ -4,7 +4,7 @@ import time
 from typing import TYPE_CHECKING, Any, Final, Literal
 
 from .film import Film
-from .panel_html import bars_html, head_html, step_margins_html, strip_html
+from .panel_html import head_html, loads_html, step_margins_html, strip_html
 from .scenery import Figure, Scenery, World
 
 if TYPE_CHECKING:
@@ -15,7 +15,8 @@ WORDS_PERIOD: Final = 0.12
 GHOST: Final = 0.3
 """Opacity of a plan beside its run [-]."""
 Shown = Literal["plan", "run", "both"]
-STRIPS: Final = {"plan": "Smallest margin of every step", "run": "What became of every action"}
+STRIPS: Final = {"plan": "Smallest margin of every", "run": "What became of every"}
+"""What a strip tells of each of a film's steps."""
 
 
 class Stage:
@@ -109,8 +110,8 @@ class Stage:
             return
         texts = {
             "head": head_html(film, step, moment),
-            "bars": bars_html(film.gauges, film.values(moment)),
-            "strip": strip_html(film, step, STRIPS[kind]),
+            "bars": loads_html(film.gauges, film.values(moment)),
+            "strip": strip_html(film, step, f"{STRIPS[kind]} {film.noun.lower()}"),
             "margins": step_margins_html(film, step, self.films.get("plan"), planned),
         }
         self._told = now, step

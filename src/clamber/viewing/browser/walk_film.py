@@ -8,13 +8,15 @@ import numpy as np
 from ...execution.walk.true_walk import TrueWalk, hull_margins
 from ...execution.walk.walk_trace import WalkTrace
 from ...robots.walker import WalkerRobot
+from ...robots.walker.weight import weight_of
 from ...types import Floats, Json
 from ...units import DEGREE, GRAVITY
 from ...worlds.ground import Ground, Surface
 from ..walk_shapes import WalkShapes, shapes_at
 from ..walker_artists import NAMES
+from ..walker_loads import WalkLoads, leg_force_gauges, plate_normals
 from ..walker_motion import WalkerMoment
-from ..walker_view import WalkerView, actuator_gauges
+from ..walker_view import WalkerView
 from .film import Film, MarginRow, PlanFilm
 from .walker_figure import WalkMoment
 
@@ -28,6 +30,11 @@ LIFTED: Final = 0.6
 """How high lifted feet are drawn in a plan, which knows no heights, over the clearance that the robot's legs lift to [-]."""
 
 
+BALANCE: Final = (
+    "how far the centre of mass lies inside the standing feet, least of the step; against half the feet's circle"
+)
+
+
 class PlannedWalkFilm(Film[WalkMoment]):
     """A planned walk: the plan's moments, which know no heights, put onto the ground.
 
@@ -39,8 +46,11 @@ class PlannedWalkFilm(Film[WalkMoment]):
         self._film, self._task = PlanFilm(view), view.task
         self._surface = Surface(view.task.world)
         film = self._film
-        self.title, self.gauges, self.seconds, self.steps = film.title, film.gauges, film.seconds, film.steps
+        self.title, self.gauges, self.seconds, self.steps = film.title, (), film.seconds, film.steps
         self.grades, self.starts, self.ends = film.grades, film.starts, film.ends
+        robot = self._task.robot
+        self._weight = weight_on_ground(robot, self._task.start.payload)
+        self.gauges = (leg_force_gauges(robot, self._weight), *film.gauges)
         self._sampled: tuple[Floats, Floats] | None = None
 
     def at(self, time: float) -> WalkMoment:
@@ -67,11 +77,12 @@ class PlannedWalkFilm(Film[WalkMoment]):
         shapes = WalkShapes(
             (delta[[0, 1, 2, 0]], star[[1, 0, 2, 0, 3]]), level(at.outline.actuators), legs, touching, np.full((3, 3), np.nan), centre
         )  # fmt: skip
-        weight, forces = _weight(robot), np.zeros((2, 3, 3))
+        forces = np.zeros((2, 3, 3))
         if stands.sum() == 1:  # six feet share the weight in more ways than statics tells
             standing = int(np.argmax(stands))
-            forces[standing, :, 2] = loads_at_rest(feet[standing], centre[:2], weight)
-        return WalkMoment(shapes, forces, weight, at.poses)
+            forces[standing, :, 2] = loads_at_rest(feet[standing], centre[:2], self._weight)
+        told = np.where(stands.sum() == 1, forces[..., 2].ravel(), np.nan)
+        return WalkMoment(shapes, forces, self._weight, at.poses, (told, at.lengths))
 
     def nearest(self, poses: Floats) -> float:
         """When the frames of the plan are nearest to some poses, shape (2, 3) [s]: the sum of squares tells, turns at the feet's circle."""
@@ -84,9 +95,9 @@ class PlannedWalkFilm(Film[WalkMoment]):
         off[..., 2] = 2.0 * radius * np.sin(0.5 * off[..., 2])
         return float(times[np.argmin(np.square(off).sum(axis=(1, 2)))])
 
-    def values(self, at: WalkMoment) -> Floats:
+    def values(self, at: WalkMoment) -> tuple[Floats, ...]:
         """See `Film`."""
-        return _lengths(at)
+        return at.loads
 
     def facts(self, step: int, at: WalkMoment) -> tuple[tuple[str, str], ...]:
         """See `Film`."""
@@ -120,7 +131,9 @@ class WalkFilm(Film[WalkMoment]):
         trace: What happened.
         report: As the walk's log has it.
         title: Above all.
+        payload: That the robot carries [kg].
         margins: How far the centre of mass is inside the standing feet at each row [m]; None: as the trace has it.
+        exact: Whether the forces are those of the ground, and not only those along the legs.
     """
 
     speed = USUAL
@@ -133,18 +146,22 @@ class WalkFilm(Film[WalkMoment]):
         trace: TrueWalk,
         report: Json,
         title: str,
+        payload: float = 0.0,
         margins: Floats | None = None,
+        exact: bool = True,
     ) -> None:
         self._robot, self._trace, self.title = robot, trace, title
-        self.gauges = actuator_gauges(robot)
+        self._weight = weight_on_ground(robot, payload)
+        self._loads = WalkLoads(robot, ground, trace, self._weight, exact=exact)
+        self.gauges = self._loads.gauges
         self.seconds = float(trace.time[-1])
         self._steps: list[dict[str, Any]] = list(report.get("steps", ()))
         self.steps = ("start", *(self._say(step) for step in self._steps))
         begins = [float(step["start"]) for step in self._steps]
         self.starts = np.array([0.0, *begins])
         self.ends = np.array([0.0, *begins[1:], self.seconds] if begins else [0.0])
-        self._weight = _weight(robot)
         self._size = 0.5 * min(robot.legs.radius_delta, robot.legs.radius_y)
+        self._tilts = trace.tilts
         self._margins = _true_margins(trace) if margins is None else margins
         self._least = [self._least_of(k) for k in range(1, len(self.steps))]
         self.grades = (3, *(self._grade(step, least) for step, least in zip(self._steps, self._least, strict=True)))
@@ -153,9 +170,11 @@ class WalkFilm(Film[WalkMoment]):
     def _say(step: Json) -> str:
         return f"{step['frame']}-frame to {float(step['way']):.2f} m: {step['outcome']}"
 
+    def _rows_of(self, step: int) -> slice:
+        return slice(*np.searchsorted(self._trace.time, (self.starts[step], self.ends[step])).tolist())
+
     def _least_of(self, step: int) -> float:
-        rows = slice(*np.searchsorted(self._trace.time, (self.starts[step], self.ends[step])))
-        margins = self._margins[rows]
+        margins = self._margins[self._rows_of(step)]
         known = margins[np.isfinite(margins)]
         return float(known.min()) if known.size else math.nan
 
@@ -175,16 +194,17 @@ class WalkFilm(Film[WalkMoment]):
         px, py, theta = trace.place[k]
         poses = np.array(((x, y, alpha), (x + c * px - s * py, y + s * px + c * py, alpha + theta)))
         return WalkMoment(
-            shapes, trace.forces[k], self._weight, poses, float(trace.time[k]), float(trace.tilts[k]), float(self._margins[k])
+            shapes, trace.forces[k], self._weight, poses, self._loads.at(k), float(trace.time[k]), float(self._tilts[k]),
+            float(self._margins[k]),
         )  # fmt: skip
 
     def planned_time(self, time: float, plan: Film[WalkMoment]) -> float | None:
         """See `Film`: where the plan's frames are nearest to those of the run."""
         return plan.nearest(self.at(time).poses) if isinstance(plan, PlannedWalkFilm) else None
 
-    def values(self, at: WalkMoment) -> Floats:
+    def values(self, at: WalkMoment) -> tuple[Floats, ...]:
         """See `Film`."""
-        return _lengths(at)
+        return at.loads
 
     def facts(self, step: int, at: WalkMoment) -> tuple[tuple[str, str], ...]:
         """See `Film`."""
@@ -192,7 +212,10 @@ class WalkFilm(Film[WalkMoment]):
         balance = f"{1e3 * at.margin:.0f} mm inside the standing feet" if math.isfinite(at.margin) else "not told"
         told = [
             ("Time", f"{at.time:.0f} s"),
-            ("Plate", f"x {x:.3f} m,  y {y:.3f} m,  {alpha / DEGREE:.1f}°,  tilted {at.tilt / DEGREE:.2f}°"),
+            (
+                "Plate",
+                f"x {_even(x, 3)} m,  y {_even(y, 3)} m,  {_even(alpha / DEGREE, 1)}°,  tilted {at.tilt / DEGREE:.2f}°",
+            ),
             ("Balance", balance),
         ]
         if step:
@@ -207,12 +230,15 @@ class WalkFilm(Film[WalkMoment]):
         return tuple(told)
 
     def margins(self, step: int) -> list[MarginRow]:
-        """See `Film`: the least balance of a step."""
-        if step == 0 or math.isnan(self._least[step - 1]):
+        """See `Film`: the least of a step."""
+        if step == 0:
             return []
-        least = self._least[step - 1]
-        meaning = "how far the centre of mass lies inside the standing feet, least of the step; against half the feet's circle"
-        return [MarginRow("balance", f"{1e3 * least:+.0f} mm", least / self._size, True, True, meaning)]
+        rows, least = self._rows_of(step), self._least[step - 1]
+        told = [] if math.isnan(least) else [
+            MarginRow("balance", f"{1e3 * least:+.0f} mm", least / self._size, True, True, BALANCE)
+        ]  # fmt: skip
+        left = self._loads.left(rows)
+        return [*told, *(MarginRow(one.name, one.value, one.share, False, False, one.meaning) for one in left)]
 
     @property
     def worst(self) -> int | None:
@@ -235,39 +261,34 @@ def loads_at_rest(feet: Floats, centre: Floats, weight: float) -> Floats:
     return loads if loads.min() >= 0.0 else np.zeros(3)
 
 
+def _even(value: float, decimals: int) -> str:
+    """A number with so many decimals, and no minus before a zero."""
+    return f"{round(value, decimals) + 0.0:.{decimals}f}"
+
+
+def weight_on_ground(robot: WalkerRobot, payload: float) -> float:
+    """Of a robot with what it carries [N]."""
+    return GRAVITY * weight_of(robot, payload=payload).total
+
+
 def logged_walk(trace: WalkTrace) -> TrueWalk:
-    """What a walk's log tells of the truth: the centre of mass and the tool are not in it, forces are those along the legs.
-
-    Where the plant told nothing, it is what the robot believed.
-    """
+    """What a walk's log tells of the truth; where it tells none, what the robot believed, and forces along the legs alone."""
     rows = len(trace.time)
-    pose = trace.believed if trace.true_pose is None else trace.true_pose
-    place = trace.place if trace.true_place is None else trace.true_place
     nothing = np.full((rows, 3), np.nan)
-    feet = np.full((rows, 6, 3), np.nan) if trace.true_feet is None else trace.true_feet
-    ups = _normals(pose)
-    forces = (trace.forces * (trace.stands > 0))[..., None] * ups[:, None]
+
+    def told(values: Floats | None, otherwise: Floats) -> Floats:
+        return otherwise if values is None else values
+
+    pose = told(trace.true_pose, trace.believed)
+    along = (trace.forces * (trace.stands > 0))[..., None] * plate_normals(pose)[:, None]
     return TrueWalk(
-        trace.time, pose, place, feet.reshape(rows, 2, 3, 3), forces.reshape(rows, 2, 3, 3), nothing, nothing, trace.inclines
+        time=trace.time, pose=pose, place=told(trace.true_place, trace.place),
+        feet=told(trace.true_feet, np.full((rows, 6, 3), np.nan)).reshape(rows, 2, 3, 3),
+        forces=told(trace.true_forces, along).reshape(rows, 2, 3, 3), centre=told(trace.true_centre, nothing),
+        tool=told(trace.true_tool, nothing), thrusts=told(trace.thrusts, nothing), inclines=trace.inclines,
     )  # fmt: skip
-
-
-def _normals(pose: Floats) -> Floats:
-    """The plate's normals in the world, shape (rows, 3)."""
-    (ca, cb, cg), (sa, sb, sg) = np.cos(pose[:, 3:].T), np.sin(pose[:, 3:].T)
-    return np.stack((ca * sb * cg + sa * sg, sa * sb * cg - ca * sg, cb * cg), axis=-1)
 
 
 def _true_margins(trace: TrueWalk) -> Floats:
     rows = len(trace.time)
     return hull_margins(trace.feet.reshape(rows, 6, 3), trace.touching.reshape(rows, 6), trace.centre)
-
-
-def _lengths(at: WalkMoment) -> Floats:
-    ends = at.shapes.actuators
-    lengths: Floats = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    return lengths
-
-
-def _weight(robot: WalkerRobot) -> float:
-    return GRAVITY * (robot.mass.frames + (0.0 if robot.arm is None else sum(robot.arm.masses)))

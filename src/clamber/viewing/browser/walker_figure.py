@@ -35,6 +35,8 @@ class WalkMoment:
     """Of the robot [N]."""
     poses: Floats
     """x, y [m] and angle [rad] of both frames, seen from above, shape (2, 3)."""
+    loads: tuple[Floats, ...]
+    """What the bars of each block of the film show; NaN where nothing is told."""
     time: float = 0.0
     """Since the start [s]."""
     tilt: float = 0.0

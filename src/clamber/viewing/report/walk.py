@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Final
 
 from ...actions.plan import Plan
-from ...execution.walk.sequencer import StepReport, WalkReport
+from ...execution.walk.walk_report import StepReport, WalkReport
 from ...experiments.walk.run_walk import WalkRun
 from ...tasks.walks.piece import Piece
 from ...units import DEGREE

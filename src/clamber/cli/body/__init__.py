@@ -1,0 +1,1 @@
+"""`clamber body`: one file per command, what it prints beside it."""

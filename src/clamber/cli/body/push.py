@@ -1,0 +1,50 @@
+"""`clamber body push`: something pushes the body; the hooks are to stay on."""
+
+from typing import Annotated
+
+import typer
+
+from ..crew import EndsLine
+from ..option_holder import takes_words
+from ..output import announce_compilation, print_json, stderr, stdout
+from .options import BodyWords, run_bench
+
+
+@takes_words
+def push(
+    force: Annotated[str, typer.Option(metavar="FX,FY", help="At the body's centre.")] = "60N,0N",
+    seconds: Annotated[float, typer.Option(help="How long it acts, as half a sine, in seconds.")] = 0.5,
+    hanging: Annotated[bool, typer.Option("--hanging", help="One limb holds alone.")] = False,
+    trials: Annotated[
+        int, typer.Option(min=1, help="More than one: from either side, friction, weight, height and force drawn.")
+    ] = 1,
+    seed: Annotated[int, typer.Option(min=0, help="Of the first trial.")] = 0,
+    *,
+    words: BodyWords,
+) -> None:
+    """Push the body and let it go: how far it yields, and whether the hooks stay on (thesis, Fig. 4.19)."""
+    words.check()
+    from ...experiments.climb.body_scenario import push as pushed
+    from ...experiments.climb.body_trials import push_trials
+    from ...experiments.limb.points import read_point
+    from .text import print_trials
+
+    flaws = words.build_plant()
+    stand = words.build_stand(hanging=hanging)
+    size = read_point("force", force, "force")
+    if trials == 1:
+        run_bench(words, stand, pushed(stand.pose, flaws.period, force=size, seconds=seconds), flaws)
+    announce_compilation(quiet=words.quiet)
+    told = {}
+    for entry in words.build_entries(stand):
+        line = EndsLine(stderr(), f"pushes, {entry.label}", quiet=words.quiet)
+        told[entry.label] = push_trials(
+            stand, entry, flaws, force=size, seconds=seconds, trials=trials, seed=seed, progress=line.update
+        )
+    if words.as_json:
+        print_json({label: [one.to_json() for one in trial] for label, trial in told.items()})
+    else:
+        for label, trial in told.items():
+            print_trials(stdout(), label, trial)
+    stayed = all(one.measures.unhooked_at is None for trial in told.values() for one in trial)
+    raise typer.Exit(0 if stayed else 1)

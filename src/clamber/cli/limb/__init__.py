@@ -1,0 +1,1 @@
+"""`clamber limb`: one file per command, what it prints beside it."""

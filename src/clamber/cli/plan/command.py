@@ -1,0 +1,70 @@
+"""`clamber plan`: find a plan for a task."""
+
+from typing import TYPE_CHECKING
+
+import typer
+
+from ..option_holder import takes_words
+from ..options import TaskName
+from ..output import announce_compilation, print_json, stderr, stdout
+from .words import PlanWords
+
+if TYPE_CHECKING:
+    from ...planning.result import PlanResult
+    from ...tasks import Task
+    from .openings import Seeker
+
+
+@takes_words
+def plan(
+    task: TaskName,
+    *,
+    words: PlanWords,
+) -> None:
+    """Find a sequence of grabs and body moves that every check allows, from the start to the goal."""
+    words.check()
+    from ...tasks import load_task
+
+    problem = load_task(task, words.overrides or ())
+    from ...planning.planners import PROVERS, find_planner
+    from .openings import Seeker
+
+    find_planner(words.planner)
+    announce_compilation(quiet=words.quiet)
+    if words.pareto is not None:
+        from .front import front
+
+        raise typer.Exit(front(problem, words.pareto, words))
+    sought = words.openings_seconds if words.openings and words.planner in PROVERS else None
+    seeker = Seeker(problem, sought, words.threads, words.as_json, words.quiet)
+    result = _search(problem, words, seeker)
+    if words.output is not None:
+        result.plan.save(words.output)
+    if words.history is not None:
+        from ...viewing.charts import draw_history
+
+        draw_history(result.history, words.history, goals=[goal.name for goal in problem.goals])
+    if words.as_json:
+        print_json(result.to_json() | seeker.to_json(result))
+    else:
+        from .text import print_result
+
+        print_result(stdout(), result, words.output)
+        seeker.print(result)
+    raise typer.Exit(0 if result.has_plan else 1)
+
+
+def _search(task: "Task", words: PlanWords, seeker: "Seeker") -> "PlanResult":
+    """Search as was asked for: on islands, or by one planner, whose trouble with the start is told with what would allow it."""
+    options = words.planner_options()
+    if words.islands is not None:
+        from .islands import islands_result
+
+        return islands_result(
+            task, words.planner, options, words.islands, words.workers, words.ray, quiet=words.quiet
+        )  # fmt: skip
+    from ...planning.planners import plan_task
+    from .text import ProgressLine
+
+    with seeker.told_of_start(), ProgressLine(stderr(), quiet=words.quiet) as line:
+        return plan_task(task, words.planner, progress=line.update, **options)

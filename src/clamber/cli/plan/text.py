@@ -1,0 +1,92 @@
+"""A search as people read it: a live line on the way, and the plan or why there is none."""
+
+from itertools import groupby
+from pathlib import Path
+
+from rich.console import Console
+
+from ...actions.plan import Plan
+from ...actions.plan_families import plan_family
+from ...planning.genetic.learning import Macro
+from ...planning.learning import Lesson
+from ...planning.progress import Moment, progress_text
+from ...planning.result import Furthest, PlanResult
+from ...tasks import Task
+from ..live_line import LiveLine
+from ..output import print_indented
+
+
+class ProgressLine(LiveLine):
+    """Follows a search."""
+
+    def update(self, progress: Moment) -> None:
+        """Show one moment of the search."""
+        self.show(progress_text(progress))
+
+
+def print_result(console: Console, result: PlanResult, output: Path | None) -> None:
+    """Print what a search found, or how far it came and what stopped it."""
+    found = result.has_plan
+    if found:
+        gap = "" if not result.gap else f", at most {result.gap} more than the shortest plan"
+        console.print(f"{result.status}: {result.length} actions for '{result.plan.task}'{gap}", style="bold green")
+        console.print(_costs_text(result))
+    else:
+        console.print(f"{result.status}: no plan for '{result.plan.task}'", style="bold red")
+        console.print(result.reason)
+        if result.furthest is not None:
+            _print_furthest(console, result.furthest)
+    if result.model:
+        console.print(f"proved for: {result.model}; {result.reason}" if found else f"proved for: {result.model}")
+    elif found:
+        console.print(result.reason)
+    effort = f"{result.evaluations} plans, " if result.evaluations else ""
+    effort = effort if result.stances is None else f"{result.stances} stances, "
+    console.print(f"{effort}{result.checks} actions judged, {result.seconds:.1f} s, seed {result.seed}")
+    if found:
+        console.print(_spelled(result.plan))
+    if output is not None:
+        what = "the plan" if found else "the actions that lead furthest"
+        console.print(f"{what}: {output}", soft_wrap=True)
+
+
+def print_lesson(console: Console, task: Task, lesson: Lesson, output: Path | None) -> None:
+    """Print the macros that were learned, and how they proved themselves."""
+    if not lesson.macros:
+        console.print(f"nothing in {lesson.plans} plans of '{lesson.task}' repeats", style="bold red")
+        return
+    for macro in lesson.macros:
+        console.print(f"{macro.name}: {macro_text(task, macro)}", style="bold green")
+        print_indented(
+            console,
+            f"{macro.gain:.3f} m in {len(macro.codes)} actions; works from {macro.starts} of {macro.tried} starts, "
+            f"{macro.from_start} times in a row from the task's own",
+        )
+    console.print(f"{lesson.plans} plans, {lesson.evaluations} evaluations")
+    if output is not None:
+        console.print(f"macros: {output}", soft_wrap=True)
+
+
+def macro_text(task: Task, macro: Macro) -> str:
+    """A macro's actions by name."""
+    return " ".join(plan_family(task).module(task, code) for code in macro.codes)
+
+
+def _costs_text(result: PlanResult) -> str:
+    spent = result.costs or result.spent()
+    return ", ".join(cost.words(spent[name]) for name, cost in plan_family(result.task).costs(result.task).items())
+
+
+def _print_furthest(console: Console, furthest: Furthest) -> None:
+    stops = ", ".join(f"{check} {count}" for check, count in furthest.stopped_by.items())
+    console.print(f"furthest: {furthest.actions} actions, {furthest.goals_met} of {furthest.goals} goals")
+    console.print(f"there, actions that each check forbids: {stops or 'none'}")
+
+
+def _spelled(plan: Plan) -> str:
+    """The plan in the thesis's numbers, or in words where it has none."""
+    numbers = plan.numbers()
+    if numbers is not None:
+        return " ".join(map(str, numbers))
+    runs = [(title, len(list(run))) for title, run in groupby(action.title for action in plan.actions)]
+    return "; ".join(title if times == 1 else f"{title} x{times}" for title, times in runs)

@@ -1,0 +1,1 @@
+"""`clamber run`: climbs and walks carried out once, and what is told of them."""

@@ -1,0 +1,56 @@
+"""`clamber run`: carry a plan or a walk out in contact dynamics."""
+
+from typing import Annotated
+
+import typer
+
+from ..name_completion import names_of
+from ..option_holder import takes_words
+from .repeat import repeat_words
+from .report import RunReport
+from .words import RunWords
+
+NOT_REPEATED = ("output", "save_plan", "report", "as_json", "quiet")
+"""Options that change nothing of a run."""
+
+
+@takes_words
+def run(
+    context: typer.Context,
+    what: Annotated[
+        str,
+        typer.Argument(
+            metavar="TASK|PLAN|WALK",
+            help="A task, to be planned first, a plan, or a walk: names or files.",
+            autocompletion=names_of("tasks", "plans", "walks"),
+        ),
+    ],
+    *,
+    words: RunWords,
+) -> None:
+    """Carry a plan or a walk out on a simulated robot: every action or step, what became of it, and where it ended.
+
+    `--set plant.backlash=1deg` changes the plant, other keys the task; `--noise usual` lets the plant differ from what is believed
+    (docs/climbing.md). A file of `-o` is a log (.mcap, .csv), an animation (.gif, .html, .mp4) or a picture (.png, .svg, .pdf).
+    """
+    telling = RunReport(words.report, repeat_words(context, NOT_REPEATED))
+    words.check()
+    from ...tasks.walks import is_walk
+
+    if is_walk(what):
+        from .walk import run_walk_file
+
+        run_walk_file(what, words, telling)
+        return
+    from ...experiments.walk.planned import open_planned_walk
+    from ...experiments.walk.run_walk import split_walk_settings
+
+    planned = open_planned_walk(what, words.task, split_walk_settings(words.overrides or ())[0])
+    if planned is not None:
+        from .planned_walk import run_planned_walk
+
+        run_planned_walk(what, *planned, words, telling)
+        return
+    from .climb import run_climb
+
+    run_climb(what, words, telling)

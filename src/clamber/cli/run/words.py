@@ -1,0 +1,51 @@
+"""The options of `clamber run`."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..options import PLAN_SECONDS, AsJson, CarriedOutIn, NoiseTexts, Overrides, PlannerName, PlanSeconds, Quiet, Replan
+from ..output import check_writable
+
+
+@dataclass(frozen=True, slots=True)
+class RunWords:
+    """Options of `clamber run`, as they came."""
+
+    task: CarriedOutIn = None
+    planner: PlannerName = "auto"
+    seconds: PlanSeconds = PLAN_SECONDS
+    overrides: Overrides = None
+    noise: NoiseTexts = None
+    peg_error: Annotated[str | None, typer.Option(help="Short for --noise peg_error=..., such as 3mm.")] = None
+    seed: Annotated[int, typer.Option(min=0, help="Of planner and noise.")] = 0
+    replan: Replan = True
+    plant: Annotated[str, typer.Option(help="What moves: torques, volts, or the ADDRESS of `clamber plant serve`.")] = (
+        "torques"
+    )
+    force: Annotated[
+        bool, typer.Option("--force", help="Carry out a plan that its checks refuse; the log says so.")
+    ] = False
+    output: Annotated[
+        list[Path] | None,
+        typer.Option("--output", "-o", metavar="FILE", help="File to write; more than once for more."),
+    ] = None
+    save_plan: Annotated[Path | None, typer.Option(metavar="FILE", help="Keep the plan (.json).")] = None
+    report: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help="Write pages there: what was planned, what happened, where it was close."),
+    ] = None
+    as_json: AsJson = False
+    quiet: Quiet = False
+
+    def check(self) -> None:
+        """Make sure that files can be written before anything runs."""
+        for file in (*self.outputs, self.save_plan):
+            check_writable(file)
+
+    @property
+    def outputs(self) -> tuple[Path, ...]:
+        """Files to write, each once."""
+        return tuple(dict.fromkeys(self.output or ()))

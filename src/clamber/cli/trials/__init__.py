@@ -1,0 +1,1 @@
+"""`clamber trials`: climbs and walks carried out many times under noise."""

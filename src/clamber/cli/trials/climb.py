@@ -1,0 +1,102 @@
+"""`clamber trials` of a climber's task or plan: many seeds, or one of them again."""
+
+from pathlib import Path
+
+import typer
+
+from ...experiments.climb.noise import named_noise, read_noise
+from ...experiments.climb.run_plan import open_climb
+from ...experiments.climb.trial import TrialSetup, climb_once
+from ...experiments.climb.trial_summary import sum_up
+from ...experiments.climb.trials import NoPlanError, run_trials, stored_trial, with_plan
+from ...planning.planners import find_planner
+from ..crew import CrewWords
+from ..output import announce_compilation, print_json, stderr, stdout, tell_cuts
+from .text import TrialsLine, print_trials
+from .words import TrialsWords
+
+
+def climb_trials_of(what: str, asked: TrialsWords, words: CrewWords) -> None:
+    """Climb with every seed and print what came of it; leaves with 1 where a climb failed, or fewer than asked for succeed for sure.
+
+    Args:
+        what: The task's or plan's name or file.
+        asked: How, and how often.
+        words: Who runs them, where they are kept, how they are told.
+    """
+    if words.output is not None:
+        _check_suffix(words.output, asked.replay)
+    find_planner(asked.planner)
+    least = asked.least
+    setup = _planned(what, asked, words)
+    if asked.replay is not None:
+        raise typer.Exit(_replay(setup, asked.replay, words))
+    with TrialsLine(stderr(), quiet=words.quiet) as line:
+        told = run_trials(
+            setup, asked.seeds, executor=words.executor, store=words.store, resume=words.resume, told=line.update
+        )  # fmt: skip
+    summary = sum_up(told)
+    if words.output is not None:
+        from ...viewing.trials_plot import draw_trials
+
+        draw_trials(summary, words.output)
+    if words.as_json:
+        print_json(summary.to_json() | {"trials": [trial.to_json() for trial in told.ended]})
+    else:
+        print_trials(stdout(), summary, words.output)
+    if summary.n < summary.asked:
+        raise typer.Exit(130)
+    raise typer.Exit(0 if (summary.done == summary.n if least is None else summary.interval[0] >= least) else 1)
+
+
+def _check_suffix(output: Path, replay: int | None) -> None:
+    from ...viewing.climb_run_view import check_run_suffix
+    from ...viewing.output import CANVASES, check_suffix
+
+    if replay is None:
+        check_suffix(output, CANVASES)
+    else:
+        check_run_suffix(output)
+
+
+def _planned(what: str, asked: TrialsWords, words: CrewWords) -> TrialSetup:
+    """What every trial has in common, planned if it was not; leaves with 1 where there is no plan."""
+    widths = read_noise(named_noise("usual"), asked.noise or ())
+    announce_compilation(quiet=words.quiet)
+    if asked.replay is None:
+        words.executor.check()  # before a minute is spent on a plan
+    task, plan, plant = open_climb(what, asked.task, asked.overrides or ())
+    setup = TrialSetup(
+        task=task, noise=widths, plan=plan, plant=plant, planner=asked.planner, seconds=asked.seconds,
+        replan=asked.replan, force=asked.force,
+    )  # fmt: skip
+    cuts: list[None] = []
+    try:
+        planned = with_plan(setup, words.store, what, cut=lambda: cuts.append(None))
+    except NoPlanError as none:
+        tell_cuts(len(cuts))
+        stderr().print(str(none))
+        raise typer.Exit(1) from None
+    tell_cuts(len(cuts))
+    return planned
+
+
+def _replay(setup: TrialSetup, seed: int, words: CrewWords) -> int:
+    """One trial again; the exit code."""
+    from ...viewing.climb_run_view import write_run
+    from ..run.text import ClimbLine, print_run
+
+    known, plans = stored_trial(setup, seed, words.store)
+    with ClimbLine(stderr(), quiet=words.quiet) as line:
+        run, trial, _ = climb_once(setup, seed, plans=plans, progress=line.update)
+    if words.output is not None:
+        write_run(run, words.output)
+    if known is not None and known != trial:
+        stderr().print(
+            f"the store's trial {seed} went otherwise: another machine or other code; it ended {known.outcome}"
+        )
+    if words.as_json:
+        print_json(run.to_json() | {"trial": trial.to_json()})
+    else:
+        print_run(stdout(), run, () if words.output is None else (words.output,))
+    return 130 if run.report.reason == "interrupted" else 0 if run.report.done else 1

@@ -1,0 +1,157 @@
+"""`clamber trials` of a walk, or of a walker's task or plan: many seeds, and what they say together."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+import typer
+from rich.console import Console
+
+from ...actions.plan import Plan
+from ...experiments.intervals import wilson_interval
+from ...experiments.walk.noise import named_walk_noise, read_walk_noise
+from ...experiments.walk.planned import careful, lay_plan, walk_of
+from ...experiments.walk.run_walk import split_walk_settings, walk_flaws
+from ...experiments.walk.trials import LEVEL, WalkCause, WalkSetup, WalkTrials, run_walk_trials
+from ...planning.planners import find_planner
+from ...tasks.walker import WalkerTask
+from ...tasks.walks import load_walk
+from ...units import DEGREE
+from ..crew import CrewWords
+from ..for_climbs import refuse_for_walk
+from ..live_line import LiveLine
+from ..output import announce_compilation, plain_table, print_json, stderr, stdout
+from ..run.walk_plan import plan_walk
+from .text import share_range, some
+from .words import TrialsWords
+
+
+class WalkTrialsLine(LiveLine):
+    """Follows many walks."""
+
+    def update(self, trials: WalkTrials) -> None:
+        """Show how many there are so far."""
+        self.show(f"{len(trials.ended)} of {trials.asked} walks, {trials.done} to their end")
+
+
+CLIMBS_ONLY: Final = ("replan", "force", "replay", "output")
+"""Options of `trials` that neither a walk nor a walker's task has a use for."""
+PLANS_ONLY: Final = ("task", "planner", "seconds")
+"""Those that a walk has no use for, as it needs no plan."""
+
+
+def walk_trials_of(what: str, asked: TrialsWords, words: CrewWords) -> None:
+    """Walk with every seed and print what came of it; leaves with 1 where a walk failed, or fewer than asked for succeed for sure.
+
+    Args:
+        what: The walk's name or file.
+        asked: How, and how often.
+        words: Who runs them, where they are kept, how they are told.
+    """
+    least = asked.least
+    refuse_for_walk(what, asked, (*PLANS_ONLY, *CLIMBS_ONLY))
+    refuse_for_walk(what, words, CLIMBS_ONLY)
+    sizes = read_walk_noise(named_walk_noise("usual"), asked.noise or ())
+    for_walk, for_plant = split_walk_settings(asked.overrides or ())
+    walk = load_walk(what, for_walk)
+    walk_flaws(walk, for_plant)  # what cannot be is told before workers start
+    words.executor.check()
+    announce_compilation(quiet=words.quiet)
+    _try_and_tell(WalkSetup(walk, sizes, tuple(for_plant)), asked.seeds, least, words)
+
+
+def planned_walk_trials_of(
+    what: str, task: WalkerTask, plan: Plan | None, asked: TrialsWords, words: CrewWords
+) -> None:
+    """The same with a walker's task: planned once, or as the store has it planned, then walked with every seed.
+
+    Args:
+        what: The task's or plan's name or file.
+        task: The task.
+        plan: Its plan, which does not depend on the seeds; None: there is none yet.
+        asked: How, and how often.
+        words: Who runs them, where they are kept, how they are told.
+    """
+    least = asked.least
+    refuse_for_walk(what, asked, CLIMBS_ONLY)
+    refuse_for_walk(what, words, CLIMBS_ONLY)
+    find_planner(asked.planner)
+    sizes = read_walk_noise(named_walk_noise("usual"), asked.noise or ())
+    for_plant = tuple(split_walk_settings(asked.overrides or ())[1])
+    words.executor.check()  # before a minute is spent on a plan
+    task = task if plan is not None else careful(task)
+    setup = WalkSetup(task, sizes, for_plant, plan, plan is None)
+    walk_flaws(walk_of(task), for_plant)
+    plan = plan or setup.stored_plan(words.store)
+    announce_compilation(quiet=words.quiet)
+    plan = plan or plan_walk(task, asked.planner, seconds=asked.seconds, seed=0, quiet=words.quiet)
+    lay_plan(task, plan, what)  # what it violates is told before workers start
+    _try_and_tell(replace(setup, plan=plan), asked.seeds, least, words)
+
+
+def _try_and_tell(setup: WalkSetup, seeds: Sequence[int], least: float | None, words: CrewWords) -> None:
+    with WalkTrialsLine(stderr(), quiet=words.quiet) as line:
+        trials = run_walk_trials(
+            setup, seeds, executor=words.executor, store=words.store, resume=words.resume, told=line.update
+        )
+    if words.as_json:
+        print_json(trials.to_json())
+    else:
+        print_walk_trials(stdout(), trials)
+    if len(trials.ended) < trials.asked:
+        raise typer.Exit(130)
+    raise typer.Exit(0 if (trials.done == trials.asked if least is None else trials.interval[0] >= least) else 1)
+
+
+def print_walk_trials(console: Console, trials: WalkTrials) -> None:
+    """Print how often walks came to their end, and the spread of what is measured of them."""
+    n = len(trials.ended)
+    low, high = trials.interval
+    style = "bold green" if trials.done == n else "bold red"
+    console.print(f"{trials.done} of {n} walks '{trials.setup.name}' came to their end", style=style)
+    console.print(f"95 % between {100 * low:.1f} and {100 * high:.1f} %")
+    low, high = wilson_interval(trials.balanced, n)
+    console.print(
+        f"{trials.balanced} of {n} kept their balance throughout: 95 % between {100 * low:.1f} and {100 * high:.1f} %"
+    )
+    causes = trials.causes()
+    if causes:
+        print_walk_causes(console, causes)
+    lost = [trial.seed for trial in trials.ended if trial.done and not (trial.margin or 0.0) > 0.0]
+    if lost:
+        console.print(f"came to their end without a margin of balance at some tick: seeds {some(lost)}")
+    table = plain_table("", "median", "5 %", "95 %", "least", "most", right=("median", "5 %", "95 %", "least", "most"))
+    rows = (
+        ("tilt [deg]", "tilt", DEGREE, 3), ("margin [mm]", "margin", 1e-3, 1), ("off [mm]", "off", 1e-3, 1),
+        ("heading off [deg]", "turned", DEGREE, 2), ("time [s]", "seconds", 1.0, 0), ("kicks", "kicks", 1.0, 0),
+        ("held over [m]", "held_way", 1.0, 3), ("held, farthest [mm]", "held_error", 1e-3, 2),
+    )  # fmt: skip
+    for title, name, unit, digits in rows:
+        values = trials.of(name) / unit
+        if name == "margin" and len(values) < n:
+            title = f"{title}, of {len(values)}"
+        if len(values):
+            told = (*np.percentile(values, (50.0, 5.0, 95.0)), values.min(), values.max())
+            table.add_row(title, *(f"{value:.{digits}f}" for value in told))
+    console.print(table)
+    if trials.setup.levels:
+        low, high = wilson_interval(trials.level, n)
+        console.print(
+            f"{trials.level} of {n} came to their end with the plate never more than {LEVEL / DEGREE:g} deg from level: "
+            f"95 % between {100 * low:.1f} and {100 * high:.1f} %"
+        )
+    walked = float(trials.of("seconds").sum())
+    if trials.wall_seconds > 0.0:
+        console.print(
+            f"{trials.wall_seconds:.0f} s of computing: {walked / trials.wall_seconds:.0f} times as fast as they happen"
+        )
+
+
+def print_walk_causes(console: Console, causes: Sequence[WalkCause]) -> None:
+    """Print a row for each way in which walks ended early, and the reason of the commonest."""
+    table = plain_table("failed", "times", "of all, 95 %", "steps", "seeds", right=("times",))
+    for cause in causes:
+        table.add_row(cause.words, str(cause.n), share_range(cause.interval), some(cause.steps), some(cause.seeds))
+    console.print(table)
+    console.print(f"seed {causes[0].seeds[0]}: {causes[0].reason}", soft_wrap=True)
