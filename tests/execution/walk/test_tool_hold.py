@@ -15,7 +15,7 @@ from clamber.execution.walk.course import TrackCourse
 from clamber.execution.walk.motions import ROOM
 from clamber.execution.walk.rehearsed_heights import rehearse
 from clamber.execution.walk.settings import WalkSettings
-from clamber.execution.walk.tool_hold import ToolHold
+from clamber.execution.walk.tool_hold import CHANGE, ToolHold
 from clamber.execution.walk.walk_trace import PHASES, TracedWalker
 from clamber.execution.walk.walker import RefusedError, Walker
 from clamber.execution.walk.walking import Walking
@@ -166,6 +166,12 @@ def test_the_tool_has_the_plates_height_only_while_a_frame_slides(monkeypatch: p
                 assert room.weights[[0, 1, 3, 4, 5]].tolist() == [0.0] * 5
             return out
 
+        def raise_wished(self, walker: Walker) -> float:
+            wished = super().raise_wished(walker)
+            lifts.append(wished - walker.room.raised)
+            return wished
+
+    lifts: list[float] = []
     told = {}
     for served in ("arm", "height"):
         walker, plant = stood(flat, noise=0.0)
@@ -194,6 +200,9 @@ def test_the_tool_has_the_plates_height_only_while_a_frame_slides(monkeypatch: p
     weights = np.array([weight for _, weight, *_ in seen])
     assert np.abs(steps).max() <= 0.4 * ROBOT.legs.speed + 1e-9
     assert np.abs(steps[weights < 0.02]).max(initial=0.0) < 1e-4
+    assert np.abs(lifts).max() == pytest.approx(
+        CHANGE
+    )  # down again after the tool has left, but never faster than the legs can
     assert told["arm"].raised == (0.0, 0.0)
     assert told["height"].raised[1] > 0.02
     assert told["height"].measures[1] > 1.02 * told["arm"].measures[1]  # it takes two slides to come up

@@ -25,7 +25,7 @@ from ...robots.walker.legs import Legs
 from ...types import Floats, Ints
 from .brake import OVER, Brake
 from .falls import LIGHT
-from .plate_room import open_share
+from .plate_room import ARRIVED, open_share
 from .walker import LEGS, RefusedError, Walker, leg_name
 
 ROOM: Final = 0.004
@@ -303,7 +303,7 @@ def slide(walker: Walker, swing: int, end: Floats, *, lands: bool = True) -> Non
     before = walker.inclination.frozen
     late = settings.ramp + SETTLED
     walker.inclination.learns = True
-    time, brake = 0.0, Brake(walker, swing)
+    time, rested, brake = 0.0, 0.0, Brake(walker, swing)
     while time < seconds:
         brake.see()
         time += brake.pace * walker.period
@@ -313,7 +313,9 @@ def slide(walker: Walker, swing: int, end: Floats, *, lands: bool = True) -> Non
         walker.actuators[:] = lengths_at(robot, place)[0]
         if lands and settings.clear is not None:
             _approach(walker, swing, brake.free, end, seconds - time)
-        walker.room.open(open_share(time, seconds - time))
+        if rested > 0.0 or abs(walker.height - walker.wanted[0]) < ARRIVED:  # what the lift began comes first
+            rested += walker.period
+        walker.room.open(open_share(rested, seconds - time))
         walker.tick()
     walker.room.open(0.0)
     walker.inclination.learns = False

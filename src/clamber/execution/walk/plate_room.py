@@ -14,6 +14,8 @@ from ...types import Floats
 
 FADE: Final = 1.0
 """In which a freedom is faded in, and out again before its phase ends [s]."""
+ARRIVED: Final = 1e-4
+"""A plate that is so near to where walking has it no longer goes there [m]."""
 HEIGHT: Final = 2
 """Place of the plate's height among its freedoms."""
 

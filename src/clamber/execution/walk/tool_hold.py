@@ -25,7 +25,7 @@ from ...robots.walker import WalkerRobot
 from ...types import Floats, Json
 from . import motions
 from .arm_swing import check_swing
-from .plate_room import HEIGHT
+from .plate_room import ARRIVED, HEIGHT
 from .rehearsed_heights import Heights, rehearse
 from .tool_line import ToolLine, along
 from .walker import GENTLY as GENTLY_UP
@@ -42,6 +42,8 @@ EDGE: Final = 0.03
 """The tool comes so far inside where the arm can just reach, and leaves as early [m]: lifting moves the plate by a centimetre or two."""
 STEP: Final = 0.2
 """A step takes the plate no farther [m]."""
+CHANGE: Final = 0.008
+"""By how much a lift may take the plate higher or lower for the tool [m]: the legs are slow, and it is to rest before feet land."""
 SHARES: Final = (0.25, 0.5, 0.75, 1.0)
 """Of the arm's way to where it goes, at which balance is looked at [-]."""
 GENTLY: Final = 0.5
@@ -156,8 +158,10 @@ class ToolHold:
         if self.way_of(walker.pose) >= self.first - self._lead:
             check_swing(walker, walker.arm, self._joints, "swung to the point to hold")
         walker.arm_task = self
-        if self.way_of(walker.pose) >= self.first - self._lead:
+        if self._nears(walker):
             motions.raise_plate(walker, self._wish)
+            while abs(walker.height - walker.wanted[0]) > ARRIVED:
+                walker.tick()
         while self.way_of(walker.pose) >= self.first - self._lead and self._state in ("away", "coming"):
             walker.tick()
 
@@ -200,11 +204,17 @@ class ToolHold:
         return [] if goal is None else [walker.arm + share * (goal - walker.arm) for share in SHARES]
 
     def raise_wished(self, walker: Walker) -> float:
-        """See `ArmTask`: as it is while the tool is held; on the way there as it is to be where that begins."""
+        """See `ArmTask`: as it is while the tool is held; on the way there up to where that begins, and down again, step by step."""
+        now = walker.room.raised
         if self._state == "holding":
-            return walker.room.raised
-        near = self._state != "leaving" and self.way_of(walker.pose) >= self.first - self._lead - 2.0 * STEP
-        return self._wish if near else 0.0
+            return now
+        goal = self._wish if self._state != "leaving" and self._nears(walker) else 0.0
+        return now + min(CHANGE, max(-CHANGE, goal - now))
+
+    def _nears(self, walker: Walker) -> bool:
+        """Whether the plate has no more way left than it takes to come up step by step."""
+        steps = abs(self._wish) / (2.0 * CHANGE) + 1.0  # each frame is lifted once while the plate goes on by one step
+        return self.way_of(walker.pose) >= self.first - self._lead - steps * STEP
 
     def way_of(self, pose: Floats) -> float:
         """How far on the way the plate is [m]; it never goes back."""
