@@ -5,6 +5,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from clamber.execution.log_files import read_log
@@ -115,3 +116,24 @@ def test_a_ditch_that_is_too_wide_leaves_with_1(run: Any) -> None:
     code, out, _ = run("ditch-walk", "--set", "way.0.ditch=30cm", "-q")
     assert code == 1
     assert "refused: the ditch cannot be crossed" in " ".join(out.split())
+
+
+def test_the_log_of_a_walk_that_falls_is_whole_and_the_same_as_one_written_at_the_end(run: Any, tmp_path: Path) -> None:
+    changes = ("level=false", "start.plate=ground", "ground.uphill=180deg", "way.0.distance=1m")
+    grown, written = tmp_path / "fall.mcap", tmp_path / "fall.csv"
+    code, *_ = run(
+        "slope-walk", *(word for change in changes for word in ("--set", change)), "-q", "-o", str(grown), "-o", str(written)
+    )  # fmt: skip
+    assert code == 1
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["fall.csv", "fall.mcap"]
+    one, other = read_log(grown), read_log(written)
+    assert not one.cut
+    assert one.notes["report"] == other.notes["report"]
+    for name, column in one.columns.items():
+        np.testing.assert_array_equal(column, other.columns[name], err_msg=name)
+    trace = WalkTrace.from_log(one)
+    assert trace.notes is not None
+    assert trace.notes["reason"].startswith("fell: ")
+    assert trace.true_margin is not None
+    assert trace.true_margin.min() == -np.inf
+    assert trace.time[-1] == pytest.approx(trace.notes["seconds"])

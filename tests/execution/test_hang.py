@@ -183,6 +183,18 @@ def test_a_wide_swing_is_damped_and_its_hook_stays_on() -> None:
     assert np.abs(angles[-200:]).max() < math.radians(2.0)
 
 
+def test_a_body_rests_once_its_swing_has_died_and_not_before() -> None:
+    held = hang_up(robot(0.0), NOMINAL, POSTURE, swing=math.radians(20.0), damping=0.5)
+    assert held.climber.rest(20.0)
+    left = []
+    for _ in range(round(2.0 / held.plant.period)):  # more than a whole swing
+        held.climber.tick()
+        left.append(held.true_swing())
+    assert np.ptp(left) < math.radians(3.0)
+    swinging = hang_up(robot(0.0), IDEAL, POSTURE, swing=math.radians(20.0), damping=0.0)
+    assert not swinging.climber.rest(4.0)
+
+
 def test_a_push_swings_the_body_as_its_angular_momentum_says_and_the_swing_dies() -> None:
     pushed = push_while_hanging(robot(), NOMINAL, POSTURE, force=60.0, duration=0.1)
     assert pushed.on

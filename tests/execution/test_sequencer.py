@@ -264,3 +264,8 @@ def test_a_robot_of_either_kind_ends_in_the_same_words_with_a_trace_up_to_that_t
     assert np.all(np.diff(trace.time) > 0.0)
     assert report.true_pose is not None
     np.testing.assert_array_equal(report.pose, trace.believed[-1])
+    back = type(trace).from_log(trace.to_log())
+    for name in ("time", "step", "believed", "true_pose"):
+        np.testing.assert_array_equal(getattr(back, name), getattr(trace, name))
+    assert back.notes is not None
+    assert back.notes["reason"] == report.reason

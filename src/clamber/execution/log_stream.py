@@ -3,7 +3,8 @@
 import json
 import os
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from queue import Empty, SimpleQueue
 from threading import Thread
@@ -11,8 +12,10 @@ from types import TracebackType
 from typing import IO, Any, Final
 
 from ..errors import FileError
-from ..types import Floats
+from ..types import Floats, Json
 from .log_mcap import NOTES, TOPIC, open_channel, stamp_of
+from .sample_log import report_notes
+from .samples import Samples
 
 FLUSHED: Final = 0.5
 """A sample waits at most that long for those after it before all of them are written, by the wall's clock [s]."""
@@ -127,3 +130,32 @@ class LogStream:
             writer.finish()
         file.flush()
         return row
+
+
+@contextmanager
+def growing_log(
+    path: Path | None, samples: Samples, titles: tuple[str, ...], notes: Mapping[str, str], topic: str
+) -> Iterator[Callable[[Json], None]]:
+    """A run's log that grows with its samples; what is yielded takes the report, and the file is whole then.
+
+    Args:
+        path: The .mcap file that is to be; None: there is none.
+        samples: Of the run.
+        titles: Of their numbers.
+        notes: What is known beforehand.
+        topic: Name of the channel.
+
+    Raises:
+        FileError: If the file cannot be written.
+    """
+    if path is None:
+        yield lambda _: None
+        return
+    with LogStream(path, titles, notes, topic) as stream:
+        samples.told = stream.add
+
+        def finish(report: Json) -> None:
+            stream.add(samples.last())
+            stream.finish(report_notes(report))
+
+        yield finish

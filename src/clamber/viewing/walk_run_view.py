@@ -16,6 +16,7 @@ from matplotlib.patches import Polygon
 from ..execution.log_files import SUFFIXES as LOGS
 from ..execution.log_files import write_log
 from ..execution.walk.true_walk import TrueWalk
+from ..execution.walk.walk_trace import TOPIC
 from ..experiments.walk.run_walk import WalkRun
 from ..robots.walker import WalkerRobot
 from ..types import Floats
@@ -51,8 +52,6 @@ FRAMES: Final = 300
 """Of an animation, at most."""
 SECONDS: Final = 1.0
 """Of the walk between two frames, at least."""
-TOPIC: Final = "walk"
-"""Channel of a walk's log."""
 MOVING: Final[dict[str, Callable[["WalkRunView", list[Frame[int]], Path], None]]] = {
     ".gif": write_gif_frames,
     ".mp4": write_mp4_frames,

@@ -129,6 +129,15 @@ def test_the_log_of_a_walk_is_the_walk() -> None:
     assert back.notes["steps"][0]["times"]["slide"] > 0.0
 
 
+def test_the_log_of_a_fall_keeps_that_too_few_feet_stand() -> None:
+    _, trace, _ = walk(flat, ahead(0.02))
+    assert trace.true_margin is not None
+    trace.margin[-1] = trace.true_margin[-3:] = -np.inf
+    back = WalkTrace.from_log(trace.to_log())
+    np.testing.assert_array_equal(back.margin, trace.margin)
+    np.testing.assert_array_equal(back.true_margin, trace.true_margin)
+
+
 def test_the_same_seed_walks_the_same_walk() -> None:
     rows: list[Floats] = []
     for _ in range(2):

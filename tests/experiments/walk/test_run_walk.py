@@ -1,16 +1,19 @@
 """Walks in contact dynamics: level, on a slope, without levelling, and what noise makes of the plant."""
 
+import json
 import math
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from clamber.execution.plant import PlantStoppedError
 from clamber.experiments.climb.noise import NoiseError
 from clamber.experiments.walk.noise import WALK_NOISE, named_walk_noise, read_walk_noise
 from clamber.experiments.walk.run_walk import WalkRun, run_walk, split_walk_settings, walk_flaws
 from clamber.sim.plant_rules import PlantError
 from clamber.sim.walker_flaws import WalkerFlaws
+from clamber.sim.walker_plant import WalkerSim
 from clamber.tasks.walks import load_walk
 
 SHORT = "way.0.distance=15cm"
@@ -136,6 +139,22 @@ def test_a_robot_that_cannot_stand_falls_at_the_start() -> None:
     assert run.reason.startswith("fell")
     assert not run.report.steps
     assert run.to_json()["steps"] == []
+
+
+@pytest.mark.parametrize("lost", [False, True])
+def test_a_plant_that_stops_at_the_start_has_not_fallen(lost: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    def stop(plant: WalkerSim) -> None:
+        if lost:
+            plant._qpos[0] = math.nan
+        raise PlantStoppedError("the line is cut")
+
+    monkeypatch.setattr(WalkerSim, "step", stop)
+    walk = load_walk("level-walk")
+    run = run_walk(walk, walk_flaws(walk, ()))
+    assert run.reason.startswith("stopped: the line is cut")
+    assert not run.report.steps
+    assert (run.report.true_pose is None) == lost
+    json.dumps(run.to_json(), allow_nan=False)
 
 
 @pytest.mark.slow

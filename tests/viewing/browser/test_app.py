@@ -14,6 +14,8 @@ from clamber.actions.verdict import check_plan
 from clamber.errors import ClamberError, StartError
 from clamber.tasks import Task, load_task
 from clamber.tasks.limbed import LimbedTask
+from clamber.tasks.walker import WalkerTask
+from clamber.tasks.walks import Walk
 from clamber.viewing.browser import work_panel
 from clamber.viewing.browser.app import App, PortError, free_port
 from clamber.viewing.browser.exhibit import open_exhibit
@@ -134,7 +136,35 @@ def test_start_that_does_not_hold_is_told_of(serve: Serve) -> None:
     with pytest.raises(StartError):
         app.show_task(board.task())
     board.apply()
-    assert "start" in board._peg_words.content
+    assert "start" in board.start.body._words.content and board._peg_words.content == ""
+    board._pressed("as it was")
+    assert board.start.body._words.content == ""
+
+
+def test_start_is_moved_and_its_limbs_put_on_other_pegs(serve: Serve) -> None:
+    app = serve(open_exhibit(["ladder"]))
+    board, task = app.board, app.exhibit.task
+    assert board is not None and isinstance(task, LimbedTask)
+    begins = task.start
+    board.start._moved(begins.x + 0.01, begins.y, 0.05)
+    shown = app.exhibit.task
+    assert isinstance(shown, LimbedTask) and (shown.start.x, shown.start.theta) == (begins.x + 0.01, 0.05)
+    film = app.stage.films["plan"]
+    at = film.at(0.0).posture
+    assert (at.x, at.y, at.angle) == pytest.approx((begins.x + 0.01, begins.y, 0.05))
+    np.testing.assert_allclose(
+        at.chains[:, 3], [_place(shown, number) for number in shown.start.holds.values()], atol=1e-6
+    )
+    board.start._moved(begins.x + 3.0, begins.y, 0.0)  # off the wall
+    assert "start" in board.start.body._words.content
+    assert app.exhibit.task is shown and app.stage.films["plan"] is film  # what was there stays
+    board._pressed("as it was")
+    assert board.start.body._words.content == "" and app.exhibit.task.start == begins
+
+
+def _place(task: LimbedTask, number: int) -> tuple[float, float]:
+    hold = task.world.by_number(number)
+    return hold.x, hold.y
 
 
 def test_run_without_a_plan_is_told_of(serve: Serve) -> None:
@@ -243,3 +273,40 @@ def test_what_is_found_for_a_board_that_was_changed_meanwhile_is_left_out(
     work.plan()
     eventually(lambda: not work.labour.busy)
     assert "found" in work._plan_words.content and app.exhibit.plan is answer.plan
+
+
+def test_ground_start_and_goal_of_a_walk_are_edited(serve: Serve) -> None:
+    app = serve(open_exhibit(["level-walk"]))
+    ground, work = app.ground, app.work
+    assert ground is not None and work is not None and app.board is None
+    assert app.playback.film.seconds == 0.0 and not work._planner.visible and not work._plan_button.visible
+    ground._add("step")
+    ground._set_goal(0.1, 0.0, 0.0)
+    walk = app.exhibit.task
+    assert isinstance(walk, Walk) and len(walk.ground.blocks) == 1 and walk.way[0].to == (0.1, 0.0)
+    ground._set_start(30.0, 0.0, 0.0)
+    assert "no ground" in ground.start._words.content and ground.goal._words.content == ground._words.content == ""
+    assert app.exhibit.task is walk  # what was there stays
+    ground._set_start(0.0, 0.0, 0.0)
+    assert ground.start._words.content == ""
+    ground._pressed("as it was")
+    assert not ground.draft.changed
+
+
+def test_a_walkers_task_is_planned_on_the_ground_as_it_was_edited(serve: Serve) -> None:
+    app = serve(open_exhibit(["patch-walk"]))
+    ground, work = app.ground, app.work
+    assert ground is not None and work is not None and work._plan_button.visible
+    ground._set_goal(0.3, 0.0, 0.0)
+    k = ground._picked
+    ground._adds.value = "patch"
+    ground._add("patch")
+    assert ground._picked == len(ground.draft.pieces) - 1 != k
+    ground._pressed("remove")
+    work._reserves.value = False
+    work.plan()
+    eventually(lambda: not work.labour.busy)
+    task, plan = app.exhibit.task, app.exhibit.plan
+    assert isinstance(task, WalkerTask) and plan is not None and check_plan(task, plan).ok
+    last = app.stage.films["plan"]
+    assert last.at(last.seconds).poses[0, :2] == pytest.approx((0.3, 0.0), abs=0.021)

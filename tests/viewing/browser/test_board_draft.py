@@ -5,7 +5,7 @@ import pytest
 from clamber.errors import ClamberError, SpecError
 from clamber.tasks import load_task
 from clamber.tasks.limbed import LimbedTask
-from clamber.viewing.browser.board_draft import BoardDraft, is_about_goal
+from clamber.viewing.browser.board_draft import BoardDraft, about
 
 
 @pytest.fixture
@@ -52,7 +52,7 @@ def test_board_without_pegs_is_refused(draft: BoardDraft) -> None:
         draft.remove(number)
     with pytest.raises(SpecError, match="the board has no holds; it needs at least one") as caught:
         draft.build()
-    assert not is_about_goal(caught.value)
+    assert about(caught.value) == "world"
     assert draft.add(*draft.room_beside(None)) == 1
 
 
@@ -67,11 +67,47 @@ def test_goal_out_of_the_world_is_refused_as_a_goal(draft: BoardDraft) -> None:
     draft.set_goal(30.0, 1.0)
     with pytest.raises(SpecError, match="from the nearest hold, but robot 'libra' reaches") as caught:
         draft.build()
-    assert is_about_goal(caught.value)
+    assert about(caught.value) == "goal"
 
 
 def test_start_on_a_peg_that_is_gone_is_refused(draft: BoardDraft) -> None:
     held = next(number for number in draft.task.start.holds.values() if number)
     draft.remove(held)
-    with pytest.raises(ClamberError, match=r"no (such )?hold"):
+    with pytest.raises(ClamberError, match=r"no (such )?hold") as caught:
         draft.build()
+    assert about(caught.value) == "start"
+
+
+def test_start_is_set_and_comes_back(draft: BoardDraft) -> None:
+    before = draft.task.start
+    draft.set_start(before.x + 0.01, before.y - 0.02, 0.1)
+    limb = next(limb for limb, number in before.holds.items() if number)
+    free = next(number for number in draft.task.world.numbers() if number not in before.holds.values())
+    draft.hold(limb, free)
+    made = draft.build()
+    assert draft.changed
+    assert (made.start.x, made.start.y, made.start.theta) == (before.x + 0.01, before.y - 0.02, 0.1)
+    assert made.start.holds == {**before.holds, limb: free}
+    assert (made.world.holds, made.goals) == (draft.task.world.holds, draft.task.goals)
+    draft.undo()
+    assert not draft.changed and draft.build().start == before
+
+
+def test_start_that_was_between_holds_is_where_it_was_put() -> None:
+    task = load_task("ladder", ["start={ between=[1, 2, 3, 4], holds={ left=1, right=2 } }"])
+    assert isinstance(task, LimbedTask)
+    draft = BoardDraft(task)
+    draft.set_start(0.2, 0.3, 0.0)
+    assert (draft.build().start.x, draft.build().start.y) == (0.2, 0.3)
+
+
+@pytest.mark.parametrize("holds", [{}, {"left": 0, "right": 0}])
+def test_start_that_cannot_be_is_refused_as_a_start(draft: BoardDraft, holds: dict[str, int]) -> None:
+    for limb, number in (holds or {limb: 5 for limb in draft.task.robot.limb_names[:2]}).items():
+        draft.hold(limb, number)
+    for limb in draft.task.robot.limb_names:
+        if holds:
+            draft.hold(limb, 0)
+    with pytest.raises(SpecError, match="all limbs are free" if holds else "two limbs are on hold 5") as caught:
+        draft.build()
+    assert about(caught.value) == "start"

@@ -10,6 +10,7 @@ from page_visits import Visit, pixel, wait_for
 from clamber.actions.plan import load_plan
 from clamber.actions.verdict import check_plan
 from clamber.tasks import load_task
+from clamber.tasks.walks import load_walk
 from clamber.viewing.browser.app import App
 from clamber.viewing.browser.exhibit import open_exhibit
 from clamber.viewing.browser.page import write_page
@@ -116,6 +117,90 @@ def test_clicks_on_the_wall_add_and_remove_pegs_and_set_the_goal(serve: Serve, v
     wait_for(shown, lambda: board.draft.goal is not None)
     assert board.draft.goal == pytest.approx((0.3, 0.25), abs=5e-3)
     assert shown.errors() == [] and shown.wrong == []
+
+
+@pytest.mark.slow
+def test_start_is_dragged_on_the_wall_and_its_limbs_chosen(serve: Serve, visit: Open) -> None:
+    app = serve(open_exhibit(["ladder"]))
+    shown, board = visit(app.url), app.board
+    assert board is not None and isinstance(app.stage.world, WallScene)
+    page, depth, begins = shown.page, app.stage.world.depth, board.draft.start
+    page.get_by_role("tab", name="Board").click()
+    page.get_by_label("edit on the wall").check()
+    x, y = pixel(app, shown, np.array((begins.x, -depth, begins.y + 0.08)))  # the handle's arm upwards
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x, y - 6, steps=4)
+    page.mouse.move(x, y - 12, steps=4)
+    page.mouse.up()
+    wait_for(shown, lambda: board.draft.start.y > begins.y + 0.005)
+    assert board.draft.start.x == pytest.approx(begins.x, abs=1e-3)
+    wait_for(shown, lambda: app.exhibit.task is not None and app.exhibit.task.start.y == board.draft.start.y)
+    assert shown.errors() == []
+    shown.picture("start-dragged")
+
+    page.get_by_label("left is on").click()
+    page.get_by_role("option", name="free", exact=True).click()
+    wait_for(shown, lambda: board.draft.start.holds["left"] == 0)
+    body = shown.vector("body [in]")
+    body.nth(0).fill("90")
+    body.nth(0).press("Enter")
+    shown.says("the start stance violates")
+    assert len(shown.errors()) == 1
+    shown.picture("start-off-the-wall")
+    shown.press("as it was")
+    wait_for(shown, lambda: not board.draft.changed)
+    wait_for(shown, lambda: shown.errors() == [])
+    assert shown.wrong == []
+
+
+@pytest.mark.slow
+def test_ground_is_edited_and_walked_by_clicks(serve: Serve, visit: Open, tmp_path: Path) -> None:
+    app = serve(open_exhibit(["slope-walk"]), folder=tmp_path)
+    shown, ground = visit(app.url), app.ground
+    assert ground is not None
+    page = shown.page
+    page.get_by_role("tab", name="Ground").click()
+    page.get_by_label("edit on ground").check()
+    shown.press("ditch")
+    wait_for(shown, lambda: len(ground.draft.pieces) == 1)
+    place = shown.vector("from [cm]")
+    place.nth(0).fill("90")  # beyond its other end
+    place.nth(0).press("Enter")
+    shown.says("must be less than x_max")
+    for field, value in ((0, "-10"), (1, "10")):  # under a foot of the Delta-frame
+        place.nth(field).fill(value)
+        place.nth(field).press("Enter")
+    for field, value in ((0, "10"), (1, "40")):
+        place = shown.vector("to [cm]").nth(field)
+        place.fill(value)
+        place.press("Enter")
+    shown.says("mm lower than under")
+    assert len(shown.errors()) == 1  # beside the start, and no more beside the ditch
+    shown.picture("ground-foot-in-a-ditch")
+    shown.press("remove")
+    wait_for(shown, lambda: shown.errors() == [])
+
+    goal = shown.vector("place [cm]")
+    goal.nth(2).fill("9000")
+    goal.nth(2).press("Enter")
+    shown.says("no ground")
+    goal.nth(2).fill("10")
+    goal.nth(2).press("Enter")
+    wait_for(shown, lambda: shown.errors() == [])
+    shown.press("Save")
+    shown.says("written to")
+    assert load_walk(str(tmp_path / "slope-walk-edited.toml")).way[0].to == pytest.approx((0.1, 0.0), abs=1e-3)
+    shown.press("Run")
+    shown.says("walked:")
+    run = app.exhibit.run_film
+    assert run is not None
+    wait_for(shown, lambda: app.playback.film is run and app.playback.time > 0.5 * run.seconds)
+    page.get_by_role("tab", name="Play").click()
+    for title in ("Force along each leg", "Grip in use", "Leg lengths", "Actuator forces", "Actuator lengths"):
+        shown.says(title)
+    shown.picture("ground-walked")
+    assert shown.wrong == []
 
 
 @pytest.mark.slow

@@ -55,15 +55,14 @@ def run_climb(what: str, words: RunWords, telling: RunReport) -> None:
     again = replanner(words.planner, seconds=words.seconds, seed=words.seed, cut=cut) if words.replan else None
     if words.save_plan is not None:
         plan.save(words.save_plan)
-    streamed = next((file for file in words.outputs if file.suffix.lower() == ".mcap"), None)
     with ClimbLine(stderr(), quiet=words.quiet) as line:
         run = run_plan(
             task, plan, flaws, noise=deviations, seed=words.seed, force=words.force, replan=again, progress=line.update,
-            label=what, log=streamed, plant=words.plant,
+            label=what, log=words.growing, plant=words.plant,
         )  # fmt: skip
     tell_cuts(len(cuts))
     for file in words.outputs:
-        if file != streamed:
+        if file != words.growing:
             write_run(run, file)
     page = telling.of_climb(run)
     if words.as_json:

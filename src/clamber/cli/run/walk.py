@@ -62,9 +62,10 @@ def walk_and_tell(
     deviations = read_walk_noise(named_walk_noise("none"), words.noise or ())
     flaws = walk_flaws(walk, split_walk_settings(words.overrides or ())[1])
     with WalkLine(stderr(), quiet=words.quiet) as line:
-        run = run_walk(walk, flaws, noise=deviations, seed=words.seed, lay=lay, progress=line.update)
+        run = run_walk(walk, flaws, noise=deviations, seed=words.seed, lay=lay, progress=line.update, log=words.growing)
     for file in words.outputs:
-        write_walk(run, file)
+        if file != words.growing:
+            write_walk(run, file)
     page = telling.of_walk(run, plan)
     if words.as_json:
         print_json(run.to_json())

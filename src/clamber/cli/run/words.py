@@ -49,3 +49,8 @@ class RunWords:
     def outputs(self) -> tuple[Path, ...]:
         """Files to write, each once."""
         return tuple(dict.fromkeys(self.output or ()))
+
+    @property
+    def growing(self) -> Path | None:
+        """The log that is written as the robot moves; the other files are written at the end."""
+        return next((file for file in self.outputs if file.suffix.lower() == ".mcap"), None)

@@ -14,6 +14,7 @@ from .hang import Hang
 from .hook import may_stay
 from .let_go import let_go
 from .motions import clear_the_way, is_clear, move_body
+from .parking import OUT
 
 ELSEWHERE: Final = ((0.0, 0.0), (0.0, 0.02), (0.0, -0.02), (0.025, 0.0), (-0.025, 0.0))
 """Where the body goes for another approach after a miss, from the plan's pose [m]."""
@@ -21,8 +22,6 @@ FARTHER: Final = ((0.0, 0.045), (0.0, -0.045), (0.05, 0.0), (-0.05, 0.0))
 """Likewise where a limb has found no way from any of these [m]."""
 DROPS: Final = (0.0, 0.02, 0.04, 0.06)
 """By how much a body that hangs goes lower, in turn, for its free limbs to come out between holds [m]."""
-OUT: Final = 0.04
-"""Clearance of a free limb that is not between two holds of a row: from there it comes to any [m]."""
 WORST: Final = -8.0
 """How badly off the worst of hooks and motors may be where the body goes for that [N]."""
 ARRIVED: Final = 0.02
@@ -84,6 +83,27 @@ class Actor:
         if action.kind == "grab":
             return self._grab(first)
         return "ok", 0, ""
+
+    def catch_up(self, step: int) -> bool:
+        """Come to before a step from the holds that the robot has: as the plan did, where it had just these before.
+
+        A limb that has slipped into a hang may reach no hold but the one that it came from.
+
+        Raises:
+            SlippedError: If a hook comes off.
+            FallenError: If the robot falls.
+        """
+        course, body = self.course, self.climber.body
+        names = [limb.name for limb in self.climber.robot.limbs]
+        held = {name: task.hold for name, task in zip(names, body.tasks, strict=True)}
+        sides = [int(math.copysign(task.hold > 0, body.q[i, 1])) for i, task in enumerate(body.tasks)]
+        had = [k for k in range(step - 1) if course.holds(k) == held and course.elbows[k].tolist() == sides]
+        if sum(map(bool, sides)) < 2 or not had:
+            return False
+        start = min(had, key=lambda k: float(np.hypot(*(self.pose(k) - body.settled)[:2])))
+        move_body(self.climber, self.pose(start))
+        between = (group for group in course.groups() if start < group[0] and group[1] < step)
+        return all(self.carry_out(*group)[0] in ("ok", "stalled") for group in between)
 
     def _hang(self, step: int) -> str:
         """The body comes to hang, or moves as it hangs, as the plan has it after a step; why not, where that cannot be."""

@@ -8,7 +8,9 @@ from typing import Any, Final, Protocol
 import numpy as np
 
 from ...types import Floats, Ints, Json
-from ..log import Log, LogError, split_title
+from ..log import Log, LogError
+from ..sample_log import fields_of, report_notes, report_of, sample_log, table_of, width
+from ..samples import Samples
 from .climber import Climber
 
 TOPIC: Final = "climb"
@@ -17,7 +19,7 @@ POSE: Final = (("x", "m"), ("y", "m"), ("theta", "rad"))
 JOINTS: Final = ("shoulder", "elbow")
 EVERY: Final = 4
 """Ticks between samples; the last tick is always one."""
-WHOLE: Final = ("step", "holds", "carries")
+WHOLE: Final = frozenset({"step", "holds", "carries"})
 """Fields of whole numbers."""
 JOINTWISE: Final = ("angles", "true_angles", "torques")
 """Fields with two numbers a limb."""
@@ -70,11 +72,6 @@ def limb_notes(limbs: tuple[str, ...]) -> dict[str, str]:
     return {"limbs": json.dumps(limbs)}
 
 
-def report_notes(notes: Json) -> dict[str, str]:
-    """What it says at its end: the report."""
-    return {"report": json.dumps(notes)}
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class ClimbTrace:
     """A climb, `rows` samples long."""
@@ -105,18 +102,8 @@ class ClimbTrace:
 
     def to_log(self) -> Log:
         """Columns by name, with `notes` as JSON."""
-        columns: dict[str, Floats] = {}
-        units: dict[str, str] = {}
-        for field, titles in climb_titles(self.limbs, true=self.true_pose is not None).items():
-            values = np.asarray(getattr(self, field), dtype=np.float64).reshape(len(self.time), -1)
-            for k, (name, unit) in enumerate(map(split_title, titles)):
-                columns[name] = values[:, k]
-                if unit is not None:
-                    units[name] = unit
-        notes = limb_notes(self.limbs)
-        if self.notes is not None:
-            notes |= report_notes(self.notes)
-        return Log(columns, units, notes, "climb")
+        notes = limb_notes(self.limbs) | ({} if self.notes is None else report_notes(self.notes))
+        return sample_log(self, climb_titles(self.limbs, true=self.true_pose is not None), notes, "climb")
 
     @classmethod
     def from_log(cls, log: Log) -> "ClimbTrace":
@@ -129,23 +116,15 @@ class ClimbTrace:
             raise LogError(log.label, None, None, None, "is no log of a climb: its notes name no limbs")
         limbs = tuple(json.loads(log.notes["limbs"]))
         fields = climb_titles(limbs, true="body x true" in log.columns)
-        table = np.stack([log.column(split_title(title)[0]) for titles in fields.values() for title in titles], axis=1)
-        return cls.from_table(limbs, table, json.loads(log.notes["report"]) if "report" in log.notes else None)
+        return cls.from_table(limbs, table_of(log, fields), report_of(log))
 
     @classmethod
     def from_table(cls, limbs: tuple[str, ...], table: Floats, notes: Json | None) -> "ClimbTrace":
         """The trace of samples under `climb_titles`, shape (rows, columns)."""
         n = len(limbs)
-        true = table.shape[1] > sum(map(len, climb_titles(limbs, true=False).values()))
-        parts: dict[str, Any] = {}
-        start = 0
-        for field, titles in climb_titles(limbs, true=true).items():
-            values = np.ascontiguousarray(table[:, start : start + len(titles)])
-            start += len(titles)
-            if field in WHOLE:
-                values = values.astype(np.int32)
-            shape = {"time": (-1,), "step": (-1,)}.get(field, (-1, n, 2) if field in JOINTWISE else values.shape)
-            parts[field] = values.reshape(shape)
+        titles = climb_titles(limbs, true=table.shape[1] > width(climb_titles(limbs, true=False)))
+        shapes = dict.fromkeys(JOINTWISE, (n, 2)) | {"holds": (n,), "carries": (n,)}
+        parts: dict[str, Any] = fields_of(table, titles, whole=WHOLE, shapes=shapes)
         return cls(limbs=limbs, notes=notes, **parts)
 
 
@@ -161,13 +140,10 @@ class TracedClimber(Climber):
         self, *args: Any, truth: Callable[[], Truth] | None = None, every: int = EVERY, **options: Any
     ) -> None:
         super().__init__(*args, **options)
-        self.truth, self._every = truth, every
+        self.truth = truth
         self.step = 0
         """Number of the action that is carried out."""
-        self.told: Callable[[Floats], None] | None = None
-        """Is told each sample when the next one is taken; the last one, `last`, may still be taken again."""
-        self._rows: list[Floats] = []
-        self._kept = -1
+        self.samples = Samples(self, every)
         self._width = len(self.titles)
 
     @property
@@ -183,16 +159,10 @@ class TracedClimber(Climber):
 
     def tick(self) -> None:
         """As a climber's, kept; the tick of a fall is, too."""
-        try:
-            super().tick()
-        except BaseException:
-            self.keep()
-            raise
-        if self.ticks % self._every == 0:
-            self.keep()
+        self.samples.over(super().tick)
 
-    def keep(self) -> None:
-        """Take a sample of now, in place of one that there is."""
+    def sample(self) -> Floats:
+        """Of now, in the order of `titles`."""
         body = self.body
         true = None if self.truth is None else self.truth()
         parts = (
@@ -205,20 +175,8 @@ class TracedClimber(Climber):
         for part in parts:
             row[start : start + len(part)] = part
             start += len(part)
-        if self._kept == self.ticks:
-            self._rows[-1] = row
-            return
-        if self._rows and self.told is not None:
-            self.told(self._rows[-1])
-        self._kept = self.ticks
-        self._rows.append(row)
-
-    def last(self) -> Floats:
-        """A sample of now."""
-        self.keep()
-        return self._rows[-1]
+        return row
 
     def trace(self, notes: Json | None = None) -> ClimbTrace:
         """All samples so far."""
-        self.keep()
-        return ClimbTrace.from_table(self.limbs, np.array(self._rows), notes)
+        return ClimbTrace.from_table(self.limbs, self.samples.table(), notes)

@@ -25,6 +25,8 @@ TURNED: Final = 0.6
 """Likewise turned this far from it [rad]."""
 PINNED: Final = (0.05, 1.0)
 """A body this far from its aim for so long is held there by what it cannot overcome [m], [s]."""
+RESTS: Final = (math.radians(1.5), 1.0)
+"""A body that turns by no more than this for so long, a whole swing of one that hangs, rests [rad], [s]."""
 STRAINED: Final = 0.03
 """Two holding tips whose distance differs that much from that of their holds are not both on them [m]."""
 
@@ -189,6 +191,18 @@ class Climber:
         """Let time pass [s]."""
         for _ in range(round(seconds / self.plant.period)):
             self.tick()
+
+    def rest(self, patience: float) -> bool:
+        """Let time pass until the body has hardly turned for a while, at most so long [s]; whether it rests."""
+        quiet, mark = 0.0, float(self.body.pose[2])  # its speed is that of an encoder's counts, too rough to tell
+        for _ in range(round(patience / self.plant.period)):
+            self.tick()
+            angle = float(self.body.pose[2])
+            turned = abs(angle - mark) > RESTS[0]
+            quiet, mark = (0.0, angle) if turned else (quiet + self.plant.period, mark)
+            if quiet > RESTS[1]:
+                return True
+        return False
 
     def carry_with_all(self, but: int) -> None:
         """Let every limb on a hold carry, but one that is about to leave; the load passes while all are still on their holds."""

@@ -111,7 +111,8 @@ class Climbing(Performer[Group, ClimbReport, int, int, str, float]):
             self._actor.limb(name): hold for name, hold in self.course.holds(step - 1).items() if hold and name != acts
         }
         elbows = {i: int(self.course.elbows[step - 1, i]) for i in held}
-        return recover(self.climber, fall, held, self._actor.pose(step - 1), elbows)
+        why = recover(self.climber, fall, held, self._actor.pose(step - 1), elbows)
+        return "" if not why or self._actor.catch_up(step) else why
 
     def record(self, action: Group, attempt: Attempt) -> None:
         """See `Performer`."""

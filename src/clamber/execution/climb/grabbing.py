@@ -10,6 +10,8 @@ from .motions import follow
 
 CALM: Final = 0.15
 """After the way to a hold, until the limb has come to rest [s]."""
+RESTING: Final = 6.0
+"""After a miss, at most until a body that hangs has come to rest: the next try aims at where the hold is from there [s]."""
 HELD: Final = 0.1
 """After a hold is taken [s]."""
 
@@ -74,9 +76,13 @@ def grab(climber: Climber, i: int, number: int, end: End, *, elbow: int = 0, hom
         if holds:
             climber.learn(number, i, climber.holding())
             climber.latest, climber.proven = i, False
-            task.doing, task.hold, task.place = "cling", number, climber.holds[number].copy()
+            task.hold, task.place = number, climber.holds[number].copy()
+            if not task.pressed:  # else a body that hangs leans on it, until both carry
+                task.doing = "cling"
             climber.wait(HELD)
             return Grabbed(True, tries, along, across)
         end.back_off(climber, i, hold, doubt, found)
+        if climber.hangs:
+            climber.rest(RESTING)
     task.doing, task.angles = "joints", body.q[i].copy()
     return Grabbed(False, tries, along, across)

@@ -186,10 +186,15 @@ class Hang:
         return False
 
     def end(self) -> None:
-        """Let every limb on a hold carry the body where it is."""
+        """Let every limb on a hold carry the body where it is; at once, where it leans on one that pulls: the two are in balance there."""
         body = self.climber.body
         self.climber.balance = None
         body.tasks[self.i].doing = "hold"
         body.aim[:] = body.pose
         body.aim_speed[:] = 0.0
+        pulling = [i for i, task in enumerate(body.tasks) if task.hold and task.doing == "pull"]
+        for i in pulling:
+            body.tasks[i].pressed, body.tasks[i].tug = False, np.zeros(2)
+        if pulling:
+            body.carry_at_once([self.i, *pulling])
         self.climber.carry_with_all(but=-1)

@@ -69,8 +69,12 @@ def close(climber: Climber, i: int, hold: Floats, doubt: float, found: Approach,
 
 
 def back_off(climber: Climber, i: int, hold: Floats, doubt: float, found: Approach) -> None:
-    """Bring the hook off where it missed."""
-    move_tip(climber, i, hold - stand_off_of(climber, i, doubt) * found.grab, 0.5)
+    """Bring the hook off where it missed: back the way it came, for the hold may be beside it by now, then to before the hold."""
+    away, g, tip = stand_off_of(climber, i, doubt), found.grab, climber.body.tip(i)
+    deep = float((tip - hold) @ g) + away
+    if deep > 0.0:
+        move_tip(climber, i, tip - deep * g, 0.5)
+    move_tip(climber, i, hold - away * g, 0.5)
 
 
 def may_stay(climber: Climber, i: int, pose: Floats) -> bool:

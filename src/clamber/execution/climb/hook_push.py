@@ -40,7 +40,9 @@ WIDE_RATE: Final = 2.5
 STUCK: Final = 0.8
 """At most for that long without an advance [s]."""
 HANGING: Final = 0.4
-"""Part of these forces where the body hangs on one limb, which gives way [-]."""
+"""Part of these forces until the hook has stopped where the body hangs on one limb, which gives way to whatever knocks it [-]."""
+YIELDING: Final = 0.3
+"""Then the rest comes, over this long: the joints' friction eats the small part, and the body goes aside, not off its own hold [s]."""
 CENTRING: Final = 150.0
 """Pull towards the believed hold across the hook [N/m]."""
 ADVANCE: Final = 0.0015
@@ -61,7 +63,8 @@ def push_on(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> 
     One that stops short of where its hold should be is coaxed across under the tug, as its flare may have met the hold.
 
     Returns:
-        Whether it came to rest under the tug, not farther in than a hold could be.
+        Whether it came to rest under the tug, not farther in than a hold could be. Where the body hangs, it then goes on pulling: what
+        let go of would swing.
     """
     body, task, period = climber.body, climber.body.tasks[i], climber.plant.period
     # believed to press from the start: in free air the tip is then farther in than believed, never less far
@@ -69,12 +72,14 @@ def push_on(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> 
     stage, still, tugged, phase, borne = "push", 0.0, 0.0, 0.0, 0.0
     seated, marks, anew = False, np.full(2, -np.inf), 0
     rested, apart = body.pose[:2].copy(), _apart(climber)
-    part = HANGING if climber.hangs else 1.0
+    hangs = climber.hangs
+    part = HANGING if hangs else 1.0
     for _ in range(round(PATIENCE / period)):
         along = body.grab_direction(i)
         across = np.array((-along[1], along[0]))
         size = PUSH + (TUG - PUSH) * min(tugged / TUG_RISE, 1.0)
-        lifted = float((rested - body.pose[:2]) @ g)
+        # what hangs swings aside with a pull, which takes nothing off its own hold; risen, it has gone far enough
+        lifted = float(body.pose[1] - rested[1]) if hangs else float((rested - body.pose[:2]) @ g)
         if stage == "push":
             free = float((place - body.tip(i)) @ g) - room
             size += float(np.interp(free, (0.0, FREE), (0.0, HASTE)))
@@ -89,6 +94,7 @@ def push_on(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> 
             side += CENTRING * float(across @ (place - body.tip(i)))
         else:
             tugged += period
+            part = min(1.0, part + period / YIELDING) if hangs else part
         # what does not go into motion is borne by what the hook meets, and the other limbs carry that much less
         borne += (
             period / BORNE_TIME * (min(max(size - task.damping * float(body.tip_speed(i) @ along), 0.0), size) - borne)
@@ -115,6 +121,9 @@ def push_on(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> 
                 break
             # a weak push lets a hook rest on its flare: from where the body is now, with all of it
             rested, apart, still, anew = body.pose[:2].copy(), _apart(climber), 0.0, anew + 1
+    if hangs and seated:
+        task.force = size * along
+        return True
     task.pressed, task.tug = False, np.zeros(2)
     return seated
 

@@ -11,6 +11,8 @@ from .approach import CELLS, HOOK, LEAST_CLEARANCE, Approaches, discs_near
 
 SPARE: Final = 0.012
 """Clearance along the body's way at which a limb is left where it is [m]: the body sways by about as much."""
+OUT: Final = 0.04
+"""Clearance of a free limb that is not between two holds of a row: from there it comes to any [m]."""
 LOOKS: Final = 0.02
 """Between two poses of the way that are looked at [m], or [rad] at 0.2 m."""
 PITCH: Final = 21

@@ -11,6 +11,7 @@ from .climber import Climber, FallenError, SlippedError
 from .ends import grab, release
 from .hang import Hang
 from .motions import clear_the_way, move_body
+from .parking import OUT
 from .postures import postures
 
 ONWARDS: Final = ("hold", "cling", "hang")
@@ -37,6 +38,8 @@ LOOKING: Final = 0.25
 """For so long a hook that seems to have come off may show that it bears, unless it moves on and is told again [s]."""
 IN_SLOT: Final = 0.008
 """A hook that was leaving is still on where it is nearer to its hold than this [m]."""
+KNOCKING: Final = 6.0
+"""A swing that has not died by then is kept up by a free limb that it knocks against a hold [s]."""
 MOST_SLIPS: Final = 4
 """Hooks that may come off, one after the other, until the robot counts as fallen."""
 PITCH: Final = math.radians(10.0)
@@ -110,7 +113,8 @@ def catch(climber: Climber, lost: int) -> Hang | None:
     climber.slip.reset()
     if len(on) == 1:
         hang = Hang(climber, on[0])
-        if not _snatch(climber, hang, lost):
+        if not _snatch(climber, hang, lost) and not hang.calm(KNOCKING):
+            clear_the_way(climber, body.settled, OUT)
             hang.calm()
         for i in range(body.n):
             if i != on[0] and _pull_of(climber, i) > TOUCHES:

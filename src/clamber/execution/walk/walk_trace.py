@@ -1,7 +1,7 @@
 """What happens in a walk, sample by sample, and the log that it becomes."""
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import numpy as np
@@ -9,9 +9,13 @@ import numpy as np
 from ...control.support import support_margin
 from ...robots.walker import FRAMES
 from ...types import Floats, Ints, Json
-from ..log import Log, LogError, split_title
+from ..log import Log, LogError
+from ..sample_log import fields_of, report_notes, report_of, sample_log, table_of, width
+from ..samples import Samples
 from .walker import LEGS, Walker
 
+TOPIC: Final = "walk"
+"""Channel of its log."""
 EVERY: Final = 5
 """Ticks between samples; the last tick is always one."""
 POSE: Final = (("x", "m"), ("y", "m"), ("z", "m"), ("alpha", "rad"), ("beta", "rad"), ("gamma", "rad"))
@@ -19,6 +23,10 @@ PLACE: Final = (("x", "m"), ("y", "m"), ("theta", "rad"))
 LEG_NAMES: Final = tuple(f"{frame} leg {i + 1}" for frame in FRAMES for i in range(3))
 PHASES: Final = ("prepare", "lift", "slide", "lower", "settle")
 """What a walk does, by number."""
+WHOLE: Final = frozenset({"step", "phase", "stands"})
+"""Fields of whole numbers."""
+NO_INSIDE: Final = -1.0
+"""What samples and logs have for a margin of minus infinity, where fewer than three feet stand: less than any where it stands [m]."""
 
 
 def walk_titles(*, true: bool, arm: bool = False) -> dict[str, tuple[str, ...]]:
@@ -54,6 +62,11 @@ def walk_titles(*, true: bool, arm: bool = False) -> dict[str, tuple[str, ...]]:
     if true and arm:
         titles["true_tool"] = tuple(f"tool {axis} true [m]" for axis in "xyz")
     return titles
+
+
+def walker_notes() -> dict[str, str]:
+    """What a walk's log says of itself from its start."""
+    return {"walker": json.dumps(LEG_NAMES)}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -111,18 +124,11 @@ class WalkTrace:
 
     def to_log(self) -> Log:
         """Columns by name, with `notes` as JSON."""
-        columns: dict[str, Floats] = {}
-        units: dict[str, str] = {}
-        for field, titles in walk_titles(true=self.true_pose is not None, arm=self.true_tool is not None).items():
-            values = np.asarray(getattr(self, field), dtype=np.float64).reshape(len(self.time), -1)
-            for k, (name, unit) in enumerate(map(split_title, titles)):
-                columns[name] = values[:, k]
-                if unit is not None:
-                    units[name] = unit
-        notes = {"walker": json.dumps(LEG_NAMES)}
-        if self.notes is not None:
-            notes["report"] = json.dumps(self.notes)
-        return Log(columns, units, notes, "walk")
+        notes = walker_notes() | ({} if self.notes is None else report_notes(self.notes))
+        true = None if self.true_margin is None else np.maximum(self.true_margin, NO_INSIDE)
+        finite = replace(self, margin=np.maximum(self.margin, NO_INSIDE), true_margin=true)
+        titles = walk_titles(true=self.true_pose is not None, arm=self.true_tool is not None)
+        return sample_log(finite, titles, notes, TOPIC)
 
     @classmethod
     def from_log(cls, log: Log) -> "WalkTrace":
@@ -133,27 +139,18 @@ class WalkTrace:
         """
         if "walker" not in log.notes:
             raise LogError(log.label, None, None, None, "is no log of a walk: its notes name no walker's legs")
-        fields = walk_titles(true="plate x true" in log.columns, arm="tool x true" in log.columns)
-        table = np.stack([log.column(split_title(title)[0]) for titles in fields.values() for title in titles], axis=1)
-        return cls.from_table(table, json.loads(log.notes["report"]) if "report" in log.notes else None)
+        titles = walk_titles(true="plate x true" in log.columns, arm="tool x true" in log.columns)
+        return cls.from_table(table_of(log, titles), report_of(log))
 
     @classmethod
     def from_table(cls, table: Floats, notes: Json | None) -> "WalkTrace":
         """The trace of samples under `walk_titles`, shape (rows, columns)."""
-        true, arm = (
-            table.shape[1] > sum(map(len, titles.values()))
-            for titles in (walk_titles(true=False), walk_titles(true=True))
-        )
-        parts: dict[str, Any] = {}
-        start = 0
-        for field, titles in walk_titles(true=true, arm=arm).items():
-            values = np.ascontiguousarray(table[:, start : start + len(titles)])
-            start += len(titles)
-            if field in ("step", "phase", "stands"):
-                values = values.astype(np.int32)
-            if field in ("true_feet", "true_forces"):
-                values = values.reshape(-1, LEGS, 3)
-            parts[field] = values[:, 0] if len(titles) == 1 else values
+        true, arm = (table.shape[1] > width(walk_titles(true=true)) for true in (False, True))
+        shapes = {"true_feet": (LEGS, 3), "true_forces": (LEGS, 3)}
+        parts: dict[str, Any] = fields_of(table, walk_titles(true=true, arm=arm), whole=WHOLE, shapes=shapes)
+        for margin in ("margin", "true_margin"):
+            if margin in parts:
+                parts[margin] = np.where(parts[margin] > NO_INSIDE, parts[margin], -np.inf)
         return cls(notes=notes, **parts)
 
 
@@ -164,39 +161,33 @@ class TracedWalker(Walker):
         super().__init__(*args, **options)
         self.step, self.phase = 0, 0
         """Number of the step that is carried out, and which of `PHASES`."""
-        self._every, self._kept = every, -1
-        self._rows: list[Floats] = []
+        self.samples = Samples(self, every)
+
+    @property
+    def titles(self) -> tuple[str, ...]:
+        """Of a sample's numbers, once the robot is on the ground."""
+        true = self.plant.truth()
+        fields = walk_titles(true=true is not None, arm=true is not None and bool(np.isfinite(true.tool).all()))
+        return tuple(title for titles in fields.values() for title in titles)
 
     def tick(self) -> None:
         """As a walker's, kept; the tick of a fall is, too."""
-        try:
-            super().tick()
-        except BaseException:
-            self.keep()
-            raise
-        if self.ticks % self._every == 0:
-            self.keep()
+        self.samples.over(super().tick)
 
-    def keep(self) -> None:
-        """Take a sample of now, in place of one that there is."""
+    def sample(self) -> Floats:
+        """Of now, in the order of `titles`; finite."""
         true = self.plant.truth()
         parts = [
             (self.time, self.step, self.phase), self.pose, self.place, self.sensed, self.commanded, self.actuators,
-            self.forces, self.stands, self.readings, (self.margin(),),
+            self.forces, self.stands, self.readings, (max(self.margin(), NO_INSIDE),),
         ]  # fmt: skip
         if true is not None:
             feet = true.feet.reshape(LEGS, 3)
-            margin = support_margin(feet, true.touching.ravel(), true.centre)
+            margin = max(support_margin(feet, true.touching.ravel(), true.centre), NO_INSIDE)
             parts += [true.pose, true.place, (margin,), feet.ravel(), true.forces.ravel(), true.centre, true.thrusts]
             parts += [true.tool] if np.isfinite(true.tool).all() else []
-        row = np.concatenate([np.asarray(part, float) for part in parts])
-        if self._kept == self.ticks:
-            self._rows[-1] = row
-        else:
-            self._kept = self.ticks
-            self._rows.append(row)
+        return np.concatenate([np.asarray(part, float) for part in parts])
 
     def trace(self, notes: Json | None = None) -> WalkTrace:
         """All samples so far."""
-        self.keep()
-        return WalkTrace.from_table(np.array(self._rows), notes)
+        return WalkTrace.from_table(self.samples.table(), notes)

@@ -21,6 +21,8 @@ from .walker import leg_name
 
 Lay: TypeAlias = Callable[[Floats], Course]
 """A course for a robot whose Delta-frame is at a pose x, y [m], heading [rad], shape (3,), once it stands level."""
+Start: TypeAlias = Callable[[], None]
+"""Puts a robot on the ground; it may fall there."""
 Progress: TypeAlias = Callable[[int, float, float], None]
 """Told before each step: its number, the way done and the whole way [m]."""
 
@@ -32,15 +34,17 @@ class Walking(Performer[Step, WalkReport, int, float, float]):
     """A walker and the way that it is to go.
 
     Args:
-        walker: The robot, started.
+        walker: The robot.
         lay: The course, laid once the robot stands as it is to walk: levelling moves it.
+        start: What puts the robot on the ground; None: it is there, started.
         calibrated: Whether the inclinometers' offsets are known; if not, they are calibrated before the first step.
     """
 
     goes_on = frozenset({"ok", "moved"})
 
-    def __init__(self, walker: TracedWalker, lay: Lay, *, calibrated: bool = True) -> None:
-        self.walker, self._lay, self._calibrated = walker, lay, calibrated
+    def __init__(self, walker: TracedWalker, lay: Lay, *, start: Start | None = None, calibrated: bool = True) -> None:
+        self.walker, self._lay, self._start, self._calibrated = walker, lay, start, calibrated
+        self._stood = False
         self._course: Course | None = None
         self._marks: list[float] = []
         """When the phases of the present step began, and the last one ended [s]."""
@@ -59,8 +63,11 @@ class Walking(Performer[Step, WalkReport, int, float, float]):
         return self.walker.time
 
     def begin(self) -> None:
-        """See `Performer`: find the ground with all feet, level, calibrate, lay the course."""
+        """See `Performer`: stand, find the ground with all feet, level, calibrate, lay the course."""
         walker = self.walker
+        if self._start is not None:
+            self._start()
+        self._stood = True
         none = motions.find_ground(walker)
         if none:
             raise RefusedError(f"{leg_name(none[0])} finds no ground")
@@ -157,11 +164,13 @@ class Walking(Performer[Step, WalkReport, int, float, float]):
     def end(self) -> None:
         """See `Performer`."""
         report, walker = self.report, self.walker
-        report.kicks = walker.kicks
-        report.pose = tuple(map(float, walker.pose))
-        report.offsets = float(walker.inclination.offsets[0]), float(walker.inclination.offsets[1])
+        if self._stood:
+            report.kicks = walker.kicks
+            report.pose = tuple(map(float, walker.pose))
+            report.offsets = float(walker.inclination.offsets[0]), float(walker.inclination.offsets[1])
         true = walker.plant.truth()
-        report.true_pose = None if true is None else tuple(map(float, true.pose))
+        if true is not None and np.isfinite(true.pose).all():  # else the simulation has lost its numbers
+            report.true_pose = tuple(map(float, true.pose))
 
     def _bring(self, step: Step) -> None:
         """Through the air to where it is to come down."""

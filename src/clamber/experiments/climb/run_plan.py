@@ -2,7 +2,6 @@
 
 import time
 from collections.abc import Sequence
-from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,10 +9,10 @@ from ...actions.plan import Plan
 from ...actions.plan_source import is_plan, open_plan
 from ...errors import SpecError
 from ...execution.climb.climb_report import ClimbReport
-from ...execution.climb.climb_trace import TOPIC, ClimbTrace, TracedClimber, limb_notes, report_notes
+from ...execution.climb.climb_trace import TOPIC, ClimbTrace, TracedClimber, limb_notes
 from ...execution.climb.climbing import Climbing, Progress, Replan
 from ...execution.climb.course import climbable, lay_course
-from ...execution.log_stream import LogStream
+from ...execution.log_stream import growing_log
 from ...execution.plant import BodyPlant
 from ...execution.sequencer import Sequencer
 from ...sim.limb_flaws import LimbFlaws
@@ -164,14 +163,10 @@ def run_plan(
         climber = believing_climber(task, moved, noise, drawn)
         again = None if replan is None else timed_replan
         sequencer = Sequencer(Climbing(climber, course, replan=again, force=force), progress=progress)
-        stream = None if log is None else LogStream(log, climber.titles, limb_notes(climber.limbs), TOPIC)
-        with nullcontext() if stream is None else stream:
-            climber.told = None if stream is None else stream.add
+        with growing_log(log, climber.samples, climber.titles, limb_notes(climber.limbs), TOPIC) as finish:
             report = sequencer.run()
             notes = report.to_json() | {"task": task.name, "noise": noise.to_json(), "seed": seed}
-            if stream is not None:
-                stream.add(climber.last())
-                stream.finish(report_notes(notes))
+            finish(notes)
     return ClimbRun(task, plan, report, climber.trace(notes), drawn, time.perf_counter() - began - planning)
 
 

@@ -33,7 +33,7 @@ PARTS: Final = {
     "physics": (("plant", "step"),),
     "sensors and motors": (("plant", "sense"), ("plant", "actuate")),
     "control": (("body", "see"), ("body", "command"), ("fall", "see")),
-    "sampling": (("climber", "keep"),),
+    "sampling": (("samples", "keep"),),
 }
 """Part of the work -> what does it: owner and method."""
 REST: Final = "motions and sequencer"
@@ -48,7 +48,7 @@ def shares_of(task: LimbedTask, plan: Plan, flaws: LimbFlaws) -> dict[str, float
     """Part of the work -> its share of the time of a climb; the clock's own calls go to the rest."""
     plant = ClimberPlant(task.robot, task.world, flaws)
     climber = climber_on(task, plant)
-    owners = {"plant": plant, "climber": climber, "body": climber.body, "fall": climber.fall}
+    owners = {"plant": plant, "samples": climber.samples, "body": climber.body, "fall": climber.fall}
     times = dict.fromkeys(PARTS, 0.0)
     for part, places in PARTS.items():
         for owner, method in places:

@@ -4,6 +4,7 @@ import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
@@ -11,14 +12,14 @@ import numpy as np
 from ...control.quickest import Gait, quickest_way
 from ...control.track import Track, through
 from ...errors import UnitError, describe_choices
-from ...execution.plant import PlantStoppedError
+from ...execution.log_stream import growing_log
+from ...execution.run_ends import RunEndedError
 from ...execution.sequencer import Sequencer
 from ...execution.walk.course import Course, TrackCourse
 from ...execution.walk.settings import WalkSettings
 from ...execution.walk.true_walk import TracedPlant, TrueWalk
 from ...execution.walk.walk_report import WalkReport
-from ...execution.walk.walk_trace import TracedWalker, WalkTrace
-from ...execution.walk.walker import FallenError
+from ...execution.walk.walk_trace import TOPIC, TracedWalker, WalkTrace, walker_notes
 from ...execution.walk.walking import Lay, Progress, Walking
 from ...sim.plant_rules import PlantError
 from ...sim.walker_flaws import WalkerFlaws
@@ -174,6 +175,7 @@ def run_walk(
     settings: WalkSettings | None = None,
     lay: Lay | None = None,
     progress: Progress | None = None,
+    log: Path | None = None,
 ) -> WalkRun:
     """Carry a walk out.
 
@@ -185,6 +187,10 @@ def run_walk(
         settings: How it walks; None: as usual, level and probing as the walk says.
         lay: The course that it follows, laid where it stands; None: the walk's own way.
         progress: Told before each step.
+        log: An .mcap file that grows as the robot walks (`execution.log_stream`).
+
+    Raises:
+        FileError: If the log cannot be written.
     """
     began = time.perf_counter()
     walk = walk.with_seed(seed)
@@ -205,18 +211,24 @@ def run_walk(
         return (lay or own_way(walk))(walker.frames()[0])
 
     calibrated = noise.widths["inclinometer_offset"] == 0.0
-    sequencer = Sequencer(Walking(walker, lay_with_hold, calibrated=calibrated), progress=progress)
-    try:
-        walker.start(walk.start_pose(), walk.start_place(), walk.start_legs(), np.array(walk.arm))
-        report = sequencer.run()
-    except (FallenError, PlantStoppedError) as fall:  # before the first tick
-        why = why_it_tips(walk)
-        report = WalkReport(
-            reason=f"fell: {fall}" + (f": {why}" if why else ""),
-            seconds=walker.time,
-            true_pose=tuple(map(float, plant.trace().pose[-1])),
-        )
-    notes = report.to_json() | {"walk": walk.name, "noise": noise.to_json(), "seed": seed}
+    walking = Walking(walker, lay_with_hold, start=lambda: stand(walker, walk), calibrated=calibrated)
+    with growing_log(log, walker.samples, walker.titles, walker_notes(), TOPIC) as finish:
+        report = Sequencer(walking, progress=progress).run()
+        notes = report.to_json() | {"walk": walk.name, "noise": noise.to_json(), "seed": seed}
+        finish(notes)
     true = plant.trace()
     held = holds[0].as_it_was(true) if holds else None
     return WalkRun(walk, report, walker.trace(notes), true, time.perf_counter() - began, held)
+
+
+def stand(walker: TracedWalker, walk: Walk) -> None:
+    """Put a walk's robot where it starts.
+
+    Raises:
+        RunEndedError: If it does not come to stand there, with what it could carry if it tips.
+    """
+    try:
+        walker.start(walk.start_pose(), walk.start_place(), walk.start_legs(), np.array(walk.arm))
+    except RunEndedError as end:
+        why = why_it_tips(walk)
+        raise type(end)(f"{end}: {why}" if why else str(end)) from None

@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import StrictBool, StrictStr
 
 from ...files import Document, check_schema
-from ...robots.walker import WalkerRobot, build_walker
+from ...robots.walker import FRAMES, WalkerRobot, build_walker
 from ...specs import Name, build_spec, field_names, spec
 from ...types import Floats, Json
 from ...units import Angle, Length, NonNegativeMass, Point, PositiveLength, Quantity
@@ -204,9 +204,15 @@ def _check_start(walk: Walk, document: Document) -> None:
     if low < legs.shortest or high > legs.longest:
         allowed = (
             f"asks for legs of {1e3 * low:.0f} to {1e3 * high:.0f} mm; "
-            f"they can be {1e3 * legs.shortest:.0f} to {1e3 * legs.longest:.0f} mm"
+            f"they can be {1e3 * legs.shortest:.0f} to {1e3 * legs.longest:.0f} mm: the ground under {_leg(int(lengths.argmax()))} is "
+            f"{1e3 * (high - low):.0f} mm lower than under {_leg(int(lengths.argmin()))}"
         )
         raise document.problem("start", allowed)
+
+
+def _leg(k: int) -> str:
+    """A leg by its number, from 0, in words."""
+    return f"{FRAMES[k // 3]} leg {k % 3 + 1}"
 
 
 def walk_keys() -> Mapping[str, tuple[str, ...]]:

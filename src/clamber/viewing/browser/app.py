@@ -3,20 +3,24 @@
 import contextlib
 import io
 import socket
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from ...actions.plan import Plan
-from ...errors import ClamberError, SpecError
+from ...errors import ClamberError
 from ...experiments.climb.run_plan import ClimbRun
 from ...experiments.walk.run_walk import WalkRun
 from ...tasks import Task
 from ...tasks.limbed import LimbedTask
 from ...tasks.task_files import task_files
+from ...tasks.walks import Walk
 from .. import style
+from ..scene import Bounds
 from .board_panel import BoardPanel
-from .climb_scenery import FOV
-from .exhibit import Exhibit, planned_exhibit, run_film
+from .climb_scenery import FOV, join
+from .exhibit import Exhibit, planned_exhibit, run_film, walk_exhibit
+from .ground_panel import GroundPanel
 from .inputs import by_hand, set_input
 from .own_pages import own_pages_only
 from .playback import Playback
@@ -24,6 +28,7 @@ from .save_panel import SavePanel
 from .scenery import Camera
 from .solids import colour
 from .stage import Stage
+from .walk_scenery import WalkScenery
 from .wall_scene import WallScene
 from .work_panel import WorkPanel
 
@@ -125,9 +130,9 @@ class App:
         self.work: WorkPanel | None = None
         self.board: BoardPanel | None = None
         self.saving: SavePanel | None = None
+        self.ground: GroundPanel | None = None
         if exhibit.task is not None:
-            limbed = isinstance(exhibit.task, LimbedTask)
-            with tabs.add_tab("Board" if limbed else "Plan", viser.Icon.EDIT if limbed else viser.Icon.ROUTE):
+            with tabs.add_tab("Board" if isinstance(exhibit.task, LimbedTask) else "Ground", viser.Icon.EDIT):
                 self._add_work(exhibit.task)
                 if host == LOOPBACK:  # nobody else is to write files on this machine
                     self.saving = SavePanel(server, f"{exhibit.task.name}-edited", folder, self.files)
@@ -138,17 +143,21 @@ class App:
         """Show the plan, the run, or both, as far as they are there."""
         stage = self.stage
         stage.shown = "plan" if shown == "plan" else "run" if shown == "run" else "both"
-        self._shown.visible = len(stage.films) > 1
+        self._shown.visible = len(stage.films) > 1 and not isinstance(self.exhibit.task, Walk)
         set_input(self._shown, stage.shown)
         self.playback.load(stage.main)
 
-    def show_task(self, task: Task, plan: Plan | None = None) -> None:
-        """Show a task with a plan, or its start.
+    def show_task(self, task: Task | Walk, plan: Plan | None = None) -> None:
+        """Show a task with a plan, or its start; or the start of a walk.
 
         Raises:
             ClamberError: If its start violates a hard check.
         """
-        self.exhibit = exhibit = planned_exhibit(task, plan)
+        exhibit = walk_exhibit(task) if isinstance(task, Walk) else planned_exhibit(task, plan)
+        # what was shown stays in sight, so that the world does not jump while it is edited
+        seen = join(self.stage.scenery.bounds, exhibit.scenery.bounds)
+        exhibit.scenery = exhibit.scenery.with_bounds(seen)
+        self.exhibit = exhibit
         with self.playback.still():
             self.stage.set_scenery(exhibit.scenery)
             self.stage.set_film("plan", exhibit.plan_film)
@@ -162,34 +171,33 @@ class App:
             self.choose("both")
         self.playback.play(True)
 
-    def _add_work(self, task: Task) -> None:
+    def _add_work(self, task: Task | Walk) -> None:
         if isinstance(task, LimbedTask):
             self.board = BoardPanel(self.server, task, self._wall, self.show_task)
-        self.work = WorkPanel(
-            self.server,
-            (lambda: task) if self.board is None else self.board.task,
-            lambda: self.exhibit.plan,
-            self.show_task,
-            lambda task, plan, run: self.show_run(run),
-        )
+            self._made: Callable[[], Task | Walk] = self.board.task
+        else:
+            self.ground = GroundPanel(self.server, task, self._shown_ground, self.show_task)
+            self._made = self.ground.task
+        plans = not isinstance(task, Walk)
+        self.work = WorkPanel(self.server, self._made, plans, lambda: self.exhibit.plan, self.show_task, self.show_run)
 
     def files(self, name: str) -> dict[str, str]:
-        """Names of files and their texts, of what was made on the page: the task of the edited board, and the plan that is shown.
+        """Names of files and their texts, of what was made on the page: the task of the edited board or ground, and the plan that is shown.
 
         Raises:
-            ClamberError: If the board makes no task, or there is neither a board nor a plan.
+            ClamberError: If the board or ground makes no task.
         """
         plan = self.exhibit.plan
-        made = {} if self.board is None else task_files(self.board.task().document, name)
-        if plan is not None:
-            made[f"{name}-plan.json"] = plan.text()
-        if not made:
-            raise SpecError("save", "plan", "", "is none yet; press Plan first")
-        return made
+        made = task_files(self._made().document, name)
+        return made if plan is None else made | {f"{name}-plan.json": plan.text()}
 
     def _wall(self) -> WallScene:
         assert isinstance(self.stage.world, WallScene)  # a climber's
         return self.stage.world
+
+    def _shown_ground(self) -> Bounds:
+        assert isinstance(self.stage.scenery, WalkScenery)  # a walker's
+        return self.stage.scenery.bounds
 
     @property
     def url(self) -> str:

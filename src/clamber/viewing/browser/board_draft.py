@@ -1,4 +1,4 @@
-"""A board while it is edited: pegs come, go and move, the goal is set, and the task of it is built as any task is."""
+"""A board while it is edited: pegs come, go and move, start and goal are set, and the task of it is built as any task is."""
 
 import copy
 import itertools
@@ -6,10 +6,10 @@ import math
 from dataclasses import replace
 from typing import Final
 
-from ...errors import SpecError
+from ...errors import SpecError, StartError
 from ...execution.climb.here import GENERATORS, hold_document
 from ...tasks import task_from_document
-from ...tasks.limbed import LimbedTask
+from ...tasks.limbed import FREE, LimbedTask
 from ...types import Json
 from ...worlds.board import Hold
 
@@ -19,7 +19,7 @@ LABEL: Final = "the edited board"
 
 
 class BoardDraft:
-    """The pegs and the goal of a task as they are now, whether or not they make a task.
+    """The pegs, the start and the goal of a task as they are now, whether or not they make a task.
 
     Args:
         task: As it was.
@@ -33,16 +33,19 @@ class BoardDraft:
         self.pegs: dict[int, Hold] = {hold.number: hold for hold in task.world.holds}
         self.goal: tuple[float, float] | None = None
         """Where the body is to go, where that was set [m]; None: as the task says."""
+        self.start = task.start
+        """Where the robot begins."""
         self._template = task.world.holds[0]
 
     def undo(self) -> None:
-        """Pegs and goal as the task has them."""
+        """Pegs, start and goal as the task has them."""
         self._start(self.task)
 
     @property
     def changed(self) -> bool:
         """Whether anything is other than the task says."""
-        return self.goal is not None or tuple(self.pegs.values()) != self.task.world.holds
+        moved = tuple(self.pegs.values()) != self.task.world.holds
+        return moved or self.goal is not None or self.start is not self.task.start
 
     def move(self, number: int, x: float, y: float) -> None:
         """Put a peg at a place of the wall [m]; one that is not there stays away."""
@@ -73,6 +76,14 @@ class BoardDraft:
         """Let the body go to a place of the wall, give or take a step of the task [m]."""
         self.goal = float(x), float(y)
 
+    def set_start(self, x: float, y: float, angle: float) -> None:
+        """Let the body begin at a place of the wall [m], turned by an angle [rad]."""
+        self.start = replace(self.start, x=float(x), y=float(y), theta=float(angle))
+
+    def hold(self, limb: str, number: int) -> None:
+        """Let a limb begin on a peg, or free with 0."""
+        self.start = replace(self.start, holds={**self.start.holds, limb: int(number)})
+
     def document(self) -> Json:
         """The task as its file would say it."""
         document = copy.deepcopy(self.task.document)
@@ -80,6 +91,8 @@ class BoardDraft:
         holds = [hold_document(hold, hold.direction, hold.cone) for _, hold in sorted(self.pegs.items())]
         document["board"] = board | {"holds": holds}
         document["labels"] = document.get("labels", {}) | {"board": LABEL}
+        if self.start is not self.task.start:
+            document["start"] = self._start_document(document["start"])
         if self.goal is not None:
             room = self.task.step.length
             (x, y), goal = self.goal, document["goal"]
@@ -87,6 +100,17 @@ class BoardDraft:
             named = {"name": goal["name"]} if goal.get("name") else {}
             document["goal"] = named | {key: f"{value!r} m" for key, value in box.items()}
         return document
+
+    def _start_document(self, before: Json) -> Json:
+        """The start as a task's file has it; what it said of limbs that hold, or of where the place comes from, is left out."""
+        start = self.start
+        kept = {key: value for key, value in before.items() if key not in ("between", "feet", "in_use")}
+        feet = {limb: at for limb, at in before.get("feet", {}).items() if start.holds.get(limb, FREE) == FREE}
+        in_use = before.get("in_use")
+        kept |= {"feet": feet} if feet else {}
+        kept |= {"in_use": in_use} if in_use is not None and start.holds.get(in_use, FREE) != FREE else {}
+        place = {"x": f"{start.x!r} m", "y": f"{start.y!r} m", "theta": f"{start.theta!r} rad"}
+        return kept | place | {"holds": dict(start.holds)}
 
     def build(self) -> LimbedTask:
         """The task, if pegs and goal make one.
@@ -99,6 +123,9 @@ class BoardDraft:
         return task
 
 
-def is_about_goal(error: Exception) -> bool:
-    """Whether an error is about where the robot is to go."""
-    return isinstance(error, SpecError) and str(error.key).split(".")[0] in ("goal", "subgoals")
+def about(error: Exception) -> str:
+    """What an error is about: "start", "goal", or "world", the board or the ground."""
+    if isinstance(error, StartError):
+        return "start"
+    key = str(error.key).split(".")[0] if isinstance(error, SpecError) else ""
+    return "start" if key == "start" else "goal" if key in ("goal", "subgoals", "way") else "world"

@@ -1,4 +1,4 @@
-"""The part of the panel that edits a board: pegs are dragged on the wall, or moved by their numbers; so is the goal."""
+"""The part of the panel that edits a board: pegs are dragged on the wall, or moved by their numbers; so are start and goal."""
 
 import threading
 from collections.abc import Callable
@@ -10,25 +10,25 @@ from ...errors import ClamberError
 from ...tasks.limbed import LimbedTask
 from ...types import Floats
 from ..words import length_unit
-from .board_draft import BoardDraft, is_about_goal
+from .board_draft import BoardDraft, about
 from .inputs import by_hand, set_input
 from .panel_html import message_html
+from .pose_part import FINE
+from .start_panel import StartPanel
 from .wall_scene import WallScene
 from .wall_space import in_space, on_wall
 
 if TYPE_CHECKING:
     import viser
 
-NOTHING, ADDS, REMOVES, GOES = "picks a peg", "adds a peg", "removes a peg", "sets the goal"
-CLICKS: Final = (NOTHING, ADDS, REMOVES, GOES)
+NOTHING, ADDS, REMOVES, STARTS, GOES = "picks a peg", "adds a peg", "removes a peg", "sets the start", "sets the goal"
+CLICKS: Final = (NOTHING, ADDS, REMOVES, STARTS, GOES)
 """What a click on the wall does."""
 NO_PEG: Final = "none"
-FINE: Final = 1e-4
-"""Places are rounded to this [m]."""
 
 
 class BoardPanel:
-    """Controls for the pegs of a board and the goal.
+    """Controls for the pegs of a board, the start and the goal.
 
     Args:
         server: Whose panel they are in; they are made where its context is.
@@ -50,21 +50,22 @@ class BoardPanel:
         gui = server.gui
         with gui.add_folder("Board"):
             self._editing = gui.add_checkbox(
-                "edit on the wall", False, hint="Drag the picked peg by its handle, and click"
+                "edit on the wall", False, hint="Drag the picked peg and the body by their handles, and click"
             )
             self._click = gui.add_dropdown("a click on the wall", CLICKS, initial_value=NOTHING)
             self._peg = gui.add_dropdown("peg", self._names(), initial_value=self._names()[0])
             self._place = gui.add_vector2(f"its place [{self._unit}]", (0.0, 0.0), step=0.25)
             self._buttons = gui.add_button_group("", ("add", "remove", "as it was"))
             self._peg_words = gui.add_html("")
-            goal = self._goal_place()
-            self._goal = gui.add_vector2(f"goal [{self._unit}]", self._shown(*goal), step=0.25)
+        lock = threading.RLock()  # the page's events come from many threads
+        self.start = StartPanel(server, self.draft, lambda: self._scene().depth, lock, self.apply)
+        with gui.add_folder("Goal"):
+            self._goal = gui.add_vector2(f"goal [{self._unit}]", self._shown(*self._goal_place()), step=0.25)
             self._goal_words = gui.add_html("")
         self._gizmo = server.scene.add_transform_controls(
             "/peg handle", scale=0.09, active_axes=(True, False, True), disable_rotations=True, depth_test=False, visible=False,
             line_width=3.0,
         )  # fmt: skip
-        lock = threading.RLock()  # the page's events come from many threads
         self._editing.on_update(by_hand(lambda _: self.pick(self._picked()), lock))
         self._peg.on_update(by_hand(lambda _: self.pick(self._picked()), lock))
         self._place.on_update(by_hand(lambda _: self._typed_place(), lock))
@@ -85,23 +86,25 @@ class BoardPanel:
         if self._peg.value != name:
             set_input(self._peg, name)
         self._gizmo.visible = number is not None and self._editing.value
+        self.start.body.handle.visible = self._editing.value
         if number is not None:
             peg = self.draft.pegs[number]
             set_input(self._place, self._shown(peg.x, peg.y))
             self._gizmo.position = tuple(in_space(np.array((peg.x, peg.y)), self._scene().depth))
 
     def apply(self) -> None:
-        """Draw the board as it is now, and make a task of it; what is wrong with it is said beside the pegs or the goal."""
+        """Draw the board as it is now, and make a task of it; what is wrong with it is said beside what it is about."""
         scene = self._scene()
         scene.draw_pegs(tuple(self.draft.pegs.values()))
-        pegs = goal = ""
+        self.start.refresh()
+        wrong: dict[str, str] = {}
         try:
-            task = self.draft.build()
-            self._changed(task)
+            self._changed(self.draft.build())
         except ClamberError as error:
-            pegs, goal = ("", str(error)) if is_about_goal(error) else (str(error), "")
-        self._peg_words.content = message_html(pegs, bad=True)
-        self._goal_words.content = message_html(goal, bad=True)
+            wrong[about(error)] = str(error)
+        self._peg_words.content = message_html(wrong.get("world", ""), bad=True)
+        self.start.body.say(wrong.get("start", ""))
+        self._goal_words.content = message_html(wrong.get("goal", ""), bad=True)
 
     def task(self) -> LimbedTask:
         """The task as it is now.
@@ -182,6 +185,8 @@ class BoardPanel:
         x, y = (round(part / FINE) * FINE for part in wall.tolist())
         if self._click.value == ADDS:
             self.pick(self.draft.add(x, y))
+        elif self._click.value == STARTS:
+            self.draft.set_start(x, y, self.draft.start.theta)
         elif self._click.value == GOES:
             self.draft.set_goal(x, y)
             set_input(self._goal, self._shown(x, y))

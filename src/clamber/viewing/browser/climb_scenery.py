@@ -1,7 +1,7 @@
 """A climber and its wall, for the viewer."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -32,6 +32,10 @@ class ClimbScenery:
     task: LimbedTask
     bounds: Bounds
     """The part of the wall that is shown."""
+
+    def with_bounds(self, bounds: Bounds) -> "ClimbScenery":
+        """See `Scenery`."""
+        return replace(self, bounds=bounds)
 
     def world(self, server: "viser.ViserServer") -> WallScene:
         """See `Scenery`."""

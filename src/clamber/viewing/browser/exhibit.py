@@ -34,8 +34,10 @@ from .climb_scenery import ClimbScenery, join
 from .film import Film, PlanFilm
 from .run_film import ClimbFilm
 from .scenery import Scenery
+from .standing_film import StandingFilm
 from .walk_film import PlannedWalkFilm, WalkFilm, logged_walk
 from .walk_scenery import WalkScenery, walk_bounds
+from .way import way_poses
 
 NAMED: Final = "name the task, plan or walk that it was made with beside it"
 
@@ -47,9 +49,10 @@ class Exhibit:
     title: str
     scenery: Scenery
     plan_film: Film[Any] | None
-    """Of the start alone where there is no plan; None for a walk, which has none."""
+    """Of the start alone where there is no plan; None for a walk's log, beside which there is none."""
     run_film: Film[Any] | None = None
-    task: Task | None = None
+    task: Task | Walk | None = None
+    """What can be edited, planned and run; None for a log whose walk has none."""
     plan: Plan | None = None
 
     @property
@@ -106,6 +109,17 @@ def planned_exhibit(task: Task, plan: Plan | None, label: str = "plan") -> Exhib
     return _climb(task, replay, plan) if isinstance(task, LimbedTask) else _planned_walk(task, replay, plan)
 
 
+def walk_exhibit(walk: Walk) -> Exhibit:
+    """A walk before it has begun: its robot at its start, and its way.
+
+    Raises:
+        ClamberError: If there is no way to one of its places.
+    """
+    way = way_poses(walk)[:, :2]
+    scenery = WalkScenery(walk.robot, walk.ground, (), walk_bounds(way), way)
+    return Exhibit(walk.title or walk.name, scenery, StandingFilm(walk), task=walk)
+
+
 def run_film(exhibit: Exhibit, run: ClimbRun | WalkRun) -> Film[Any]:
     """The film of what was just carried out."""
     if isinstance(run, ClimbRun):
@@ -131,9 +145,7 @@ def _walk(walk: Walk, log: Log | None) -> Exhibit:
     """A walk, which has no plan: its start, or its log."""
     title = walk.title or walk.name
     if log is None:
-        raise SpecError(
-            title, "walk", walk.name, "has no plan to show; run it first: clamber run ... -o walk.mcap, and view both"
-        )
+        return walk_exhibit(walk)
     trace = _walk_trace(log)
     bounds = walk_bounds(trace.believed[:, :2])
     scenery = WalkScenery(walk.robot, walk.ground, (), bounds)
@@ -143,7 +155,7 @@ def _walk(walk: Walk, log: Log | None) -> Exhibit:
 
 def _with_log(exhibit: Exhibit, log: Log) -> Exhibit:
     task = exhibit.task
-    assert task is not None
+    assert task is not None and not isinstance(task, Walk)
     if isinstance(task, LimbedTask):
         assert isinstance(exhibit.scenery, ClimbScenery)
         view = ClimbRunView(task, *_climb_trace(log, task))

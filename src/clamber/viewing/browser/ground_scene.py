@@ -11,6 +11,7 @@ from ...worlds.ground import Ground, Surface
 from .. import style
 from ..scene import Bounds, goal_box, name_goal
 from .solids import Mesh, colour, prism
+from .wall_scene import DISC
 
 if TYPE_CHECKING:
     import viser
@@ -20,6 +21,12 @@ HIGHER: Final = "#E0C9A0"
 LOWER: Final = "#9FB0C0"
 SHADES: Final = ((-1e-6, LOWER), (1e-6, LEVEL), (np.inf, HIGHER))
 """Colour of a brick up to a height of its top above the slope [m]."""
+ABOVE: Final = 0.004
+"""A way is drawn so far above the ground [m] ..."""
+DIP: Final = 0.1
+"""... and into ditches by no more than this [m]."""
+END: Final = 0.06
+"""Radius of the disc at its end [m]."""
 GRID: Final = "#A8A294"
 CRUST: Final = 0.12
 """How much of the ground is shown below its lowest part [m]."""
@@ -35,9 +42,17 @@ class GroundScene:
         ground: As it truly is.
         goals: Of a task.
         bounds: The part that is shown, world frame.
+        way: Places of a walk's way, shape (n, 2) [m]; None: none is drawn.
     """
 
-    def __init__(self, server: "viser.ViserServer", ground: Ground, goals: Sequence[Goal], bounds: Bounds) -> None:
+    def __init__(
+        self,
+        server: "viser.ViserServer",
+        ground: Ground,
+        goals: Sequence[Goal],
+        bounds: Bounds,
+        way: Floats | None = None,
+    ) -> None:
         self._server, self.ground = server, ground
         self.root = server.scene.add_frame("/ground", show_axes=False)
         self._axes, self._surface = ground.axes(), Surface(ground)
@@ -63,6 +78,8 @@ class GroundScene:
         self._draw_lines(bounds)
         for k, goal in enumerate(goals):
             self._draw_goal(goals, k, goal_box(goal, bounds))
+        if way is not None:
+            self._draw_way(way)
 
     def _placed(self, mesh: Mesh) -> Mesh:
         return mesh[0] @ self._axes.T, mesh[1]
@@ -102,6 +119,20 @@ class GroundScene:
         self._server.scene.add_label(
             f"/ground/goals/{k + 1}/name", name_goal(goals, k), anchor="bottom-center",
             position=(float(corners[:, 0].mean()), float(corners[:, 1].mean()), base + 0.01),
+        )  # fmt: skip
+
+    def _draw_way(self, way: Floats) -> None:
+        """A line over the ground along the robot's way, and a disc at its end."""
+        heights = self._surface.heights(way)
+        heights = np.where(np.isfinite(heights), np.maximum(heights, np.median(heights) - DIP), 0.0)
+        points = np.column_stack((way, heights + ABOVE))
+        self._server.scene.add_line_segments(
+            "/ground/way", np.stack((points[:-1], points[1:]), axis=1), colour(style.GOAL), thickness=0.006
+        )
+        disc = prism(DISC * END + way[-1], 0.0, 0.002)
+        self._server.scene.add_mesh_simple(
+            "/ground/way/end", disc[0] + (0.0, 0.0, heights[-1] + ABOVE), disc[1], color=colour(style.GOAL), opacity=0.5,
+            flat_shading=True, cast_shadow=False,
         )  # fmt: skip
 
     def remove(self) -> None:

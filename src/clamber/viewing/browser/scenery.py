@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
 from ...types import Floats
+from ..scene import Bounds
 
 if TYPE_CHECKING:
     import viser
@@ -43,6 +44,15 @@ class Camera:
 
 class Scenery(Protocol):
     """A task's world and robot, ready to be put into a scene."""
+
+    @property
+    def bounds(self) -> Bounds:
+        """The part of the world that is shown."""
+        ...
+
+    def with_bounds(self, bounds: Bounds) -> "Scenery":
+        """The same with another part shown."""
+        ...
 
     def world(self, server: "viser.ViserServer") -> World:
         """Put the world into the scene."""

@@ -15,6 +15,7 @@ from ...planning.planners import plan_task
 from ...planning.progress import Moment, Routing, progress_text
 from ...tasks import Task
 from ...tasks.limbed import LimbedTask
+from ...tasks.walks import Walk
 from .labour import Tell
 
 TOLD: Final = 0.2
@@ -69,19 +70,22 @@ def make_plan(task: Task, planner: str, seconds: float, tell: Tell, *, reserves:
     return Planned(found, f"found: {len(found.actions)} actions, with reserves for a run")
 
 
-def carry_out(task: Task, plan: Plan, tell: Tell) -> ClimbRun | WalkRun:
-    """Carry a plan out in contact dynamics.
+def carry_out(task: Task | Walk, plan: Plan | None, tell: Tell) -> ClimbRun | WalkRun:
+    """Carry a plan out in contact dynamics, or a walk, which needs none.
 
     Raises:
         ClamberError: If something speaks against the plan.
     """
     tell(f"making the robot ready{_unless_compiled(task)}")
+
+    def walked(step: int, way: float, whole: float) -> None:
+        tell(f"step {step}: {way:.2f} of {whole:.2f} m", way / whole if whole > 0.0 else None)
+
+    if isinstance(task, Walk):
+        return run_walk(task, walk_flaws(task, ()), progress=walked)
+    assert plan is not None  # of a task
     if not isinstance(task, LimbedTask):
         walk, lay = walk_of(task), lay_plan(task, plan)
-
-        def walked(step: int, way: float, whole: float) -> None:
-            tell(f"step {step}: {way:.2f} of {whole:.2f} m", way / whole if whole > 0.0 else None)
-
         return run_walk(walk, walk_flaws(walk, ()), lay=lay, progress=walked)
     strict = climbing_task(task)
 
@@ -92,7 +96,7 @@ def carry_out(task: Task, plan: Plan, tell: Tell) -> ClimbRun | WalkRun:
     return run_plan(strict, plan, climbing_flaws(strict, ()), replan=again, progress=climbed)
 
 
-def _unless_compiled(task: Task) -> str:
+def _unless_compiled(task: Task | Walk) -> str:
     """What to add where no such robot has moved on this machine: its kernels are compiled, and nothing is told meanwhile."""
     moves = "command_tick" if isinstance(task, LimbedTask) else "level_heights"
     return "" if is_compiled(moves) else "; kernels are compiled, once, which takes a minute or two"

@@ -1,7 +1,7 @@
 """A walker and its ground, for the viewer."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -11,7 +11,7 @@ from ...tasks.walker import Goal
 from ...types import Floats
 from ...worlds.ground import Ground
 from ..scene import Bounds
-from .climb_scenery import FOV, ROOM
+from .climb_scenery import FOV, NARROW
 from .ground_scene import GroundScene
 from .scenery import Camera
 from .walker_figure import WalkerFigure
@@ -21,6 +21,10 @@ if TYPE_CHECKING:
 
 FROM: Final = (-0.45, -1.0, 0.75)
 """From where the camera looks at the ground, over its distance [-]."""
+ROOM: Final = 1.05
+"""Around what is shown [-]."""
+TALL: Final = 0.7
+"""Height of a robot with its arm, or more [m]."""
 BESIDE: Final = 0.5
 """Ground that is shown around a walk [m]."""
 
@@ -34,10 +38,16 @@ class WalkScenery:
     goals: tuple[Goal, ...]
     bounds: Bounds
     """The part of the ground that is shown."""
+    way: Floats | None = None
+    """Places that a walk's way leads along, seen from above, shape (n, 2) [m]; None: it is not known."""
+
+    def with_bounds(self, bounds: Bounds) -> "WalkScenery":
+        """See `Scenery`."""
+        return replace(self, bounds=bounds)
 
     def world(self, server: "viser.ViserServer") -> GroundScene:
         """See `Scenery`."""
-        return GroundScene(server, self.ground, self.goals, self.bounds)
+        return GroundScene(server, self.ground, self.goals, self.bounds, self.way)
 
     def figure(self, server: "viser.ViserServer", name: str, opacity: float = 1.0) -> WalkerFigure:
         """See `Scenery`."""
@@ -49,9 +59,25 @@ class WalkScenery:
         middle = np.array((0.5 * (x0 + x1), 0.5 * (y0 + y1), 0.0))
         height = self.ground.heights(middle[:2])
         middle[2] = float(height) if np.isfinite(height) else 0.0
-        far = 0.74 * ROOM * math.hypot(x1 - x0, y1 - y0) / (2.0 * math.tan(0.5 * FOV))
-        ahead = np.array(FROM) / np.linalg.norm(FROM)
-        return Camera(middle + far * ahead, middle)
+        back = np.array(FROM) / np.linalg.norm(FROM)
+        ground = [(x, y, middle[2]) for x in (x0, x1) for y in (y0, y1)]
+        robot = [(x, y, middle[2] + TALL) for x in (x0 + BESIDE, x1 - BESIDE) for y in (y0 + BESIDE, y1 - BESIDE)]
+        far = ROOM * _distance(np.array(ground + robot) - middle, back)
+        return Camera(middle + far * back, middle)
+
+
+def _distance(points: Floats, back: Floats) -> float:
+    """How far away a camera has to be to see all of some points, as wide as high a picture may be (`NARROW`) [m].
+
+    Args:
+        points: From where it looks at, shape (n, 3) [m].
+        back: From there towards the camera, of length 1, shape (3,).
+    """
+    right = np.array((-back[1], back[0], 0.0)) / math.hypot(back[0], back[1])
+    up = np.cross(back, right)
+    half = math.tan(0.5 * FOV)
+    needed = np.maximum(np.abs(points @ right) / NARROW, np.abs(points @ up)) / half + points @ back
+    return float(needed.max())
 
 
 def walk_bounds(centres: Floats) -> Bounds:

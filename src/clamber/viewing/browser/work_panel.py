@@ -7,6 +7,7 @@ from ...actions.plan import Plan
 from ...errors import ClamberError
 from ...planning.planners import PLANNERS
 from ...tasks import Task
+from ...tasks.walks import Walk
 from .. import style
 from .inputs import set_input
 from .labour import Labour
@@ -18,42 +19,53 @@ if TYPE_CHECKING:
     import viser
 
 PLANNER: Final = "auto"
-CHANGED: Final = "the board was changed meanwhile; what came of it as it was is left out: press Plan again"
+CHANGED: Final = "the world was changed meanwhile; what came of it as it was is left out: press again"
 SECONDS: Final = 60.0
 """Most time for a search, unless the panel says otherwise [s]."""
 
 
 class WorkPanel:
-    """Buttons to plan and to run.
+    """Buttons to plan and to run; a walk, which needs no plan, is run only.
 
     Args:
         server: Whose panel they are in; they are made where its context is.
-        task: Gives the task as it is now; raises `ClamberError` if there is none.
+        task: Gives the task or walk as it is now; raises `ClamberError` if there is none.
+        plans: Whether it is planned before it is run.
         plan: Gives the plan that a run carries out; None where there is none.
         planned: Takes a plan that was found, with its task.
-        ran: Takes a run, with its task and its plan.
+        ran: Takes a run.
     """
 
     def __init__(
         self,
         server: "viser.ViserServer",
-        task: Callable[[], Task],
+        task: Callable[[], Task | Walk],
+        plans: bool,
         plan: Callable[[], Plan | None],
         planned: Callable[[Task, Plan], None],
-        ran: Callable[[Task, Plan, Any], None],
+        ran: Callable[[Any], None],
     ) -> None:
-        self._task, self._plan, self._planned, self._ran = task, plan, planned, ran
+        self._task, self._plans, self._plan, self._planned, self._ran = task, plans, plan, planned, ran
         self.labour = Labour(self._tell)
         gui = server.gui
-        with gui.add_folder("Plan and run"):
-            self._planner = gui.add_dropdown("planner", list(PLANNERS), initial_value=PLANNER)
+        with gui.add_folder("Plan and run" if plans else "Run"):
+            self._planner = gui.add_dropdown("planner", list(PLANNERS), initial_value=PLANNER, visible=plans)
             self._seconds = gui.add_number(
-                "seconds", SECONDS, min=1.0, max=3600.0, step=1.0, hint="Most time for each search"
+                "seconds",
+                SECONDS,
+                min=1.0,
+                max=3600.0,
+                step=1.0,
+                hint="Most time for each search",
+                visible=plans,
             )
             self._reserves = gui.add_checkbox(
-                "reserves", True, hint="Keep something back, so that the plan can be run; planning takes longer"
+                "reserves",
+                True,
+                visible=plans,
+                hint="Keep something back, so that the plan can be run; planning takes longer",
             )
-            self._plan_button = gui.add_button("Plan", color=colour(style.PARTS[2]))
+            self._plan_button = gui.add_button("Plan", color=colour(style.PARTS[2]), visible=plans)
             self._plan_words = gui.add_html("")
             self._run_button = gui.add_button("Run", color=colour(style.PARTS[0]))
             self._run_words = gui.add_html("")
@@ -71,6 +83,7 @@ class WorkPanel:
 
         def work(tell: Any) -> tuple[Task, Planned]:
             now = task()
+            assert not isinstance(now, Walk)
             return now, make_plan(now, planner, seconds, tell, reserves=reserves)
 
         def done(found: tuple[Task, Planned]) -> None:
@@ -87,21 +100,21 @@ class WorkPanel:
     def run(self) -> None:
         """Carry the plan out that there is now."""
         plan = self._plan()
-        if plan is None:
+        if self._plans and plan is None:
             self._say(self._run_words, "there is no plan to run; press Plan first", bad=True)
             return
 
-        def work(tell: Any) -> tuple[Task, Any]:
+        def work(tell: Any) -> tuple[Task | Walk, Any]:
             now = self._task()
             return now, carry_out(now, plan, tell)
 
-        def done(found: tuple[Task, Any]) -> None:
+        def done(found: tuple[Task | Walk, Any]) -> None:
             now, run = found
             if self._is_past(now):
                 self._say(self._run_words, CHANGED, bad=True)
                 return
             well, words = outcome(run)
-            self._ran(now, plan, run)
+            self._ran(run)
             self._say(self._run_words, words, bad=not well)
 
         self._begin(work, done, self._run_words)
@@ -111,7 +124,7 @@ class WorkPanel:
         self._say(self._plan_words, "", bad=False)
         self._say(self._run_words, "", bad=False)
 
-    def _is_past(self, task: Task) -> bool:
+    def _is_past(self, task: Task | Walk) -> bool:
         """Whether the board was edited while a task of it was worked on."""
         try:
             return self._task().document != task.document

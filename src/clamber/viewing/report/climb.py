@@ -14,13 +14,10 @@ from ..climb_run_view import write_run
 from ..margins import named_limits
 from ..pictures import draw_route
 from ..torques import torque_limits
-from .run_page import Rows, RunPage, Shown, write_run_page
+from .run_page import MILLI, Rows, RunPage, Shown, most, write_run_page
 
-MILLI: Final = 1e3
 CHECKS_TOLD: Final = 3
 """Checks whose least margins are told, the tightest first."""
-LONGEST: Final = 3
-"""Actions told as the longest."""
 JOINTS: Final = ("shoulder", "elbow")
 
 
@@ -120,14 +117,14 @@ def _closest(run: ClimbRun) -> list[tuple[str, str, str]]:
         if action.recovered:
             rows.append(("a hook came off and was brought back", f"{action.recovered} times", _where(action)))
     pushed = [action for action in actions if action.kind == "grab" and action.tries > 1]
-    rows += [("pushes of a hook", str(action.tries), _where(action)) for action in _most(pushed, "tries")]
-    rows += [("longest action", f"{action.seconds:.1f} s", _where(action)) for action in _most(actions, "seconds")]
+    rows += [("pushes of a hook", str(action.tries), _where(action)) for action in most(pushed, "tries")]
+    rows += [("longest action", f"{action.seconds:.1f} s", _where(action)) for action in most(actions, "seconds")]
     moves = [action for action in actions if action.kind == "move"]
-    rows += [("body from its aim", f"{MILLI * one.off:.1f} mm", _where(one)) for one in _most(moves, "off")[:1]]
+    rows += [("body from its aim", f"{MILLI * one.off:.1f} mm", _where(one)) for one in most(moves, "off")[:1]]
     told = [action for action in actions if action.tip_error is not None]
     rows += [
         ("tip, believed from true", f"{MILLI * (one.tip_error or 0.0):.1f} mm", _where(one))
-        for one in _most(told, "tip_error")[:1]
+        for one in most(told, "tip_error")[:1]
     ]
     return [*rows, *_hardest_joint(run)]
 
@@ -146,10 +143,6 @@ def _hardest_joint(run: ClimbRun) -> list[tuple[str, str, str]]:
     if beyond.any():
         rows.append(("a motor gave all it has", f"in {100.0 * float(beyond.mean()):.2g} % of the samples", "any joint"))
     return rows
-
-
-def _most(actions: list[ActionReport], name: str) -> list[ActionReport]:
-    return sorted(actions, key=lambda action: -getattr(action, name))[:LONGEST]
 
 
 def _where(action: ActionReport) -> str:

@@ -1,9 +1,11 @@
 """The page of a run: what was planned, what became of every action, where it was close; any robot's, in the same words."""
 
 import json
+from collections.abc import Iterable
 from dataclasses import dataclass
+from operator import attrgetter
 from pathlib import Path
-from typing import Final
+from typing import Final, TypeVar
 
 from ...files import write_atomically
 from ...types import Json
@@ -13,6 +15,12 @@ from .pages import write_page, write_style
 INDEX: Final = "index.html"
 DATA: Final = "run.json"
 """What `clamber run --json` prints."""
+MILLI: Final = 1e3
+MOST_TOLD: Final = 3
+"""Actions told as the longest, or as those that took most tries."""
+
+Told = TypeVar("Told")
+"""What became of an action."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,6 +66,11 @@ class RunPage:
     """A page with a player, or a picture that moves."""
     data: Json
     """The whole run as plain data."""
+
+
+def most(actions: Iterable[Told], name: str) -> list[Told]:
+    """The few actions of which a number, such as "tries", is largest; the first of equals first."""
+    return sorted(actions, key=attrgetter(name), reverse=True)[:MOST_TOLD]
 
 
 def write_run_page(page: RunPage, folder: Path) -> Path:

@@ -2,7 +2,6 @@
 
 import math
 from pathlib import Path
-from typing import Final
 
 from ...actions.plan import Plan
 from ...execution.walk.walk_report import StepReport, WalkReport
@@ -10,11 +9,7 @@ from ...experiments.walk.run_walk import WalkRun
 from ...tasks.walks.piece import Piece
 from ...units import DEGREE
 from ..walk_run_view import write_walk
-from .run_page import Rows, RunPage, Shown, write_run_page
-
-MILLI: Final = 1e3
-LONGEST: Final = 3
-"""Steps told as the longest."""
+from .run_page import MILLI, MOST_TOLD, Rows, RunPage, Shown, most, write_run_page
 
 
 def write_walk_report(run: WalkRun, plan: Plan | None, command: str, folder: Path) -> Path:
@@ -105,25 +100,21 @@ def _closest(run: WalkRun) -> list[tuple[str, str, str]]:
     ]
     margins, tilts, times = true.margins[walking], true.tilts[walking], true.time[walking]
     if len(times):
-        least, most = int(margins.argmin()), int(tilts.argmax())
+        least, steepest = int(margins.argmin()), int(tilts.argmax())
         margin = f"{MILLI * margins[least]:.0f} mm" if math.isfinite(margins[least]) else "fewer than three feet stood"
         rows.append(("least margin of balance", margin, f"at {times[least]:.0f} s"))
-        rows.append(("largest tilt of the plate", f"{tilts[most] / DEGREE:.3f} deg", f"at {times[most]:.0f} s"))
+        rows.append(("largest tilt of the plate", f"{tilts[steepest] / DEGREE:.3f} deg", f"at {times[steepest]:.0f} s"))
     rows += [
-        ("feet lowered again", f"{step.tries} tries", _where(step)) for step in _most(steps, "tries") if step.tries > 1
+        ("feet lowered again", f"{step.tries} tries", _where(step)) for step in most(steps, "tries") if step.tries > 1
     ]
     far = [step for step in steps if math.isfinite(step.off)]
-    rows += [("frame from its aim", f"{MILLI * step.off:.1f} mm", _where(step)) for step in _most(far, "off")[:1]]
+    rows += [("frame from its aim", f"{MILLI * step.off:.1f} mm", _where(step)) for step in most(far, "off")[:1]]
     ends = [step.start for step in steps[1:]] + [run.report.seconds]
     took = sorted(((end - step.start, step) for step, end in zip(steps, ends, strict=True)), key=lambda one: -one[0])
-    rows += [("longest step", f"{seconds:.0f} s", _where(step)) for seconds, step in took[:LONGEST]]
+    rows += [("longest step", f"{seconds:.0f} s", _where(step)) for seconds, step in took[:MOST_TOLD]]
     if run.report.kicks:
         rows.append(("kicked", f"{run.report.kicks} times", "the plate tilted without its legs telling"))
     return rows
-
-
-def _most(steps: list[StepReport], name: str) -> list[StepReport]:
-    return sorted(steps, key=lambda step: -getattr(step, name))[:LONGEST]
 
 
 def _where(step: StepReport) -> str:

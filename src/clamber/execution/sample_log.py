@@ -1,0 +1,85 @@
+"""A table of samples under titles, such as "body x true [m]": as a log, back from it, and taken apart into the fields of a trace."""
+
+import json
+from collections.abc import Mapping
+from typing import Final, TypeAlias
+
+import numpy as np
+
+from ..types import Floats, Ints, Json
+from .log import Log, split_title
+
+Titles: TypeAlias = Mapping[str, tuple[str, ...]]
+"""Field of a trace -> titles of its columns, in the order of a sample's numbers."""
+REPORT: Final = "report"
+"""Note of a log that holds what came out, as JSON."""
+
+
+def report_notes(notes: Json) -> dict[str, str]:
+    """What a run's log says at its end: the report."""
+    return {REPORT: json.dumps(notes)}
+
+
+def report_of(log: Log) -> Json | None:
+    """The report of a run's log; None where it was cut."""
+    return json.loads(log.notes[REPORT]) if REPORT in log.notes else None
+
+
+def sample_log(trace: object, titles: Titles, notes: Mapping[str, str], label: str) -> Log:
+    """The log of a trace.
+
+    Args:
+        trace: Its fields are arrays, shape (rows, ...), with as many numbers a row as there are titles.
+        titles: Of its fields.
+        notes: What the log says of itself.
+        label: What errors call it.
+
+    Raises:
+        LogError: If a number is not finite.
+    """
+    columns: dict[str, Floats] = {}
+    units: dict[str, str] = {}
+    for field, names in titles.items():
+        values = np.asarray(getattr(trace, field), dtype=np.float64)
+        values = values.reshape(len(values), -1)
+        for k, (name, unit) in enumerate(map(split_title, names)):
+            columns[name] = values[:, k]
+            if unit is not None:
+                units[name] = unit
+    return Log(columns, units, notes, label)
+
+
+def table_of(log: Log, titles: Titles) -> Floats:
+    """The samples of a log, shape (rows, columns).
+
+    Raises:
+        LogError: If it lacks a column.
+    """
+    names = (split_title(title)[0] for of_field in titles.values() for title in of_field)
+    return np.stack([log.column(name) for name in names], axis=1)
+
+
+def width(titles: Titles) -> int:
+    """How many numbers a sample has."""
+    return sum(map(len, titles.values()))
+
+
+def fields_of(
+    table: Floats, titles: Titles, *, whole: frozenset[str], shapes: Mapping[str, tuple[int, ...]]
+) -> dict[str, Floats | Ints]:
+    """The fields of a trace.
+
+    Args:
+        table: Samples, shape (rows, columns).
+        titles: Of their numbers.
+        whole: Fields of whole numbers.
+        shapes: Of a sample's numbers in a field; one that is not named is a number, or a row of them.
+    """
+    parts: dict[str, Floats | Ints] = {}
+    start = 0
+    for field, names in titles.items():
+        values = np.ascontiguousarray(table[:, start : start + len(names)])
+        start += len(names)
+        shape = shapes.get(field, () if len(names) == 1 else (len(names),))
+        parts[field] = (values.astype(np.int32) if field in whole else values).reshape(-1, *shape)
+    return parts

@@ -1,0 +1,175 @@
+"""Grabs from a hang: the hook comes home on a hold that it comes to from the side, and a try that missed does as little harm as can be."""
+
+import copy
+from collections.abc import Callable
+from itertools import pairwise
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
+
+import numpy as np
+import pytest
+
+from clamber.actions.plan import Plan, load_plan
+from clamber.execution.climb import actor as actor_module
+from clamber.execution.climb import hook
+from clamber.execution.climb.actor import Actor
+from clamber.execution.climb.approach import Approach
+from clamber.execution.climb.climb_trace import TracedClimber
+from clamber.execution.climb.climber import Climber
+from clamber.execution.climb.course import Course, lay_course
+from clamber.execution.climb.here import task_from_here
+from clamber.experiments.climb.rehearsal import REHEARSED
+from clamber.experiments.climb.run_plan import ClimbRun, climbing_flaws, climbing_task, run_plan
+from clamber.tasks import load_task, task_from_document
+from clamber.types import Floats
+
+SAVED = Path(__file__).parents[2] / "examples" / "across" / "plan.json"
+RIGHT, LEFT = 0, 1
+BEFORE = 137
+"""Step of the saved plan with which the body goes below the right limb's hold: four moves, then the left limb grabs 8 in on."""
+
+
+@pytest.fixture(scope="module")
+def single_row() -> Course:
+    """The saved plan along the single row, from before the body goes below the right limb's hold, on pegs 26 and 27, to its end."""
+    task = climbing_task(load_task("across-hanging"))
+    whole = load_plan(SAVED)
+    course = lay_course(task, whole)
+    document = copy.deepcopy(task_from_here(course, BEFORE, course.holds(BEFORE - 1), set()).document)
+    document.pop("subgoals")  # it is beyond them
+    here = climbing_task(task_from_document(document, "on the single row"))
+    return lay_course(here, Plan.of_codes(here, whole.codes(task)[BEFORE - 1 :], planner="beam"))
+
+
+def climb(course: Course, actions: int, seed: int) -> ClimbRun:
+    """The first actions of a course, pegs 3 mm off."""
+    whole = load_plan(SAVED)
+    codes = whole.codes(climbing_task(load_task("across-hanging")))[BEFORE - 1 :]
+    plan = Plan.of_codes(course.task, codes[:actions], planner="beam")
+    return run_plan(course.task, plan, climbing_flaws(course.task, ()), noise=REHEARSED, seed=seed)
+
+
+def true_tip(run: ClimbRun, i: int) -> Floats:
+    """Where the tip of limb `i` truly is at the end [m]."""
+    assert run.trace.true_pose is not None and run.trace.true_angles is not None
+    pose, (shoulder, elbow), limb = run.trace.true_pose[-1], run.trace.true_angles[-1, i], run.task.robot.limbs[i]
+    turn = np.exp(1j * pose[2])
+    first = turn * np.exp(1j * (limb.port_angle + shoulder))
+    second = first * np.exp(1j * (elbow + limb.hook_beta))
+    tip = (
+        complex(pose[0], pose[1])
+        + turn * complex(limb.port_x, limb.port_y)
+        + limb.l1 * first
+        + limb.l2_effective * second
+    )
+    return np.array((tip.real, tip.imag))
+
+
+@pytest.mark.parametrize("seed", [2, 13])
+def test_a_hook_that_comes_from_the_side_to_a_hanging_body_comes_home(single_row: Course, seed: int) -> None:
+    run = climb(single_row, 5, seed)
+    taken = run.report.actions[-1]
+    assert (taken.title, taken.outcome, taken.tries) == ("left grabs 28", "ok", 1), run.reason
+    pegs = run.task.world.positions() + run.drawn.pegs
+    for limb, number in ((RIGHT, 26), (LEFT, 28)):
+        peg = pegs[[hold.number for hold in run.task.world.holds].index(number)]
+        # on its peg, not on the flare before it, 8 to 16 mm off
+        assert true_tip(run, limb) == pytest.approx(peg, abs=3e-3), (limb, number)
+    # the load passes to both where the body leans on them: let go, it would swing back by some 30 mm and pull the hook off
+    true = run.trace.true_pose
+    assert true is not None and run.trace.carries[-1].tolist() == [1, 1, 0]
+    assert np.ptp(true[run.trace.time > run.trace.time[-1] - 0.4, :2], axis=0).max() < 2e-3
+    # what is believed of it is not thrown by a seat that is none
+    assert taken.tip_error is not None and taken.tip_error < 6e-3
+
+
+class Knock:
+    """Of a limb: the peg is not there for a quarter of a second, some ticks after a step has begun and two limbs carry."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, limb: int, step: int, ticks: int) -> None:
+        self.at: float | None = None
+        """When [s]."""
+        self.geom, left, tick = -1, ticks, TracedClimber.tick
+
+        def watched(climber: TracedClimber) -> None:
+            nonlocal left
+            model, tasks = cast(Any, climber.plant).model, climber.body.tasks
+            if self.at is None and climber.step >= step and sum(task.doing == "hold" for task in tasks) == 2:
+                left -= 1
+                if left < 0:
+                    self.at, self.geom = climber.time, model.geom(f"peg {tasks[limb].hold}").id
+                    self.kept = int(model.geom_contype[self.geom]), int(model.geom_conaffinity[self.geom])
+                    model.geom_contype[self.geom] = model.geom_conaffinity[self.geom] = 0
+            elif self.at is not None and climber.time > self.at + 0.25:
+                model.geom_contype[self.geom], model.geom_conaffinity[self.geom] = self.kept
+            tick(climber)
+
+        monkeypatch.setattr(TracedClimber, "tick", watched)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("seed", "ticks"), [(1, 20), (2, 300)])
+def test_a_hook_lost_on_the_single_row_is_brought_back_by_the_plan_that_led_there(
+    monkeypatch: pytest.MonkeyPatch, single_row: Course, seed: int, ticks: int
+) -> None:
+    knock = Knock(monkeypatch, LEFT, 6, ticks)
+    run = climb(single_row, 13, seed)
+    assert knock.at is not None
+    moved = run.report.actions[-1]
+    # hanging, no limb comes to the lost hold from above; it goes back to the one before, and takes the lost one as it did
+    assert (moved.title, moved.outcome, moved.recovered) == ("+x, 8 times", "ok", 1), run.reason
+    assert run.trace.holds[-1, [RIGHT, LEFT]].tolist() == [26, 28]
+
+
+def test_the_robot_catches_up_from_the_stance_with_its_holds_nearest_to_where_it_is(
+    monkeypatch: pytest.MonkeyPatch, single_row: Course
+) -> None:
+    limbs = single_row.task.robot.limbs
+    sides = single_row.elbows[0]
+    tasks = [SimpleNamespace(hold=single_row.holds(0)[limb.name]) for limb in limbs]
+    body = SimpleNamespace(
+        tasks=tasks, q=0.5 * np.stack((sides, sides), axis=1), aim=single_row.pose(2), settled=single_row.pose(2)
+    )
+    actor = Actor(cast(Climber, SimpleNamespace(robot=single_row.task.robot, body=body)), single_row)
+    went: list[Floats] = []
+    done: list[tuple[int, int]] = []
+
+    def carry_out(first: int, last: int) -> tuple[str, int, str]:
+        done.append((first, last))
+        return "ok", 1, ""
+
+    monkeypatch.setattr(actor_module, "move_body", lambda climber, pose: went.append(pose))
+    monkeypatch.setattr(actor, "carry_out", carry_out)
+    assert actor.catch_up(14)  # the moves before the grab are one group, which it is in the middle of: on with the grab
+    assert went == [pytest.approx(single_row.pose(2))]
+    assert done == [(5, 5), (6, 13)]
+    assert not actor.catch_up(1)
+    body.q[LEFT] *= -1.0  # on the same hold, with the elbow on the other side
+    assert not actor.catch_up(14)
+    body.q[LEFT] *= -1.0
+    tasks[LEFT].hold = 0
+    assert not actor.catch_up(14)
+
+
+@pytest.mark.parametrize("past", [-0.006, 0.02, 0.035])
+@pytest.mark.parametrize("aside", [-0.02, 0.0, 0.02])
+def test_a_hook_that_missed_goes_back_the_way_it_came(
+    monkeypatch: pytest.MonkeyPatch, past: float, aside: float
+) -> None:
+    g, hold = np.array((-0.6, 0.8)), np.array((1.0, 0.5))
+    h = np.array((-g[1], g[0]))
+    places: list[Floats] = []
+    monkeypatch.setattr(hook, "move_tip", lambda climber, i, place, seconds: places.append(place))
+    monkeypatch.setattr(hook, "stand_off_of", lambda climber, i, doubt: 0.05)
+    tip = hold + past * g + aside * h
+    climber = SimpleNamespace(body=SimpleNamespace(tip=cast("Callable[[int], Floats]", lambda i: tip)))
+    found = Approach(np.zeros(2), np.zeros((1, 2)), g, 0.05)
+    hook.back_off(cast(Climber, climber), LEFT, hold, 0.004, found)
+    before = [tip, *places]
+    for start, end in pairwise(before):
+        along, across = (end - start) @ g, (end - start) @ h
+        deep = max((start - hold) @ g, (end - hold) @ g)
+        # beside or beyond the hold only straight back; across only where the whole hook is before it
+        assert (abs(across) < 1e-12 and along < 0.0) or deep == pytest.approx(-0.05)
+    assert places[-1] == pytest.approx(hold - 0.05 * g)

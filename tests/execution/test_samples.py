@@ -1,0 +1,75 @@
+"""Samples of a run: one every few ticks, one of the tick that ends it, each told once; and a table that comes back from its log."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from clamber.execution.log import LogError
+from clamber.execution.sample_log import fields_of, report_notes, report_of, sample_log, table_of, width
+from clamber.execution.samples import Samples
+from clamber.types import Floats, Ints
+
+TITLES = {
+    "time": ("time [s]",),
+    "step": ("step",),
+    "places": ("left x [m]", "left y [m]", "right x [m]", "right y [m]"),
+}
+
+
+class Counter:
+    def __init__(self) -> None:
+        self.ticks = 0
+
+    def tick(self) -> None:
+        self.ticks += 1
+
+    def stop(self) -> None:
+        raise KeyboardInterrupt
+
+    def sample(self) -> Floats:
+        return np.array((self.ticks, -self.ticks), dtype=np.float64)
+
+
+@given(st.integers(0, 40), st.integers(1, 7))
+def test_a_sample_is_taken_every_few_ticks_and_at_the_last_one(ticks: int, every: int) -> None:
+    robot, told = Counter(), []
+    samples = Samples(robot, every)
+    samples.told = told.append
+    for _ in range(ticks):
+        samples.over(robot.tick)
+    with pytest.raises(KeyboardInterrupt):
+        samples.over(robot.stop)
+    kept = samples.table()[:, 0].tolist()
+    assert kept == sorted({*range(every, ticks + 1, every), ticks})
+    assert [row[0] for row in told] == kept[:-1]
+    assert samples.last().tolist() == [ticks, -ticks]
+    assert len(samples.table()) == len(kept)
+
+
+@dataclass
+class Trace:
+    time: Floats
+    step: Ints
+    places: Floats
+
+
+def test_a_table_is_taken_apart_and_comes_back_from_its_log() -> None:
+    table = np.arange(18.0).reshape(3, 6)
+    assert width(TITLES) == 6
+    trace = Trace(**fields_of(table, TITLES, whole=frozenset({"step"}), shapes={"places": (2, 2)}))  # type: ignore[arg-type]
+    assert (trace.time.shape, trace.step.dtype, trace.places.shape) == ((3,), np.int32, (3, 2, 2))
+    assert trace.places[1, 1].tolist() == [10.0, 11.0]  # the right one's x and y in the second row
+    log = sample_log(trace, TITLES, report_notes({"done": True}), "toy")
+    assert log.units == {"time": "s"} | dict.fromkeys(("left x", "left y", "right x", "right y"), "m")
+    np.testing.assert_array_equal(table_of(log, TITLES), table)
+    assert report_of(log) == {"done": True}
+    assert report_of(sample_log(trace, TITLES, {}, "toy")) is None
+
+
+def test_a_log_that_lacks_a_column_is_told() -> None:
+    log = sample_log(Trace(np.zeros(1), np.zeros(1, np.int32), np.zeros((1, 4))), TITLES, {}, "toy")
+    with pytest.raises(LogError, match="height"):
+        table_of(log, TITLES | {"height": ("height [m]",)})
