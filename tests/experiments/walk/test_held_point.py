@@ -36,7 +36,7 @@ def test_the_tool_stays_within_millimetres_while_the_robot_walks_past(uphill: fl
 
 
 @pytest.mark.slow
-def test_a_plate_that_is_lent_brings_reach_and_dexterity_and_stays_level() -> None:
+def test_a_plate_that_is_lent_keeps_the_arm_from_being_stretched_and_stays_level() -> None:
     """Down the slope, past a point over the arm's shoulder: held on as the walk goes, with the height in slides and without it."""
     runs = {}
     for served in ("arm", "height"):
@@ -50,9 +50,9 @@ def test_a_plate_that_is_lent_brings_reach_and_dexterity_and_stays_level() -> No
         assert run.margin > 0.05
         runs[served] = run.held.part
     arm, height = runs["arm"], runs["height"]
-    assert height.way > arm.way + 0.05
-    assert height.measures[0] > 2.0 * arm.measures[0]
-    assert height.speed < 0.5 * arm.speed
+    assert height.way == arm.way == pytest.approx(0.7)  # the arm alone reaches all of it
+    assert height.measures[0] > 1.5 * arm.measures[0]
+    assert height.measures[1] > 1.03 * arm.measures[1]
     assert arm.raised == (0.0, 0.0)
     assert 0.02 < height.raised[1] < 0.08
 
