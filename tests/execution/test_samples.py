@@ -1,6 +1,7 @@
 """Samples of a run: one every few ticks, one of the tick that ends it, each told once; and a table that comes back from its log."""
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -8,6 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from clamber.execution.log import LogError
+from clamber.execution.log_files import read_log
+from clamber.execution.log_stream import growing_log, part_of
 from clamber.execution.sample_log import fields_of, report_notes, report_of, sample_log, table_of, width
 from clamber.execution.samples import Samples
 from clamber.types import Floats, Ints
@@ -47,6 +50,29 @@ def test_a_sample_is_taken_every_few_ticks_and_at_the_last_one(ticks: int, every
     assert [row[0] for row in told] == kept[:-1]
     assert samples.last().tolist() == [ticks, -ticks]
     assert len(samples.table()) == len(kept)
+
+
+def test_a_log_that_grows_is_whole_at_the_end_and_else_what_there_was(tmp_path: Path) -> None:
+    robot = Counter()
+    samples = Samples(robot, 1)
+    with growing_log(tmp_path / "run.mcap", samples, ("time [s]", "less"), {"robot": "toy"}, "toy") as finish:
+        for _ in range(5):
+            samples.over(robot.tick)
+        finish({"done": True})
+    whole = read_log(tmp_path / "run.mcap")
+    assert (whole.cut, report_of(whole), whole.notes["robot"]) == (False, {"done": True}, "toy")
+    assert whole.column("less").tolist() == [-1.0, -2.0, -3.0, -4.0, -5.0]
+    with pytest.raises(KeyboardInterrupt), growing_log(tmp_path / "cut.mcap", samples, ("time [s]", "less"), {}, "toy"):
+        for _ in range(3):
+            samples.over(robot.tick)
+        samples.over(robot.stop)
+    assert not (tmp_path / "cut.mcap").exists()
+    cut = read_log(part_of(tmp_path / "cut.mcap"))
+    assert cut.cut and report_of(cut) is None
+    assert cut.column("time").tolist() == [5.0, 6.0, 7.0]  # the last one might have been taken again
+    with growing_log(None, samples, ("time [s]", "less"), {}, "toy") as finish:
+        finish({})
+    assert len(list(tmp_path.iterdir())) == 2
 
 
 @dataclass

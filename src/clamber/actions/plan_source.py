@@ -7,10 +7,10 @@ from typing import Final
 
 import numpy as np
 
-from ..errors import SpecError
-from ..files import Document, data_names, read_toml
+from ..errors import SpecError, UnknownNameError
+from ..files import Document, data_names, is_path, read_toml
 from ..robots.library import family_of
-from ..tasks import Task, load_task
+from ..tasks import Task, load_task, task_names
 from ..tasks.library import TASK_FAMILIES
 from ..tasks.limbed import LimbedTask
 from ..tasks.overrides import apply_overrides
@@ -53,6 +53,21 @@ def is_plan(name_or_path: str) -> bool:
     if path.suffix == ".json" or name_or_path in plan_names():
         return True
     return path.suffix == ".toml" and path.is_file() and "actions" in read_toml(path).data
+
+
+def check_name(what: str, walks: tuple[str, ...] = ()) -> None:
+    """Make sure that what looks like a name is that of a task or a plan, or of a walk where those are taken.
+
+    Args:
+        what: A name or a path.
+        walks: Names of walks that are taken, too.
+
+    Raises:
+        UnknownNameError: If it is no such name; it lists them all.
+    """
+    known = (*task_names(), *plan_names(), *walks)
+    if not is_path(what) and not is_plan(what) and what not in known:
+        raise UnknownNameError("task, plan or walk" if walks else "task or plan", what, known)
 
 
 def open_plan(name_or_path: str | Path, task: str | None = None, overrides: Sequence[str] = ()) -> OpenedPlan:

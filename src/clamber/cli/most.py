@@ -18,7 +18,9 @@ def most(
     walk: Annotated[
         str,
         typer.Argument(
-            help="A walk's name (`clamber list walks`), or its TOML file.", autocompletion=names_of("walks")
+            metavar="WALK",
+            help="A walk's name (`clamber list walks`), or its TOML file.",
+            autocompletion=names_of("walks"),
         ),
     ],
     vary: Annotated[
@@ -32,9 +34,10 @@ def most(
 ) -> None:
     """Find the largest of N values with which a walk comes to its end in balance, by bisection; without noise unless asked for."""
     from ..errors import SpecError
+    from ..experiments.plant_settings import split_settings
     from ..experiments.walk.most import Tried, find_most
     from ..experiments.walk.noise import named_walk_noise, read_walk_noise
-    from ..experiments.walk.run_walk import run_walk, split_walk_settings, walk_flaws
+    from ..experiments.walk.run_walk import run_walk, walk_flaws
     from ..planning.axes import range_axis
     from ..tasks.walks import load_walk
 
@@ -42,7 +45,7 @@ def most(
     sizes = read_walk_noise(named_walk_noise("none"), noise or ())
 
     def opened(value: str) -> "tuple[Walk, WalkerFlaws]":
-        for_walk, for_plant = split_walk_settings([*(overrides or ()), f"{axis.key}={value}"])
+        for_walk, for_plant = split_settings([*(overrides or ()), f"{axis.key}={value}"])
         chosen = load_walk(walk, for_walk)
         return chosen, walk_flaws(chosen, for_plant)
 

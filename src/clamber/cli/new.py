@@ -1,11 +1,13 @@
 """`clamber new`: write files to start from."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Final, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from .name_completion import names_of
+from .new_board_words import LIKE, BoardWords, Force
+from .option_holder import takes_words
 from .options import BOARD, ROBOT, AsJson
 from .output import announce_compilation, check_writable, print_json, stdout
 
@@ -13,9 +15,6 @@ if TYPE_CHECKING:
     from ..types import Json
 
 new = typer.Typer(help="Write a file to start from: robot, board or task.", no_args_is_help=True)
-
-LIKE: Final = "Start from this one in place of a made-up one."
-Force: TypeAlias = Annotated[bool, typer.Option("--force", help="Write over a file that is there.")]
 
 
 @new.callback()
@@ -45,79 +44,27 @@ def robot(
 
 
 @new.command("board")
-def board(
-    random: Annotated[
-        bool, typer.Option("--random", help="Holds scattered at random, the same for the same seed.")
-    ] = False,
-    csv: Annotated[Path | None, typer.Option("--csv", metavar="FILE", help="Holds of a table: x, y per line.")] = None,
-    unit: Annotated[str | None, typer.Option(help="Of that table, such as cm, where its header names none.")] = None,
-    pixels: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Holds marked in a picture: x, y per line in pixels, y down.")
-    ] = None,
-    scale: Annotated[str | None, typer.Option(help="Size of such a pixel on the wall, such as 3.2mm.")] = None,
-    origin: Annotated[
-        str | None,
-        typer.Option(metavar="X,Y", help="Pixel of the board's origin; unless given, left of and below all holds."),
-    ] = None,
-    radius: Annotated[str | None, typer.Option(help="Of holds of a table or a picture, such as 5mm.")] = None,
-    like: Annotated[str | None, typer.Option(metavar="NAME|FILE", help=LIKE, autocompletion=names_of("boards"))] = None,
-    holds: Annotated[int, typer.Option(help="How many random holds.")] = 100,
-    density: Annotated[str, typer.Option(help="Holds per m^2, or with a unit, such as '2 holds/ft^2'.")] = "20",
-    width: Annotated[str | None, typer.Option(help="Of the wall, such as 3m; as wide as high unless given.")] = None,
-    least_gap: Annotated[
-        str | None,
-        typer.Option(help="Least distance of two holds, such as 8cm; half of the mean distance unless given."),
-    ] = None,
-    seed: Annotated[int, typer.Option(min=0, help="Same seed, same board, on any machine.")] = 0,
-    listed: Annotated[
-        bool, typer.Option("--listed", help="List every hold, to edit them, and not how they were scattered.")
-    ] = False,
-    task: Annotated[
-        bool, typer.Option("--task", help="Write a task to FILE, to the top of the board, and the board beside it.")
-    ] = False,
-    overrides: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--set", metavar="KEY=VALUE", help="Change one key of that task, such as robot=gecko4 or rules.max_hangs=0."
-        ),
-    ] = None,
-    force: Force = False,
-    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="File to write.")] = Path("wall.toml"),
-    as_json: AsJson = False,
-) -> None:
+@takes_words
+def board(*, words: BoardWords) -> None:
     """Write a board: made up, at random, from a table or a picture; with --task also a task on it that `clamber plan` takes."""
-    sources = {"--random": random, "--csv": csv, "--pixels": pixels, "--like": like}
-    given = [name for name, value in sources.items() if value]
-    if len(given) > 1:
-        raise typer.BadParameter("are different ways to a board; take one", param_hint=", ".join(given))
-    for flag, value, way in (
-        ("--unit", unit, "--csv"),
-        ("--scale", scale, "--pixels"),
-        ("--origin", origin, "--pixels"),
-    ):
-        if value is not None and way not in given:
-            raise typer.BadParameter(f"is for {way}", param_hint=flag)
-    if pixels is not None and scale is None:
-        raise typer.BadParameter("needs the size of a pixel: --scale 3.2mm", param_hint="--pixels")
-    if radius is not None and not (csv or pixels):
-        raise typer.BadParameter("is for --csv and --pixels", param_hint="--radius")
-    if overrides and not task:
-        raise typer.BadParameter("changes the task; it needs --task", param_hint="--set")
-    board_file = output.with_name(f"{output.stem}-board.toml") if task else output
-    for path in (output, board_file):
-        _check_new(path, force or random)
+    words.check()
+    board_file = words.board_file
+    for path in (words.output, board_file):
+        _check_new(path, words.force or words.random)
     from .new_files import points_data, random_data
     from .starters import board_starter, board_text
 
     data: Json
-    if random:
-        data = random_data(holds, density, width, least_gap, seed, board_file, listed=listed)
-    elif csv is not None or pixels is not None:
-        data = points_data(board_file, csv, unit, pixels, scale, origin, radius)
+    if words.random:
+        data = random_data(
+            words.holds, words.density, words.width, words.least_gap, words.seed, board_file, listed=words.listed
+        )
+    elif words.csv is not None or words.pixels is not None:
+        data = points_data(board_file, words.csv, words.unit, words.pixels, words.scale, words.origin, words.radius)
     else:
-        data = board_starter(board_file, like).data
-    text = None if random else board_text(data, board_file)
-    _write_board(data, text, board_file, output if task else None, overrides or [], as_json)
+        data = board_starter(board_file, words.like).data
+    text = None if words.random else board_text(data, board_file)
+    _write_board(data, text, board_file, words.output if words.task else None, words.overrides or [], words.as_json)
 
 
 def _write_board(

@@ -33,9 +33,10 @@ def show(
     path = output or Path(f"{Path(thing).stem}.png")
     check_writable(path)
     announce_compilation()
-    from ..actions.plan_source import open_replay
+    from ..actions.plan_source import check_name, open_replay
     from ..tasks.limbed import LimbedTask
 
+    check_name(thing)
     shown, replay = open_replay(thing, task, overrides or ())
     last = len(replay.stances) - 1
     if step is not None and step > last:

@@ -1,6 +1,7 @@
 """`clamber study`: a paper's published results, ours beside the printed ones."""
 
 import time
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -8,6 +9,7 @@ import typer
 
 from .crew import EndsLine, executor_of
 from .name_completion import names_of
+from .option_holder import takes_words
 from .options import AsJson, Quiet, Resume, Store, Workers
 from .output import announce_compilation, print_json, stderr, stdout
 
@@ -25,6 +27,41 @@ def results_of(context: typer.Context, incomplete: str) -> list[str]:
     return [name for name in RESULTS.get(context.params.get("paper", ""), ()) if name.startswith(incomplete)]
 
 
+@dataclass(frozen=True, slots=True)
+class StudyWords:
+    """Options of `clamber study`, as they came."""
+
+    as_json: AsJson = False
+    report: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Write a site there: DIR/index.html and a page for each result.")
+    ] = None
+    markdown: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Write Markdown pages and pictures there, as in docs/studies.")
+    ] = None
+    seeds: Annotated[int | None, typer.Option(min=1, help="Trials of a result of seeds, such as table-4-2.")] = None
+    workers: Workers = None
+    store: Store = None
+    resume: Resume = False
+    quiet: Quiet = False
+
+    def check(self, paper: str, result: str | None) -> None:
+        """Make sure that there is such a study and such a result, and that the options are for them."""
+        from ..errors import UnknownNameError
+        from ..studies.library import SEEDED, STUDIES
+
+        if paper != ALL and paper not in STUDIES:
+            raise UnknownNameError("study", paper, (*STUDIES, ALL))
+        if paper == ALL and result is not None:
+            raise typer.BadParameter(f"'{result}' is a result of one study: name it in place of 'all'")
+        if result is not None and result not in STUDIES[paper]:
+            raise UnknownNameError(f"result of '{paper}'", result, tuple(STUDIES[paper]))
+        if (self.seeds is not None or self.store is not None or self.workers is not None) and result not in SEEDED:
+            raise typer.BadParameter(f"is for {', '.join(SEEDED)}", param_hint="--seeds, --workers, --store")
+        if self.resume and self.store is None and self.report is None:
+            raise typer.BadParameter("needs --store or --report, what to go on with", param_hint="--resume")
+
+
+@takes_words
 def study(
     paper: Annotated[
         str,
@@ -36,72 +73,56 @@ def study(
     result: Annotated[
         str | None, typer.Argument(help="One of its results; all unless given.", autocompletion=results_of)
     ] = None,
-    as_json: AsJson = False,
-    report: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Write a site there: DIR/index.html and a page for each result.")
-    ] = None,
-    markdown: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Write Markdown pages and pictures there, as in docs/studies.")
-    ] = None,
-    seeds: Annotated[int | None, typer.Option(min=1, help="Trials of a result of seeds, such as table-4-2.")] = None,
-    workers: Workers = None,
-    store: Store = None,
-    resume: Resume = False,
-    quiet: Quiet = False,
+    *,
+    words: StudyWords,
 ) -> None:
     """Repeat what a paper reports, and say for each result whether it holds.
 
     A report of all takes hours: it is whole after every result, and --resume leaves out what it has from the same Clamber.
     """
-    from ..errors import UnknownNameError
-    from ..studies.library import SEEDED, STUDIES
+    from ..studies.library import STUDIES
     from .study_text import print_results
 
-    if paper != ALL and paper not in STUDIES:
-        raise UnknownNameError("study", paper, (*STUDIES, ALL))
-    if paper == ALL and result is not None:
-        raise typer.BadParameter(f"'{result}' is a result of one study: name it in place of 'all'")
-    if result is not None and result not in STUDIES[paper]:
-        raise UnknownNameError(f"result of '{paper}'", result, tuple(STUDIES[paper]))
-    if (seeds is not None or store is not None or workers is not None) and result not in SEEDED:
-        raise typer.BadParameter(f"is for {', '.join(SEEDED)}", param_hint="--seeds, --workers, --store")
-    if resume and store is None and report is None:
-        raise typer.BadParameter("needs --store or --report, what to go on with", param_hint="--resume")
-    site = _open_site(report)
+    words.check(paper, result)
+    site = _open_site(words.report)
     wanted = [
         (name, one)
         for name in (STUDIES if paper == ALL else (paper,))
         for one in (STUDIES[name] if result is None else (result,))
-        if not (resume and site is not None and site.has(name, one))
+        if not (words.resume and site is not None and site.has(name, one))
     ]
     results: list[StudyResult] = []
     for number, (name, chosen) in enumerate(wanted, start=1):
-        announce_compilation(quiet=quiet)
-        if not quiet:
+        announce_compilation(quiet=words.quiet)
+        if not words.quiet:
             stderr().print(f"{number} of {len(wanted)}: working on {chosen}")
         began = time.perf_counter()
-        if chosen in SEEDED and result is not None:
-            results.append(
-                SEEDED[chosen](
-                    **({} if seeds is None else {"seeds": seeds}), executor=executor_of(None, workers), store=store,
-                    resume=resume and store is not None, progress=EndsLine(stderr(), "trials", quiet=quiet).update,
-                )
-            )  # fmt: skip
-        else:
-            results.append(STUDIES[name][chosen]())
+        results.append(_repeat(name, chosen, words, seeded=result is not None))
         if site is not None:
             site.add(results[-1], began)
-    if markdown is not None:
+    if words.markdown is not None:
         from ..studies.markdown import write_markdown
 
-        write_markdown(results, markdown)
-    if as_json:
+        write_markdown(results, words.markdown)
+    if words.as_json:
         told = [one.to_json() for one in results]
         print_json(told if result is None else told[0] if told else None)
-    else:
-        print_results(stdout(), results)
-        if site is not None:
-            stdout().print(f"report: {site.index}", soft_wrap=True)
+        return
+    print_results(stdout(), results)
+    if site is not None:
+        stdout().print(f"report: {site.index}", soft_wrap=True)
+
+
+def _repeat(paper: str, result: str, words: StudyWords, *, seeded: bool) -> "StudyResult":
+    """One result; with `seeded`, one of trials with as many seeds as the options say."""
+    from ..studies.library import SEEDED, STUDIES
+
+    if not (seeded and result in SEEDED):
+        return STUDIES[paper][result]()
+    return SEEDED[result](
+        **({} if words.seeds is None else {"seeds": words.seeds}), executor=executor_of(None, words.workers), store=words.store,
+        resume=words.resume and words.store is not None, progress=EndsLine(stderr(), "trials", quiet=words.quiet).update,
+    )  # fmt: skip
 
 
 def _open_site(report: Path | None) -> "StudySite | None":

@@ -1,86 +1,110 @@
 """`clamber view`: robots, plans and runs in the browser, in three dimensions."""
 
 import time
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from .name_completion import names_of
+from .option_holder import takes_words
 from .options import AsJson, Overrides
 from .output import announce_compilation, check_writable, print_json, stderr, stdout
 
+if TYPE_CHECKING:
+    from ..viewing.browser.app import App
+    from ..viewing.browser.exhibit import Exhibit
 
-def view(
-    things: Annotated[
-        list[str],
-        typer.Argument(
-            metavar="TASK|PLAN|WALK|LOG...",
-            help="A task, a plan or a log of a run (.mcap, .csv), by name or file; or a log and its plan.",
-            autocompletion=names_of("tasks", "plans", "walks"),
-        ),
-    ],
+
+@dataclass(frozen=True, slots=True)
+class ViewWords:
+    """Options of `clamber view`, as they came."""
+
     task: Annotated[
         str | None,
         typer.Option(help="Show a plan in this task, in place of its own.", autocompletion=names_of("tasks")),
-    ] = None,
-    overrides: Overrides = None,
-    port: Annotated[int, typer.Option(min=0, max=65535, help="Where to listen; 0: any port that is free.")] = 0,
+    ] = None
+    overrides: Overrides = None
+    port: Annotated[int, typer.Option(min=0, max=65535, help="Where to listen; 0: any port that is free.")] = 0
     expose: Annotated[
         str | None,
         typer.Option(
             metavar="HOST", help="Listen on this address, so that other machines can open the page; no password."
         ),
-    ] = None,
-    browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")] = True,
-    seconds: Annotated[
-        float | None, typer.Option(min=0.0, help="Close after so long; without it, Ctrl-C does.")
-    ] = None,
+    ] = None
+    browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")] = True
+    seconds: Annotated[float | None, typer.Option(min=0.0, help="Close after so long; without it, Ctrl-C does.")] = None
     save: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Write one page (.html) that needs no server, and end.")
-    ] = None,
-    as_json: AsJson = False,
+    ] = None
+    as_json: AsJson = False
+
+
+@takes_words
+def view(
+    things: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="TASK|PLAN|WALK|LOG...",
+            help="A task, a plan, a walk or a log of a run (.mcap, .csv), by name or file; or a log and what it was made with.",
+            autocompletion=names_of("tasks", "plans", "walks"),
+        ),
+    ],
+    *,
+    words: ViewWords,
 ) -> None:
-    """Look at a robot in the browser: play plans and runs, edit a board, plan, and run.
+    """Look at a robot in the browser: play plans and runs, edit a board or a ground, plan, and run.
 
     The page is served from this machine to this machine alone, unless --expose says otherwise.
     """
-    check_writable(save)
+    check_writable(words.save)
     from ..viewing.browser.app import LOOPBACK, App, check_viser
 
     check_viser()
     announce_compilation()
     from ..viewing.browser.exhibit import open_exhibit
 
-    exhibit = open_exhibit(things, task, overrides or ())
-    if save is not None:
-        from ..viewing.browser.page import write_page
-
-        size = write_page(exhibit, save)
-        if as_json:
-            print_json({"written": str(save), "title": exhibit.title, "bytes": size})
-        else:
-            stdout().print(f"written to {save}", soft_wrap=True)
+    exhibit = open_exhibit(things, words.task, words.overrides or ())
+    if words.save is not None:
+        _save(exhibit, words.save, as_json=words.as_json)
         return
-    host = LOOPBACK if expose is None else expose
-    if expose is not None:
+    host = LOOPBACK if words.expose is None else words.expose
+    if words.expose is not None:
         stderr().print(
             f"--expose: whoever reaches {host} can open this page, and plan and run with it; there is no password"
         )
-    app = App(exhibit, host, port)
+    app = App(exhibit, host, words.port)
     try:
-        if as_json:
-            print_json({"url": app.url, "title": exhibit.title})
-        else:
-            stdout().print(f"{exhibit.title}\n{app.url}  (Ctrl-C ends it)")
-        if browser:
-            import webbrowser
-
-            webbrowser.open(app.url)
-        began = time.monotonic()
-        while seconds is None or time.monotonic() - began < seconds:
-            time.sleep(0.2 if seconds is None else min(0.2, max(seconds - (time.monotonic() - began), 0.001)))
+        _serve(app, words)
     except KeyboardInterrupt:
         pass  # the usual end
     finally:
         app.close()
+
+
+def _save(exhibit: "Exhibit", path: Path, *, as_json: bool) -> None:
+    from ..viewing.browser.page import write_page
+
+    size = write_page(exhibit, path)
+    if as_json:
+        print_json({"written": str(path), "title": exhibit.title, "bytes": size})
+    else:
+        stdout().print(f"written to {path}", soft_wrap=True)
+
+
+def _serve(app: "App", words: ViewWords) -> None:
+    """Tell where the page is, and wait for its end."""
+    title = app.exhibit.title
+    if words.as_json:
+        print_json({"url": app.url, "title": title})
+    else:
+        stdout().print(f"{title}\n{app.url}  (Ctrl-C ends it)")
+    if words.browser:
+        import webbrowser
+
+        webbrowser.open(app.url)
+    began = time.monotonic()
+    while words.seconds is None or time.monotonic() - began < words.seconds:
+        left = 0.2 if words.seconds is None else words.seconds - (time.monotonic() - began)
+        time.sleep(min(0.2, max(left, 0.001)))

@@ -9,8 +9,9 @@ import pytest
 
 from clamber.execution.plant import PlantStoppedError
 from clamber.experiments.climb.noise import NoiseError
+from clamber.experiments.plant_settings import split_settings
 from clamber.experiments.walk.noise import WALK_NOISE, named_walk_noise, read_walk_noise
-from clamber.experiments.walk.run_walk import WalkRun, run_walk, split_walk_settings, walk_flaws
+from clamber.experiments.walk.run_walk import WalkRun, run_walk, walk_flaws
 from clamber.sim.plant_rules import PlantError
 from clamber.sim.walker_flaws import WalkerFlaws
 from clamber.sim.walker_plant import WalkerSim
@@ -121,7 +122,7 @@ def test_noise_that_cannot_be_is_named(text: str) -> None:
 
 def test_settings_of_the_plant_are_split_and_read() -> None:
     walk = load_walk("slope-walk", ["payload=2kg"])
-    for_walk, for_plant = split_walk_settings(["plant.friction=50%", "level=false", "plant.payload=1kg"])
+    for_walk, for_plant = split_settings(["plant.friction=50%", "level=false", "plant.payload=1kg"])
     assert for_walk == ["level=false"]
     flaws = walk_flaws(walk, for_plant)
     assert flaws.friction == 0.5

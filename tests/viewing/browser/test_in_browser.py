@@ -126,7 +126,9 @@ def test_start_is_dragged_on_the_wall_and_its_limbs_chosen(serve: Serve, visit: 
     assert board is not None and isinstance(app.stage.world, WallScene)
     page, depth, begins = shown.page, app.stage.world.depth, board.draft.start
     page.get_by_role("tab", name="Board").click()
+    before = shown.picture("start")
     page.get_by_label("edit on the wall").check()
+    wait_for(shown, lambda: shown.picture("start-with-handles") != before)  # else there is nothing to take hold of yet
     x, y = pixel(app, shown, np.array((begins.x, -depth, begins.y + 0.08)))  # the handle's arm upwards
     page.mouse.move(x, y)
     page.mouse.down()

@@ -1,12 +1,13 @@
 """What the viewer shows of a walk's loads is what its log has, number by number, and what physics says of it."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from clamber.control.support import support_margin
-from clamber.execution.log import Log
+from clamber.execution.log import Log, LogError
 from clamber.execution.log_files import read_log, write_log
 from clamber.execution.walk.walk_trace import LEG_NAMES, PHASES
 from clamber.experiments.walk.run_walk import WalkRun, run_walk, walk_flaws
@@ -134,3 +135,10 @@ def test_grip_in_use_is_the_tangent_over_the_coefficient_of_friction() -> None:
     assert grip_in_use(upright, np.array((-np.sin(tilt), 0.0, np.cos(tilt))), 0.8, 200.0) == pytest.approx(
         np.tan(tilt) / 0.8
     )
+
+
+def test_a_log_without_the_forces_of_the_ground_is_named_for_what_it_lacks(columns: Log, tmp_path: Path) -> None:
+    kept = {name: values for name, values in columns.columns.items() if "ground force" not in name}
+    write_log(replace(columns, columns=kept), tmp_path / "older.mcap", "walk")
+    with pytest.raises(LogError, match="ground force"):
+        open_exhibit([str(tmp_path / "older.mcap")])

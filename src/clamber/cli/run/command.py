@@ -35,17 +35,19 @@ def run(
     """
     telling = RunReport(words.report, repeat_words(context, NOT_REPEATED))
     words.check()
-    from ...tasks.walks import is_walk
+    from ...actions.plan_source import check_name
+    from ...tasks.walks import is_walk, walk_names
 
+    check_name(what, walk_names())
     if is_walk(what):
         from .walk import run_walk_file
 
         run_walk_file(what, words, telling)
         return
+    from ...experiments.plant_settings import split_settings
     from ...experiments.walk.planned import open_planned_walk
-    from ...experiments.walk.run_walk import split_walk_settings
 
-    planned = open_planned_walk(what, words.task, split_walk_settings(words.overrides or ())[0])
+    planned = open_planned_walk(what, words.task, split_settings(words.overrides or ())[0])
     if planned is not None:
         from .planned_walk import run_planned_walk
 

@@ -11,8 +11,9 @@ from rich.console import Console
 from ...actions.plan import Plan
 from ...execution.walk.walk_report import WalkReport
 from ...execution.walk.walking import Lay
+from ...experiments.plant_settings import split_settings
 from ...experiments.walk.held_point import HeldPoint
-from ...experiments.walk.run_walk import WalkRun, run_walk, split_walk_settings, walk_flaws
+from ...experiments.walk.run_walk import WalkRun, run_walk, walk_flaws
 from ...tasks.walks import Walk
 from ...units import DEGREE
 from ..for_climbs import refuse_for_walk
@@ -46,7 +47,7 @@ def run_walk_file(what: str, words: RunWords, telling: RunReport) -> None:
 
     refuse_for_walk(what, words, CLIMBS_ONLY)
     announce_compilation(quiet=words.quiet)
-    walk_and_tell(load_walk(what, split_walk_settings(words.overrides or ())[0]), words, telling)
+    walk_and_tell(load_walk(what, split_settings(words.overrides or ())[0]), words, telling)
 
 
 def walk_and_tell(
@@ -60,7 +61,7 @@ def walk_and_tell(
         check_walk_suffix(file)
     telling.open("walk")
     deviations = read_walk_noise(named_walk_noise("none"), words.noise or ())
-    flaws = walk_flaws(walk, split_walk_settings(words.overrides or ())[1])
+    flaws = walk_flaws(walk, split_settings(words.overrides or ())[1])
     with WalkLine(stderr(), quiet=words.quiet) as line:
         run = run_walk(walk, flaws, noise=deviations, seed=words.seed, lay=lay, progress=line.update, log=words.growing)
     for file in words.outputs:

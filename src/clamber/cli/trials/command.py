@@ -30,17 +30,19 @@ def trials(
     --noise friction=30%` leaves one of them. `-o` writes a picture (.png, .svg, .pdf), or with `--replay` what `clamber run` writes.
     """
     words.check()
-    from ...tasks.walks import is_walk
+    from ...actions.plan_source import check_name
+    from ...tasks.walks import is_walk, walk_names
 
+    check_name(what, walk_names())
     if is_walk(what):
         from .walk import walk_trials_of
 
         walk_trials_of(what, asked, words)
         return
+    from ...experiments.plant_settings import split_settings
     from ...experiments.walk.planned import open_planned_walk
-    from ...experiments.walk.run_walk import split_walk_settings
 
-    planned = open_planned_walk(what, asked.task, split_walk_settings(asked.overrides or ())[0])
+    planned = open_planned_walk(what, asked.task, split_settings(asked.overrides or ())[0])
     if planned is not None:
         from .walk import planned_walk_trials_of
 

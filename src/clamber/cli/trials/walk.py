@@ -10,9 +10,10 @@ from rich.console import Console
 
 from ...actions.plan import Plan
 from ...experiments.intervals import wilson_interval
+from ...experiments.plant_settings import split_settings
 from ...experiments.walk.noise import named_walk_noise, read_walk_noise
 from ...experiments.walk.planned import careful, lay_plan, walk_of
-from ...experiments.walk.run_walk import split_walk_settings, walk_flaws
+from ...experiments.walk.run_walk import walk_flaws
 from ...experiments.walk.trials import LEVEL, WalkCause, WalkSetup, WalkTrials, run_walk_trials
 from ...planning.planners import find_planner
 from ...tasks.walker import WalkerTask
@@ -53,7 +54,7 @@ def walk_trials_of(what: str, asked: TrialsWords, words: CrewWords) -> None:
     refuse_for_walk(what, asked, (*PLANS_ONLY, *CLIMBS_ONLY))
     refuse_for_walk(what, words, CLIMBS_ONLY)
     sizes = read_walk_noise(named_walk_noise("usual"), asked.noise or ())
-    for_walk, for_plant = split_walk_settings(asked.overrides or ())
+    for_walk, for_plant = split_settings(asked.overrides or ())
     walk = load_walk(what, for_walk)
     walk_flaws(walk, for_plant)  # what cannot be is told before workers start
     words.executor.check()
@@ -78,7 +79,7 @@ def planned_walk_trials_of(
     refuse_for_walk(what, words, CLIMBS_ONLY)
     find_planner(asked.planner)
     sizes = read_walk_noise(named_walk_noise("usual"), asked.noise or ())
-    for_plant = tuple(split_walk_settings(asked.overrides or ())[1])
+    for_plant = tuple(split_settings(asked.overrides or ())[1])
     words.executor.check()  # before a minute is spent on a plan
     task = task if plan is not None else careful(task)
     setup = WalkSetup(task, sizes, for_plant, plan, plan is None)

@@ -20,12 +20,11 @@ from ...tasks import Task, load_task
 from ...tasks.limbed import LimbedTask
 from ...types import Json
 from ..limb.flaw_texts import named_flaws, read_flaws
+from ..plant_settings import split_settings
 from .noise import NO_NOISE, Drawn, Noise, assumed_backlash, check_noise, draw_for
 from .plants import climbing_plant, drawn_plant, truth_of
 from .warm_up import warm_up
 
-PLANT: str = "plant."
-"""First word of settings that change the plant."""
 PHYSICS_RATE: float = 1000.0
 """Of the contact dynamics [Hz]."""
 
@@ -56,12 +55,6 @@ class ClimbRun:
     def to_json(self) -> Json:
         """Plain data."""
         return self.report.to_json() | {"task": self.task.name, "wall_seconds": self.wall_seconds}
-
-
-def split_settings(settings: Sequence[str]) -> tuple[list[str], list[str]]:
-    """Those of the task, and those of the plant without their "plant."."""
-    plant = [text[len(PLANT) :] for text in settings if text.startswith(PLANT)]
-    return [text for text in settings if not text.startswith(PLANT)], plant
 
 
 def open_climb(what: str, task: str | None, settings: Sequence[str]) -> tuple[LimbedTask, Plan | None, tuple[str, ...]]:

@@ -38,8 +38,6 @@ LOST: Final = 0.02
 """A robot that ends farther from where it believes to be has not come to the end of its way [m]."""
 WITHIN: Final = 0.005
 """So near are places of a path passed [m]."""
-PLANT: Final = "plant."
-"""First word of settings that change the plant."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -100,12 +98,6 @@ class WalkRun:
         if self.held is not None:
             told["hold"] = self.held.to_json()
         return self.report.to_json() | told
-
-
-def split_walk_settings(settings: Sequence[str]) -> tuple[list[str], list[str]]:
-    """Those of the walk, and those of the plant without their "plant."."""
-    plant = [text[len(PLANT) :] for text in settings if text.startswith(PLANT)]
-    return [text for text in settings if not text.startswith(PLANT)], plant
 
 
 def walk_flaws(walk: Walk, settings: Sequence[str]) -> WalkerFlaws:

@@ -155,7 +155,7 @@ def search_record(problem: CompiledProblem, aim: Aim, *, dominance: bool) -> np.
 
 def _reached(state: np.ndarray, search: np.void) -> int | float:
     """The lower bound on the first cost that the search has proved."""
-    lowest = int(state["lowest"][0]) * float(search["width"])
+    lowest = max(int(state["lowest"][0]), 0) * float(search["width"])  # below 0 until the search has begun
     return int(lowest) if search["informed"] else lowest
 
 

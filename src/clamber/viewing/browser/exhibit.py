@@ -9,7 +9,7 @@ import numpy as np
 
 from ...actions.plan import Plan
 from ...actions.plan_families import plan_family
-from ...actions.plan_source import is_plan, open_plan
+from ...actions.plan_source import check_name, is_plan, open_plan
 from ...actions.problem import Replay
 from ...errors import SpecError
 from ...execution.climb.climb_report import ActionReport
@@ -89,6 +89,7 @@ def open_exhibit(things: Sequence[str], task: str | None = None, overrides: Sequ
     if is_walk(what):
         return _walk(load_walk(what, overrides), log)
     plan = None
+    check_name(what, walk_names())
     if is_plan(what):
         opened = open_plan(what, task, overrides)
         chosen, plan = opened.task, opened.plan
@@ -201,15 +202,8 @@ def _walk_trace(log: Log) -> WalkTrace:
 
 def _made_with(log: Log) -> str:
     """The name of the task or walk that a log says it was made with, if it comes with Clamber."""
-    notes: Json = {}
-    for trace in (ClimbTrace, WalkTrace):
-        try:
-            notes = trace.from_log(log).notes or {}
-            break
-        except LogError:
-            continue
-    else:
-        raise LogError(log.label, None, None, None, "is no log of a climb or of a walk")
+    trace = WalkTrace if "walker" in log.notes else ClimbTrace
+    notes: Json = trace.from_log(log).notes or {}
     for key, known in (("task", task_names()), ("walk", (*walk_names(), *task_names()))):
         if notes.get(key) in known:
             return str(notes[key])

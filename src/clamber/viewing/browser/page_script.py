@@ -4,7 +4,7 @@
 from typing import Final
 
 PANEL: Final = r"""<style>
-#clamber { position: fixed; left: 12px; top: 12px; width: 340px; max-height: calc(100vh - 76px); overflow: auto; z-index: 2; background: #fffffff2; color: #22303c;
+#clamber { position: fixed; right: 12px; top: 12px; width: min(340px, 44vw); max-height: calc(100vh - 76px); overflow: auto; z-index: 2; background: #fffffff2; color: #22303c;
   font: 13px/1.4 system-ui, sans-serif; border-radius: 8px; box-shadow: 0 1px 8px #22303c2e; padding: 10px 0; box-sizing: border-box; }
 #clamber[hidden] { display: none; } #clamber h1 { font-size: 15px; margin: 0 40px 6px 12px; } #clamber h2 { font-size: 12px; margin: 10px 12px 3px; }
 #clamber ol { list-style: none; margin: 0; padding: 0; max-height: 200px; overflow: auto; border-block: 1px solid #dce1e6; }
@@ -15,9 +15,9 @@ PANEL: Final = r"""<style>
 #clamber .bar { display: grid; grid-template-columns: 105px 1fr 74px; gap: 8px; padding: 1px 12px; align-items: center; font-size: 12px; }
 #clamber .bar > div { position: relative; height: 8px; background: #dce1e6; } #clamber .bar > div > div { height: 8px; } #clamber .bar > span:last-child { text-align: right; }
 #clamber .bar i { position: absolute; top: -2px; bottom: -2px; width: 2px; margin-left: -1px; }
-#clamber .legend { padding: 0 12px; font-size: 11px; color: #6e7b87; } #clamber .legend i { display: inline-block; width: 9px; height: 9px; margin: 0 3px 0 8px; }
-#clamber-fold { position: fixed; left: 318px; top: 16px; width: 28px; z-index: 3; font: 14px system-ui, sans-serif; background: none; border: 0; color: #6e7b87; cursor: pointer; }
-#clamber[hidden] + #clamber-fold { left: 12px; background: #fff; border-radius: 6px; box-shadow: 0 1px 8px #22303c2e; }
+#clamber .legend { padding: 0 12px; font-size: 11px; color: #6e7b87; } #clamber .legend span { white-space: nowrap; margin-right: 8px; } #clamber .legend i { display: inline-block; width: 9px; height: 9px; margin: 0 3px 0 0; }
+#clamber-fold { position: fixed; right: 18px; top: 16px; width: 28px; z-index: 3; font: 14px system-ui, sans-serif; background: none; border: 0; color: #6e7b87; cursor: pointer; }
+#clamber[hidden] + #clamber-fold { background: #fff; border-radius: 6px; box-shadow: 0 1px 8px #22303c2e; }
 </style>
 <aside id="clamber"><h1>@TITLE@</h1><div data-part="head"></div><h2 data-part="strip-title"></h2><canvas data-part="strip"></canvas><div class="legend" data-part="words"></div>
 <h2>Steps</h2><ol></ol><div data-part="bars"></div><h2>Margins</h2><div data-part="margins"></div></aside>
@@ -29,9 +29,9 @@ PANEL: Final = r"""<style>
 const D = JSON.parse(document.getElementById("clamber-data").textContent), panel = document.getElementById("clamber");
 const part = name => panel.querySelector('[data-part="' + name + '"]'), list = panel.querySelector("ol"), strip = part("strip");
 const fold = document.getElementById("clamber-fold");
-fold.onclick = () => { panel.hidden = !panel.hidden; const words = panel.hidden ? "Show panel" : "Hide panel"; fold.title = words; fold.setAttribute("aria-label", words); fold.textContent = panel.hidden ? "\u2630" : "\u2715"; };
+fold.onclick = () => { panel.hidden = !panel.hidden; const words = panel.hidden ? "Show panel" : "Hide panel"; fold.title = words; fold.setAttribute("aria-label", words); fold.textContent = panel.hidden ? "\u2630" : "\u2715"; makeRoom(); };
 part("strip-title").textContent = D.strip.title;
-D.strip.words.forEach((word, k) => { const i = document.createElement("i"); i.style.background = D.strip.colours[k]; part("words").append(i, word); });
+D.strip.words.forEach((word, k) => { const i = document.createElement("i"); const span = document.createElement("span"); i.style.background = D.strip.colours[k]; span.append(i, word); part("words").append(span, " "); });
 const items = D.steps.map((step, k) => {
   const li = document.createElement("li"), i = document.createElement("i"), b = document.createElement("b");
   i.style.background = k ? D.strip.colours[step.grade] : "transparent"; b.textContent = k; li.append(i, b, step.words);
@@ -49,6 +49,11 @@ const rows = D.bars.flatMap(G => {
   const said = [G.limits.length ? "red line: " + G.limits.map(limit => limit[1]).join(", ") : "", G.note].filter(Boolean).join("; ");
   make("div", said, part("bars")).className = "legend"; return made;
 });
+// The scene is drawn beside the panel, not behind it: what grows with the window, it leaves the panel's width free.
+function makeRoom() {
+  let at = document.querySelector("canvas[data-engine]"); while (at && getComputedStyle(at).flexGrow !== "1") at = at.parentElement;
+  const room = panel.hidden ? "" : panel.offsetWidth + 24 + "px"; if (at && at.style.marginRight !== room) at.style.marginRight = room;
+}
 // The recording's own time bar tells the time; the number field beside it takes another.
 const field = () => document.querySelector("#root .mantine-NumberInput-input"), bar = () => document.querySelector("#root [role=slider]");
 function seek(time) {
@@ -81,7 +86,7 @@ function draw(step) {
 }
 strip.onclick = e => { const n = D.steps.length - 1; if (n) seek(D.rests[Math.min(n, 1 + Math.floor(e.offsetX / strip.clientWidth * n))]); };
 show(0);
-setInterval(() => { const slider = bar(); if (slider) show(Number(slider.getAttribute("aria-valuenow")) || 0); }, 80);
+setInterval(() => { makeRoom(); const slider = bar(); if (slider) show(Number(slider.getAttribute("aria-valuenow")) || 0); }, 80);
 })();
 </script>
 """

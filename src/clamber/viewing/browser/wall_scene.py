@@ -85,7 +85,9 @@ class WallScene:
         for number in [number for number in self._numbers if number not in shown]:
             self._numbers.pop(number).remove()
         for number, hold in shown.items():
-            at = tuple(in_space(np.array((hold.x, hold.y)) + self._aside, 0.006))
+            at = tuple(
+                in_space(np.array((hold.x, hold.y)) + self._aside, 0.5 * self.depth)
+            )  # far enough out that the wall cuts none
             if number in self._numbers:
                 self._numbers[number].position = at
                 continue
