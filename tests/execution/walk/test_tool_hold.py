@@ -1,6 +1,7 @@
 """A tool that is held at a point while the robot walks past it, on legs that stand on springs."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,9 +12,12 @@ from clamber.control.track import straight
 from clamber.control.walker_balance import mass_centre
 from clamber.execution.sequencer import Sequencer
 from clamber.execution.walk.course import TrackCourse
+from clamber.execution.walk.motions import ROOM
+from clamber.execution.walk.rehearsed_heights import rehearse
 from clamber.execution.walk.settings import WalkSettings
-from clamber.execution.walk.tool_hold import ToolHold
-from clamber.execution.walk.walker import RefusedError
+from clamber.execution.walk.tool_hold import CHANGE, ToolHold
+from clamber.execution.walk.walk_trace import PHASES, TracedWalker
+from clamber.execution.walk.walker import RefusedError, Walker
 from clamber.execution.walk.walking import Walking
 from clamber.types import Floats
 
@@ -143,6 +147,117 @@ def test_feet_that_sink_in_do_not_raise_what_is_believed(uphill: float | None) -
     assert report.done, report.reason
     assert len(report.steps) > 5
     assert walker.pose[2] - walker.plant.truth().pose[2] - off == pytest.approx(0.0, abs=1.5e-3)  # type: ignore[union-attr]
+
+
+def test_the_tool_has_the_plates_height_only_while_a_frame_slides(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A point higher than the arm's shoulder: the plate comes up to it, within its room, faded in and out; the tool stays."""
+    monkeypatch.setattr("spring_walks.SpringsWalker", Watched)
+    seen: list[tuple[int, float, float, float, float]] = []
+
+    class Seen(ToolHold):
+        def aims(self, walker: Walker) -> Floats:
+            before = walker.room.raised
+            out = super().aims(walker)
+            assert isinstance(walker, TracedWalker)
+            room = walker.room
+            if room.raised != before:
+                seen.append((walker.phase, float(room.weights[2]), before, room.raised, walker.height))
+                assert room.lowest - 1e-9 <= walker.height <= room.highest + 1e-9
+                assert room.weights[[0, 1, 3, 4, 5]].tolist() == [0.0] * 5
+            return out
+
+        def raise_wished(self, walker: Walker) -> float:
+            wished = super().raise_wished(walker)
+            lifts.append(wished - walker.room.raised)
+            return wished
+
+    lifts: list[float] = []
+    told = {}
+    for served in ("arm", "height"):
+        walker, plant = stood(flat, noise=0.0)
+        holds: list[ToolHold] = []
+
+        def lay(
+            pose: Floats, walker: TracedWalker = walker, holds: list[ToolHold] = holds, served: Any = served
+        ) -> TrackCourse:
+            track = straight(pose, BEST, 0.3, RADIUS)
+            point = np.array((0.3, 0.15, walker.pose[2] + ARM.up + 0.63))
+            holds.append(Seen(walker, track, point, 0.1, served))
+            holds[0].start(walker)
+            return TrackCourse(track)
+
+        assert Sequencer(Walking(walker, lay)).run().done
+        told[served] = holds[0].told()
+        assert isinstance(plant, Watched)
+        began, ended = told[served].began, told[served].ended
+        assert began is not None
+        assert ended is not None
+        place = told[served].points[0]
+        held = [tool_of(pose, joints) for time, pose, joints in plant.kept if began < time <= ended]
+        assert max(float(np.linalg.norm(tool - place)) for tool in held) < 3e-3
+    assert {phase for phase, *_ in seen} == {PHASES.index("slide")}
+    steps = np.array([(after - before) / walker.period for _, _, before, after, _ in seen])
+    weights = np.array([weight for _, weight, *_ in seen])
+    assert np.abs(steps).max() <= 0.4 * ROBOT.legs.speed + 1e-9
+    assert np.abs(steps[weights < 0.02]).max(initial=0.0) < 1e-4
+    assert np.abs(lifts).max() == pytest.approx(
+        CHANGE
+    )  # down again after the tool has left, but never faster than the legs can
+    assert told["arm"].raised == (0.0, 0.0)
+    assert told["height"].raised[1] > 0.02
+    assert told["height"].measures[1] > 1.02 * told["arm"].measures[1]  # it takes two slides to come up
+
+
+def test_the_reach_with_the_plates_height_is_that_of_the_stretched_arm_on_a_plate_as_high_as_legs_allow() -> None:
+    """On the flat a foot that is lifted by 50 mm leaves the plate 46 mm upwards: longest leg less room; the rest is a circle."""
+    walker, _ = stood(flat, noise=0.0)
+    assert ARM is not None
+    height, spec = 0.45, ROBOT.legs
+    track = straight(np.array((0.0, 0.0, 0.0)), BEST, 2.0, RADIUS)
+    feet = float(walker.heights.mean())
+    point = np.array((0.3, 1.0, feet + spec.nominal + ARM.up + height))
+    for served, raised in (
+        ("arm", walker.pose[2] - feet - spec.nominal),
+        ("height", spec.longest - ROOM - spec.nominal),
+    ):
+        hold = ToolHold(walker, track, point, 0.9, served)  # type: ignore[arg-type]
+        along = math.sqrt((ARM.out + math.sqrt(sum(ARM.links) ** 2 - (height - raised) ** 2)) ** 2 - 0.3**2)
+        np.testing.assert_allclose(hold.reach, [(1.0 - along, 1.0 + along)], atol=1e-3)
+
+
+@pytest.mark.parametrize("uphill", [None, BEST, -BEST, 0.0])
+def test_the_rooms_that_are_rehearsed_are_those_of_the_walk(uphill: float | None) -> None:
+    ground = flat if uphill is None else slope(math.radians(6.0), uphill)
+    walker, _ = stood(ground, noise=0.0)
+    rooms: list[tuple[float, float]] = []
+
+    class Look:
+        """An arm that stays; keeps each step's room."""
+
+        def aims(self, walker: Walker) -> Floats:
+            room = (walker.room.lowest, walker.room.highest)
+            if walker.room.weights[2] > 0.0 and (not rooms or rooms[-1] != room):
+                rooms.append(room)
+            return walker.arm
+
+        def ahead(self, walker: Walker) -> list[Floats]:
+            return []
+
+        def raise_wished(self, walker: Walker) -> float:
+            return 0.0
+
+    told: list[Floats] = []
+
+    def lay(pose: Floats) -> TrackCourse:
+        track = straight(pose, BEST, 0.3, RADIUS)
+        told.append(rehearse(walker, track, walker.arm).rooms)
+        walker.arm_task = Look()
+        return TrackCourse(track)
+
+    report = Sequencer(Walking(walker, lay)).run()
+    assert report.done, report.reason
+    assert len(told[0]) == len(report.steps) == len(rooms)
+    np.testing.assert_allclose(told[0][:, [0, 2]], rooms, atol=2.5e-3)  # feet sink in, the plate is never quite level
 
 
 def test_an_arm_that_would_tip_the_robot_on_its_way_to_the_point_is_refused_before_it_moves() -> None:

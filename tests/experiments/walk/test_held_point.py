@@ -36,6 +36,28 @@ def test_the_tool_stays_within_millimetres_while_the_robot_walks_past(uphill: fl
 
 
 @pytest.mark.slow
+def test_a_plate_that_is_lent_keeps_the_arm_from_being_stretched_and_stays_level() -> None:
+    """Down the slope, past a point over the arm's shoulder: held on as the walk goes, with the height in slides and without it."""
+    runs = {}
+    for served in ("arm", "height"):
+        point = f"hold={{ x = '35 cm', y = '0.3 m', z = '1 m', within = '35 cm', served = '{served}' }}"
+        walk = load_walk("slope-walk", (point, "way.0.distance=75cm", "ground.uphill=180deg"))
+        run = run_walk(walk, walk_flaws(walk, ()))
+        assert run.done, run.reason
+        assert run.held is not None
+        assert run.held.errors.max() < 2.5e-3
+        assert run.tilt < math.radians(0.1)
+        assert run.margin > 0.05
+        runs[served] = run.held.part
+    arm, height = runs["arm"], runs["height"]
+    assert height.way == arm.way == pytest.approx(0.7)  # the arm alone reaches all of it
+    assert height.measures[0] > 1.5 * arm.measures[0]
+    assert height.measures[1] > 1.03 * arm.measures[1]
+    assert arm.raised == (0.0, 0.0)
+    assert 0.02 < height.raised[1] < 0.08
+
+
+@pytest.mark.slow
 def test_the_tool_follows_a_line_while_the_robot_walks_up() -> None:
     """0.2 m of line, ahead and upwards, on 0.2 m of way; seen from the plant's own tool point."""
     line = "hold={ x = '10 cm', y = '0.3 m', z = '0.6 m', within = '10 cm', through = [{ x = '26 cm', y = '0.3 m', z = '72 cm' }] }"

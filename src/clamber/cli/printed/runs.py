@@ -101,6 +101,8 @@ class Held(Printed):
     missed: float
     room: float
     speed: float
+    measures: Pair
+    raised: Pair
     true_point: Pose
     """Where the tool was to be at first, as it truly lies [m]."""
     held_seconds: float

@@ -113,8 +113,12 @@ def held_lines(held: HeldPoint) -> list[str]:
     seconds = float(held.time[-1] - held.time[0])
     lines.append(f"held for {seconds:.0f} s: the tool at most {largest:.2f} mm from {where}, {mean:.2f} mm on average")
     lines.append(
-        f"joints {part.room / DEGREE:.1f} deg and more inside their ranges, at most {100.0 * part.speed:.0f} % of their speed"
+        f"joints {part.room / DEGREE:.1f} deg and more inside their ranges, at most {100.0 * part.speed:.0f} % of their speed; "
+        f"manipulability of the arm {part.measures[0]:.3f} and more, {part.measures[1]:.3f} on average"
     )
+    if part.raised != (0.0, 0.0):
+        least, most = (1e3 * raised for raised in part.raised)
+        lines.append(f"the plate {least:.0f} to {most:.0f} mm higher for the tool than walking would have it")
     return lines
 
 

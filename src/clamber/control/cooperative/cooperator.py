@@ -68,7 +68,7 @@ class Cooperator:
         self._tight = np.zeros(len(self.names))
         self._fastest, self._tool_speeds = np.array(settings.speeds), np.array(settings.tool_speeds)
         s = settings
-        plate, arm = swerve(s, robot), stretch(s, robot)
+        plate, arm = 0.0 if s.lent else swerve(s, robot), stretch(s, robot)
         self._law = np.array([s.approach, s.inside, s.softness, plate, s.damping * plate, arm, s.damping * arm])
         self.stand(footing)
 
@@ -184,8 +184,7 @@ class Cooperator:
         p = self._programme
         measure, count = prepare(
             self.chain, self._record, q, weights, self._fastest, self._tool_speeds, back, target, velocity, s.gain,
-            self._law, self._speeds, self._velocity, w, p.f, p.rows, p.lower, p.upper,
-            p.which,
+            s.lent, self._law, self._speeds, self._velocity, w, p.f, p.rows, p.lower, p.upper, p.which,
         )  # fmt: skip
         x, multipliers, solved = self._solve(count)
         if calm(x, count, p.f, p.rows, p.lower, p.upper, self._speeds, self._law):

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...robots.walker import WalkerRobot
 from ...types import Floats
-from .closest import REACHED, ReachSearch
+from .closest import REACHED, Reach, ReachSearch
 from .cooperator import Cooperator, Step
 from .freedoms import weights_of
 from .planted_feet import PlantedFeet
@@ -57,15 +57,21 @@ class Reachable:
     """Of the nearest reachable place from the point at each pose [m], shape (poses,)."""
     joints: Floats
     """The arm's joints there, shape (poses, joints)."""
+    heights: Floats
+    """Of the plate there [m], shape (poses,)."""
 
 
-def reachable_part(robot: WalkerRobot, poses: Floats, point: Floats) -> Reachable:
+def reachable_part(robot: WalkerRobot, poses: Floats, point: Floats, rooms: Floats | None = None) -> Reachable:
     """Where along a way of the body the arm alone can hold a point, or have the tool where it is to be at each pose.
+
+    Where it cannot, and the plate has room to rise or sink, its shoulder goes as near to the point's height as that allows: a stretched
+    arm reaches farthest on its shoulder's height, so nothing that limits its joints left aside, that is all of the reach.
 
     Args:
         robot: With an arm.
         poses: Of the plate along the way, near enough to each other that nothing happens between two, shape (poses, 6).
         point: World [m], shape (3,), or one for each pose, shape (poses, 3).
+        rooms: Lowest and highest that the plate may be at each pose [m], shape (poses, 2); None: as high as `poses` have it.
     """
     assert robot.arm is not None, "only robots with an arm move it"
     points = np.broadcast_to(point, (len(poses), 3))
@@ -73,18 +79,27 @@ def reachable_part(robot: WalkerRobot, poses: Floats, point: Floats) -> Reachabl
     footing = PlantedFeet(robot=robot, support="y", pose=poses[0])
     search = ReachSearch(robot, footing, weights_of("arm", n), kept="arm")
 
-    def at(place: float, joints: Floats) -> tuple[float, Floats]:
-        k = min(int(place), max(0, len(poses) - 2))
-        pose, target = (
-            (1.0 + k - place) * one[k] + (place - k) * one[min(k + 1, len(poses) - 1)] for one in (poses, points)
-        )
-        found = search.find(np.concatenate([pose, joints]), target)
-        return found.distance, found.q[POSE:]
+    bounds = np.repeat(poses[:, 2, None], 2, axis=1) if rooms is None else rooms
+    up = robot.arm.up
 
-    distances, joints = np.empty(len(poses)), np.empty((len(poses), n))
+    def at(place: float, joints: Floats) -> Reach:
+        k = min(int(place), max(0, len(poses) - 2))
+        pose, target, room = (
+            (1.0 + k - place) * one[k] + (place - k) * one[min(k + 1, len(poses) - 1)]
+            for one in (poses, points, bounds)
+        )
+        found = search.find(np.concatenate([pose, joints]), target, postures=rooms is None)
+        if found.reached or rooms is None:
+            return found
+        pose[2] = min(room[1], max(room[0], target[2] - up))
+        there = search.find(np.concatenate([pose, joints]), target)
+        return there if there.distance < found.distance else found
+
+    distances, joints, heights = np.empty(len(poses)), np.empty((len(poses), n)), np.empty(len(poses))
     last = np.array(robot.arm.rest)
     for k in range(len(poses)):
-        distances[k], joints[k] = at(float(k), last)
+        found = at(float(k), last)
+        distances[k], joints[k], heights[k] = found.distance, found.q[POSE:], found.q[2]
         last = joints[k]
     can = distances <= REACHED
     edges = []
@@ -93,9 +108,9 @@ def reachable_part(robot: WalkerRobot, poses: Floats, point: Floats) -> Reachabl
         here, there, known = float(inside), float(outside), joints[inside]
         while abs(here - there) > FINE:
             middle = 0.5 * (here + there)
-            distance, found = at(middle, known)
-            if distance <= REACHED:
-                here, known = middle, found
+            found = at(middle, known)
+            if found.reached:
+                here, known = middle, found.q[POSE:]
             else:
                 there = middle
         edges.append(here)
@@ -103,4 +118,4 @@ def reachable_part(robot: WalkerRobot, poses: Floats, point: Floats) -> Reachabl
         edges.insert(0, 0.0)
     if can[-1]:
         edges.append(float(len(poses) - 1))
-    return Reachable(tuple(zip(edges[::2], edges[1::2], strict=True)), distances, joints)
+    return Reachable(tuple(zip(edges[::2], edges[1::2], strict=True)), distances, joints, heights)

@@ -3,10 +3,11 @@
 import numpy as np
 
 from ...compiled import kernel
-from .manipulability import manipulability, manipulability_gradient
+from .manipulability import manipulability, manipulability_gradient, normalise
 from .programme import mark_tight, take_rates, write_programme
 from .redundancy import share_motion
 from .scratch import see_bounds, see_measure, see_tool, share_within
+from .tool_chain import POSE
 
 
 @kernel
@@ -45,12 +46,25 @@ def see(chain, footing, q, weights, fastest, tool_speeds, limited, speeds, w):
 
 
 @kernel
+def _see_arm(speeds, tool_speeds, w):
+    """Leave the gradient of the arm's own V in the scratch, beside the whole J^; returns V."""
+    plate = speeds[:POSE].copy()
+    speeds[:POSE] = 0.0
+    measure = see_measure(speeds, tool_speeds, w)
+    speeds[:POSE] = plate
+    normalise(w.jacobian, speeds, tool_speeds, w.scaled)
+    return measure
+
+
+@kernel
 def prepare(
-    chain, footing, q, weights, fastest, tool_speeds, feedback, target, target_velocity, gain, law, speeds, velocity, w,
-    f, rows, lower, upper, which,
+    chain, footing, q, weights, fastest, tool_speeds, feedback, target, target_velocity, gain, arm_alone, law, speeds,
+    velocity, w, f, rows, lower, upper, which,
 ):  # fmt: skip
-    """One step's programme: V and how many rows it has."""
+    """One step's programme: V, of all that takes part or of the arm alone, and how many rows it has."""
     measure = see(chain, footing, q, weights, fastest, tool_speeds, True, speeds, w)
+    if arm_alone:
+        measure = _see_arm(speeds, tool_speeds, w)
     _wanted(feedback, target, target_velocity, w.place, tool_speeds, True, velocity)
     count = write_programme(
         chain, footing, q, speeds, tool_speeds, velocity, gain, law, w, f, rows, lower, upper, which

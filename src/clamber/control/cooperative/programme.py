@@ -19,6 +19,8 @@ from .tool_chain import POSE
 FREE = 1e30
 """What the solver takes for no bound."""
 
+GIVES = 10.0
+"""Of lambda squared: a tool that misses so little gives way to the manipulability, which at rest is all that is wanted [-]."""
 HARDLY = 0.01
 """A tool that misses so little of the motion that is wanted of it [-] is not held back."""
 MUCH = 0.1
@@ -153,7 +155,7 @@ def calm(x, count, f, rows, lower, upper, speeds, law):
         wanted += lower[m + i] * lower[m + i]
         missed += (law[2] * x[m + i]) ** 2
         gained += (lower[m + i] - law[2] * x[m + i]) ** 2
-    if missed <= HARDLY * HARDLY * wanted:
+    if missed <= HARDLY * HARDLY * wanted + (GIVES * law[2] * law[2]) ** 2:
         return False
     held = min(1.0, missed / (MUCH * MUCH * wanted))
     any_dear = False

@@ -35,6 +35,9 @@ class Cooperation:
     """Largest speeds of the tool, T_v's [m/s], shape (3,)."""
     gain: float = 1.0
     """k_p of the manipulability's gradient [-]."""
+    lent: bool = False
+    """Whether the plate is lent by a walk, where limits are kept: the manipulability that grows is the arm's alone, which goes on when the
+    plate is taken back, and only the arm is damped: a height by itself is in no corner to shake in."""
     feedback: float = 2.0
     """Of the tool's position error [1/s]; 0 is the paper's open loop."""
     period: float = 0.02

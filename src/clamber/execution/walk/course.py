@@ -9,7 +9,9 @@ import numpy as np
 
 from ...control.gait import FINE, Step, farthest_step, look_at_step, target_of, up_to_corner
 from ...control.track import Track, compose, seen_from
+from ...robots.walker import WalkerRobot
 from ...types import Floats
+from .settings import WalkSettings
 from .walker import Walker
 
 NAMES = ("Delta-frame", "Y-frame")
@@ -18,6 +20,33 @@ ASTRAY = 0.02
 """A planned step is not tried where the frame that stands is farther than this from where the plan has it [m] ..."""
 TURNED = 0.02
 """... or turned by more than this [rad]."""
+
+
+class Stander(Protocol):
+    """What steps along a track are chosen by: a walker, or one that is imagined."""
+
+    @property
+    def robot(self) -> WalkerRobot:
+        """Its mechanism, mass and arm."""
+        ...
+
+    @property
+    def settings(self) -> WalkSettings:
+        """How it walks."""
+        ...
+
+    @property
+    def payload(self) -> float:
+        """At the tool point [kg]."""
+        ...
+
+    def frames(self) -> Floats:
+        """Both frames seen from above: x, y [m] and heading [rad], shape (2, 3)."""
+        ...
+
+    def postures(self) -> list[Floats]:
+        """Of the arm, in which a step has to be in balance [rad]."""
+        ...
 
 
 class Course(Protocol):
@@ -75,25 +104,25 @@ class TrackCourse:
         """See `Course`."""
         return self.way >= self.length - FINE
 
-    def next(self, walker: Walker) -> Step | None:
+    def next(self, walker: Stander) -> Step | None:
         """See `Course`: the frame whose turn it is, or the other one where it cannot go on; the one that gets farther comes first."""
         if self._swing is None:
             steps = [self._farthest(walker, swing) for swing in (0, 1)]
             self._swing = int(np.argmax([0.0 if step is None else step.way for step in steps]))
         return self._farthest(walker, self._swing) or self._farthest(walker, 1 - self._swing)
 
-    def obstacle(self, walker: Walker) -> str:
+    def obstacle(self, walker: Stander) -> str:
         """See `Course`: of a step of two millimetres."""
         return "; ".join(self._lack(walker, swing) for swing in (0, 1))
 
-    def landed(self, step: Step, walker: Walker) -> bool:
+    def landed(self, step: Step, walker: Stander) -> bool:
         """See `Course`."""
         before = self._ways[step.swing]
         self._ways[step.swing] = self._way_of(step, walker.frames()[step.swing])
         self._swing = 1 - step.swing
         return bool(self._ways[step.swing] - before >= FINE)
 
-    def _lack(self, walker: Walker, swing: int) -> str:
+    def _lack(self, walker: Stander, swing: int) -> str:
         name, limits = NAMES[swing], walker.settings.limits
         if up_to_corner(self._track, self._ways, swing) < FINE:
             return f"the {name} waits for the other at a corner of the way"
@@ -113,7 +142,7 @@ class TrackCourse:
             return f"for the {name} {-1e3 * step.room:.1f} mm are missing to the actuators' strokes or to singular postures"
         return f"the {name} can go on by less than {2e3 * FINE:.0f} mm"
 
-    def _farthest(self, walker: Walker, swing: int) -> Step | None:
+    def _farthest(self, walker: Stander, swing: int) -> Step | None:
         room = up_to_corner(self._track, self._ways, swing)
         if room < FINE:
             return None

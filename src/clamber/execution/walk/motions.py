@@ -21,9 +21,11 @@ from ...control.gait import (
     slide_seconds,
 )
 from ...control.track import seen_from
+from ...robots.walker.legs import Legs
 from ...types import Floats, Ints
 from .brake import OVER, Brake
 from .falls import LIGHT
+from .plate_room import ARRIVED, open_share
 from .walker import LEGS, RefusedError, Walker, leg_name
 
 ROOM: Final = 0.004
@@ -84,16 +86,44 @@ def height_for(walker: Walker, low: Floats, high: Floats, lifts: Floats) -> floa
         high: Highest places that each has to stand on or clear, shape (6,) [m].
         lifts: By how much each foot has to clear them, shape (6,) [m].
     """
-    legs, (_, beta, gamma) = walker.robot.legs, walker.wanted
+    return heights_for(walker, low, high, lifts)[1]
+
+
+def heights_for(walker: Walker, low: Floats, high: Floats, lifts: Floats) -> tuple[float, float, float]:
+    """Lowest, own and highest of the heights that leave the legs room, as in `height_for` [m]; none do where lowest is over highest."""
+    (_, beta, gamma) = walker.wanted
     normal = math.cos(beta) * math.cos(gamma)
     base = np.array((0.0, beta, gamma))
-    longest = float(walker.targets(base, low).max())
-    shortest = float(walker.targets(base, high).min())
-    lifted = float(walker.targets(base, high + lifts).min())
+    lowest, own, highest = room_of_heights(
+        walker.robot.legs,
+        longest=float(walker.targets(base, low).max()),
+        shortest=float(walker.targets(base, high).min()),
+        lifted=float(walker.targets(base, high + lifts).min()),
+    )
+    return normal * lowest, normal * own, normal * highest
+
+
+def room_of_heights(legs: Legs, *, longest: float, shortest: float, lifted: float) -> tuple[float, float, float]:
+    """By how much all legs may be longer: lowest, own, highest [m]; where they have no room, own is the middle of what is missing.
+
+    Args:
+        legs: Their stroke.
+        longest: Length of the longest leg with the plate at height 0 [m].
+        shortest: Likewise of the shortest that stands [m].
+        lifted: Likewise of the shortest where feet are lifted [m].
+    """
     least, most = legs.shortest + ROOM - lifted, legs.longest - ROOM - longest
     if least > most:
-        return normal * 0.5 * (least + most)
-    return normal * min(most, max(least, legs.nominal - 0.5 * (longest + shortest)))
+        return least, 0.5 * (least + most), most
+    return least, min(most, max(least, legs.nominal - 0.5 * (longest + shortest))), most
+
+
+def raise_plate(walker: Walker, by: float) -> None:
+    """Have the plate higher by so much [m]; feet in the air stay at their height."""
+    legs = walker.robot.legs
+    walker.height += by
+    walker.room.raised += by
+    walker.free_aims[:] = np.clip(walker.free_aims + by, legs.shortest, legs.longest)
 
 
 def find_ground(walker: Walker) -> list[int]:
@@ -191,7 +221,9 @@ def lift(walker: Walker, frame: int, *ends: Floats, by: float | None = None) -> 
         low[mine] += rises.min(axis=0)
         high[mine] += rises.max(axis=0)
     lifts[mine] = clear
-    height = height_for(walker, low, high, lifts)
+    lowest, own, highest = heights_for(walker, low, high, lifts)
+    wish = 0.0 if walker.arm_task is None else walker.arm_task.raise_wished(walker)
+    height = walker.room.hold(own, lowest, highest, wish)
     aims = np.clip(walker.targets(np.array((height, *walker.wanted[1:])), high + lifts), spec.shortest, spec.longest)
     for i in mine:
         walker.leave(i)
@@ -271,7 +303,7 @@ def slide(walker: Walker, swing: int, end: Floats, *, lands: bool = True) -> Non
     before = walker.inclination.frozen
     late = settings.ramp + SETTLED
     walker.inclination.learns = True
-    time, brake = 0.0, Brake(walker, swing)
+    time, rested, brake = 0.0, 0.0, Brake(walker, swing)
     while time < seconds:
         brake.see()
         time += brake.pace * walker.period
@@ -281,7 +313,11 @@ def slide(walker: Walker, swing: int, end: Floats, *, lands: bool = True) -> Non
         walker.actuators[:] = lengths_at(robot, place)[0]
         if lands and settings.clear is not None:
             _approach(walker, swing, brake.free, end, seconds - time)
+        if rested > 0.0 or abs(walker.height - walker.wanted[0]) < ARRIVED:  # what the lift began comes first
+            rested += walker.period
+        walker.room.open(open_share(rested, seconds - time))
         walker.tick()
+    walker.room.open(0.0)
     walker.inclination.learns = False
     walker.inclination.frozen = True
     walker.wait(SETTLED)

@@ -2,7 +2,8 @@
 
 Where on the way that can be, and the arm's aims at every tick.
 
-The body belongs to the walk. The arm takes back what the plate does, as the robot reckons it: slides, lifts, levelling, feet that sink in.
+The arm takes back what the plate does, as the robot reckons it: slides, lifts, levelling, feet that sink in. The tool may also have the
+plate's height, in the phases that leave it free (`plate_room.py`); the rest of the body belongs to the walk.
 """
 
 import math
@@ -15,15 +16,23 @@ from ...control.cooperative.closest import ReachSearch
 from ...control.cooperative.cooperator import Cooperator
 from ...control.cooperative.freedoms import weights_of
 from ...control.cooperative.holding import ToolHolder, reachable_part
+from ...control.cooperative.lent_plate import LentPlate
 from ...control.cooperative.planted_feet import PlantedFeet
 from ...control.cooperative.settings import Cooperation, own_speeds
 from ...control.cooperative.tool_chain import POSE
 from ...control.track import Track
 from ...robots.walker import WalkerRobot
 from ...types import Floats, Json
+from . import motions
 from .arm_swing import check_swing
+from .plate_room import ARRIVED, HEIGHT
+from .rehearsed_heights import Heights, rehearse
 from .tool_line import ToolLine, along
+from .walker import GENTLY as GENTLY_UP
 from .walker import RefusedError, Walker
+
+Served = Literal["arm", "height"]
+"""What the tool has: the arm alone, or the height of the plate too, while frames slide."""
 
 GRID: Final = 0.02
 """Poses of the way that are looked at lie so far apart [m]; the ends of the part that can be held are bisected between them."""
@@ -33,6 +42,8 @@ EDGE: Final = 0.03
 """The tool comes so far inside where the arm can just reach, and leaves as early [m]: lifting moves the plate by a centimetre or two."""
 STEP: Final = 0.2
 """A step takes the plate no farther [m]."""
+CHANGE: Final = 0.008
+"""By how much a lift may take the plate higher or lower for the tool [m]: the legs are slow, and it is to rest before feet land."""
 SHARES: Final = (0.25, 0.5, 0.75, 1.0)
 """Of the arm's way to where it goes, at which balance is looked at [-]."""
 GENTLY: Final = 0.5
@@ -67,6 +78,10 @@ class HeldPart:
     """Least distance of a joint from an end of its range [rad]."""
     speed: float
     """Largest share of its speed that a joint had [-]."""
+    measures: tuple[float, float]
+    """Least and mean manipulability of the arm while it was held, the arm's freedoms alone [-]; 0 if it never was."""
+    raised: tuple[float, float]
+    """Least and most that the tool had the plate higher than walking would have it [m]."""
 
     @property
     def way(self) -> float:
@@ -89,24 +104,27 @@ class ToolHold:
         track: Where its Delta-frame goes.
         points: World, as the robot believes [m], shape (n, 3): one to stay at, or those that the tool goes through; (3,) is one.
         within: It is held from so far before the way's nearest place to it, or to the middle of the tool's line, until so far behind [m].
+        served: By what.
 
     Raises:
         RefusedError: If the arm reaches it nowhere there; the margin is what is missing.
     """
 
-    def __init__(self, walker: Walker, track: Track, points: Floats, within: float) -> None:
+    def __init__(self, walker: Walker, track: Track, points: Floats, within: float, served: Served = "arm") -> None:
         robot = walker.robot
         assert robot.arm is not None, "only robots with an arm hold something"
         self._arm = robot.arm
         self._rest = walker.arm.copy()
         self._ways = _spread(0.0, track.length, GRID)
-        self._poses = _plate_poses(walker, track, self._ways)
+        self._heights = rehearse(walker, track, self._rest) if served == "height" else None
+        self._poses, _ = _plate_poses(walker, track, self._ways, self._heights)
         self._at = 0
         points = np.atleast_2d(np.asarray(points, float))
         asked = self._asked(track, along(points, 0.5), within)
         self.line = ToolLine(points, float(asked[0]), float(asked[-1]))
-        self.reach = self._find_reach(robot, asked, _plate_poses(walker, track, asked))
+        self.reach, raises = self._find_reach(robot, asked, *_plate_poses(walker, track, asked, self._heights))
         self.first, self.last = self._choose_part(asked)
+        self._wish = float(np.interp(self.first, asked, raises))
         speeds = own_speeds(robot)
         settings = Cooperation(speeds=speeds, tool_speeds=np.full(3, TOOL_SPEED), gain=GAIN, period=walker.period)
         footing = PlantedFeet(robot=robot, support="y", pose=self._poses[0])
@@ -121,6 +139,14 @@ class ToolHold:
         self._times: list[float] = []
         self._targets: list[tuple[float, Floats]] = []
         self._missed, self._room, self._speed = 0.0, math.inf, 0.0
+        self._measures: list[float] = []
+        self._raised: list[float] = []
+        self._lent = None
+        if self._heights is not None:
+            self._lent = LentPlate(
+                robot, payload=walker.payload, gain=GAIN, balance=walker.settings.limits.balance,
+                rise=GENTLY_UP * robot.legs.speed, period=walker.period,
+            )  # fmt: skip
 
     def start(self, walker: Walker) -> None:
         """Take the arm over; where the way begins so near, the tool comes to the point before the robot goes on.
@@ -132,6 +158,10 @@ class ToolHold:
         if self.way_of(walker.pose) >= self.first - self._lead:
             check_swing(walker, walker.arm, self._joints, "swung to the point to hold")
         walker.arm_task = self
+        if self._nears(walker):
+            motions.raise_plate(walker, self._wish)
+            while abs(walker.height - walker.wanted[0]) > ARRIVED:
+                walker.tick()
         while self.way_of(walker.pose) >= self.first - self._lead and self._state in ("away", "coming"):
             walker.tick()
 
@@ -173,6 +203,19 @@ class ToolHold:
             goal = self._rest
         return [] if goal is None else [walker.arm + share * (goal - walker.arm) for share in SHARES]
 
+    def raise_wished(self, walker: Walker) -> float:
+        """See `ArmTask`: as it is while the tool is held; on the way there up to where that begins, and down again, step by step."""
+        now = walker.room.raised
+        if self._state == "holding":
+            return now
+        goal = self._wish if self._state != "leaving" and self._nears(walker) else 0.0
+        return now + min(CHANGE, max(-CHANGE, goal - now))
+
+    def _nears(self, walker: Walker) -> bool:
+        """Whether the plate has no more way left than it takes to come up step by step."""
+        steps = abs(self._wish) / (2.0 * CHANGE) + 1.0  # each frame is lifted once while the plate goes on by one step
+        return self.way_of(walker.pose) >= self.first - self._lead - steps * STEP
+
     def way_of(self, pose: Floats) -> float:
         """How far on the way the plate is [m]; it never goes back."""
         k = self._at
@@ -189,7 +232,12 @@ class ToolHold:
         """What became of it so far."""
         began, ended = (*self._times, None, None)[:2]
         points = tuple((float(x), float(y), float(z)) for x, y, z in self.line.points)
-        return HeldPart(points, self.first, self.last, self.reach, began, ended, self._missed, self._room, self._speed)
+        measures = (min(self._measures), float(np.mean(self._measures))) if self._measures else (0.0, 0.0)
+        raised = (min(self._raised), max(self._raised)) if self._raised else (0.0, 0.0)
+        return HeldPart(
+            points, self.first, self.last, self.reach, began, ended, self._missed, self._room, self._speed, measures,
+            raised,
+        )  # fmt: skip
 
     def wanted(self) -> tuple[Floats, Floats]:
         """Times while it was held [s], shape (ticks,), and where the tool was to be a period later, as believed, shape (ticks, 3) [m]."""
@@ -199,7 +247,9 @@ class ToolHold:
     def _hold(self, walker: Walker, way: float) -> Floats:
         target = self.line.at(way)
         self._targets.append((walker.time, target))
-        aims = self._step(walker.pose, target)
+        aims = self._step_with_plate(walker, target) if walker.room.weights.any() else self._step(walker.pose, target)
+        self._measures.append(self._law.measure(np.concatenate([walker.pose, aims]), self._weights))
+        self._raised.append(walker.room.raised)
         off = float(np.linalg.norm(self._law.place(np.concatenate([walker.pose, aims])) - target))
         low, high = np.array(self._arm.lowest), np.array(self._arm.highest)
         share = np.abs(aims - walker.arm) / (walker.period * np.array(self._arm.fastest))
@@ -211,6 +261,22 @@ class ToolHold:
     def _step(self, pose: Floats, target: Floats) -> Floats:
         assert self._holder is not None, "the arm is there before it holds"
         joints: Floats = self._holder.step(pose, target, self._weights).q[POSE:]
+        return joints
+
+    def _step_with_plate(self, walker: Walker, target: Floats) -> Floats:
+        if self._lent is None:
+            return self._step(walker.pose, target)
+        assert self._holder is not None, "the arm is there before it holds"
+        q, weights, room = np.concatenate([walker.pose, self._holder.q[POSE:]]), self._weights.copy(), walker.room
+        weights[:POSE] = room.weights
+        delta, y = (bool(walker.stands[legs].all()) for legs in (slice(0, 3), slice(3, 6)))
+        self._lent.stand(
+            q, "both" if delta and y else "delta" if delta else "y", walker.place, walker.heights.reshape(2, 3),
+            (room.lowest, room.highest),
+        )  # fmt: skip
+        self._holder.q = self._lent.step(q, target, weights).q
+        motions.raise_plate(walker, float(self._holder.q[HEIGHT] - q[HEIGHT]))
+        joints: Floats = self._holder.q[POSE:]
         return joints
 
     def _at_first(self, walker: Walker) -> Floats:
@@ -243,8 +309,11 @@ class ToolHold:
         nearest = float(ways[int(np.argmin(away))])
         return _spread(max(0.0, nearest - within), min(track.length, nearest + within), GRID)
 
-    def _find_reach(self, robot: WalkerRobot, ways: Floats, poses: Floats) -> tuple[tuple[float, float], ...]:
-        found = reachable_part(robot, poses, np.array([self.line.at(float(way)) for way in ways]))
+    def _find_reach(
+        self, robot: WalkerRobot, ways: Floats, poses: Floats, rooms: Floats | None
+    ) -> tuple[tuple[tuple[float, float], ...], Floats]:
+        """Parts of the way [m], and by how much the plate is to be raised for it at each of `ways` [m]."""
+        found = reachable_part(robot, poses, np.array([self.line.at(float(way)) for way in ways]), rooms)
         if not found.parts:
             short = float(found.distances.min())
             raise RefusedError(
@@ -253,7 +322,8 @@ class ToolHold:
                 -short,
             )
         at = np.arange(len(ways), dtype=np.float64)
-        return tuple((float(np.interp(a, at, ways)), float(np.interp(b, at, ways))) for a, b in found.parts)
+        parts = tuple((float(np.interp(a, at, ways)), float(np.interp(b, at, ways))) for a, b in found.parts)
+        return parts, found.heights - poses[:, HEIGHT]
 
     def _choose_part(self, asked: Floats) -> tuple[float, float]:
         """The longest one; where it ends with the arm's reach, from `EDGE` inside."""
@@ -264,6 +334,7 @@ class ToolHold:
     def _joints_at(self, walker: Walker) -> Floats:
         """Joints that bring the tool to the point from where it is first held, near those at rest."""
         pose, rest = self._at_first(walker), self._rest.copy()
+        pose[HEIGHT] += self._wish - walker.room.raised
         point = self.line.at(self.first)
         x, y = point[:2] - pose[:2]
         low, high = self._arm.lowest[0], self._arm.highest[0]
@@ -278,10 +349,17 @@ def _spread(first: float, last: float, gap: float) -> Floats:
     return np.linspace(first, last, max(2, math.ceil((last - first) / gap - 1e-9) + 1))
 
 
-def _plate_poses(walker: Walker, track: Track, ways: Floats) -> Floats:
-    """The plate along a track at its present height over the ground, which goes on as under its feet, shape (ways, 6)."""
+def _plate_poses(walker: Walker, track: Track, ways: Floats, heights: Heights | None) -> tuple[Floats, Floats | None]:
+    """The plate along a track, shape (ways, 6), and the room of its height, shape (ways, 2) [m].
+
+    Without heights it is as high over the ground as now, and that goes on as under its feet.
+    """
     flat = np.array([track.pose(float(way)) for way in ways])
     poses = np.tile(walker.pose, (len(ways), 1))
     poses[:, :2], poses[:, 3] = flat[:, :2], flat[:, 2]
-    poses[:, 2] += (flat[:, :2] - walker.pose[:2]) @ walker.ground_slope()
-    return poses
+    if heights is None:
+        poses[:, 2] += (flat[:, :2] - walker.pose[:2]) @ walker.ground_slope()
+        return poses, None
+    rooms = heights.at(ways)
+    poses[:, 2] = rooms[:, 1]
+    return poses, rooms[:, [0, 2]]

@@ -30,6 +30,7 @@ from ..run_ends import FallenError as FallenError
 from ..run_ends import RefusedError as RefusedError
 from .falls import FallWatch
 from .plant import WalkerPlant
+from .plate_room import PlateRoom
 from .settings import WalkSettings
 from .touched_ground import TouchedGround
 
@@ -58,7 +59,11 @@ class ArmTask(Protocol):
         ...
 
     def ahead(self, walker: "Walker") -> list[Floats]:
-        """Postures besides the present one that it may come through before the next step is over, each of shape (joints,) [rad]."""
+        """Postures besides the present one that it may come through before the next step is over [rad]."""
+        ...
+
+    def raise_wished(self, walker: "Walker") -> float:
+        """By how much higher than walking has it the plate is to be in the coming step [m]."""
         ...
 
 
@@ -115,6 +120,8 @@ class Walker:
         """Where the legs that do not stand go, and how fast [m], [m/s]."""
         self.height = 0.0
         """Where the plate's height goes [m], slower than the legs can, so that levelling keeps up."""
+        self.room = PlateRoom()
+        """What the present phase leaves of the plate's freedoms."""
         self.wanted = np.zeros(3)
         """Height, beta and gamma of the plate that are kept [m], [rad]."""
         self.actuators = np.zeros(3)

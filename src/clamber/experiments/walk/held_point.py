@@ -84,4 +84,4 @@ def lay_hold(walker: Walker, track: Track, hold: Hold) -> LaidHold:
     flat = [compose(frame, np.array((x, y, 0.0)))[:2] for x, y, _ in places]
     points = np.column_stack([flat, floor + places[:, 2]])
     believed, truly = walker.pose[[0, 1, 3, 2]], true.pose[[0, 1, 3, 2]]
-    return LaidHold(ToolHold(walker, track, points, hold.within), believed, truly)
+    return LaidHold(ToolHold(walker, track, points, hold.within, hold.served), believed, truly)

@@ -62,6 +62,8 @@ class Hold:
     """Above the middle of its feet [m]."""
     within: PositiveLength = 0.5
     """It is held from so far before the place of the way that is nearest to it until so far behind, where the arm can reach it [m]."""
+    served: Literal["arm", "height"] = "arm"
+    """By what: the arm alone, or also the height of the plate, in the phases of the gait that leave it free."""
     through: tuple[ToolStop, ...] = ()
     """Places that the tool goes on to, straight from one to the next, evenly with the plate's way; the way's place nearest to the middle
     of that line counts. Without them it stays at the point."""
