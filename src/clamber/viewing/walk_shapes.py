@@ -53,8 +53,8 @@ def shapes_at(robot: WalkerRobot, trace: TrueWalk, k: int) -> WalkShapes:
     )
 
 
-def plate_axes(alpha: float, beta: float, gamma: float) -> Floats:
-    """The plate's axes in the world as columns, R = Rz(alpha) Ry(beta) Rx(gamma), shape (3, 3)."""
+def plate_axes(alpha: float | Floats, beta: float | Floats, gamma: float | Floats) -> Floats:
+    """The plate's axes in the world as columns, R = Rz(alpha) Ry(beta) Rx(gamma), shape (3, 3), or (3, 3, n) of n angles each."""
     (ca, sa), (cb, sb), (cg, sg) = ((np.cos(t), np.sin(t)) for t in (alpha, beta, gamma))
     return np.array(
         (

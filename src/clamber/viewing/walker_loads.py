@@ -5,12 +5,14 @@ from typing import Final
 
 import numpy as np
 
+from ..control.gait import lengths_at
 from ..execution.walk.true_walk import TrueWalk
 from ..robots.walker import FRAMES, WalkerRobot
 from ..types import Floats
 from ..worlds.ground import Ground
 from . import style
 from .panel import Gauges
+from .walk_shapes import plate_axes
 from .walker_artists import COLOURS
 
 LEGS: Final = tuple(f"{frame.capitalize()} leg {i + 1}" for frame in FRAMES for i in range(3))
@@ -58,7 +60,7 @@ class WalkLoads:
         grip = grip_in_use(forces, ground.axes()[:, 2], ground.friction, weight)
         self.grip = grip if exact else np.full_like(grip, np.nan)
         self.thrusts = trace.thrusts
-        self.actuators = actuator_lengths(robot, trace.place)
+        self.actuators = lengths_at(robot, trace.place)
         most = float(np.abs(self.thrusts[np.isfinite(self.thrusts)]).max(initial=0.0))
         self.gauges = (
             leg_force_gauges(robot, weight), grip_gauges(), leg_gauges(robot), thrust_gauges(robot, max(most, 1.0)),
@@ -98,20 +100,9 @@ class Left:
     meaning: str
 
 
-def actuator_lengths(robot: WalkerRobot, places: Floats) -> Floats:
-    """Lengths of the actuators with the Y-frame at places x, y [m], theta [rad] in the Delta-frame, shape (rows, 3) -> (rows, 3) [m]."""
-    on_delta, on_y = robot.attachments()
-    c, s = np.cos(places[:, 2]), np.sin(places[:, 2])
-    turns = np.stack((np.stack((c, -s), axis=-1), np.stack((s, c), axis=-1)), axis=1)
-    ends = np.einsum("rjk,ik->rij", turns, on_y) + places[:, None, :2]
-    lengths: Floats = np.linalg.norm(ends - on_delta, axis=-1)
-    return lengths
-
-
 def plate_normals(poses: Floats) -> Floats:
     """The plate's normals in the world for its poses, shape (rows, 6) -> (rows, 3)."""
-    (ca, cb, cg), (sa, sb, sg) = np.cos(poses[:, 3:].T), np.sin(poses[:, 3:].T)
-    return np.stack((ca * sb * cg + sa * sg, sa * sb * cg - ca * sg, cb * cg), axis=-1)
+    return plate_axes(*poses[:, 3:].T)[:, 2].T
 
 
 def actuator_gauges(robot: WalkerRobot) -> Gauges:

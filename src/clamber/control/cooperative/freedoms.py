@@ -6,6 +6,7 @@ import numpy as np
 
 from ...errors import ClamberError
 from ...types import Floats
+from ..quintic import quintic_share
 from .planted_feet import Support
 from .tool_chain import POSE
 
@@ -59,7 +60,5 @@ def switch(before: Floats, after: Floats, part: float) -> Floats:
         before, after: Weights, shape (m,).
         part: Of the switching's time that has passed, [0, 1].
     """
-    u = min(1.0, max(0.0, part))
-    share = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u)
-    out: Floats = before + share * (after - before)
+    out: Floats = before + quintic_share(part) * (after - before)
     return out

@@ -10,14 +10,14 @@ from typing import Final
 
 import numpy as np
 
+from ...control.cooperative.lent_plate import HEIGHT
+from ...control.quintic import quintic_share
 from ...types import Floats
 
 FADE: Final = 1.0
 """In which a freedom is faded in, and out again before its phase ends [s]."""
 ARRIVED: Final = 1e-4
 """A plate that is so near to where walking has it no longer goes there [m]."""
-HEIGHT: Final = 2
-"""Place of the plate's height among its freedoms."""
 
 
 def open_share(time: float, left: float) -> float:
@@ -27,12 +27,7 @@ def open_share(time: float, left: float) -> float:
         time: Since the phase began [s].
         left: Until it ends [s].
     """
-    return _ease(time / FADE) * _ease(left / FADE)
-
-
-def _ease(part: float) -> float:
-    u = min(1.0, max(0.0, part))
-    return u * u * u * (10.0 - 15.0 * u + 6.0 * u * u)
+    return quintic_share(time / FADE) * quintic_share(left / FADE)
 
 
 @dataclass(slots=True)

@@ -16,16 +16,17 @@ from ...control.cooperative.closest import ReachSearch
 from ...control.cooperative.cooperator import Cooperator
 from ...control.cooperative.freedoms import weights_of
 from ...control.cooperative.holding import ToolHolder, reachable_part
-from ...control.cooperative.lent_plate import LentPlate
+from ...control.cooperative.lent_plate import HEIGHT, LentPlate
 from ...control.cooperative.planted_feet import PlantedFeet
 from ...control.cooperative.settings import Cooperation, own_speeds
 from ...control.cooperative.tool_chain import POSE
+from ...control.quintic import quintic_share
 from ...control.track import Track
 from ...robots.walker import WalkerRobot
 from ...types import Floats, Json
 from . import motions
 from .arm_swing import check_swing
-from .plate_room import ARRIVED, HEIGHT
+from .plate_room import ARRIVED
 from .rehearsed_heights import Heights, rehearse
 from .tool_line import ToolLine, along
 from .walker import GENTLY as GENTLY_UP
@@ -293,8 +294,7 @@ class ToolHold:
     def _between(self, goal: Floats, now: float) -> tuple[Floats, bool]:
         """A quintic motion in the joints, and whether it is over."""
         u = min(1.0, (now - self._set_out_at) / max(1e-9, self._seconds(self._from, goal)))
-        share = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u)
-        return self._from + share * (goal - self._from), u >= 1.0
+        return self._from + quintic_share(u) * (goal - self._from), u >= 1.0
 
     def _seconds(self, a: Floats, b: Floats) -> float:
         return PEAK * float((np.abs(b - a) / np.array(self._arm.fastest)).max()) / GENTLY

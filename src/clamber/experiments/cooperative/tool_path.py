@@ -8,6 +8,7 @@ from typing import Final
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
+from ...control.quintic import quintic_share
 from ...errors import UnitError, UnknownNameError, describe_choices
 from ...execution.log import Log, LogError
 from ...execution.log_files import read_log
@@ -79,7 +80,7 @@ class TimedPath:
         u = min(1.0, max(0.0, time / self.lasts)) if self.lasts > 0.0 else 1.0
         if self.by_way:
             end = float(self.curve.x[-1])
-            way = end * u * u * u * (10.0 - 15.0 * u + 6.0 * u * u)
+            way = end * quintic_share(u)
             rate = 0.0 if self.lasts == 0.0 else end * 30.0 * u * u * (1.0 - u) * (1.0 - u) / self.lasts
             return self.curve(way), self.curve(way, 1) * rate
         moving = 0.0 <= time <= self.lasts

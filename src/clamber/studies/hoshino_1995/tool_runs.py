@@ -9,6 +9,7 @@ from ...control.cooperative.cooperator import Cooperator
 from ...control.cooperative.freedoms import SUPPORT, freedoms_of, weights_of
 from ...control.cooperative.planted_feet import SUPPORT_WORDS, PlantedFeet
 from ...control.cooperative.settings import Cooperation, Form, own_speeds
+from ...control.quintic import quintic_share
 from ...types import Floats
 from .walker import hoshino
 
@@ -113,7 +114,7 @@ def go(
     q, begin = start, law.place(start)
     for k in range(rows):
         u = k / (rows - 1)
-        share = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u)
+        share = quintic_share(u)
         speed = 30.0 * u * u * (1.0 - u) * (1.0 - u) / LASTS
         out.wanted[k] = begin + share * way
         step = law.step(q, out.wanted[k], speed * way, weights)

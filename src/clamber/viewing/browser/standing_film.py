@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from ...control.gait import lengths_at
 from ...control.walker_balance import mass_centre
 from ...execution.walk.true_walk import TrueWalk
 from ...robots.walker.weight import arm_places
@@ -11,7 +12,7 @@ from ...tasks.walks import Walk
 from ...types import Floats
 from ...units import DEGREE
 from ..walk_shapes import plate_axes, shapes_at
-from ..walker_loads import actuator_gauges, actuator_lengths, leg_gauges
+from ..walker_loads import actuator_gauges, leg_gauges
 from .film import Film, MarginRow
 from .walk_film import weight_on_ground
 from .walker_figure import WalkMoment
@@ -35,7 +36,7 @@ class StandingFilm(Film[WalkMoment]):
         start = walk.start
         self._moment = WalkMoment(
             shapes, np.zeros((2, 3, 3)), weight_on_ground(robot, walk.payload), np.array([(start.x, start.y, start.heading)] * 2),
-            (legs, actuator_lengths(robot, place[None])[0]),
+            (legs, lengths_at(robot, place[None])[0]),
         )  # fmt: skip
         self._start = start
 
