@@ -128,6 +128,18 @@ def test_a_rung_is_climbed_and_every_hook_is_seated(seed: int, error: float, fri
     np.testing.assert_allclose(plant.truth().pose[:2], START[:2] + np.array((0.0, 0.1524)), atol=0.015)
 
 
+@pytest.mark.parametrize("aside", [-0.012, 0.012])
+@pytest.mark.parametrize("up", [-0.005, 0.005])
+def test_a_peg_that_is_twice_as_far_off_as_the_map_may_be_is_found_all_the_same(aside: float, up: float) -> None:
+    pegs = load_board("ladder").positions()
+    pegs[5] += aside, up
+    climber, plant = on_the_ladder(NOMINAL, pegs)
+    climber.wait(0.5)
+    # the hook passes beside it in all but one of these, and a lip of its flare is then below the peg
+    assert grab(climber, RIGHT, 6, elbow=-1).held
+    np.testing.assert_allclose(plant.truth().tips[RIGHT], pegs[5], atol=2e-3)
+
+
 @pytest.mark.parametrize(("offset", "believed"), [(0.4, 1.6), (-0.4, 2.4)])
 def test_a_rung_teaches_what_the_sensors_tell_wrong(offset: float, believed: float) -> None:
     climber, plant = on_the_ladder(map_error=0.001, offset=np.radians(offset), backlash=np.radians(believed))

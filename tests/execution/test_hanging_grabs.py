@@ -159,17 +159,58 @@ def test_a_hook_that_missed_goes_back_the_way_it_came(
 ) -> None:
     g, hold = np.array((-0.6, 0.8)), np.array((1.0, 0.5))
     h = np.array((-g[1], g[0]))
-    places: list[Floats] = []
+    tip = hold + past * g + aside * h
+    places = [tip]
     monkeypatch.setattr(hook, "move_tip", lambda climber, i, place, seconds: places.append(place))
     monkeypatch.setattr(hook, "stand_off_of", lambda climber, i, doubt: 0.05)
-    tip = hold + past * g + aside * h
-    climber = SimpleNamespace(body=SimpleNamespace(tip=cast("Callable[[int], Floats]", lambda i: tip)))
+    body = SimpleNamespace(tip=cast("Callable[[int], Floats]", lambda i: places[-1]))
+    climber = SimpleNamespace(body=body, plant=SimpleNamespace(period=0.005))
     found = Approach(np.zeros(2), np.zeros((1, 2)), g, 0.05)
     hook.back_off(cast(Climber, climber), LEFT, hold, 0.004, found)
-    before = [tip, *places]
-    for start, end in pairwise(before):
+    for start, end in pairwise(places):
         along, across = (end - start) @ g, (end - start) @ h
         deep = max((start - hold) @ g, (end - hold) @ g)
         # beside or beyond the hold only straight back; across only where the whole hook is before it
         assert (abs(across) < 1e-12 and along < 0.0) or deep == pytest.approx(-0.05)
     assert places[-1] == pytest.approx(hold - 0.05 * g)
+
+
+@pytest.mark.parametrize("free_side", [-1.0, 1.0])
+def test_a_hook_whose_flare_catches_on_its_way_back_goes_aside_and_back_from_there(
+    monkeypatch: pytest.MonkeyPatch, free_side: float
+) -> None:
+    g, hold = np.array((-0.6, 0.8)), np.array((1.0, 0.5))
+    h = np.array((-g[1], g[0]))
+    places = [hold + 0.02 * g]
+
+    def move_tip(climber: Climber, i: int, place: Floats, seconds: float) -> None:
+        """A peg on the other side holds the flare while the hook is beside it, and lets it go that way only."""
+        tip = places[-1]
+        free = (tip - hold) @ h * free_side > 0.015 or ((tip - hold) @ g < -0.04)
+        if free or ((place - tip) @ h * free_side > 1e-9):
+            places.append(place)
+
+    monkeypatch.setattr(hook, "move_tip", move_tip)
+    monkeypatch.setattr(hook, "stand_off_of", lambda climber, i, doubt: 0.05)
+    body = SimpleNamespace(tip=cast("Callable[[int], Floats]", lambda i: places[-1]))
+    climber = SimpleNamespace(body=body, plant=SimpleNamespace(period=0.005), tick=lambda: None)
+    found = Approach(np.zeros(2), np.zeros((1, 2)), g, 0.05)
+    hook.back_off(cast(Climber, climber), LEFT, hold, 0.004, found)
+    assert places[-1] == pytest.approx(hold - 0.05 * g)
+    assert len(places) == 4  # aside, back, to before the hold
+
+
+@pytest.mark.parametrize(("short", "before", "seated"), [
+    (0.003, [], True), (0.011, [], False), (0.011, [0.0], True), (0.011, [0.006], False), (0.016, [0.0], False),
+])  # fmt: skip
+def test_a_hook_that_stops_short_is_seated_where_it_stops_there_again(
+    monkeypatch: pytest.MonkeyPatch, short: float, before: list[float], seated: bool
+) -> None:
+    g, hold = np.array((0.0, 1.0)), np.array((1.0, 0.5))
+    tip = hold - short * g
+    monkeypatch.setattr(hook, "move_tip", lambda climber, i, place, seconds: None)
+    monkeypatch.setattr(hook, "push_on", lambda climber, i, place, g, room: True)
+    climber = SimpleNamespace(body=SimpleNamespace(tip=cast("Callable[[int], Floats]", lambda i: tip)))
+    found = Approach(np.zeros(2), np.zeros((1, 2)), g, 0.05)
+    ends = [tip + np.array((off, 0.0)) for off in before]
+    assert hook.close(cast(Climber, climber), LEFT, hold, 0.01, found, hold, ends) == seated

@@ -6,7 +6,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from clamber.execution.climb.approach import HOOK, LEAST_CLEARANCE, Approaches
+from clamber.control.swing_path import BESIDE, find_way
+from clamber.execution.climb.approach import CELLS, HOOK, LEAST_CLEARANCE, MOST_POINTS, Approaches, discs_near, wall_of
 from clamber.execution.climb.legs import legs_of
 from clamber.execution.climb.parking import SPARE, park, passes, poses_between
 from clamber.execution.climb.postures import postures
@@ -210,3 +211,30 @@ def test_a_hand_over_to_all_that_hold_ends_the_one_before() -> None:
     assert not body.handing_over
     pass_time(body, 1.0)
     assert [task.doing for task in body.tasks] == ["hold", "hold", "hold"]
+
+
+@pytest.mark.parametrize(("pose", "start"), [
+    ((0.1935, 1.1597, -0.2622), (6.1, -62.0)), ((0.2124, 1.1851, -0.2425), (25.5, -65.1)),
+    ((0.1973, 1.1291, -0.3246), (9.3, -66.4)), ((0.2150, 1.1539, -0.2876), (18.5, -63.6)),
+])  # fmt: skip
+def test_a_limb_beside_a_hold_leaves_it_first_and_does_not_sweep_over_it(
+    pose: tuple[float, float, float], start: tuple[float, float]
+) -> None:
+    robot, holds, q = libra(), places_of("modified-ladder"), np.radians(start)
+    limb, path = robot.limbs[LEFT], np.zeros((MOST_POINTS, 2))
+    lower, upper = (
+        np.array([getattr(joint, end) for joint in (limb.shoulder, limb.elbow)]) for end in ("lower", "upper")
+    )
+    discs = discs_near(holds, np.array(pose), lambda number: PEG)
+    count = find_way(
+        legs_of(robot)[LEFT], lower, upper, CELLS, q, np.radians((-51.6, 28.8)), discs, wall_of(robot),
+        robot.link_radius, HOOK, LEAST_CLEARANCE, path,
+    )  # fmt: skip
+    tight = least_room(robot, LEFT, q, np.array(pose), holds)
+    assert count and tight < -0.01
+    for a, b in pairwise(path[:count]):
+        for u in np.linspace(0.0, 1.0, 20):
+            share = min(1.0, float(np.abs(a + u * (b - a) - q).max()) / BESIDE)
+            room = least_room(robot, LEFT, a + u * (b - a), np.array(pose), holds)
+            # steadily more on its way out, but for TIGHTER and the pitch of the grid
+            assert room > tight + share * (LEAST_CLEARANCE - tight) - 0.004

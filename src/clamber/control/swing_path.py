@@ -10,7 +10,7 @@ FAR = 1e9
 PREFERRED = 0.03
 """Clearance beyond which a way costs no more than its length [m]."""
 BESIDE = 0.35
-"""So near an end of the way, in either joint, the clearance may be as little as at that end [rad]."""
+"""So near an end of the way, in either joint, the clearance may be less than elsewhere: at the end as little as there [rad]."""
 TIGHTER = 0.002
 """And that much less [m]."""
 DEAR = 8.0
@@ -97,12 +97,20 @@ def find_way(leg, lower, upper, cells, start, goal, discs, walls, link_radius, h
         cells: Grid points along each joint.
         start, goal: Joint angles, shape (2,) [rad].
         discs, walls, link_radius, hook: See `clearance`.
-        least: Clearance that a way must keep, but next to a start or goal that has less [m].
+        least: Clearance that a way must keep, but next to a start or goal that has less: where it can be, it rises from there on [m].
         path: Filled with joint angles from start to goal, shape (most, 2).
 
     Returns:
         Number of points, 0 where there is no way.
     """
+    args = (leg, lower, upper, cells, start, goal, discs, walls, link_radius, hook, least)
+    count = _search(*args, True, path)
+    return count if count else _search(*args, False, path)
+
+
+@kernel
+def _search(leg, lower, upper, cells, start, goal, discs, walls, link_radius, hook, least, rises, path):
+    """`find_way`, with a clearance that rises away from a tight end, or only is not less than there."""
     size = cells * cells
     room = np.full(size, math.nan)  # looked at where the search comes by: that is what takes the time
     pitch1 = (upper[0] - lower[0]) / (cells - 1)
@@ -142,7 +150,7 @@ def find_way(leg, lower, upper, cells, start, goal, discs, walls, link_radius, h
                 b = lower[1] + (j + dj) * pitch2
                 if math.isnan(room[there]):
                     room[there] = clearance(leg, a, b, discs, walls, link_radius, hook)
-                tight = room[there] < _floor(a, b, start, goal, at_start, at_goal, least)
+                tight = room[there] < _floor(a, b, start, goal, at_start, at_goal, least, rises)
                 if tight and there != target and there != origin:
                     continue
                 lack = max(0.0, PREFERRED - room[there]) / PREFERRED
@@ -168,16 +176,18 @@ def find_way(leg, lower, upper, cells, start, goal, discs, walls, link_radius, h
         node = came[node]
     path[0] = start
     path[length + 1] = goal
-    return _straighten(leg, path, length + 2, at_start, at_goal, least, discs, walls, link_radius, hook)
+    return _straighten(leg, path, length + 2, at_start, at_goal, least, rises, discs, walls, link_radius, hook)
 
 
 @inlined
-def _floor(a, b, start, goal, at_start, at_goal, least):
-    """Clearance that joint angles must keep: less next to an end that has less itself."""
-    if max(abs(a - start[0]), abs(b - start[1])) < BESIDE:
-        return at_start
-    if max(abs(a - goal[0]), abs(b - goal[1])) < BESIDE:
-        return at_goal
+def _floor(a, b, start, goal, at_start, at_goal, least, rises):
+    """Clearance that joint angles must keep: less next to an end that has less itself, the more so the nearer where it `rises`."""
+    from_start = max(abs(a - start[0]), abs(b - start[1])) / BESIDE
+    if from_start < 1.0:
+        return at_start + (from_start * (least - at_start) if rises else 0.0)
+    to_goal = max(abs(a - goal[0]), abs(b - goal[1])) / BESIDE
+    if to_goal < 1.0:
+        return at_goal + (to_goal * (least - at_goal) if rises else 0.0)
     return least
 
 
@@ -216,7 +226,7 @@ def _rise(costs, nodes, at):
 
 
 @kernel
-def _straighten(leg, path, length, at_start, at_goal, least, discs, walls, link_radius, hook):
+def _straighten(leg, path, length, at_start, at_goal, least, rises, discs, walls, link_radius, hook):
     """Leave out points between which the straight way keeps the preferred clearance, or that of the points themselves."""
     kept = 1
     at = 0
@@ -232,7 +242,7 @@ def _straighten(leg, path, length, at_start, at_goal, least, discs, walls, link_
                 part = k / 40.0
                 a = path[at, 0] + part * (path[to, 0] - path[at, 0])
                 b = path[at, 1] + part * (path[to, 1] - path[at, 1])
-                floor = _floor(a, b, path[0], path[length - 1], at_start, at_goal, least)
+                floor = _floor(a, b, path[0], path[length - 1], at_start, at_goal, least, rises)
                 if clearance(leg, a, b, discs, walls, link_radius, hook) < max(tight, floor) - 1e-6:
                     free = False
                     break

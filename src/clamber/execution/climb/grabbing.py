@@ -1,6 +1,6 @@
 """The outline of a grab, whatever a limb ends in: off the old hold, near the new one, closed there in one place after another."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Final, Protocol
 
 from ...types import Floats
@@ -31,9 +31,16 @@ class End(Protocol):
         """Where each try closes, world frame [m]."""
 
     def close(
-        self, climber: Climber, i: int, hold: Floats, doubt: float, found: Approach, place: Floats, tries: int
+        self,
+        climber: Climber,
+        i: int,
+        hold: Floats,
+        doubt: float,
+        found: Approach,
+        place: Floats,
+        before: Sequence[Floats],
     ) -> bool:
-        """Close on a place at the try of that number, from 1; whether it holds."""
+        """Close on a place; whether it holds. `before`: where the tip ended in this grab's earlier tries, world frame [m]."""
 
     def back_off(self, climber: Climber, i: int, hold: Floats, doubt: float, found: Approach) -> None:
         """Come off where it did not."""
@@ -68,10 +75,12 @@ def grab(climber: Climber, i: int, number: int, end: End, *, elbow: int = 0, hom
     climber.wait(CALM)
     climber.learn_again()
     hold, (x, y) = climber.holds[number].copy(), found.grab
-    tries, along, across = 0, 0.0, 0.0
-    for tries, place in enumerate(end.places(climber, i, hold, doubt, found), 1):
-        holds = end.close(climber, i, hold, doubt, found, place, tries)
-        off = body.tip(i) - hold
+    along, across = 0.0, 0.0
+    ends: list[Floats] = []
+    for place in end.places(climber, i, hold, doubt, found):
+        holds = end.close(climber, i, hold, doubt, found, place, ends)
+        ends.append(body.tip(i))
+        off = ends[-1] - hold
         along, across = float(x * off[0] + y * off[1]), float(x * off[1] - y * off[0])
         if holds:
             climber.learn(number, i, climber.holding())
@@ -80,9 +89,9 @@ def grab(climber: Climber, i: int, number: int, end: End, *, elbow: int = 0, hom
             if not task.pressed:  # else a body that hangs leans on it, until both carry
                 task.doing = "cling"
             climber.wait(HELD)
-            return Grabbed(True, tries, along, across)
+            return Grabbed(True, len(ends), along, across)
         end.back_off(climber, i, hold, doubt, found)
         if climber.hangs:
             climber.rest(RESTING)
     task.doing, task.angles = "joints", body.q[i].copy()
-    return Grabbed(False, tries, along, across)
+    return Grabbed(False, len(ends), along, across)

@@ -1,6 +1,6 @@
 """Grab and release with a gripper: bring the open jaws about the hold, close them, look whether they hold; open them and back off."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Final
 
 import numpy as np
@@ -52,7 +52,9 @@ def places(climber: Climber, i: int, hold: Floats, doubt: float, found: Approach
         yield hold + doubt * (forth * g + aside * np.array((-g[1], g[0])))
 
 
-def close(climber: Climber, i: int, hold: Floats, doubt: float, found: Approach, place: Floats, tries: int) -> bool:
+def close(
+    climber: Climber, i: int, hold: Floats, doubt: float, found: Approach, place: Floats, before: Sequence[Floats]
+) -> bool:
     """Shut the jaws about a place; whether they hold something."""
     task = climber.body.tasks[i]
     move_tip(climber, i, place, 0.6)

@@ -1,7 +1,7 @@
 """Grab and release with a hook, or a foot: straight in from off the hold, pushed until it stops, tugged; straight back off it."""
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Final
 
 import numpy as np
@@ -26,6 +26,17 @@ TURNED: Final = 0.05
 """... and turned by as much [rad]."""
 SLACK: Final = 0.008
 """Beyond its doubt, how far a seated hook may be from where it should be: play and backlash [m]."""
+CLEAR: Final = 0.02
+"""So far aside a hook that lies beside its hold comes off it without its flare, 15 mm either way, catching there [m]."""
+CAUGHT: Final = 0.01
+"""A hook that stays so far from where it is to be is caught [m] ..."""
+LAGGING: Final = 0.4
+"""... when it has had this long to come there after its way [s]."""
+SHALLOW: Final = (0.009, 0.014)
+"""A hook that stops the first of these before its hold may rest on its flare against it, however hard it is pushed, and slip off later:
+it counts as seated where it comes to the same place once more, pushed on from elsewhere; at the second it doesn't at all [m]."""
+SAME: Final = 0.003
+"""Two places that are so near to each other are the same [m]."""
 
 
 def come_near(climber: Climber, i: int, number: int, doubt: float, elbow: int, home: Floats | None) -> Approach | None:
@@ -60,21 +71,45 @@ def places(climber: Climber, i: int, hold: Floats, doubt: float, found: Approach
         yield hold + part * doubt * across
 
 
-def close(climber: Climber, i: int, hold: Floats, doubt: float, found: Approach, place: Floats, tries: int) -> bool:
-    """Push the hook on at a place; whether it came to rest where the hold may be."""
-    move_tip(climber, i, place - (NEAR + doubt) * found.grab, 0.5 if tries > 1 else 0.2)
+def close(
+    climber: Climber, i: int, hold: Floats, doubt: float, found: Approach, place: Floats, before: Sequence[Floats]
+) -> bool:
+    """Push the hook on at a place; whether it came to rest where the hold may be, and not on its flare."""
+    move_tip(climber, i, place - (NEAR + doubt) * found.grab, 0.5 if before else 0.2)
     room = SLACK + doubt
     stopped = push_on(climber, i, place, found.grab, room)
-    return stopped and math.dist(climber.body.tip(i), hold) < room
+    tip = climber.body.tip(i)
+    short = float((hold - tip) @ found.grab)
+    if not stopped or math.dist(tip, hold) > room or short > SHALLOW[1]:
+        return False
+    return short < SHALLOW[0] or any(math.dist(tip, end) < SAME for end in before)
 
 
 def back_off(climber: Climber, i: int, hold: Floats, doubt: float, found: Approach) -> None:
-    """Bring the hook off where it missed: back the way it came, for the hold may be beside it by now, then to before the hold."""
+    """Bring the hook off where it missed: back the way it came, for the hold may be beside it by now, then to before the hold.
+
+    Where a lip of its flare catches below the hold, it goes to the one side first, then to the other.
+    """
     away, g, tip = stand_off_of(climber, i, doubt), found.grab, climber.body.tip(i)
+    across = np.array((-g[1], g[0]))
     deep = float((tip - hold) @ g) + away
-    if deep > 0.0:
-        move_tip(climber, i, tip - deep * g, 0.5)
-    move_tip(climber, i, hold - away * g, 0.5)
+    for aside in (0.0, CLEAR, -CLEAR) if deep > 0.0 else ():
+        start = tip + aside * across
+        if aside:
+            _comes_to(climber, i, start)
+        if _comes_to(climber, i, start - deep * g):
+            break
+    _comes_to(climber, i, hold - away * g)
+
+
+def _comes_to(climber: Climber, i: int, place: Floats) -> bool:
+    """Bring a tip straight to a place, which it gets a moment to come to; whether it does."""
+    move_tip(climber, i, place, 0.5)
+    for _ in range(round(LAGGING / climber.plant.period)):
+        if math.dist(climber.body.tip(i), place) < CAUGHT:
+            return True
+        climber.tick()
+    return False
 
 
 def may_stay(climber: Climber, i: int, pose: Floats) -> bool:

@@ -38,7 +38,13 @@ WIDE_DITHER: Final = 14.0
 WIDE_RATE: Final = 2.5
 """... and so slow that it moves the hook across by millimetres [Hz]."""
 STUCK: Final = 0.8
-"""At most for that long without an advance [s]."""
+"""At most for that long without an advance [s] ..."""
+FAR_SHORT: Final = 0.006
+"""... but where it stops this far before, as few hooks do that are home [m] ..."""
+LONG_STUCK: Final = 2.0
+"""... for that long [s] ..."""
+STRONGEST: Final = 30.0
+"""... while the dither grows to this, beyond what the joints rub with in most postures [N]."""
 HANGING: Final = 0.4
 """Part of these forces until the hook has stopped where the body hangs on one limb, which gives way to whatever knocks it [-]."""
 YIELDING: Final = 0.3
@@ -53,7 +59,7 @@ STOPPED: Final = 0.2
 """For that long, a period of the dither, before the tug begins [s]."""
 STILL: Final = 0.25
 """For that long under the full tug before a hook counts as seated [s]."""
-PATIENCE: Final = 5.0
+PATIENCE: Final = 8.0
 """For one push [s]."""
 
 
@@ -73,7 +79,7 @@ def push_on(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> 
     seated, marks, anew = False, np.full(2, -np.inf), 0
     rested, apart = body.pose[:2].copy(), _apart(climber)
     hangs = climber.hangs
-    part = HANGING if hangs else 1.0
+    part, coaxing = HANGING if hangs else 1.0, WIDE_DITHER
     for _ in range(round(PATIENCE / period)):
         along = body.grab_direction(i)
         across = np.array((-along[1], along[0]))
@@ -87,7 +93,7 @@ def push_on(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> 
         slid = float(np.linalg.norm(_apart(climber) - apart, axis=1).min())
         faded = min(np.interp(lifted, LIFT, (1.0, 1 / 3)), np.interp(slid, SLIDING, (1.0, 1 / 3)))
         size *= part * faded
-        strength, rate = (WIDE_DITHER, WIDE_RATE) if stage == "coax" else (DITHER, DITHER_RATE)
+        strength, rate = (coaxing, WIDE_RATE) if stage == "coax" else (DITHER, DITHER_RATE)
         phase += 2 * np.pi * rate * period
         side = part * strength * np.sin(phase)
         if stage == "push":
@@ -113,8 +119,11 @@ def push_on(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> 
             break
         if stage == "push" and still > STOPPED:
             stage, still = "coax" if ahead > SHORT else "tug", 0.0
-        elif stage == "coax" and (still > STUCK or ahead < 0.5 * SHORT):
-            stage, still = "tug", 0.0
+        elif stage == "coax":
+            far = ahead > FAR_SHORT
+            coaxing = float(np.interp(still, (STUCK / 2, LONG_STUCK), (WIDE_DITHER, STRONGEST))) if far else WIDE_DITHER
+            if still > (LONG_STUCK if far else STUCK) or ahead < 0.5 * SHORT:
+                stage, still = "tug", 0.0
         elif stage == "tug" and tugged > TUG_RISE and still > STILL:
             if faded > FIRM or anew == ANEW:
                 seated = True
