@@ -12,7 +12,7 @@ from plain_body import PlainBody
 from clamber.control.body_tick import command_tick, see_tick
 from clamber.control.controller import MeasurementError
 from clamber.control.law_settings import LAWS
-from clamber.execution.climb.whole_body import LIMITS, MAPPINGS, BodyGains, Doing, LimbTask, WholeBody
+from clamber.execution.climb.whole_body import BENT, LIMITS, MAPPINGS, STOP, BodyGains, Doing, LimbTask, WholeBody
 from clamber.robots.library import load_robot
 from clamber.robots.limbed import LimbedRobot
 
@@ -157,3 +157,19 @@ def test_a_measurement_that_is_not_finite_is_named() -> None:
     body.see(q, np.zeros((3, 2)), 0.0, 0.0)
     with pytest.raises(MeasurementError):
         body.command()
+
+
+@pytest.mark.parametrize("side", [-1, 1])
+@pytest.mark.parametrize("part", [-0.5, 0.0, 0.5, 1.0, 2.0])
+def test_an_elbow_is_kept_from_straight_by_a_soft_stop_and_nothing_else_is_touched(side: int, part: float) -> None:
+    torques = []
+    for kept in (0, side):
+        body = WholeBody(robot_named("libra"), period=PERIOD)
+        body.tasks[1] = LimbTask("pull", force=np.array((3.0, -8.0)), side=kept)
+        q = np.array(((0.2, 1.0), (0.4, side * part * BENT), (-0.3, 0.8)))
+        body.see(q, np.zeros_like(q), 0.1, 0.0)
+        torques.append(body.command().copy())
+    more = torques[1] - torques[0]
+    assert more[1, 1] == pytest.approx(side * STOP * max(0.0, 1.0 - part), abs=1e-12)
+    more[1, 1] = 0.0
+    np.testing.assert_array_equal(more, 0.0)

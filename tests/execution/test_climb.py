@@ -109,6 +109,32 @@ def test_the_body_moves_up_on_its_hooks() -> None:
     np.testing.assert_allclose(plant.truth().pose[:2], START[:2] + np.array((0.0, 0.0762)), atol=0.01)
 
 
+def test_a_body_that_something_holds_on_its_way_goes_back_before_its_hooks_come_off() -> None:
+    climber, plant = on_the_ladder()
+    climber.wait(0.5)
+    release(climber, BOTTOM)
+    climber.wait(0.5)
+    start, aims = climber.body.aim.copy(), []
+
+    class HeldBack:
+        """A spring of 8 kN/m that holds the body where it is, as a limb that is caught on a hold does."""
+
+        def __init__(self) -> None:
+            self.pose = plant.truth().pose[:2].copy()
+
+        def __call__(self) -> None:
+            x, y = 8000.0 * (self.pose - plant.truth().pose[:2])
+            plant.push((float(x), float(y)))
+            aims.append(climber.body.aim.copy())
+
+    climber.balance = HeldBack()
+    move_body(climber, start + np.array((0.0, 0.15, 0.0)))
+    climber.wait(0.3)
+    assert 0.04 < max(aim[1] for aim in aims) - start[1] < 0.09  # it tries
+    np.testing.assert_allclose(climber.body.aim, start, atol=1e-9)
+    assert all(climber.body.tasks[i].hold for i in (RIGHT, LEFT))
+
+
 @pytest.mark.parametrize(("seed", "error", "friction"), [(0, 0.0, 1.0), (4, 0.00635, 0.75), (11, 0.00635, 1.25)])
 def test_a_rung_is_climbed_and_every_hook_is_seated(seed: int, error: float, friction: float) -> None:
     places = load_board("ladder").positions()

@@ -9,7 +9,7 @@ import pytest
 from clamber.control.swing_path import BESIDE, find_way
 from clamber.execution.climb.approach import CELLS, HOOK, LEAST_CLEARANCE, MOST_POINTS, Approaches, discs_near, wall_of
 from clamber.execution.climb.legs import legs_of
-from clamber.execution.climb.parking import SPARE, park, passes, poses_between
+from clamber.execution.climb.parking import SPARE, TIGHT, park, passes, poses_between
 from clamber.execution.climb.postures import postures
 from clamber.execution.climb.whole_body import LimbTask, WholeBody
 from clamber.robots.library import load_robot
@@ -96,6 +96,26 @@ def test_the_body_may_pass_where_its_free_limb_can_first_go_elsewhere_and_not_wh
     around = poses[-1][:2] + 0.2 * np.array([(np.cos(a), np.sin(a)) for a in np.linspace(0.0, 2.0 * np.pi, 80)])
     ring = {100 + k: place for k, place in enumerate(around)}  # no limb reaches out of it, nor has it room inside
     assert not passes(ways, i, angles, [poses[0], poses[-1]], ring)
+
+
+@pytest.mark.parametrize(("angles", "off"), [
+    ((136.0, -77.0), (0.0, -0.005)), ((135.0, -77.0), (-0.004, -0.011)), ((133.0, -78.0), (-0.005, -0.010)),
+])  # fmt: skip
+def test_a_limb_squeezes_past_a_peg_where_the_body_goes_whatever_comes_of_it(
+    angles: tuple[float, float], off: tuple[float, float]
+) -> None:
+    """The right limb behind peg 5 of the modified ladder, of which it let go; the body is to go up by 18 cm."""
+    ways, holds, q = approaches(), places_of("modified-ladder"), np.radians(angles)
+    ways.peg_radius = lambda number: PEG + 0.003
+    start = np.array((0.221 + off[0], 0.202 + off[1], 1.31))
+    poses = poses_between(start, np.array((0.229, 0.381, 1.309)))
+    assert park(ways, RIGHT, q, poses, holds) is None
+    way = park(ways, RIGHT, q, poses, holds, clearances=TIGHT)
+    assert way is not None
+    assert min(least_room(ways.robot, RIGHT, way[-1], pose, holds) for pose in poses) > SPARE
+    for a, b in pairwise(way):
+        for u in np.linspace(0.0, 1.0, 20):  # it may touch where the peg might be, not where it is believed
+            assert least_room(ways.robot, RIGHT, a + u * (b - a), poses[0], holds) > 0.0
 
 
 def test_a_limb_with_room_stays_where_it_is() -> None:

@@ -75,6 +75,7 @@ def grab(climber: Climber, i: int, number: int, end: End, *, elbow: int = 0, hom
     climber.wait(CALM)
     climber.learn_again()
     hold, (x, y) = climber.holds[number].copy(), found.grab
+    task.side = elbow if climber.hangs else 0  # a hanging body gives way until the limb is straight, and might fold it
     along, across = 0.0, 0.0
     ends: list[Floats] = []
     for place in end.places(climber, i, hold, doubt, found):
@@ -93,5 +94,5 @@ def grab(climber: Climber, i: int, number: int, end: End, *, elbow: int = 0, hom
         end.back_off(climber, i, hold, doubt, found)
         if climber.hangs:
             climber.rest(RESTING)
-    task.doing, task.angles = "joints", body.q[i].copy()
+    task.doing, task.angles, task.side = "joints", body.q[i].copy(), 0
     return Grabbed(False, len(ends), along, across)

@@ -195,6 +195,8 @@ class Hang:
         pulling = [i for i, task in enumerate(body.tasks) if task.hold and task.doing == "pull"]
         for i in pulling:
             body.tasks[i].pressed, body.tasks[i].tug = False, np.zeros(2)
+        for task in body.tasks:
+            task.side = 0
         if pulling:
             body.carry_at_once([self.i, *pulling])
         self.climber.carry_with_all(but=-1)

@@ -32,7 +32,7 @@ CAUGHT: Final = 0.01
 """A hook that stays so far from where it is to be is caught [m] ..."""
 LAGGING: Final = 0.4
 """... when it has had this long to come there after its way [s]."""
-SHALLOW: Final = (0.009, 0.014)
+SHALLOW: Final = (0.010, 0.015)
 """A hook that stops the first of these before its hold may rest on its flare against it, however hard it is pushed, and slip off later:
 it counts as seated where it comes to the same place once more, pushed on from elsewhere; at the second it doesn't at all [m]."""
 SAME: Final = 0.003

@@ -41,7 +41,7 @@ STUCK: Final = 0.8
 """At most for that long without an advance [s] ..."""
 FAR_SHORT: Final = 0.006
 """... but where it stops this far before, as few hooks do that are home [m] ..."""
-LONG_STUCK: Final = 2.0
+COAXED: Final = 2.4
 """... for that long [s] ..."""
 STRONGEST: Final = 30.0
 """... while the dither grows to this, beyond what the joints rub with in most postures [N]."""
@@ -79,7 +79,7 @@ def push_on(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> 
     seated, marks, anew = False, np.full(2, -np.inf), 0
     rested, apart = body.pose[:2].copy(), _apart(climber)
     hangs = climber.hangs
-    part, coaxing = HANGING if hangs else 1.0, WIDE_DITHER
+    part, coaxing, coaxed = HANGING if hangs else 1.0, WIDE_DITHER, 0.0
     for _ in range(round(PATIENCE / period)):
         along = body.grab_direction(i)
         across = np.array((-along[1], along[0]))
@@ -120,9 +120,10 @@ def push_on(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> 
         if stage == "push" and still > STOPPED:
             stage, still = "coax" if ahead > SHORT else "tug", 0.0
         elif stage == "coax":
+            coaxed += period
             far = ahead > FAR_SHORT
-            coaxing = float(np.interp(still, (STUCK / 2, LONG_STUCK), (WIDE_DITHER, STRONGEST))) if far else WIDE_DITHER
-            if still > (LONG_STUCK if far else STUCK) or ahead < 0.5 * SHORT:
+            coaxing = float(np.interp(coaxed, (STUCK / 2, COAXED), (WIDE_DITHER, STRONGEST if far else WIDE_DITHER)))
+            if coaxed > COAXED or (still > STUCK and not far) or ahead < 0.5 * SHORT:
                 stage, still = "tug", 0.0
         elif stage == "tug" and tugged > TUG_RISE and still > STILL:
             if faded > FIRM or anew == ANEW:

@@ -1,5 +1,6 @@
 """Motions that all actions are made of: the body on smooth ways, free limbs out of its way, tips and joints of limbs."""
 
+import math
 from collections.abc import Callable
 from itertools import pairwise
 from typing import Final
@@ -8,7 +9,7 @@ import numpy as np
 
 from ...types import Floats
 from .climber import Climber
-from .parking import SPARE, park, passes, poses_between, room_along
+from .parking import SPARE, TIGHT, park, passes, poses_between, room_along
 
 BODY_SPEED: Final = 0.08
 """Of the body's aim, at most [m/s]."""
@@ -26,6 +27,8 @@ LAG: Final = 0.06
 """A limb this far behind on its way is waited for: its motors give all they can [rad]."""
 WAITING: Final = 1.5
 """For that long in all, on one way [s]."""
+HELD_BACK: Final = (0.04, 0.3)
+"""A body this far behind on its way for so long is held by what it cannot overcome, a free limb caught on a hold [m], [s]."""
 BLEND: Final = 0.2
 """Over which corners of a limb's way are rounded [s]."""
 WEAKER: Final = 3.0
@@ -53,6 +56,7 @@ def move_body(climber: Climber, pose: Floats, *, drawn: tuple[int, Floats, Float
     )
     rise = min(BODY_RISE, 0.5 * length)
     count = max(1, round((length + rise) / period))
+    held = 0.0
     for k in range(1, count + 1):
         done, rate = eased(k / count * (length + rise), length, rise)
         body.aim[:] = start + done / length * change
@@ -61,9 +65,23 @@ def move_body(climber: Climber, pose: Floats, *, drawn: tuple[int, Floats, Float
             i, start_tip, way = drawn
             body.tasks[i].place, body.tasks[i].speed = start_tip + done / length * way, rate / length * way
         climber.tick()
+        held = held + period if math.dist(body.aim[:2], body.pose[:2]) > HELD_BACK[0] else 0.0
+        if held > HELD_BACK[1] and drawn is None:
+            _go_back(climber, start, k)
+            break
     body.aim_speed[:] = 0.0
     if drawn is not None:
         body.tasks[drawn[0]].speed = np.zeros(2)
+
+
+def _go_back(climber: Climber, start: Floats, ticks: int) -> None:
+    """Bring a body that something holds on its way back to where it began, in as many ticks: pulled on, its own hooks would come off."""
+    body = climber.body
+    change = start - body.aim
+    for k in range(1, ticks + 1):
+        body.aim[:] = start - (1.0 - k / ticks) * change
+        body.aim_speed[:] = change / (ticks * climber.plant.period)
+        climber.tick()
 
 
 def eased(t: float, length: float, rise: float) -> tuple[float, float]:
@@ -92,7 +110,7 @@ def _park(climber: Climber, i: int, pose: Floats, spare: float) -> None:
     body = climber.body
     climber.plant.pause()
     poses = poses_between(body.settled, pose)
-    way = park(climber.approaches, i, body.q[i] - body.play[i], poses, climber.holds, spare)
+    way = park(climber.approaches, i, body.q[i] - body.play[i], poses, climber.holds, spare, TIGHT)
     if way is not None:
         follow(climber, i, way)
 

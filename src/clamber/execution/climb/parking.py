@@ -1,6 +1,7 @@
 """Where a free limb waits while the body moves: clear of every hold along the body's way, as near as can be to where it is."""
 
 from collections.abc import Mapping, Sequence
+from itertools import product
 from typing import Final
 
 import numpy as np
@@ -13,6 +14,8 @@ SPARE: Final = 0.012
 """Clearance along the body's way at which a limb is left where it is [m]: the body sways by about as much."""
 OUT: Final = 0.04
 """Clearance of a free limb that is not between two holds of a row: from there it comes to any [m]."""
+TIGHT: Final = (LEAST_CLEARANCE, 0.0, -0.002)
+"""Clearances of the way there, tried in turn where the body moves whatever comes of it: holds count with their doubt [m]."""
 LOOKS: Final = 0.02
 """Between two poses of the way that are looked at [m], or [rad] at 0.2 m."""
 PITCH: Final = 21
@@ -55,6 +58,7 @@ def park(
     poses: Sequence[Floats],
     holds: Mapping[int, Floats],
     spare: float = SPARE,
+    clearances: Sequence[float] = (LEAST_CLEARANCE,),
 ) -> Floats | None:
     """A way of a free limb's joints to where it may wait, shape (n, 2) [rad]; None where it is well placed, or there is none better.
 
@@ -65,6 +69,7 @@ def park(
         poses: Of the body along its way, the present one first.
         holds: All holds by number.
         spare: Clearance with which it is well placed [m].
+        clearances: That the way keeps but where it begins with less, the first with which there is one [m].
     """
     limb, leg, robot = approaches.robot.limbs[i], approaches.legs[i], approaches.robot
     seen = [discs_near(holds, pose, approaches.peg_radius) for pose in poses]
@@ -87,9 +92,10 @@ def park(
         return None
     fit = [q for q, free in zip(grid, rooms, strict=True) if free >= enough - 1e-9]
     path = approaches.path
-    for goal in sorted(fit, key=lambda q: float(np.abs(q - angles).max()))[:8]:
+    near = sorted(fit, key=lambda q: float(np.abs(q - angles).max()))[:8]
+    for least, goal in product(clearances, near):
         count = find_way(
-            leg, lower, upper, CELLS, angles, goal, seen[0], approaches.wall, robot.link_radius, HOOK, LEAST_CLEARANCE, path
+            leg, lower, upper, CELLS, angles, goal, seen[0], approaches.wall, robot.link_radius, HOOK, least, path
         )  # fmt: skip
         if count:
             return path[:count].copy()

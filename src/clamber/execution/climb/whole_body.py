@@ -54,6 +54,11 @@ STRETCHED: Final = math.radians(15.0)
 HANDING_OVER: Final = 0.5
 """Time in which the load passes from the limbs that carried to those that will [s]."""
 
+BENT: Final = math.radians(12.0)
+"""Where the soft stop of an elbow begins, before it is straight [rad]."""
+STOP: Final = 6.0
+"""Its torque on a straight elbow, as much as a push of a hook makes there [N m]."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BodyGains:
@@ -117,6 +122,8 @@ class LimbTask:
     """Of "pull": the steady part of that force which the body leans on; the limbs that hold carry that much less [N]."""
     damping: float = 150.0
     """Of "pull": of the tip's motion in the world [N s/m]."""
+    side: int = 0
+    """Where its elbow is kept by a soft stop before it is straight, +1 or -1; 0: it may pass."""
     pressed: bool = False
     """Of "pull": whether the tip has stopped against something, which then loads the joints."""
 
@@ -355,6 +362,9 @@ class WholeBody:
         bad = command_tick(self._table, self._part() if self.handing_over else 1.0)
         if bad >= 0:
             self._complain(bad)
+        for i, task in enumerate(self.tasks):
+            if task.side:
+                self.torques[i, 1] += task.side * STOP * max(0.0, 1.0 - task.side * self.q.item(i, 1) / BENT)
         if self._scheme is not None:
             self._scheme.hold(self, [i for i, task in enumerate(self.tasks) if task.doing == "hold"])
         return self.torques
