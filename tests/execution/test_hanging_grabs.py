@@ -159,12 +159,15 @@ def test_a_hook_that_missed_goes_back_the_way_it_came(
 ) -> None:
     g, hold = np.array((-0.6, 0.8)), np.array((1.0, 0.5))
     h = np.array((-g[1], g[0]))
-    tip = hold + past * g + aside * h
-    places = [tip]
-    monkeypatch.setattr(hook, "move_tip", lambda climber, i, place, seconds: places.append(place))
+    places = [hold + past * g + aside * h]
+
+    def comes_to(climber: Climber, i: int, place: Floats) -> bool:
+        places.append(place)
+        return True
+
+    monkeypatch.setattr(hook, "_comes_to", comes_to)
     monkeypatch.setattr(hook, "stand_off_of", lambda climber, i, doubt: 0.05)
-    body = SimpleNamespace(tip=cast("Callable[[int], Floats]", lambda i: places[-1]))
-    climber = SimpleNamespace(body=body, plant=SimpleNamespace(period=0.005))
+    climber = SimpleNamespace(body=SimpleNamespace(tip=cast("Callable[[int], Floats]", lambda i: places[-1])))
     found = Approach(np.zeros(2), np.zeros((1, 2)), g, 0.05)
     hook.back_off(cast(Climber, climber), LEFT, hold, 0.004, found)
     for start, end in pairwise(places):
@@ -176,28 +179,55 @@ def test_a_hook_that_missed_goes_back_the_way_it_came(
 
 
 @pytest.mark.parametrize("free_side", [-1.0, 1.0])
+@pytest.mark.parametrize("aside", [-0.003, 0.003])
 def test_a_hook_whose_flare_catches_on_its_way_back_goes_aside_and_back_from_there(
-    monkeypatch: pytest.MonkeyPatch, free_side: float
+    monkeypatch: pytest.MonkeyPatch, free_side: float, aside: float
 ) -> None:
     g, hold = np.array((-0.6, 0.8)), np.array((1.0, 0.5))
     h = np.array((-g[1], g[0]))
-    places = [hold + 0.02 * g]
+    tip = hold + 0.02 * g + aside * h
+    places = [tip]
 
-    def move_tip(climber: Climber, i: int, place: Floats, seconds: float) -> None:
-        """A peg on the other side holds the flare while the hook is beside it, and lets it go that way only."""
-        tip = places[-1]
-        free = (tip - hold) @ h * free_side > 0.015 or ((tip - hold) @ g < -0.04)
-        if free or ((place - tip) @ h * free_side > 1e-9):
+    def comes_to(climber: Climber, i: int, place: Floats) -> bool:
+        """The peg is on the other side: it holds the flare while the hook is beside it, and lets it go to the free side only."""
+        here = places[-1]
+        free = (
+            (here - hold) @ h * free_side > 0.015 or (here - hold) @ g < -0.04 or (place - here) @ h * free_side > 1e-9
+        )
+        if free:
             places.append(place)
+        return bool(free)
 
-    monkeypatch.setattr(hook, "move_tip", move_tip)
+    monkeypatch.setattr(hook, "_comes_to", comes_to)
     monkeypatch.setattr(hook, "stand_off_of", lambda climber, i, doubt: 0.05)
-    body = SimpleNamespace(tip=cast("Callable[[int], Floats]", lambda i: places[-1]))
-    climber = SimpleNamespace(body=body, plant=SimpleNamespace(period=0.005), tick=lambda: None)
+    climber = SimpleNamespace(body=SimpleNamespace(tip=cast("Callable[[int], Floats]", lambda i: places[-1])))
     found = Approach(np.zeros(2), np.zeros((1, 2)), g, 0.05)
     hook.back_off(cast(Climber, climber), LEFT, hold, 0.004, found)
+    assert [(place - tip) @ h for place in places] == pytest.approx([0.0, 0.02 * free_side, 0.02 * free_side, -aside])
     assert places[-1] == pytest.approx(hold - 0.05 * g)
-    assert len(places) == 4  # aside, back, to before the hold
+
+
+@pytest.mark.parametrize("wall", [0.02, 0.05, 1.0])
+def test_a_tip_goes_straight_to_a_place_and_stops_pulling_where_it_is_held(wall: float) -> None:
+    start, way = np.array((0.3, 0.2)), np.array((0.6, -0.8))
+    tip, task, farthest = start.copy(), SimpleNamespace(doing="joints", place=start, speed=np.zeros(2)), 0.0
+
+    def tick() -> None:
+        """The tip comes after where it is to be, with a lag of 50 ms, as far as the wall."""
+        nonlocal farthest
+        tip[:] += 0.1 * (task.place - tip)
+        beyond = (tip - start) @ way - wall
+        tip[:] -= max(beyond, 0.0) * way
+        farthest = max(farthest, float((task.place - tip) @ way))
+
+    body = SimpleNamespace(tasks=[task], tip=lambda i: tip.copy())
+    climber = SimpleNamespace(body=body, plant=SimpleNamespace(period=0.005), tick=tick)
+    there = hook._comes_to(cast(Climber, climber), 0, start + 0.1 * way)
+    assert there == (wall > 0.1)
+    assert (tip - start) @ way == pytest.approx(min(wall, 0.1), abs=0.011)
+    assert farthest < 0.03  # [m], by which its limb pulls: 15 N
+    assert task.place == pytest.approx(start + 0.1 * way if there else tip)
+    assert task.speed == pytest.approx(np.zeros(2))
 
 
 @pytest.mark.parametrize(("short", "before", "seated"), [

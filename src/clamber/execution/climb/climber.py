@@ -147,7 +147,7 @@ class Climber:
         if self.balance is not None:
             self.balance()
         self.gripped[:] = sensed.gripped
-        falls, lost = self.fall.see(), self.slip.see()
+        falls, lost = self.fall.see(), self.slip.see(self.fall.forces)
         self.plant.actuate(self.body.command(), self.grips)
         self.plant.step()
         self.ticks += 1

@@ -30,8 +30,10 @@ CLEAR: Final = 0.02
 """So far aside a hook that lies beside its hold comes off it without its flare, 15 mm either way, catching there [m]."""
 CAUGHT: Final = 0.01
 """A hook that stays so far from where it is to be is caught [m] ..."""
-LAGGING: Final = 0.4
-"""... when it has had this long to come there after its way [s]."""
+NO_WAY: Final = (0.002, 0.15)
+"""... when it has come no farther than the first of these for the second [m], [s]."""
+BACK_SPEED: Final = 0.08
+"""Of a hook on its way back: slow, for what it is caught on it pulls at no harder then [m/s]."""
 SHALLOW: Final = (0.010, 0.015)
 """A hook that stops the first of these before its hold may rest on its flare against it, however hard it is pushed, and slip off later:
 it counts as seated where it comes to the same place once more, pushed on from elsewhere; at the second it doesn't at all [m]."""
@@ -93,7 +95,8 @@ def back_off(climber: Climber, i: int, hold: Floats, doubt: float, found: Approa
     away, g, tip = stand_off_of(climber, i, doubt), found.grab, climber.body.tip(i)
     across = np.array((-g[1], g[0]))
     deep = float((tip - hold) @ g) + away
-    for aside in (0.0, CLEAR, -CLEAR) if deep > 0.0 else ():
+    side = math.copysign(CLEAR, float((tip - hold) @ across))  # the hold is more likely on the other one
+    for aside in (0.0, side, -side) if deep > 0.0 else ():
         start = tip + aside * across
         if aside:
             _comes_to(climber, i, start)
@@ -103,13 +106,24 @@ def back_off(climber: Climber, i: int, hold: Floats, doubt: float, found: Approa
 
 
 def _comes_to(climber: Climber, i: int, place: Floats) -> bool:
-    """Bring a tip straight to a place, which it gets a moment to come to; whether it does."""
-    move_tip(climber, i, place, 0.5)
-    for _ in range(round(LAGGING / climber.plant.period)):
-        if math.dist(climber.body.tip(i), place) < CAUGHT:
-            return True
+    """Bring a tip straight to a place, or to where something holds it: pulled on, other hooks come off; whether it comes there."""
+    body, period = climber.body, climber.plant.period
+    task, start = body.tasks[i], body.tip(i)
+    length = math.dist(start, place)
+    way = (place - start) / max(length, 1e-9)
+    task.doing, gone, mark, stands = "tip", 0.0, 0.0, 0.0
+    while stands < NO_WAY[1]:
+        gone = min(gone + BACK_SPEED * period, length)
+        task.place, task.speed = start + gone * way, (BACK_SPEED if gone < length else 0.0) * way
         climber.tick()
-    return False
+        if math.dist(body.tip(i), place) < CAUGHT:
+            break
+        come = float((body.tip(i) - start) @ way)
+        behind = gone - come > CAUGHT or gone == length
+        mark, stands = (come, 0.0) if come > mark + NO_WAY[0] or not behind else (mark, stands + period)
+    there = math.dist(body.tip(i), place) < CAUGHT
+    task.place, task.speed = place if there else body.tip(i), np.zeros(2)
+    return there
 
 
 def may_stay(climber: Climber, i: int, pose: Floats) -> bool:

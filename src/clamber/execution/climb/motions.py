@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Callable
-from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -23,8 +22,8 @@ JOINT_SPEED: Final = 2.6
 """Of a free limb's joints on their way, seven eighths of what their motors can [rad/s]."""
 JOINT_AGILITY: Final = 14.0
 """With which they come to it [rad/s^2]."""
-LAG: Final = 0.06
-"""A limb this far behind on its way is waited for: its motors give all they can [rad]."""
+LAG: Final = (0.015, 0.045)
+"""A limb this far behind on its way is slowed down, at the second until it has come after: its motors give all they can [rad]."""
 WAITING: Final = 1.5
 """For that long in all, on one way [s]."""
 HELD_BACK: Final = (0.04, 0.3)
@@ -156,14 +155,16 @@ def follow(climber: Climber, i: int, way: Floats) -> None:
     padded = np.concatenate((np.repeat(way[:1], blend, axis=0), angles, np.repeat(way[-1:], blend, axis=0)))
     smooth = np.stack([np.convolve(padded[:, j], window / window.sum(), "valid") for j in range(2)], axis=1)
     task.doing = "joints"
-    q, waited = climber.body.q[i], 0.0
-    for before, after in pairwise(smooth):
-        # a limb that lags cuts the corners of its way, and knocks against what it was to go round
-        while np.abs(before - q).max() > LAG and waited < WAITING:
-            task.rates = np.zeros(2)
-            climber.tick()
-            waited += period
-        task.angles, task.rates = after, (after - before) / period
+    q, waited, gone, last = climber.body.q[i], 0.0, 0.0, len(smooth) - 1
+    while gone < last:
+        # a limb that lags with one joint more than the other leaves its way, and knocks against what it was to go round
+        lag = float(np.abs(task.angles - q).max()) if gone else 0.0
+        speed = float(np.interp(lag, LAG, (1.0, 0.0))) if waited < WAITING else 1.0
+        waited += (1.0 - speed) * period
+        k, part = divmod(gone, 1.0)
+        step = smooth[min(int(k) + 1, last)] - smooth[int(k)]
+        task.angles, task.rates = smooth[int(k)] + part * step, speed / period * step
+        gone += speed
         climber.tick()
     task.angles, task.rates = way[-1].copy(), np.zeros(2)
 

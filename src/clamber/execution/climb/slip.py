@@ -6,6 +6,7 @@ from typing import Final
 
 import numpy as np
 
+from ...types import Floats
 from .whole_body import WholeBody
 
 BEYOND: Final = 0.006
@@ -13,6 +14,8 @@ BEYOND: Final = 0.006
 MOVED: Final = 0.0115
 """Two tips that have moved this far against each other are not both on their holds [m]. One joint that crosses its play moves them by less
 than 10 mm on LIBRA, a hook that slides in by 2 mm."""
+BEARING: Final = (10.0, 4.0)
+"""Of two hooks that move apart, one that feels more than the first of these is on where the other feels less than the second [N]."""
 FORGOTTEN: Final = 0.2
 """Time over which slower changes are forgotten: sinking in, what is learned of the sensors, play that a moving body crosses [s]."""
 
@@ -23,7 +26,8 @@ class SlipWatch:
     Against where the holds are believed to be they are off by as much as the map is, the play and the sensors; against where they were a
     moment ago by little. Where a load turns round, several joints cross their play at once: their encoders move, the tips do not.
     The belief of the play follows that, but moves tips itself where it lags or errs; a hook that comes off moves them by both. Of two
-    that move apart, that one has come off which moves the way it pulled: its hold is no longer in the way.
+    that move apart, that one has come off which moves the way it pulled: its hold is no longer in the way. One that was pushed off
+    backwards moves the other way, but then feels nothing, while the other one bears.
 
     Args:
         body: What knows the limbs and their tasks.
@@ -44,8 +48,12 @@ class SlipWatch:
         self._before.clear()
         self.moved = 0.0
 
-    def see(self) -> int | None:
-        """Take in the tick whose measurements the body has just seen; index of the limb whose hook has come off."""
+    def see(self, forces: Floats) -> int | None:
+        """Take in the tick whose measurements the body has just seen; index of the limb whose hook has come off.
+
+        Args:
+            forces: What the tips feel, shape (limbs, 2) [N]; infinite where they cannot tell.
+        """
         body, before = self._body, self._before
         seen = ((body.pose, body.tips), (body.settled, body.settled_tips))
         turned = [(math.cos(pose.item(2)), math.sin(pose.item(2)), tips.tolist()) for pose, tips in seen]
@@ -68,7 +76,10 @@ class SlipWatch:
             size, dx, dy = min((math.hypot(x, y), x, y) for x, y in (change[:2], change[2:]))
             if size > max(most, MOVED) and self._beyond_play(pair, known[2][2:], now[:2]) > BEYOND:
                 first, second = body.grab_direction(a), body.grab_direction(b)
-                lost = a if dx * (first[0] + second[0]) + dy * (first[1] + second[1]) > 0.0 else b
+                lost, other_one = (a, b) if dx * (first[0] + second[0]) + dy * (first[1] + second[1]) > 0.0 else (b, a)
+                felt = math.hypot(*forces[lost].tolist()), math.hypot(*forces[other_one].tolist())
+                if BEARING[0] < felt[0] < math.inf and felt[1] < BEARING[1]:
+                    lost = other_one
             most = max(most, size)
             lately = [old + self._rate * step for old, step in zip(known[2], change, strict=True)]
             before[pair] = one.hold, other.hold, lately
