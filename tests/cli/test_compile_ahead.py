@@ -7,10 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from clamber.cli import compile_ahead as ahead_of
+from clamber import compiled
 from clamber.cli import main
 from clamber.cli.compile_ahead import CLIMBING, Use, compile_ahead
-from clamber.compiled import cache_folder
 
 USES = (Use("module:one", "first"), Use("module:two", "second"))
 
@@ -26,9 +25,9 @@ def told(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[str]:
         yield
         said.append("over")
 
-    monkeypatch.setattr(ahead_of, "ahead", begin)
-    monkeypatch.setattr(ahead_of, "cache_folder", lambda: tmp_path)
-    monkeypatch.setattr(ahead_of, "is_compiled", lambda name: name == "first")
+    monkeypatch.setattr("clamber.jobs.ahead.ahead", begin)
+    monkeypatch.setattr(compiled, "cache_folder", lambda: tmp_path)
+    monkeypatch.setattr(compiled, "is_compiled", lambda name: name == "first")
     return said
 
 
@@ -48,7 +47,7 @@ def test_where_all_is_compiled_nothing_is_begun(told: list[str]) -> None:
 def test_where_nobody_could_find_it_nothing_is_begun(
     told: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(ahead_of, "cache_folder", lambda: tmp_path / "missing")
+    monkeypatch.setattr(compiled, "cache_folder", lambda: tmp_path / "missing")
     compile_ahead(*USES)
     assert told == []
 
@@ -57,4 +56,4 @@ def test_where_nobody_could_find_it_nothing_is_begun(
 def test_a_use_leaves_the_kernel_that_tells_of_it(use: Use) -> None:
     module, _, name = use.function.partition(":")
     getattr(import_module(module), name)()
-    assert list(cache_folder().glob(f"*.{use.kernel}-*.nbc"))
+    assert list(compiled.cache_folder().glob(f"*.{use.kernel}-*.nbc"))

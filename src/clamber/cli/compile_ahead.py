@@ -4,8 +4,7 @@ import os
 from dataclasses import dataclass
 from typing import Final
 
-from ..compiled import cache_folder, is_compiled
-from ..jobs.ahead import ahead
+from .. import compiled
 from .command_end import until_command_ends
 
 
@@ -27,6 +26,8 @@ def compile_ahead(*uses: Use) -> None:
 
     The command compiles what it needs as if nobody else did; a kernel that is being compiled elsewhere it waits for (`turns`).
     """
-    missing = [use.function for use in uses if not is_compiled(use.kernel)]
-    if missing and os.access(cache_folder(), os.W_OK):  # else none could hand its machine code over
+    missing = [use.function for use in uses if not compiled.is_compiled(use.kernel)]
+    if missing and os.access(compiled.cache_folder(), os.W_OK):  # else none could hand its machine code over
+        from ..jobs.ahead import ahead  # a second start does without
+
         until_command_ends.enter_context(ahead(missing))

@@ -42,7 +42,7 @@ def _begin(name: str) -> "subprocess.Popen[bytes]":
         stdin=subprocess.PIPE,  # closed when this process ends, whatever ends it
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
-        env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path), "OPENBLAS_NUM_THREADS": "1"},
+        env=os.environ | {"PYTHONPATH": os.pathsep.join(map(str, sys.path)), "OPENBLAS_NUM_THREADS": "1"},
     )
 
 
