@@ -23,6 +23,8 @@ from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLoca
 from numba.core.types import unliteral
 from numba.extending import intrinsic
 
+from .turns import Turns
+
 carray = numba.carray
 """View of the memory at a `pointer` as an array of given shape and type, for kernels; it owns nothing and counts no references."""
 F = TypeVar("F", bound=Callable[..., Any])
@@ -98,7 +100,25 @@ class _KernelCacheImpl(CompileResultCacheImpl):  # type: ignore[misc]
 
 
 class _KernelCache(FunctionCache):  # type: ignore[misc]
+    """A kernel's machine code on disk; of several processes that miss it, one compiles it and the others wait for that.
+
+    Numba numbers a kernel's files by what it finds in an index, so two that write the same kernel's code for other types at the same
+    time would each take the other's for their own.
+    """
+
     _impl_class = _KernelCacheImpl
+    _turns = Turns()
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        found = super().load_overload(sig, target_context)
+        if found is None:
+            self._turns.take(Path(self.cache_path), self._impl.filename_base)
+            found = super().load_overload(sig, target_context)
+        return found
+
+    def end_turn(self) -> None:
+        """Whatever came of the kernel, others may look for it now."""
+        self._turns.leave(Path(self.cache_path), self._impl.filename_base)
 
 
 def kernel(function: F) -> F:
@@ -116,14 +136,23 @@ def inlined(function: F) -> F:
 
 
 def _compile(function: F, *, inline: bool) -> F:
-    dispatcher = numba.njit(nogil=True, error_model="numpy", forceinline=inline)(function)
+    dispatcher = numba.njit(nogil=True, error_model="numpy", forceinline=inline, no_cfunc_wrapper=True)(function)
     template = dispatcher.get_call_template
     # Numba would compile a kernel anew for every literal number that another kernel calls it with: three times the compile time
     dispatcher.get_call_template = lambda args, kws: template(
         tuple(unliteral(arg) for arg in args), {name: unliteral(arg) for name, arg in kws.items()}
     )
     with contextlib.suppress(RuntimeError):  # nowhere to write: compile at every start rather than fail
-        dispatcher._cache = _KernelCache(dispatcher.py_func)
+        dispatcher._cache = cached = _KernelCache(dispatcher.py_func)
+        compile_or_load = dispatcher.compile
+
+        def compile_in_turn(signature: Any) -> Any:
+            try:
+                return compile_or_load(signature)
+            finally:
+                cached.end_turn()
+
+        dispatcher.compile = compile_in_turn
     return dispatcher  # type: ignore[no-any-return]
 
 

@@ -1,5 +1,6 @@
 """The first start compiles and says so, with progress; the second compiles nothing. Told by the cache, not by a clock."""
 
+import json
 import os
 import subprocess
 import sys
@@ -12,22 +13,38 @@ import clamber
 from clamber.cli import main, output
 
 
-def run(cache: Path) -> subprocess.CompletedProcess[str]:
+def run(cache: Path, *words: str) -> subprocess.CompletedProcess[str]:
     environment = os.environ | {
         "PYTHONPATH": str(Path(clamber.__file__).parents[1]), "CLAMBER_CACHE": str(cache), "COLUMNS": "80"
     }  # fmt: skip
-    words = [sys.executable, "-c", "from clamber.cli import main; main()", "check", "ladder-hand", "--json"]
-    return subprocess.run(words, capture_output=True, text=True, env=environment, timeout=900, check=True)
+    command = [sys.executable, "-c", "from clamber.cli import main; main()", *words, "--json"]
+    return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=900, check=True)
 
 
 @pytest.mark.slow
 def test_the_second_start_compiles_nothing(tmp_path: Path) -> None:
-    first = run(tmp_path)
+    first = run(tmp_path, "check", "ladder-hand")
     files = {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*.nbc")}
     assert files and "compiling the kernels" in first.stderr
-    second = run(tmp_path)
+    second = run(tmp_path, "check", "ladder-hand")
     assert {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*.nbc")} == files
     assert second.stderr == "" and second.stdout == first.stdout
+
+
+@pytest.mark.slow
+def test_a_first_run_that_compiles_in_two_processes_does_the_same_as_the_second(
+    tmp_path: Path, example_folder: Path
+) -> None:
+    first, second = (run(tmp_path / "cache", "run", str(example_folder / "two.json")) for _ in range(2))
+    lines = first.stderr.splitlines()
+    assert lines[0].startswith("compiling the kernels") and lines[-1].startswith("action 1 of 2")
+    assert not [line for line in lines[1:-1] if "kernels compiled after" not in line] and max(map(len, lines)) <= 80
+    assert second.stderr.splitlines() == lines[-1:]
+    assert _without_wall_seconds(second.stdout) == _without_wall_seconds(first.stdout)
+
+
+def _without_wall_seconds(told: str) -> dict[str, object]:
+    return {name: value for name, value in json.loads(told).items() if name != "wall_seconds"}
 
 
 class Compiling(Event):

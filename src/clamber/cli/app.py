@@ -12,6 +12,7 @@ import typer
 
 from .. import __version__
 from ..errors import ClamberError
+from .command_end import until_command_ends
 from .commands import add_commands
 from .help_text import command_of
 from .output import fall_silent
@@ -65,3 +66,4 @@ def main(arguments: Sequence[str] | None = None) -> None:
         sys.exit(2)
     finally:
         fall_silent()
+        until_command_ends.close()

@@ -13,6 +13,7 @@ from typing import Any, Final
 
 from .. import __version__, compiled
 from ..extensions import GROUPS, ExtensionError, all_outside, load_outside, outside, package_of
+from ..jobs.cores import usable_cores
 from ..types import Json
 
 FIRST_KERNEL: Final = "replay"
@@ -74,10 +75,9 @@ def extensions() -> list[Json]:
 
 def machine() -> Json:
     """System, cores that this process may use, and memory."""
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
     return {
         "system": f"{platform.system()} {platform.release()} {platform.machine()}",
-        "cores": cores,
+        "cores": usable_cores(),
         "memory": _memory("SC_PHYS_PAGES"),
         "memory_free": _memory("SC_AVPHYS_PAGES"),
     }

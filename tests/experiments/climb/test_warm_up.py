@@ -34,6 +34,24 @@ assert len(before) > 5
 print(sorted(loaded() - before))
 """
 
+ALONE = """
+import gc
+from numba.core.registry import CPUDispatcher
+from clamber.experiments.climb import warm_up
+
+warm_up.warm_up = lambda: None
+warm_up.warm_up_beside_planning()
+kernels = [one for one in gc.get_objects() if isinstance(one, CPUDispatcher) and one.overloads]
+print(*(one.__name__ for one in kernels), *(one.__module__ for one in kernels))
+"""
+
+
+def test_beside_planning_what_climbs_alone_need_comes_first() -> None:
+    told = subprocess.run([sys.executable, "-c", ALONE], capture_output=True, text=True, timeout=600)
+    words = told.stdout.split()
+    assert "command_tick" in words, told.stderr
+    assert not [word for word in words if word.startswith(("clamber.actions", "clamber.planning", "clamber.statics"))]
+
 
 def test_after_warming_up_a_climb_loads_no_further_kernel() -> None:
     told = subprocess.run([sys.executable, "-c", CLIMB], capture_output=True, text=True, timeout=600)

@@ -14,6 +14,7 @@ from ...planning.planners import find_planner
 from ...sim.limb_flaws import LimbFlaws
 from ...tasks.limbed import LimbedTask
 from ...viewing.climb_run_view import check_run_suffix, write_run
+from ..compile_ahead import CLIMBING, compile_ahead
 from ..output import announce_compilation, print_json, stderr, stdout, tell_cuts
 from .report import RunReport
 from .text import ClimbLine, print_run
@@ -36,6 +37,7 @@ def run_climb(what: str, words: RunWords, telling: RunReport) -> None:
     peg_error = () if words.peg_error is None else (f"peg_error={words.peg_error}",)
     deviations = read_noise(NO_NOISE, [*(words.noise or ()), *peg_error])
     announce_compilation(quiet=words.quiet)
+    compile_ahead(CLIMBING)
     task, plan, for_plant = open_climb(what, words.task, words.overrides or ())
     if for_plant and is_remote(words.plant):
         raise typer.BadParameter(f"{for_plant[0].partition('=')[0]} is the server's to set", param_hint="--set plant.")

@@ -10,6 +10,7 @@ from ...experiments.climb.trial import TrialSetup, climb_once
 from ...experiments.climb.trial_summary import sum_up
 from ...experiments.climb.trials import NoPlanError, run_trials, stored_trial, with_plan
 from ...planning.planners import find_planner
+from ..compile_ahead import CLIMBING, compile_ahead
 from ..crew import CrewWords
 from ..output import announce_compilation, print_json, stderr, stdout, tell_cuts
 from .text import TrialsLine, print_trials
@@ -63,6 +64,7 @@ def _planned(what: str, asked: TrialsWords, words: CrewWords) -> TrialSetup:
     """What every trial has in common, planned if it was not; leaves with 1 where there is no plan."""
     widths = read_noise(named_noise("usual"), asked.noise or ())
     announce_compilation(quiet=words.quiet)
+    compile_ahead(CLIMBING)
     if asked.replay is None:
         words.executor.check()  # before a minute is spent on a plan
     task, plan, plant = open_climb(what, asked.task, asked.overrides or ())

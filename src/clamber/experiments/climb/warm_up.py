@@ -3,6 +3,8 @@
 from functools import cache
 from typing import Final
 
+import numpy as np
+
 from ...actions.limbed_plans import thesis_code
 from ...actions.plan import Plan
 from ...execution.climb.climb_trace import TracedClimber
@@ -21,9 +23,26 @@ FIRST_GRAB: Final = 106
 @cache
 def warm_up() -> None:
     """Climb one action for nothing, once in a process: compiling takes minutes, loading what is compiled a second."""
+    task = _on_the_ladder()
+    plan = Plan.of_codes(task, [thesis_code(task, FIRST_GRAB)])
+    Sequencer(Climbing(_climber(task), lay_course(task, plan))).run()
+
+
+def warm_up_beside_planning() -> None:
+    """The same while another process plans: first what planning does without, so that each of them compiles its own."""
+    task = _on_the_ladder()
+    start, climber = task.start, _climber(task)
+    climber.start(np.array((start.x, start.y, start.theta)), start.holds, elbows={})
+    climber.tick()
+    warm_up()
+
+
+def _on_the_ladder() -> LimbedTask:
     ladder = load_task("ladder")
     assert isinstance(ladder, LimbedTask)
-    task = climbable(ladder)
+    return climbable(ladder)
+
+
+def _climber(task: LimbedTask) -> TracedClimber:
     plant = ClimberPlant(task.robot, task.world, named_flaws("nominal", task.robot))
-    plan = Plan.of_codes(task, [thesis_code(task, FIRST_GRAB)])
-    Sequencer(Climbing(TracedClimber(task.robot, task.world, plant), lay_course(task, plan))).run()
+    return TracedClimber(task.robot, task.world, plant)

@@ -1,0 +1,33 @@
+"""Kernels that a command needs later, compiled in other processes while it compiles those that it needs first."""
+
+import os
+from dataclasses import dataclass
+from typing import Final
+
+from .. import compiled
+from .command_end import until_command_ends
+
+
+@dataclass(frozen=True, slots=True)
+class Use:
+    """A use of kernels that takes long to compile."""
+
+    function: str
+    """Uses each of them once, as "module:name"."""
+    kernel: str
+    """The one of them that takes longest."""
+
+
+CLIMBING: Final = Use("clamber.experiments.climb.warm_up:warm_up_beside_planning", "command_tick")
+
+
+def compile_ahead(*uses: Use) -> None:
+    """Begin to compile for uses to come, those first that take longest, until the command ends; where all is compiled, begin nothing.
+
+    The command compiles what it needs as if nobody else did; a kernel that is being compiled elsewhere it waits for (`turns`).
+    """
+    missing = [use.function for use in uses if not compiled.is_compiled(use.kernel)]
+    if missing and os.access(compiled.cache_folder(), os.W_OK):  # else none could hand its machine code over
+        from ..jobs.ahead import ahead  # a second start does without
+
+        until_command_ends.enter_context(ahead(missing))
