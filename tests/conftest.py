@@ -4,12 +4,15 @@ import os
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before anything imports numpy
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 
 import pytest
 from hypothesis import settings
 
 from clamber.cli import main
+from clamber.jobs import LocalProcesses
+from clamber.jobs.executor import End
+from clamber.jobs.worker import find_function, run_item
 
 settings.register_profile("steady", derandomize=True, deadline=None)
 settings.register_profile("explore", deadline=None, max_examples=1000)
@@ -29,3 +32,15 @@ def clamber(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) 
         return int(left.value.code or 0), out, err
 
     return call
+
+
+@pytest.fixture
+def in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Batches run here, as their workers would run them: for tests of what comes of a batch. A worker takes seconds to start."""
+
+    def run(self: LocalProcesses, name: str, items: Mapping[str, str]) -> Iterator[End]:
+        for key, item in items.items():
+            told = run_item(find_function(name), item)
+            yield End(key, told["result"], told["seconds"], told["error"], 1)
+
+    monkeypatch.setattr(LocalProcesses, "run", run)

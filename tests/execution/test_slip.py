@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import mujoco
 import numpy as np
 import pytest
+from tiers import first_fast
 
 from clamber.execution.climb.climb_report import ClimbReport
 from clamber.execution.climb.climb_trace import TracedClimber
@@ -110,7 +111,7 @@ def _after(step: int, ticks: int, fits: Callable[[list[str]], bool]) -> When:
     return due
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", first_fast(range(6), 2))
 def test_no_slip_is_told_in_a_climb_without_one(seed: int) -> None:
     climb = Knocked(seed)
     report = climb.climb()
@@ -120,7 +121,7 @@ def test_no_slip_is_told_in_a_climb_without_one(seed: int) -> None:
     assert all(action.recovered == 0 for action in report.actions)
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", first_fast(range(4)))
 @pytest.mark.parametrize("limb", [RIGHT, LEFT])
 @pytest.mark.parametrize(
     ("when", "step", "ticks"),
@@ -142,7 +143,7 @@ def test_a_lost_hook_is_told_and_named_within_a_fifth_of_a_second(
     assert climb.said.limb == limb
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", first_fast(range(4)))
 def test_the_loss_of_all_hooks_is_told_within_a_fifth_of_a_second_and_is_a_fall(seed: int) -> None:
     climb = Knocked(seed, RIGHT, on_two_limbs(2, 60), gone=60.0, others=False)
     report = climb.climb()
@@ -153,7 +154,7 @@ def test_the_loss_of_all_hooks_is_told_within_a_fifth_of_a_second_and_is_a_fall(
     assert "fell" in report.reason
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", first_fast(range(8), 2))
 def test_a_clinging_hook_takes_the_load_and_the_climb_goes_on(seed: int) -> None:
     climb = Knocked(seed, RIGHT, on_three_limbs(3, 10))
     report = climb.climb()
@@ -168,7 +169,7 @@ def test_a_clinging_hook_takes_the_load_and_the_climb_goes_on(seed: int) -> None
     assert sum(action["recovered"] for action in told) >= 1
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", first_fast(range(4)))
 @pytest.mark.parametrize(("limb", "step", "ticks"), [(RIGHT, 2, 60), (LEFT, 5, 100)], ids=["body above", "body beside"])
 def test_a_body_that_has_lost_one_of_two_hooks_is_still_held_two_seconds_later(
     limb: int, step: int, ticks: int, seed: int

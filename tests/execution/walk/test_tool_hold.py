@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from spring_walks import BEST, RADIUS, ROBOT, stood
 from springs_walker import SpringsWalker, flat, slope
+from tiers import first_fast
 
 from clamber.control.track import straight
 from clamber.control.walker_balance import mass_centre
@@ -136,7 +137,7 @@ def test_a_point_out_of_reach_is_refused_with_what_is_missing() -> None:
     assert refused.value.margin == pytest.approx(ARM.out + sum(ARM.links) - away, abs=1e-3)
 
 
-@pytest.mark.parametrize("uphill", [None, BEST])
+@pytest.mark.parametrize("uphill", first_fast([BEST, None]))
 def test_feet_that_sink_in_do_not_raise_what_is_believed(uphill: float | None) -> None:
     """The springs give 0.9 mm under a frame that carries alone; without reckoning with it, every step would add as much."""
     ground = flat if uphill is None else slope(math.radians(5.0), uphill)
@@ -149,6 +150,7 @@ def test_feet_that_sink_in_do_not_raise_what_is_believed(uphill: float | None) -
     assert walker.pose[2] - walker.plant.truth().pose[2] - off == pytest.approx(0.0, abs=1.5e-3)  # type: ignore[union-attr]
 
 
+@pytest.mark.slow
 def test_the_tool_has_the_plates_height_only_while_a_frame_slides(monkeypatch: pytest.MonkeyPatch) -> None:
     """A point higher than the arm's shoulder: the plate comes up to it, within its room, faded in and out; the tool stays."""
     monkeypatch.setattr("spring_walks.SpringsWalker", Watched)
@@ -225,7 +227,7 @@ def test_the_reach_with_the_plates_height_is_that_of_the_stretched_arm_on_a_plat
         np.testing.assert_allclose(hold.reach, [(1.0 - along, 1.0 + along)], atol=1e-3)
 
 
-@pytest.mark.parametrize("uphill", [None, BEST, -BEST, 0.0])
+@pytest.mark.parametrize("uphill", first_fast([BEST, None, -BEST, 0.0]))
 def test_the_rooms_that_are_rehearsed_are_those_of_the_walk(uphill: float | None) -> None:
     ground = flat if uphill is None else slope(math.radians(6.0), uphill)
     walker, _ = stood(ground, noise=0.0)

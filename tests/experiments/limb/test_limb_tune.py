@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from jsonschema import Draft202012Validator
+from tiers import first_fast
 
 from clamber.cli.printed.library import schema_of
 from clamber.control.law_settings import LAWS, LawSettings
@@ -73,7 +74,7 @@ def test_no_law_limit_cycles_at_its_recommended_gains(limb: BenchLimb, flaws: Li
     assert swing(limb, stored(law)[0], flaws, every=3) <= 0.0005
 
 
-@pytest.mark.parametrize("law", ["scct", "jacobian-transpose", "operational-space"])
+@pytest.mark.parametrize("law", first_fast(["scct", "jacobian-transpose", "operational-space"]))
 def test_a_law_limit_cycles_beyond_its_limit(limb: BenchLimb, flaws: LimbFlaws, law: str) -> None:
     settings, found = stored(law)
     worn = flaws.with_changes(friction=0.7)  # as the limit was searched
