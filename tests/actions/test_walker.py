@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tiers import first_fast
 
 from clamber.actions import codes
 from clamber.actions.codes import MOVE, NONE, RELEASE, pack
@@ -27,6 +26,7 @@ from clamber.tasks import load_task, task_from_document
 from clamber.tasks.walker import WalkerTask
 from clamber.worlds.ground import Block, Ground
 from plain_walker import CHECKS, PlainStance, PlainWalker
+from tiers import first_fast
 
 ACTIONS = (*MOVES, "swap", "none")
 CODES = (*(pack(MOVE, 0, axis) for axis in range(6)), pack(RELEASE), pack(NONE))

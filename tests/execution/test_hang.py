@@ -8,7 +8,6 @@ from itertools import pairwise
 import mujoco
 import numpy as np
 import pytest
-from tiers import first_fast
 
 from clamber.actions.limbed_plans import thesis_code
 from clamber.actions.plan import Plan
@@ -30,6 +29,7 @@ from clamber.tasks import load_task
 from clamber.tasks.limbed import LimbedTask
 from clamber.types import Floats
 from clamber.units import GRAVITY
+from tiers import first_fast
 
 IDEAL = LimbFlaws(physics_rate=1000.0)
 NOMINAL = LimbFlaws(backlash=np.radians(2.0), physics_rate=1000.0, encoder_counts=400, delay=1)

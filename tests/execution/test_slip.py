@@ -6,7 +6,6 @@ from dataclasses import dataclass, field
 import mujoco
 import numpy as np
 import pytest
-from tiers import first_fast
 
 from clamber.execution.climb.climb_report import ClimbReport
 from clamber.execution.climb.climb_trace import TracedClimber
@@ -21,6 +20,7 @@ from clamber.experiments.climb.plants import drawn_plant
 from clamber.experiments.climb.run_plan import believing_climber, climbing_flaws
 from clamber.sim.climber_plant import ClimberPlant
 from clamber.types import Floats
+from tiers import first_fast
 
 OFF = 0.012
 """A tip that far from its peg is off it [m]."""

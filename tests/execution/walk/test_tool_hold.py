@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from spring_walks import BEST, RADIUS, ROBOT, stood
 from springs_walker import SpringsWalker, flat, slope
-from tiers import first_fast
 
 from clamber.control.track import straight
 from clamber.control.walker_balance import mass_centre
@@ -21,6 +20,7 @@ from clamber.execution.walk.walk_trace import PHASES, TracedWalker
 from clamber.execution.walk.walker import RefusedError, Walker
 from clamber.execution.walk.walking import Walking
 from clamber.types import Floats
+from tiers import first_fast
 
 ARM = ROBOT.arm
 assert ARM is not None

@@ -10,7 +10,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from jsonschema import Draft202012Validator
-from tiers import first_fast
 
 from clamber.cli.printed.library import schema_of
 from clamber.control.law_settings import LAWS, LawSettings
@@ -40,6 +39,7 @@ from clamber.experiments.limb.tune import (
 )
 from clamber.experiments.limb.tuned_laws import with_recommended_gains
 from clamber.sim.limb_flaws import LimbFlaws
+from tiers import first_fast
 
 
 @pytest.fixture(scope="module")
