@@ -4,15 +4,14 @@ import os
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before anything imports numpy
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable
 
 import pytest
 from hypothesis import settings
 
 from clamber.cli import main
 from clamber.jobs import LocalProcesses
-from clamber.jobs.executor import End
-from clamber.jobs.worker import find_function, run_item
+from here import Here
 
 settings.register_profile("steady", derandomize=True, deadline=None)
 settings.register_profile("explore", deadline=None, max_examples=1000)
@@ -36,11 +35,5 @@ def clamber(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) 
 
 @pytest.fixture
 def in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Batches run here, as their workers would run them: for tests of what comes of a batch. A worker takes seconds to start."""
-
-    def run(self: LocalProcesses, name: str, items: Mapping[str, str]) -> Iterator[End]:
-        for key, item in items.items():
-            told = run_item(find_function(name), item)
-            yield End(key, told["result"], told["seconds"], told["error"], 1)
-
-    monkeypatch.setattr(LocalProcesses, "run", run)
+    """Batches whose commands ask for workers run in the test's own process."""
+    monkeypatch.setattr(LocalProcesses, "run", Here.run)

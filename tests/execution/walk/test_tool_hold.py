@@ -1,7 +1,7 @@
 """A tool that is held at a point while the robot walks past it, on legs that stand on springs."""
 
 import math
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pytest
@@ -210,7 +210,10 @@ def test_the_tool_has_the_plates_height_only_while_a_frame_slides(monkeypatch: p
     assert told["height"].measures[1] > 1.02 * told["arm"].measures[1]  # it takes two slides to come up
 
 
-def test_the_reach_with_the_plates_height_is_that_of_the_stretched_arm_on_a_plate_as_high_as_legs_allow() -> None:
+@pytest.mark.parametrize("served", first_fast(["height", "arm"]))
+def test_the_reach_with_the_plates_height_is_that_of_the_stretched_arm_on_a_plate_as_high_as_legs_allow(
+    served: Literal["arm", "height"],
+) -> None:
     """On the flat a foot that is lifted by 50 mm leaves the plate 46 mm upwards: longest leg less room; the rest is a circle."""
     walker, _ = stood(flat, noise=0.0)
     assert ARM is not None
@@ -218,13 +221,10 @@ def test_the_reach_with_the_plates_height_is_that_of_the_stretched_arm_on_a_plat
     track = straight(np.array((0.0, 0.0, 0.0)), BEST, 2.0, RADIUS)
     feet = float(walker.heights.mean())
     point = np.array((0.3, 1.0, feet + spec.nominal + ARM.up + height))
-    for served, raised in (
-        ("arm", walker.pose[2] - feet - spec.nominal),
-        ("height", spec.longest - ROOM - spec.nominal),
-    ):
-        hold = ToolHold(walker, track, point, 0.9, served)  # type: ignore[arg-type]
-        along = math.sqrt((ARM.out + math.sqrt(sum(ARM.links) ** 2 - (height - raised) ** 2)) ** 2 - 0.3**2)
-        np.testing.assert_allclose(hold.reach, [(1.0 - along, 1.0 + along)], atol=1e-3)
+    raised = (walker.pose[2] - feet if served == "arm" else spec.longest - ROOM) - spec.nominal
+    hold = ToolHold(walker, track, point, 0.9, served)
+    along = math.sqrt((ARM.out + math.sqrt(sum(ARM.links) ** 2 - (height - raised) ** 2)) ** 2 - 0.3**2)
+    np.testing.assert_allclose(hold.reach, [(1.0 - along, 1.0 + along)], atol=1e-3)
 
 
 @pytest.mark.parametrize("uphill", first_fast([BEST, None, -BEST, 0.0]))

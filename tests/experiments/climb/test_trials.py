@@ -34,7 +34,7 @@ LETS_GO = (300, 3)
 
 def test_a_trial_is_the_same_from_a_worker_and_climbed_again(tmp_path: Path) -> None:
     setup, store = setup_of(*LETS_GO), tmp_path / "trials.db"
-    trials = run_trials(setup, [3, 11], executor=LocalProcesses(2), store=store)
+    trials = run_trials(setup, [3, 11], executor=LocalProcesses(1), store=store)
     assert [trial.seed for trial in trials.ended] == [3, 11]
     for told in trials.ended:
         known, plans = stored_trial(setup, told.seed, store)
