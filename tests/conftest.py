@@ -1,6 +1,5 @@
 """Set-up of all tests: one BLAS thread, and property tests that try the same examples every time."""
 
-import gc
 import os
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before anything imports numpy
@@ -17,12 +16,6 @@ from here import Here
 settings.register_profile("steady", derandomize=True, deadline=None)
 settings.register_profile("explore", deadline=None, max_examples=1000)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "steady"))
-
-
-def pytest_collection_finish() -> None:
-    """What is loaded by now stays to the end: the garbage collector needn't go through its million objects again and again."""
-    gc.collect()
-    gc.freeze()
 
 
 @pytest.fixture
