@@ -10,6 +10,8 @@ import pytest
 from hypothesis import settings
 
 from clamber.cli import main
+from clamber.jobs import LocalProcesses
+from here import Here
 
 settings.register_profile("steady", derandomize=True, deadline=None)
 settings.register_profile("explore", deadline=None, max_examples=1000)
@@ -29,3 +31,9 @@ def clamber(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) 
         return int(left.value.code or 0), out, err
 
     return call
+
+
+@pytest.fixture
+def in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Batches whose commands ask for workers run in the test's own process."""
+    monkeypatch.setattr(LocalProcesses, "run", Here.run)

@@ -135,6 +135,7 @@ def test_its_planner_plans_and_its_check_reports(install: Any, run: Run, tmp_pat
     assert heights[-1] == pytest.approx(0.0254 * inches - 1.0, abs=1e-9)
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_its_planner_takes_part_where_ours_are_given_usual_options(install: Any, run: Run) -> None:
     install()
     words = (

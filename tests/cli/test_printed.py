@@ -41,12 +41,14 @@ def check(printed: Any, words: str) -> None:
     Draft202012Validator(schema_of(command_in(words))).validate(printed(words))
 
 
+@pytest.mark.usefixtures("in_this_process")
 @pytest.mark.parametrize("words", QUICK)
 def test_output_is_as_its_schema_says(printed: Any, words: str) -> None:
     check(printed, words)
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("in_this_process")
 @pytest.mark.parametrize("words", LONG)
 def test_output_of_what_takes_longer_is_too(printed: Any, words: str) -> None:
     check(printed, words)

@@ -67,6 +67,7 @@ def test_bad_input_is_one_message(run: Any, words: tuple[str, ...], said: str) -
     assert said in err and "Traceback" not in err
 
 
+@pytest.mark.usefixtures("in_this_process")
 @pytest.mark.slow
 def test_the_command_prints_what_walks_say_together(clamber: Any) -> None:
     words = ("trials", "level-walk", *TINY, "-n", "2", "--workers", "1", "--noise", "none", "-q")

@@ -23,6 +23,7 @@ def check(clamber: Any, words: list[str]) -> None:
     assert "Traceback" not in err
 
 
+@pytest.mark.usefixtures("in_this_process")
 @pytest.mark.parametrize("words", QUICK)
 def test_answers_fit_80_columns_without_colour(
     clamber: Any, words: str, example_folder: Path, monkeypatch: pytest.MonkeyPatch
@@ -32,6 +33,7 @@ def test_answers_fit_80_columns_without_colour(
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("in_this_process")
 @pytest.mark.parametrize("words", [words for words in LONG if "start.y=" not in words])
 def test_answers_that_take_longer_do_too(
     clamber: Any, words: str, example_folder: Path, monkeypatch: pytest.MonkeyPatch

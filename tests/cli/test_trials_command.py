@@ -61,6 +61,7 @@ def test_a_run_with_the_noise_and_seed_of_a_trial_is_that_trial(clamber: Any, tm
     assert json.loads(other)["true_pose"] != same["true_pose"]
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_failed_climbs_are_told_with_their_cause_and_leave_with_1(clamber: Any, tmp_path: Path) -> None:
     plan = plan_file(tmp_path, 300, *([3] * 8))
     words = ("trials", plan, "-n", "2", "--workers", "1", "-q")
@@ -74,6 +75,7 @@ def test_failed_climbs_are_told_with_their_cause_and_leave_with_1(clamber: Any, 
     assert max(map(len, out.splitlines())) <= 80
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_a_success_that_is_asked_for_decides_how_it_leaves(clamber: Any, tmp_path: Path) -> None:
     words = ("trials", plan_file(tmp_path, 300), "-n", "2", "--workers", "1", "-q", "--json")
     assert clamber(*words, "--at-least", "34%")[0] == 0  # Wilson's bound of 2 in 2 is 34.2 %
@@ -103,6 +105,7 @@ def test_bad_input_is_one_message(clamber: Any, words: tuple[str, ...], said: st
     assert said in err and "Traceback" not in err
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_a_store_of_other_trials_is_refused(clamber: Any, tmp_path: Path) -> None:
     plan, store = plan_file(tmp_path, 300), str(tmp_path / "trials.db")
     words = ("trials", plan, "-n", "1", "--workers", "1", "--store", store, "-q")

@@ -1,5 +1,8 @@
 """No page tells the reader a command, an option or a choice that isn't there."""
 
+from functools import cache
+from typing import Any
+
 import click
 import pytest
 from told_commands import Told, pages, told_by
@@ -10,9 +13,15 @@ from clamber.cli.help_text import command_of
 TOLD = [told for page in pages() for told in told_by(page)]
 
 
+@cache
+def top_command() -> Any:
+    """`clamber` with all its commands; to build them takes longer than to read a line."""
+    return command_of(application())
+
+
 def understood(words: tuple[str, ...]) -> None:
     """Read the words as the command line does, down to the last command, and carry nothing out."""
-    command: click.Command = command_of(application())
+    command: click.Command = top_command()
     rest, parent, name = list(words), None, "clamber"
     while True:
         # Eager options such as --version print and leave while they are read; no page's block asks for one alone.
@@ -31,7 +40,7 @@ def understood(words: tuple[str, ...]) -> None:
 def test_command_of_a_page_is_understood(told: Told) -> None:
     if told.is_pattern or (not told.block and len(told.words) == 1):
         name = told.words[0]
-        top = command_of(application())
+        top = top_command()
         options = {option for parameter in top.params for option in parameter.opts}
         assert name in {"--help", *options, *top.commands}, told  # type: ignore[union-attr]
         return

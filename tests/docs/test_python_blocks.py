@@ -16,6 +16,8 @@ import clamber
 PAGES = ("python-api", "own-robot")
 TEN_LINES = 11
 """Of a block, the import and the empty line after it with it."""
+LONG = ("clamber.run(", "find_openings(")
+"""What takes more than some seconds."""
 
 
 def blocks() -> list[Any]:
@@ -24,7 +26,7 @@ def blocks() -> list[Any]:
         text = (ROOT / "docs" / f"{page}.md").read_text()
         for number, block in enumerate(re.findall(r"```python\n(.*?)```", text, re.DOTALL), start=1):
             if not FILE.match(block):
-                slow = [pytest.mark.slow] if "clamber.run(" in block else []
+                slow = [pytest.mark.slow] if any(word in block for word in LONG) else []
                 found.append(pytest.param(block, id=f"{page}-{number}", marks=slow))
     return found
 

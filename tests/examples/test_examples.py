@@ -52,6 +52,7 @@ def test_an_own_robot_climbs_an_own_wall(tmp_path: Path) -> None:
     assert (tmp_path / "four-limbs.png").stat().st_size > 10_000
 
 
+@pytest.mark.slow
 def test_five_holds_have_no_plan_and_the_reason_is_told(tmp_path: Path) -> None:
     out = run("03_five_holds_no_plan.py", tmp_path)
     assert re.match(r"infeasible: all \d+ reachable stances were seen and none meets the goal", out)

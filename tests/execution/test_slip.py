@@ -20,6 +20,7 @@ from clamber.experiments.climb.plants import drawn_plant
 from clamber.experiments.climb.run_plan import believing_climber, climbing_flaws
 from clamber.sim.climber_plant import ClimberPlant
 from clamber.types import Floats
+from tiers import first_fast
 
 OFF = 0.012
 """A tip that far from its peg is off it [m]."""
@@ -110,7 +111,7 @@ def _after(step: int, ticks: int, fits: Callable[[list[str]], bool]) -> When:
     return due
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", first_fast(range(6), 2))
 def test_no_slip_is_told_in_a_climb_without_one(seed: int) -> None:
     climb = Knocked(seed)
     report = climb.climb()
@@ -120,7 +121,7 @@ def test_no_slip_is_told_in_a_climb_without_one(seed: int) -> None:
     assert all(action.recovered == 0 for action in report.actions)
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", first_fast(range(4)))
 @pytest.mark.parametrize("limb", [RIGHT, LEFT])
 @pytest.mark.parametrize(
     ("when", "step", "ticks"),
@@ -131,6 +132,14 @@ def test_a_lost_hook_is_told_and_named_within_a_fifth_of_a_second(
     when: Callable[[int, int], When], step: int, ticks: int, limb: int, seed: int
 ) -> None:
     climb = Knocked(seed, limb, when(step, ticks), gone=60.0)
+    tick = climb.climber.tick
+
+    def tick_until_told() -> None:
+        if climb.told is not None and (climb.off is not None or climb.climber.time > climb.told + 1.0):
+            raise KeyboardInterrupt  # how it recovers is not asked here
+        tick()
+
+    climb.climber.tick = tick_until_told  # type: ignore[method-assign]
     climb.climb()
     assert climb.knocked is not None
     if climb.off is None:  # another hook has taken the load before this one came down
@@ -142,7 +151,7 @@ def test_a_lost_hook_is_told_and_named_within_a_fifth_of_a_second(
     assert climb.said.limb == limb
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", first_fast(range(4)))
 def test_the_loss_of_all_hooks_is_told_within_a_fifth_of_a_second_and_is_a_fall(seed: int) -> None:
     climb = Knocked(seed, RIGHT, on_two_limbs(2, 60), gone=60.0, others=False)
     report = climb.climb()
@@ -153,7 +162,7 @@ def test_the_loss_of_all_hooks_is_told_within_a_fifth_of_a_second_and_is_a_fall(
     assert "fell" in report.reason
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", first_fast(range(8), 2))
 def test_a_clinging_hook_takes_the_load_and_the_climb_goes_on(seed: int) -> None:
     climb = Knocked(seed, RIGHT, on_three_limbs(3, 10))
     report = climb.climb()
@@ -168,7 +177,7 @@ def test_a_clinging_hook_takes_the_load_and_the_climb_goes_on(seed: int) -> None
     assert sum(action["recovered"] for action in told) >= 1
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", first_fast(range(4)))
 @pytest.mark.parametrize(("limb", "step", "ticks"), [(RIGHT, 2, 60), (LEFT, 5, 100)], ids=["body above", "body beside"])
 def test_a_body_that_has_lost_one_of_two_hooks_is_still_held_two_seconds_later(
     limb: int, step: int, ticks: int, seed: int

@@ -165,6 +165,7 @@ def test_a_page_of_figures_names_command_machine_and_every_row() -> None:
     assert page.index("## one") < page.index("## two")
 
 
+@pytest.mark.slow
 def test_a_small_batch_gives_every_row_of_the_jobs_benchmark() -> None:
     made = {row.name: row.value for row in batches.batch_rows(items=6, workers=(1, 2))}
     assert all(value > 0.0 for value in made.values())

@@ -36,6 +36,7 @@ def test_the_shares_are_of_one_whole() -> None:
     assert all(share > 0.0 for share in shares.values())
 
 
+@pytest.mark.slow
 def test_the_rows_are_all_there() -> None:
     rows = speed.loop_rows(rounds=1)
     assert [row.unit for row in rows[:4]] == ["x real time", "x real time", "ratio", "us"]

@@ -21,9 +21,11 @@ from clamber.planning.islands import plan_islands
 from clamber.planning.learning import learn_macros, load_macros
 from clamber.planning.planners import PLANNERS
 from clamber.planning.progress import Progress
+from clamber.planning.result import PlanResult
 from clamber.tasks import load_task, task_names
+from tiers import first_fast
 
-QUICK = ("ladder", "modified-ladder", "h", "across", "circle", "patch-walk", "gecko-climb")
+QUICK = ("ladder", "modified-ladder", "h", "across", "circle", "patch-walk")
 
 
 @pytest.mark.parametrize("planner", sorted(PLANNERS))
@@ -34,9 +36,16 @@ def test_every_planner_finds_a_plan_that_replays_to_the_goal(planner: str) -> No
     assert verdict.ok and verdict.reached
 
 
-@pytest.mark.parametrize("name", QUICK)
-def test_the_genetic_planner_solves_every_task(name: str) -> None:
-    result = plan_genetic(load_task(name), seed=3)
+@pytest.mark.parametrize(
+    ("name", "overrides"),
+    [
+        *((name, ()) for name in QUICK),
+        ("gecko-climb", ("goal.y_min=60cm",)),
+        pytest.param("gecko-climb", (), marks=pytest.mark.slow),
+    ],
+)
+def test_the_genetic_planner_solves_every_task(name: str, overrides: tuple[str, ...]) -> None:
+    result = plan_genetic(load_task(name, overrides), seed=3)
     assert result.status == "found" and result.check().reached
     assert result.evaluations <= 50_000
     assert result.first_length is not None and result.length <= result.first_length
@@ -68,13 +77,18 @@ class DeathError(Exception):
     """Stands for a process that dies."""
 
 
-@pytest.mark.parametrize("dies_at", [3, 30, 95, 110])
+@pytest.fixture(scope="module")
+def whole() -> PlanResult:
+    """An undisturbed run."""
+    return plan_genetic(load_task("h", ("rules.max_hangs=0",)), seed=2)
+
+
+@pytest.mark.parametrize("dies_at", first_fast([30, 110, 3, 95], 2))
 def test_a_killed_run_resumes_to_the_plan_of_the_undisturbed_run(
-    dies_at: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    dies_at: int, whole: PlanResult, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("clamber.planning.genetic.search.CHECKPOINT_EVERY", 0.0)
     task = load_task("h", ("rules.max_hangs=0",))
-    whole = plan_genetic(task, seed=2)
     path = tmp_path / "search.json"
     calls = 0
 
@@ -202,6 +216,7 @@ def test_the_ladder_gait_is_learned_and_climbs_a_hundred_rungs_alone(tmp_path: P
         load_macros(path)
 
 
+@pytest.mark.slow
 def test_a_macro_halves_the_search_on_a_ladder_three_times_as_tall() -> None:
     macro = learn_macros(load_task("ladder", ("rules.max_hangs=0",)), seeds=range(12)).macros
     tall = load_task("ladder", ("rules.max_hangs=0", "board.ladder.rungs=31", "goal.y_min=180in"))
@@ -273,6 +288,7 @@ def test_islands_find_the_same_plan_on_any_number_of_workers() -> None:
     assert plans[0].length == min(one.length for one in alone if one.has_plan)
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_islands_that_find_nothing_go_on_from_where_they_came_furthest() -> None:
     task = load_task("across", ("rules.max_hangs=0",))
     result = plan_islands(task, islands=2, executor=LocalProcesses(2), max_evaluations=600)

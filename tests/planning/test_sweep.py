@@ -24,10 +24,11 @@ def numbers(sweep: Sweep) -> list[dict[str, Any]]:
     return [{key: value for key, value in point.items() if key != "seconds"} for point in sweep.to_json()["points"]]
 
 
-def test_the_table_is_the_same_with_one_two_and_four_workers() -> None:
+@pytest.mark.parametrize("workers", [(1, 2), pytest.param((1, 2, 4), marks=pytest.mark.slow)])
+def test_the_table_is_the_same_with_any_number_of_workers(workers: tuple[int, ...]) -> None:
     axes = [range_axis("motor.torque_limit=1Nm..9Nm:3"), values_axis("board.ladder.spacing=6in,6.5in")]
-    tables = [numbers(run_sweep("ladder", axes, workers=workers, **SETTINGS)) for workers in (1, 2, 4)]
-    assert tables[0] == tables[1] == tables[2]
+    tables = [numbers(run_sweep("ladder", axes, workers=n, **SETTINGS)) for n in workers]
+    assert all(table == tables[0] for table in tables)
     statuses = {tuple(point["values"]): point["status"] for point in tables[0]}
     assert statuses["1 Nm", "6in"] == "no start" and statuses["9 Nm", "6in"] == "optimal"
     best = tables[0][4]
@@ -41,12 +42,14 @@ def test_the_table_is_the_same_with_one_two_and_four_workers() -> None:
     assert "torque" in tables[0][0]["reason"]
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_a_point_that_is_no_task_is_a_row_with_its_reason() -> None:
     sweep = run_sweep("ladder", [values_axis("start.holds.right=4,99")], **SETTINGS)
     assert [point.status for point in sweep.points] == ["optimal", "no start"]
     assert "has no such hold" in sweep.points[1].reason
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_a_store_goes_on_with_its_own_sweep_alone(tmp_path: Path) -> None:
     store, axes = tmp_path / "store.db", [range_axis("motor.torque_limit=8Nm..9Nm:2")]
     first = run_sweep("ladder", axes, store=store, **SETTINGS)
@@ -103,6 +106,7 @@ def test_wrong_axes_keys_units_and_planners_are_told_before_work_starts() -> Non
         run_sweep("ladder", [axis], planner="exat")
 
 
+@pytest.mark.usefixtures("in_this_process")
 @pytest.mark.parametrize("name", ["out.csv", "out.png"])
 def test_the_command_prints_json_and_writes_a_file(
     name: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]
@@ -116,6 +120,7 @@ def test_the_command_prints_json_and_writes_a_file(
     assert content.startswith(b"\x89PNG" if name.endswith("png") else b"motor.torque_limit,status,length,least")
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_a_mark_is_a_value_or_a_range_of_an_axis_in_its_unit() -> None:
     axes = [range_axis("board.spacing=18in..20in:3"), values_axis("board.rung=6in,7in")]
     marks = [read_mark("board.spacing=18in..19in", axes), read_mark("board.rung=6in", axes)]

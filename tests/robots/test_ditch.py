@@ -14,6 +14,7 @@ from clamber.robots.walker.ditch_plan import cross_ditch
 from clamber.robots.walker.ditch_slides import fewest_slides
 from clamber.robots.walker.intervals import meet, union
 from clamber.robots.walker.weight import Weight, weight_of
+from tiers import first_fast
 
 DEG = math.pi / 180.0
 MM = 1e-3
@@ -115,7 +116,7 @@ def test_a_straight_crossing_is_as_wide_as_a_search_over_places_says(seed: int) 
         assert search.crosses(widest - 4 * MM)
 
 
-@pytest.mark.parametrize("seed", range(100, 130))
+@pytest.mark.parametrize("seed", first_fast(range(100, 130), 10))
 def test_a_crossing_is_as_wide_as_a_search_over_places_says(seed: int) -> None:
     footing, theta, direction = random_case(seed)
     widest = widest_ditch(footing, theta, direction)
@@ -169,7 +170,7 @@ def test_a_pad_takes_its_width_twice() -> None:
 # Plans
 
 
-@pytest.mark.parametrize("seed", range(25))
+@pytest.mark.parametrize("seed", first_fast(range(25), 8))
 def test_every_slide_of_a_crossing_holds_and_it_ends_behind_the_ditch(seed: int) -> None:
     rng = np.random.default_rng(seed)
     footing = Footing.of(robot(), margin=float(rng.choice([0.0, 20.0])) * MM)

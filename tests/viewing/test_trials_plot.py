@@ -10,6 +10,7 @@ from clamber.experiments.climb.trial_summary import sum_up
 from clamber.experiments.climb.trials import Trials
 from clamber.viewing.output import SuffixError
 from clamber.viewing.trials_plot import _figure, draw_trials
+from tiers import first_fast
 
 
 def by_hand() -> Any:
@@ -28,7 +29,7 @@ def trials(n: int, failed: int) -> Trials:
     return Trials(made.setup_of(300), n, ended)
 
 
-@pytest.mark.parametrize("suffix", [".png", ".svg", ".pdf"])
+@pytest.mark.parametrize("suffix", first_fast([".png", ".svg", ".pdf"]))
 @pytest.mark.parametrize(("n", "failed"), [(30, 4), (3, 0), (1, 1), (0, 0)])
 def test_any_number_of_climbs_is_drawn(tmp_path: Path, suffix: str, n: int, failed: int) -> None:
     draw_trials(sum_up(trials(n, failed)), tmp_path / f"trials{suffix}")

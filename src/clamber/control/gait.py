@@ -66,18 +66,19 @@ def slide_places(stands: Floats, start: Floats, end: Floats, swing: int, shares:
 def slide_balance(robot: WalkerRobot, places: Floats, swing: int, arm: Floats, payload: float = 0.0) -> Floats:
     """How far the centre of mass of a level robot lies inside the feet that stand, shape (n,) [m]; places as of `slide_places`."""
     feet = robot.feet()[1 - swing]
-    margins = np.empty(len(places))
-    for k, place in enumerate(places):
-        centre = mass_moment(robot, place, arm, payload)[1]
-        if swing == DELTA:
-            centre[:2] = seen_from(place, np.array((centre[0], centre[1], 0.0)))[:2]
-        margins[k] = min(_inside(feet[i], feet[(i + 1) % 3], centre) for i in range(3))
+    centres = mass_moment(robot, places, arm, payload)[1]
+    if swing == DELTA:
+        centres[:, 2] = 0.0
+        centres = seen_from(places, centres)
+    margins: Floats = np.min([_inside(feet[i], feet[(i + 1) % 3], centres) for i in range(3)], axis=0)
     return margins
 
 
-def _inside(a: Floats, b: Floats, point: Floats) -> float:
-    way = b - a
-    return float(way[0] * (point[1] - a[1]) - way[1] * (point[0] - a[0])) / math.hypot(way[0], way[1])
+def _inside(a: Floats, b: Floats, points: Floats) -> Floats:
+    """Of points, shape (n, 2 or more), left of the line from a to b, shape (n,) [m]."""
+    x, y = b[:2] - a[:2]
+    inside: Floats = (x * (points[:, 1] - a[1]) - y * (points[:, 0] - a[0])) / math.hypot(x, y)
+    return inside
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -123,8 +124,8 @@ def look_at_step(
     end[2] = poses[swing, 2] + math.remainder(end[2] - poses[swing, 2], math.tau)
     places = slide_places(poses[1 - swing], poses[swing], end, swing, np.linspace(0.0, 1.0, SAMPLES))
     room = float(room_at(robot, places, limits).min())
-    balance = float(slide_balance(robot, places[:: SAMPLES // 8], swing, arm, payload).min())
-    balance = min(balance, float(slide_balance(robot, places[-1:], swing, arm, payload)[0]))
+    some = [*range(0, SAMPLES, SAMPLES // 8), -1]
+    balance = float(slide_balance(robot, places[some], swing, arm, payload).min())
     return Step(swing, way, end, room, balance)
 
 

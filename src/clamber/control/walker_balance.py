@@ -9,17 +9,19 @@ from .dead_reckoning import orient
 
 
 def mass_moment(robot: WalkerRobot, place: Floats, arm: Floats, payload: float = 0.0) -> tuple[float, Floats]:
-    """Mass of the robot [kg], and its centre of mass in the plate, shape (3,) [m].
+    """Mass of the robot [kg], and its centre of mass in the plate, shape (..., 3) [m].
 
     Args:
         robot: The walker.
-        place: Of the Y-frame in the Delta-frame, shape (3,) [m], [rad].
+        place: Of the Y-frame in the Delta-frame, one or several, shape (..., 3) [m], [rad].
         arm: Joint angles, shape (joints,) [rad]; any without an arm.
         payload: Mass at the tool point [kg].
     """
     mass = robot.mass.frames
     on_y = 1.0 - robot.mass.share_delta
-    moment = mass * np.array((on_y * place[0], on_y * place[1], robot.mass.height))
+    moment = np.empty(place.shape)
+    moment[..., :2] = mass * (on_y * place[..., :2])
+    moment[..., 2] = mass * robot.mass.height
     if robot.arm is not None:
         points = arm_places(robot.arm, arm.tolist())
         masses = np.array(robot.arm.masses)

@@ -18,6 +18,8 @@ STIFFNESS = 5e5
 """Of a leg [N/m]."""
 LATE = 0.2
 """Time constant of the inclinometers [s]."""
+SOFT = np.diag((1e-3, 5e-5, 5e-5))
+"""Of all legs' stiffness, so that a plate that no leg bears goes down in steps [-]."""
 PERIOD = 0.02
 Ground = Callable[[float, float], float]
 """Height of the ground at x, y [m]."""
@@ -44,11 +46,11 @@ def tiles(size: float, height: float, seed: int) -> Ground:
 
 def rotation(axis: int, angle: float) -> Floats:
     c, s = math.cos(angle), math.sin(angle)
-    matrix = np.eye(3)
-    i, j = (axis + 1) % 3, (axis + 2) % 3
-    matrix[i, i] = matrix[j, j] = c
-    matrix[i, j], matrix[j, i] = -s, s
-    return matrix
+    if axis == 0:
+        return np.array(((1.0, 0.0, 0.0), (0.0, c, -s), (0.0, s, c)))
+    if axis == 1:
+        return np.array(((c, 0.0, s), (0.0, 1.0, 0.0), (-s, 0.0, c)))
+    return np.array(((c, -s, 0.0), (s, c, 0.0), (0.0, 0.0, 1.0)))
 
 
 class SpringsWalker:
@@ -138,7 +140,11 @@ class SpringsWalker:
         )  # fmt: skip
 
     def centre(self) -> Floats:
-        """Centre of mass in the world, added up part by part."""
+        """Centre of mass in the world."""
+        return np.asarray(self.at + self.turn @ self._centre())
+
+    def _centre(self) -> Floats:
+        """Of mass, from the plate's own frame, added up part by part."""
         robot = self.robot
         share, height = robot.mass.share_delta, robot.mass.height
         parts = [
@@ -156,16 +162,15 @@ class SpringsWalker:
                 point = point + link
             parts.append((self.payload, point))
         self.weight = 9.80665 * sum(mass for mass, _ in parts)
-        mean = sum(mass * point for mass, point in parts) / (self.weight / 9.80665)
-        return np.asarray(self.at + self.turn @ mean)
+        return np.asarray(sum(mass * point for mass, point in parts) / (self.weight / 9.80665))
 
     def tilt(self) -> float:
         return math.acos(min(1.0, self.turn[2, 2]))
 
     def _lengths(self, place: Floats) -> Floats:
-        a, b = self.places
-        turned = b @ rotation(2, place[2])[:2, :2].T
-        return np.asarray(np.linalg.norm(place[:2] + turned - a, axis=1))
+        (ax, ay), (bx, by) = self.places[0].T, self.places[1].T
+        x, y, c, s = place[0], place[1], math.cos(place[2]), math.sin(place[2])
+        return np.asarray(np.hypot(x + (c * bx - s * by) - ax, y + (s * bx + c * by) - ay))
 
     def _slide(self) -> None:
         """The place that fits the actuators, by Gauss-Newton with differences."""
@@ -178,27 +183,36 @@ class SpringsWalker:
 
     def _feet(self) -> Floats:
         """Soles of the legs as long as they would be without load, world."""
-        rest = self.rest
-        on_y = self.place[:2] + rest[1] @ rotation(2, self.place[2])[:2, :2].T
-        inside = np.column_stack([np.concatenate([rest[0], on_y]), -self.legs])
-        return np.asarray(self.at + inside @ self.turn.T)
+        return np.asarray(self.at + self._soles() @ self.turn.T)
+
+    def _soles(self) -> Floats:
+        """The same from the plate's own frame."""
+        soles, c, s = np.empty((6, 3)), math.cos(self.place[2]), math.sin(self.place[2])
+        x, y = self.rest[1].T
+        soles[:3, :2] = self.rest[0]
+        soles[3:, 0] = self.place[0] + (c * x - s * y)
+        soles[3:, 1] = self.place[1] + (s * x + c * y)
+        soles[:, 2] = -self.legs
+        return soles
 
     def _inclines(self) -> Floats:
         return np.array((math.asin(self.turn[2, 0]), math.asin(self.turn[2, 1])))
 
     def _rest(self) -> None:
         self._over_anchors()
+        soles, middle = self._soles(), self._centre()  # neither changes while the plate moves over its feet
+        anchored = {i: self.ground(*place) for i, place in self.anchors.items()}
+        rows = np.ones((3, 6))
         for _ in range(30):
-            feet = self._feet()
-            under = np.array([self.ground(*self.anchors.get(i, feet[i])[:2]) for i in range(6)])
-            press = np.maximum(0.0, under - feet[:, 2])  # by leg and ground together
-            arms, centre = feet - self.at, self.centre() - self.at
-            rows = np.stack([np.ones(6), arms[:, 1], -arms[:, 0]])
+            arms, centre = soles @ self.turn.T, self.turn @ middle
+            places, heights = (self.at + arms).tolist(), arms[:, 2] + self.at[2]
+            under = [anchored[i] if i in anchored else self.ground(x, y) for i, (x, y, _) in enumerate(places)]
+            press = np.maximum(0.0, under - heights)  # by leg and ground together
+            rows[1], rows[2] = arms[:, 1], -arms[:, 0]
             wrench = self.stiffness * rows @ press - self.weight * np.array((1.0, centre[1], -centre[0]))
             active = rows[:, press > 0.0]
-            stiff = self.stiffness * active @ active.T + 1e-3 * self.stiffness * np.diag((1.0, 0.05, 0.05))
-            move = np.linalg.solve(stiff, wrench)
-            size = max(abs(move[0]) / 0.003, float(np.abs(move[1:]).max()) / 0.01, 1.0)
+            move = np.linalg.solve(self.stiffness * (active @ active.T + SOFT), wrench)
+            size = max(abs(move[0]) / 0.003, abs(move[1]) / 0.01, abs(move[2]) / 0.01, 1.0)
             self.at[2] += move[0] / size
             self.turn = rotation(0, move[1] / size) @ rotation(1, move[2] / size) @ self.turn
             if self.tilt() > 0.6:

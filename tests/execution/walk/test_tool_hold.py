@@ -1,7 +1,7 @@
 """A tool that is held at a point while the robot walks past it, on legs that stand on springs."""
 
 import math
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pytest
@@ -20,6 +20,7 @@ from clamber.execution.walk.walk_trace import PHASES, TracedWalker
 from clamber.execution.walk.walker import RefusedError, Walker
 from clamber.execution.walk.walking import Walking
 from clamber.types import Floats
+from tiers import first_fast
 
 ARM = ROBOT.arm
 assert ARM is not None
@@ -136,7 +137,7 @@ def test_a_point_out_of_reach_is_refused_with_what_is_missing() -> None:
     assert refused.value.margin == pytest.approx(ARM.out + sum(ARM.links) - away, abs=1e-3)
 
 
-@pytest.mark.parametrize("uphill", [None, BEST])
+@pytest.mark.parametrize("uphill", first_fast([BEST, None]))
 def test_feet_that_sink_in_do_not_raise_what_is_believed(uphill: float | None) -> None:
     """The springs give 0.9 mm under a frame that carries alone; without reckoning with it, every step would add as much."""
     ground = flat if uphill is None else slope(math.radians(5.0), uphill)
@@ -149,6 +150,7 @@ def test_feet_that_sink_in_do_not_raise_what_is_believed(uphill: float | None) -
     assert walker.pose[2] - walker.plant.truth().pose[2] - off == pytest.approx(0.0, abs=1.5e-3)  # type: ignore[union-attr]
 
 
+@pytest.mark.slow
 def test_the_tool_has_the_plates_height_only_while_a_frame_slides(monkeypatch: pytest.MonkeyPatch) -> None:
     """A point higher than the arm's shoulder: the plate comes up to it, within its room, faded in and out; the tool stays."""
     monkeypatch.setattr("spring_walks.SpringsWalker", Watched)
@@ -208,7 +210,10 @@ def test_the_tool_has_the_plates_height_only_while_a_frame_slides(monkeypatch: p
     assert told["height"].measures[1] > 1.02 * told["arm"].measures[1]  # it takes two slides to come up
 
 
-def test_the_reach_with_the_plates_height_is_that_of_the_stretched_arm_on_a_plate_as_high_as_legs_allow() -> None:
+@pytest.mark.parametrize("served", first_fast(["height", "arm"]))
+def test_the_reach_with_the_plates_height_is_that_of_the_stretched_arm_on_a_plate_as_high_as_legs_allow(
+    served: Literal["arm", "height"],
+) -> None:
     """On the flat a foot that is lifted by 50 mm leaves the plate 46 mm upwards: longest leg less room; the rest is a circle."""
     walker, _ = stood(flat, noise=0.0)
     assert ARM is not None
@@ -216,16 +221,13 @@ def test_the_reach_with_the_plates_height_is_that_of_the_stretched_arm_on_a_plat
     track = straight(np.array((0.0, 0.0, 0.0)), BEST, 2.0, RADIUS)
     feet = float(walker.heights.mean())
     point = np.array((0.3, 1.0, feet + spec.nominal + ARM.up + height))
-    for served, raised in (
-        ("arm", walker.pose[2] - feet - spec.nominal),
-        ("height", spec.longest - ROOM - spec.nominal),
-    ):
-        hold = ToolHold(walker, track, point, 0.9, served)  # type: ignore[arg-type]
-        along = math.sqrt((ARM.out + math.sqrt(sum(ARM.links) ** 2 - (height - raised) ** 2)) ** 2 - 0.3**2)
-        np.testing.assert_allclose(hold.reach, [(1.0 - along, 1.0 + along)], atol=1e-3)
+    raised = (walker.pose[2] - feet if served == "arm" else spec.longest - ROOM) - spec.nominal
+    hold = ToolHold(walker, track, point, 0.9, served)
+    along = math.sqrt((ARM.out + math.sqrt(sum(ARM.links) ** 2 - (height - raised) ** 2)) ** 2 - 0.3**2)
+    np.testing.assert_allclose(hold.reach, [(1.0 - along, 1.0 + along)], atol=1e-3)
 
 
-@pytest.mark.parametrize("uphill", [None, BEST, -BEST, 0.0])
+@pytest.mark.parametrize("uphill", first_fast([BEST, None, -BEST, 0.0]))
 def test_the_rooms_that_are_rehearsed_are_those_of_the_walk(uphill: float | None) -> None:
     ground = flat if uphill is None else slope(math.radians(6.0), uphill)
     walker, _ = stood(ground, noise=0.0)

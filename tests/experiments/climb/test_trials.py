@@ -34,7 +34,7 @@ LETS_GO = (300, 3)
 
 def test_a_trial_is_the_same_from_a_worker_and_climbed_again(tmp_path: Path) -> None:
     setup, store = setup_of(*LETS_GO), tmp_path / "trials.db"
-    trials = run_trials(setup, [3, 11], executor=LocalProcesses(2), store=store)
+    trials = run_trials(setup, [3, 11], executor=LocalProcesses(1), store=store)
     assert [trial.seed for trial in trials.ended] == [3, 11]
     for told in trials.ended:
         known, plans = stored_trial(setup, told.seed, store)
@@ -94,6 +94,7 @@ def test_plans_made_on_the_way_are_kept_and_taken_again(monkeypatch: pytest.Monk
     assert len(asked) == 1
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_the_plan_is_made_once_and_kept_in_the_store(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     setup, store = setup_of(300), tmp_path / "trials.db"
     asked: list[int] = []
@@ -116,6 +117,7 @@ def test_the_plan_is_made_once_and_kept_in_the_store(tmp_path: Path, monkeypatch
         with_plan(unplanned)
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_a_store_of_other_trials_and_a_plan_that_fails_are_refused_before_anything_runs(tmp_path: Path) -> None:
     setup, store = setup_of(300), tmp_path / "trials.db"
     run_trials(setup, [0], executor=LocalProcesses(1), store=store)

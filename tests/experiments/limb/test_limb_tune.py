@@ -39,6 +39,7 @@ from clamber.experiments.limb.tune import (
 )
 from clamber.experiments.limb.tuned_laws import with_recommended_gains
 from clamber.sim.limb_flaws import LimbFlaws
+from tiers import first_fast
 
 
 @pytest.fixture(scope="module")
@@ -68,12 +69,13 @@ def test_the_nominal_plant_is_that_of_the_issue(flaws: LimbFlaws) -> None:
     assert (flaws.control_rate, flaws.encoder_counts, flaws.delay) == (200.0, 400, 1)
 
 
+@pytest.mark.parametrize("every", first_fast([6, 3]))
 @pytest.mark.parametrize("law", LAWS)
-def test_no_law_limit_cycles_at_its_recommended_gains(limb: BenchLimb, flaws: LimbFlaws, law: str) -> None:
-    assert swing(limb, stored(law)[0], flaws, every=3) <= 0.0005
+def test_no_law_limit_cycles_at_its_recommended_gains(limb: BenchLimb, flaws: LimbFlaws, law: str, every: int) -> None:
+    assert swing(limb, stored(law)[0], flaws, every=every) <= 0.0005
 
 
-@pytest.mark.parametrize("law", ["scct", "jacobian-transpose", "operational-space"])
+@pytest.mark.parametrize("law", first_fast(["scct", "jacobian-transpose", "operational-space"]))
 def test_a_law_limit_cycles_beyond_its_limit(limb: BenchLimb, flaws: LimbFlaws, law: str) -> None:
     settings, found = stored(law)
     worn = flaws.with_changes(friction=0.7)  # as the limit was searched

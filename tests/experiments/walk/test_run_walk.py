@@ -16,6 +16,7 @@ from clamber.sim.plant_rules import PlantError
 from clamber.sim.walker_flaws import WalkerFlaws
 from clamber.sim.walker_plant import WalkerSim
 from clamber.tasks.walks import load_walk
+from tiers import first_fast
 
 SHORT = "way.0.distance=15cm"
 
@@ -66,7 +67,7 @@ def test_a_path_of_many_places_is_walked_in_long_steps(tmp_path: Path) -> None:
     )
 
 
-@pytest.mark.parametrize("uphill", [0.0, 90.0, 180.0])
+@pytest.mark.parametrize("uphill", first_fast([90.0, 0.0, 180.0]))
 def test_the_plate_stays_level_on_a_slope(uphill: float) -> None:
     run = walked("slope-walk", f"ground.uphill={uphill}deg")
     assert run.done, run.reason
@@ -89,7 +90,7 @@ def test_without_levelling_a_slope_downhill_topples_it() -> None:
     assert abs(run.true.tilts[-1] - run.true.tilts[run.walking][0]) < math.radians(0.1)
 
 
-@pytest.mark.parametrize("uphill", [0.0, 90.0, 180.0])
+@pytest.mark.parametrize("uphill", first_fast([90.0, 0.0, 180.0]))
 def test_a_start_tilted_by_ten_degrees_returns_to_level(uphill: float) -> None:
     noise = read_walk_noise(named_walk_noise("usual"), ["inclinometer_offset=0deg"])
     run = walked(
