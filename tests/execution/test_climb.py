@@ -1,13 +1,15 @@
 """A climber in contact dynamics: it hangs on two hooks, moves its body, and climbs a rung."""
 
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
 
 from clamber.execution.climb.climber import Climber, FallenError
 from clamber.execution.climb.ends import grab, release
-from clamber.execution.climb.motions import JOINT_AGILITY, JOINT_SPEED, at_speed, eased, move_body
+from clamber.execution.climb.motions import JOINT_AGILITY, JOINT_SPEED, LAG, at_speed, eased, follow, move_body
 from clamber.robots.library import load_robot
 from clamber.robots.limbed import LimbedRobot
 from clamber.sim.climber_plant import BodySensed, ClimberPlant
@@ -89,6 +91,28 @@ def test_a_way_goes_from_rest_to_rest_within_speed_and_agility(length: float) ->
     assert speed.min() >= -1e-9
     assert speed.max() <= JOINT_SPEED + 1e-9
     assert np.abs(np.diff(np.concatenate(([0.0], speed, [0.0])))).max() <= 1.01 * JOINT_AGILITY * period
+
+
+@pytest.mark.parametrize("stop", [0.3, 9.0])
+def test_a_limb_that_something_holds_on_its_way_stays_there_and_pulls_no_more(stop: float) -> None:
+    q, ticks, farthest = np.zeros((1, 2)), 0, 0.0
+    task = SimpleNamespace(doing="tip", angles=np.zeros(2), rates=np.zeros(2))
+
+    def tick() -> None:
+        """The joints come after what is asked of them, the first as far as something that it cannot move."""
+        nonlocal ticks, farthest
+        q[0] += 0.5 * (task.angles - q[0])
+        q[0, 0] = min(q[0, 0], stop)
+        ticks, farthest = ticks + 1, max(farthest, float(np.abs(task.angles - q[0]).max()))
+
+    body = SimpleNamespace(tasks=[task], q=q)
+    climber = SimpleNamespace(body=body, plant=SimpleNamespace(period=0.005), tick=tick)
+    came = follow(cast(Climber, climber), 0, np.array(((0.0, 0.0), (0.8, -0.4))))
+    assert came == (stop > 0.8)
+    assert farthest < LAG[1] + 0.01
+    assert ticks * 0.005 < (0.8 / JOINT_SPEED + 1.5 if came else 0.3 / JOINT_SPEED + 1.0)
+    np.testing.assert_allclose(task.angles, (0.8, -0.4) if came else q[0], atol=1e-12)
+    np.testing.assert_array_equal(task.rates, 0.0)
 
 
 @pytest.mark.parametrize(("length", "rise"), [(0.2, 0.1), (1.9, 0.3), (1.0, 1.0)])

@@ -71,7 +71,8 @@ def grab(climber: Climber, i: int, number: int, end: End, *, elbow: int = 0, hom
     found = end.come_near(climber, i, number, doubt, elbow, home)
     if found is None:
         return Grabbed(False, 0, 0.0, 0.0)
-    follow(climber, i, found.way)
+    if not follow(climber, i, found.way):
+        return Grabbed(False, 0, 0.0, 0.0)
     climber.wait(CALM)
     climber.learn_again()
     hold, (x, y) = climber.holds[number].copy(), found.grab

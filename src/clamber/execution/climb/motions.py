@@ -24,6 +24,8 @@ JOINT_AGILITY: Final = 14.0
 """With which they come to it [rad/s^2]."""
 LAG: Final = (0.015, 0.045)
 """A limb this far behind on its way is slowed down, at the second until it has come after: its motors give all they can [rad]."""
+STANDS: Final = (0.1, 0.25)
+"""One that is slowed down to less than this part of its speed for so long is held by something [-], [s]."""
 WAITING: Final = 1.5
 """For that long in all, on one way [s]."""
 HELD_BACK: Final = (0.04, 0.3)
@@ -142,8 +144,11 @@ def move_tip(climber: Climber, i: int, place: Floats, seconds: float) -> None:
     task.speed = np.zeros(2)
 
 
-def follow(climber: Climber, i: int, way: Floats) -> None:
-    """Bring a free limb's joints along a way, shape (n, 2) [rad], smoothly from rest to rest."""
+def follow(climber: Climber, i: int, way: Floats) -> bool:
+    """Bring a free limb's joints along a way, shape (n, 2) [rad], smoothly from rest to rest; whether it comes to the end.
+
+    One that something holds stays there and pulls no more: it would take other hooks off.
+    """
     task, period = climber.body.tasks[i], climber.plant.period
     lengths = np.abs(np.diff(way, axis=0)).max(axis=1)
     along = np.concatenate(([0.0], np.cumsum(lengths)))
@@ -156,17 +161,23 @@ def follow(climber: Climber, i: int, way: Floats) -> None:
     smooth = np.stack([np.convolve(padded[:, j], window / window.sum(), "valid") for j in range(2)], axis=1)
     task.doing = "joints"
     q, waited, gone, last = climber.body.q[i], 0.0, 0.0, len(smooth) - 1
+    stands = 0.0
     while gone < last:
         # a limb that lags with one joint more than the other leaves its way, and knocks against what it was to go round
         lag = float(np.abs(task.angles - q).max()) if gone else 0.0
         speed = float(np.interp(lag, LAG, (1.0, 0.0))) if waited < WAITING else 1.0
         waited += (1.0 - speed) * period
+        stands = stands + period if speed < STANDS[0] else 0.0
+        if stands > STANDS[1]:
+            task.angles, task.rates = q.copy(), np.zeros(2)
+            return False
         k, part = divmod(gone, 1.0)
         step = smooth[min(int(k) + 1, last)] - smooth[int(k)]
         task.angles, task.rates = smooth[int(k)] + part * step, speed / period * step
         gone += speed
         climber.tick()
     task.angles, task.rates = way[-1].copy(), np.zeros(2)
+    return True
 
 
 def at_speed(length: float, period: float) -> Floats:
