@@ -63,7 +63,7 @@ def test_a_run_with_the_noise_and_seed_of_a_trial_is_that_trial(clamber: Any, tm
 
 @pytest.mark.usefixtures("in_this_process")
 def test_failed_climbs_are_told_with_their_cause_and_leave_with_1(clamber: Any, tmp_path: Path) -> None:
-    plan = plan_file(tmp_path, 300, *([3] * 8))
+    plan = plan_file(tmp_path, 300, *([4] * 8))
     words = ("trials", plan, "-n", "2", "--workers", "1", "-q")
     code, out, err = clamber(*words)
     assert (code, out) == (2, "")

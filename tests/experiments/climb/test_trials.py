@@ -57,12 +57,20 @@ def test_a_stored_trial_tells_what_its_seed_drew_and_nothing_of_other_seeds() ->
 
 
 def test_a_fall_is_told_with_action_and_reason() -> None:
-    setup = setup_of(300, *([3] * 8), force=True)
+    setup = setup_of(300, *([4] * 8), force=True)
     _, trial, _ = climb_once(setup, 0)
     assert not trial.done
     assert (trial.outcome, trial.kind) == ("fell", "move")
     assert trial.reason.startswith("fell: ")
     assert trial.step == 2
+
+
+def test_a_body_that_its_limbs_hold_back_goes_back_and_the_move_is_told_as_stalled() -> None:
+    """Eight inches up with both hooks on: farther than the limbs reach."""
+    _, trial, _ = climb_once(setup_of(300, *([3] * 8), force=True), 0)
+    assert not trial.done
+    assert (trial.outcome, trial.kind, trial.stalled) == ("short", "move", 1)
+    assert trial.reason.startswith("short: 1 of its moves did not arrive, and the body ends ")
 
 
 def test_plans_made_on_the_way_are_kept_and_taken_again(monkeypatch: pytest.MonkeyPatch) -> None:

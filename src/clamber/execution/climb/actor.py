@@ -139,10 +139,10 @@ class Actor:
     def _move(self, step: int) -> tuple[Outcome, int, str]:
         """The body goes to the plan's pose; once more where it does not come there."""
         for tries in (1, 2):
-            move_body(self.climber, self.pose(step))
-            if self._settle():
+            if move_body(self.climber, self.pose(step)) and self._settle():
                 return "ok", tries, ""
-        return "stalled", 2, f"the body stays {1e3 * self.off():.0f} mm off its aim"
+        short = float(np.hypot(*(self.pose(step) - self.climber.body.settled)[:2]))
+        return "stalled", 2, f"the body stays {1e3 * short:.0f} mm off where it was to go"
 
     def _grab(self, step: int) -> tuple[Outcome, int, str]:
         action = self.course.actions[step - 1]

@@ -167,9 +167,9 @@ class Climbing(Performer[Group, ClimbReport, int, int, str, float]):
         planned = beyond(self.course.task, self.course.pose(len(self.course.actions)))
         if report.done and report.short > planned + ARRIVED:
             report.done = False
-            report.reason = (
-                f"short: every action was carried out, but the body ends {1e3 * report.short:.0f} mm short of the goal"
-            )
+            stalled = sum(action.outcome == "stalled" for action in report.actions)
+            done = f"{stalled} of its moves did not arrive, and" if stalled else "every action was carried out, but"
+            report.reason = f"short: {done} the body ends {1e3 * report.short:.0f} mm short of the goal"
 
 
 def _tuple(pose: Floats) -> tuple[float, float, float]:

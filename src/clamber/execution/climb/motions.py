@@ -36,13 +36,18 @@ WEAKER: Final = 3.0
 """By how much the worst of the holding limbs may be worse off where the body makes room for a grab [N]."""
 
 
-def move_body(climber: Climber, pose: Floats, *, drawn: tuple[int, Floats, Floats] | None = None) -> None:
+def move_body(climber: Climber, pose: Floats, *, drawn: tuple[int, Floats, Floats] | None = None) -> bool:
     """Bring the body to a pose (x, y, theta) along a straight smooth way; free limbs first go to where they meet no hold on it.
+
+    Where something holds it on its way it goes back to where it began: pulled on, its hooks would come off.
 
     Args:
         climber: The robot.
         pose: Shape (3,).
         drawn: A limb whose tip goes straight in the world in step with the body, where from, and its way, both shape (2,) [m].
+
+    Returns:
+        Whether it has gone all of the way.
     """
     clear_the_way(climber, pose)
     body, period = climber.body, climber.plant.period
@@ -69,14 +74,16 @@ def move_body(climber: Climber, pose: Floats, *, drawn: tuple[int, Floats, Float
         held = held + period if math.dist(body.aim[:2], body.pose[:2]) > HELD_BACK[0] else 0.0
         if held > HELD_BACK[1] and drawn is None:
             _go_back(climber, start, k)
-            break
+            body.aim_speed[:] = 0.0
+            return False
     body.aim_speed[:] = 0.0
     if drawn is not None:
         body.tasks[drawn[0]].speed = np.zeros(2)
+    return True
 
 
 def _go_back(climber: Climber, start: Floats, ticks: int) -> None:
-    """Bring a body that something holds on its way back to where it began, in as many ticks: pulled on, its own hooks would come off."""
+    """Bring a body back to where it began, in as many ticks."""
     body = climber.body
     change = start - body.aim
     for k in range(1, ticks + 1):

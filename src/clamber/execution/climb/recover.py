@@ -198,8 +198,8 @@ def _snatch(climber: Climber, hang: Hang, lost: int) -> bool:
 
 def _pull_of(climber: Climber, i: int) -> float:
     """With what limb `i` feels its hook pull along its grab direction [N]; nothing where it cannot tell."""
-    pull = float(climber.fall.forces[i] @ climber.body.grab_direction(i))
-    return pull if math.isfinite(pull) else 0.0
+    force = climber.fall.forces[i]
+    return float(force @ climber.body.grab_direction(i)) if np.isfinite(force).all() else 0.0
 
 
 def _free_hold(climber: Climber, i: int, within: float) -> int:
