@@ -36,6 +36,8 @@ BACK: Final = 0.05
 """Way back towards the limb's own shoulder after it, where the limb does not reach to where its hook is clear of its hold all round [m]."""
 CAUGHT: Final = 0.015
 """A tip that is nearer to its hold after that has not come off [m]."""
+BRISK: Final = (0.055, 0.06)
+"""Lag of its joints from which a hook that comes off is waited for: slowed down sooner, it drags the body aside by its friction [rad]."""
 STRAIGHT: Final = math.radians(8.0)
 """A limb whose elbow is straighter is at the end of its reach [rad]."""
 ON_TOP: Final = 0.5
@@ -97,7 +99,7 @@ def lift_off(climber: Climber, i: int) -> bool:
         fit = [one for one in postures(limb, pose, point) if one.inside and one.angles[1] * way[0][1] > 0.0]
         way += [one.angles + body.play[i] for one in fit]
     task.hold = 0
-    follow(climber, i, np.array(way))
+    follow(climber, i, np.array(way), BRISK)
     return float(np.hypot(*(body.felt_tip(i) - hold))) > CAUGHT
 
 

@@ -151,10 +151,16 @@ def move_tip(climber: Climber, i: int, place: Floats, seconds: float) -> None:
     task.speed = np.zeros(2)
 
 
-def follow(climber: Climber, i: int, way: Floats) -> bool:
+def follow(climber: Climber, i: int, way: Floats, lags: tuple[float, float] = LAG) -> bool:
     """Bring a free limb's joints along a way, shape (n, 2) [rad], smoothly from rest to rest; whether it comes to the end.
 
     One that something holds stays there and pulls no more: it would take other hooks off.
+
+    Args:
+        climber: The robot.
+        i: Index of the limb.
+        way: From corner to corner.
+        lags: How far behind the limb is slowed down, and waited for [rad].
     """
     task, period = climber.body.tasks[i], climber.plant.period
     lengths = np.abs(np.diff(way, axis=0)).max(axis=1)
@@ -172,7 +178,7 @@ def follow(climber: Climber, i: int, way: Floats) -> bool:
     while gone < last:
         # a limb that lags with one joint more than the other leaves its way, and knocks against what it was to go round
         lag = float(np.abs(task.angles - q).max()) if gone else 0.0
-        speed = float(np.interp(lag, LAG, (1.0, 0.0))) if waited < WAITING else 1.0
+        speed = float(np.interp(lag, lags, (1.0, 0.0))) if waited < WAITING else 1.0
         waited += (1.0 - speed) * period
         stands = stands + period if speed < STANDS[0] else 0.0
         if stands > STANDS[1]:
