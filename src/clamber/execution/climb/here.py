@@ -29,7 +29,7 @@ def task_from_here(course: Course, step: int, held: Mapping[str, int], missed: S
         course: The plan that went wrong.
         step: The action that failed, from 1.
         held: Limb -> number of its hold, 0 if it is free.
-        missed: Holds that are left out, unless a limb is on them.
+        missed: Holds that are left out, unless a limb is on them or a goal asks for them.
     """
     task, pose = course.task, course.pose(step - 1)
     document = copy.deepcopy(task.document)
@@ -39,7 +39,11 @@ def task_from_here(course: Course, step: int, held: Mapping[str, int], missed: S
         "theta": f"{float(pose[2])!r} rad",
         "holds": dict(held),
     }
-    gone = missed - set(held.values())
+    wanted = {number for goal in task.goals for number in goal.holds.values()}
+    gone = missed - set(held.values()) - wanted
+    barred = document.get("rules", {}).get("barred", {})
+    for limb, numbers in barred.items():
+        barred[limb] = [number for number in numbers if number not in gone]
     board = {key: value for key, value in document["board"].items() if key not in GENERATORS}
     kept = [hold_document(hold, hold.direction, hold.cone) for hold in task.world.holds if hold.number not in gone]
     document["board"] = board | {"holds": kept}
