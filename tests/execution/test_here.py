@@ -5,13 +5,15 @@ from pathlib import Path
 import pytest
 
 from clamber.actions.plan import load_plan
+from clamber.actions.plan_families import plan_family
 from clamber.execution.climb.course import Course, lay_course
 from clamber.execution.climb.here import task_from_here
 from clamber.experiments.climb.run_plan import climbing_task
 from clamber.tasks import load_task
 from clamber.tasks.limbed import LimbedTask
 
-SAVED = Path(__file__).parents[2] / "examples" / "across" / "plan.json"
+EXAMPLES = Path(__file__).parents[2] / "examples"
+SAVED = EXAMPLES / "across" / "plan.json"
 
 
 def across(*settings: str) -> Course:
@@ -36,3 +38,22 @@ def test_a_hold_that_the_robot_is_on_or_a_goal_asks_for_stays() -> None:
     on = course.holds(0)
     left = task_from_here(course, 1, on, {29, 28, *on.values()})
     assert {hold.number for hold in course.task.world.holds} - {hold.number for hold in left.world.holds} == {28}
+
+
+@pytest.mark.parametrize(("name", "saved"), [("circle", "circle"), ("across-hanging", "across")])
+def test_what_is_left_of_a_plan_is_a_plan_for_what_is_left_of_its_task(name: str, saved: str) -> None:
+    """Sub-goals that were met stay met, turns count on, and a limb that moved last still carries nothing."""
+    task = climbing_task(load_task(name))
+    plan = load_plan(EXAMPLES / saved / "plan.json")
+    course = lay_course(task, plan)
+    codes = plan.codes(task)
+    goals = set()
+    for step in range(1, len(codes) + 1, 7):
+        left = task_from_here(course, step, course.holds(step - 1), set())
+        problem = plan_family(left).problem(left)
+        replay = problem.replay(codes[step - 1 :])
+        assert replay.ok, (step, replay.reasons)
+        assert problem.is_done(replay.stances[-1:])
+        assert not problem.is_done(replay.stances[:1])
+        goals.add(len(left.goals))
+    assert goals == set(range(1, len(task.goals) + 1))
