@@ -10,7 +10,7 @@ from typing import Any
 from .carriers import Carrier, best_option, torques
 from .forces import NO_SPLIT_TORQUE, shared_load
 from .hook import hang_margins, many_margin, pair_margins
-from .interference import FAR, clearance, contains, holder_gap, interference_margins, point_to_segment, swing_clearance
+from .interference import FAR, clearance, contains, holder_room, interference_margins, point_to_segment, swing_clearance
 from .kinematics import (
     EPS,
     Option,
@@ -412,9 +412,16 @@ class PlainEvaluator:
         xs = [c.hold.x for c in carriers]
         within = min(max(xs) - pose.x, pose.x - min(xs)) if len(xs) > 1 else 0.0
         margins["stability"] = within - rules.inside
-        held_by = [(limbs[i], taken[i], self.holds[s.hold[i]]) for i in s.holders()]
-        margins["holder_peg"] = holder_gap(self.task, pose, held_by)
+        room = {
+            i: {o.branch: holder_room(self.task, pose, limbs[i], o, self.holds[s.hold[i]]) for o in both[i]}
+            for i in s.holders()
+        }
+        counted = {i: s.open[i] if rules.branch == "kept" else {taken[i].branch} for i in room}
+        margins["holder_peg"] = min(max((room[i][b] for b in counted[i]), default=-FAR) for i in room)
         good = self.still_open(s, both, carriers, split, in_good)
+        if "holder_peg" in rules.hard:
+            for i in room:
+                good[i] -= {branch for branch in counted[i] if room[i][branch] < -EPS}
         return Judgement(margins, all_torques, power, [o.branch for o in taken], forces, good)
 
     def allowed(self, s: PlainStance, limb: int) -> set[int]:

@@ -107,33 +107,35 @@ def interference_margins(
     return {"keep_out": keep_out, "limb_limb": limb_limb, "limb_body": limb_body, "limb_peg": limb_peg}
 
 
-def holder_gap(task: Any, pose: Pose, held: list[tuple[Any, Option, Any]]) -> float:
-    """`holder_peg`; `held`: limb, branch taken and hold of every holder."""
+def holder_room(task: Any, pose: Pose, limb: Any, option: Option, own: Any) -> float:
+    """`holder_peg` of one limb on its hold, with its elbow on one side."""
     gap, rules = FAR, task.rules
     if rules.hook_width == 0.0:
         return gap
     half = rules.hook_width / 2.0
-    for limb, taken, own in held:
-        port, tip = port_in_world(limb, pose), (own.x, own.y)
-        at, g = complex(*tip), cmath.exp(1j * taken.grab_angle)
-        corners = [
-            at + g * complex(along, side)
-            for along, side in (
-                (rules.hook_ahead, half),
-                (rules.hook_ahead, -half),
-                (-rules.hook_way, -half),
-                (-rules.hook_way, half),
-            )
-        ]
-        swept = [(z.real, z.imag) for z in corners]
-        for hold in task.world.holds:
-            place = (hold.x, hold.y)
-            if hold.number == own.number or math.hypot(hold.x - port[0], hold.y - port[1]) > limb_length(limb) + 0.1:
-                continue
-            for link in ((port, taken.elbow), (taken.elbow, tip)):
-                gap = min(gap, point_to_segment(place, *link) - task.robot.link_radius - hold.radius)
-            if limb.end.kind in ("hook", "foot"):
-                gap = min(gap, polygon_distance(swept, [place]) - hold.radius)
+    mouth = min(half, rules.hook_ahead)
+    port, tip = port_in_world(limb, pose), (own.x, own.y)
+    at, g = complex(*tip), cmath.exp(1j * option.grab_angle)
+    corners = [
+        at + g * complex(along, side)
+        for along, side in (
+            (rules.hook_ahead, half),
+            (rules.hook_ahead - mouth, half - mouth),
+            (rules.hook_ahead - mouth, mouth - half),
+            (rules.hook_ahead, -half),
+            (-rules.hook_way, -half),
+            (-rules.hook_way, half),
+        )
+    ]
+    swept = [(z.real, z.imag) for z in corners]
+    for hold in task.world.holds:
+        place = (hold.x, hold.y)
+        if hold.number == own.number or math.hypot(hold.x - port[0], hold.y - port[1]) > limb_length(limb) + 0.1:
+            continue
+        for link in ((port, option.elbow), (option.elbow, tip)):
+            gap = min(gap, point_to_segment(place, *link) - task.robot.link_radius - hold.radius)
+        if limb.end.kind in ("hook", "foot"):
+            gap = min(gap, polygon_distance(swept, [place]) - rules.hook_room - hold.radius)
     return gap
 
 

@@ -68,6 +68,7 @@ def make_task(holds: list[Any], held: dict[str, int], at: Point = (0.0, 0.0), **
         "hook_width": 0.0,
         "hook_ahead": 0.0,
         "hook_way": 0.0,
+        "hook_room": 0.0,
         "hard": ("reach", "joint", "support", "hangs", "torque"),
         "keep": (),
         "barred": {},

@@ -65,6 +65,7 @@ def varied_rules(rng: random.Random, task: LimbedTask) -> Any:
         hook_width=width,
         hook_ahead=aside.choice((0.0, 0.016)),
         hook_way=aside.choice((0.0, 0.04)),
+        hook_room=aside.choice((0.0, 0.005)),
         hard=rng.choice(hard),
         keep=tuple(random_keep(rng, task) for _ in range(rng.choice((0, 0, 1, 2)))),
         barred={

@@ -65,7 +65,8 @@ def _fill_rules(
     row["max_power"] = math.inf if rules.max_power is None else rules.max_power
     row["max_swing"] = rules.max_swing
     row["link_radius"], row["body_margin"] = task.robot.link_radius, task.robot.body_margin
-    row["hook_width"], row["hook_ahead"], row["hook_way"] = rules.hook_width, rules.hook_ahead, rules.hook_way
+    row["hook_width"], row["hook_ahead"] = rules.hook_width, rules.hook_ahead
+    row["hook_way"], row["hook_room"] = rules.hook_way, rules.hook_room
     row["grid_x"], row["grid_y"], row["grid_cell"], row["grid_nx"], row["grid_ny"] = grid
     centre = next((goal.centre for goal in task.goals if goal.centre is not None), (0.0, 0.0))
     row["centre_x"], row["centre_y"] = centre

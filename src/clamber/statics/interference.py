@@ -6,7 +6,7 @@ from ..compiled import kernel
 from .distances import point_segment, polygon_polygon, segment_polygon, segment_segment
 from .near import SIGHT, cells_about, cells_in_row
 from .pose import port_of, solve, take_branch, tip_of, usable
-from .records import UNLIMITED, cells, holds, hull, keep_out, limbs, vertices, work
+from .records import TOLERANCE, UNLIMITED, cells, holds, hull, keep_out, limbs, vertices, work
 
 KEEP_OUT, LIMB_LIMB, LIMB_BODY, LIMB_PEG, HOLDER_PEG = 8, 9, 10, 11, 15
 """Places of these checks among the margins."""
@@ -76,41 +76,71 @@ def interference(p, s, margins):
 
 @kernel
 def holder_gap(p, s):
-    """`holder_peg` margin: how far links and hooks of holders are from other holds [m].
+    """`holder_peg` margin: how far links and hooks of holders are from other holds [m], and, two bits a limb, the branches that are clear.
 
-    A hook needs the strip that it sweeps as it comes straight onto its hold: as wide as it is, from as far ahead of the tip, along the
-    grab direction, as it reaches, to where its way begins.
+    Under `branch = "kept"` the best of a limb's open branches counts, else the one taken. A hook needs the strip that it sweeps as it
+    comes straight onto its hold: as wide as it is, from as far ahead of the tip, along the grab direction, as it reaches, to where its
+    way begins. But for its mouth, which opens by 45 deg to either side.
     """
     gap = UNLIMITED
+    clear = 3 * 0x5555
     if p.hook_width == 0.0:
-        return gap
-    half = 0.5 * p.hook_width
+        return gap, clear
     for i in range(p.n_limbs):
         if s.hold[i] < 0:
             continue
-        own = holds(p)[s.hold[i]]
-        px, py = port_of(limbs(p)[i], s)
-        at = 1 + 5 * s.branch[i]
-        ex = s.solved[i, at + 1]
-        ey = s.solved[i, at + 2]
-        gx = s.solved[i, at + 3]
-        gy = s.solved[i, at + 4]
-        hooked = limbs(p)[i].c_cone > -1.5
-        sight = limbs(p)[i].length + BESIDE
-        x0, x1, y0, y1 = cells_about(p, px, py, sight)
-        for row in range(y0, y1 + 1):
-            first, end = cells_in_row(p, row, x0, x1)
-            for c in range(first, end):
-                h = cells(p)[c]
-                hold = holds(p)[h]
-                if h == s.hold[i] or (hold.x - px) ** 2 + (hold.y - py) ** 2 > sight * sight:
-                    continue
-                near = point_segment(hold.x, hold.y, px, py, ex, ey)
-                near = min(near, point_segment(hold.x, hold.y, ex, ey, own.x, own.y)) - p.link_radius
-                if hooked:
-                    along = gx * (hold.x - own.x) + gy * (hold.y - own.y)
-                    across = gx * (hold.y - own.y) - gy * (hold.x - own.x)
-                    beyond = max(0.0, max(along - p.hook_ahead, -p.hook_way - along))
-                    near = min(near, math.hypot(beyond, max(0.0, abs(across) - half)))
-                gap = min(gap, near - hold.radius)
+        best = -UNLIMITED
+        for branch in range(2):
+            if p.kept and s.open[i] & (1 << branch) or not p.kept and branch == s.branch[i]:
+                room = _holder_room(p, s, i, branch)
+                best = max(best, room)
+                if room < -TOLERANCE:
+                    clear &= ~(1 << (2 * i + branch))
+        gap = min(gap, best)
+    return gap, clear
+
+
+@kernel
+def _holder_room(p, s, i, branch):
+    """How far links and hook of a holder are from other holds with its elbow on one side [m]."""
+    own = holds(p)[s.hold[i]]
+    px, py = port_of(limbs(p)[i], s)
+    at = 1 + 5 * branch
+    ex = s.solved[i, at + 1]
+    ey = s.solved[i, at + 2]
+    gx = s.solved[i, at + 3]
+    gy = s.solved[i, at + 4]
+    hooked = limbs(p)[i].c_cone > -1.5
+    sight = limbs(p)[i].length + BESIDE
+    gap = UNLIMITED
+    x0, x1, y0, y1 = cells_about(p, px, py, sight)
+    for row in range(y0, y1 + 1):
+        first, end = cells_in_row(p, row, x0, x1)
+        for c in range(first, end):
+            h = cells(p)[c]
+            hold = holds(p)[h]
+            if h == s.hold[i] or (hold.x - px) ** 2 + (hold.y - py) ** 2 > sight * sight:
+                continue
+            near = point_segment(hold.x, hold.y, px, py, ex, ey)
+            near = min(near, point_segment(hold.x, hold.y, ex, ey, own.x, own.y)) - p.link_radius
+            if hooked:
+                along = gx * (hold.x - own.x) + gy * (hold.y - own.y)
+                across = gx * (hold.y - own.y) - gy * (hold.x - own.x)
+                near = min(near, hook_gap(p.hook_width, p.hook_ahead, p.hook_way, along, across) - p.hook_room)
+            gap = min(gap, near - hold.radius)
     return gap
+
+
+@kernel
+def hook_gap(width, reach, way, along, across):
+    """Distance of a place beside a hook, along its grab direction and across it from its hold, from what the hook sweeps; 0 inside [m].
+
+    That is a strip of the hook's width, from `way` behind its hold to `reach` ahead of it, less the mouth between its lips.
+    """
+    ahead = along - reach
+    inside = 0.5 * width - abs(across)
+    if inside > 0.0 and along > 0.0 and ahead + inside > 0.0:  # in the mouth, or before it
+        lip = math.hypot(ahead, inside) if ahead > inside else (ahead + inside) * math.sqrt(0.5)
+        return min(along, lip)
+    beyond = max(0.0, max(ahead, -way - along))
+    return math.hypot(beyond, max(0.0, -inside))

@@ -72,15 +72,17 @@ def judge(p, s, grabbing, swing, margins):
         margins[STABILITY] = stability(p, s, k) - p.inside
     if p.seen & (1 << SHARED):
         margins[SHARED] = shared(p, s)
-    good = 3 * 0x5555  # two bits a limb: every branch good until the hook check says otherwise
+    every = 3 * 0x5555  # branches, two bits a limb
+    good = every
     if p.seen & (1 << HOOK):
         margins[HOOK], good = hook(p, s, k)
     margins[KEEP_OUT] = UNLIMITED
     fenced = p.fences > 0 and p.seen & (1 << KEEP_OUT)
     if fenced or p.seen & (1 << LIMB_LIMB | 1 << LIMB_BODY | 1 << LIMB_PEG):
         interference(p, s, margins)
+    clear = every
     if p.seen & (1 << HOLDER_PEG):
-        margins[HOLDER_PEG] = holder_gap(p, s)
+        margins[HOLDER_PEG], clear = holder_gap(p, s)
     violated = 0
     for check in range(N_CHECKS):  # no branches, so that it vectorises
         violated |= (1 << check) if margins[check] < -TOLERANCE else 0
@@ -91,9 +93,10 @@ def judge(p, s, grabbing, swing, margins):
             check += 1
         return check
     if p.kept:
+        left = (good if p.hard & (1 << HOOK) else every) & (clear if p.hard & (1 << HOLDER_PEG) else every)
         for i in range(n):
             if s.hold[i] >= 0:
-                s.open[i] = still_open(p, s, i, (good >> (2 * i)) & 3 if p.hard & (1 << HOOK) else 3)
+                s.open[i] = still_open(p, s, i, (left >> (2 * i)) & 3)
     return -1
 
 

@@ -64,6 +64,7 @@ PARAMS = np.dtype(
         ("hook_width", "f8"),  # 0: hooks are points
         ("hook_ahead", "f8"),
         ("hook_way", "f8"),
+        ("hook_room", "f8"),
         ("grid_x", "f8"),
         ("grid_y", "f8"),
         ("grid_cell", "f8"),

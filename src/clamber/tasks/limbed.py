@@ -121,6 +121,8 @@ class Rules:
     """How far a hook reaches ahead of its hold's centre, along its grab direction [m]."""
     hook_way: NonNegativeLength = 0.0
     """From how far behind a hook comes straight onto its hold, and goes off again [m]."""
+    hook_room: NonNegativeLength = 0.0
+    """How far hooks, on their way, too, keep from other holds [m]."""
     hard: tuple[StrictStr, ...] = DEFAULT_HARD
     """Names of the checks that forbid an action; the others only report."""
     allowed: tuple[StrictStr, ...] | None = None

@@ -36,7 +36,7 @@ class Caution:
     room: float | None = None
     """Between other holds, and links of limbs and the body; None: links may lie on holds [mm]."""
     flare: float = 0.0
-    """Likewise between holds and hooks, besides their own width, where `room` is given [mm]."""
+    """Likewise between holds and hooks, where `room` is given [mm]."""
     inside: bool = False
     """Whether the weight stays between the holds that carry it: a hook beside both, or above one, bears next to nothing."""
     aloof: bool = False
@@ -111,13 +111,13 @@ def cautious(task: LimbedTask, caution: Caution) -> LimbedTask:
         # with a number of hangs, the same stance after fewer and more of them would be two
         settings += [f"rules.max_swing={caution.swing!r} deg", "rules.max_hangs=-1"]
     if caution.room is not None:
-        flare = caution.flare * MM
         hard = dict.fromkeys((*rules.hard, "holder_peg", *INSIDE * caution.inside, *ALOOF * caution.aloof))
         settings += [
             f"rules.hard=[{', '.join(repr(name) for name in hard)}]",
-            f"rules.hook_width={HOOK_WIDTH + 2.0 * flare!r} m",
-            f"rules.hook_ahead={HOOK_AHEAD!r} m",  # no room there: its own hold stops it
-            f"rules.hook_way={HOOK_WAY + flare!r} m",
+            f"rules.hook_width={HOOK_WIDTH!r} m",
+            f"rules.hook_ahead={HOOK_AHEAD!r} m",
+            f"rules.hook_way={HOOK_WAY!r} m",
+            f"rules.hook_room={caution.flare * MM!r} m",
             f"link_radius={task.robot.link_radius + caution.room * MM!r} m",
         ]
     cautious_task = change_task(changed, settings)
