@@ -8,10 +8,12 @@ import numpy as np
 
 from ...control.hook_forces import MOST_CUTS, pair_forces
 from ...control.swing_path import clearance
+from ...robots.hooks import HOOK_AHEAD, HOOK_WAY, HOOK_WIDTH
 from ...robots.limbed import LimbedRobot
+from ...statics.interference import hook_gap
 from ...types import Floats, Ints, Records
 from ...worlds.board import Board
-from .approach import HOOK, discs_near, wall_of
+from .approach import discs_near, wall_of
 from .legs import legs_of
 from .postures import Posture, postures
 
@@ -24,7 +26,9 @@ LACKING: Final = 0.5
 ON_TOP: Final = 0.3
 """What a hook that pulls sideways instead of down counts after each action [-]."""
 BLOCKED: Final = 4.0
-"""What counts after each action a limb on a hold whose links touch another hold or the body, which then bend it off its way [-]."""
+"""What counts after each action a limb on a hold whose links or hook, with its way, touch another hold or the body: they bend aside [-]."""
+NO_HOOK: Final = np.zeros(2)
+"""A tip without a hook: hooks that hold are looked at as they are, with an open mouth."""
 CLEAR: Final = 0.008
 """Clearance with which it counts nothing [m]."""
 OFF_PLAN: Final = 0.2
@@ -119,11 +123,18 @@ def _crowding(
     robot: LimbedRobot, board: Board, legs: Records, i: int, pose: Floats, on: int, found: list[Posture], wall: Floats
 ) -> list[float]:
     """What each posture of a limb on hold number `on` of the board's list counts for being near other holds and the body."""
+    own = board.holds[on]
     others = {hold.number: np.array((hold.x, hold.y)) for k, hold in enumerate(board.holds) if k != on}
     radius = max(hold.radius for hold in board.holds)
     discs = discs_near(others, pose, lambda _: radius)
     out = []
     for posture in found:
-        room = clearance(legs[i], posture.angles[0], posture.angles[1], discs, wall, robot.link_radius, HOOK)
+        room = clearance(legs[i], posture.angles[0], posture.angles[1], discs, wall, robot.link_radius, NO_HOOK)
+        if robot.limbs[i].end.kind != "gripper":
+            x, y = posture.grab
+            for place in others.values():
+                dx, dy = place[0] - own.x, place[1] - own.y
+                beside = hook_gap(HOOK_WIDTH, HOOK_AHEAD, HOOK_WAY, x * dx + y * dy, x * dy - y * dx)
+                room = min(room, float(beside) - radius)
         out.append(BLOCKED * min(max(1.0 - room / CLEAR, 0.0), 1.0))
     return out

@@ -19,9 +19,9 @@ WAY: Final = 0.2
 """Turn of the body on one straight way of it [rad]."""
 SETTLING: Final = 0.3
 """Before the load passes to one limb [s]."""
-OFFSETS: Final = (0.0, 0.005, 0.01, 0.015)
-"""How far the weight may be from below the hold that stays, on the side where it is, tried in turn [m]: from farther the other hook bears,
-and is caught on its hold. That counts for more than how far the hook can be lifted straight off."""
+OFFSETS: Final = (0.0, 0.005, 0.01, 0.015, 0.02, 0.025, 0.03)
+"""How far the weight may be from below the hold that stays, on the side where it is, tried in turn [m]: from farther the other hook bears
+more than a tenth of the weight, and is caught on its hold. That counts for more than how far the hook can be lifted straight off."""
 TURNS: Final = np.radians(np.arange(-75.0, 76.0, 7.5))
 """Of the body from where it is that are tried [rad]."""
 DEPTHS: Final = np.arange(0.10, 0.33, 0.02)
