@@ -91,7 +91,7 @@ def holder_gap(p, s):
             continue
         best = -UNLIMITED
         for branch in range(2):
-            if p.kept and s.open[i] & (1 << branch) or not p.kept and branch == s.branch[i]:
+            if (p.kept and s.open[i] & (1 << branch)) or (not p.kept and branch == s.branch[i]):
                 room = _holder_room(p, s, i, branch)
                 best = max(best, room)
                 if room < -TOLERANCE:

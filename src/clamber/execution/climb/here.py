@@ -27,7 +27,7 @@ def hold_document(hold: Hold, direction: float | None, cone: float | None) -> Js
 
 
 def task_from_here(course: Course, step: int, held: Mapping[str, int], missed: Set[int]) -> LimbedTask:
-    """The task that starts in the plan's pose before a step, with the holds that the robot has and the goals that the plan has not met by then.
+    """The task that starts in the plan's pose before a step, with the holds that the robot has and the goals that are left by then.
 
     Args:
         course: The plan that went wrong.

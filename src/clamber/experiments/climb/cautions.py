@@ -58,9 +58,20 @@ CAUTIONS: Final = (
 """The next where there is no plan that is easy in every stance; then the easiest."""
 STEADY: Final = (
     Caution(pull=0.2, bend=0.0, room=3.0, flare=3.0, inside=True),
-    Caution(hook_cone=60.0, hold_cone=75.0, strength=2.0, pull=0.2, share=0.5, bend=0.5, room=4.0, aloof=True),
     Caution(
-        hook_cone=60.0, hold_cone=90.0, strength=3.0, pull=0.2, share=0.6, spare=0.5, bend=0.2, room=4.0, aloof=True
+        hook_cone=60.0, hold_cone=75.0, strength=2.0, pull=0.2, share=0.5, bend=0.5, room=10.0, flare=6.5, aloof=True
+    ),
+    Caution(
+        hook_cone=60.0,
+        hold_cone=90.0,
+        strength=3.0,
+        pull=0.2,
+        share=0.6,
+        spare=0.5,
+        bend=0.2,
+        room=10.0,
+        flare=6.5,
+        aloof=True,
     ),
 )
 """Where even the easiest of those is hard, or none is carried out, the more cautious first: hooks pull more, holders and the ways of

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Final, TypeAlias
 
 import numpy as np
@@ -17,6 +16,7 @@ from ...planning.result import PlanResult
 from ...tasks.limbed import LimbedTask
 from .cautions import CAUTIONS, Caution, cautious, steady
 from .rehearsal import Rehearsal
+from .rerouting import doubtful_grabs, mended, without
 from .steadying import steadied
 
 Rehearse: TypeAlias = Callable[[LimbedTask, Plan], Rehearsal]
@@ -27,6 +27,10 @@ INCAUTIOUS: Final = 10.0
 """What being less cautious counts in one that is not."""
 EASY: Final = 3.5
 """What may count against a stance that is easy to hold: no link on a hold, no hook or motor much beyond what is wished."""
+DOUBT: Final = 5.0
+"""What counts against a plan each grab that is doubtful on paper."""
+FEW: Final = 2
+"""Doubtful grabs with which a plan is still worth mending, where another caution may lead to one without."""
 QUICK: Final = "beam"
 """Planner in place of one that proves: what fails in rehearsal changes the task time and again."""
 LESSONS: Final = 10
@@ -77,13 +81,20 @@ def plan_to_climb(
         plan = Plan.of_codes(task, result.plan.codes(task), seed=seed, planner=result.plan.planner)
         return None if lay_course(task, plan).objections else plan
 
-    easy, hard = _by_ease(task, lambda caution: found_with(caution, planner))
+    def mended_with(caution: Caution, planner: str, most: float) -> Plan | None:
+        plan = found_with(caution, planner)
+        if plan is None or len(doubtful_grabs(lay_course(task, plan))) > most:
+            return plan
+        return mended(task, plan, caution, seconds) or plan
+
     quick = QUICK if planner in PROVERS else planner
-    if rehearse is None:
+    if rehearse is None:  # the robot waits
+        easy, hard = _by_ease(task, lambda caution: found_with(caution, planner))
         steadier = (found_with(caution, quick) for caution in steady(task))
         first = next((plan for plans in (easy, steadier, hard) for plan in plans if plan is not None), None)
     else:
-        first = _rehearsed(task, easy, hard, lambda caution: found_with(caution, quick), rehearse)
+        easy, hard = _by_ease(task, lambda caution: mended_with(caution, planner, FEW))
+        first = _rehearsed(task, easy, hard, lambda caution: mended_with(caution, quick, math.inf), rehearse)
     if first is not None:
         return first
     result = search(task, planner)
@@ -105,6 +116,7 @@ def _by_ease(task: LimbedTask, find: Callable[[Caution], Plan | None]) -> tuple[
             continue
         seen.add(codes)
         own = float(np.maximum(course.against - EASY, 0.0).sum())
+        own += DOUBT * len(doubtful_grabs(course))
         least = min(least, own)
         found.append((own + (INCAUTIOUS * rank if own > 0.0 else 0.0), plan))
         if own == 0.0:
@@ -157,9 +169,7 @@ def _taught(
         if not np.array_equal(made, codes):
             plan = Plan.of_codes(task, made, seed=plan.seed, planner=plan.planner)
             continue
-        grab = plan.actions[done.failed - 1]
-        assert grab.limb is not None and grab.hold is not None  # a plan names what it took
-        caution = replace(caution, barred=(*caution.barred, (grab.limb, grab.hold)))
+        caution = without(caution, plan, done.failed)
         plan = find(caution)
     return None
 
