@@ -33,6 +33,10 @@ COMMANDS: Final = {
         "polish:polish",
         "Make a plan that reaches its goal shorter, by search about it; every check of the task still holds.",
     ),
+    "rehearse": Entry(
+        "rehearse:rehearse",
+        "Climb by a plan under noise, change what fails most, keep the change if more climbs succeed, and again.",
+    ),
     "learn": Entry(
         "learn:learn",
         "Plan a task and learn the gait in the plan; `clamber plan --macros FILE` then uses it.",

@@ -11,7 +11,7 @@ from .bodies import Bodies, PushTrial
 from .limb_logs import Identified, Recorded
 from .limbs import Contest, Forces, LimbSweep, OpenLoop, Portraits, Tuned
 from .plans import Front, Inventory, Learned, NoStart, Planned, Polished, Verdict
-from .runs import Climbed, ClimbTrials, Most, Pressed, ReplayedTrial, Walked, WalkTrials
+from .runs import Climbed, ClimbTrials, Most, Pressed, Rehearsed, ReplayedTrial, Walked, WalkTrials
 from .searches import BenchRow, Reach, Sweep
 from .things import (
     Drawn,
@@ -33,6 +33,7 @@ PRINTED: Final[dict[str, Any]] = {
     "list": Listed,
     "plan": Planned | Front | NoStart,
     "polish": Polished,
+    "rehearse": Rehearsed,
     "learn": Learned,
     "inventory": Inventory,
     "check": Verdict | Finding,

@@ -1,9 +1,10 @@
-"""What `run`, `trials` and `press` print."""
+"""What `run`, `trials`, `rehearse` and `press` print."""
 
 from typing import Literal
 
 from .base import Count, Interval, Pair, Pose, Printed
 from .meanings import means_as
+from .plans import Action
 
 
 @means_as("execution/climb/climb_report.py:ActionReport")
@@ -55,6 +56,45 @@ class Climbed(Printed):
     task: str
     wall_seconds: float
     """That it took."""
+
+
+@means_as("experiments/climb/lessons.py:Lesson")
+class LessonLearned(Printed):
+    """One change of a plan that was tried in rehearsal."""
+
+    step: int
+    what: str
+    length: Count
+    climbed: Count
+    tried: Count
+    """Climbs by it."""
+    taken: bool
+
+
+class Fault(Printed):
+    """A grab with which climbs went wrong."""
+
+    step: int
+    """0 where no grab led to where they ended."""
+    seeds: list[int]
+    """Of those climbs."""
+
+
+class Rehearsed(Printed):
+    """What a plan learned in rehearsals."""
+
+    climbs: Count
+    """Of each rehearsal."""
+    climbed_before: Count
+    """Of them, carried out whole by the plan as it was."""
+    climbed: Count
+    """Likewise by the best plan found."""
+    actions: list[Action]
+    """Of that plan."""
+    faults: list[Fault]
+    """Where it still fails, the most frequent first."""
+    lessons: list[LessonLearned]
+    """Changes in the order in which they were tried."""
 
 
 class PhaseTimes(Printed):

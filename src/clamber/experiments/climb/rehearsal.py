@@ -56,13 +56,15 @@ def rehearse(task: LimbedTask, plan: Plan, flaws: LimbFlaws, noise: Noise = REHE
 
 
 def grab_at_fault(plan: Plan, report: ClimbReport) -> int | None:
-    """Step of the grab with which a climb went wrong: that which failed, that of the hook that stays wedged, else the latest.
+    """Step of the grab with which a climb went wrong, see `grab_before`; None where no action was carried out."""
+    return grab_before(plan, report.actions[-1].first) if report.actions else None
+
+
+def grab_before(plan: Plan, ended: int) -> int | None:
+    """Step of the grab with which a climb went wrong that ended with a step: that one, that of the hook that stays wedged, else the latest.
 
     None where no grab has led to where it ended.
     """
-    if not report.actions:
-        return None
-    ended = report.actions[-1].first
     last = plan.actions[ended - 1]
     for step in range(ended, 0, -1):
         action = plan.actions[step - 1]

@@ -1,0 +1,82 @@
+"""`clamber rehearse`: make a climber's plan surer."""
+
+from typing import TYPE_CHECKING, Annotated, Final
+
+import typer
+
+from .compile_ahead import CLIMBING, compile_ahead
+from .crew import executor_of
+from .lessons_text import LessonsLine, print_lessons, to_json
+from .name_completion import names_of
+from .options import AsJson, CarriedOutIn, NoiseTexts, Output, Overrides, Quiet, Ray, Workers
+from .output import announce_compilation, check_writable, print_json, stderr, stdout
+
+if TYPE_CHECKING:  # loads NumPy, which `--help` does without
+    from ..experiments.climb.lessons import Lesson, Rehearsed
+
+FIRST_SEED: Final = 500_000
+"""Of rehearsals, unless stated: far from those that trials begin with."""
+
+
+def rehearse(
+    plan: Annotated[
+        str, typer.Argument(metavar="PLAN", help="A climber's plan: name or file.", autocompletion=names_of("plans"))
+    ],
+    n: Annotated[int, typer.Option("-n", min=1, help="Climbs of each rehearsal.")] = 24,
+    lessons: Annotated[int, typer.Option(min=0, help="Most changes that are tried.")] = 12,
+    seed: Annotated[int, typer.Option(min=0, help="Of a rehearsal's first climb.")] = FIRST_SEED,
+    noise: NoiseTexts = None,
+    task: CarriedOutIn = None,
+    overrides: Overrides = None,
+    seconds: Annotated[float, typer.Option(min=0.0, help="Most time for each search for another way.")] = 60.0,
+    workers: Workers = None,
+    ray: Ray = None,
+    output: Output = None,
+    as_json: AsJson = False,
+    quiet: Quiet = False,
+) -> None:
+    """Climb by a plan under noise, change what fails most, keep the change if more climbs succeed, and again.
+
+    Noise as in `clamber trials`. `-o` keeps the best plan so far, from the first change on; Ctrl-C ends with it.
+    """
+    check_writable(output)
+    announce_compilation(quiet=quiet)
+    compile_ahead(CLIMBING)
+    from ..experiments.climb.lessons import climbs_with, learn
+    from ..experiments.climb.noise import named_noise, read_noise
+    from ..experiments.climb.run_plan import open_climb
+    from ..experiments.climb.trial import TrialSetup
+    from ..experiments.climb.trials import with_plan
+
+    widths = read_noise(named_noise("usual"), noise or ())
+    opened, asked, plant = open_climb(plan, task, overrides or ())
+    if asked is None:
+        raise typer.BadParameter(f"'{plan}' is a task; `clamber plan` makes a plan for it", param_hint="PLAN")
+    setup = with_plan(TrialSetup(task=opened, noise=widths, plan=asked, plant=plant, replan=False), label=plan)
+    executor = executor_of(ray, workers)
+    executor.check()
+    told: list[tuple[Rehearsed, Lesson | None]] = []
+    with LessonsLine(stderr(), quiet=quiet) as line:
+
+        def tell(best: "Rehearsed", lesson: "Lesson | None") -> None:
+            told.append((best, lesson))
+            line.update(best, [one for _, one in told if one is not None])
+            if output is not None and (lesson is None or lesson.taken):
+                best.plan.save(output)
+
+        interrupted = False
+        try:
+            learn(
+                opened, asked, climbs_with(setup, executor), range(seed, seed + n),
+                lessons=lessons, seconds=seconds, told=tell,
+            )  # fmt: skip
+        except KeyboardInterrupt:
+            interrupted = True
+    if told:
+        (first, _), (best, _) = told[0], told[-1]
+        tried = [lesson for _, lesson in told if lesson is not None]
+        if as_json:
+            print_json(to_json(first, best, tried))
+        else:
+            print_lessons(stdout(), first, best, tried, output)
+    raise typer.Exit(130 if interrupted else 0)
