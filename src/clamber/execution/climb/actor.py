@@ -78,7 +78,10 @@ class Actor:
             if self.climber.body.tasks[i].hold:  # a slip may have done it
                 release(self.climber, i)
             if self.climber.body.tasks[i].hold:
-                return "missed", 1, "its hook stays wedged on its hold"
+                self._release_farther_back(i, first)
+                if self.climber.body.tasks[i].hold:
+                    return "missed", 2, "its hook stays wedged on its hold"
+                return "ok", 2, ""
             return "ok", 1, ""
         if action.kind == "grab":
             return self._grab(first)
@@ -143,6 +146,20 @@ class Actor:
                 return "ok", tries, ""
         short = float(np.hypot(*(self.pose(step) - self.climber.body.settled)[:2]))
         return "stalled", 2, f"the body stays {1e3 * short:.0f} mm off where it was to go"
+
+    def _release_farther_back(self, i: int, step: int) -> None:
+        """Take a wedged hook off where it was less turned: back along the plan's poses with the same holds, then on to where it was.
+
+        A hook turns about its hold as the body moves, and a hold beside that one may come to lie between its lips.
+        """
+        course, climber = self.course, self.climber
+        back = step - 1
+        while back > 0 and climber.body.tasks[i].hold and course.holds(back - 1) == course.holds(step - 1):
+            back -= 1
+            move_body(climber, self.pose(back))
+            release(climber, i)
+        for at in range(back + 1, step):
+            move_body(climber, self.pose(at))
 
     def _grab(self, step: int) -> tuple[Outcome, int, str]:
         action = self.course.actions[step - 1]
