@@ -244,3 +244,30 @@ def test_a_hook_that_stops_short_is_seated_where_it_stops_there_again(
     found = Approach(np.zeros(2), np.zeros((1, 2)), g, 0.05)
     ends = [tip + np.array((off, 0.0)) for off in before]
     assert hook.close(cast(Climber, climber), LEFT, hold, 0.01, found, hold, ends) == seated
+
+
+def test_a_hang_that_a_slip_has_led_to_is_taken_up_by_the_plan(
+    single_row: Course, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """After it nobody had let go: the plan's next move of the body that hangs goes on from there."""
+    taken: list[tuple[int, str]] = []
+
+    class Hanging:
+        def __init__(self, climber: Any, i: int) -> None:
+            taken.append((i, "taken up"))
+
+        def bring(self, pose: Floats) -> None:
+            taken.append((-1, "brought"))
+
+        def calm(self) -> None:
+            taken.append((-1, "calm"))
+
+    monkeypatch.setattr(actor_module, "Hang", Hanging)
+    monkeypatch.setattr(actor_module, "clear_the_way", lambda *_: None)
+    monkeypatch.setattr(actor_module, "is_clear", lambda *_: True)
+    body = SimpleNamespace(settled=single_row.pose(0), aim=single_row.pose(0), tasks=[])
+    climber = SimpleNamespace(robot=single_row.task.robot, body=body, hangs=True, holding=lambda: [RIGHT])
+    actor = Actor(cast(Climber, climber), single_row)
+    assert actor._hang(1) == ""
+    assert taken == [(RIGHT, "taken up"), (-1, "brought"), (-1, "calm")]
+    assert actor.hanging is not None

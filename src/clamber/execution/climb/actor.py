@@ -120,8 +120,9 @@ class Actor:
             self.hanging = let_go(climber, leaving, stay[0])
             if self.hanging is None:
                 return "the weight cannot be brought below the hold that is to carry it alone"
+        elif self.hanging is None:  # a slip has left the body to one limb
+            self.hanging = Hang(climber, climber.holding()[0])
         hanging = self.hanging
-        assert hanging is not None
         self._come_clear(hanging, self.pose(step))
         hanging.bring(self.pose(step))
         hanging.calm()
