@@ -16,7 +16,7 @@ from ...planning.result import PlanResult
 from ...tasks.limbed import LimbedTask
 from .cautions import CAUTIONS, Caution, cautious, steady
 from .rehearsal import Rehearsal
-from .rerouting import doubtful_grabs, mended, without
+from .rerouting import mended, without
 from .steadying import steadied
 
 Rehearse: TypeAlias = Callable[[LimbedTask, Plan], Rehearsal]
@@ -27,10 +27,6 @@ INCAUTIOUS: Final = 10.0
 """What being less cautious counts in one that is not."""
 EASY: Final = 3.5
 """What may count against a stance that is easy to hold: no link on a hold, no hook or motor much beyond what is wished."""
-DOUBT: Final = 5.0
-"""What counts against a plan each grab that is doubtful on paper."""
-FEW: Final = 2
-"""Doubtful grabs with which a plan is still worth mending, where another caution may lead to one without."""
 QUICK: Final = "beam"
 """Planner in place of one that proves: what fails in rehearsal changes the task time and again."""
 LESSONS: Final = 10
@@ -81,20 +77,17 @@ def plan_to_climb(
         plan = Plan.of_codes(task, result.plan.codes(task), seed=seed, planner=result.plan.planner)
         return None if lay_course(task, plan).objections else plan
 
-    def mended_with(caution: Caution, planner: str, most: float) -> Plan | None:
+    def mended_with(caution: Caution, planner: str) -> Plan | None:
         plan = found_with(caution, planner)
-        if plan is None or len(doubtful_grabs(lay_course(task, plan))) > most:
-            return plan
-        return mended(task, plan, caution, seconds) or plan
+        return None if plan is None else mended(task, plan, caution, seconds) or plan
 
+    easy, hard = _by_ease(task, lambda caution: found_with(caution, planner))
     quick = QUICK if planner in PROVERS else planner
     if rehearse is None:  # the robot waits
-        easy, hard = _by_ease(task, lambda caution: found_with(caution, planner))
         steadier = (found_with(caution, quick) for caution in steady(task))
         first = next((plan for plans in (easy, steadier, hard) for plan in plans if plan is not None), None)
     else:
-        easy, hard = _by_ease(task, lambda caution: mended_with(caution, planner, FEW))
-        first = _rehearsed(task, easy, hard, lambda caution: mended_with(caution, quick, math.inf), rehearse)
+        first = _rehearsed(task, easy, hard, lambda caution: mended_with(caution, quick), rehearse)
     if first is not None:
         return first
     result = search(task, planner)
@@ -116,7 +109,6 @@ def _by_ease(task: LimbedTask, find: Callable[[Caution], Plan | None]) -> tuple[
             continue
         seen.add(codes)
         own = float(np.maximum(course.against - EASY, 0.0).sum())
-        own += DOUBT * len(doubtful_grabs(course))
         least = min(least, own)
         found.append((own + (INCAUTIOUS * rank if own > 0.0 else 0.0), plan))
         if own == 0.0:
