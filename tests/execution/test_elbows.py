@@ -34,7 +34,7 @@ def test_two_hooks_bear_the_body_in_every_stance(course: Course) -> None:
 
 
 def test_a_hook_on_a_peg_with_a_twin_has_the_twin_before_its_mouth(course: Course) -> None:
-    """Nearer to ahead than its lips' corners, 42 deg to either side: from aside they come to rest on the twin."""
+    """Well before its lips, whose corners are 42 deg to either side: wherever the two pegs are, the hook turns past neither."""
     robot, places = course.task.robot, course.task.world.positions()
     rows = {hold.number: place for hold, place in zip(course.task.world.holds, places, strict=True)}
     angles = []
@@ -46,4 +46,4 @@ def test_a_hook_on_a_peg_with_a_twin_has_the_twin_before_its_mouth(course: Cours
                 (on,) = (one for one in postures(limb, course.pose(step), rows[number]) if side * one.angles[1] > 0.0)
                 to = rows[TWINS[number]] - rows[number]
                 angles.append(math.acos(np.clip(on.grab @ to / np.hypot(*to), -1.0, 1.0)))
-    assert angles and math.degrees(max(angles)) < 36.0
+    assert angles and math.degrees(max(angles)) < 20.0
