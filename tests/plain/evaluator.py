@@ -418,6 +418,8 @@ class PlainEvaluator:
         }
         counted = {i: s.open[i] if rules.branch == "kept" else {taken[i].branch} for i in room}
         margins["holder_peg"] = min(max((room[i][b] for b in counted[i]), default=-FAR) for i in room)
+        if rules.hook_width == 0.0:
+            margins["holder_peg"] = FAR
         good = self.still_open(s, both, carriers, split, in_good)
         if "holder_peg" in rules.hard:
             for i in room:

@@ -4,7 +4,6 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
-from .compile_ahead import CLIMBING, compile_ahead
 from .crew import executor_of
 from .lessons_text import LessonsLine, print_lessons, to_json
 from .name_completion import names_of
@@ -41,6 +40,8 @@ def rehearse(
     """
     check_writable(output)
     announce_compilation(quiet=quiet)
+    from .compile_ahead import CLIMBING, compile_ahead
+
     compile_ahead(CLIMBING)
     from ..experiments.climb.lessons import climbs_with, learn
     from ..experiments.climb.noise import named_noise, read_noise

@@ -73,10 +73,10 @@ def test_a_grab_is_made_before_the_step_that_stretches_the_limbs() -> None:
     opened = open_plan(Path(__file__).parents[3] / "examples" / "circle" / "plan.json")
     task = climbing_task(opened.task)
     codes = opened.plan.codes(task)
-    assert [action.title for action in opened.plan.actions[138:140]] == ["left grabs 10", "+y"]
+    assert [action.title for action in opened.plan.actions[89:91]] == ["right grabs 5", "+y"]
     later = codes.copy()
-    later[138:140] = codes[139], codes[138]
-    assert np.array_equal(steadied(task, later, 140), codes)
+    later[89:91] = codes[90], codes[89]
+    assert np.array_equal(steadied(task, later, 91), codes)
 
 
 def test_a_plan_that_does_not_hold_stays_as_it_is() -> None:
