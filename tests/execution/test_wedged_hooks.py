@@ -1,22 +1,64 @@
 """Hooks that do not come off where a plan releases them: they are taken off where they were less turned."""
 
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
 
+import numpy as np
 import pytest
 
 from clamber.actions.plan_source import open_plan
-from clamber.experiments.climb.noise import named_noise
-from clamber.experiments.climb.run_plan import climbing_flaws, climbing_task, run_plan
+from clamber.execution.climb import actor as actor_module
+from clamber.execution.climb.actor import Actor
+from clamber.execution.climb.climber import Climber
+from clamber.execution.climb.course import Course, lay_course
+from clamber.experiments.climb.run_plan import climbing_task
 
 CIRCLE = Path(__file__).parents[2] / "examples" / "circle" / "plan.json"
 
 
-@pytest.mark.slow
-def test_a_hook_that_a_peg_has_come_into_as_it_turned_comes_off_farther_back() -> None:
-    """Pegs 23 and 25, nominally 25 mm apart, are drawn so near to each other that the hook on 25 does not come off as it stands."""
+@pytest.fixture(scope="module")
+def course() -> Course:
     opened = open_plan(CIRCLE)
-    task = climbing_task(opened.task)
-    report = run_plan(task, opened.plan, climbing_flaws(task, ()), noise=named_noise("usual"), seed=142).report
-    assert report.done
-    tries = [action.tries for action in report.actions if action.kind == "release"]
-    assert max(tries) == 2 and sum(tries) == len(tries) + 1
+    return lay_course(climbing_task(opened.task), opened.plan)
+
+
+def moves_before(course: Course, step: int) -> int:
+    """Of the body, since the limbs came to hold as they do before a step."""
+    back = step - 1
+    while back > 0 and course.holds(back - 1) == course.holds(step - 1):
+        back -= 1
+    return step - 1 - back
+
+
+@pytest.mark.parametrize("comes_off", [0, 1, 2, None], ids=lambda at: f"after {at}")
+def test_a_wedged_hook_is_tried_at_each_pose_back_with_the_same_holds(
+    course: Course, monkeypatch: pytest.MonkeyPatch, comes_off: int | None
+) -> None:
+    step = next(k for k, a in enumerate(course.actions, 1) if a.kind == "release" and moves_before(course, k) >= 3)
+    most, limb = moves_before(course, step), course.actions[step - 1].limb
+    names = [one.name for one in course.task.robot.limbs]
+    tasks = [SimpleNamespace(hold=course.holds(step - 1)[name]) for name in names]
+    body = SimpleNamespace(tasks=tasks, aim=course.pose(step - 1), settled=course.pose(step - 1))
+    been: list[Any] = []
+    tries = 0
+
+    def release(_: Any, i: int) -> None:
+        nonlocal tries
+        if tries == comes_off:
+            tasks[i].hold = 0
+        tries += 1
+
+    monkeypatch.setattr(actor_module, "release", release)
+    monkeypatch.setattr(actor_module, "move_body", lambda _, pose: been.append(pose))
+    actor = Actor(cast(Climber, SimpleNamespace(robot=course.task.robot, body=body, hangs=False)), course)
+    outcome, count, why = actor.carry_out(step, step)
+    back = most if comes_off is None else comes_off
+    assert (outcome, count) == (("missed", 2) if comes_off is None else ("ok", 1 + (comes_off > 0)))
+    assert ("wedged" in why) == (comes_off is None) and limb is not None
+    assert tries == 1 + back
+    there = [*range(step - 2, step - 2 - back, -1), *range(step - back, step)]
+    assert len(been) == len(there)
+    for pose, at in zip(been, there, strict=True):
+        assert pose[:2] == pytest.approx(course.pose(at)[:2])
+        assert np.cos(pose[2] - course.pose(at)[2]) == pytest.approx(1.0)
