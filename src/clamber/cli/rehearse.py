@@ -36,7 +36,7 @@ def rehearse(
 ) -> None:
     """Climb by a plan under noise, change what fails most, keep the change if more climbs succeed, and again.
 
-    Noise as in `clamber trials`. `-o` keeps the best plan so far, from the first change on; Ctrl-C ends with it.
+    Noise as in `clamber trials`. `-o` keeps the best plan so far, from the first rehearsal on; Ctrl-C ends with it.
     """
     check_writable(output)
     announce_compilation(quiet=quiet)

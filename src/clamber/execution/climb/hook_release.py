@@ -5,6 +5,7 @@ from typing import Final
 
 import numpy as np
 
+from ...robots.limbed import Limb
 from ...types import Floats
 from .approach import SHIFTS, free_distance
 from .climber import Climber
@@ -53,8 +54,13 @@ def release(climber: Climber, i: int) -> None:
 
 def stand_off_of(climber: Climber, i: int, doubt: float) -> float:
     """How far from a hold a limb's hook turns towards it, the hold's place in doubt by so much [m]."""
-    free = free_distance(climber.peg_radius, doubt)
-    return free if climber.robot.limbs[i].end.offset > 0.0 else max(WIDE_STAND_OFF, free)
+    return stand_off(climber.robot.limbs[i], climber.peg_radius, doubt)
+
+
+def stand_off(limb: Limb, radius: float, doubt: float) -> float:
+    """The same of any limb, for holds of a radius [m]."""
+    free = free_distance(radius, doubt)
+    return free if limb.end.offset > 0.0 else max(WIDE_STAND_OFF, free)
 
 
 def _shake_off(climber: Climber, i: int, clear: Callable[[], bool]) -> bool:

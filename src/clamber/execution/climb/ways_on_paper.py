@@ -6,11 +6,11 @@ from typing import Final
 import numpy as np
 
 from ...types import Floats
-from .approach import Approach, Approaches, free_distance
+from .approach import Approach, Approaches
 from .bearing import borne
 from .course import Course
 from .hook import NEAR
-from .hook_release import AWAY, WIDE_STAND_OFF
+from .hook_release import AWAY, stand_off
 from .legs import legs_of
 from .motions import WEAKER
 from .parking import park, poses_between
@@ -74,17 +74,12 @@ def _drawn_back(course: Course, i: int, step: int, hold: Floats, radius: float) 
     on = [one for one in postures(limb, pose, hold) if side * one.angles[1] > 0.0]
     if not on:
         return None
-    away = _stand_off(course, i, radius) + AWAY
+    away = stand_off(limb, radius, 0.0) + AWAY
     for part in BACK:
         for one in postures(limb, pose, hold - part * away * on[0].grab):
             if one.inside and side * one.angles[1] > 0.0:
                 return one.angles
     return None
-
-
-def _stand_off(course: Course, i: int, radius: float) -> float:
-    free = free_distance(radius, 0.0)
-    return free if course.task.robot.limbs[i].end.offset > 0.0 else max(WIDE_STAND_OFF, free)
 
 
 def _way(
@@ -105,5 +100,5 @@ def _way(
     radius = max(hold.radius for hold in task.world.holds)
     return ways.find(
         i, start, pose, holds[course.holds(step)[names[i]]], holds, elbow=int(course.elbows[step, i]),
-        stand_off=_stand_off(course, i, radius + doubt), near=NEAR + doubt, stands=lambda pose: bears(pose) >= least,
+        stand_off=stand_off(task.robot.limbs[i], radius, doubt), near=NEAR + doubt, stands=lambda pose: bears(pose) >= least,
     )  # fmt: skip
