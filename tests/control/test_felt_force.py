@@ -56,10 +56,8 @@ def weight_torques(body: WholeBody, i: int, q: Floats) -> Floats:
 
 
 def feel(body: WholeBody, q: Floats, qd: Floats, before: Floats, torques: Floats) -> Floats:
-    rotors = np.array([chain.joints["rotor"] for chain in body.chains])
-    damping = np.array([chain.joints["damping"] for chain in body.chains])
     felt, forces = np.zeros((body.n, 2)), np.zeros((body.n, 2))
-    feel_forces(body.legs, rotors, damping, body.held, q, qd, before.copy(), torques, ANGLE, PERIOD, 1.0, felt, forces)
+    feel_forces(body.legs, body.held, q, qd, before.copy(), torques, ANGLE, PERIOD, 1.0, felt, forces)
     return forces
 
 

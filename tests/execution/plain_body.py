@@ -9,7 +9,7 @@ from clamber.control.body import command_tips, drag_tips
 from clamber.control.body_estimate import estimate_body
 from clamber.control.controller import still_aim
 from clamber.control.hook_forces import MOST_CUTS
-from clamber.control.play import follow_play, pull_torques, weight_moment
+from clamber.control.play import follow_play, pull_torques, weight_loads, weight_moment
 from clamber.execution.climb.whole_body import LIMITS, LOAD_TIME, MAPPINGS, LimbTask, WholeBody
 from clamber.types import Floats
 
@@ -101,6 +101,13 @@ class PlainBody(WholeBody):
                 )
                 if task.doing == "hang":
                     torques += task.loads
+                else:
+                    leg = self.legs[i]
+                    rotors, dry, wet = (
+                        np.array((leg[key + "1"], leg[key + "2"])) for key in ("rotor", "friction", "damping")
+                    )
+                    torques += weight_loads(leg, self.q[i], self.pose[2]) + rotors * task.accelerations
+                    torques += wet * task.rates + dry * np.tanh(task.rates / at.MOVING)
             pressed[i] = task.doing == "cling" or (task.doing == "pull" and task.pressed)
             if task.doing in ("pull", "cling"):
                 most = gains.firm if task.pressed else gains.gentle

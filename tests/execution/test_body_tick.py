@@ -43,6 +43,7 @@ def busy_pair(robot: LimbedRobot, gains: BodyGains, rng: np.random.Generator) ->
                 speed,
                 angles=angles,
                 rates=rates,
+                accelerations=4.0 * rates[::-1],
                 loads=loads,
                 force=force,
                 tug=tug,

@@ -1,5 +1,6 @@
 """A climber in contact dynamics: it hangs on two hooks, moves its body, and climbs a rung."""
 
+import itertools
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import cast
@@ -7,9 +8,27 @@ from typing import cast
 import numpy as np
 import pytest
 
-from clamber.execution.climb.climber import Climber, FallenError
+from clamber.actions.plan_source import open_plan
+from clamber.execution.climb import actor, hook
+from clamber.execution.climb.approach import Approach
+from clamber.execution.climb.climber import Climber, FallenError, Grabbed
+from clamber.execution.climb.course import lay_course
 from clamber.execution.climb.ends import grab, release
-from clamber.execution.climb.motions import JOINT_AGILITY, JOINT_SPEED, LAG, at_speed, eased, follow, move_body
+from clamber.execution.climb.motions import (
+    JOINT_AGILITY,
+    JOINT_SPEED,
+    LAG,
+    at_speed,
+    eased,
+    follow,
+    may_move,
+    move_body,
+    move_tip,
+)
+from clamber.execution.climb.postures import postures
+from clamber.execution.climb.pushed_body import PushedBody
+from clamber.execution.climb.whole_body import LimbTask
+from clamber.experiments.climb.run_plan import climbing_task
 from clamber.robots.library import load_robot
 from clamber.robots.limbed import LimbedRobot
 from clamber.sim.climber_plant import BodySensed, ClimberPlant
@@ -96,7 +115,7 @@ def test_a_way_goes_from_rest_to_rest_within_speed_and_agility(length: float) ->
 @pytest.mark.parametrize("stop", [0.3, 9.0])
 def test_a_limb_that_something_holds_on_its_way_stays_there_and_pulls_no_more(stop: float) -> None:
     q, ticks, farthest = np.zeros((1, 2)), 0, 0.0
-    task = SimpleNamespace(doing="tip", angles=np.zeros(2), rates=np.zeros(2))
+    task = LimbTask("tip")
 
     def tick() -> None:
         """The joints come after what is asked of them, the first as far as something that it cannot move."""
@@ -105,14 +124,15 @@ def test_a_limb_that_something_holds_on_its_way_stays_there_and_pulls_no_more(st
         q[0, 0] = min(q[0, 0], stop)
         ticks, farthest = ticks + 1, max(farthest, float(np.abs(task.angles - q[0]).max()))
 
-    body = SimpleNamespace(tasks=[task], q=q)
-    climber = SimpleNamespace(body=body, plant=SimpleNamespace(period=0.005), tick=tick)
+    body = SimpleNamespace(tasks=[task], q=q, play=np.zeros((1, 2)), pose=np.zeros(3))
+    climber = SimpleNamespace(body=body, plant=SimpleNamespace(period=0.005), tick=tick, hangs=True, holding=list)
     came = follow(cast(Climber, climber), 0, np.array(((0.0, 0.0), (0.8, -0.4))))
     assert came == (stop > 0.8)
     assert farthest < LAG[1] + 0.01
     assert ticks * 0.005 < (0.8 / JOINT_SPEED + 1.5 if came else 0.3 / JOINT_SPEED + 1.0)
     np.testing.assert_allclose(task.angles, (0.8, -0.4) if came else q[0], atol=1e-12)
     np.testing.assert_array_equal(task.rates, 0.0)
+    np.testing.assert_array_equal(task.accelerations, 0.0)
 
 
 @pytest.mark.parametrize(("length", "rise"), [(0.2, 0.1), (1.9, 0.3), (1.0, 1.0)])
@@ -154,7 +174,7 @@ def test_a_body_that_something_holds_on_its_way_goes_back_before_its_hooks_come_
     climber.balance = HeldBack()
     move_body(climber, start + np.array((0.0, 0.15, 0.0)))
     climber.wait(0.3)
-    assert 0.04 < max(aim[1] for aim in aims) - start[1] < 0.09  # it tries
+    assert 0.02 < max(aim[1] for aim in aims) - start[1] < 0.05  # it tries
     np.testing.assert_allclose(climber.body.aim, start, atol=1e-9)
     assert all(climber.body.tasks[i].hold for i in (RIGHT, LEFT))
 
@@ -249,3 +269,140 @@ def test_limbs_are_asked_whether_they_would_hold_before_they_do() -> None:
     before = body.stands(START, [RIGHT, BOTTOM])
     climber.carry_with_all(but=LEFT)
     assert body.stands(START) == pytest.approx(before, abs=2.0)  # the body sways and the joints' play turns round [N]
+
+
+@pytest.mark.parametrize("flaws", [LimbFlaws(physics_rate=1000.0), NOMINAL], ids=["ideal", "nominal"])
+def test_a_free_limb_keeps_to_its_way(flaws: LimbFlaws) -> None:
+    """With what its model tells of rotors, friction and weight fed forward; without, it lags by a degree or two, at the tip 10 mm."""
+    climber, _ = on_the_ladder(flaws)
+    climber.wait(0.5)
+    release(climber, BOTTOM)
+    climber.wait(0.3)
+    body, tick, lag = climber.body, climber.tick, 0.0
+
+    def watched() -> None:
+        nonlocal lag
+        tick()
+        lag = max(lag, float(np.abs(body.tasks[BOTTOM].angles - body.q[BOTTOM]).max()))
+
+    climber.tick = watched  # type: ignore[method-assign]
+    start = body.q[BOTTOM] - body.play[BOTTOM]
+    assert follow(climber, BOTTOM, np.array((start, start + np.array((-0.6, 0.5)))))
+    assert lag < np.radians(0.3)
+
+
+@pytest.mark.parametrize(("force", "told"), [(10.0, False), (50.0, True)])
+def test_a_body_that_is_pushed_up_is_told_before_its_hooks_are_off(force: float, told: bool) -> None:
+    climber, plant = on_the_ladder()
+    climber.wait(0.5)
+    release(climber, BOTTOM)
+    climber.wait(0.5)
+    watch, pushed, off = PushedBody(climber), False, 0.0
+    plant.push((0.0, force))
+    for _ in range(100):
+        climber.tick()
+        pushed = pushed or watch.gives_way(BOTTOM)
+        if not pushed:
+            tips = plant.truth().tips
+            off = max(float(np.hypot(*(tips[i] - climber.holds[hold]))) for i, hold in ((RIGHT, 4), (LEFT, 3)))
+    assert pushed is told
+    assert off < 2e-3
+
+
+@pytest.mark.parametrize("aside", [0.010, 0.014, -0.012])
+def test_a_hook_that_goes_against_a_hold_stops_before_it_takes_others_off(aside: float) -> None:
+    climber, plant = on_the_ladder()
+    climber.wait(0.5)
+    g, hold = climber.body.grab_direction(BOTTOM), climber.holds[2].copy()
+    release(climber, BOTTOM)
+    climber.wait(0.3)
+    assert not move_tip(climber, BOTTOM, hold + 0.05 * g + aside * np.array((-g[1], g[0])), 0.8)
+    tips = plant.truth().tips
+    assert max(float(np.hypot(*(tips[i] - climber.holds[n]))) for i, n in ((RIGHT, 4), (LEFT, 3))) < 2.5e-3
+
+
+def test_a_body_makes_no_room_where_limbs_that_hold_would_meet_other_holds() -> None:
+    climber, _ = on_the_ladder()
+    climber.wait(0.5)
+    body, may, met = climber.body, may_move(climber), 0
+    sizes = [climber.peg_radius + climber.map.error(number) for number in climber.holds]
+    for x, y, angle in itertools.product(np.linspace(-0.1, 0.1, 9), np.linspace(-0.1, 0.1, 9), (-0.3, 0.0, 0.3)):
+        pose = body.settled + np.array((x, y, angle))
+        if body.stands(pose) < 0.0:
+            continue
+        rooms = []
+        for i, task in enumerate(body.tasks):
+            limb, side = climber.robot.limbs[i], body.q[i, 1]
+            fit = [one for one in postures(limb, pose, task.place) if one.angles[1] * side > 0.0]
+            if not fit:
+                rooms.append(-1.0)
+                continue
+            turn = np.array(((np.cos(pose[2]), -np.sin(pose[2])), (np.sin(pose[2]), np.cos(pose[2]))))
+            port = pose[:2] + turn @ (limb.port_x, limb.port_y)
+            first = pose[2] + limb.port_angle + fit[0].angles[0]
+            elbow = port + limb.l1 * np.array((np.cos(first), np.sin(first)))
+            for (number, place), size in zip(climber.holds.items(), sizes, strict=True):
+                links = ((port, elbow), (elbow, task.place)) if number != task.hold else ()
+                rooms += [_distance(a, b, place) - climber.robot.link_radius - size for a, b in links]
+        if min(rooms) < -1e-3:
+            met += 1
+            assert not may(pose)
+    assert met > 3
+
+
+def _distance(a: Floats, b: Floats, point: Floats) -> float:
+    """Of a point from a segment [m]."""
+    along = np.clip((point - a) @ (b - a) / ((b - a) @ (b - a)), 0.0, 1.0)
+    return float(np.hypot(*(a + along * (b - a) - point)))
+
+
+@pytest.mark.parametrize(("elbow", "short", "seated"), [(60.0, 0.008, True), (12.0, 0.008, False), (12.0, 0.002, True)])
+def test_a_hook_that_stops_where_its_limb_is_straight_is_on_its_hold_only_where_that_should_be(
+    monkeypatch: pytest.MonkeyPatch, elbow: float, short: float, seated: bool
+) -> None:
+    monkeypatch.setattr(hook, "move_tip", lambda *_: True)
+    monkeypatch.setattr(hook, "push_on", lambda *_: True)
+    g = np.array((0.0, -1.0))
+    body = SimpleNamespace(q=np.radians(((0.0, elbow),)), tip=lambda i: -short * g)
+    found = Approach(np.zeros(2), np.zeros((1, 2)), g, 0.03)
+    close = hook.close(
+        cast(Climber, SimpleNamespace(body=body, hangs=False)), 0, np.zeros(2), 0.01, found, np.zeros(2), []
+    )
+    assert close is seated
+
+
+@pytest.mark.parametrize("takes_it", [True, False])
+def test_a_hold_that_a_clinging_limb_has_slid_off_is_taken_again_before_another_limb_acts(
+    monkeypatch: pytest.MonkeyPatch, takes_it: bool
+) -> None:
+    plan = open_plan("ladder-hand")
+    course = lay_course(climbing_task(plan.task), plan.plan)
+    step = next(k for k, action in enumerate(course.actions, 1) if action.kind == "release")
+    names = [limb.name for limb in course.task.robot.limbs]
+    acts = names.index(str(course.actions[step - 1].limb))
+    tasks = [LimbTask("cling" if i != acts else "hold", course.holds(step - 1)[name]) for i, name in enumerate(names)]
+    slid = next(i for i, task in enumerate(tasks) if i != acts and task.hold)
+    down = np.array((0.0, -1.0))
+    body = SimpleNamespace(
+        tasks=tasks,
+        q=np.ones((3, 2)),
+        grab_direction=lambda i: down,
+        tip=lambda i: -0.012 * down if i == slid else np.zeros(2),
+    )
+    took: list[tuple[int, int]] = []
+
+    def take(_: Climber, i: int, number: int, *, elbow: int) -> Grabbed:
+        took.append((i, number))
+        return Grabbed(takes_it, 1, 0.0, 0.0)
+
+    def let(_: Climber, i: int) -> None:
+        tasks[i].hold = 0
+
+    monkeypatch.setattr(actor, "grab", take)
+    monkeypatch.setattr(actor, "release", let)
+    climber = SimpleNamespace(robot=course.task.robot, body=body, hangs=False)
+    outcome, _, why = actor.Actor(cast(Climber, climber), course).carry_out(step, step)
+    assert took == [(slid, tasks[slid].hold)]
+    assert outcome == ("ok" if takes_it else "missed")
+    assert ("slid off" in why) is not takes_it
+    assert (tasks[acts].hold == 0) is takes_it

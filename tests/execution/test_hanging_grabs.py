@@ -220,8 +220,8 @@ def test_a_tip_goes_straight_to_a_place_and_stops_pulling_where_it_is_held(wall:
         tip[:] -= max(beyond, 0.0) * way
         farthest = max(farthest, float((task.place - tip) @ way))
 
-    body = SimpleNamespace(tasks=[task], tip=lambda i: tip.copy())
-    climber = SimpleNamespace(body=body, plant=SimpleNamespace(period=0.005), tick=tick)
+    body = SimpleNamespace(tasks=[task], tip=lambda i: tip.copy(), pose=np.zeros(3))
+    climber = SimpleNamespace(body=body, plant=SimpleNamespace(period=0.005), tick=tick, hangs=True, holding=list)
     there = hook._comes_to(cast(Climber, climber), 0, start + 0.1 * way)
     assert there == (wall > 0.1)
     assert (tip - start) @ way == pytest.approx(min(wall, 0.1), abs=0.011)
@@ -238,9 +238,10 @@ def test_a_hook_that_stops_short_is_seated_where_it_stops_there_again(
 ) -> None:
     g, hold = np.array((0.0, 1.0)), np.array((1.0, 0.5))
     tip = hold - short * g
-    monkeypatch.setattr(hook, "move_tip", lambda climber, i, place, seconds: None)
+    monkeypatch.setattr(hook, "move_tip", lambda climber, i, place, seconds: True)
     monkeypatch.setattr(hook, "push_on", lambda climber, i, place, g, room: True)
-    climber = SimpleNamespace(body=SimpleNamespace(tip=cast("Callable[[int], Floats]", lambda i: tip)))
+    body = SimpleNamespace(tip=cast("Callable[[int], Floats]", lambda i: tip), q=np.ones((3, 2)))
+    climber = SimpleNamespace(body=body, hangs=False)
     found = Approach(np.zeros(2), np.zeros((1, 2)), g, 0.05)
     ends = [tip + np.array((off, 0.0)) for off in before]
     assert hook.close(cast(Climber, climber), LEFT, hold, 0.01, found, hold, ends) == seated

@@ -38,7 +38,7 @@ def test_a_wedged_hook_is_tried_at_each_pose_back_with_the_same_holds(
     step = next(k for k, a in enumerate(course.actions, 1) if a.kind == "release" and moves_before(course, k) >= 3)
     most, limb = moves_before(course, step), course.actions[step - 1].limb
     names = [one.name for one in course.task.robot.limbs]
-    tasks = [SimpleNamespace(hold=course.holds(step - 1)[name]) for name in names]
+    tasks = [SimpleNamespace(hold=course.holds(step - 1)[name], doing="hold") for name in names]
     body = SimpleNamespace(tasks=tasks, aim=course.pose(step - 1), settled=course.pose(step - 1))
     been: list[Any] = []
     tries = 0

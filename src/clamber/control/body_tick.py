@@ -27,6 +27,8 @@ CLING_SLACK = 0.003
 """What a map and the play of joints make of a tip that is on its hold [m]."""
 CLING_MOST = 15.0
 """Of that pull [N]."""
+MOVING = 0.05
+"""A free limb's joint that is to turn faster than this rubs with all of its Coulomb friction [rad/s]."""
 
 BODY = np.dtype(
     [
@@ -55,6 +57,7 @@ JOB = np.dtype(
         ("speed", "f8", (2,)),  # of that aim
         ("angles", "f8", (2,)),  # of JOINTS and HANG
         ("rates", "f8", (2,)),
+        ("accelerations", "f8", (2,)),  # of JOINTS
         ("loads", "f8", (2,)),  # of HANG: torques besides
         ("force", "f8", (2,)),  # of PULL: of the tip on what it meets, world frame
         ("tug", "f8", (2,)),  # the steady part of that, which the body leans on
@@ -324,6 +327,12 @@ def _by_pull(table, i, torques):
 
 
 @inlined
+def _rub(damping, friction, rate):
+    """Torque that a joint's friction takes at a rate that is asked for [N m]."""
+    return damping * rate + friction * math.tanh(rate / MOVING)
+
+
+@inlined
 def _by_joints(table, i, torques):
     """Torques of a limb whose joints go to angles, or hang there under a load."""
     n = table[LIMBS]
@@ -337,6 +346,11 @@ def _by_joints(table, i, torques):
     if job.doing == HANG:
         torques[0] += job.loads[0]
         torques[1] += job.loads[1]
+    else:
+        # by its model: a limb that lags leaves its way, and knocks against what it was to go round
+        shoulder, elbow = weight_loads(leg, q[i], _line(table, POSE, 3)[2])
+        torques[0] += leg.rotor1 * job.accelerations[0] + shoulder + _rub(leg.damping1, leg.friction1, job.rates[0])
+        torques[1] += leg.rotor2 * job.accelerations[1] + elbow + _rub(leg.damping2, leg.friction2, job.rates[1])
 
 
 @kernel

@@ -16,13 +16,11 @@ FLAT = 0.15
 
 
 @kernel
-def feel_forces(legs, rotors, damping, held, q, qd, before, torques, angle, period, rate, felt, forces):
+def feel_forces(legs, held, q, qd, before, torques, angle, period, rate, felt, forces):
     """Forces of the tips on what they touch.
 
     Args:
         legs: Records of `LEG`, shape (n,).
-        rotors: Inertia of motors and gears at the joints, shape (n, 2) [kg m^2].
-        damping: Of the joints, shape (n, 2) [N m s/rad].
         held: 1 for limbs that hold, shape (n,).
         q, qd: Joint angles and speeds now, shape (n, 2).
         before: Joint speeds at the tick before; set to those of now, shape (n, 2).
@@ -40,9 +38,11 @@ def feel_forces(legs, rotors, damping, held, q, qd, before, torques, angle, peri
     for i in range(legs.size):
         leg = legs[i]
         for k in range(2):
-            dry = leg.friction1 if k == 0 else leg.friction2
-            rub = damping[i, k] * qd[i, k] + dry * min(1.0, max(-1.0, qd[i, k] / SLOW))
-            now = torques[i, k] - rub - rotors[i, k] * (qd[i, k] - before[i, k]) / period
+            dry, wet, rotor = (
+                (leg.friction1, leg.damping1, leg.rotor1) if k == 0 else (leg.friction2, leg.damping2, leg.rotor2)
+            )
+            rub = wet * qd[i, k] + dry * min(1.0, max(-1.0, qd[i, k] / SLOW))
+            now = torques[i, k] - rub - rotor * (qd[i, k] - before[i, k]) / period
             felt[i, k] += rate * (now - felt[i, k])
             before[i, k] = qd[i, k]
         first = angle + leg.port_angle + q[i, 0]

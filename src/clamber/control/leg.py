@@ -24,8 +24,12 @@ LEG = np.dtype(
         ("heft1", "f8"),  # torque of its own weight about the shoulder with the first link level [N m]
         ("heft2", "f8"),  # and about the elbow with the second link level
         ("weight", "f8"),  # of its links [N]
+        ("rotor1", "f8"),  # inertia of motor and gear at shoulder and elbow [kg m^2]
+        ("rotor2", "f8"),
         ("friction1", "f8"),  # Coulomb friction of shoulder and elbow [N m]
         ("friction2", "f8"),
+        ("damping1", "f8"),  # their viscous friction [N m s/rad]
+        ("damping2", "f8"),
         ("limit1", "f8"),  # largest torque of their motors [N m]
         ("limit2", "f8"),
     ],

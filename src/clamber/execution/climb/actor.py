@@ -32,6 +32,8 @@ SHIFTED: Final = 0.005
 """A body's aim farther from the plan's pose than this is brought back before a grab [m], [rad]."""
 SETTLING: Final = 1.0
 """Most time that it gets to come there after its way [s]."""
+SLID: Final = 0.008
+"""A tip that clings and seems to be so far back from its hold has slid off it [m]."""
 PAUSE: Final = 0.1
 """Between two looks at that [s]."""
 
@@ -72,6 +74,10 @@ class Actor:
                 return "ok", 1, ""
         if action.kind == "move":
             return self._move(last)
+        if action.limb is not None:
+            slid = self._press_on(self.limb(action.limb))
+            if slid:
+                return "missed", 1, slid
         if action.kind == "release":
             assert action.limb is not None
             i = self.limb(action.limb)
@@ -107,6 +113,23 @@ class Actor:
         move_body(self.climber, self.pose(start))
         between = (group for group in course.groups() if start < group[0] and group[1] < step)
         return all(self.carry_out(*group)[0] in ("ok", "stalled") for group in between)
+
+    def _press_on(self, acts: int) -> str:
+        """Take holds once more that clinging limbs have slid off, before another limb acts and they are to carry; why that failed.
+
+        Nothing but a gentle pull keeps a limb that clings on its hold while the body moves.
+        """
+        body = self.climber.body
+        for i, task in enumerate(body.tasks):
+            if i == acts or task.doing != "cling":
+                continue
+            back = float((task.place - body.tip(i)) @ body.grab_direction(i))
+            if back < SLID:
+                continue
+            number, side = task.hold, int(math.copysign(1, body.q[i, 1]))
+            if not grab(self.climber, i, number, elbow=side).held:
+                return f"'{self.climber.robot.limbs[i].name}' has slid off hold {number}, and does not take it again"
+        return ""
 
     def _hang(self, step: int) -> str:
         """The body comes to hang, or moves as it hangs, as the plan has it after a step; why not, where that cannot be."""

@@ -134,7 +134,7 @@ class Climbing(Performer[Group, ClimbReport, int, int, str, float]):
 
     def plan_again(self, action: Group, outcome: Outcome) -> bool:
         """See `Performer`: from where the robot is, without the holds that were missed."""
-        if outcome != "missed" or self.replan is None:
+        if outcome not in ("missed", "not supported") or self.replan is None:
             return False
         held = {limb.name: self.climber.body.tasks[i].hold for i, limb in enumerate(self.climber.robot.limbs)}
         task = task_from_here(self.course, action[0], held, self._actor.missed)

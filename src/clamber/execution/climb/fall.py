@@ -28,9 +28,6 @@ class FallWatch:
 
     def __init__(self, body: WholeBody) -> None:
         self._body = body
-        joints = [chain.joints for chain in body.chains]
-        self._rotors = np.array([each["rotor"] for each in joints])
-        self._damping = np.array([each["damping"] for each in joints])
         self._least = BORNE * body.robot.weight
         self._rate = min(1.0, body.period / SMOOTHED)
         self._before, self._felt = np.zeros((body.n, 2)), np.zeros((body.n, 2))
@@ -50,7 +47,7 @@ class FallWatch:
         """Take in the tick whose measurements the body has just seen; whether nothing carries the robot."""
         body = self._body
         self.carried = feel_forces(
-            body.legs, self._rotors, self._damping, body.held, body.q, body.qd, self._before, body.torques,
+            body.legs, body.held, body.q, body.qd, self._before, body.torques,
             body.pose.item(2), body.period, self._rate, self._felt, self.forces,
         )  # fmt: skip
         little = self.carried < self._least

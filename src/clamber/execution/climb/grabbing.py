@@ -95,5 +95,6 @@ def grab(climber: Climber, i: int, number: int, end: End, *, elbow: int = 0, hom
         end.back_off(climber, i, hold, doubt, found)
         if climber.hangs:
             climber.rest(RESTING)
-    task.doing, task.angles, task.side = "joints", body.q[i].copy(), 0
+    task.stay(body.q[i])
+    task.side = 0
     return Grabbed(False, len(ends), along, across)

@@ -28,7 +28,8 @@ def release(climber: Climber, i: int) -> None:
     climber.grips[i] = 0
     move_tip(climber, i, way_out(climber, i, climber.map.error(task.hold)), 0.5)
     climber.learn_again()
-    task.hold, task.doing, task.angles = 0, "joints", climber.body.q[i].copy()
+    task.hold = 0
+    task.stay(climber.body.q[i])
 
 
 def come_near(climber: Climber, i: int, number: int, doubt: float, elbow: int, home: Floats | None) -> Approach | None:

@@ -109,7 +109,7 @@ class Hang:
         off = seen - self.phi
         self.phi += period * (self.speed + 2.0 * TRACKING * off)
         self.speed += period * TRACKING**2 * off
-        pushing = any(task.doing == "pull" for task in body.tasks)  # against a hold the body is no pendulum
+        pushing = any(task.pushes for task in body.tasks)  # against a hold the body is no pendulum
         wished = 0.0 if pushing or abs(seen) > STEEP else float(np.clip(self._gain * self.speed, -WIDEST, WIDEST))
         rate = -self.omega / LAG * (wished + self.aside)
         self.aside += period * rate

@@ -13,6 +13,7 @@ from .hook_push import push_on
 from .hook_release import release as release
 from .hook_release import stand_off_of
 from .motions import may_move, move_body, move_tip
+from .pushed_body import PushedBody
 
 NEAR: Final = 0.022
 """From here on, and the hold's doubt farther off, the hook is pushed, not placed: nearer, its flare would meet the hold sideways [m]."""
@@ -32,11 +33,18 @@ CAUGHT: Final = 0.01
 """A hook that stays so far from where it is to be is caught [m] ..."""
 NO_WAY: Final = (0.002, 0.15)
 """... when it has come no farther than the first of these for the second [m], [s]."""
-BACK_SPEED: Final = 0.08
+BACK_SPEED: Final = 0.05
 """Of a hook on its way back: slow, for what it is caught on it pulls at no harder then [m/s]."""
+FORTH: Final = (0.2, 0.9)
+"""In which it then goes to before the hold, the first time and after a miss, when it may meet the hold sideways: its motors, which their
+gears make heavy, would knock other hooks off [s]."""
 SHALLOW: Final = (0.010, 0.015)
 """A hook that stops the first of these before its hold may rest on its flare against it, however hard it is pushed, and slip off later:
 it counts as seated where it comes to the same place once more, pushed on from elsewhere; at the second it doesn't at all [m]."""
+WIDE: Final = 0.011
+"""Likewise one that stops so far aside of its hold: it may lie on it with the outer end of its flare [m]."""
+AT_FULL_REACH: Final = (math.radians(25.0), 0.006)
+"""A limb whose elbow is straighter than the first has stopped at the end of its reach, not on its hold, if it stops the second before."""
 SAME: Final = 0.003
 """Two places that are so near to each other are the same [m]."""
 
@@ -59,7 +67,10 @@ def come_near(climber: Climber, i: int, number: int, doubt: float, elbow: int, h
             return found
         move_body(climber, home)
     for left in reversed(range(MOST_SHIFTS + 1)):
-        found = way(may_move(climber) if left and not climber.hangs else _stays)
+        may = left and not climber.hangs
+        found = way(may_move(climber) if may else _stays)
+        if found is None and may:  # holds are rarely as near as they may be
+            found = way(may_move(climber, touching=True))
         if found is None or not found.shift.any():
             return found
         move_body(climber, body.aim + np.array((*found.shift, 0.0)))
@@ -77,14 +88,21 @@ def close(
     climber: Climber, i: int, hold: Floats, doubt: float, found: Approach, place: Floats, before: Sequence[Floats]
 ) -> bool:
     """Push the hook on at a place; whether it came to rest where the hold may be, and not on its flare."""
-    move_tip(climber, i, place - (NEAR + doubt) * found.grab, 0.5 if before else 0.2)
+    if not move_tip(climber, i, place - (NEAR + doubt) * found.grab, FORTH[bool(before)]):
+        return False
     room = SLACK + doubt
     stopped = push_on(climber, i, place, found.grab, room)
     tip = climber.body.tip(i)
     short = float((hold - tip) @ found.grab)
     if not stopped or math.dist(tip, hold) > room or short > SHALLOW[1]:
         return False
-    return short < SHALLOW[0] or any(math.dist(tip, end) < SAME for end in before)
+    straight = (
+        abs(climber.body.q.item(i, 1)) < AT_FULL_REACH[0] and not climber.hangs
+    )  # a hanging body is drawn near until it is
+    if straight and short > AT_FULL_REACH[1]:
+        return False
+    aside = abs(float(found.grab[0] * (tip[1] - hold[1]) - found.grab[1] * (tip[0] - hold[0])))
+    return (short < SHALLOW[0] and aside < WIDE) or any(math.dist(tip, end) < SAME for end in before)
 
 
 def back_off(climber: Climber, i: int, hold: Floats, doubt: float, found: Approach) -> None:
@@ -112,10 +130,13 @@ def _comes_to(climber: Climber, i: int, place: Floats) -> bool:
     length = math.dist(start, place)
     way = (place - start) / max(length, 1e-9)
     task.doing, gone, mark, stands = "tip", 0.0, 0.0, 0.0
+    watch = PushedBody(climber)
     while stands < NO_WAY[1]:
         gone = min(gone + BACK_SPEED * period, length)
         task.place, task.speed = start + gone * way, (BACK_SPEED if gone < length else 0.0) * way
         climber.tick()
+        if watch.gives_way(i):
+            return False
         if math.dist(body.tip(i), place) < CAUGHT:
             break
         come = float((body.tip(i) - start) @ way)

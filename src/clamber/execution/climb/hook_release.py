@@ -18,6 +18,8 @@ AWAY: Final = 0.006
 """A limb that leaves a hold aims this far beyond where it is clear of it: its tip lags its aim [m]."""
 LEAVING: Final = 0.5
 """Most time that it then gets to come clear [s]."""
+CALM: Final = 0.12
+"""Then, until it has come to rest: stopped on the way, it would throw the body about [s]."""
 SHAKING: Final = 2.0
 """Most time for which a wedged hook is shaken [s]."""
 PROVING: Final = 0.2
@@ -49,7 +51,10 @@ def release(climber: Climber, i: int) -> None:
     if not clear() and not _shake_off(climber, i, clear):
         task.doing = "cling"
         return
-    task.hold, task.doing, task.angles = 0, "joints", body.q[i].copy()
+    if task.doing == "tip":
+        climber.wait(CALM)
+    task.hold = 0
+    task.stay(body.q[i])
 
 
 def stand_off_of(climber: Climber, i: int, doubt: float) -> float:

@@ -20,7 +20,9 @@ def legs_of(robot: LimbedRobot) -> Records:
             *(limb.end.angle, limb.end.kind == "hook", *joints["share"]),
             *(GRAVITY * (masses[0] * centres[0] + masses[1] * limb.l1), GRAVITY * masses[1] * centres[1]),
             GRAVITY * masses.sum(),
+            *joints["rotor"],
             *joints["friction"],
+            *joints["damping"],
             *joints["limit"],
         )
     return legs

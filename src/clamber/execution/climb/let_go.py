@@ -94,10 +94,10 @@ def lift_off(climber: Climber, i: int) -> bool:
         port = pose[:2] + np.array((c * limb.port_x - s * limb.port_y, s * limb.port_x + c * limb.port_y))
         back = (port - points[-1]) / float(np.hypot(*(port - points[-1])))
         points += [points[-1] + part * BACK * back for part in (0.5, 1.0)]
-    way = [body.q[i].copy()]
+    way = [body.q[i] - body.play[i]]
     for point in points:
         fit = [one for one in postures(limb, pose, point) if one.inside and one.angles[1] * way[0][1] > 0.0]
-        way += [one.angles + body.play[i] for one in fit]
+        way += [one.angles for one in fit]
     task.hold = 0
     follow(climber, i, np.array(way), BRISK)
     return float(np.hypot(*(body.felt_tip(i) - hold))) > CAUGHT

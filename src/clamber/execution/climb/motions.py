@@ -9,6 +9,8 @@ import numpy as np
 from ...types import Floats
 from .climber import Climber
 from .parking import SPARE, TIGHT, park, passes, poses_between, room_along
+from .postures import postures
+from .pushed_body import PushedBody
 
 BODY_SPEED: Final = 0.08
 """Of the body's aim, at most [m/s]."""
@@ -26,10 +28,16 @@ LAG: Final = (0.015, 0.045)
 """A limb this far behind on its way is slowed down, at the second until it has come after: its motors give all they can [rad]."""
 STANDS: Final = (0.1, 0.25)
 """One that is slowed down to less than this part of its speed for so long is held by something [-], [s]."""
+REGAINING: Final = 0.1
+"""In which it comes from a stand back to its speed; it stops at once [s]."""
 WAITING: Final = 1.5
 """For that long in all, on one way [s]."""
+BEHIND: Final = (0.012, 0.022)
+"""A body this far behind on its way is slowed down, at the second until it has come after [m]; not for ever (`WAITING`)."""
+JAMMED: Final = 1.3
+"""One that stands and presses a tip with more than this part of the weight on something has a link or hook jammed between holds [-]."""
 HELD_BACK: Final = (0.04, 0.3)
-"""A body this far behind on its way for so long is held by what it cannot overcome, a free limb caught on a hold [m], [s]."""
+"""One that is so for this long, or this far behind, is held by what it cannot overcome [m], [s]."""
 BLEND: Final = 0.2
 """Over which corners of a limb's way are rounded [s]."""
 WEAKER: Final = 3.0
@@ -61,25 +69,51 @@ def move_body(climber: Climber, pose: Floats, *, drawn: tuple[int, Floats, Float
         float(np.hypot(change[0], change[1])) / speed, abs(float(change[2])) / (BODY_TURN * speed / BODY_SPEED), 0.2
     )
     rise = min(BODY_RISE, 0.5 * length)
-    count = max(1, round((length + rise) / period))
-    held = 0.0
-    for k in range(1, count + 1):
-        done, rate = eased(k / count * (length + rise), length, rise)
+    gone, speed, waited, held = 0.0, 1.0, 0.0, 0.0
+    yielding: set[int] = set()
+    while gone < length + rise:
+        behind = math.dist(body.aim[:2], body.pose[:2])
+        wished = float(np.interp(behind, BEHIND, (1.0, 0.0))) if drawn is None and waited < WAITING else 1.0
+        speed = min(wished, speed + period / REGAINING)
+        waited += (1.0 - speed) * period
+        stuck = behind > HELD_BACK[0] or (speed < STANDS[0] and _is_jammed(climber))
+        held = held + period if stuck else 0.0
+        if behind > BEHIND[0]:
+            yielding |= _yield(climber)
+        if held > HELD_BACK[1] and drawn is None:
+            _go_back(climber, start, max(1, round(gone / period)))
+            break
+        gone = min(gone + speed * period, length + rise)
+        done, rate = eased(gone, length, rise)
         body.aim[:] = start + done / length * change
-        body.aim_speed[:] = rate / length * change
+        body.aim_speed[:] = speed * rate / length * change
         if drawn is not None:
             i, start_tip, way = drawn
             body.tasks[i].place, body.tasks[i].speed = start_tip + done / length * way, rate / length * way
         climber.tick()
-        held = held + period if math.dist(body.aim[:2], body.pose[:2]) > HELD_BACK[0] else 0.0
-        if held > HELD_BACK[1] and drawn is None:
-            _go_back(climber, start, k)
-            body.aim_speed[:] = 0.0
-            return False
     body.aim_speed[:] = 0.0
+    for i in yielding:
+        body.tasks[i].stay(body.q[i])
     if drawn is not None:
         body.tasks[drawn[0]].speed = np.zeros(2)
-    return True
+    return gone >= length + rise
+
+
+def _yield(climber: Climber) -> set[int]:
+    """Let free limbs that wait, and are pressed away from where they are to be, go where what presses them wants; which."""
+    body, found = climber.body, set()
+    for i, task in enumerate(body.tasks):
+        if task.doing == "joints" and float(np.abs(task.angles - body.q[i]).max()) > LAG[0]:
+            task.give_way()
+            found.add(i)
+    return found
+
+
+def _is_jammed(climber: Climber) -> bool:
+    """Whether a limb on a hold presses on what it touches with more than the robot's weight lets it."""
+    forces = climber.fall.forces[climber.holding()]
+    sizes = np.hypot(*forces[np.isfinite(forces).all(axis=1)].T)
+    return bool((sizes > JAMMED * climber.robot.weight).any())
 
 
 def _go_back(climber: Climber, start: Floats, ticks: int) -> None:
@@ -123,14 +157,20 @@ def _park(climber: Climber, i: int, pose: Floats, spare: float) -> None:
         follow(climber, i, way)
 
 
-def may_move(climber: Climber) -> Callable[[Floats], bool]:
-    """Whether the body can go to another pose: limbs that hold do so hardly worse than here, and free ones meet no hold on the way."""
+def may_move(climber: Climber, *, touching: bool = False) -> Callable[[Floats], bool]:
+    """Whether the body can go to another pose: limbs on holds hardly hold worse and meet no other hold, nor do free ones on the way.
+
+    Args:
+        climber: The robot.
+        touching: Whether limbs on holds may meet others all the same.
+    """
     body = climber.body
     least = min(0.0, body.stands(body.settled)) - WEAKER
     free = [(i, body.q[i] - body.play[i]) for i, task in enumerate(body.tasks) if not task.hold]
+    tight = -math.inf if touching else min(0.0, _room_of_links(climber, body.settled))
 
     def stands(pose: Floats) -> bool:
-        if body.stands(pose) < least:
+        if body.stands(pose) < least or _room_of_links(climber, pose) < tight:
             return False
         way = poses_between(body.settled, pose)
         return all(passes(climber.approaches, i, q, way, climber.holds) for i, q in free)
@@ -138,23 +178,46 @@ def may_move(climber: Climber) -> Callable[[Floats], bool]:
     return stands
 
 
-def move_tip(climber: Climber, i: int, place: Floats, seconds: float) -> None:
-    """Bring a free limb's tip straight to a place of the world [m]."""
+def _room_of_links(climber: Climber, pose: Floats) -> float:
+    """Least room between limbs on holds and all other holds at a pose of the body [m]; negative: one meets one, or its own is too far."""
+    body, ways, least = climber.body, climber.approaches, math.inf
+    for i, task in enumerate(body.tasks):
+        if not task.hold:
+            continue
+        side = body.q[i, 1] - body.play[i, 1]
+        fit = [one for one in postures(climber.robot.limbs[i], pose, task.place) if one.angles[1] * side > 0.0]
+        if not fit:
+            return -math.inf
+        others = {number: place for number, place in climber.holds.items() if number != task.hold}
+        least = min(least, room_along(ways, i, fit[0].angles, [pose], others))
+    return least
+
+
+def move_tip(climber: Climber, i: int, place: Floats, seconds: float) -> bool:
+    """Bring a free limb's tip straight to a place of the world [m], from rest to rest; whether it goes there.
+
+    One that pushes the body away by what it meets gives way.
+    """
     task, period = climber.body.tasks[i], climber.plant.period
     task.doing = "tip"
     start = climber.body.tip(i)
-    count = max(1, round(seconds / period))
+    count, rise = max(1, round(seconds / period)), seconds / 3
+    watch = PushedBody(climber)
     for k in range(1, count + 1):
-        task.place = start + k / count * (place - start)
-        task.speed = (place - start) / seconds
+        done, rate = eased(k / count * seconds, seconds - rise, rise)
+        task.place = start + done / (seconds - rise) * (place - start)
+        task.speed = rate / (seconds - rise) * (place - start)
         climber.tick()
+        if watch.gives_way(i):
+            return False
     task.speed = np.zeros(2)
+    return True
 
 
 def follow(climber: Climber, i: int, way: Floats, lags: tuple[float, float] = LAG) -> bool:
     """Bring a free limb's joints along a way, shape (n, 2) [rad], smoothly from rest to rest; whether it comes to the end.
 
-    One that something holds stays there and pulls no more: it would take other hooks off.
+    One that something holds stays there and pulls no more, and one that pushes the body away gives way: they would take other hooks off.
 
     Args:
         climber: The robot.
@@ -172,24 +235,32 @@ def follow(climber: Climber, i: int, way: Floats, lags: tuple[float, float] = LA
     window = np.hanning(blend + 2)[1:-1]
     padded = np.concatenate((np.repeat(way[:1], blend, axis=0), angles, np.repeat(way[-1:], blend, axis=0)))
     smooth = np.stack([np.convolve(padded[:, j], window / window.sum(), "valid") for j in range(2)], axis=1)
+    rates = np.diff(smooth, axis=0) / period
+    surges = np.diff(rates, axis=0, append=0.0) / period
     task.doing = "joints"
-    q, waited, gone, last = climber.body.q[i], 0.0, 0.0, len(smooth) - 1
-    stands = 0.0
+    body = climber.body
+    q, waited, gone, last = body.q[i], 0.0, 0.0, len(smooth) - 1
+    stands, speed, watch = 0.0, 1.0, PushedBody(climber, brisk=True)
     while gone < last:
         # a limb that lags with one joint more than the other leaves its way, and knocks against what it was to go round
         lag = float(np.abs(task.angles - q).max()) if gone else 0.0
-        speed = float(np.interp(lag, lags, (1.0, 0.0))) if waited < WAITING else 1.0
+        wished = float(np.interp(lag, lags, (1.0, 0.0))) if waited < WAITING else 1.0
+        speed = min(wished, speed + period / REGAINING)
         waited += (1.0 - speed) * period
-        stands = stands + period if speed < STANDS[0] else 0.0
+        stands = stands + period if wished < STANDS[0] else 0.0
         if stands > STANDS[1]:
-            task.angles, task.rates = q.copy(), np.zeros(2)
+            task.stay(q)
             return False
         k, part = divmod(gone, 1.0)
-        step = smooth[min(int(k) + 1, last)] - smooth[int(k)]
-        task.angles, task.rates = smooth[int(k)] + part * step, speed / period * step
+        at = int(k)
+        # the way is that of the joints' outputs
+        task.angles = smooth[at] + part * (smooth[at + 1] - smooth[at]) + body.play[i]
+        task.rates, task.accelerations = speed * rates[at], speed**2 * surges[at]
         gone += speed
         climber.tick()
-    task.angles, task.rates = way[-1].copy(), np.zeros(2)
+        if watch.gives_way(i):
+            return False
+    task.stay(way[-1] + body.play[i])
     return True
 
 

@@ -100,12 +100,13 @@ def catch(climber: Climber, lost: int) -> Hang | None:
     for i, task in enumerate(body.tasks):
         if task.doing == "tip" and task.hold and math.dist(body.tip(i), task.place) < IN_SLOT:
             task.doing = "cling"
-    others = sum(i != lost and task.doing in (*ONWARDS, "pull") for i, task in enumerate(body.tasks))
+    others = sum(i != lost and (task.doing in ONWARDS or task.pushes) for i, task in enumerate(body.tasks))
     lose = others < 2 or not _bears(climber, lost)  # a body that hangs on one hook swings at once
     for i, task in enumerate(body.tasks):
-        off = task.doing not in ONWARDS and not (lose and task.doing == "pull" and _hook_on(climber, i, AT_HOLD))
+        off = task.doing not in ONWARDS and not (lose and task.pushes and _hook_on(climber, i, AT_HOLD))
         if off or (i == lost and lose):
-            task.hold, task.doing, task.angles, task.rates = 0, "joints", body.q[i].copy(), np.zeros(2)
+            task.hold = 0
+            task.stay(body.q[i])
     on = [i for i, task in enumerate(body.tasks) if task.hold]
     if not on:
         raise FallenError("the last hook has come off")
@@ -153,7 +154,8 @@ def _bears(climber: Climber, i: int) -> bool:
     except SlippedError as another:
         if another.limb != i:
             task = climber.body.tasks[i]
-            task.hold, task.doing, task.angles, task.rates = 0, "joints", climber.body.q[i].copy(), np.zeros(2)
+            task.hold = 0
+            task.stay(climber.body.q[i])
             raise
     return False
 
@@ -192,7 +194,7 @@ def _snatch(climber: Climber, hang: Hang, lost: int) -> bool:
     for i in near:
         task = body.tasks[i]
         task.pressed, task.tug = False, np.zeros(2)
-        task.doing, task.angles, task.rates = "joints", body.q[i].copy(), np.zeros(2)
+        task.stay(body.q[i])
     return caught
 
 

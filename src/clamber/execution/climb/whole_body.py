@@ -114,6 +114,9 @@ class LimbTask:
     angles: Floats = field(default_factory=lambda: np.zeros(2))
     """Of "joints" and "hang" [rad]."""
     rates: Floats = field(default_factory=lambda: np.zeros(2))
+    """Theirs [rad/s]."""
+    accelerations: Floats = field(default_factory=lambda: np.zeros(2))
+    """Of "joints" [rad/s^2]."""
     loads: Floats = field(default_factory=lambda: np.zeros(2))
     """Of "hang": torques that bear the weight [N m]."""
     force: Floats = field(default_factory=lambda: np.zeros(2))
@@ -126,6 +129,20 @@ class LimbTask:
     """Where its elbow is kept by a soft stop before it is straight, +1 or -1; 0: it may pass."""
     pressed: bool = False
     """Of "pull": whether the tip has stopped against something, which then loads the joints."""
+
+    def give_way(self) -> None:
+        """Let the limb go where what it meets pushes it."""
+        self.doing, self.pressed, self.force, self.tug = "pull", False, np.zeros(2), np.zeros(2)
+
+    @property
+    def pushes(self) -> bool:
+        """Whether it pulls on something, and does not only give way."""
+        return self.doing == "pull" and bool(self.force.any())
+
+    def stay(self, angles: Floats) -> None:
+        """Let the limb's joints keep to where they are, shape (2,) [rad]."""
+        self.doing, self.angles = "joints", angles.copy()
+        self.rates, self.accelerations = np.zeros(2), np.zeros(2)
 
     @property
     def holds(self) -> bool:
@@ -358,7 +375,8 @@ class WholeBody:
             elif doing == "pull":
                 job["force"][i], job["tug"][i], job["damping"][i] = task.force, task.tug, task.damping
             elif doing in ("joints", "hang"):
-                job["angles"][i], job["rates"][i], job["loads"][i] = task.angles, task.rates, task.loads
+                job["angles"][i], job["rates"][i] = task.angles, task.rates
+                job["accelerations"][i], job["loads"][i] = task.accelerations, task.loads
         bad = command_tick(self._table, self._part() if self.handing_over else 1.0)
         if bad >= 0:
             self._complain(bad)

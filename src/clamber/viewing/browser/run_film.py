@@ -56,7 +56,7 @@ class ClimbFilm(Film[Moment]):
         still, forces = np.zeros((n, 2)), np.zeros((n, 2))
         angle = float((trace.believed if trace.true_pose is None else trace.true_pose)[k, 2])
         feel_forces(
-            self._legs, still, still, np.ones(n, np.int64), trace.angles[k], still, still.copy(), torques, angle, 1.0, 1.0,
+            self._legs, np.ones(n, np.int64), trace.angles[k], still, still.copy(), torques, angle, 1.0, 1.0,
             np.zeros((n, 2)), forces,
         )  # fmt: skip
         return -forces
