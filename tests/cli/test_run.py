@@ -70,7 +70,7 @@ def test_a_plan_that_is_refused_moves_nothing_and_leaves_with_2(run: Any, tmp_pa
 
 
 def test_a_forced_plan_that_falls_leaves_with_1_and_a_whole_log(run: Any, tmp_path: Path) -> None:
-    plan, log = plan_file(tmp_path, 300, *([4] * 8)), tmp_path / "run.mcap"
+    plan, log = plan_file(tmp_path, 300, *([2] * 8)), tmp_path / "run.mcap"
     code, out, _ = run(plan, "-o", str(log), "--json", "--force", "-q")
     said = json.loads(out)
     assert code == 1

@@ -85,7 +85,7 @@ def test_onsets_are_read_from_the_stiff_end_and_sways_from_the_soft_one() -> Non
 def test_measured_at_one_hook_a_stiff_body_with_play_cycles_and_measured_at_both_it_rests() -> None:
     worn, tight = bench_flaws("nominal"), bench_flaws("nominal", ["backlash=0deg"])
     stand = ladder_stand(fixed=True)
-    kpx = 6400.0
+    kpx = 4800.0
     assert peak_to_peak(stand, kpx, True, worn) > CYCLE
     assert peak_to_peak(stand, kpx, False, worn) < CYCLE
     assert peak_to_peak(stand, kpx, True, tight) < CYCLE

@@ -96,9 +96,8 @@ def close(
     short = float((hold - tip) @ found.grab)
     if not stopped or math.dist(tip, hold) > room or short > SHALLOW[1]:
         return False
-    straight = (
-        abs(climber.body.q.item(i, 1)) < AT_FULL_REACH[0] and not climber.hangs
-    )  # a hanging body is drawn near until it is
+    # a body that hangs is drawn near until the limb is straight
+    straight = abs(climber.body.q.item(i, 1)) < AT_FULL_REACH[0] and not climber.hangs
     if straight and short > AT_FULL_REACH[1]:
         return False
     aside = abs(float(found.grab[0] * (tip[1] - hold[1]) - found.grab[1] * (tip[0] - hold[0])))
