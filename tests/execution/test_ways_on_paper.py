@@ -73,7 +73,7 @@ def test_what_has_no_way_on_paper_is_missed_in_climbs() -> None:
     flaws, noise = climbing_flaws(task, ()), named_noise("usual")
     reports = [run_plan(task, plan, flaws, noise=noise, seed=seed).report for seed in range(5001, 5007)]
     missed = [report.actions[-1].first for report in reports if "finds no way" in report.reason]
-    assert 2 * sum(step in blocked for step in missed) > len(missed)
+    assert sum(step in blocked for step in missed) >= 3 >= 3 * sum(step not in blocked for step in missed)
 
 
 def test_it_is_the_same_each_time() -> None:

@@ -69,24 +69,24 @@ def move_body(climber: Climber, pose: Floats, *, drawn: tuple[int, Floats, Float
         float(np.hypot(change[0], change[1])) / speed, abs(float(change[2])) / (BODY_TURN * speed / BODY_SPEED), 0.2
     )
     rise = min(BODY_RISE, 0.5 * length)
-    gone, speed, waited, held = 0.0, 1.0, 0.0, 0.0
+    gone, pace, waited, held = 0.0, 1.0, 0.0, 0.0
     yielding: set[int] = set()
     while gone < length + rise:
         behind = math.dist(body.aim[:2], body.pose[:2])
         wished = float(np.interp(behind, BEHIND, (1.0, 0.0))) if drawn is None and waited < WAITING else 1.0
-        speed = min(wished, speed + period / REGAINING)
-        waited += (1.0 - speed) * period
-        stuck = behind > HELD_BACK[0] or (speed < STANDS[0] and _is_jammed(climber))
+        pace = min(wished, pace + period / REGAINING)
+        waited += (1.0 - pace) * period
+        stuck = behind > HELD_BACK[0] or (pace < STANDS[0] and _is_jammed(climber))
         held = held + period if stuck else 0.0
         if behind > BEHIND[0]:
             yielding |= _yield(climber)
         if held > HELD_BACK[1] and drawn is None:
             _go_back(climber, start, max(1, round(gone / period)))
             break
-        gone = min(gone + speed * period, length + rise)
+        gone = min(gone + pace * period, length + rise)
         done, rate = eased(gone, length, rise)
         body.aim[:] = start + done / length * change
-        body.aim_speed[:] = speed * rate / length * change
+        body.aim_speed[:] = pace * rate / length * change
         if drawn is not None:
             i, start_tip, way = drawn
             body.tasks[i].place, body.tasks[i].speed = start_tip + done / length * way, rate / length * way
