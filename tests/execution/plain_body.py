@@ -10,7 +10,9 @@ from clamber.control.body_estimate import estimate_body
 from clamber.control.controller import still_aim
 from clamber.control.hook_forces import MOST_CUTS
 from clamber.control.play import follow_play, pull_torques, weight_loads, weight_moment
-from clamber.execution.climb.whole_body import LIMITS, LOAD_TIME, MAPPINGS, LimbTask, WholeBody
+from clamber.execution.climb.body_gains import LIMITS, MAPPINGS
+from clamber.execution.climb.limb_task import LimbTask
+from clamber.execution.climb.whole_body import LOAD_TIME, WholeBody
 from clamber.types import Floats
 
 

@@ -12,7 +12,9 @@ from plain_body import PlainBody
 from clamber.control.body_tick import command_tick, see_tick
 from clamber.control.controller import MeasurementError
 from clamber.control.law_settings import LAWS
-from clamber.execution.climb.whole_body import BENT, LIMITS, MAPPINGS, STOP, BodyGains, Doing, LimbTask, WholeBody
+from clamber.execution.climb.body_gains import LIMITS, MAPPINGS, BodyGains
+from clamber.execution.climb.limb_task import Doing, LimbTask
+from clamber.execution.climb.whole_body import BENT, STOP, WholeBody
 from clamber.robots.library import load_robot
 from clamber.robots.limbed import LimbedRobot
 

@@ -14,6 +14,7 @@ from clamber.execution.climb.approach import Approach
 from clamber.execution.climb.climber import Climber, FallenError, Grabbed
 from clamber.execution.climb.course import lay_course
 from clamber.execution.climb.ends import grab, release
+from clamber.execution.climb.limb_task import LimbTask
 from clamber.execution.climb.motions import (
     JOINT_AGILITY,
     JOINT_SPEED,
@@ -27,7 +28,6 @@ from clamber.execution.climb.motions import (
 )
 from clamber.execution.climb.postures import postures
 from clamber.execution.climb.pushed_body import PushedBody
-from clamber.execution.climb.whole_body import LimbTask
 from clamber.experiments.climb.run_plan import climbing_task
 from clamber.robots.library import load_robot
 from clamber.robots.limbed import LimbedRobot

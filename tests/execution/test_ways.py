@@ -9,9 +9,10 @@ import pytest
 from clamber.control.swing_path import BESIDE, find_way
 from clamber.execution.climb.approach import CELLS, HOOK, LEAST_CLEARANCE, MOST_POINTS, Approaches, discs_near, wall_of
 from clamber.execution.climb.legs import legs_of
+from clamber.execution.climb.limb_task import LimbTask
 from clamber.execution.climb.parking import SPARE, TIGHT, park, passes, poses_between
 from clamber.execution.climb.postures import postures
-from clamber.execution.climb.whole_body import LimbTask, WholeBody
+from clamber.execution.climb.whole_body import WholeBody
 from clamber.robots.library import load_robot
 from clamber.robots.limbed import LimbedRobot
 from clamber.types import Floats

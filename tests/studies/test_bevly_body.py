@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from clamber.execution.climb.whole_body import BodyGains
+from clamber.execution.climb.body_gains import BodyGains
 from clamber.experiments.climb.body_rung import RungTrial, climb_rung, climb_rungs
 from clamber.experiments.climb.body_stand import bench_flaws, ladder_stand
 from clamber.experiments.climb.body_stiffness import body_stiffness

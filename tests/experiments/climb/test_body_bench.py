@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from clamber.errors import UnknownNameError
-from clamber.execution.climb.whole_body import BodyGains, LimbTask, WholeBody
+from clamber.execution.climb.body_gains import BodyGains
+from clamber.execution.climb.limb_task import LimbTask
+from clamber.execution.climb.whole_body import WholeBody
 from clamber.experiments.climb.body_bench import BodyEntry, run_body
 from clamber.experiments.climb.body_entries import CONTROLS, make_entries, read_triple
 from clamber.experiments.climb.body_measures import measure_body

@@ -93,7 +93,7 @@ class BodyWords:
     def build_entries(self, stand: "BodyStand") -> "list[BodyEntry]":
         """The controls to be compared."""
         from ...errors import UnknownNameError
-        from ...execution.climb.whole_body import LIMITS, BodyGains
+        from ...execution.climb.body_gains import LIMITS, BodyGains
         from ...experiments.climb.body_entries import make_entries, read_triple
 
         kp = read_triple("kp", self.kp)

@@ -13,11 +13,13 @@ from ...worlds.board import Board
 from ..plant import BodyPlant
 from ..run_ends import FallenError as FallenError
 from .approach import Approaches, rank
+from .body_gains import BodyGains
 from .fall import FallWatch
 from .hold_map import HoldMap, TipDifference
+from .limb_task import LimbTask
 from .postures import postures
 from .slip import SlipWatch
-from .whole_body import BodyGains, LimbTask, WholeBody
+from .whole_body import WholeBody
 
 ASTRAY: Final = 0.08
 """A body this far from its aim has fallen, or is about to [m]."""

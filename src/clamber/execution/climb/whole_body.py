@@ -2,23 +2,12 @@
 
 import math
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass, field
-from typing import Final, Literal, TypeAlias
+from typing import Final
 
 import numpy as np
 
 from ...control import body_tick as at
-from ...control.body import (
-    KINEMATIC,
-    LIMIT_COUNTED,
-    LIMIT_FEASIBLE,
-    LIMIT_NONE,
-    LIMIT_SHARED,
-    LIMIT_THESIS,
-    THESIS,
-    WRENCH,
-)
-from ...control.body_tick import BODY, JOB, TABLE, command_tick, see_tick
+from ...control.body_tick import JOB, TABLE, command_tick, see_tick
 from ...control.chain import chain_of_limb
 from ...control.controller import Controller, still_aim
 from ...control.hook_forces import MOST_CUTS, pair_forces
@@ -26,29 +15,17 @@ from ...control.law_settings import LawSettings
 from ...control.play import weight_moment
 from ...control.records import AXES
 from ...robots.limbed import LimbedRobot
-from ...types import Floats, Records
+from ...types import Floats
+from .body_gains import USUAL, BodyGains, records_of
 from .body_schemes import SCHEMES
 from .legs import legs_of
+from .limb_task import DOING, LimbTask
 from .postures import postures
 
-Doing: TypeAlias = Literal["hold", "hang", "cling", "tip", "joints", "pull"]
-"""A limb holds the body, holds it alone while it swings as it will, clings to its hold without carrying, brings its tip or its joints
-somewhere, or pulls along a direction."""
-DOING: Final = {
-    "hold": at.HOLD, "hang": at.HANG, "cling": at.CLING, "tip": at.TIP, "joints": at.JOINTS, "pull": at.PULL,
-}  # fmt: skip
-MAPPINGS: Final = {"thesis": THESIS, "kinematic": KINEMATIC, "wrench": WRENCH}
 PLAY_TIME: Final = 0.2
 """Time in which the believed side of the play follows the load [s]."""
 LOAD_TIME: Final = 0.15
 """Time over which the load of a limb that pulls is evened out: a dither's own load moves no joint through its play [s]."""
-LIMITS: Final = {
-    "none": LIMIT_NONE,
-    "thesis": LIMIT_THESIS,
-    "counted": LIMIT_COUNTED,
-    "shared": LIMIT_SHARED,
-    "feasible": LIMIT_FEASIBLE,
-}
 STRETCHED: Final = math.radians(15.0)
 """An elbow nearer to straight than this is soft and may pass to the other side [rad]."""
 HANDING_OVER: Final = 0.5
@@ -58,96 +35,6 @@ BENT: Final = math.radians(12.0)
 """Where the soft stop of an elbow begins, before it is straight [rad]."""
 STOP: Final = 6.0
 """Its torque on a straight elbow, as much as a push of a hook makes there [N m]."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class BodyGains:
-    """Gains of body and limbs."""
-
-    kp: tuple[float, float, float] = (100.0, 50.0, 10.0)
-    """Of the maps "thesis" and "kinematic"; those of the thesis's Table 4.1."""
-    kd: tuple[float, float, float] = (10.0, 5.0, 1.0)
-    """Twice the table's: with delay and backlash its own let the body swing (ours)."""
-    stiffness: tuple[float, float, float] = (3000.0, 3000.0, 200.0)
-    """Of the map "wrench" [N/m], [N m/rad]; ours."""
-    damping: float = 20.0
-    """Of the map "wrench": each tip's acceleration for its speed [1/s]; at half of it a body on grippers cycles through its play."""
-    limb_kp: float = 500.0
-    limb_kd: float = 25.0
-    joint_kp: float = 400.0
-    joint_kd: float = 20.0
-    cling: float = 3.0
-    """Pull with which a limb that carries nothing keeps to its hold [N]."""
-    gentle: float = 3.0
-    """Most torque of a limb near a hold, so that what it meets is not thrown off; a tip on its way gets its weight besides [N m]."""
-    firm: float = 8.0
-    """Likewise of a limb that tugs at its hold: enough to carry half the weight at arm's length [N m]."""
-    least_pull: float = 0.3
-    """alpha of the hook limit."""
-    weight_fed: float = 0.95
-    """Part of the weight that is fed forward."""
-    mapping: str = "wrench"
-    limit: str = "feasible"
-    law: str = "scct"
-    scheme: str = "body"
-    """How the holding limbs carry the body: "body" as in the thesis's 4.4, or one of `SCHEMES`."""
-    leg_kp: float = 200.0
-    """Of a holding limb in those schemes, in the units of its law; "coordinated": of the pressing tip [N/m]."""
-    leg_kd: float = 10.0
-    inside: float = 8.0
-    """"coordinated": with how much the pressing tip is to pull at its hold [N]."""
-    hold_stiffness: float = 20_000.0
-    """"coordinated": that the holds are believed to have [N/m]."""
-
-
-@dataclass(slots=True)
-class LimbTask:
-    """What one limb is doing now."""
-
-    doing: Doing
-    hold: int = 0
-    """Number of its hold; 0: none."""
-    place: Floats = field(default_factory=lambda: np.zeros(2))
-    """Of "hold": the hold, of "tip": the aim, world frame [m]."""
-    speed: Floats = field(default_factory=lambda: np.zeros(2))
-    """Of the aim [m/s]."""
-    angles: Floats = field(default_factory=lambda: np.zeros(2))
-    """Of "joints" and "hang" [rad]."""
-    rates: Floats = field(default_factory=lambda: np.zeros(2))
-    """Theirs [rad/s]."""
-    accelerations: Floats = field(default_factory=lambda: np.zeros(2))
-    """Of "joints" [rad/s^2]."""
-    loads: Floats = field(default_factory=lambda: np.zeros(2))
-    """Of "hang": torques that bear the weight [N m]."""
-    force: Floats = field(default_factory=lambda: np.zeros(2))
-    """Of "pull": what the tip does to what it meets, world frame [N]."""
-    tug: Floats = field(default_factory=lambda: np.zeros(2))
-    """Of "pull": the steady part of that force which the body leans on; the limbs that hold carry that much less [N]."""
-    damping: float = 150.0
-    """Of "pull": of the tip's motion in the world [N s/m]."""
-    side: int = 0
-    """Where its elbow is kept by a soft stop before it is straight, +1 or -1; 0: it may pass."""
-    pressed: bool = False
-    """Of "pull": whether the tip has stopped against something, which then loads the joints."""
-
-    def give_way(self) -> None:
-        """Let the limb go where what it meets pushes it."""
-        self.doing, self.pressed, self.force, self.tug = "pull", False, np.zeros(2), np.zeros(2)
-
-    @property
-    def pushes(self) -> bool:
-        """Whether it pulls on something, and does not only give way."""
-        return self.doing == "pull" and bool(self.force.any())
-
-    def stay(self, angles: Floats) -> None:
-        """Let the limb's joints keep to where they are, shape (2,) [rad]."""
-        self.doing, self.angles = "joints", angles.copy()
-        self.rates, self.accelerations = np.zeros(2), np.zeros(2)
-
-    @property
-    def holds(self) -> bool:
-        """Whether the limb carries the body."""
-        return self.doing in ("hold", "hang")
 
 
 class WholeBody:
@@ -165,7 +52,7 @@ class WholeBody:
         robot: LimbedRobot,
         *,
         period: float,
-        gains: BodyGains = BodyGains(),  # frozen
+        gains: BodyGains = USUAL,
         backlash: float | None = None,
     ) -> None:
         self.robot, self.gains, self.period = robot, gains, period
@@ -209,7 +96,7 @@ class WholeBody:
         self._job = {name: self._jobs[name] for name in JOB.names or ()}
         drives = np.array([[law.desk for law in laws] for laws in (self._pullers, self._reachers)])
         self._arrays = {
-            at.LEGS: self.legs, at.SETTINGS: _settings(gains, robot), at.JOBS: self._jobs, at.DRIVES: drives,
+            at.LEGS: self.legs, at.SETTINGS: records_of(gains, robot), at.JOBS: self._jobs, at.DRIVES: drives,
             at.Q: self.q, at.QD: self.qd, at.LAGGED: np.zeros((n, 2)), at.HELD: self.held,
             at.WEIGHTS: self._weights, at.HOLDS: self._holds, at.ARMS: np.zeros((n, 2)),
             at.TIPS: self.tips, at.TIP_SPEEDS: self.tip_speeds, at.POSE: self.pose, at.TWIST: self.twist,
@@ -393,13 +280,3 @@ class WholeBody:
         for i, aim in [*((i, still_aim((0.0, 0.0))) for i in range(self.n)), (bad, own)]:
             self._states[0] = self.q[i], self.qd[i]
             (self._pullers if self.tasks[i].doing == "hold" else self._reachers)[i].command(aim, self._states)
-
-
-def _settings(gains: BodyGains, robot: LimbedRobot) -> Records:
-    """The gains as the kernels read them, records of `BODY`, shape (1,)."""
-    out = np.zeros(1, BODY)
-    out["mapping"], out["limit"] = MAPPINGS[gains.mapping], LIMITS[gains.limit]
-    for name in ("kp", "kd", "stiffness", "damping", "joint_kp", "joint_kd", "cling", "gentle", "firm", "weight_fed"):
-        out[name] = getattr(gains, name)
-    out["weight"] = robot.weight
-    return out

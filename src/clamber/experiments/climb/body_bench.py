@@ -6,7 +6,8 @@ from typing import Final
 
 import numpy as np
 
-from ...execution.climb.whole_body import BodyGains, WholeBody
+from ...execution.climb.body_gains import BodyGains
+from ...execution.climb.whole_body import WholeBody
 from ...sim.limb_flaws import LimbFlaws
 from ...types import Floats
 from .body_scenario import BodyScenario

@@ -7,7 +7,7 @@ from typing import Final
 
 from ...control.law_settings import FEELING, LAWS
 from ...errors import UnknownNameError
-from ...execution.climb.whole_body import BodyGains
+from ...execution.climb.body_gains import BodyGains
 from ...sim.plant_rules import PlantError
 from ...types import Floats
 from .body_bench import BodyEntry

@@ -9,11 +9,11 @@ import numpy as np
 
 from ... import __version__
 from ...errors import ClamberError
+from ...execution.climb.body_gains import BodyGains
 from ...execution.climb.climb_trace import TracedClimber
 from ...execution.climb.climber import Climber, FallenError
 from ...execution.climb.ends import grab, release
 from ...execution.climb.motions import move_body
-from ...execution.climb.whole_body import BodyGains
 from ...jobs import Executor, map_items
 from ...sim.climber_plant import ClimberPlant
 from ...tasks import load_task

@@ -5,9 +5,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from ...execution.climb.body_gains import BodyGains
 from ...execution.climb.climber import Climber
 from ...execution.climb.postures import postures
-from ...execution.climb.whole_body import BodyGains
 from ...robots.library import load_robot
 from ...robots.limbed import LimbedRobot
 from ...sim.climber_model import HookShape

@@ -10,7 +10,9 @@ from typing import Final, Literal, TypeAlias
 import numpy as np
 
 from ...control.play import weight_loads
-from ...execution.climb.whole_body import BodyGains, LimbTask, WholeBody
+from ...execution.climb.body_gains import BodyGains
+from ...execution.climb.limb_task import LimbTask
+from ...execution.climb.whole_body import WholeBody
 from ...types import Floats
 from .body_stand import BodyStand
 

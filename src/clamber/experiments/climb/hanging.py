@@ -8,8 +8,8 @@ import numpy as np
 
 from ...execution.climb.climber import Climber, FallenError
 from ...execution.climb.hang import DAMPING, Hang
+from ...execution.climb.limb_task import LimbTask
 from ...execution.climb.pendulum import Pendulum
-from ...execution.climb.whole_body import LimbTask
 from ...files import Document
 from ...robots.limbed import LimbedRobot
 from ...sim.climber_plant import ClimberPlant

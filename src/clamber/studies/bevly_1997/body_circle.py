@@ -4,7 +4,7 @@ import math
 from pathlib import Path
 from typing import Final
 
-from ...execution.climb.whole_body import BodyGains
+from ...execution.climb.body_gains import BodyGains
 from ...experiments.climb.body_bench import BodyRun, run_bodies
 from ...experiments.climb.body_measures import measure_body
 from ...experiments.climb.body_scenario import BodyScenario, circle

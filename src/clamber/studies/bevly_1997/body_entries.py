@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Final
 
-from ...execution.climb.whole_body import BodyGains
+from ...execution.climb.body_gains import BodyGains
 from ...experiments.climb.body_bench import BodyEntry
 from ...experiments.climb.body_entries import COORDINATED, read_gains
 from ...experiments.climb.body_stand import BodyStand

@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from ...execution.climb.whole_body import BodyGains
+from ...execution.climb.body_gains import BodyGains
 from ...experiments.climb.body_bench import BodyEntry, BodyRun, run_bodies, run_body
 from ...experiments.climb.body_measures import measure_body
 from ...experiments.climb.body_scenario import push

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
-from ...execution.climb.whole_body import BodyGains
+from ...execution.climb.body_gains import BodyGains
 from ...experiments.climb.body_entries import COORDINATED, read_gains
 from ...experiments.climb.body_rung import FRICTION, PEG_ERROR, WEIGHT, RungTrial, climb_rungs
 from ...experiments.climb.body_stand import ladder_stand
