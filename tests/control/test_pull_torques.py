@@ -16,7 +16,9 @@ BODY = WholeBody(ROBOT, period=0.005)
 STILL = np.zeros(3)
 
 
-def test_the_load_is_the_force_through_the_jacobian_and_the_limbs_own_weight() -> None:
+def test_the_torque_is_the_force_through_the_jacobian_and_the_limbs_own_weight() -> None:
+    """But for friction, which is fed forward, and of which a motor that turns takes all, one that stands up to as much either way: what
+    surely loads the joint is the least that it may be."""
     rng = np.random.default_rng(3)
     for i, limb in enumerate(ROBOT.limbs):
         q, force = rng.uniform(-1.2, 1.2, 2), rng.normal(0.0, 10.0, 2)
@@ -27,8 +29,12 @@ def test_the_load_is_the_force_through_the_jacobian_and_the_limbs_own_weight() -
         turn = np.array(((np.cos(angle), -np.sin(angle)), (np.sin(angle), np.cos(angle))))
         chain, down = chain_of_limb(ROBOT, limb.name), turn @ np.array((0.0, -GRAVITY))
         weight = chain.with_gravity((down[0], down[1], 0.0)).bias(q, np.zeros(2))
-        np.testing.assert_allclose(loads, chain.jacobian(q)[:2].T @ (turn @ force) + weight, atol=1e-9)
-        assert np.all(np.abs(torques - loads) <= chain.joints["friction"] + 1e-12)
+        friction, both = chain.joints["friction"], chain.jacobian(q)[:2].T @ (turn @ force) + weight
+        assert np.all(np.abs(torques - both) <= friction + 1e-12)
+        np.testing.assert_allclose(loads, np.sign(torques) * np.maximum(np.abs(torques) - friction, 0.0), atol=1e-9)
+        turning = np.sign(both - weight) * 1e3
+        pull_torques(BODY.legs[i], q, turning, pose, STILL, force, 0.0, torques, loads)
+        np.testing.assert_allclose(loads, torques - friction * np.sign(turning), atol=1e-9)
 
 
 def test_damping_takes_power_from_a_tip_that_moves_with_the_body_too() -> None:

@@ -121,9 +121,7 @@ class PlainBody(WholeBody):
 
     def _own_weight(self, i: int) -> Floats:
         """What a pull of nothing takes, by the weight alone."""
-        nothing, loads = np.zeros(2), np.zeros(2)
-        pull_torques(self.legs[i], self.q[i], nothing, self.pose, np.zeros(3), nothing, 0.0, np.zeros(2), loads)
-        return loads
+        return np.array(weight_loads(self.legs[i], self.q[i], self.pose[2]))
 
     def _towards(self, off: Floats) -> Floats:
         far = float(np.linalg.norm(off))

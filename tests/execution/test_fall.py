@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from clamber.execution.climb import fall
 from clamber.execution.climb.climb_trace import TracedClimber
 from clamber.execution.climb.climber import ASTRAY, TURNED, FallenError
 from clamber.execution.climb.ends import grab
@@ -96,6 +97,19 @@ def test_a_robot_that_is_pushed_or_lifted_but_not_off_its_holds_has_not_fallen(p
     plant.push((0.0, 0.0))
     climber.wait(1.0)
     assert climber.fall.carried > 0.5 * climber.robot.weight
+
+
+@pytest.mark.parametrize(("rate", "told"), [(0.0, False), (0.02, False), (0.5, True)])
+def test_a_robot_that_stands_still_has_not_fallen_whatever_its_tips_feel(
+    monkeypatch: pytest.MonkeyPatch, rate: float, told: bool
+) -> None:
+    """A link of it lies on a hold; where nothing does, what its motors bore the weight with turns their joints at once."""
+    climber, _ = on_the_ladder()
+    climber.wait(0.6)
+    monkeypatch.setattr(fall, "feel_forces", lambda *_: 0.1 * climber.robot.weight)
+    climber.body.qd[:] = 0.0
+    climber.body.qd[0, 1] = rate
+    assert any(climber.fall.see() for _ in range(100)) is told
 
 
 def test_the_tips_feel_the_weight_and_so_they_do_while_a_limb_climbs() -> None:

@@ -241,7 +241,7 @@ def test_a_hook_that_stops_short_is_seated_where_it_stops_there_again(
     monkeypatch.setattr(hook, "move_tip", lambda climber, i, place, seconds: True)
     monkeypatch.setattr(hook, "push_on", lambda climber, i, place, g, room: True)
     body = SimpleNamespace(tip=cast("Callable[[int], Floats]", lambda i: tip), q=np.ones((3, 2)))
-    climber = SimpleNamespace(body=body, hangs=False)
+    climber = SimpleNamespace(body=body, holds={1: hold}, hangs=False)
     found = Approach(np.zeros(2), np.zeros((1, 2)), g, 0.05)
     ends = [tip + np.array((off, 0.0)) for off in before]
     assert hook.close(cast(Climber, climber), LEFT, hold, 0.01, found, hold, ends) == seated

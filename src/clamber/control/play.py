@@ -23,7 +23,8 @@ def pull_torques(leg, q, qd, pose, twist, force, damping, torques, loads):
         force: Of the tip on what it meets, world frame, shape (2,) [N].
         damping: Of the tip's motion in the world [N s/m].
         torques: Filled, shape (2,) [N m].
-        loads: Filled with the part that reaches the joints' outputs while the tip stands still, shape (2,) [N m].
+        loads: Filled with what surely loads the joints' outputs while the tip stands still: weight and force less what friction of a
+            motor that stands may take of it, shape (2,) [N m].
     """
     first = pose[2] + leg.port_angle + q[0]
     second = first + q[1] + leg.beta
@@ -40,11 +41,13 @@ def pull_torques(leg, q, qd, pose, twist, force, damping, torques, loads):
     push0 = j00 * force[0] + j10 * force[1]
     push1 = j01 * force[0] + j11 * force[1]
     shoulder, elbow = weight_loads(leg, q, pose[2])
-    loads[0] = shoulder + push0
-    loads[1] = elbow + push1
     # friction is fed the way the tip is to go, whichever way the limb's own weight pulls
-    torques[0] = loads[0] - damping * (j00 * vx + j10 * vy) + leg.friction1 * math.tanh(push0 / RESTS)
-    torques[1] = loads[1] - damping * (j01 * vx + j11 * vy) + leg.friction2 * math.tanh(push1 / RESTS)
+    shoulder += push0 + leg.friction1 * math.tanh(push0 / RESTS)
+    elbow += push1 + leg.friction2 * math.tanh(push1 / RESTS)
+    loads[0] = _borne(shoulder, leg.friction1, qd[0])
+    loads[1] = _borne(elbow, leg.friction2, qd[1])
+    torques[0] = shoulder - damping * (j00 * vx + j10 * vy)
+    torques[1] = elbow - damping * (j01 * vx + j11 * vy)
 
 
 @inlined
@@ -109,7 +112,7 @@ def follow_play(legs, q, qd, held, forces, angle, pressed, loads, rate, play, su
             load = weight_loads(leg, q[i], angle)
         for k in range(2):
             side = math.tanh(load[k] / SURE)
-            part = abs(side) if held[i] else 1.0
+            part = abs(side) if held[i] or pressed[i] else 1.0
             play[i, k] += part * rate[0] * (rate[1] * side - play[i, k])
             sure[i, k] += rate[0] * (abs(side) - sure[i, k])
 

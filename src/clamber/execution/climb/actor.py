@@ -32,8 +32,8 @@ SHIFTED: Final = 0.005
 """A body's aim farther from the plan's pose than this is brought back before a grab [m], [rad]."""
 SETTLING: Final = 1.0
 """Most time that it gets to come there after its way [s]."""
-SLID: Final = 0.008
-"""A tip that clings and seems to be so far back from its hold has slid off it [m]."""
+SLID: Final = (0.008, 0.02)
+"""A tip that clings and seems to be the first of these back from its hold has slid off it, or the second off it any other way [m]."""
 PAUSE: Final = 0.1
 """Between two looks at that [s]."""
 
@@ -123,8 +123,8 @@ class Actor:
         for i, task in enumerate(body.tasks):
             if i == acts or task.doing != "cling":
                 continue
-            back = float((task.place - body.tip(i)) @ body.grab_direction(i))
-            if back < SLID:
+            off = task.place - body.tip(i)
+            if float(off @ body.grab_direction(i)) < SLID[0] and float(np.hypot(*off)) < SLID[1]:
                 continue
             number, side = task.hold, int(math.copysign(1, body.q[i, 1]))
             if not grab(self.climber, i, number, elbow=side).held:

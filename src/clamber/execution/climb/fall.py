@@ -11,6 +11,9 @@ BORNE: Final = 0.45
 """Tips that press on the world with less than this part of the weight, all together, do not carry it."""
 LOOSE: Final = 0.08
 """They do so for that long when nothing holds the robot; a hook that settles bounces for less [s]."""
+MOVES: Final = 0.1
+"""Meanwhile a joint of a limb that holds turns faster than this, as nothing loads it any more: a robot that stands still leans on something
+[rad/s]."""
 SMOOTHED: Final = 0.03
 """Time constant of the felt forces [s]."""
 
@@ -20,7 +23,7 @@ class FallWatch:
 
     What holds is taken for granted by the estimate of the body: with every hook off its hold the estimate stays where it was, while the
     robot drops. The sum of the forces that the tips feel drops at once. A limb that is stretched or folded feels nothing along itself;
-    while one that holds is, nothing is told.
+    while one that holds is, nothing is told. Nor is it while all stand still: a link that lies on a hold carries, too.
 
     Args:
         body: What knows the limbs and their tasks.
@@ -53,4 +56,4 @@ class FallWatch:
         little = self.carried < self._least
         # a torque that jumps for a tick looks like a force, so one tick that says otherwise does not start the time anew
         self.loose = self.loose + body.period if little else max(self.loose - 2.0 * body.period, 0.0)
-        return self.loose > LOOSE
+        return self.loose > LOOSE and bool((np.abs(body.qd[body.held > 0]) > MOVES).any())

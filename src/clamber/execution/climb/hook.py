@@ -40,11 +40,13 @@ FORTH: Final = (0.2, 0.9)
 gears make heavy, would knock other hooks off [s]."""
 SHALLOW: Final = (0.010, 0.015)
 """A hook that stops the first of these before its hold may rest on its flare against it, however hard it is pushed, and slip off later:
-it counts as seated where it comes to the same place once more, pushed on from elsewhere; at the second it doesn't at all [m]."""
-WIDE: Final = 0.011
+it counts as seated where it comes to the same place once more, pushed on from elsewhere; at the second it doesn't at all. So far
+beyond its hold it may have passed it by, and lean on it with the limb [m]."""
+WIDE: Final = 0.009
 """Likewise one that stops so far aside of its hold: it may lie on it with the outer end of its flare [m]."""
 AT_FULL_REACH: Final = (math.radians(25.0), 0.006)
-"""A limb whose elbow is straighter than the first has stopped at the end of its reach, not on its hold, if it stops the second before."""
+"""Likewise a limb whose elbow is straighter than the first: it may have stopped at the end of its reach, not on its hold; it has if it
+stops the second before."""
 SAME: Final = 0.003
 """Two places that are so near to each other are the same [m]."""
 
@@ -94,14 +96,19 @@ def close(
     stopped = push_on(climber, i, place, found.grab, room)
     tip = climber.body.tip(i)
     short = float((hold - tip) @ found.grab)
-    if not stopped or math.dist(tip, hold) > room or short > SHALLOW[1]:
+    off = math.dist(tip, hold)
+    if not stopped or off > room or short > SHALLOW[1]:
+        return False
+    # twins are nearer to each other than the doubt
+    if any(math.dist(tip, other) < off for other in climber.holds.values()):
         return False
     # a body that hangs is drawn near until the limb is straight
     straight = abs(climber.body.q.item(i, 1)) < AT_FULL_REACH[0] and not climber.hangs
     if straight and short > AT_FULL_REACH[1]:
         return False
     aside = abs(float(found.grab[0] * (tip[1] - hold[1]) - found.grab[1] * (tip[0] - hold[0])))
-    return (short < SHALLOW[0] and aside < WIDE) or any(math.dist(tip, end) < SAME for end in before)
+    home = abs(short) < SHALLOW[0] and aside < WIDE and not straight
+    return home or any(math.dist(tip, end) < SAME for end in before)
 
 
 def back_off(climber: Climber, i: int, hold: Floats, doubt: float, found: Approach) -> None:

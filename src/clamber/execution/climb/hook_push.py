@@ -50,7 +50,10 @@ HANGING: Final = 0.4
 YIELDING: Final = 0.3
 """Then the rest comes, over this long: the joints' friction eats the small part, and the body goes aside, not off its own hold [s]."""
 CENTRING: Final = 150.0
-"""Pull towards the believed hold across the hook [N/m]."""
+"""Pull towards the believed hold across the hook, where it may have met it: the flare finds the hold [N/m] ..."""
+STEERING: Final = (1500.0, 15.0)
+"""... and while the hold, wherever it is, is still ahead [N/m], at most so much [N]: a limb whose elbow is nearly straight is held back
+by the friction of one joint, and the push takes it aside, past the hold."""
 ADVANCE: Final = 0.0015
 """A tip that advances less than this along the grab direction has stopped [m]."""
 CREEP: Final = 0.0006
@@ -73,8 +76,7 @@ def push_on(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> 
         let go of would swing.
     """
     body, task, period = climber.body, climber.body.tasks[i], climber.plant.period
-    # believed to press from the start: in free air the tip is then farther in than believed, never less far
-    task.doing, task.pressed, task.tug = "pull", True, np.zeros(2)
+    task.doing, task.pressed, task.tug = "pull", False, np.zeros(2)
     stage, still, tugged, phase, borne = "push", 0.0, 0.0, 0.0, 0.0
     seated, marks, anew = False, np.full(2, -np.inf), 0
     rested, apart = body.pose[:2].copy(), _apart(climber)
@@ -87,6 +89,7 @@ def push_on(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> 
         # what hangs swings aside with a pull, which takes nothing off its own hold; risen, it has gone far enough
         lifted = float(body.pose[1] - rested[1]) if hangs else float((rested - body.pose[:2]) @ g)
         if stage == "push":
+            # believed to press before it does: in free air the tip is then farther in than believed, never less far
             free = float((place - body.tip(i)) @ g) - room
             size += float(np.interp(free, (0.0, FREE), (0.0, HASTE)))
         # a joint that crosses its play, or is wrongly believed to, is seen in one of both; a hook that slides, in both
@@ -97,7 +100,9 @@ def push_on(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> 
         phase += 2 * np.pi * rate * period
         side = part * strength * np.sin(phase)
         if stage == "push":
-            side += CENTRING * float(across @ (place - body.tip(i)))
+            aside = float(across @ (place - body.tip(i)))
+            side += min(max(STEERING[0] * aside, -STEERING[1]), STEERING[1]) if free > 0.0 else CENTRING * aside
+            task.pressed = task.pressed or free <= 0.0
         else:
             tugged += period
             part = min(1.0, part + period / YIELDING) if hangs else part
