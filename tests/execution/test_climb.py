@@ -21,6 +21,9 @@ from clamber.execution.climb.motions import (
     JOINT_AGILITY,
     JOINT_SPEED,
     LAG,
+    SURGE,
+    _is_jammed,
+    _presses,
     at_speed,
     eased,
     follow,
@@ -30,6 +33,7 @@ from clamber.execution.climb.motions import (
 )
 from clamber.execution.climb.postures import postures
 from clamber.execution.climb.pushed_body import PushedBody
+from clamber.execution.climb.slip import SlipWatch
 from clamber.experiments.climb.run_plan import climbing_task
 from clamber.robots.library import load_robot
 from clamber.robots.limbed import LimbedRobot
@@ -135,6 +139,25 @@ def test_a_limb_that_something_holds_on_its_way_stays_there_and_pulls_no_more(st
     np.testing.assert_allclose(task.angles, (0.8, -0.4) if came else q[0], atol=1e-12)
     np.testing.assert_array_equal(task.rates, 0.0)
     np.testing.assert_array_equal(task.accelerations, 0.0)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_no_joint_is_sped_up_beyond_what_its_motor_and_the_body_bear(seed: int) -> None:
+    """Whatever corners a way has, and however sharp."""
+    rng = np.random.default_rng(seed)
+    way = np.cumsum(rng.uniform(-0.6, 0.6, (12, 2)), axis=0)
+    task, q, rates = LimbTask("tip"), way[:1].copy(), [np.zeros(2)]
+
+    def tick() -> None:
+        q[0] = task.angles
+        assert np.abs(task.accelerations).max() <= SURGE * (1.0 + 1e-9)
+        rates.append(task.rates.copy())
+
+    body = SimpleNamespace(tasks=[task], q=q, play=np.zeros((1, 2)), pose=np.zeros(3))
+    climber = SimpleNamespace(body=body, plant=SimpleNamespace(period=0.005), tick=tick, hangs=True, holding=list)
+    assert follow(cast(Climber, climber), 0, way)
+    # the change of pace at a corner comes to it
+    assert np.abs(np.diff(rates, axis=0)).max() / 0.005 < 1.6 * SURGE
 
 
 @pytest.mark.parametrize(("length", "rise"), [(0.2, 0.1), (1.9, 0.3), (1.0, 1.0)])
@@ -261,6 +284,24 @@ def test_a_hook_that_slips_off_is_noticed() -> None:
     assert climber.time < 2.0
 
 
+@pytest.mark.parametrize(("turn", "felt", "told"), [
+    (1.0, (0.0, 20.0), False), (2.6, (20.0, 20.0), False), (2.6, (20.0, 1.0), True), (2.6, (0.0, 20.0), True), (9.0, (20.0, 20.0), True),
+])  # fmt: skip
+def test_a_body_that_turns_within_the_play_of_its_joints_has_lost_no_hook_that_bears(
+    turn: float, felt: tuple[float, float], told: bool
+) -> None:
+    """A free limb that is sped up throws it about by as much, and the encoders of the motors tell nothing of it."""
+    climber, _ = on_the_ladder()
+    climber.wait(0.5)
+    release(climber, BOTTOM)
+    body, watch, forces = climber.body, SlipWatch(climber.body), np.zeros((3, 2))
+    forces[(RIGHT, LEFT), 0] = felt
+    assert watch.see(forces) is None
+    for pose in (body.pose, body.settled):
+        pose[2] += np.radians(turn)
+    assert (watch.see(forces) is not None) is told
+
+
 def test_limbs_are_asked_whether_they_would_hold_before_they_do() -> None:
     climber, _ = on_the_ladder()
     climber.wait(0.2)
@@ -323,6 +364,21 @@ def test_a_hook_that_goes_against_a_hold_stops_before_it_takes_others_off(aside:
     assert max(float(np.hypot(*(tips[i] - climber.holds[n]))) for i, n in ((RIGHT, 4), (LEFT, 3))) < 2.5e-3
 
 
+def test_hooks_that_press_hard_already_jam_nothing() -> None:
+    """Two that hold each other sideways press with twice the weight before the body moves; what jams, presses harder as it does."""
+    climber, _ = on_the_ladder()
+    climber.wait(0.5)
+    weight = climber.robot.weight
+    climber.fall.forces[:] = 0.0
+    climber.fall.forces[RIGHT] = 2.0 * weight, 0.0
+    before = _presses(climber)
+    assert before.tolist() == [pytest.approx(2.0 * weight), 0.0, 0.0]
+    assert not _is_jammed(climber, before)
+    assert _is_jammed(climber, 0.5 * before)
+    climber.fall.forces[RIGHT] = np.inf
+    assert not _is_jammed(climber, np.zeros(3))
+
+
 def test_a_body_makes_no_room_where_limbs_that_hold_would_meet_other_holds() -> None:
     climber, _ = on_the_ladder()
     climber.wait(0.5)
@@ -368,13 +424,15 @@ TWIN = 0.025
         (60.0, 0.008, 0.0, True),
         (12.0, 0.008, 0.0, False),  # at the end of its reach: never
         (30.0, 0.008, 0.0, True),
-        (12.0, 0.002, 0.0, False),
+        (12.0, 0.002, 0.0, True),
+        (12.0, 0.004, 0.0, False),
+        (12.0, 0.0, 0.007, False),
         (60.0, 0.012, 0.0, False),  # on its flare
         (60.0, -0.006, 0.0, True),
         (60.0, -0.012, 0.0, False),  # past it, a link against it
         (60.0, -0.013, 0.0, False),  # on the next one
-        (60.0, 0.0, 0.008, True),
-        (60.0, 0.0, 0.010, False),  # on the end of its flare
+        (60.0, 0.0, 0.010, True),
+        (60.0, 0.008, 0.010, False),  # on the end of its flare
     ],
 )
 @pytest.mark.parametrize("been", [False, True])

@@ -179,6 +179,23 @@ def test_a_damped_swing_shrinks_as_its_roots_say(flaws: LimbFlaws, damping: floa
     assert (np.diff(sizes[sizes > math.radians(0.5)]) < 0.0).all()  # energy only falls
 
 
+def test_joints_that_cross_their_play_are_hardly_taken_for_a_swing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Motors have gone on by 2 deg and nothing else has moved: damped as the swing that it seems, it would go to and fro for ever."""
+    held = hang_up(robot(0.0), IDEAL, POSTURE, swing=0.0, damping=0.5)
+    hang, step = held.hang, math.radians(2.0)
+    for _ in range(200):
+        held.climber.tick()
+    swing, speeds, asides = hang.pendulum.swing, [], []
+    monkeypatch.setattr(hang.pendulum, "swing", lambda q, angle: swing(q, angle) + step)
+    for _ in range(400):
+        held.climber.tick()
+        speeds.append(hang.speed)
+        asides.append(hang.aside)
+    assert np.abs(speeds).max() < hang.omega * step  # differences would tell the play over a tick: 7 rad/s
+    assert np.abs(asides).max() < 1.5 * step
+    assert np.abs(speeds[-40:]).max() < 0.05 * hang.omega * step  # it rests elsewhere
+
+
 def test_a_wide_swing_is_damped_and_its_hook_stays_on() -> None:
     angles = recorded(NOMINAL, math.radians(40.0), 0.5, 18.0)
     assert np.abs(angles[-200:]).max() < math.radians(2.0)

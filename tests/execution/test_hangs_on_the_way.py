@@ -9,7 +9,9 @@ from clamber.actions.plan import Plan, load_plan
 from clamber.actions.problems import pose_problem
 from clamber.execution.climb.course import Course, lay_course, swings
 from clamber.experiments.climb.cautions import HANGING, STEADY, cautious, steady
+from clamber.experiments.climb.noise import named_noise
 from clamber.experiments.climb.run_plan import climbing_flaws, climbing_task, run_plan
+from clamber.experiments.climb.trial import TrialSetup, climb_once
 from clamber.planning.beam.planner import plan_beam
 from clamber.tasks import load_task
 from clamber.tasks.limbed import LimbedTask
@@ -76,3 +78,11 @@ def test_the_saved_plan_is_what_the_planner_finds(task: LimbedTask, plan: Plan) 
 def test_the_saved_plan_is_climbed_whole(task: LimbedTask, plan: Plan) -> None:
     run = run_plan(task, plan, climbing_flaws(task, []), seed=0)
     assert run.done, run.reason
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [14, 22, 57])
+def test_hangs_on_the_single_row_calm_down_under_the_usual_noise(task: LimbedTask, plan: Plan, seed: int) -> None:
+    """Where joints cross their play as a hang begins; and where a free limb that is sped up throws the body about within it."""
+    setup = TrialSetup(task=task, noise=named_noise("usual"), plan=plan, replan=False)
+    assert climb_once(setup, seed)[1].done

@@ -161,6 +161,31 @@ def test_a_stretched_limb_leaves_where_the_body_has_made_it_bend(away: tuple[flo
         assert any(bend > np.radians(20.0) for bend in bends)
 
 
+@pytest.mark.parametrize("bend", [12.0, 30.0, 60.0])
+def test_a_hook_sets_out_to_its_hold_from_where_its_elbow_is_well_bent_if_the_body_may_move(bend: float) -> None:
+    """Stretched before its hold a limb would be pushed nowhere: its joints have no lever."""
+    ways, near = approaches(), 0.03
+    limb, start = ways.robot.limbs[RIGHT], np.radians((0.0, 80.0))
+    tip, _, pose = on_a_hold(bend)
+
+    def bends(shift: Floats) -> float:
+        moved = pose + np.array((*shift, 0.0))
+        final = max((one for one in postures(limb, moved, tip) if one.inside), key=lambda one: one.angles[1])
+        before = [one.angles[1] for one in postures(limb, moved, tip - near * final.grab) if one.inside]
+        return float(np.degrees(max(before, default=0.0)))
+
+    found = ways.find(RIGHT, start, pose, tip, {}, elbow=1, stand_off=0.04, near=near)
+    assert found is not None
+    assert bends(found.shift) > 20.0
+    kept = ways.find(RIGHT, start, pose, tip, {}, elbow=1, stand_off=0.04, near=near, stands=lambda pose: False)
+    well = bends(np.zeros(2)) > 20.0
+    assert kept is None or not kept.shift.any()
+    strict = ways.find(
+        RIGHT, start, pose, tip, {}, elbow=1, stand_off=0.04, near=near, stands=lambda pose: False, straight=False
+    )
+    assert (strict is not None) == well
+
+
 def test_no_move_of_the_body_is_made_that_the_others_cannot_bear() -> None:
     tip, grab, pose = on_a_hold(8.0)
     assert approaches().leave(RIGHT, 1.0, pose, tip, -0.03 * grab, {}, stands=lambda pose: False) is None

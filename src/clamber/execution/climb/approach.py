@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from itertools import product
 from typing import Final
 
 import numpy as np
@@ -108,6 +109,7 @@ class Approaches:
         stand_off: float = 0.028,
         near: float = 0.016,
         stands: Callable[[Floats], bool] = lambda pose: True,
+        straight: bool = True,
     ) -> Approach | None:
         """A way for limb `i` from joint angles `angles` to a stand-off before `hold`; None where there is none.
 
@@ -119,20 +121,21 @@ class Approaches:
             holds: All holds by number, as obstacles.
             elbow: Side of the elbow to hold with: +1, -1, or 0 for whichever has the hook more on top.
             stand_off: Wished distance from the hold before the way in [m].
-            near: Distance straight before the hold, against the grab direction, that the limb must also reach [m].
+            near: Distance straight before the hold, against the grab direction, that the limb must also reach, its elbow well bent
+                where that can be: a straight limb is pushed nowhere from there [m].
             stands: Whether the other limbs can hold the body at another pose.
+            straight: Whether an elbow that is not well bent there will do.
         """
         side = float(np.sign(hold[0] - pose[0]))
-        for slants in SLANTS:
-            for x, y in SHIFTS:
-                shift = np.array((x * side, y))
-                moved = pose + np.array((*shift, 0.0))
-                if shift.any() and not stands(moved):
-                    continue
-                found = self._stand_off(i, angles, moved, hold, holds, elbow, (stand_off, near), slants)
-                if found is not None:
-                    grab, way, distance = found
-                    return Approach(shift, way, grab, distance)
+        for bent, slants, (x, y) in product((BENT, 0.0) if straight else (BENT,), SLANTS, SHIFTS):
+            shift = np.array((x * side, y))
+            moved = pose + np.array((*shift, 0.0))
+            if shift.any() and not stands(moved):
+                continue
+            found = self._stand_off(i, angles, moved, hold, holds, elbow, (stand_off, near), bent, slants)
+            if found is not None:
+                grab, way, distance = found
+                return Approach(shift, way, grab, distance)
         return None
 
     def leave(
@@ -196,6 +199,7 @@ class Approaches:
         holds: Mapping[int, Floats],
         elbow: int,
         distances: tuple[float, float],
+        bent: float,
         slants: tuple[int, ...],
     ) -> tuple[Floats, Floats, float] | None:
         limb, (stand_off, near) = self.robot.limbs[i], distances
@@ -204,7 +208,7 @@ class Approaches:
         upper = np.array((limb.shoulder.upper, limb.elbow.upper))
         # the posture that is best on the hold; the other one would pull sideways, and the robot fall when it has to carry
         for final in rank(postures(limb, pose, hold), elbow)[:1]:
-            if not _within(limb, pose, hold - near * final.grab, final):
+            if not _bent(limb, pose, hold - near * final.grab, math.copysign(1.0, final.angles[1]), bent):
                 continue
             for part in STAND_OFFS:
                 for slant in np.radians(slants):
@@ -225,11 +229,6 @@ class Approaches:
         return None
 
 
-def _within(limb: Limb, pose: Floats, place: Floats, like: Posture) -> bool:
-    """Whether a limb reaches a place within its joint limits, its elbow on the same side as in another posture."""
-    return any(one.inside and one.angles[1] * like.angles[1] > 0.0 for one in postures(limb, pose, place))
-
-
-def _bent(limb: Limb, pose: Floats, place: Floats, side: float) -> list[Posture]:
+def _bent(limb: Limb, pose: Floats, place: Floats, side: float, bent: float = BENT) -> list[Posture]:
     """The posture with the tip at a place and the elbow well on a side, within the joints' limits; none where there is none."""
-    return [one for one in postures(limb, pose, place) if one.inside and side * one.angles[1] > BENT]
+    return [one for one in postures(limb, pose, place) if one.inside and side * one.angles[1] > bent]

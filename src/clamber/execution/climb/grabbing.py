@@ -76,7 +76,7 @@ def grab(climber: Climber, i: int, number: int, end: End, *, elbow: int = 0, hom
     climber.wait(CALM)
     climber.learn_again()
     hold, (x, y) = climber.holds[number].copy(), found.grab
-    task.side = elbow if climber.hangs else 0  # a hanging body gives way until the limb is straight, and might fold it
+    task.side = elbow  # one that misses is drawn straight, and would fold the other way
     along, across = 0.0, 0.0
     ends: list[Floats] = []
     for place in end.places(climber, i, hold, doubt, found):
@@ -89,7 +89,7 @@ def grab(climber: Climber, i: int, number: int, end: End, *, elbow: int = 0, hom
             climber.latest, climber.proven = i, False
             task.hold, task.place = number, climber.holds[number].copy()
             if not task.pressed:  # else a body that hangs leans on it, until both carry
-                task.doing = "cling"
+                task.doing, task.side = "cling", 0
             climber.wait(HELD)
             return Grabbed(True, len(ends), along, across)
         end.back_off(climber, i, hold, doubt, found)

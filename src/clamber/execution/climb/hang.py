@@ -15,8 +15,8 @@ LAG: Final = 0.5
 """T of the damping: the less, the more of what the joints do goes against the swing; the joints must follow twice as fast [-]."""
 WIDEST: Final = 0.25
 """Most that the joints go aside for damping: at LIBRA's swings half their no-load speed [rad]."""
-TRACKING: Final = 40.0
-"""Of the observer of the swing [rad/s]."""
+TRACKING: Final = 1.0
+"""Of the observer of the swing, in swings' own rate [-]: joints that cross their play look like a swing, and a quick one drives them on."""
 OVER: Final = math.radians(100.0)
 """A centre of gravity that is farther than this from straight below does not hang on anything [rad] ..."""
 STEEP: Final = math.radians(75.0)
@@ -47,7 +47,13 @@ class Hang:
         tau u' = -(k phi' + u),    tau = T / omega,    k = kappa I tau / |c|
 
     With z = s / omega the swing then obeys (1 - kappa) T z^3 + z^2 + T z + 1 = 0: damped for 0 < kappa < 1 (Routh), with the ratio
-    kappa T / (2 + 2 T^2) for small ones. phi' is an observer's, as differences of an encoder's counts are rough.
+    kappa T / (2 + 2 T^2) for small ones. phi' is an observer's, which knows the pendulum and what its joints are told: with b = c / I,
+    m = phi' + b . q', and phi seen from where the body seems to rest, off by e,
+
+        phi' = m - b . q' + l1 r,    m' = -omega^2 sin phi + l2 r,    e' = l3 r,    r = seen - phi - e
+
+    where all three poles lie at -L: l3 = L^3 / omega^2, l1 = 3 L - l3, l2 = 3 L^2 - omega^2. Differences of an encoder's counts would be
+    rough, and joints that cross their play are no swing.
 
     Args:
         climber: The robot; limb `i` is on a hold.
@@ -64,8 +70,10 @@ class Hang:
         self.rates = np.zeros(2)
         self.phi = self.pendulum.swing(body.q, float(body.pose[2]))
         """Swing as observed [rad]."""
-        self.speed = 0.0
-        """[rad/s]."""
+        self.speed = self._momentum = 0.0
+        """Its speed, and with it what the joints take from it [rad/s]."""
+        self._rests = 0.0
+        """Where it seems to rest [rad]."""
         self.aside = 0.0
         """u [rad]."""
         self._over = 0.0
@@ -90,10 +98,13 @@ class Hang:
         q[self.i] = self.angles
         c = self.pendulum.momentum(q)
         size = float(np.hypot(*c))
+        inertia = self.pendulum.inertia(q)
         self.omega = self.pendulum.frequency(q)
         """Of the swing [rad/s]."""
         self._along = c / size
-        self._gain = self.damping * self.pendulum.inertia(q) * LAG / (size * self.omega)
+        self._brings = c / inertia
+        """Speed that the joints' own speeds take from the swing [-]."""
+        self._gain = self.damping * inertia * LAG / (size * self.omega)
 
     def balance(self) -> None:
         """After sensing, before commanding: what the holding limb is to do at this tick.
@@ -106,9 +117,12 @@ class Hang:
         self._over = self._over + period if abs(seen) > OVER else 0.0
         if self._over > OVER_FOR:
             raise FallenError(f"the body hangs {np.degrees(seen):.0f} deg from straight below its hold")
-        off = seen - self.phi
-        self.phi += period * (self.speed + 2.0 * TRACKING * off)
-        self.speed += period * TRACKING**2 * off
+        off, pole = seen - self.phi - self._rests, TRACKING * self.omega
+        third = pole * TRACKING**2
+        self.phi += period * (self.speed + (3.0 * pole - third) * off)
+        self._momentum += period * ((3.0 * pole**2 - self.omega**2) * off - self.omega**2 * math.sin(self.phi))
+        self._rests += period * third * off
+        self.speed = self._momentum - float(self._brings @ body.tasks[self.i].rates)
         pushing = any(task.pushes for task in body.tasks)  # against a hold the body is no pendulum
         wished = 0.0 if pushing or abs(seen) > STEEP else float(np.clip(self._gain * self.speed, -WIDEST, WIDEST))
         rate = -self.omega / LAG * (wished + self.aside)

@@ -42,11 +42,12 @@ SHALLOW: Final = (0.010, 0.015)
 """A hook that stops the first of these before its hold may rest on its flare against it, however hard it is pushed, and slip off later:
 it counts as seated where it comes to the same place once more, pushed on from elsewhere; at the second it doesn't at all. So far
 beyond its hold it may have passed it by, and lean on it with the limb [m]."""
-WIDE: Final = 0.009
-"""Likewise one that stops so far aside of its hold: it may lie on it with the outer end of its flare [m]."""
-AT_FULL_REACH: Final = (math.radians(25.0), 0.006)
-"""Likewise a limb whose elbow is straighter than the first: it may have stopped at the end of its reach, not on its hold; it has if it
-stops the second before."""
+FAR_OFF: Final = (0.006, 0.012)
+"""Likewise one that stops, beyond what the hold is in doubt by, the first of these off it, or the second in all, any way: it may lie on
+it with the outer end of its flare [m]."""
+AT_FULL_REACH: Final = (math.radians(25.0), 0.006, 0.003)
+"""A limb whose elbow is straighter than the first may have stopped at the end of its reach, not on its hold: it has if it stops the second
+before, and may have where it stops so far off, or the third before [m]."""
 SAME: Final = 0.003
 """Two places that are so near to each other are the same [m]."""
 
@@ -56,15 +57,15 @@ def come_near(climber: Climber, i: int, number: int, doubt: float, elbow: int, h
     body, hold = climber.body, climber.holds[number].copy()
     wished, near = stand_off_of(climber, i, doubt), NEAR + doubt
 
-    def way(stands: Callable[[Floats], bool]) -> Approach | None:
+    def way(stands: Callable[[Floats], bool], *, straight: bool = True) -> Approach | None:
         climber.plant.pause()
         return climber.approaches.find(
             i, body.q[i] - body.play[i], body.settled, hold, climber.holds, elbow=elbow, stand_off=wished, near=near,
-            stands=stands,
+            stands=stands, straight=straight,
         )  # fmt: skip
 
     if home is not None:
-        found = way(_stays)
+        found = way(_stays, straight=False)
         if found is not None:
             return found
         move_body(climber, home)
@@ -106,8 +107,9 @@ def close(
     straight = abs(climber.body.q.item(i, 1)) < AT_FULL_REACH[0] and not climber.hangs
     if straight and short > AT_FULL_REACH[1]:
         return False
-    aside = abs(float(found.grab[0] * (tip[1] - hold[1]) - found.grab[1] * (tip[0] - hold[0])))
-    home = abs(short) < SHALLOW[0] and aside < WIDE and not straight
+    home = abs(short) < SHALLOW[0] and off < min(FAR_OFF[0] + doubt, FAR_OFF[1])
+    if straight:
+        home = off < AT_FULL_REACH[1] and short < AT_FULL_REACH[2]
     return home or any(math.dist(tip, end) < SAME for end in before)
 
 

@@ -24,6 +24,9 @@ JOINT_SPEED: Final = 2.6
 """Of a free limb's joints on their way, seven eighths of what their motors can [rad/s]."""
 JOINT_AGILITY: Final = 14.0
 """With which they come to it [rad/s^2]."""
+SURGE: Final = 20.0
+"""Most that a joint is sped up by at corners of its way, in whichever direction: LIBRA's motors can do 27 at the elbow, and what they do to
+a limb the body feels [rad/s^2]."""
 LAG: Final = (0.015, 0.045)
 """A limb this far behind on its way is slowed down, at the second until it has come after: its motors give all they can [rad]."""
 STANDS: Final = (0.1, 0.25)
@@ -71,12 +74,14 @@ def move_body(climber: Climber, pose: Floats, *, drawn: tuple[int, Floats, Float
     rise = min(BODY_RISE, 0.5 * length)
     gone, pace, waited, held = 0.0, 1.0, 0.0, 0.0
     yielding: set[int] = set()
+    # hooks that hold each other sideways let a body sag, and press hard, before it moves
+    sags, presses = math.dist(body.aim[:2], body.pose[:2]), _presses(climber)
     while gone < length + rise:
         behind = math.dist(body.aim[:2], body.pose[:2])
-        wished = float(np.interp(behind, BEHIND, (1.0, 0.0))) if drawn is None and waited < WAITING else 1.0
+        wished = float(np.interp(behind - sags, BEHIND, (1.0, 0.0))) if drawn is None and waited < WAITING else 1.0
         pace = min(wished, pace + period / REGAINING)
         waited += (1.0 - pace) * period
-        stuck = behind > HELD_BACK[0] or (pace < STANDS[0] and _is_jammed(climber))
+        stuck = behind > HELD_BACK[0] or (pace < STANDS[0] and _is_jammed(climber, presses))
         held = held + period if stuck else 0.0
         if behind > BEHIND[0]:
             yielding |= _yield(climber)
@@ -109,11 +114,17 @@ def _yield(climber: Climber) -> set[int]:
     return found
 
 
-def _is_jammed(climber: Climber) -> bool:
-    """Whether a limb on a hold presses on what it touches with more than the robot's weight lets it."""
-    forces = climber.fall.forces[climber.holding()]
-    sizes = np.hypot(*forces[np.isfinite(forces).all(axis=1)].T)
-    return bool((sizes > JAMMED * climber.robot.weight).any())
+def _presses(climber: Climber) -> Floats:
+    """With what each limb on a hold presses on what it touches, nothing where that cannot be told, shape (limbs,) [N]."""
+    forces = np.where(np.isfinite(climber.fall.forces), climber.fall.forces, 0.0)
+    holds = [task.holds for task in climber.body.tasks]
+    return np.where(holds, np.hypot(forces[:, 0], forces[:, 1]), 0.0)
+
+
+def _is_jammed(climber: Climber, before: Floats) -> bool:
+    """Whether a limb on a hold presses on what it touches with more than the robot's weight lets it, and did much less before."""
+    now, weight = _presses(climber), climber.robot.weight
+    return bool(((now > JAMMED * weight) & (now - before > (JAMMED - 1.0) * weight)).any())
 
 
 def _go_back(climber: Climber, start: Floats, ticks: int) -> None:
@@ -237,6 +248,7 @@ def follow(climber: Climber, i: int, way: Floats, lags: tuple[float, float] = LA
     smooth = np.stack([np.convolve(padded[:, j], window / window.sum(), "valid") for j in range(2)], axis=1)
     rates = np.diff(smooth, axis=0) / period
     surges = np.diff(rates, axis=0, append=0.0) / period
+    paces = _round_corners(surges, window)
     task.doing = "joints"
     body = climber.body
     q, waited, gone, last = body.q[i], 0.0, 0.0, len(smooth) - 1
@@ -247,6 +259,7 @@ def follow(climber: Climber, i: int, way: Floats, lags: tuple[float, float] = LA
         wished = float(np.interp(lag, lags, (1.0, 0.0))) if waited < WAITING else 1.0
         speed = min(wished, speed + period / REGAINING)
         waited += (1.0 - speed) * period
+        pace = speed * paces.item(int(gone))
         stands = stands + period if wished < STANDS[0] else 0.0
         if stands > STANDS[1]:
             task.stay(q)
@@ -255,13 +268,28 @@ def follow(climber: Climber, i: int, way: Floats, lags: tuple[float, float] = LA
         at = int(k)
         # the way is that of the joints' outputs
         task.angles = smooth[at] + part * (smooth[at + 1] - smooth[at]) + body.play[i]
-        task.rates, task.accelerations = speed * rates[at], speed**2 * surges[at]
-        gone += speed
+        task.rates, task.accelerations = pace * rates[at], pace**2 * surges[at]
+        gone += pace
         climber.tick()
         if watch.gives_way(i):
             return False
     task.stay(way[-1] + body.play[i])
     return True
+
+
+def _round_corners(surges: Floats, window: Floats) -> Floats:
+    """Part of its speed with which a way is gone at each tick, so that no joint is sped up by more than `SURGE`.
+
+    Args:
+        surges: Of the joints at full speed, shape (n, joints) [rad/s^2].
+        window: Weights over which the pace changes, shape (ticks,).
+    """
+    most = np.abs(surges).max(axis=1)
+    paces = np.sqrt(SURGE / np.maximum(most, SURGE))
+    half = len(window) // 2
+    wide = np.pad(paces, 2 * half, mode="edge")
+    least = np.lib.stride_tricks.sliding_window_view(wide, 2 * half + 1).min(axis=1)
+    return np.convolve(least, window[: 2 * half + 1] / window[: 2 * half + 1].sum(), "same")[half : half + len(paces)]
 
 
 def at_speed(length: float, period: float) -> Floats:

@@ -16,6 +16,9 @@ MOVED: Final = 0.0115
 than 10 mm on LIBRA, a hook that slides in by 2 mm."""
 BEARING: Final = (10.0, 4.0)
 """Of two hooks that move apart, one that feels more than the first of these is on where the other feels less than the second [N]."""
+SURELY: Final = 0.023
+"""Nearer than this to where they were against each other neither is off where both feel more than the first of those: the body has turned
+within the play of all its joints, thrown about by a free limb [m]."""
 FORGOTTEN: Final = 0.2
 """Time over which slower changes are forgotten: sinking in, what is learned of the sensors, play that a moving body crosses [s]."""
 
@@ -76,10 +79,11 @@ class SlipWatch:
             size, dx, dy = min((math.hypot(x, y), x, y) for x, y in (change[:2], change[2:]))
             if size > max(most, MOVED) and self._beyond_play(pair, known[2][2:], now[:2]) > BEYOND:
                 first, second = body.grab_direction(a), body.grab_direction(b)
-                lost, other_one = (a, b) if dx * (first[0] + second[0]) + dy * (first[1] + second[1]) > 0.0 else (b, a)
-                felt = math.hypot(*forces[lost].tolist()), math.hypot(*forces[other_one].tolist())
-                if BEARING[0] < felt[0] < math.inf and felt[1] < BEARING[1]:
-                    lost = other_one
+                off, other_one = (a, b) if dx * (first[0] + second[0]) + dy * (first[1] + second[1]) > 0.0 else (b, a)
+                felt = math.hypot(*forces[off].tolist()), math.hypot(*forces[other_one].tolist())
+                if size > SURELY or not all(BEARING[0] < force < math.inf for force in felt):
+                    swapped = BEARING[0] < felt[0] < math.inf and felt[1] < BEARING[1]
+                    lost = other_one if swapped else off
             most = max(most, size)
             lately = [old + self._rate * step for old, step in zip(known[2], change, strict=True)]
             before[pair] = one.hold, other.hold, lately
