@@ -187,13 +187,13 @@ def test_joints_that_cross_their_play_are_hardly_taken_for_a_swing(monkeypatch: 
         held.climber.tick()
     swing, speeds, asides = hang.pendulum.swing, [], []
     monkeypatch.setattr(hang.pendulum, "swing", lambda q, angle: swing(q, angle) + step)
-    for _ in range(400):
+    for _ in range(800):
         held.climber.tick()
         speeds.append(hang.speed)
         asides.append(hang.aside)
     assert np.abs(speeds).max() < hang.omega * step  # differences would tell the play over a tick: 7 rad/s
     assert np.abs(asides).max() < 1.5 * step
-    assert np.abs(speeds[-40:]).max() < 0.05 * hang.omega * step  # it rests elsewhere
+    assert np.abs(speeds[-40:]).max() < 0.1 * hang.omega * step  # it rests elsewhere, and swings by 0.1 deg
 
 
 def test_a_wide_swing_is_damped_and_its_hook_stays_on() -> None:
