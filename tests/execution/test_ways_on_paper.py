@@ -64,7 +64,7 @@ def test_pegs_where_a_hook_comes_from_leave_it_no_way(radius: float, blocked: bo
 
 @pytest.mark.slow
 def test_what_has_no_way_on_paper_is_missed_in_climbs() -> None:
-    """The shortest cautious plan for H: its forces are easy, and a third of its climbs miss one grab; any other is missed by chance."""
+    """The shortest cautious plan for H: its forces are easy, and a third of its climbs miss one grab."""
     task = climbing_task(load_task("h"))
     found = PLANNERS["exact"](cautious(task, CAUTIONS[0]))
     plan = Plan.of_codes(task, found.plan.codes(task))
@@ -73,7 +73,7 @@ def test_what_has_no_way_on_paper_is_missed_in_climbs() -> None:
     flaws, noise = climbing_flaws(task, ()), named_noise("usual")
     reports = [run_plan(task, plan, flaws, noise=noise, seed=seed).report for seed in range(5001, 5007)]
     missed = [report.actions[-1].first for report in reports if "finds no way" in report.reason]
-    assert sum(step in blocked for step in missed) >= 3 >= 3 * sum(step not in blocked for step in missed)
+    assert missed and set(missed) == set(blocked)
 
 
 def test_it_is_the_same_each_time() -> None:
