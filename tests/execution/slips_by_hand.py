@@ -1,4 +1,6 @@
-"""How often a climb survives one of two hooks that carry coming off at any moment: `PYTHONPATH=tests python tests/execution/slips_by_hand.py SEED N`.
+"""How often a climb survives one of two hooks that carry coming off at any moment.
+
+    PYTHONPATH=tests python tests/execution/slips_by_hand.py SEED N
 
 Two rungs of the ladder under the usual noise; the seed draws when, of all ticks in which two limbs carry and the third is free, and which
 limb's peg is not there for a quarter of a second.
