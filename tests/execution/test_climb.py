@@ -14,7 +14,7 @@ from clamber.execution.climb import actor, hook
 from clamber.execution.climb.approach import Approach
 from clamber.execution.climb.climber import Climber, FallenError, Grabbed
 from clamber.execution.climb.course import lay_course
-from clamber.execution.climb.ends import grab, release
+from clamber.execution.climb.ends import grab, press_on, release
 from clamber.execution.climb.hook_push import push_on
 from clamber.execution.climb.limb_task import LimbTask
 from clamber.execution.climb.motions import (
@@ -429,7 +429,8 @@ TWIN = 0.025
         (12.0, 0.0, 0.007, False),
         (60.0, 0.012, 0.0, False),  # on its flare
         (60.0, -0.006, 0.0, True),
-        (60.0, -0.012, 0.0, False),  # past it, a link against it
+        (60.0, -0.012, 0.0, True),  # the map is off by as much
+        (60.0, -0.009, 0.010, False),  # past it, a link against it
         (60.0, -0.013, 0.0, False),  # on the next one
         (60.0, 0.0, 0.010, True),
         (60.0, 0.008, 0.010, False),  # on the end of its flare
@@ -458,6 +459,48 @@ def test_where_a_hook_stops_tells_whether_it_is_on_its_hold(
     )
     never = (abs(elbow) < 25.0 and short > 0.006) or -short > TWIN / 2
     assert close is (seated or (been and not never))
+
+
+@pytest.mark.parametrize(
+    ("farther", "aside", "seated"),
+    [
+        (0.002, 0.006, True),
+        (0.006, 0.006, False),  # it was on its hold, and has stopped on its flare now
+        (0.006, 0.030, True),  # it had passed it by
+        (-0.010, 0.006, True),  # it had stopped on its flare, and is home now
+    ],
+)
+def test_a_hook_that_has_come_farther_in_an_earlier_try_is_not_home(
+    monkeypatch: pytest.MonkeyPatch, farther: float, aside: float, seated: bool
+) -> None:
+    monkeypatch.setattr(hook, "move_tip", lambda *_: True)
+    monkeypatch.setattr(hook, "push_on", lambda *_: True)
+    g, hold, tip = np.array((0.0, -1.0)), np.zeros(2), np.array((0.0, -0.002))
+    body = SimpleNamespace(q=np.ones((1, 2)), tip=lambda i: tip)
+    climber = SimpleNamespace(body=body, holds={1: hold}, hangs=False)
+    before = [tip + farther * g + np.array((aside, 0.0))]
+    found = Approach(np.zeros(2), np.zeros((1, 2)), g, 0.03)
+    assert hook.close(cast(Climber, climber), 0, hold, 0.007, found, hold, before) is seated
+
+
+@pytest.mark.parametrize(("off", "home"), [(0.004, True), (0.008, True), (0.012, True), (0.03, False)])
+def test_a_hook_that_has_slid_back_on_its_hold_is_pushed_home_from_there(off: float, home: bool) -> None:
+    climber, plant = on_the_ladder()
+    climber.wait(0.5)
+    body, task = climber.body, climber.body.tasks[BOTTOM]
+    assert move_tip(climber, BOTTOM, body.tip(BOTTOM) - off * body.grab_direction(BOTTOM), 0.3)
+    climber.wait(0.1)
+    task.doing = "cling"
+    before = float(np.hypot(*(plant.truth().tips[BOTTOM] - climber.holds[2])))
+    assert before == pytest.approx(off, abs=0.006)
+    if not home:  # something lies in its way
+        climber.holds[2] = climber.holds[2] + np.array((0.0, 0.06))
+        task.place = climber.holds[2].copy()
+    assert press_on(climber, BOTTOM) is home
+    assert (task.hold, task.doing, task.side) == (2, "cling", 0)
+    if home:
+        assert float(np.hypot(*(plant.truth().tips[BOTTOM] - climber.holds[2]))) < 0.004
+        assert climber.latest == BOTTOM and not climber.proven
 
 
 @pytest.mark.parametrize("direction", (-150, -120, -90, -60))
@@ -496,10 +539,11 @@ def test_a_hook_goes_straight_to_where_its_hold_may_be_however_straight_its_limb
     assert abs(asides[0]) < 0.006  # the flare of a hook catches 15 mm either way, the map is off by 9 mm
 
 
+@pytest.mark.parametrize("goes_home", [True, False])
 @pytest.mark.parametrize("takes_it", [True, False])
 @pytest.mark.parametrize("off", [(0.0, 0.012), (0.0, -0.03), (0.025, 0.0)], ids=["back", "beyond", "aside"])
 def test_a_hold_that_a_clinging_limb_has_slid_off_is_taken_again_before_another_limb_acts(
-    monkeypatch: pytest.MonkeyPatch, takes_it: bool, off: tuple[float, float]
+    monkeypatch: pytest.MonkeyPatch, takes_it: bool, goes_home: bool, off: tuple[float, float]
 ) -> None:
     plan = open_plan("ladder-hand")
     course = lay_course(climbing_task(plan.task), plan.plan)
@@ -516,6 +560,11 @@ def test_a_hold_that_a_clinging_limb_has_slid_off_is_taken_again_before_another_
         tip=lambda i: np.array(off) if i == slid else np.zeros(2),
     )
     took: list[tuple[int, int]] = []
+    pressed: list[int] = []
+
+    def press(_: Climber, i: int) -> bool:
+        pressed.append(i)
+        return goes_home
 
     def take(_: Climber, i: int, number: int, *, elbow: int) -> Grabbed:
         took.append((i, number))
@@ -525,9 +574,15 @@ def test_a_hold_that_a_clinging_limb_has_slid_off_is_taken_again_before_another_
         tasks[i].hold = 0
 
     monkeypatch.setattr(actor, "grab", take)
+    monkeypatch.setattr(actor, "press_on", press)
     monkeypatch.setattr(actor, "release", let)
     climber = SimpleNamespace(robot=course.task.robot, body=body, hangs=False)
     outcome, _, why = actor.Actor(cast(Climber, climber), course).carry_out(step, step)
+    # back in its slot, or off its hold
+    assert pressed == ([slid] if off == (0.0, 0.012) else [])
+    if pressed and goes_home:
+        assert (took, outcome) == ([], "ok")
+        return
     assert took == [(slid, tasks[slid].hold)]
     assert outcome == ("ok" if takes_it else "missed")
     assert ("slid off" in why) is not takes_it

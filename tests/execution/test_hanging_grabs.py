@@ -230,18 +230,19 @@ def test_a_tip_goes_straight_to_a_place_and_stops_pulling_where_it_is_held(wall:
     assert task.speed == pytest.approx(np.zeros(2))
 
 
-@pytest.mark.parametrize(("short", "before", "seated"), [
-    (0.003, [], True), (0.011, [], False), (0.011, [0.0], True), (0.011, [0.006], False), (0.016, [0.0], False),
+@pytest.mark.parametrize(("short", "before", "hangs", "seated"), [
+    (0.003, [], False, True), (0.011, [], False, False), (0.011, [0.0], False, True), (0.011, [0.006], False, False),
+    (0.016, [0.0], False, False), (0.011, [], True, True), (0.012, [], True, False), (-0.014, [], True, True),
 ])  # fmt: skip
-def test_a_hook_that_stops_short_is_seated_where_it_stops_there_again(
-    monkeypatch: pytest.MonkeyPatch, short: float, before: list[float], seated: bool
+def test_a_hook_that_stops_short_is_seated_where_it_stops_there_again_or_the_body_hangs(
+    monkeypatch: pytest.MonkeyPatch, short: float, before: list[float], hangs: bool, seated: bool
 ) -> None:
     g, hold = np.array((0.0, 1.0)), np.array((1.0, 0.5))
     tip = hold - short * g
     monkeypatch.setattr(hook, "move_tip", lambda climber, i, place, seconds: True)
     monkeypatch.setattr(hook, "push_on", lambda climber, i, place, g, room: True)
     body = SimpleNamespace(tip=cast("Callable[[int], Floats]", lambda i: tip), q=np.ones((3, 2)))
-    climber = SimpleNamespace(body=body, holds={1: hold}, hangs=False)
+    climber = SimpleNamespace(body=body, holds={1: hold}, hangs=hangs)
     found = Approach(np.zeros(2), np.zeros((1, 2)), g, 0.05)
     ends = [tip + np.array((off, 0.0)) for off in before]
     assert hook.close(cast(Climber, climber), LEFT, hold, 0.01, found, hold, ends) == seated

@@ -9,7 +9,7 @@ from ...types import Floats
 from ..run_report import Outcome
 from .climber import Climber, Grabbed
 from .course import Course, swings
-from .ends import grab, release
+from .ends import grab, press_on, release
 from .hang import Hang
 from .hook import may_stay
 from .let_go import let_go
@@ -124,7 +124,8 @@ class Actor:
             if i == acts or task.doing != "cling":
                 continue
             off = task.place - body.tip(i)
-            if float(off @ body.grab_direction(i)) < SLID[0] and float(np.hypot(*off)) < SLID[1]:
+            far = float(np.hypot(*off)) > SLID[1]
+            if not far and (float(off @ body.grab_direction(i)) < SLID[0] or press_on(self.climber, i)):
                 continue
             number, side = task.hold, int(math.copysign(1, body.q[i, 1]))
             if not grab(self.climber, i, number, elbow=side).held:

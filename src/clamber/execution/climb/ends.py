@@ -22,6 +22,15 @@ def grab(climber: Climber, i: int, number: int, *, elbow: int = 0, home: Floats 
     return grabbing.grab(climber, i, number, end, elbow=elbow, home=home)
 
 
+def press_on(climber: Climber, i: int) -> bool:
+    """Bring limb `i`, which has slid on its hold, but not off it, home from where it is; whether it holds (`grabbing.press_on`).
+
+    Raises:
+        FallenError: If the robot falls.
+    """
+    return grabbing.press_on(climber, i, ENDS[climber.robot.limbs[i].end.kind])
+
+
 def release(climber: Climber, i: int) -> None:
     """Take limb `i` off its hold; the others carry.
 

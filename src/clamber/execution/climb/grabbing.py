@@ -1,5 +1,6 @@
 """The outline of a grab, whatever a limb ends in: off the old hold, near the new one, closed there in one place after another."""
 
+import math
 from collections.abc import Iterable, Sequence
 from typing import Final, Protocol
 
@@ -41,6 +42,9 @@ class End(Protocol):
         before: Sequence[Floats],
     ) -> bool:
         """Close on a place; whether it holds. `before`: where the tip ended in this grab's earlier tries, world frame [m]."""
+
+    def press_on(self, climber: Climber, i: int, hold: Floats, doubt: float) -> bool:
+        """Bring an end that has slid on its hold, but not off it, home from where it is; whether it holds."""
 
     def back_off(self, climber: Climber, i: int, hold: Floats, doubt: float, found: Approach) -> None:
         """Come off where it did not."""
@@ -85,12 +89,7 @@ def grab(climber: Climber, i: int, number: int, end: End, *, elbow: int = 0, hom
         off = ends[-1] - hold
         along, across = float(x * off[0] + y * off[1]), float(x * off[1] - y * off[0])
         if holds:
-            climber.learn(number, i, climber.holding())
-            climber.latest, climber.proven = i, False
-            task.hold, task.place = number, climber.holds[number].copy()
-            if not task.pressed:  # else a body that hangs leans on it, until both carry
-                task.doing, task.side = "cling", 0
-            climber.wait(HELD)
+            _take(climber, i, number)
             return Grabbed(True, len(ends), along, across)
         end.back_off(climber, i, hold, doubt, found)
         if climber.hangs:
@@ -98,3 +97,36 @@ def grab(climber: Climber, i: int, number: int, end: End, *, elbow: int = 0, hom
     task.stay(body.q[i])
     task.side = 0
     return Grabbed(False, len(ends), along, across)
+
+
+def press_on(climber: Climber, i: int, end: End) -> bool:
+    """Bring a limb that has slid on its hold, but not off it, home from where it is; whether it holds. It clings as before where not.
+
+    Args:
+        climber: The robot; others hold it.
+        i: Index of the limb.
+        end: What the limb ends in.
+
+    Raises:
+        FallenError: If the robot falls.
+    """
+    body, task = climber.body, climber.body.tasks[i]
+    number = task.hold
+    task.hold, task.side = 0, int(math.copysign(1, body.q[i, 1]))
+    held = end.press_on(climber, i, climber.holds[number].copy(), climber.doubt(number, i))
+    if held:
+        _take(climber, i, number)
+    else:
+        task.hold, task.doing, task.side = number, "cling", 0
+    return held
+
+
+def _take(climber: Climber, i: int, number: int) -> None:
+    """Count limb `i` as on a hold that it has just taken: the map learns from it, and it clings there."""
+    task = climber.body.tasks[i]
+    climber.learn(number, i, climber.holding())
+    climber.latest, climber.proven = i, False
+    task.hold, task.place = number, climber.holds[number].copy()
+    if not task.pressed:  # else a body that hangs leans on it, until both carry
+        task.doing, task.side = "cling", 0
+    climber.wait(HELD)

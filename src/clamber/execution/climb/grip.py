@@ -66,6 +66,11 @@ def close(
     return bool(climber.gripped[i]) and _holds(climber, i, found.grab)
 
 
+def press_on(climber: Climber, i: int, hold: Floats, doubt: float) -> bool:
+    """Jaws that do not hold any more have to come anew."""
+    return False
+
+
 def back_off(climber: Climber, i: int, hold: Floats, doubt: float, found: Approach) -> None:
     """Open the jaws, and back to where they came in from."""
     climber.grips[i] = 0

@@ -40,11 +40,17 @@ FORTH: Final = (0.2, 0.9)
 gears make heavy, would knock other hooks off [s]."""
 SHALLOW: Final = (0.010, 0.015)
 """A hook that stops the first of these before its hold may rest on its flare against it, however hard it is pushed, and slip off later:
-it counts as seated where it comes to the same place once more, pushed on from elsewhere; at the second it doesn't at all. So far
-beyond its hold it may have passed it by, and lean on it with the limb [m]."""
+it counts as seated where it comes to the same place once more, pushed on from elsewhere; at the second it doesn't at all [m]."""
 FAR_OFF: Final = (0.006, 0.012)
 """Likewise one that stops, beyond what the hold is in doubt by, the first of these off it, or the second in all, any way: it may lie on
 it with the outer end of its flare [m]."""
+PASSED: Final = 0.013
+"""One that stops beyond its hold, so far off in all: it may have passed it by, and lean on it with the limb [m]."""
+DEEPER: Final = 0.004
+"""Likewise one that has come so much farther in an earlier try: nothing goes farther onto its hold than a hook that is home [m]."""
+FROM_A_HANG: Final = 0.0115
+"""From a body that hangs one that stops less than this before its hold, and where that may be, is home: taken off to be tried again, a
+hook that was sets the body swinging, and few were not [m]."""
 AT_FULL_REACH: Final = (math.radians(25.0), 0.006, 0.003)
 """A limb whose elbow is straighter than the first may have stopped at the end of its reach, not on its hold: it has if it stops the second
 before, and may have where it stops so far off, or the third before [m]."""
@@ -93,10 +99,21 @@ def close(
     """Push the hook on at a place; whether it came to rest where the hold may be, and not on its flare."""
     if not move_tip(climber, i, place - (NEAR + doubt) * found.grab, FORTH[bool(before)]):
         return False
+    return _comes_home(climber, i, hold, doubt, found.grab, place, before)
+
+
+def press_on(climber: Climber, i: int, hold: Floats, doubt: float) -> bool:
+    """Push a hook that has slid back, but not off its hold, home from where it is; whether it came to rest there."""
+    return _comes_home(climber, i, hold, doubt, climber.body.grab_direction(i), hold, ())
+
+
+def _comes_home(
+    climber: Climber, i: int, hold: Floats, doubt: float, g: Floats, place: Floats, before: Sequence[Floats]
+) -> bool:
     room = SLACK + doubt
-    stopped = push_on(climber, i, place, found.grab, room)
+    stopped = push_on(climber, i, place, g, room)
     tip = climber.body.tip(i)
-    short = float((hold - tip) @ found.grab)
+    short = float((hold - tip) @ g)
     off = math.dist(tip, hold)
     if not stopped or off > room or short > SHALLOW[1]:
         return False
@@ -107,10 +124,13 @@ def close(
     straight = abs(climber.body.q.item(i, 1)) < AT_FULL_REACH[0] and not climber.hangs
     if straight and short > AT_FULL_REACH[1]:
         return False
-    home = abs(short) < SHALLOW[0] and off < min(FAR_OFF[0] + doubt, FAR_OFF[1])
+    home = short < SHALLOW[0] and off < min(FAR_OFF[0] + doubt, FAR_OFF[1] if short > 0.0 else PASSED)
     if straight:
         home = off < AT_FULL_REACH[1] and short < AT_FULL_REACH[2]
-    return home or any(math.dist(tip, end) < SAME for end in before)
+    elif climber.hangs:
+        home = short < FROM_A_HANG
+    farther = any(float((end - tip) @ g) > DEEPER and math.dist(end, hold) < room for end in before)
+    return (home and not farther) or any(math.dist(tip, end) < SAME for end in before)
 
 
 def back_off(climber: Climber, i: int, hold: Floats, doubt: float, found: Approach) -> None:

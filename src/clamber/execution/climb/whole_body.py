@@ -28,7 +28,7 @@ LOAD_TIME: Final = 0.15
 """Time over which the load of a limb that pulls is evened out: a dither's own load moves no joint through its play [s]."""
 STRETCHED: Final = math.radians(15.0)
 """An elbow nearer to straight than this is soft and may pass to the other side [rad]."""
-HANDING_OVER: Final = 0.5
+HANDING_OVER: Final = 0.4
 """Time in which the load passes from the limbs that carried to those that will [s]."""
 
 BENT: Final = math.radians(12.0)
@@ -189,7 +189,9 @@ class WholeBody:
     def _pass_load(self) -> None:
         """One tick of a hand-over; how much each limb that holds says about where the body is."""
         if self.handing_over:
-            self._handed = min(1.0, self._handed + self.period / HANDING_OVER)
+            step = self.period / HANDING_OVER
+            # sums of steps miss 1 by rounding: a tick more, with all of the load passed, would be no hand-over to the compiled tick
+            self._handed = self._handed + step if self._handed + 1.5 * step < 1.0 else 1.0
             if self._handed == 1.0:
                 for i, task in enumerate(self.tasks):
                     if self.held[i] and not self._carriers[1, i]:
