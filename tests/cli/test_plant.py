@@ -48,9 +48,9 @@ def client(*words: str) -> "subprocess.Popen[str]":
     raise AssertionError(f"it never began: {process.communicate()}")
 
 
-def said_until(stream: Any, word: str) -> str:
-    """What a process says up to a line with a word."""
-    said, until = "", time.monotonic() + PATIENCE
+def said_until(stream: Any, word: str, patience: float = PATIENCE) -> str:
+    """What a process says up to a line with a word, or for so long [s]."""
+    said, until = "", time.monotonic() + patience
     while word not in said and time.monotonic() < until:
         if select.select([stream], [], [], 1.0)[0]:
             said += os.read(stream.fileno(), 4096).decode()
@@ -111,8 +111,13 @@ def test_a_client_that_stalls_finds_a_real_time_plant_stopped(tmp_path: Path) ->
     plan, log = plan_file(tmp_path, 300, 3), tmp_path / "run.csv"
     with served("ladder", "--real-time", "--pace", "0.4", "--set", "plant.delay=0") as (server, address):
         stalled = client(plan, "--plant", address, "-o", str(log), "--json")
-        stalled.send_signal(signal.SIGSTOP)
-        said = said_until(server.stderr, "held for")
+        said, until = "", time.monotonic() + PATIENCE
+        while "safe stop" not in said and time.monotonic() < until:  # one that thinks has said so, and may be silent
+            stalled.send_signal(signal.SIGCONT)
+            time.sleep(0.05)
+            stalled.send_signal(signal.SIGSTOP)
+            said += said_until(server.stderr, "safe stop", patience=1.0)
+        said += said_until(server.stderr, "held for")
         assert "no command came for two ticks" in said and moved(said) < 1.0
         stalled.send_signal(signal.SIGCONT)
         out, _ = stalled.communicate(timeout=PATIENCE)
