@@ -414,6 +414,55 @@ def _distance(a: Floats, b: Floats, point: Floats) -> float:
     return float(np.hypot(*(a + along * (b - a) - point)))
 
 
+def stretched(climber: Climber, degrees: float) -> Floats:
+    """Bring the bottom limb, free, to where its elbow is bent by so much, below the body; where it points, unit vector."""
+    climber.wait(0.5)
+    release(climber, BOTTOM)
+    body, limb = climber.body, climber.robot.limbs[BOTTOM]
+    bend = math.radians(degrees)
+    reach = math.sqrt(limb.l1**2 + limb.l2_effective**2 + 2.0 * limb.l1 * limb.l2_effective * math.cos(bend))
+    down = np.array((math.cos(-2.0), math.sin(-2.0)))
+    place = body.settled[:2] + (limb.port_x, limb.port_y) + reach * down
+    there = next(one for one in postures(limb, body.settled, place) if one.angles[1] < 0.0)
+    assert follow(climber, BOTTOM, np.array((body.q[BOTTOM], there.angles)))
+    climber.wait(0.2)
+    return down
+
+
+@pytest.mark.parametrize("degrees", (7.0, 12.0, 20.0))
+def test_a_nearly_straight_limb_draws_its_hook_straight_back(degrees: float) -> None:
+    """By its tip's law the elbow, which is to bend at once, was thrown: the hook went 60 mm aside and past the hold."""
+    climber, plant = on_the_ladder()
+    down = stretched(climber, degrees)
+    start, where, tick = plant.truth().tips[BOTTOM], [], climber.tick
+
+    def watched() -> None:
+        tick()
+        where.append(plant.truth().tips[BOTTOM] - start)
+
+    climber.tick = watched  # type: ignore[method-assign]
+    assert hook._comes_to(climber, BOTTOM, climber.body.tip(BOTTOM) - 0.05 * down)
+    climber.tick = tick  # type: ignore[method-assign]
+    way = np.array(where)
+    along, aside = -way @ down, way @ np.array((-down[1], down[0]))
+    assert along.max() < 0.06 and along[-1] > 0.04
+    assert np.abs(aside).max() < 0.015
+
+
+@pytest.mark.parametrize("end", (-0.006, 0.0, 0.006))
+def test_after_a_miss_a_hook_is_pushed_on_the_other_side_of_its_hold_first(end: float) -> None:
+    g, hold = np.array((0.0, -1.0)), np.array((1.0, 0.5))
+    found, before = Approach(np.zeros(2), np.zeros((1, 2)), g, 0.03), []
+    tries = hook.places(cast(Climber, None), 0, hold, 0.01, found, before)
+    aims = [next(tries)]
+    before.append(hold + np.array((end, 0.01)))
+    aims += list(tries)
+    asides = [float(aim[0] - hold[0]) for aim in aims]
+    side = 1.0 if end < 0.0 else -1.0
+    assert asides == pytest.approx([0.0, 0.008 * side, -0.008 * side, 0.014 * side, -0.014 * side, 0.0])
+    assert all(aim[1] == hold[1] for aim in aims)
+
+
 TWIN = 0.025
 """Distance of the hold beyond the one that is to be taken [m]."""
 

@@ -170,12 +170,18 @@ def test_a_hook_that_missed_goes_back_the_way_it_came(
     climber = SimpleNamespace(body=SimpleNamespace(tip=cast("Callable[[int], Floats]", lambda i: places[-1])))
     found = Approach(np.zeros(2), np.zeros((1, 2)), g, 0.05)
     hook.back_off(cast(Climber, climber), LEFT, hold, 0.004, found)
+    assert places[-1] == pytest.approx(hold - 0.05 * g)
+    if (
+        past > 0.012
+    ):  # it has passed the hold by, whose other side it was to come to: farther aside, lest it catch there on its way back
+        assert (places[1] - places[0]) @ h == pytest.approx(0.02 if aside == 0.0 else np.copysign(0.02, aside))
+        assert (places[1] - places[0]) @ g == pytest.approx(0.0, abs=1e-12)
+        places.pop(0)
     for start, end in pairwise(places):
         along, across = (end - start) @ g, (end - start) @ h
         deep = max((start - hold) @ g, (end - hold) @ g)
         # beside or beyond the hold only straight back; across only where the whole hook is before it
         assert (abs(across) < 1e-12 and along < 0.0) or deep == pytest.approx(-0.05)
-    assert places[-1] == pytest.approx(hold - 0.05 * g)
 
 
 @pytest.mark.parametrize("free_side", [-1.0, 1.0])
@@ -208,7 +214,9 @@ def test_a_hook_whose_flare_catches_on_its_way_back_goes_aside_and_back_from_the
 
 
 @pytest.mark.parametrize("wall", [0.02, 0.05, 1.0])
-def test_a_tip_goes_straight_to_a_place_and_stops_pulling_where_it_is_held(wall: float) -> None:
+def test_a_tip_goes_straight_to_a_place_and_stops_pulling_where_it_is_held(
+    monkeypatch: pytest.MonkeyPatch, wall: float
+) -> None:
     start, way = np.array((0.3, 0.2)), np.array((0.6, -0.8))
     tip, task, farthest = start.copy(), SimpleNamespace(doing="joints", place=start, speed=np.zeros(2)), 0.0
 
@@ -220,8 +228,11 @@ def test_a_tip_goes_straight_to_a_place_and_stops_pulling_where_it_is_held(wall:
         tip[:] -= max(beyond, 0.0) * way
         farthest = max(farthest, float((task.place - tip) @ way))
 
-    body = SimpleNamespace(tasks=[task], tip=lambda i: tip.copy(), pose=np.zeros(3))
-    climber = SimpleNamespace(body=body, plant=SimpleNamespace(period=0.005), tick=tick, hangs=True, holding=list)
+    body = SimpleNamespace(tasks=[task], tip=lambda i: tip.copy(), pose=np.zeros(3), q=np.ones((1, 2)))
+    climber = SimpleNamespace(
+        body=body, plant=SimpleNamespace(period=0.005), tick=tick, hangs=False, holding=lambda: [1, 2], fall=None
+    )
+    monkeypatch.setattr(hook, "PushedBody", lambda _: SimpleNamespace(gives_way=lambda i: False))
     there = hook._comes_to(cast(Climber, climber), 0, start + 0.1 * way)
     assert there == (wall > 0.1)
     assert (tip - start) @ way == pytest.approx(min(wall, 0.1), abs=0.011)
@@ -232,7 +243,8 @@ def test_a_tip_goes_straight_to_a_place_and_stops_pulling_where_it_is_held(wall:
 
 @pytest.mark.parametrize(("short", "before", "hangs", "seated"), [
     (0.003, [], False, True), (0.011, [], False, False), (0.011, [0.0], False, True), (0.011, [0.006], False, False),
-    (0.016, [0.0], False, False), (0.011, [], True, True), (0.012, [], True, False), (-0.014, [], True, True),
+    (0.016, [0.0], False, False), (0.011, [], True, True), (0.012, [], True, False), (0.012, [0.0], True, True),
+    (0.013, [0.0], True, False), (-0.014, [], True, True),
 ])  # fmt: skip
 def test_a_hook_that_stops_short_is_seated_where_it_stops_there_again_or_the_body_hangs(
     monkeypatch: pytest.MonkeyPatch, short: float, before: list[float], hangs: bool, seated: bool
@@ -240,12 +252,30 @@ def test_a_hook_that_stops_short_is_seated_where_it_stops_there_again_or_the_bod
     g, hold = np.array((0.0, 1.0)), np.array((1.0, 0.5))
     tip = hold - short * g
     monkeypatch.setattr(hook, "move_tip", lambda climber, i, place, seconds: True)
-    monkeypatch.setattr(hook, "push_on", lambda climber, i, place, g, room: True)
+    pushed: list[float] = []
+    monkeypatch.setattr(hook, "push_on", lambda climber, i, place, g, room: not pushed.append(room))
+    faded: list[int] = []
+    monkeypatch.setattr(hook, "_fade", lambda climber, i: faded.append(i))
     body = SimpleNamespace(tip=cast("Callable[[int], Floats]", lambda i: tip), q=np.ones((3, 2)))
     climber = SimpleNamespace(body=body, holds={1: hold}, hangs=hangs)
     found = Approach(np.zeros(2), np.zeros((1, 2)), g, 0.05)
     ends = [tip + np.array((off, 0.0)) for off in before]
     assert hook.close(cast(Climber, climber), LEFT, hold, 0.01, found, hold, ends) == seated
+    # from a hang it is pushed again once its pull has faded, before it is taken off
+    assert (len(pushed), faded) == ((2, [LEFT, LEFT]) if hangs and not seated else (1, []))
+
+
+def test_a_pull_fades_to_nothing_within_a_swing() -> None:
+    task, forces = SimpleNamespace(force=np.array((6.0, -8.0))), [np.array((6.0, -8.0))]
+    climber = SimpleNamespace(
+        body=SimpleNamespace(tasks=[task]),
+        plant=SimpleNamespace(period=0.005),
+        tick=lambda: forces.append(task.force.copy()),
+    )
+    hook._fade(cast(Climber, climber), 0)
+    sizes = np.hypot(*np.array(forces).T)
+    assert len(forces) == 201 and sizes[-1] == 0.0
+    assert np.diff(sizes) == pytest.approx(-0.05)
 
 
 def test_a_hang_that_a_slip_has_led_to_is_taken_up_by_the_plan(

@@ -28,8 +28,10 @@ class End(Protocol):
     ) -> Approach | None:
         """Move the body to where there is a way for the limb, and find the way from there; None where there is none."""
 
-    def places(self, climber: Climber, i: int, hold: Floats, doubt: float, found: Approach) -> Iterable[Floats]:
-        """Where each try closes, world frame [m]."""
+    def places(
+        self, climber: Climber, i: int, hold: Floats, doubt: float, found: Approach, before: Sequence[Floats]
+    ) -> Iterable[Floats]:
+        """Where each try closes, world frame [m]. `before`: where the tip ended in those so far, which grows meanwhile."""
 
     def close(
         self,
@@ -83,7 +85,7 @@ def grab(climber: Climber, i: int, number: int, end: End, *, elbow: int = 0, hom
     task.side = elbow  # one that misses is drawn straight, and would fold the other way
     along, across = 0.0, 0.0
     ends: list[Floats] = []
-    for place in end.places(climber, i, hold, doubt, found):
+    for place in end.places(climber, i, hold, doubt, found, ends):
         holds = end.close(climber, i, hold, doubt, found, place, ends)
         ends.append(body.tip(i))
         off = ends[-1] - hold

@@ -46,7 +46,9 @@ def come_near(climber: Climber, i: int, number: int, doubt: float, elbow: int, h
     return found
 
 
-def places(climber: Climber, i: int, hold: Floats, doubt: float, found: Approach) -> Iterator[Floats]:
+def places(
+    climber: Climber, i: int, hold: Floats, doubt: float, found: Approach, before: Sequence[Floats]
+) -> Iterator[Floats]:
     """Where each try closes: at the hold as believed, then around it."""
     g = found.grab
     for forth, aside in AROUND:

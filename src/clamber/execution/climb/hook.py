@@ -12,7 +12,8 @@ from .climber import Climber
 from .hook_push import push_on
 from .hook_release import release as release
 from .hook_release import stand_off_of
-from .motions import may_move, move_body, move_tip
+from .motions import follow, may_move, move_body, move_tip
+from .postures import postures
 from .pushed_body import PushedBody
 
 NEAR: Final = 0.022
@@ -33,6 +34,8 @@ CAUGHT: Final = 0.01
 """A hook that stays so far from where it is to be is caught [m] ..."""
 NO_WAY: Final = (0.002, 0.15)
 """... when it has come no farther than the first of these for the second [m], [s]."""
+STEP: Final = 0.01
+"""Between postures on the way of a hook that its joints bring straight back [m]."""
 BACK_SPEED: Final = 0.05
 """Of a hook on its way back: slow, for what it is caught on it pulls at no harder then [m/s]."""
 FORTH: Final = (0.2, 0.9)
@@ -48,9 +51,11 @@ PASSED: Final = 0.013
 """One that stops beyond its hold, so far off in all: it may have passed it by, and lean on it with the limb [m]."""
 DEEPER: Final = 0.004
 """Likewise one that has come so much farther in an earlier try: nothing goes farther onto its hold than a hook that is home [m]."""
-FROM_A_HANG: Final = 0.0115
-"""From a body that hangs one that stops less than this before its hold, and where that may be, is home: taken off to be tried again, a
-hook that was sets the body swinging, and few were not [m]."""
+FROM_A_HANG: Final = (0.0115, 0.0125)
+"""From a body that hangs one that stops less than the first before its hold, and where that may be, is home: taken off to be tried again, a
+hook that was sets the body swinging, and few were not. At the second it isn't, even where it comes there again [m]."""
+FADING: Final = 1.0
+"""In which the pull of one that is not home goes down there, about a swing [s]."""
 AT_FULL_REACH: Final = (math.radians(25.0), 0.006, 0.003)
 """A limb whose elbow is straighter than the first may have stopped at the end of its reach, not on its hold: it has if it stops the second
 before, and may have where it stops so far off, or the third before [m]."""
@@ -86,11 +91,14 @@ def come_near(climber: Climber, i: int, number: int, doubt: float, elbow: int, h
     return None
 
 
-def places(climber: Climber, i: int, hold: Floats, doubt: float, found: Approach) -> Iterator[Floats]:
-    """Where each try aims: at the hold as believed, then beside it, across the hook."""
+def places(
+    climber: Climber, i: int, hold: Floats, doubt: float, found: Approach, before: Sequence[Floats]
+) -> Iterator[Floats]:
+    """Where each try aims: at the hold as believed, then beside it, across the hook, first on the other side of where it missed."""
     across = np.array((-found.grab[1], found.grab[0]))
     for part in ASIDE:
-        yield hold + part * doubt * across
+        side = -math.copysign(1.0, float((before[0] - hold) @ across)) if before else 1.0
+        yield hold + side * part * doubt * across
 
 
 def close(
@@ -99,7 +107,16 @@ def close(
     """Push the hook on at a place; whether it came to rest where the hold may be, and not on its flare."""
     if not move_tip(climber, i, place - (NEAR + doubt) * found.grab, FORTH[bool(before)]):
         return False
-    return _comes_home(climber, i, hold, doubt, found.grab, place, before)
+    if _comes_home(climber, i, hold, doubt, found.grab, place, before):
+        return True
+    if not climber.hangs:
+        return False
+    # as the pull fades the body comes back, and draws a hook that has caught with its flare across its hold
+    _fade(climber, i)
+    if _comes_home(climber, i, hold, doubt, found.grab, place, before):
+        return True
+    _fade(climber, i)
+    return False
 
 
 def press_on(climber: Climber, i: int, hold: Floats, doubt: float) -> bool:
@@ -115,7 +132,9 @@ def _comes_home(
     tip = climber.body.tip(i)
     short = float((hold - tip) @ g)
     off = math.dist(tip, hold)
-    if not stopped or off > room or short > SHALLOW[1]:
+    again = any(math.dist(tip, end) < SAME for end in before)
+    shallow = FROM_A_HANG if climber.hangs else SHALLOW
+    if not stopped or off > (SHALLOW[1] if again else room) or short > shallow[1]:
         return False
     # twins are nearer to each other than the doubt
     if any(math.dist(tip, other) < off for other in climber.holds.values()):
@@ -124,25 +143,37 @@ def _comes_home(
     straight = abs(climber.body.q.item(i, 1)) < AT_FULL_REACH[0] and not climber.hangs
     if straight and short > AT_FULL_REACH[1]:
         return False
-    home = short < SHALLOW[0] and off < min(FAR_OFF[0] + doubt, FAR_OFF[1] if short > 0.0 else PASSED)
+    home = short < shallow[0]
     if straight:
         home = off < AT_FULL_REACH[1] and short < AT_FULL_REACH[2]
-    elif climber.hangs:
-        home = short < FROM_A_HANG
+    elif not climber.hangs:
+        home = home and off < min(FAR_OFF[0] + doubt, FAR_OFF[1] if short > 0.0 else PASSED)
     farther = any(float((end - tip) @ g) > DEEPER and math.dist(end, hold) < room for end in before)
-    return (home and not farther) or any(math.dist(tip, end) < SAME for end in before)
+    return (home and not farther) or again
+
+
+def _fade(climber: Climber, i: int) -> None:
+    """Let a hook pull less and less, until not at all: let go of at once, a body that it has drawn aside swings."""
+    task, force = climber.body.tasks[i], climber.body.tasks[i].force.copy()
+    count = round(FADING / climber.plant.period)
+    for k in range(count):
+        task.force = (1.0 - (k + 1) / count) * force
+        climber.tick()
 
 
 def back_off(climber: Climber, i: int, hold: Floats, doubt: float, found: Approach) -> None:
     """Bring the hook off where it missed: back the way it came, for the hold may be beside it by now, then to before the hold.
 
-    Where a lip of its flare catches below the hold, it goes to the one side first, then to the other.
+    Where a lip of its flare catches below the hold, it goes to the one side first, then to the other; so does one that has passed the hold
+    by, before it goes back: on its way there it had not caught, but hooks catch on their way back.
     """
     away, g, tip = stand_off_of(climber, i, doubt), found.grab, climber.body.tip(i)
     across = np.array((-g[1], g[0]))
     deep = float((tip - hold) @ g) + away
     side = math.copysign(CLEAR, float((tip - hold) @ across))  # the hold is more likely on the other one
-    for aside in (0.0, side, -side) if deep > 0.0 else ():
+    passed = deep - away > SLACK + doubt
+    sides = (side, 0.0, -side) if passed else (0.0, side, -side)
+    for aside in sides if deep > 0.0 else ():
         start = tip + aside * across
         if aside:
             _comes_to(climber, i, start)
@@ -153,6 +184,8 @@ def back_off(climber: Climber, i: int, hold: Floats, doubt: float, found: Approa
 
 def _comes_to(climber: Climber, i: int, place: Floats) -> bool:
     """Bring a tip straight to a place, or to where something holds it: pulled on, other hooks come off; whether it comes there."""
+    if climber.hangs or abs(climber.body.q.item(i, 1)) < AT_FULL_REACH[0]:
+        return _comes_by_joints(climber, i, place)
     body, period = climber.body, climber.plant.period
     task, start = body.tasks[i], body.tip(i)
     length = math.dist(start, place)
@@ -173,6 +206,17 @@ def _comes_to(climber: Climber, i: int, place: Floats) -> bool:
     there = math.dist(body.tip(i), place) < CAUGHT
     task.place, task.speed = place if there else body.tip(i), np.zeros(2)
     return there
+
+
+def _comes_by_joints(climber: Climber, i: int, place: Floats) -> bool:
+    """The same along the postures between: a nearly straight elbow that is to bend at once is thrown by its tip's law."""
+    body, task, limb = climber.body, climber.body.tasks[i], climber.robot.limbs[i]
+    start, way = body.tip(i), [body.q[i] - body.play[i]]
+    side = task.side or math.copysign(1.0, way[0][1])
+    for part in np.linspace(0.0, 1.0, max(2, math.ceil(math.dist(start, place) / STEP)) + 1)[1:]:
+        fit = postures(limb, body.settled, start + part * (place - start))
+        way += [one.angles for one in fit if one.inside and one.angles[1] * side > 0.0][:1]
+    return len(way) > 1 and follow(climber, i, np.array(way)) and math.dist(body.tip(i), place) < CAUGHT
 
 
 def may_stay(climber: Climber, i: int, pose: Floats) -> bool:
