@@ -99,9 +99,12 @@ def test_a_robot_that_is_pushed_or_lifted_but_not_off_its_holds_has_not_fallen(p
     assert climber.fall.carried > 0.5 * climber.robot.weight
 
 
-@pytest.mark.parametrize(("rate", "told"), [(0.0, False), (0.02, False), (0.5, True)])
+@pytest.mark.parametrize(("rate", "hangs", "told"), [
+    (0.0, False, False), (0.02, False, False), (0.07, False, False), (0.5, False, True),
+    (0.0, True, False), (0.02, True, False), (0.07, True, True), (0.5, True, True),
+])  # fmt: skip
 def test_a_robot_that_stands_still_has_not_fallen_whatever_its_tips_feel(
-    monkeypatch: pytest.MonkeyPatch, rate: float, told: bool
+    monkeypatch: pytest.MonkeyPatch, rate: float, hangs: bool, told: bool
 ) -> None:
     """A link of it lies on a hold; where nothing does, what its motors bore the weight with turns their joints at once."""
     climber, _ = on_the_ladder()
@@ -109,6 +112,8 @@ def test_a_robot_that_stands_still_has_not_fallen_whatever_its_tips_feel(
     monkeypatch.setattr(fall, "feel_forces", lambda *_: 0.1 * climber.robot.weight)
     climber.body.qd[:] = 0.0
     climber.body.qd[0, 1] = rate
+    if hangs:
+        climber.body.tasks[0].doing = "hang"
     assert any(climber.fall.see() for _ in range(100)) is told
 
 

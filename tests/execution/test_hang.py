@@ -12,6 +12,7 @@ import pytest
 from clamber.actions.limbed_plans import thesis_code
 from clamber.actions.plan import Plan
 from clamber.execution.climb.climb_trace import TracedClimber
+from clamber.execution.climb.climber import FallenError
 from clamber.execution.climb.climbing import Climbing
 from clamber.execution.climb.course import alone, climbable, lay_course
 from clamber.execution.climb.hang import LAG
@@ -22,7 +23,7 @@ from clamber.experiments.climb.planning import plan_to_climb
 from clamber.planning.planners import PLANNERS
 from clamber.robots.library import load_robot
 from clamber.robots.limbed import LimbedRobot
-from clamber.sim.climber_model import climber_spec
+from clamber.sim.climber_model import HookShape, climber_spec
 from clamber.sim.climber_plant import ClimberPlant
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.tasks import load_task
@@ -199,6 +200,25 @@ def test_joints_that_cross_their_play_are_hardly_taken_for_a_swing(monkeypatch: 
 def test_a_wide_swing_is_damped_and_its_hook_stays_on() -> None:
     angles = recorded(NOMINAL, math.radians(40.0), 0.5, 18.0)
     assert np.abs(angles[-200:]).max() < math.radians(2.0)
+
+
+@pytest.mark.parametrize("swing", [0.0, 10.0, 40.0])
+@pytest.mark.parametrize("after", [0.5, 1.0, 1.3, 1.7, 3.0])
+def test_a_body_that_falls_from_a_hang_is_told_within_a_fifth_of_a_second(swing: float, after: float) -> None:
+    """Its joints are kept where they are, and turn little as it drops."""
+    held = hang_up(robot(), NOMINAL, POSTURE, swing=math.radians(swing), damping=0.2)
+    climber, plant = held.climber, held.plant
+    climber.wait(after)
+    plant.model.geom_contype[:] = plant.model.geom_conaffinity[:] = 0
+    fell, told = None, False
+    while not told:
+        try:
+            climber.tick()
+        except FallenError:
+            told = True
+        if fell is None and held.off_peg() > HookShape().depth + HookShape().flare:
+            fell = climber.time
+        assert told or fell is None or climber.time - fell < 0.2
 
 
 def test_a_body_rests_once_its_swing_has_died_and_not_before() -> None:

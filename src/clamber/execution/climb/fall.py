@@ -14,6 +14,9 @@ LOOSE: Final = 0.08
 MOVES: Final = 0.1
 """Meanwhile a joint of a limb that holds turns faster than this, as nothing loads it any more: a robot that stands still leans on something
 [rad/s]."""
+WEIGHTLESS: Final = (0.2, 0.05)
+"""One that hangs keeps its joints where they are while it drops. It falls where its tips feel less than this part of the weight [-], and
+these joints have turned faster than this since they began to feel little: what bore the weight has bent them back [rad/s]."""
 SMOOTHED: Final = 0.03
 """Time constant of the felt forces [s]."""
 
@@ -40,10 +43,13 @@ class FallWatch:
         """Sum of their sizes [N]; infinite where a limb that holds cannot tell; others that cannot count as none."""
         self.loose = 0.0
         """How long the tips have been carrying too little [s]."""
+        self._fastest = 0.0
+        """That a joint of a limb that holds has turned meanwhile [rad/s]."""
 
     def reset(self) -> None:
         """Begin anew, as if all were well."""
         self._before[:] = self._felt[:] = 0.0
+        self._fastest = 0.0
         self.loose = -LOOSE  # what the tips feel has to settle first
 
     def see(self) -> bool:
@@ -56,4 +62,10 @@ class FallWatch:
         little = self.carried < self._least
         # a torque that jumps for a tick looks like a force, so one tick that says otherwise does not start the time anew
         self.loose = self.loose + body.period if little else max(self.loose - 2.0 * body.period, 0.0)
-        return self.loose > LOOSE and bool((np.abs(body.qd[body.held > 0]) > MOVES).any())
+        rate = float(np.abs(body.qd[body.held > 0]).max(initial=0.0))
+        self._fastest = max(self._fastest, rate) if self.loose > 0.0 else 0.0
+        if self.loose <= LOOSE:
+            return False
+        hangs = any(task.doing == "hang" for task in body.tasks)
+        drops = hangs and self.carried < WEIGHTLESS[0] * body.robot.weight and self._fastest > WEIGHTLESS[1]
+        return drops or rate > MOVES
