@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from clamber.actions.plan_source import open_plan
-from clamber.execution.climb import actor, hook
+from clamber.execution.climb import actor, hook, hook_back, hook_seat
 from clamber.execution.climb.approach import Approach
 from clamber.execution.climb.climber import Climber, FallenError, Grabbed
 from clamber.execution.climb.course import lay_course
@@ -441,7 +441,7 @@ def test_a_nearly_straight_limb_draws_its_hook_straight_back(degrees: float) -> 
         where.append(plant.truth().tips[BOTTOM] - start)
 
     climber.tick = watched  # type: ignore[method-assign]
-    assert hook._comes_to(climber, BOTTOM, climber.body.tip(BOTTOM) - 0.05 * down)
+    assert hook_back._comes_to(climber, BOTTOM, climber.body.tip(BOTTOM) - 0.05 * down)
     climber.tick = tick  # type: ignore[method-assign]
     way = np.array(where)
     along, aside = -way @ down, way @ np.array((-down[1], down[0]))
@@ -491,7 +491,7 @@ def test_where_a_hook_stops_tells_whether_it_is_on_its_hold(
 ) -> None:
     """One that came there before, pushed on from elsewhere, may be farther off; but not where its limb is straight or on another hold."""
     monkeypatch.setattr(hook, "move_tip", lambda *_: True)
-    monkeypatch.setattr(hook, "push_on", lambda *_: True)
+    monkeypatch.setattr(hook_seat, "push_on", lambda *_: True)
     g = np.array((0.0, -1.0))
     tip = -short * g + np.array((aside, 0.0))
     body = SimpleNamespace(q=np.radians(((0.0, elbow),)), tip=lambda i: tip)
@@ -523,7 +523,7 @@ def test_a_hook_that_has_come_farther_in_an_earlier_try_is_not_home(
     monkeypatch: pytest.MonkeyPatch, farther: float, aside: float, seated: bool
 ) -> None:
     monkeypatch.setattr(hook, "move_tip", lambda *_: True)
-    monkeypatch.setattr(hook, "push_on", lambda *_: True)
+    monkeypatch.setattr(hook_seat, "push_on", lambda *_: True)
     g, hold, tip = np.array((0.0, -1.0)), np.zeros(2), np.array((0.0, -0.002))
     body = SimpleNamespace(q=np.ones((1, 2)), tip=lambda i: tip)
     climber = SimpleNamespace(body=body, holds={1: hold}, hangs=False)
