@@ -447,6 +447,33 @@ def test_a_nearly_straight_limb_draws_its_hook_straight_back(degrees: float) -> 
     along, aside = -way @ down, way @ np.array((-down[1], down[0]))
     assert along.max() < 0.06 and along[-1] > 0.04
     assert np.abs(aside).max() < 0.015
+    assert (
+        np.diff(along).max() / plant.period < 2.0 * hook_back.BACK_SPEED
+    )  # of the tip's law; the joints could thrice that
+
+
+@pytest.mark.parametrize("way", (0.02, 0.04, 0.06))
+def test_a_hook_that_its_joints_draw_back_and_something_holds_gives_way_before_others_come_off(way: float) -> None:
+    """As fast as the joints go, the body was pushed by 16 mm, and hooks came off: here the peg itself holds the hook."""
+    climber, plant = on_the_ladder()
+    climber.wait(0.5)
+    body, before = climber.body, np.array(plant.truth().pose[:2])
+    climber.carry_with_all(but=BOTTOM)
+    body.tasks[BOTTOM].hold = 0
+    body.tasks[BOTTOM].stay(body.q[BOTTOM])
+    pushed, off, tick = [], [], climber.tick
+
+    def watched() -> None:
+        tick()
+        truth = plant.truth()
+        pushed.append(math.dist(truth.pose[:2], before))
+        off.extend(math.dist(truth.tips[i], climber.holds[body.tasks[i].hold]) for i in (RIGHT, LEFT))
+
+    climber.tick = watched  # type: ignore[method-assign]
+    place = body.tip(BOTTOM) + way * body.grab_direction(BOTTOM)
+    assert not hook_back._comes_by_joints(climber, BOTTOM, place)
+    climber.wait(0.3)
+    assert max(pushed) < 0.009 and max(off) < 0.002
 
 
 @pytest.mark.parametrize("end", (-0.006, 0.0, 0.006))

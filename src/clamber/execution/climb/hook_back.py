@@ -10,7 +10,7 @@ from .approach import Approach
 from .climber import Climber
 from .hook_release import stand_off_of
 from .hook_seat import AT_FULL_REACH, SLACK
-from .motions import follow
+from .motions import JOINT_SPEED, follow
 from .postures import postures
 from .pushed_body import PushedBody
 
@@ -74,11 +74,18 @@ def _comes_to(climber: Climber, i: int, place: Floats) -> bool:
 
 
 def _comes_by_joints(climber: Climber, i: int, place: Floats) -> bool:
-    """The same along the postures between: a nearly straight elbow that is to bend at once is thrown by its tip's law."""
+    """The same along the postures between: a nearly straight elbow that is to bend at once is thrown by its tip's law.
+
+    From a hang as fast as joints go: there is no other hook to pull off.
+    """
     body, task, limb = climber.body, climber.body.tasks[i], climber.robot.limbs[i]
     start, way = body.tip(i), [body.q[i] - body.play[i]]
     side = task.side or math.copysign(1.0, way[0][1])
     for part in np.linspace(0.0, 1.0, max(2, math.ceil(math.dist(start, place) / STEP)) + 1)[1:]:
         fit = postures(limb, body.settled, start + part * (place - start))
         way += [one.angles for one in fit if one.inside and one.angles[1] * side > 0.0][:1]
-    return len(way) > 1 and follow(climber, i, np.array(way)) and math.dist(body.tip(i), place) < CAUGHT
+    if len(way) == 1:
+        return False
+    turned = float(np.abs(np.diff(way, axis=0)).max(axis=1).sum())
+    most = JOINT_SPEED if climber.hangs else min(JOINT_SPEED, BACK_SPEED * turned / max(math.dist(start, place), STEP))
+    return follow(climber, i, np.array(way), most=most) and math.dist(body.tip(i), place) < CAUGHT

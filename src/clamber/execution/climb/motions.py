@@ -225,7 +225,9 @@ def move_tip(climber: Climber, i: int, place: Floats, seconds: float) -> bool:
     return True
 
 
-def follow(climber: Climber, i: int, way: Floats, lags: tuple[float, float] = LAG) -> bool:
+def follow(
+    climber: Climber, i: int, way: Floats, lags: tuple[float, float] = LAG, *, most: float = JOINT_SPEED
+) -> bool:
     """Bring a free limb's joints along a way, shape (n, 2) [rad], smoothly from rest to rest; whether it comes to the end.
 
     One that something holds stays there and pulls no more, and one that pushes the body away gives way: they would take other hooks off.
@@ -235,12 +237,13 @@ def follow(climber: Climber, i: int, way: Floats, lags: tuple[float, float] = LA
         i: Index of the limb.
         way: From corner to corner.
         lags: How far behind the limb is slowed down, and waited for [rad].
+        most: Speed of its joints; slower than they can, the limb gives way to less, for the body hardly sways then [rad/s].
     """
     task, period = climber.body.tasks[i], climber.plant.period
     lengths = np.abs(np.diff(way, axis=0)).max(axis=1)
     along = np.concatenate(([0.0], np.cumsum(lengths)))
     blend = max(2, round(BLEND / period))
-    done = at_speed(along[-1], period)
+    done = at_speed(along[-1], period, most)
     angles = np.stack([np.interp(done, along, way[:, j]) for j in range(2)], axis=1)
     # rounded corners: a turn on the spot throws the body about
     window = np.hanning(blend + 2)[1:-1]
@@ -252,7 +255,7 @@ def follow(climber: Climber, i: int, way: Floats, lags: tuple[float, float] = LA
     task.doing = "joints"
     body = climber.body
     q, waited, gone, last = body.q[i], 0.0, 0.0, len(smooth) - 1
-    stands, speed, watch = 0.0, 1.0, PushedBody(climber, brisk=True)
+    stands, speed, watch = 0.0, 1.0, PushedBody(climber, brisk=most >= JOINT_SPEED)
     while gone < last:
         # a limb that lags with one joint more than the other leaves its way, and knocks against what it was to go round
         lag = float(np.abs(task.angles - q).max()) if gone else 0.0
@@ -292,9 +295,9 @@ def _round_corners(surges: Floats, window: Floats) -> Floats:
     return np.convolve(least, window[: 2 * half + 1] / window[: 2 * half + 1].sum(), "same")[half : half + len(paces)]
 
 
-def at_speed(length: float, period: float) -> Floats:
-    """How far along a way of some length one is at each tick, from rest to rest, at most JOINT_SPEED fast; shape (ticks,)."""
-    speed = min(JOINT_SPEED, float(np.sqrt(length * JOINT_AGILITY)))
+def at_speed(length: float, period: float, most: float = JOINT_SPEED) -> Floats:
+    """How far along a way of some length one is at each tick, from rest to rest, at most so fast [rad/s]; shape (ticks,)."""
+    speed = min(most, float(np.sqrt(length * JOINT_AGILITY)))
     rise = speed / JOINT_AGILITY
     seconds = length / speed + rise if speed > 0.0 else 0.0
     t = period * np.arange(1, int(np.ceil(seconds / period)) + 1)
