@@ -1,6 +1,7 @@
 """Chapter 4 of Bevly 1997: what figures 4.15 to 4.19, sections 4.2 and 4.4.4 come to on our plant."""
 
 import json
+import math
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
@@ -17,7 +18,7 @@ from clamber.studies.bevly_1997.body_climb import climbed, show_gait
 from clamber.studies.bevly_1997.body_cycle import CYCLE, GAINS, find_end, find_onset, peak_to_peak
 from clamber.studies.bevly_1997.body_entries import EARLIER, JOINT_PD
 from clamber.studies.bevly_1997.body_push import tenfold
-from clamber.studies.bevly_1997.body_table import count_lost_pegs
+from clamber.studies.bevly_1997.body_table import controls, count_lost_pegs, stiffer
 from clamber.studies.library import ON_A_BODY
 from clamber.studies.markdown import write_markdown
 from clamber.studies.result import StudyResult
@@ -102,8 +103,24 @@ def test_trials_of_a_rung_are_the_same_wherever_they_run(tmp_path: Path) -> None
 
 def test_the_table_judges_by_who_loses_pegs(monkeypatch: pytest.MonkeyPatch) -> None:
     def made_up(controls: dict[str, BodyGains], seeds: range, **_: object) -> dict[str, list[RungTrial]]:
-        bad = ((), (JOINT_PD, body_table.PRINTED), (JOINT_PD, EARLIER))[len(seeds) - 1]
+        stiff = tuple(map(stiffer, (JOINT_PD, EARLIER)))
+        bad = ((), (JOINT_PD, body_table.PRINTED), stiff, (JOINT_PD, EARLIER, *stiff))[len(seeds) - 1]
         return {label: [RungTrial(label not in bad, label in bad, "fell", 20.0)] * len(seeds) for label in controls}
 
     monkeypatch.setattr(body_table, "climb_rungs", made_up)
-    assert [count_lost_pegs(seeds).verdict for seeds in (1, 2, 3)] == ["differs", "open", "holds"]
+    assert [count_lost_pegs(seeds).verdict for seeds in (1, 2, 3, 4)] == ["differs", "open", "open", "holds"]
+
+
+def test_stiffer_controls_of_the_table_are_as_much_stiffer_in_every_way() -> None:
+    """But for those of our own map, whose damping is a rate: it stays."""
+    gains = controls()
+    soft, stiff = gains[JOINT_PD], gains[stiffer(JOINT_PD)]
+    assert len(gains) == 12
+    assert stiff.leg_kp / soft.leg_kp == pytest.approx(body_table.STIFFER)
+    assert stiff.leg_kd / soft.leg_kd == pytest.approx(math.sqrt(body_table.STIFFER))
+    for label in body_table.CARTESIAN:
+        one, other = gains[label], gains[stiffer(label)]
+        assert np.divide(other.kp, one.kp) == pytest.approx(np.full(3, body_table.STIFFER))
+        assert np.divide(other.stiffness, one.stiffness) == pytest.approx(np.full(3, body_table.STIFFER))
+        assert np.divide(other.kd, one.kd) == pytest.approx(np.full(3, math.sqrt(body_table.STIFFER)))
+        assert other.limb_kp == one.limb_kp
