@@ -13,7 +13,7 @@ export OPENBLAS_NUM_THREADS := 1
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test slow long lint types architecture check bench study docs lock clean
+.PHONY: help setup demo test slow bounds long lint types architecture check bench study docs dist versions lowest lock clean
 
 help:  ## list the targets
 	@grep -hE '^[a-z]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 14
@@ -57,6 +57,17 @@ test: setup  ## fast tests
 
 slow: setup  ## slow tests: peers, walks, climbs, every command of the pages
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal --durations 25 -m slow
+	$(MAKE) bounds
+
+# Compiling takes most of the time, so a few tests of every folder with kernels. Left out: rivals and reach maps, which share `step` and
+# `candidates` with the planners, climbs and walks, whose kernels are those of control, and all that compares speed.
+BOUNDED := tests/actions/test_plan.py tests/actions/test_walker.py tests/statics tests/planning/test_planning.py tests/planning/test_exact.py \
+	tests/planning/test_crafted_files.py tests/control/test_body.py tests/control/test_laws.py tests/control/test_hook_forces.py \
+	tests/control/test_load_shares.py tests/control/test_gait.py tests/control/test_identification.py tests/control/cooperative \
+	tests/sim/test_ode_limb.py tests/sim/test_walker_plant.py
+
+bounds: setup  ## fast tests with every index of the kernels checked, a part of `make slow`
+	CLAMBER_BOUNDSCHECK=1 $(BIN)/python -m pytest -n $(JOBS) --dist worksteal --durations 10 -m "not slow and not long" $(BOUNDED)
 
 long: setup  ## the longest tests: published results that search or tune for minutes
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal --durations 25 -m long
@@ -82,6 +93,21 @@ study: setup  ## one paper's results, ours beside the printed ones: make study S
 docs: setup  ## the documentation as a site: out/docs/index.html
 	$(BIN)/sphinx-build -q -W --keep-going -b html docs out/docs
 	@echo "Open out/docs/index.html"
+
+dist: setup  ## wheel, sdist and bill of materials, in dist/
+	rm -rf dist
+	$(BIN)/python -m build --no-isolation --outdir dist .
+	$(BIN)/python release/bom.py -o dist/clamber-$$($(BIN)/python -c 'import clamber; print(clamber.__version__)').cdx.json
+
+# What is run: TESTS="tests/test_specs.py tests/robots" runs a part of it.
+TESTS ?= tests
+PYTHONS ?= 3.11 3.12 3.13
+
+versions:  ## the fast tests on each Python that is supported, with the locked requirements
+	$(PYTHON) release/versions.py locked $(PYTHONS) -- -m "not slow and not long" $(TESTS)
+
+lowest:  ## the fast tests with the lowest versions that pyproject.toml allows, on the lowest Python
+	$(PYTHON) release/versions.py lowest $(firstword $(PYTHONS)) -- -m "not slow and not long" $(TESTS)
 
 # The lock file carries hashes and no address of a package index.
 COMPILE := $(BIN)/pip-compile --quiet --allow-unsafe --generate-hashes --strip-extras --no-header --no-emit-index-url --no-emit-find-links \

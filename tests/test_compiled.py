@@ -1,20 +1,26 @@
 """Compiled kernels: a warm cache never answers for source that has changed, and threads and runs never change an answer."""
 
+import ast
+import importlib
 import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
+from types import CodeType, ModuleType
 from typing import Any
 
 import numpy as np
 import pytest
+from numba.core.registry import CPUDispatcher
 
 from clamber.actions import codes
 from clamber.actions.codes import pack
 from clamber.actions.limbed_problem import LimbedProblem
 from clamber.actions.table import ActionTable
-from clamber.compiled import PACKAGE, kernel_files, kernel_hash
+from clamber.kernel_cache import kernel_hash
+from clamber.sources import PACKAGE, kernel_files, package_hash
 from clamber.tasks import load_task
 
 FAMILY = """
@@ -71,7 +77,7 @@ def copied(folder: Path) -> Path:
     return package
 
 
-def answer(package: Path, cache: Path) -> tuple[float, int]:
+def answer(package: Path, cache: Path, run: str = RUN) -> tuple[float, int]:
     """What the copy computes in a process of its own, and how often its cache had the machine code."""
     environment = {
         **os.environ,
@@ -79,7 +85,7 @@ def answer(package: Path, cache: Path) -> tuple[float, int]:
         "PYTHONPATH": str(package.parent),
         "PYTHONDONTWRITEBYTECODE": "1",
     }
-    done = subprocess.run([sys.executable, "-c", RUN], env=environment, capture_output=True, text=True, check=False)
+    done = subprocess.run([sys.executable, "-c", run], env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     value, hits = done.stdout.split()
     return float(value), int(hits)
@@ -104,23 +110,151 @@ def test_an_edited_kernel_answers_anew_though_the_cache_is_warm(tmp_path: Path) 
     assert answer(package, cache) == (11.0, 1)  # the old sources find their old machine code
 
 
+def hash_of(package: Path) -> str:
+    """The hash of a package's kernels as its files are now."""
+    kernel_hash.cache_clear()
+    package_hash.cache_clear()
+    return kernel_hash(package)
+
+
 @pytest.mark.parametrize("name", ["actions/family.py", "actions/loops.py", "statics/programme.py", "compiled.py"])
 def test_the_hash_follows_every_file_that_decides_what_is_compiled(tmp_path: Path, name: str) -> None:
     package = copied(tmp_path)
-    before = kernel_hash(package)
+    before = hash_of(package)
     edit(package / name, "\n", "\n\n")
-    kernel_hash.cache_clear()
-    assert kernel_hash(package) != before
+    assert hash_of(package) != before
 
 
-def test_the_hash_leaves_out_files_without_kernels(tmp_path: Path) -> None:
+def test_the_hash_leaves_out_files_that_no_kernel_reads_from(tmp_path: Path) -> None:
     package = copied(tmp_path)
-    before = kernel_hash(package)
+    before = hash_of(package)
     edit(package / "units.py", "\n", "\n\n")
-    kernel_hash.cache_clear()
-    assert kernel_hash(package) == before
+    edit(package / "cli" / "doctor.py", '"system"', '"machine"')
+    records = package / "planning" / "exact" / "records.py"
+    edit(records, "What an exact search reads", "All that it reads")  # nor what it says beside its constants
+    assert hash_of(package) == before
     assert package / "units.py" not in kernel_files(package)
     assert package / "actions" / "family.py" in kernel_files(package)
+
+
+def kernel_modules() -> list[ModuleType]:
+    names = (path.relative_to(PACKAGE.parent).with_suffix("").parts for path in kernel_files())
+    return [importlib.import_module(".".join(words).removesuffix(".__init__")) for words in names]
+
+
+def codes_in(code: CodeType) -> Iterator[CodeType]:
+    yield code
+    for constant in code.co_consts:
+        if isinstance(constant, CodeType):
+            yield from codes_in(constant)
+
+
+def defined_in(module: str, name: str) -> tuple[Path, str]:
+    """The file in which a name of a module gets its value, and its name there."""
+    found = importlib.import_module(module)
+    assert found.__file__ is not None
+    path = Path(found.__file__)
+    for node in ast.parse(path.read_text()).body:
+        if isinstance(node, ast.ImportFrom):
+            for alias in node.names:
+                if (alias.asname or alias.name) == name:
+                    package = module if path.name == "__init__.py" else module.rpartition(".")[0]
+                    origin = importlib.util.resolve_name("." * node.level + (node.module or ""), package)
+                    return defined_in(origin, alias.name) if origin.startswith("clamber") else (path, name)
+    return path, name
+
+
+def frozen_constants() -> set[tuple[Path, str]]:
+    """File and name of every value, neither function nor module, that some kernel reads from outside of itself."""
+    found = set()
+    for module in kernel_modules():
+        for kernel in (value for value in vars(module).values() if isinstance(value, CPUDispatcher)):
+            function = kernel.py_func
+            for code in codes_in(function.__code__):
+                for name in code.co_names:
+                    value = function.__globals__.get(name)
+                    if isinstance(
+                        value, int | float | complex | str | bytes | tuple | np.ndarray | np.dtype | np.generic
+                    ):
+                        found.add(defined_in(function.__module__, name))
+    return found
+
+
+@pytest.mark.slow
+def test_the_hash_follows_every_constant_that_a_kernel_reads_from_a_file_without_kernels(tmp_path: Path) -> None:
+    package, whole = copied(tmp_path), set(kernel_files())
+    found = frozen_constants()
+    assert len(found) > 100
+    elsewhere = sorted((path, name) for path, name in found if path not in whole)
+    assert {name for _, name in elsewhere} >= {"FOUND", "EXHAUSTED", "NOTHING_LIMITS"}
+    before = hash_of(package)
+    for path, name in elsewhere:
+        copy = package / path.relative_to(PACKAGE)
+        text = copy.read_text()
+        copy.write_text(f"{text}\n{name} = 12345\n")
+        assert hash_of(package) != before, f"{name} in {path}"
+        copy.write_text(text)
+    assert hash_of(package) == before
+
+
+FREEZING = """
+from clamber.actions.shape import PARTS, scale
+from clamber.compiled import kernel
+from clamber.planning.exact.records import EXHAUSTED, FOUND
+
+GROWN = scale(2)
+
+
+@kernel
+def verdict(found):
+    return (FOUND if found else EXHAUSTED) + GROWN + PARTS.first
+"""
+SHAPE = """
+from typing import NamedTuple
+
+from clamber.actions.numbers import FACTOR
+
+
+class Parts(NamedTuple):
+    first: int
+
+
+PARTS = Parts(100)
+
+
+def scale(x):
+    return x * FACTOR
+"""
+VERDICT = "from clamber.actions.freezing import verdict; print(verdict(True), sum(verdict.stats.cache_hits.values()))"
+
+
+def test_a_constant_of_a_file_without_kernels_answers_anew_though_the_cache_is_warm(tmp_path: Path) -> None:
+    package, cache = copied(tmp_path), tmp_path / "cache"
+    (package / "actions" / "freezing.py").write_text(FREEZING)
+    (package / "actions" / "shape.py").write_text(SHAPE)
+    (package / "actions" / "numbers.py").write_text("FACTOR = 10\n")
+    assert answer(package, cache, VERDICT) == (121.0, 0)
+    assert answer(package, cache, VERDICT) == (121.0, 1)
+    edit(package / "planning" / "exact" / "records.py", "FOUND, EXHAUSTED,", "EXHAUSTED, FOUND,")
+    assert answer(package, cache, VERDICT) == (122.0, 0)
+    edit(package / "actions" / "numbers.py", "10", "20")  # by way of a function, at import
+    assert answer(package, cache, VERDICT) == (142.0, 0)
+    edit(package / "actions" / "shape.py", "Parts(100)", "Parts(200)")
+    assert answer(package, cache, VERDICT) == (242.0, 0)
+
+
+@pytest.mark.slow
+def test_the_exact_planner_answers_right_after_its_constants_were_exchanged(tmp_path: Path) -> None:
+    package = tmp_path / "clamber"
+    shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__"))
+    plan = (
+        "import clamber; found = clamber.plan('ladder', 'exact', threads=1, max_stances=200_000);"
+        "print(found.length if found.status == 'optimal' else -1, 0)"
+    )
+    length, _ = answer(package, tmp_path / "cache", plan)
+    assert length > 0
+    edit(package / "planning" / "exact" / "records.py", "FOUND, EXHAUSTED,", "EXHAUSTED, FOUND,")
+    assert answer(package, tmp_path / "cache", plan) == (length, 0)
 
 
 def table(limbs: int) -> ActionTable:

@@ -466,7 +466,7 @@ def test_unreadable_files_say_why(tmp_path: Path) -> None:
     (tmp_path / "deep.toml").write_text("x = " + "[" * 100_000)
     for name, said in {
         "latin": "is not UTF-8 (byte 8)",
-        "big": "has 17825792 bytes; at most 16777216 are read",
+        "big": "has 17825792 bytes; at most 8388608 are read",
         "folder": "is a folder; name a file",
         "latim": "does not exist; files beside it: big.toml, deep.toml, folder.toml, latin.toml, long.toml; did you",
         "long": "is not valid TOML",

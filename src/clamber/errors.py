@@ -1,7 +1,20 @@
 """Everything Clamber raises on purpose, under one base; each error's `args` rebuild it in another process."""
 
 import difflib
+import unicodedata
 from collections.abc import Iterable, Mapping
+
+
+def printable(text: str) -> str:
+    r"""A text whose control characters, but for line breaks and tabs, are written out, as "\x1b", so that no terminal obeys them."""
+    return text if text.isprintable() else "".join(map(_printed, text))
+
+
+def _printed(letter: str) -> str:
+    shown = (
+        letter.isprintable() or letter in "\n\t" or unicodedata.category(letter) == "Zs"
+    )  # a space that does not break
+    return letter if shown else letter.encode("unicode_escape", "backslashreplace").decode("ascii")
 
 
 def near_matches(name: str, known: Iterable[str], limit: int = 3) -> list[str]:

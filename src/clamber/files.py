@@ -1,19 +1,37 @@
-"""Files in and out: TOML with named errors, atomic writes, content hashes, schema versions, shipped data by name."""
+"""Files in and out: TOML with named errors, content hashes, schema versions, shipped data by name.
 
+Whatever is read or written passes `regular_files`, which takes regular files only.
+"""
+
+import csv
 import hashlib
+import io
 import json
+import math
 import os
-import tempfile
+import re
 import tomllib
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from .errors import MISSING, FileError, SpecError, UnknownNameError, describe_choices
+from .errors import MISSING, FileError, SpecError, UnknownNameError
+from .regular_files import read_bytes, user_path
+from .regular_files import write_atomically as write_atomically
 from .types import Json
 
-MAX_BYTES: Final = 16 * 1024 * 1024
-"""Largest file that is read as text [bytes]."""
+MOST_TEXT: Final = 8 * 1024 * 1024
+"""Largest TOML, JSON or CSV file that is read [bytes], which is a board of 140 000 holds; its lists may take fifty times as much memory."""
+MOST_PARTS: Final = 32
+"""Parts of a dotted TOML key; parsing takes time and memory by the square of them, 1.7 GB for a key of 40 kB."""
+_KEPT_WHOLE: Final = re.compile(
+    r"""\"{3}(?:[^"\\]|\\.?|"(?!""))*+(?:"{3,5}|\Z)|'{3}(?:[^']|'(?!''))*+(?:'{3,5}|\Z)"""
+    r"""|"(?:[^"\\\n]|\\.?)*+"?|'[^'\n]*+'?|(?P<comment>\#[^\n]*+)""",
+    re.DOTALL,
+)
+"""Strings and comments of TOML, open ones too: a dot in them parts no key."""
+_LONG_KEY: Final = re.compile(rf"(?<![\w-])(?:[\w-]++[ \t]*+\.[ \t]*+){{{MOST_PARTS}}}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,33 +100,51 @@ def element_index(elements: list[Any], word: str) -> int | None:
     return int(word) if word.isdecimal() and int(word) < len(elements) and not numbered else None
 
 
-def read_text(path: Path) -> str:
-    """The text of a UTF-8 file of at most `MAX_BYTES`.
+def read_text(path: Path, most: int = MOST_TEXT) -> str:
+    """The text of a regular UTF-8 file of at most `most` bytes.
 
     Raises:
-        FileError: If it is missing, a folder, too large, or not UTF-8.
+        FileError: If it is missing, no regular file, too large, or not UTF-8.
     """
-    name = str(path)
     try:
-        if path.is_dir():
-            raise FileError(name, "is a folder", "name a file")
-        if (size := path.stat().st_size) > MAX_BYTES:
-            raise FileError(name, f"has {size} bytes", f"at most {MAX_BYTES} are read")
-        return path.read_bytes().decode("utf-8-sig")
-    except FileNotFoundError:
-        raise FileError(name, "does not exist", f"files beside it: {_beside(path)}") from None
+        return read_bytes(path, most).decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise FileError(name, f"is not UTF-8 (byte {error.start})", "save it as UTF-8 text") from None
-    except (OSError, ValueError) as error:
-        raise FileError(name, f"cannot be read ({error})", "name a readable file") from None
+        raise FileError(str(path), f"is not UTF-8 (byte {error.start})", "save it as UTF-8 text") from None
 
 
-def _beside(path: Path) -> str:
+def csv_rows(text: str, name: str) -> Iterator[tuple[int, list[str]]]:
+    """The rows of a table, each with the number of its line, from 1; a carriage return alone ends a line, too.
+
+    Args:
+        text: Of the file.
+        name: Of the file, as errors call it.
+
+    Raises:
+        FileError: If a row is no CSV, or a cell has more letters than `csv` takes, 131 072; the error gives the line.
+    """
+    reader = csv.reader(io.StringIO(text, newline=None), skipinitialspace=True)
     try:
-        names = sorted(p.name for p in path.parent.iterdir() if p.suffix == path.suffix)
-    except OSError:
-        return f"none, for the folder {path.parent} cannot be read"
-    return describe_choices(path.name, names, limit=10)
+        for row in reader:
+            yield reader.line_num, row
+    except csv.Error as error:
+        allowed = f"a cell has at most {csv.field_size_limit()} letters"
+        raise FileError(f"{name}:{reader.line_num}", f"is not valid CSV ({error})", allowed) from None
+
+
+def parse_toml(text: str) -> Json:
+    """The table of a TOML text.
+
+    Raises:
+        ValueError: If it is none, has a number of thousands of digits, is nested too deeply, or has a key of more than `MOST_PARTS` parts.
+    """
+    if text.count(".") > MOST_PARTS:
+        plain = _KEPT_WHOLE.sub(lambda match: "" if match["comment"] else "s", text)
+        if (long := _LONG_KEY.search(plain)) is not None:
+            raise ValueError(f"a key has more than {MOST_PARTS} parts: {long[0][:40]}...")
+    try:
+        return tomllib.loads(text)
+    except RecursionError:
+        raise ValueError("it is nested too deeply") from None
 
 
 def read_toml(path: Path, label: str | None = None) -> Document:
@@ -119,10 +155,32 @@ def read_toml(path: Path, label: str | None = None) -> Document:
     """
     text = read_text(path)
     try:
-        data = tomllib.loads(text)
-    except (ValueError, RecursionError) as error:  # ValueError also for a whole number of thousands of digits
+        data = parse_toml(text)
+    except ValueError as error:
         raise FileError(str(path), f"is not valid TOML: {error}", "see https://toml.io") from None
     return Document(label or str(path), data, (), path.parent)
+
+
+def parse_json(text: str | bytes) -> Any:
+    """Plain data from JSON text whose numbers are all finite.
+
+    Raises:
+        ValueError: If it is none, or nested too deep.
+    """
+    try:
+        return json.loads(text, parse_constant=_no_number, parse_float=_finite)
+    except RecursionError:
+        raise ValueError("it is nested too deep") from None
+
+
+def _no_number(word: str) -> float:
+    raise ValueError(f"{word} is no JSON number")
+
+
+def _finite(word: str) -> float:
+    if math.isinf(value := float(word)):
+        raise ValueError(f"{word[:40]} is larger than any number")
+    return value
 
 
 def check_schema(document: Document, schema: str) -> None:
@@ -133,36 +191,6 @@ def check_schema(document: Document, schema: str) -> None:
     """
     if document.data.get("schema") != schema:
         raise document.problem("schema", f'the file must say schema = "{schema}"')
-
-
-def write_atomically(path: Path, content: str | bytes) -> None:
-    """Writes beside the target and renames, so that a reader or a crash never sees half a file.
-
-    Raises:
-        FileError: If the folder is missing or cannot be written.
-    """
-    raw = content.encode("utf-8") if isinstance(content, str) else content
-    temporary = ""
-    try:
-        handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(raw)
-            stream.flush()
-            os.fsync(stream.fileno())
-        os.chmod(temporary, 0o666 & ~_umask())
-        os.replace(temporary, path)
-    except OSError as error:
-        if temporary:
-            Path(temporary).unlink(missing_ok=True)
-        raise FileError(
-            str(path), f"cannot be written ({error.strerror})", "name a file in a writable folder"
-        ) from None
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
 
 
 def content_hash(content: object) -> str:
@@ -190,7 +218,7 @@ def find_data(kind: str, name_or_path: str, data: Path, folder: Path | None = No
         UnknownNameError: If it looks like a name and nothing shipped has it.
     """
     if is_path(name_or_path):
-        path = Path(name_or_path).expanduser()
+        path = user_path(name_or_path)
         return (path if path.is_absolute() or folder is None else folder / path), name_or_path
     names = data_names(data)
     if name_or_path not in names:

@@ -16,6 +16,10 @@ from .units import QUANTITY_KEYS
 
 T = TypeVar("T")
 
+UNKNOWN_KEY = frozenset({"unexpected_keyword_argument", "extra_forbidden"})
+"""What pydantic calls it."""
+MOST_PROBLEMS = 20
+"""Of one file that are told; the others are counted."""
 Name = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Za-z][A-Za-z0-9_-]*$", max_length=64)]
 """A name in a file: letters, digits, "_" and "-", a letter first."""
 
@@ -43,10 +47,11 @@ def build_spec(cls: type[T], document: Document, without: tuple[str, ...] = ()) 
     try:
         built: T = _adapter(cls).validate_python(table)  # type: ignore[arg-type]
     except ValidationError as error:
-        problems = [_problem(cls, document, details, without) for details in error.errors()]
         # A misspelt key is the likelier cause of a missing one, so unknown keys come first.
-        problems.sort(key=lambda p: "unknown key" not in p.allowed)
-        others = tuple(problem.headline for problem in problems[1:])
+        found = sorted(error.errors(), key=lambda details: details["type"] not in UNKNOWN_KEY)
+        problems = [_problem(cls, document, details, without) for details in found[:MOST_PROBLEMS]]
+        more = (f"{len(found) - MOST_PROBLEMS} problems more",) if len(found) > MOST_PROBLEMS else ()
+        others = (*(problem.headline for problem in problems[1:]), *more)
         first = problems[0]
         raise SpecError(first.file, first.key, first.value, first.allowed, others) from None
     return built
@@ -72,7 +77,7 @@ _PLAIN_WORDS = {
 def _problem(cls: type[Any], document: Document, details: ErrorDetails, without: tuple[str, ...]) -> SpecError:
     loc = details["loc"]
     key = dotted(document.data, loc)
-    if details["type"] in {"unexpected_keyword_argument", "extra_forbidden"}:
+    if details["type"] in UNKNOWN_KEY:
         known = tuple(name for name in _keys_at(cls, loc[:-1]) if name not in without)
         return document.problem(key, f"unknown key; allowed are {describe_choices(str(loc[-1]), known)}")
     if details["type"] == "quantity":

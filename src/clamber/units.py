@@ -60,7 +60,9 @@ _NAMES: Final = {
     "/m2": "1/m2", "holds/m2": "1/m2", "/m²": "1/m2", "holds/m²": "1/m2", "1/m²": "1/m2", "/ft2": "1/ft2", "holds/ft2": "1/ft2",
     "newton": "N", "newtons": "N", "watt": "W", "Ohm": "ohm", "Ω": "ohm", "sec": "s",
 }  # fmt: skip
-_NUMBER: Final = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*\Z", re.DOTALL)
+LONGEST: Final = 200
+"""Letters of a quantity's text; no number says more, and a longer one may be anything."""
+_NUMBER: Final = re.compile(r"[+-]?(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][+-]?\d++)?")
 _SEPARATORS: Final = re.compile(r"[\s*^·-]")
 
 
@@ -93,9 +95,23 @@ def convert(value: float, unit: str, dimension: str) -> float:
 
 
 def split_quantity(text: str) -> tuple[float, str] | None:
-    """Number and unit of a text such as "3 in"; None if it does not start with a number."""
-    match = _NUMBER.match(text)
-    return (float(match.group(1)), match.group(2)) if match else None
+    """Number and unit of a text such as "3 in"; None if it does not start with a number, or is longer than `LONGEST`."""
+    plain = text.strip()
+    match = _NUMBER.match(plain) if len(plain) <= LONGEST else None
+    return (float(match[0]), plain[match.end() :].strip()) if match else None
+
+
+def split_title(title: str) -> tuple[str, str | None]:
+    """Name and unit of a title such as "shoulder angle [deg]" or "x (in)"; None where it states no unit."""
+    plain = title.strip()
+    if not plain.endswith(("]", ")")):
+        return plain, None
+    inside = plain[:-1]
+    after = 1 + max(inside.rfind("]"), inside.rfind(")"))
+    opened = [place for place in (inside.find("[", after), inside.find("(", after)) if place >= 0]
+    if not opened:
+        return plain, None
+    return inside[: min(opened)].strip(), inside[min(opened) + 1 :].strip() or None
 
 
 def parse_quantity(text: str, dimension: str) -> float:

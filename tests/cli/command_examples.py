@@ -43,6 +43,7 @@ LONG = (
     'run level-walk --set way.0.distance=60cm --set \'hold={x="0.6m",y="0.1m",z="0.5m"}\'',
     "trials two.json -n 2 --workers 1",
     "trials two.json --replay 1",
+    "trials two.json --fault nan -n 1 --workers 1",
     "rehearse two.json -n 2 --lessons 0 --workers 1",
     "trials level-walk -n 2 --workers 1 --set way.0.distance=3cm",
     "most level-walk --set way.0.distance=3cm --vary payload=5kg..40kg:2",
@@ -64,6 +65,8 @@ LONG = (
 )
 ELSEWHERE = {
     "plant serve": "tests/cli/test_plant.py",
+    "plant stop": "tests/cli/test_plant.py",
+    "plant release": "tests/cli/test_plant.py",
     "bench": "tests/experiments/test_boards.py",
     "limb tune": "tests/experiments/limb/test_limb_tune.py",
 }

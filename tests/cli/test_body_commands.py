@@ -30,6 +30,18 @@ def test_json_says_when_a_hook_came_off_and_so_does_the_exit_code(run: Any) -> N
     assert told["kp"] == [100.0, 50.0, 10.0] and told["kd"] == [10.0, 5.0, 1.0]
 
 
+@pytest.mark.parametrize(
+    ("words", "limit", "alpha"),
+    [((), "thesis", 0.0), (("--alpha", "0.3"), "thesis", 0.3), (("--limit", "counted"), "counted", 0.3)],
+)
+def test_alpha_of_the_hook_limit_is_the_printed_one_unless_given(
+    run: Any, words: tuple[str, ...], limit: str, alpha: float
+) -> None:
+    _, out, _ = run("push", "-c", "scct", "--json", *words)
+    (told,) = json.loads(out)["controls"]
+    assert (told["limit"], told["alpha"]) == (limit, alpha)
+
+
 def test_trials_push_from_either_side(run: Any) -> None:
     code, out, err = run("push", "--trials", "2", "--limit", "thesis", "-c", "scct", "--json")
     trials = json.loads(out)["scct"]
@@ -42,6 +54,7 @@ def test_trials_push_from_either_side(run: Any) -> None:
     ("words", "said"),
     [
         (("circle", "-c", "sct"), "sct"),
+        (("push-up", "--alpha", "-0.1"), "--alpha"),
         (("push-up", "--kp", "1,2"), "must be three numbers"),
         (("circle", "--limit", "thesi"), "thesis"),
         (("push", "--set", "backlsh=1deg"), "backlash"),

@@ -49,6 +49,6 @@ def test_trials_tell_how_many_hooks_were_brought_back(recovered: int, capsys: py
         task="ladder", noise="usual", asked=9, n=9, done=8, causes=(), seconds=None, per_rung=None, short=None, speed=None,
         pushes=None, stalled=0, replanned=0, recovered=recovered, recovering=3, saved=2, forced=(), effects=(),
     )  # fmt: skip
-    print_trials(stdout(), summary, None)
+    print_trials(stdout(), summary, range(9), None)
     told = "hooks that came off and were brought back: 5, in 3 climbs, 2 of which succeeded"
     assert (told in " ".join(capsys.readouterr().out.split())) == (recovered > 0)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from clamber import compiled
+from clamber import kernel_cache
 from clamber.cli import main
 from clamber.cli.compile_ahead import CLIMBING, Use, compile_ahead
 
@@ -26,8 +26,8 @@ def told(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[str]:
         said.append("over")
 
     monkeypatch.setattr("clamber.jobs.ahead.ahead", begin)
-    monkeypatch.setattr(compiled, "cache_folder", lambda: tmp_path)
-    monkeypatch.setattr(compiled, "is_compiled", lambda name: name == "first")
+    monkeypatch.setattr(kernel_cache, "cache_folder", lambda: tmp_path)
+    monkeypatch.setattr(kernel_cache, "is_compiled", lambda name: name == "first")
     return said
 
 
@@ -47,7 +47,7 @@ def test_where_all_is_compiled_nothing_is_begun(told: list[str]) -> None:
 def test_where_nobody_could_find_it_nothing_is_begun(
     told: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(compiled, "cache_folder", lambda: tmp_path / "missing")
+    monkeypatch.setattr(kernel_cache, "cache_folder", lambda: tmp_path / "missing")
     compile_ahead(*USES)
     assert told == []
 
@@ -56,4 +56,4 @@ def test_where_nobody_could_find_it_nothing_is_begun(
 def test_a_use_leaves_the_kernel_that_tells_of_it(use: Use) -> None:
     module, _, name = use.function.partition(":")
     getattr(import_module(module), name)()
-    assert list(compiled.cache_folder().glob(f"*.{use.kernel}-*.nbc"))
+    assert list(kernel_cache.cache_folder().glob(f"*.{use.kernel}-*.nbc"))

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 import clamber
-from clamber import compiled
+from clamber import kernel_cache
 from clamber.cli import doctor_facts, main
 
 
@@ -31,7 +31,7 @@ def test_it_tells_this_version_and_this_python(capsys: pytest.CaptureFixture[str
     assert found["clamber"]["version"] == clamber.__version__
     assert found["python"]["executable"] == sys.executable
     assert found["machine"]["cores"] >= 1
-    assert found["kernels"]["folder"] == str(compiled.cache_folder())
+    assert found["kernels"]["folder"] == str(kernel_cache.cache_folder())
 
 
 def test_an_empty_cache_is_told_as_not_compiled(
@@ -44,8 +44,8 @@ def test_an_empty_cache_is_told_as_not_compiled(
     kernels = told(capsys)["kernels"]
     assert not kernels["compiled"] and kernels["functions"] == 0
     assert (kernels["older_folders"], kernels["older_bytes"]) == (1, 100)
-    compiled.cache_folder().mkdir()
-    (compiled.cache_folder() / "a.replay-1.py311.1.nbc").write_bytes(b"0" * 7)
+    kernel_cache.cache_folder().mkdir()
+    (kernel_cache.cache_folder() / "a.replay-1.py311.1.nbc").write_bytes(b"0" * 7)
     kernels = told(capsys)["kernels"]
     assert kernels["compiled"] and kernels["bytes"] == 7
 

@@ -150,6 +150,53 @@ def test_a_served_plant_of_another_board_is_refused(clamber: Any, tmp_path: Path
         assert "its place is 'h'; must be 'ladder'" in err and "Traceback" not in err
 
 
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGHUP, 129), (signal.SIGTERM, 143)])
+def test_a_server_that_is_ended_stops_the_robot_safely_first_and_says_so(
+    tmp_path: Path, number: signal.Signals, code: int
+) -> None:
+    plan = plan_file(tmp_path, 191, 300)
+    with served("ladder", *PEGS, "--socket", str(tmp_path / "robot")) as (server, address):
+        climbing = client(plan, "--plant", address, *PEGS, "--json")
+        server.send_signal(number)
+        out, _ = climbing.communicate(timeout=PATIENCE)
+        _, said = server.communicate(timeout=PATIENCE)
+    assert server.returncode == code
+    assert re.search(rf"safe stop at tick \d+: its server ends \({number.name}\); the posture is held", said), said
+    assert moved(said) < 1.0
+    assert f"the server ends ({number.name}): nothing holds the robot any more" in said
+    assert climbing.returncode == 1
+    assert json.loads(out)["reason"] == "stopped: the plant has made a safe stop: its server ends"
+
+
+def test_an_operator_stops_a_climb_from_another_process_and_gives_the_robot_back(clamber: Any, tmp_path: Path) -> None:
+    plan = plan_file(tmp_path, 191, 300)
+    with served("ladder", *PEGS) as (server, address):
+        climbing = client(plan, "--plant", address, *PEGS, "--json")
+        code, out, _ = clamber("plant", "stop", address)
+        assert code == 0 and re.match(r"stopped at tick \d+; an operator has stopped this plant", out), out
+        assert json.loads(climbing.communicate(timeout=PATIENCE)[0])["reason"] == (
+            "stopped: the plant has made a safe stop: an operator has stopped it"
+        )
+        assert moved(said_until(server.stderr, "held for")) < 1.0
+        code, _, err = clamber("run", plan, "--plant", address, "-q")
+        assert code == 2 and "an operator has stopped this plant; `clamber plant release` gives it back" in err
+        for command in ("stop", "release"):
+            code, out, _ = clamber("plant", command, address, "--json")
+            schema = {"stop": schema_of("plant stop"), "release": schema_of("plant release")}[command]
+            Draft202012Validator(schema).validate(json.loads(out))
+            assert code == 0 and json.loads(out)["address"] == address
+        assert json.loads(out)["said"] == "clients may start again"
+        assert clamber("run", plan_file(tmp_path, 300), "--plant", address, *PEGS, "-q")[0] == 0
+
+
+def test_who_may_not_read_the_servers_token_stops_nothing(clamber: Any, tmp_path: Path, monkeypatch: Any) -> None:
+    with served("ladder", "-q") as (server, address):
+        monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))  # another user's
+        code, out, err = clamber("plant", "stop", address)
+        assert (code, out) == (2, "") and "cannot read its token" in err
+        assert server.poll() is None
+
+
 def test_ctrl_c_ends_a_server_and_its_socket(tmp_path: Path) -> None:
     path = tmp_path / "robot"
     with served("ladder", "--socket", str(path)) as (server, address):
@@ -196,6 +243,6 @@ def test_with_json_the_server_says_where_it_listens_in_one_value() -> None:
             Draft202012Validator(schema_of("plant serve")).validate(told)
             assert told["address"].startswith("tcp://127.0.0.1:") and told["robot"] == "libra"
             server.send_signal(signal.SIGTERM)
-            assert server.wait(timeout=PATIENCE) == 130
+            assert server.wait(timeout=PATIENCE) == 143
         finally:
             server.kill()  # what fails above must not leave it waiting for ever

@@ -5,11 +5,19 @@ import json
 import re
 import socket
 import sys
+import urllib.error
 import urllib.request
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
+from urllib.parse import urlsplit
 
 import pytest
+import viser
+import websockets.asyncio.server
+from websockets.exceptions import InvalidStatus
+from websockets.sync.client import connect
+from websockets.typing import Origin, Subprotocol
 
 Clamber = Callable[..., tuple[int, str, str]]
 
@@ -20,7 +28,7 @@ def test_page_is_served_and_ends(clamber: Clamber, monkeypatch: pytest.MonkeyPat
     code, out, err = clamber("view", "ladder", "--seconds", "0")
     assert code == 0
     (url,) = opened
-    assert re.fullmatch(r"http://127\.0\.0\.1:\d+", url)
+    assert re.fullmatch(r"http://127\.0\.0\.1:\d+/\?token=[\w-]{22}", url)
     assert out == f"LIBRA climbs a ladder of pegs\n{url}  (Ctrl-C ends it)\n"
     assert "expose" not in err
 
@@ -44,28 +52,82 @@ def test_page_answers_on_loopback(monkeypatch: pytest.MonkeyPatch) -> None:
         app.close()
 
 
-@pytest.mark.parametrize(("origin", "answer"), [("http://evil.example", 403), (None, 101), ("own", 101)])
-def test_pages_of_others_are_refused(origin: str | None, answer: int) -> None:
+@pytest.fixture(params=["127.0.0.1", "0.0.0.0"])
+def opened(request: pytest.FixtureRequest) -> Iterator[tuple[str, str, str]]:
+    """A viewer, for this machine and exposed: its host with port, its token, the cookie that its page sets."""
+    from clamber.viewing.browser.app import App
+    from clamber.viewing.browser.exhibit import open_exhibit
+
+    app = App(open_exhibit(["gap"]), host=request.param)
+    try:
+        parts = urlsplit(app.url)
+        with urllib.request.urlopen(app.url, timeout=10.0) as page:
+            yield parts.netloc, parts.query.removeprefix("token="), page.headers["Set-Cookie"].partition(";")[0]
+    finally:
+        app.close()
+
+
+def test_a_page_with_the_token_gets_through_by_its_cookie_and_others_do_not(opened: tuple[str, str, str]) -> None:
+    place, token, cookie = opened
+    own, page = f"http://{place}", f"ws://{place}/"
+    for uri, origin, headers in (
+        (page, own, {"Cookie": cookie}),
+        (f"{page}?token={token}", own, {}),
+    ):
+        with connect(uri, origin=Origin(origin), additional_headers=headers, subprotocols=[version()]) as line:
+            assert line.recv(timeout=30.0), "the scene"
+    for uri, origin, headers in (
+        (page, own, {}),
+        (page, own, {"Cookie": cookie[:-1] + "-"}),
+        (f"{page}?token={token[:-1]}", own, {}),
+        (f"{page}?token={token}", None, {}),
+        (page, None, {"Cookie": cookie}),
+        (page, "http://evil.example", {"Cookie": cookie}),
+        (page, "null", {"Cookie": cookie}),
+        (page, f"{own}0", {"Cookie": cookie}),
+    ):
+        with pytest.raises(InvalidStatus, match="403"):
+            connect(uri, origin=None if origin is None else Origin(origin), additional_headers=headers)
+    for path in ("/", "/?token=", f"/?token={token}x", "/assets/../index.html"):
+        with pytest.raises(urllib.error.HTTPError, match="403"):
+            urllib.request.urlopen(own + path, timeout=10.0)
+
+
+def version() -> Subprotocol:
+    """What viser's own page asks for."""
+    return Subprotocol(f"viser-v{viser.__version__}")
+
+
+def test_a_name_of_others_that_leads_to_this_machine_is_refused() -> None:
     from clamber.viewing.browser.app import App
     from clamber.viewing.browser.exhibit import open_exhibit
 
     app = App(open_exhibit(["gap"]))
     try:
-        port = app.server.get_port()
-        with socket.create_connection(("127.0.0.1", port), timeout=10.0) as line:
-            head = ["GET / HTTP/1.1", f"Host: 127.0.0.1:{port}", "Upgrade: websocket", "Connection: Upgrade"]
-            head += ["Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==", "Sec-WebSocket-Version: 13"]
-            head += [] if origin is None else [f"Origin: {app.url if origin == 'own' else origin}"]
-            line.sendall(("\r\n".join(head) + "\r\n\r\n").encode())
-            assert int(line.recv(1000).split()[1]) == answer
+        with pytest.raises(urllib.error.HTTPError, match="403"):
+            urllib.request.urlopen(urllib.request.Request(app.url, headers={"Host": "rebound.example"}), timeout=10.0)
     finally:
         app.close()
+
+
+def test_where_the_library_takes_no_guard_nothing_is_served(clamber: Clamber, monkeypatch: pytest.MonkeyPatch) -> None:
+    plain = websockets.asyncio.server.serve
+
+    class Changed(viser.ViserServer):  # a release that gets its server elsewhere
+        def __init__(self, **options: Any) -> None:
+            monkeypatch.setattr(websockets.asyncio.server, "serve", plain)
+            super().__init__(**options)
+
+    monkeypatch.setattr(viser, "ViserServer", Changed)
+    code, out, err = clamber("view", "ladder", "--no-browser", "--seconds", "0")
+    assert code == 2 and not out
+    assert "the viewer is not started, for its page is answered without a token" in err
 
 
 def test_exposing_is_warned_of(clamber: Clamber) -> None:
     code, _, err = clamber("view", "ladder", "--no-browser", "--seconds", "0", "--expose", "127.0.0.1")
     assert code == 0
-    assert "there is no password" in err
+    assert "has the address below, with its token" in err
 
 
 def test_port_in_use_is_bad_input(clamber: Clamber) -> None:

@@ -18,7 +18,7 @@ from clamber.control.body import (
     command_tips,
     share_wrench,
 )
-from clamber.control.body_estimate import estimate_body
+from clamber.control.body_estimate import ENCODER, LINE, SECOND_TIP, estimate_body
 from clamber.control.chain import chain_of_limb
 from clamber.control.hook_forces import MOST_CUTS
 from clamber.execution.climb.postures import postures
@@ -43,31 +43,69 @@ def on_holds(pose: Floats, holds: Floats) -> Floats:
     )
 
 
+ANGLES = (LINE, ENCODER, SECOND_TIP)
 POSES = st.tuples(st.floats(-0.03, 0.03), st.floats(-0.03, 0.03), st.floats(-0.15, 0.15)).map(np.array)
 HOLDS = np.array(((0.2286, 0.02), (-0.2286, 0.0), (0.05, -0.25)))
 
 
-@given(POSES, st.booleans())
-def test_the_estimate_is_exact_where_the_map_is(pose: Floats, with_encoder: bool) -> None:
+@given(POSES, st.sampled_from(ANGLES))
+def test_the_estimate_is_exact_where_the_map_is(pose: Floats, angle_from: int) -> None:
     q = on_holds(pose, HOLDS)
     tips, speeds, found, twist = np.zeros((3, 2)), np.zeros((3, 2)), np.zeros(3), np.zeros(3)
-    count = estimate_body(
-        LEGS, q, np.zeros((3, 2)), BOTH, HOLDS, pose[2], 0.0, with_encoder, tips, speeds, found, twist
-    )
+    count = estimate_body(LEGS, q, np.zeros((3, 2)), BOTH, HOLDS, pose[2], 0.0, angle_from, tips, speeds, found, twist)
     assert count == 2
     np.testing.assert_allclose(found, pose, atol=1e-12)
 
 
-@given(POSES, POSES, st.booleans())
-def test_the_estimated_speed_is_the_derivative_of_the_pose(pose: Floats, rate: Floats, with_encoder: bool) -> None:
+@given(POSES, POSES, st.sampled_from(ANGLES))
+def test_the_estimated_speed_is_the_derivative_of_the_pose(pose: Floats, rate: Floats, angle_from: int) -> None:
     step = 1e-6
     ahead, behind = on_holds(pose + step * rate, HOLDS), on_holds(pose - step * rate, HOLDS)
     qd = (ahead - behind) / (2 * step)
     tips, speeds, found, twist = np.zeros((3, 2)), np.zeros((3, 2)), np.zeros(3), np.zeros(3)
     estimate_body(
-        LEGS, on_holds(pose, HOLDS), qd, BOTH, HOLDS, pose[2], rate[2], with_encoder, tips, speeds, found, twist
+        LEGS, on_holds(pose, HOLDS), qd, BOTH, HOLDS, pose[2], rate[2], angle_from, tips, speeds, found, twist
     )
     np.testing.assert_allclose(twist, rate, atol=1e-7)
+
+
+def estimated(angle_from: int, pose: Floats, believed: Floats, before: Floats) -> Floats:
+    """Where the body is believed to be that truly is at `pose`, the holds off."""
+    tips, speeds, found, twist = np.zeros((3, 2)), np.zeros((3, 2)), before.copy(), np.zeros(3)
+    q = on_holds(pose, HOLDS)
+    estimate_body(LEGS, q, np.zeros((3, 2)), BOTH, believed, pose[2], 0.0, angle_from, tips, speeds, found, twist)
+    return found
+
+
+def test_by_the_second_tips_height_its_hold_along_x_tells_nothing_and_its_height_the_angle() -> None:
+    pose = np.array((0.01, -0.02, 0.05))
+    aside, above = HOLDS.copy(), HOLDS.copy()
+    aside[1, 0] += 0.006
+    above[1, 1] += 0.006
+    np.testing.assert_allclose(estimated(SECOND_TIP, pose, aside, pose), pose, atol=1e-12)
+    assert not np.allclose(estimated(LINE, pose, aside, pose)[:2], pose[:2], atol=1e-3)  # the mean of both
+    wide = HOLDS[0, 0] - HOLDS[1, 0]
+    turned = estimated(SECOND_TIP, pose, above, pose)[2] - pose[2]
+    assert turned == pytest.approx(-0.006 / wide, rel=0.05)
+
+
+def test_of_the_two_angles_with_the_second_tip_so_high_the_nearer_to_the_one_before_is_taken() -> None:
+    pose = np.array((0.0, 0.0, 0.1))
+    found = estimated(SECOND_TIP, pose, HOLDS, pose + np.array((0.0, 0.0, math.tau)))
+    assert found[2] == pytest.approx(0.1 + math.tau)
+    other = estimated(SECOND_TIP, pose, HOLDS, np.array((0.0, 0.0, math.pi)))
+    assert abs(other[2] - 0.1) > 2.0  # the mirrored one
+    tips = [np.array(((math.cos(a), -math.sin(a)), (math.sin(a), math.cos(a)))) for a in (0.1, other[2])]
+    apart = tips[0].T @ (HOLDS[1] - HOLDS[0])
+    assert (tips[1] @ apart)[1] == pytest.approx(HOLDS[1, 1] - HOLDS[0, 1])
+
+
+def test_a_hold_higher_than_the_second_tip_can_be_gives_the_angle_that_comes_nearest() -> None:
+    high = HOLDS.copy()
+    high[1, 1] += 2.0
+    found = estimated(SECOND_TIP, np.zeros(3), high, np.zeros(3))
+    line = HOLDS[1] - HOLDS[0]
+    assert math.sin(found[2] + math.atan2(line[1], line[0])) == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize("held", [(1, 1, 0), (1, 0, 1), (1, 1, 1)])

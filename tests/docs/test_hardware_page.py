@@ -78,6 +78,7 @@ def test_the_driver_of_the_page_drives_a_robot_that_knows_no_truth(tmp_path: Pat
 def test_the_page_tells_of_every_message_and_every_stop() -> None:
     for kind in Kind:
         assert f"| {kind.value} {kind.name} |" in PAGE
-    assert [int(number) for number in re.findall(r"(\d) (?:none|no command|client|no message|server)", PAGE)] == [
-        int(stop) for stop in STOPS
-    ]
+    assert [
+        int(number)
+        for number in re.findall(r"(\d) (?:none|no command|client|no message|server|operator|clock|beyond)", PAGE)
+    ] == [int(stop) for stop in STOPS]

@@ -6,7 +6,7 @@ import numpy as np
 
 from clamber.control import body_tick as at
 from clamber.control.body import command_tips, drag_tips
-from clamber.control.body_estimate import estimate_body
+from clamber.control.body_estimate import ENCODER, estimate_body
 from clamber.control.controller import still_aim
 from clamber.control.hook_forces import MOST_CUTS
 from clamber.control.play import follow_play, pull_torques, weight_loads, weight_moment
@@ -19,7 +19,7 @@ from clamber.types import Floats
 class PlainBody(WholeBody):
     """As `WholeBody`, by formulas."""
 
-    def see(self, q: Floats, qd: Floats, angle: float, angle_speed: float, *, with_encoder: bool = True) -> None:
+    def see(self, q: Floats, qd: Floats, angle: float, angle_speed: float, *, angle_from: int = ENCODER) -> None:
         self.q[:], self.qd[:] = q, qd
         for i, task in enumerate(self.tasks):
             self.held[i] = task.holds
@@ -31,7 +31,7 @@ class PlainBody(WholeBody):
             (self.q - self.play, self.settled_tips, np.zeros((self.n, 2)), self.settled, np.zeros(3)),
         ):
             estimate_body(
-                self.legs, angles, self.qd, self._weights, self._holds, angle, angle_speed, with_encoder,
+                self.legs, angles, self.qd, self._weights, self._holds, angle, angle_speed, angle_from,
                 tips, speeds, pose, twist,
             )  # fmt: skip
 
@@ -53,7 +53,7 @@ class PlainBody(WholeBody):
             pulls, forces = np.zeros((n, 2)), np.zeros((n, 2))
             command_tips(
                 self.legs, self.q, held, self.pose, arms, wanted, fed, MAPPINGS[gains.mapping], LIMITS[gains.limit],
-                np.full(n, gains.least_pull), drags, np.zeros((MOST_CUTS, 2)), pulls, forces,
+                np.full(n, gains.alpha), drags, np.zeros((MOST_CUTS, 2)), pulls, forces,
             )  # fmt: skip
             return pulls, forces
 

@@ -9,6 +9,7 @@ from numba import njit
 from numba.core.runtime import _nrt_python, rtsys
 from plain_body import PlainBody
 
+from clamber.control.body_estimate import ENCODER
 from clamber.control.body_tick import command_tick, see_tick
 from clamber.control.controller import MeasurementError
 from clamber.control.law_settings import LAWS
@@ -54,14 +55,14 @@ def busy_pair(robot: LimbedRobot, gains: BodyGains, rng: np.random.Generator) ->
     return pair
 
 
-def tick_both(pair: tuple[WholeBody, PlainBody], rng: np.random.Generator, *, with_encoder: bool = True) -> None:
+def tick_both(pair: tuple[WholeBody, PlainBody], rng: np.random.Generator, *, angle_from: int = ENCODER) -> None:
     n = pair[0].n
     q, qd = rng.uniform(-1.0, 1.0, (n, 2)) + np.array((0.0, 1.5)), rng.normal(0.0, 0.5, (n, 2))
     angle, angle_speed = rng.normal(0.0, 0.1, 2)
     aim, aim_speed = rng.normal(0.0, 0.1, (2, 3))
     for body in pair:
         body.aim[:], body.aim_speed[:] = aim, aim_speed
-        body.see(q, qd, angle, angle_speed, with_encoder=with_encoder)
+        body.see(q, qd, angle, angle_speed, angle_from=angle_from)
         body.command()
 
 
@@ -81,7 +82,7 @@ def test_every_map_and_limit_gives_the_torques_of_the_plain_formulas(
     rng = np.random.default_rng(seed)
     pair = busy_pair(robot_named(name), BodyGains(mapping=mapping, limit=limit), rng)
     for k in range(5):
-        tick_both(pair, rng, with_encoder=k % 2 == 0)
+        tick_both(pair, rng, angle_from=k % 3)
         assert_alike(pair)
 
 

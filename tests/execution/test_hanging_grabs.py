@@ -19,6 +19,7 @@ from clamber.execution.climb.climb_trace import TracedClimber
 from clamber.execution.climb.climber import Climber
 from clamber.execution.climb.course import Course, lay_course
 from clamber.execution.climb.here import task_from_here
+from clamber.execution.climb.hold_map import HoldMap
 from clamber.experiments.climb.rehearsal import REHEARSED
 from clamber.experiments.climb.run_plan import ClimbRun, climbing_flaws, climbing_task, run_plan
 from clamber.tasks import load_task, task_from_document
@@ -28,6 +29,11 @@ SAVED = Path(__file__).parents[2] / "examples" / "across" / "plan.json"
 RIGHT, LEFT = 0, 1
 BEFORE = 137
 """Step of the saved plan with which the body goes below the right limb's hold: four moves, then the left limb grabs 8 in on."""
+
+
+def mapped(course: Course) -> HoldMap:
+    """The holds of a course's board, known exactly."""
+    return HoldMap({hold.number: np.array((hold.x, hold.y)) for hold in course.task.world.holds}, 0.0)
 
 
 @pytest.fixture(scope="module")
@@ -131,7 +137,9 @@ def test_the_robot_catches_up_from_the_stance_with_its_holds_nearest_to_where_it
     body = SimpleNamespace(
         tasks=tasks, q=0.5 * np.stack((sides, sides), axis=1), aim=single_row.pose(2), settled=single_row.pose(2)
     )
-    actor = Actor(cast(Climber, SimpleNamespace(robot=single_row.task.robot, body=body)), single_row)
+    actor = Actor(
+        cast(Climber, SimpleNamespace(robot=single_row.task.robot, body=body, map=mapped(single_row))), single_row
+    )
     went: list[Floats] = []
     done: list[tuple[int, int]] = []
 
@@ -298,7 +306,9 @@ def test_a_hang_that_a_slip_has_led_to_is_taken_up_by_the_plan(
     monkeypatch.setattr(actor_module, "clear_the_way", lambda *_: None)
     monkeypatch.setattr(actor_module, "is_clear", lambda *_: True)
     body = SimpleNamespace(settled=single_row.pose(0), aim=single_row.pose(0), tasks=[])
-    climber = SimpleNamespace(robot=single_row.task.robot, body=body, hangs=True, holding=lambda: [RIGHT])
+    climber = SimpleNamespace(
+        robot=single_row.task.robot, body=body, map=mapped(single_row), hangs=True, holding=lambda: [RIGHT]
+    )
     actor = Actor(cast(Climber, climber), single_row)
     assert actor._hang(1) == ""
     assert taken == [(RIGHT, "taken up"), (-1, "brought"), (-1, "calm")]

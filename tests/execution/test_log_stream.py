@@ -4,6 +4,7 @@ import io
 import json
 import os
 import random
+import resource
 import signal
 import subprocess
 import sys
@@ -21,6 +22,7 @@ from mcap.stream_reader import StreamReader
 from clamber.actions.limbed_plans import thesis_code
 from clamber.actions.plan import Plan
 from clamber.cli import main
+from clamber.cli.run.text import ClimbLine
 from clamber.errors import FileError
 from clamber.execution.climb.climb_trace import ClimbTrace
 from clamber.execution.climb.course import climbable
@@ -189,6 +191,31 @@ def test_a_climb_that_is_killed_leaves_a_log_that_can_be_read(
     climbed = climb_to_the_end(plan, tmp_path / "whole.mcap")
     kill_a_climb(plan, tmp_path / "killed.mcap", size=20_000, wait=0.0)
     assert_left(tmp_path / "killed.mcap", climbed)
+
+
+def test_a_climb_goes_on_without_its_log_and_says_from_when_that_is_missing(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    plan, before = climb_plan(tmp_path, RUNG[:2]), resource.getrlimit(resource.RLIMIT_FSIZE)
+    whole = ClimbLine.update
+
+    def fills_the_disk(line: ClimbLine, step: int, steps: int, title: str, at: float) -> None:
+        if step == 2:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (2000, before[1]))
+        whole(line, step, steps, title, at)
+
+    monkeypatch.setattr(ClimbLine, "update", fills_the_disk)
+    try:
+        with pytest.raises(SystemExit) as left:
+            main(("run", str(plan), "-q", "--json", "-o", str(tmp_path / "run.mcap")))
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    told = capfd.readouterr()
+    report = json.loads(told.out)
+    assert left.value.code == 0 and report["done"]
+    assert 0.0 <= report["log_gap"]["since"] < report["seconds"]
+    assert told.err.count("cannot be written (File too large): the log is missing from") == 1
+    assert not (tmp_path / "run.mcap").exists()
 
 
 @pytest.mark.slow

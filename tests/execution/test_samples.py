@@ -1,5 +1,8 @@
 """Samples of a run: one every few ticks, one of the tick that ends it, each told once; and a table that comes back from its log."""
 
+import resource
+import time
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,7 +13,7 @@ from hypothesis import strategies as st
 
 from clamber.execution.log import LogError
 from clamber.execution.log_files import read_log
-from clamber.execution.log_stream import growing_log, part_of
+from clamber.execution.log_stream import WantedLog, growing_log, part_of
 from clamber.execution.sample_log import fields_of, report_notes, report_of, sample_log, table_of, width
 from clamber.execution.samples import Samples
 from clamber.types import Floats, Ints
@@ -73,6 +76,42 @@ def test_a_log_that_grows_is_whole_at_the_end_and_else_what_there_was(tmp_path: 
     with growing_log(None, samples, ("time [s]", "less"), {}, "toy") as finish:
         finish({})
     assert len(list(tmp_path.iterdir())) == 2
+
+
+@pytest.fixture
+def full_disk() -> Iterator[Callable[[int], None]]:
+    """Has every file end at a size from now on, as on a disk that is full."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    yield lambda size: resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
+    resource.setrlimit(resource.RLIMIT_FSIZE, before)
+
+
+def test_a_disk_that_gets_full_is_told_once_and_the_run_goes_on(
+    tmp_path: Path, full_disk: Callable[[int], None]
+) -> None:
+    robot, told = Counter(), []
+    samples = Samples(robot, 1)
+    log = WantedLog(tmp_path / "run.mcap", told.append)
+    with growing_log(log, samples, ("time [s]", "less"), {"robot": "toy"}, "toy") as finish:
+        for _ in range(100):
+            samples.over(robot.tick)
+        while not (part_of(log.path).exists() and part_of(log.path).stat().st_size > 1000):
+            time.sleep(0.05)  # the first are on disk
+        full_disk(part_of(log.path).stat().st_size + 100)
+        until = time.monotonic() + 60.0
+        while not told and time.monotonic() < until:
+            samples.over(robot.tick)
+            time.sleep(0.001)
+        for _ in range(100):
+            samples.over(robot.tick)
+        gap = finish({"done": True})
+    assert gap is not None and 1.0 < gap.since <= robot.ticks - 100 and "File too large" in gap.problem
+    assert told == [
+        f"{part_of(log.path)}: cannot be written (File too large): the log is missing from {gap.since:.2f} s on"
+    ]
+    assert not log.path.exists()
+    left = read_log(part_of(log.path))
+    assert left.cut and left.column("time")[0] == 1.0 and left.column("time")[-1] >= gap.since - 1.0
 
 
 @dataclass

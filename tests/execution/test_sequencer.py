@@ -14,8 +14,8 @@ from clamber.execution.climb.climb_trace import TracedClimber
 from clamber.execution.climb.climbing import Climbing
 from clamber.execution.climb.course import lay_course
 from clamber.execution.plant import PlantStoppedError
-from clamber.execution.run_ends import FallenError, RefusedError, StuckError
-from clamber.execution.run_report import Outcome, RunReport
+from clamber.execution.run_ends import FallenError, FaultError, RefusedError, StuckError
+from clamber.execution.run_report import Ending, Outcome, RunReport
 from clamber.execution.sequencer import MOST_RECOVERIES, MOST_REPLANS, Attempt, Performer, Sequencer
 from clamber.execution.walk.course import TrackCourse
 from clamber.execution.walk.true_walk import TracedPlant
@@ -28,9 +28,15 @@ from clamber.sim.walker_flaws import WalkerFlaws
 from clamber.sim.walker_plant import WalkerSim
 from clamber.tasks.walks import load_walk
 
-WORDS = ("ok", "stalled", "missed", "refused", "slipped", "fell", "stopped", "stuck", "interrupted")
+WORDS = ("ok", "stalled", "missed", "refused", "slipped", "fell", "fault", "stopped", "stuck", "interrupted")
 """What may become of a toy's try."""
-ENDS = {"fell": FallenError, "stopped": PlantStoppedError, "refused": RefusedError, "stuck": StuckError}
+ENDS = {
+    "fell": FallenError,
+    "fault": FaultError,
+    "stopped": PlantStoppedError,
+    "refused": RefusedError,
+    "stuck": StuckError,
+}
 
 
 class SlippedError(FallenError):
@@ -55,7 +61,7 @@ class Toy(Performer[int, ToyReport, int]):
     def __init__(self, *tries: list[str], plans: int = 0) -> None:
         self._tries, self._plans = [list(one) for one in tries], plans
         self._at, self._time = -1, 0.0
-        self.before = self.ended = 0
+        self.before = self.ended = self.braced = 0
         self.report = ToyReport()
 
     @property
@@ -96,6 +102,10 @@ class Toy(Performer[int, ToyReport, int]):
         self._plans -= outcome == "missed"
         return outcome == "missed" and self._plans >= 0
 
+    def stop_safely(self) -> Ending:
+        self.braced += 1
+        return "held"
+
     def name(self, action: int) -> str:
         return f"action {action}"
 
@@ -123,6 +133,7 @@ def test_all_actions_are_carried_out_in_turn() -> None:
         ("missed", "action 1: missed: said missed"),
         ("refused", "action 1: refused: said refused"),
         ("fell", "fell: said fell"),
+        ("fault", "fault: said fault"),
         ("stopped", "stopped: said stopped"),
         ("stuck", "stuck: said stuck"),
         ("interrupted", "interrupted"),
@@ -133,6 +144,19 @@ def test_what_ends_a_run_is_its_reason_and_the_outcome_of_the_action_that_it_end
     report = Sequencer(toy).run()
     assert (report.done, report.reason, report.seconds) == (False, reason, 2.5)
     assert outcomes(toy) == ["ok", word]
+    assert toy.ended == 1
+    assert (toy.braced, report.ending) == ((1, "held") if word == "fault" else (0, ""))
+
+
+def test_a_robot_that_falls_as_it_stops_for_a_fault_is_told_to_have_fallen() -> None:
+    toy = Toy(["fault"])
+
+    def fall() -> Ending:
+        raise FallenError("off")
+
+    toy.stop_safely = fall  # type: ignore[method-assign]
+    report = Sequencer(toy).run()
+    assert (report.ending, report.reason) == ("fell", "fault: said fault; then fell: off")
     assert toy.ended == 1
 
 

@@ -12,9 +12,15 @@ from clamber.execution.climb import actor as actor_module
 from clamber.execution.climb.actor import Actor
 from clamber.execution.climb.climber import Climber
 from clamber.execution.climb.course import Course, lay_course
+from clamber.execution.climb.hold_map import HoldMap
 from clamber.experiments.climb.run_plan import climbing_task
 
 CIRCLE = Path(__file__).parents[2] / "examples" / "circle" / "plan.json"
+
+
+def mapped(course: Course) -> HoldMap:
+    """The holds of a course's board, known exactly."""
+    return HoldMap({hold.number: np.array((hold.x, hold.y)) for hold in course.task.world.holds}, 0.0)
 
 
 @pytest.fixture(scope="module")
@@ -51,7 +57,9 @@ def test_a_wedged_hook_is_tried_at_each_pose_back_with_the_same_holds(
 
     monkeypatch.setattr(actor_module, "release", release)
     monkeypatch.setattr(actor_module, "move_body", lambda _, pose: been.append(pose))
-    actor = Actor(cast(Climber, SimpleNamespace(robot=course.task.robot, body=body, hangs=False)), course)
+    actor = Actor(
+        cast(Climber, SimpleNamespace(robot=course.task.robot, body=body, map=mapped(course), hangs=False)), course
+    )
     outcome, count, why = actor.carry_out(step, step)
     back = most if comes_off is None else comes_off
     assert (outcome, count) == (("missed", 2) if comes_off is None else ("ok", 1 + (comes_off > 0)))

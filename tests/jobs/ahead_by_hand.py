@@ -7,8 +7,9 @@ import time
 from pathlib import Path
 from typing import Any
 
-from clamber.compiled import is_compiled, kernel
+from clamber.compiled import kernel
 from clamber.jobs.ahead import ahead
+from clamber.kernel_cache import is_compiled
 
 FOLDER = Path(os.environ.get("AHEAD_BY_HAND", "."))
 

@@ -114,8 +114,8 @@ def test_a_cluster_runs_batches_as_local_workers_do(
         assert all(ran(folder / "log")[n] == before[n] for n in kept), "a finished item was run again"
 
     with monkeypatch.context() as changed:
-        changed.setattr(cluster, "release", lambda: {"clamber": "0.0", "kernels": "none"})
-        with pytest.raises(ClusterError, match=r"has Clamber .* with kernels .*, not Clamber 0\.0 with kernels none"):
+        changed.setattr(cluster, "release", lambda: {"clamber": "0.0", "files": "none"})
+        with pytest.raises(ClusterError, match=r"another release: clamber .*, not 0\.0, files .*, not none"):
             map_items(square, [{"n": 1}], executor=there)
     with monkeypatch.context() as changed:
         changed.setenv("RAY_AUTH_TOKEN", "0" * 32)
@@ -214,5 +214,5 @@ def test_what_goes_wrong_behind_an_open_port_is_told(
 
 def test_a_worker_of_another_release_runs_nothing(tmp_path: Path) -> None:
     item = json.dumps({"n": 1, "log": str(tmp_path / "log")})
-    told = json.loads(cluster.run_there("jobs_by_hand:square", item, json.dumps({"clamber": "0.0", "kernels": "none"})))
+    told = json.loads(cluster.run_there("jobs_by_hand:square", item, json.dumps({"clamber": "0.0", "files": "none"})))
     assert set(told) == {"release", "host"} and not (tmp_path / "log").exists()

@@ -3,10 +3,12 @@
 import json
 import os
 import random
+import shutil
 import signal
 import sqlite3
 import subprocess
 import sys
+import threading
 import time
 from collections import Counter
 from contextlib import suppress
@@ -16,7 +18,12 @@ import pytest
 from jobs_by_hand import batch, square
 
 import clamber
-from clamber.jobs import StoreError, look_into, map_items
+from clamber.errors import FileError, SpecError
+from clamber.jobs import StoreError, look_into, map_items, read_result
+from clamber.jobs.release import release
+from clamber.jobs.store import Store
+from clamber.planning.sweep import Point
+from clamber.sources import PACKAGE, package_hash
 
 
 def ran(log: Path) -> Counter[int]:
@@ -60,6 +67,7 @@ def test_what_always_kills_its_worker_or_raises_is_an_outcome_and_harms_no_other
     assert [one.result is None for one in told] == [False, True, True, False]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stop", [signal.SIGKILL, signal.SIGINT])
 def test_a_batch_stopped_at_several_moments_ends_with_the_same_results_and_runs_nothing_finished_again(
     tmp_path: Path, stop: signal.Signals
@@ -160,8 +168,68 @@ def test_a_store_refuses_what_is_not_its_own(tmp_path: Path) -> None:
     (tmp_path / "text").write_text("no database at all, but longer than a header of one hundred bytes" * 3)
     with pytest.raises(StoreError, match="is no store of results"):
         map_items(square, [{"n": 1}], store=tmp_path / "text")
-    with pytest.raises(StoreError, match="does not exist; make it first"):
+    with pytest.raises(FileError, match="does not exist; make it first"):
         map_items(square, [{"n": 1}], store=tmp_path / "no" / "store.db")
+
+
+def change(store: Path, words: str, *values: str) -> None:
+    with sqlite3.connect(store) as file:
+        file.execute(words, values)
+    file.close()
+
+
+def test_results_of_other_code_are_refused_by_name(tmp_path: Path) -> None:
+    store = tmp_path / "store.db"
+    told = {"about": {"a": 1}, "title": "batch one", "store": store, "resume": True}
+    map_items(square, [{"n": 1}], **told)
+    map_items(square, [{"n": 1}, {"n": 2}], **told)
+    kept = release()
+    assert kept["files"] and kept["python"] and kept["numpy"] and kept["mujoco"]
+    for part in kept:
+        other = json.dumps(kept | {part: "other"})
+        change(store, "UPDATE about SET value = ? WHERE key = 'release'", other)
+        allowed = "go on with the code that began it, or name another file"
+        with pytest.raises(StoreError, match=rf"another release of Clamber \({part} other, not .*\); {allowed}"):
+            map_items(square, [{"n": 1}], **told)
+        with pytest.raises(StoreError, match=f"{part} other"):
+            look_into(store, square, about={"a": 1}, title="batch one")
+    change(store, "DELETE FROM about WHERE key = 'release'")  # as stores were before
+    with pytest.raises(StoreError, match="another release of Clamber"):
+        map_items(square, [{"n": 1}], **told)
+
+
+@pytest.mark.parametrize(
+    "name", ["cli/list.py", "robots/data/libra.toml", "viewing/report/templates/base.html", "units.py"]
+)
+def test_a_release_knows_every_file_of_the_package(tmp_path: Path, name: str) -> None:
+    copy = tmp_path / "clamber"
+    shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"))
+    assert package_hash(copy) == package_hash(PACKAGE)
+    file = copy / name
+    assert file.is_file()
+    file.write_bytes(file.read_bytes() + b"\n")
+    package_hash.cache_clear()
+    assert package_hash(copy) != package_hash(PACKAGE)
+
+
+@pytest.mark.parametrize(
+    "row", ['{"square": NaN, "blas": "1"}', '{"square": 1e999}', '{"square": 1', "[1, 2]", "", "{" * 9000]
+)
+def test_a_damaged_row_is_refused_by_name(tmp_path: Path, row: str) -> None:
+    store = tmp_path / "store.db"
+    told = {"store": store, "resume": True, "title": "batch one"}
+    map_items(square, [{"n": 1}], **told)
+    change(store, "UPDATE items SET result = ?", row)
+    with pytest.raises(StoreError, match=r"store\.db: finished item 1 is damaged; name another file"):
+        map_items(square, [{"n": 1}], **told)
+
+
+def test_a_result_without_its_fields_is_refused_by_name(tmp_path: Path) -> None:
+    store = tmp_path / "store.db"
+    with pytest.raises(SpecError, match=r"store\.db: a stored result: length = 'long': must be a"):
+        read_result(Point, {"values": ["1"], "status": "found", "reason": "", "length": "long"}, store)
+    with pytest.raises(SpecError, match="status: must be given"):
+        read_result(Point, {"values": ["1"], "reason": ""}, store)
 
 
 def test_two_runs_at_once_on_one_store_are_refused(tmp_path: Path) -> None:
@@ -185,3 +253,42 @@ def test_a_store_keeps_its_first_note_and_shows_what_is_in_it(tmp_path: Path) ->
     assert sorted(result["square"] for result in kept.results) == [4, 9]
     with pytest.raises(StoreError, match="holds the results of batch one"):
         look_into(store, square, about={"a": 2}, title="batch two")
+
+
+def test_a_result_waits_for_a_locked_store_and_says_so(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "store.db"
+    with Store(path, "id", "batch", resume=False) as store:
+        other = sqlite3.connect(path, isolation_level=None, check_same_thread=False)
+        other.execute("BEGIN IMMEDIATE")
+        freed = threading.Timer(2.5, lambda: other.execute("ROLLBACK"))
+        freed.start()
+        store.keep("a", "{}", "{}", 1.0, None, 1)  # it was given up after a second
+        freed.join()
+        assert "is locked by another process; waiting for it" in capsys.readouterr().err
+        other.execute("BEGIN IMMEDIATE")
+        monkeypatch.setattr("clamber.jobs.store.PATIENCE", 0.5)
+        with pytest.raises(StoreError, match=r"cannot be written \(database is locked\); what is in it stays"):
+            store.keep("b", "{}", "{}", 1.0, None, 1)
+        other.close()
+        assert [key for key, *_ in store.finished()] == ["a"]
+
+
+@pytest.mark.parametrize(
+    ("column", "value"),
+    [("result", "{"), ("result", None), ("result", '{"a": NaN}'), ("result", b"\xff"), ("seconds", "x"), ("tries", "x"),
+     ("key", 3), ("result", "[" * 5000)],
+)  # fmt: skip
+def test_a_damaged_row_is_refused(tmp_path: Path, column: str, value: object) -> None:
+    path = tmp_path / "store.db"
+    with Store(path, "id", "batch", resume=False) as store:
+        store.keep("a", "{}", "{}", 1.0, None, 1)
+    with sqlite3.connect(path) as file, suppress(sqlite3.IntegrityError):
+        file.execute(f"UPDATE items SET {column} = ?", (value,))
+    with Store(path, "id", "batch", resume=True) as store:
+        if column == "key":
+            assert [key for key, *_ in store.finished()] == ["3"]  # SQLite makes a text of it
+        else:
+            with pytest.raises(StoreError, match="finished item 1 is damaged; name another file"):
+                list(store.finished())

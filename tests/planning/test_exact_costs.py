@@ -2,6 +2,8 @@
 
 import json
 import math
+import time
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -204,6 +206,49 @@ def test_the_relaxed_bound_falls_by_at_most_one_an_action(name: str) -> None:
         after = keys_of(problem, children.stance)[1]
         assert before <= 1.0 + after.min()
         here = children.stance[rng.integers(len(children.stance))][None].copy()
+
+
+def stopped_after(looks: int) -> Callable[[], bool]:
+    """A clock that says, from a look on, that there is no more time."""
+    seen = iter(range(looks))
+    return lambda: next(seen, None) is None
+
+
+def looks_of(problem: CompiledProblem) -> int:
+    """How often a bound that is worked out whole looks at the clock."""
+    looks = []
+    problem.informed(lambda: bool(looks.append(None)))
+    return len(looks)
+
+
+@pytest.mark.parametrize("name", ["circle", "four limbs"])
+@pytest.mark.parametrize("share", [0.3, 0.8])
+def test_a_bound_that_ran_out_of_time_is_lower_and_falls_by_at_most_one_an_action(name: str, share: float) -> None:
+    task, overrides = WALKS[name]
+    problem = pose_problem(load_task(task, overrides)).problem
+    whole, cut = problem.informed(), problem.informed(stopped_after(round(share * looks_of(problem))))
+    rng = np.random.default_rng(4)
+    here, lower = problem.start, 0
+    for _ in range(30):
+        children = problem.expand(here).stance
+        if not len(children):
+            break
+        there = np.concatenate((here, children))
+        full, bounds = keys_of(whole, there)[1], keys_of(cut, there)[1]
+        assert np.all(bounds <= full)
+        assert bounds[0] <= 1.0 + bounds[1:].min()
+        lower += int(np.count_nonzero(bounds < full))
+        here = children[rng.integers(len(children))][None].copy()
+    assert lower or share > 0.5, "it was stopped too late to be one"
+
+
+def test_the_exact_planner_keeps_to_its_time_where_bound_and_stances_are_costly() -> None:
+    task = load_task("gecko-climb")
+    plan_exact(load_task("h", (NO_HANGS, "step.length=3in")))  # compiles what it needs
+    before = time.process_time()
+    result = plan_exact(task, seconds=1.0)
+    assert time.process_time() - before < 6.0, "it was 25 s"
+    assert result.status == "bounded" and result.lower_bound is not None and result.lower_bound > 0
 
 
 @pytest.mark.parametrize("name", SMALL)

@@ -11,7 +11,7 @@ from clamber.actions.inventory import make_inventory
 from clamber.actions.limbed_problem import LimbedProblem
 from clamber.actions.problems import pose_problem
 from clamber.actions.table import ActionTable
-from clamber.errors import ClamberError, FileError
+from clamber.errors import ClamberError, FileError, SpecError
 from clamber.jobs import LocalProcesses
 from clamber.planning.genetic.learning import learn
 from clamber.planning.genetic.planner import plan_genetic
@@ -87,7 +87,7 @@ def whole() -> PlanResult:
 def test_a_killed_run_resumes_to_the_plan_of_the_undisturbed_run(
     dies_at: int, whole: PlanResult, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("clamber.planning.genetic.search.CHECKPOINT_EVERY", 0.0)
+    monkeypatch.setattr("clamber.planning.genetic.checkpoint.EVERY", 0.0)
     task = load_task("h", ("rules.max_hangs=0",))
     path = tmp_path / "search.json"
     calls = 0
@@ -210,10 +210,10 @@ def test_the_ladder_gait_is_learned_and_climbs_a_hundred_rungs_alone(tmp_path: P
     assert record["done"] == 1
     path = tmp_path / "macros.json"
     lesson.save(path)
-    assert load_macros(path) == lesson.macros
+    assert load_macros(path, task) == lesson.macros
     path.write_text(json.dumps({"schema": "other"}))
-    with pytest.raises(FileError, match="macros"):
-        load_macros(path)
+    with pytest.raises(SpecError, match="clamber-macros-2"):
+        load_macros(path, task)
 
 
 @pytest.mark.slow

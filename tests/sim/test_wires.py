@@ -11,6 +11,7 @@ from clamber.execution.closed_loop import close_loop
 from clamber.execution.hardware import WiredLimb
 from clamber.execution.link.channel import Address, listen
 from clamber.execution.link.client import RemoteHardware
+from clamber.execution.link.envelope import envelope_of
 from clamber.execution.link.messages import About
 from clamber.execution.link.server import PlantServer
 from clamber.execution.plant import LimbPlant
@@ -49,7 +50,8 @@ def test_a_limb_behind_a_socket_is_driven_as_one_here(name: str, leg: BenchLimb)
     about = About(leg.robot.name, leg.chain.name, 2, 2, 2, len(served.truth()), False, served.period)
     listener, address = listen(Address("tcp", "127.0.0.1"))
     guard = PostureGuard(wiring, leg.chain.joints["rotor"], served.period)
-    server = PlantServer(served, about, guard, listener, say=lambda _: None, once=True)
+    envelope = envelope_of(leg.robot, wiring, served.period, (leg.robot.limb_names[0],))
+    server = PlantServer(served, about, guard, envelope, listener, say=lambda _: None, once=True)
     thread = threading.Thread(target=server.serve, daemon=True)
     thread.start()
     with RemoteHardware(address) as remote:

@@ -33,7 +33,7 @@ def limbed_params(task: LimbedTask, *, every_check: bool) -> Params:
     offsets = np.concatenate([[0], np.cumsum([len(polygon) for polygon in polygons])]).astype(np.int64)
     goals = _goals(task, polygons, int(offsets[-1]))
     vertices = [vertex for polygon in polygons for vertex in polygon]
-    hull = _hull(np.array([(limb.port_x, limb.port_y) for limb in robot.limbs]))
+    hull = robot.outline()
     record = np.zeros(1, PARAMS)
     _fill_rules(record[0], task, grid, every_check=every_check)
     return Params(
@@ -223,26 +223,6 @@ def _middle(goal: Goal, start: tuple[float, float]) -> tuple[float, float]:
         closed = math.isfinite(lower) and math.isfinite(upper)
         place.append(0.5 * (lower + upper) if closed else min(max(at, lower), upper))
     return place[0], place[1]
-
-
-def _hull(points: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """Convex hull of a few points, anticlockwise (Andrew's monotone chain), shape (n, 2)."""
-    ordered = sorted({(float(x), float(y)) for x, y in points})
-    if len(ordered) < 3:
-        return np.array(ordered)
-    halves: list[tuple[float, float]] = []
-    for run in (ordered, ordered[::-1]):
-        chain: list[tuple[float, float]] = []
-        for point in run:
-            while len(chain) >= 2 and _turn(chain[-2], chain[-1], point) <= 0.0:
-                chain.pop()
-            chain.append(point)
-        halves += chain[:-1]
-    return np.array(halves)
-
-
-def _turn(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float]) -> float:
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
 def _grid(

@@ -15,7 +15,6 @@ from ..units import OZ_IN
 from .codes import HOLD, MOVE, NEAREST, NONE, RANDOM, RELEASE, Code, pack
 from .inventory import module_name
 from .limbed_problem import LimbedProblem
-from .loops import replay
 from .plan_costs import PlanCost
 from .planned import ActionError, PlannedAction
 from .problem import CompiledProblem, Records
@@ -137,12 +136,10 @@ class LimbedPlans:
     def nearest(self, task: LimbedTask, problem: CompiledProblem, stances: Records, asked: Ints) -> list[int | None]:
         """What each "nearest" among the codes `asked` takes from the stance before it: hold numbers, shape (n,)."""
         found: list[int | None] = [None] * len(asked)
-        after, margins, reasons = np.zeros(2, stances.dtype), np.zeros((1, len(self.checks))), np.zeros(1, np.int32)
         for index in range(min(len(asked), len(stances) - 1)):
             if Code.of(int(asked[index])).kind == "nearest":
-                start, code = stances[index : index + 1], asked[index : index + 1]
-                replay(problem.params.record, start, code, True, after, margins, reasons)
-                found[index] = self.taken(task, after[1])
+                here = problem.rebind(problem.actions, stances[index : index + 1])
+                found[index] = self.taken(task, here.replay(asked[index : index + 1], go_on=True).stances[1])
         return found
 
     def _number(self, task: LimbedTask, number: int) -> int | None:

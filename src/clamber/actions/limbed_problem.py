@@ -2,6 +2,7 @@
 
 import copy
 import math
+from collections.abc import Callable
 from functools import cached_property
 from typing import Final, Self
 
@@ -12,8 +13,9 @@ from ..errors import StartError
 from ..statics.checks import LIMBED_CHECKS
 from ..statics.records import PARAMS, STANCE
 from ..tasks.limbed import LimbedTask
+from .code_limits import CodeLimits
+from .codes import ARGUMENT_MASK, MOVE, NEAREST, NONE, RANDOM, RELEASE, Code, pack
 from .codes import HOLD as HOLD_KIND
-from .codes import NEAREST, Code, pack
 from .family import family_kernels
 from .inventory import most_in_reach, whole_kinds
 from .limbed import step
@@ -75,14 +77,19 @@ class LimbedProblem(CompiledProblem):
         """
         params = limbed_params(task, every_check=every_check)
         start = start_stance(task, params)
-        super().__init__(params, start, actions, CHECKS, FEATURE_NAMES, threads)
         self.task = task
+        super().__init__(params, start, actions, CHECKS, FEATURE_NAMES, threads)
         assert len(FEATURE_NAMES) == FEATURES
 
-    def informed(self) -> Self:
+    @cached_property
+    def limits(self) -> CodeLimits:
+        """The codes, and the indices in stances, that there are here."""
+        return limbed_limits(self.task)
+
+    def informed(self, is_late: Callable[[], bool] = lambda: False) -> Self:
         """The same problem whose `bound` is the fewest actions of the relaxed problem, and which knows its own symmetry."""
         other = copy.copy(self)
-        other.params = with_bound(with_mirror(self.params))
+        other.params = with_bound(with_mirror(self.params), is_late)
         return other
 
     def mirrored(self, code: int) -> int:
@@ -190,6 +197,29 @@ class LimbedProblem(CompiledProblem):
                     break
                 before = taken
         return ranked
+
+
+def limbed_limits(task: LimbedTask) -> CodeLimits:
+    """The codes and indices of a climber's task. A rank may be any, for "nearest" clips it."""
+    limbs, holds = len(task.robot.limbs), len(task.world.holds)
+    return CodeLimits(
+        label=f"task '{task.name}'",
+        kinds={
+            NONE: (1, 0, 0),
+            MOVE: (1, 0, 5),
+            RELEASE: (limbs, 0, 0),
+            NEAREST: (limbs, 1, ARGUMENT_MASK),
+            HOLD_KIND: (limbs, 0, holds - 1),
+            RANDOM: (limbs, 0, 0),
+        },
+        fields={
+            "hold": (-1, holds - 1, limbs),
+            "left": (-1, holds - 1, limbs),
+            "in_use": (-1, limbs - 1, 1),
+            "stage": (0, len(task.goals), 1),
+            "resolved": (-1, holds - 1, 1),
+        },
+    )
 
 
 def start_stance(task: LimbedTask, params: Params) -> Records:

@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import Field, StrictStr
 
 from ..errors import FileError, SpecError
-from ..files import Document, check_schema, read_text, write_atomically
+from ..files import Document, check_schema, parse_json, read_text, write_atomically
 from ..specs import build_spec, spec
 from ..tasks import Task, task_from_document
 from ..types import Ints, Json
@@ -56,7 +56,7 @@ class Plan:
             genes: What each action was called where it came from.
         """
         family = plan_family(task)
-        replay = family.problem(task).replay(np.asarray(codes, np.int32), go_on=True)
+        replay = family.problem(task).replay(codes, go_on=True)
         names = genes if genes is not None else [None] * len(codes)
         actions = tuple(
             family.action(task, int(code), after, gene)
@@ -163,11 +163,7 @@ def load_plan(path: Path) -> Plan:
     """
     text = read_text(path)
     try:
-        data = json.loads(text, parse_constant=_no_constant)
-    except (ValueError, RecursionError) as error:
+        data = parse_json(text)
+    except ValueError as error:
         raise FileError(str(path), f"is not valid JSON: {error}", "a plan is what `clamber plan -o` writes") from None
     return Plan.from_json(data, str(path))
-
-
-def _no_constant(word: str) -> float:
-    raise ValueError(f"{word} is no JSON number")

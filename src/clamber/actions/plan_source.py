@@ -9,6 +9,7 @@ import numpy as np
 
 from ..errors import SpecError, UnknownNameError
 from ..files import Document, data_names, is_path, read_toml
+from ..regular_files import is_file
 from ..robots.library import family_of
 from ..tasks import Task, load_task, task_names
 from ..tasks.library import TASK_FAMILIES
@@ -52,7 +53,7 @@ def is_plan(name_or_path: str) -> bool:
     path = Path(name_or_path)
     if path.suffix == ".json" or name_or_path in plan_names():
         return True
-    return path.suffix == ".toml" and path.is_file() and "actions" in read_toml(path).data
+    return path.suffix == ".toml" and is_file(path) and "actions" in read_toml(path).data
 
 
 def check_name(what: str, walks: tuple[str, ...] = ()) -> None:

@@ -3,7 +3,7 @@
 import copy
 import math
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any, ClassVar, Protocol, Self
@@ -11,6 +11,9 @@ from typing import Any, ClassVar, Protocol, Self
 import numpy as np
 import numpy.typing as npt
 
+from ..errors import SpecError
+from .children import Children, Sprouts
+from .code_limits import CodeLimits, indices
 from .loops import expand, features_of, follow, possible, replay, rollout, sprout
 from .params import Params
 from .table import ActionTable
@@ -53,33 +56,6 @@ class Replay:
         return bool(np.all(self.reasons < 0))
 
 
-@dataclass(frozen=True, slots=True)
-class Children:
-    """Every valid child of a batch of stances: index of the parent, code of the action, stance."""
-
-    parent: npt.NDArray[np.int32]
-    code: npt.NDArray[np.int32]
-    stance: Records
-
-
-@dataclass(frozen=True, slots=True)
-class Sprouts:
-    """Every valid child of a batch of stances, in slots by parent: the first `count` of each row are filled."""
-
-    count: npt.NDArray[np.int32]
-    """Children of each parent, shape (n,)."""
-    code: npt.NDArray[np.int32]
-    """Actions, shape (n, slots)."""
-    score: npt.NDArray[np.float64]
-    """Weighted features less the toll, shape (n, slots)."""
-    cell: npt.NDArray[np.int64]
-    """Niches, shape (n, slots)."""
-    done: npt.NDArray[np.uint8]
-    """Whether every goal is met, shape (n, slots)."""
-    keys: npt.NDArray[np.int64]
-    """Shape (n, slots, words)."""
-
-
 class Problem(Protocol):
     """A task that planners can work on, whatever the robot; a worker rebuilds it from the task's text."""
 
@@ -97,7 +73,7 @@ class Problem(Protocol):
         """Carry out many plans; records of `ROLLOUT`."""
         ...
 
-    def replay(self, codes: npt.NDArray[np.int32], *, go_on: bool = False) -> Replay:
+    def replay(self, codes: Sequence[int] | npt.NDArray[np.int32], *, go_on: bool = False) -> Replay:
         """Carry out one plan, keeping every stance and margin."""
         ...
 
@@ -114,6 +90,9 @@ class CompiledProblem:
     """A `Problem` whose family is a set of kernels: the loops of `actions.loops`, spread over threads.
 
     The answer does not depend on the number of threads: every plan is carried out alone.
+
+    Kernels take codes, entries of the table and indices of stances as they are, and one that does not exist would make them read
+    and write memory that is not theirs. So whatever is handed in is looked at here first, whoever it comes from.
     """
 
     burdens: ClassVar[tuple[str, ...]] = ()
@@ -130,13 +109,18 @@ class CompiledProblem:
     ) -> None:
         self.params = params
         self.start = start
-        self.actions = actions
+        self.actions = self.limits.table(actions)
         self.checks = checks
         self.features = features
         self.threads = max(1, threads if threads is not None else (os.cpu_count() or 1))
         self._pool: ThreadPoolExecutor | None = None
         self._kept: list[Params] = []
         self._scratch = [self._make_scratch() for _ in range(self.threads)]
+
+    @property
+    def limits(self) -> CodeLimits:
+        """The codes, and the indices in stances, that there are here."""
+        raise NotImplementedError
 
     def _make_scratch(self) -> tuple[Any, Records, npt.NDArray[np.float64], npt.NDArray[np.float64]]:
         params = self.params.for_thread()
@@ -157,7 +141,12 @@ class CompiledProblem:
 
         Returns:
             Records of `ROLLOUT`, shape (n,).
+
+        Raises:
+            SpecError: If a gene is no entry of the table, or a weight is missing.
         """
+        genes, lengths = self.limits.genes(genes, lengths, self.actions)
+        weights = self._weights(weights)
         out = np.zeros(len(genes), ROLLOUT)
 
         def part(worker: int, first: int, end: int) -> None:
@@ -169,6 +158,13 @@ class CompiledProblem:
 
         self._spread(len(genes), part)
         return out
+
+    def _weights(self, weights: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        taken = np.ascontiguousarray(weights, np.float64)
+        if taken.shape != (len(self.features),):
+            allowed = f"must be one number for each of {', '.join(self.features)}"
+            raise SpecError(self.limits.label, "weights", taken.tolist(), allowed)
+        return taken
 
     def _spread(self, n: int, part: Callable[[int, int, int], None]) -> None:
         """Run `part(worker, first, end)` over n items: spread over the pool, or here if there are few.
@@ -190,17 +186,26 @@ class CompiledProblem:
         for job in [self._pool.submit(work, worker) for worker in range(self.threads)]:
             job.result()
 
-    def replay(self, codes: npt.NDArray[np.int32], *, go_on: bool = False) -> Replay:
-        """Carry out one plan and keep every stance, margin and reason; stops at the first violation unless `go_on`."""
-        codes = np.ascontiguousarray(codes, np.int32)
-        stances = np.zeros(len(codes) + 1, self.start.dtype)
-        margins = np.full((len(codes), len(self.checks)), np.nan)
-        reasons = np.full(len(codes), -1, np.int32)
-        n = replay(self._scratch[0][0], self.start, codes, go_on, stances, margins, reasons)
+    def replay(self, codes: Sequence[int] | npt.NDArray[np.int32], *, go_on: bool = False) -> Replay:
+        """Carry out one plan and keep every stance, margin and reason; stops at the first violation unless `go_on`.
+
+        Raises:
+            SpecError: If a code is no action of this task.
+        """
+        packed = self.limits.codes(codes)
+        stances = np.zeros(len(packed) + 1, self.start.dtype)
+        margins = np.full((len(packed), len(self.checks)), np.nan)
+        reasons = np.full(len(packed), -1, np.int32)
+        n = replay(self._scratch[0][0], self.start, packed, go_on, stances, margins, reasons)
         return Replay(stances[: n + 1], margins[:n], reasons[:n])
 
     def expand(self, stances: Records) -> Children:
-        """Every valid child of every stance."""
+        """Every valid child of every stance.
+
+        Raises:
+            SpecError: If a stance names a limb, hold or goal that does not exist.
+        """
+        self.limits.stances(stances, self.start.dtype)
         most = self.branching
         parts: list[Children] = []
         first = 0
@@ -234,7 +239,14 @@ class CompiledProblem:
         )
 
     def sprout(self, stances: Records, weights: npt.NDArray[np.float64], toll: float, out: Sprouts) -> None:
-        """Write every valid child of every stance, scored: weights times features, less `toll` times the bound on what is left."""
+        """Write every valid child of every stance, scored: weights times features, less `toll` times the bound on what is left.
+
+        Raises:
+            SpecError: If a stance names a limb, hold or goal that does not exist, or a weight is missing.
+        """
+        self.limits.stances(stances, self.start.dtype)
+        weights = self._weights(weights)
+        assert len(stances) <= len(out.count), "memory for fewer stances"
 
         def part(worker: int, first: int, end: int) -> None:
             params, child, margins, row = self._scratch[worker]
@@ -247,7 +259,16 @@ class CompiledProblem:
         self._spread(len(stances), part)
 
     def follow(self, stances: Records, parent: npt.NDArray[np.int32], code: npt.NDArray[np.int32]) -> Records:
-        """The stances that valid actions lead to, one for each index of a parent and code."""
+        """The stances that valid actions lead to, one for each index of a parent and code.
+
+        Raises:
+            SpecError: If a code is no action, or a parent no stance of these.
+        """
+        self.limits.stances(stances, self.start.dtype)
+        code = self.limits.codes(code)
+        parent = indices(parent, len(stances), "parent", self.limits.label)
+        if len(parent) != len(code):
+            raise SpecError(self.limits.label, "parent", len(parent), f"must be one for each of {len(code)} codes")
         children = np.zeros(len(parent), self.start.dtype)
 
         def part(worker: int, first: int, end: int) -> None:
@@ -259,6 +280,7 @@ class CompiledProblem:
 
     def possible(self, genes: npt.NDArray[np.int32]) -> npt.NDArray[np.uint8]:
         """Which table entries hold after a plan that holds (the configuration filter), one byte per entry."""
+        genes = indices(genes, len(self.actions), "genes", self.limits.label)
         params, stances, margins, _ = self._scratch[0]
         mask = np.zeros(len(self.actions), np.uint8)
         possible(
@@ -269,9 +291,9 @@ class CompiledProblem:
     def rebind(self, actions: ActionTable, start: Records | None = None) -> Self:
         """The same problem with another inventory, and from another stance if one is given; threads and scratch are shared."""
         other = copy.copy(self)
-        other.actions = actions
+        other.actions = actions if actions is self.actions else self.limits.table(actions)
         if start is not None:
-            other.start = start
+            other.start = self.limits.stances(start, self.start.dtype)
         return other
 
     def with_rules(self, **fields: int) -> Self:
@@ -296,6 +318,7 @@ class CompiledProblem:
 
     def measured(self, stances: Records) -> npt.NDArray[np.float64]:
         """Features of stances as actions led to them, shape (n, n_features)."""
+        self.limits.stances(stances, self.start.dtype)
         rows = np.zeros((len(stances), len(self.features)))
         for i, row in enumerate(rows):
             features_of(self.params.record, stances[i : i + 1], row)
@@ -309,8 +332,12 @@ class CompiledProblem:
         """How far the body still has to go along the goals from a stance (array of one record) [m]."""
         return self.way - self.progress(stance)
 
-    def informed(self) -> Self:
-        """The same problem with all that its family knows of bounds and symmetry, for exact search; no answer depends on it."""
+    def informed(self, is_late: Callable[[], bool] = lambda: False) -> Self:
+        """The same problem with all that its family knows of bounds and symmetry, for exact search; no answer depends on it.
+
+        Args:
+            is_late: Asked again and again whether there is no more time to work such a bound out; then it is a lower one.
+        """
         return self
 
     def mirrored(self, code: int) -> int:

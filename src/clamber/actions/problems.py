@@ -7,10 +7,11 @@ from typing import Any, Final
 
 from ..tasks import Task
 from ..types import Json
+from .code_limits import CodeLimits
 from .inventory import Dropped, make_inventory
-from .limbed_problem import LimbedProblem
+from .limbed_problem import LimbedProblem, limbed_limits
 from .problem import CompiledProblem
-from .walker_problem import WalkerProblem, stride_lengths, walker_table
+from .walker_problem import WalkerProblem, stride_lengths, walker_limits, walker_table
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +52,15 @@ def _walker(task: Any, threads: int | None, filters: bool) -> Posed:
 
 PROBLEMS: Final[dict[str, Callable[[Any, int | None, bool], Posed]]] = {"limbed": _limbed, "walker": _walker}
 """Family of the robot -> how its tasks become problems."""
+
+
+LIMITS: Final[dict[str, Callable[[Any], CodeLimits]]] = {"limbed": limbed_limits, "walker": walker_limits}
+"""Family of the robot -> the codes and indices of its tasks."""
+
+
+def code_limits(task: Task) -> CodeLimits:
+    """The codes that are actions of a task, and the indices that its stances may have."""
+    return LIMITS[task.document["robot"]["family"]](task)
 
 
 BURDENS: Final[dict[str, tuple[str, ...]]] = {"limbed": LimbedProblem.burdens, "walker": WalkerProblem.burdens}

@@ -6,6 +6,7 @@ is never more than what is left of it in truth, and an action lowers it by one a
 """
 
 import math
+from collections.abc import Callable
 from typing import Any, Final
 
 import numpy as np
@@ -22,12 +23,19 @@ MOST_BYTES: Final = 192 << 20
 MOST_PLACES: Final = 4_000_000
 FIRST_ROOM: Final = 1 << 16
 """Grips that there is room for at first."""
+PIECE: Final = 1024
+"""Places whose grips are listed between two looks at the clock."""
 
 
-def with_bound(params: Params) -> Params:
+def with_bound(params: Params, is_late: Callable[[], bool] = lambda: False) -> Params:
     """The parameters with a table that makes `bound` the fewest actions of the relaxed problem.
 
     The same parameters where it says nothing (hangs without end, `reach` or `hangs` not hard, a robot of one limb) or doesn't fit.
+
+    Args:
+        params: Of the task.
+        is_late: Asked again and again whether there is no more time. Then the table stays as far as it has come: what is not known to
+            be nearer to the goals is at least as far off as the search has come, which is a bound as good as any, only lower.
     """
     record: Any = params.record
     needed = 1 << REACH | 1 << HANGS
@@ -40,7 +48,10 @@ def with_bound(params: Params) -> Params:
     framed = params.extended(fields)
     scratch = np.zeros(1, STANCE)
     scratch["hold"], scratch["open"] = -1, 3
-    starts, found, masks, grabs = _grips(framed, scratch, places)
+    grips = _grips(framed, scratch, places, is_late)
+    if grips is None:
+        return params
+    starts, found, masks, grabs = grips
     limbs = int(record["n_limbs"])
     base = np.zeros(places * (limbs * (limbs - 1) // 2 + 1) + 1, np.int64)
     framed = framed.extended({}, grip_starts=starts, grip_holds=found, state_base=base)
@@ -54,7 +65,7 @@ def with_bound(params: Params) -> Params:
     left = np.full(layers * states * kept, UNREACHED, np.uint16)
     full = framed.extended({"angles_kept": kept}, left=left)
     place_of = np.repeat(np.arange(places, dtype=np.int32), np.diff(base[:: (len(base) - 1) // places]))
-    _sweep(full, scratch, masks, grabs, place_of, left.reshape(int(record["n_goals"]), -1))
+    _sweep(full, scratch, masks, grabs, place_of, left.reshape(int(record["n_goals"]), -1), is_late)
     return full
 
 
@@ -82,20 +93,31 @@ def _frame(params: Params) -> dict[str, int]:
     }
 
 
-def _grips(framed: Params, scratch: Any, places: int) -> tuple[AnyArray, AnyArray, AnyArray, AnyArray]:
-    """The grips of every place: starts, holds, angles that hold, angles that grab."""
+def _grips(
+    framed: Params, scratch: Any, places: int, is_late: Callable[[], bool]
+) -> tuple[AnyArray, AnyArray, AnyArray, AnyArray] | None:
+    """The grips of every place: starts, holds, angles that hold, angles that grab; None if there was no time for all."""
     starts = np.zeros(places * int(framed.record["n_limbs"]) + 1, np.int32)
-    room = FIRST_ROOM
-    while True:
-        found, masks, grabs = np.zeros(room, np.int32), np.zeros(room, np.uint64), np.zeros(room, np.uint64)
-        n = find_grips(framed.record, scratch[0], starts, found, masks, grabs)
-        if n >= 0:
-            return starts, found[:n], masks[:n], grabs[:n]
-        room *= 4
+    listed = np.zeros(FIRST_ROOM, np.int32), np.zeros(FIRST_ROOM, np.uint64), np.zeros(FIRST_ROOM, np.uint64)
+    n = first = 0
+    while first < places:
+        if is_late():
+            return None
+        end = min(places, first + PIECE)
+        fits = find_grips(framed.record, scratch[0], first, end, n, starts, *listed)
+        if fits < 0:
+            found, masks, grabs = (np.concatenate((part, np.zeros(3 * len(part), part.dtype))) for part in listed)
+            listed = found, masks, grabs
+        else:
+            n, first = fits, end
+    found, masks, grabs = (part[:n] for part in listed)
+    return starts, found, masks, grabs
 
 
-def _sweep(full: Params, scratch: Any, masks: AnyArray, grabs: AnyArray, place_of: AnyArray, left: Any) -> None:
-    """Fill the table, the last goal first."""
+def _sweep(
+    full: Params, scratch: Any, masks: AnyArray, grabs: AnyArray, place_of: AnyArray, left: Any, is_late: Callable[[], bool]
+) -> None:  # fmt: skip
+    """Fill the table, the last goal first, as far as there is time."""
     record: Any = full.record
     cells = len(place_of) * int(record["laps_most"])
     cross = _crossings(record)
@@ -108,10 +130,23 @@ def _sweep(full: Params, scratch: Any, masks: AnyArray, grabs: AnyArray, place_o
         order = np.zeros(int(np.count_nonzero(left[stage] < UNREACHED)), np.int64)
         sort_sources(left[stage], first_of, order)
         last = int(np.searchsorted(first_of, len(order))) + 1
-        sweep_back(
-            record, masks, grabs, beside, cross, place_of, left[stage], first_of[: last + 1], order, np.zeros(cells, np.uint64),
-            np.zeros(cells, np.uint64), np.zeros((2, cells), np.int64), np.zeros(cells, np.uint64), members,
-        )  # fmt: skip
+        at_layer = np.zeros(3, np.int64)
+        queues = (
+            np.zeros(cells, np.uint64),
+            np.zeros(cells, np.uint64),
+            np.zeros((2, cells), np.int64),
+            np.zeros(cells, np.uint64),
+        )
+        more = True
+        while more:
+            if is_late():
+                np.minimum(left[stage], np.uint16(at_layer[0]), out=left[stage])
+                left[:stage] = 0
+                return
+            more = sweep_back(
+                record, masks, grabs, beside, cross, place_of, left[stage], first_of[: last + 1], order, *queues, members,
+                at_layer,
+            )  # fmt: skip
 
 
 def _crossings(record: Any) -> AnyArray:

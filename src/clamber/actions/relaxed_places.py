@@ -171,21 +171,22 @@ def can_hold(p, s, i):
 
 
 @kernel
-def find_grips(p, s, starts, found, hold_masks, grab_masks):
-    """List the grips of every place, with the angles at which they can be held and grabbed.
+def find_grips(p, s, first_place, end_place, n, starts, found, hold_masks, grab_masks):
+    """List the grips of some places, with the angles at which they can be held and grabbed, behind those of the places before.
 
     Args:
         p: Parameters with the box of places.
         s: Scratch, one stance.
+        first_place, end_place: Which places; all before them are listed.
+        n: Number of grips listed before.
         starts: Output, see `grip_starts`.
         found: Output, the holds; as many as there is room for.
         hold_masks, grab_masks: Output, bit sets of angles, shape (room,).
 
     Returns:
-        Number of grips, or -1 if there is no room.
+        Number of grips listed by now, or -1 if there is no room.
     """
-    n = 0
-    for where in range(p.places_nx * p.places_ny):
+    for where in range(first_place, end_place):
         put(p, s, where, 0)
         clear = not p.hard & (1 << CLEARANCE) or nearest_hold(p, s.x, s.y) - p.clearance >= -TOLERANCE
         for i in range(p.n_limbs):
@@ -207,7 +208,7 @@ def find_grips(p, s, starts, found, hold_masks, grab_masks):
                     if hold_masks[n]:
                         found[n] = h
                         n += 1
-    starts[p.places_nx * p.places_ny * p.n_limbs] = n
+    starts[end_place * p.n_limbs] = n
     return n
 
 

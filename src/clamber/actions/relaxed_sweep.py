@@ -165,9 +165,9 @@ def push_limbs(p, where, lap, members, count, mask, masks, grabs, reached, pendi
 
 @kernel
 def sweep_back(
-    p, masks, grabs, beside, cross, place_of, values, first_of, order, reached, pending, queues, carried, members
-):
-    """Fill `values` with the fewest relaxed actions from every state to the goal states marked in it.
+    p, masks, grabs, beside, cross, place_of, values, first_of, order, reached, pending, queues, carried, members, at_layer
+):  # fmt: skip
+    """One layer of the search that fills `values` with the fewest relaxed actions from every state to the goal states marked in it.
 
     Args:
         p: Parameters.
@@ -175,26 +175,31 @@ def sweep_back(
         beside: Numbers of the grips at the places beside (`find_beside`).
         cross: Change of the lap of a body step from each place along +x, -x, +y, -y, shape (places, 4).
         place_of: Place of each state.
-        values: In: as `mark_goals` left it. Out: fewest actions, UNREACHED where there is no way.
+        values: In: as `mark_goals` left it. Out, after the last layer: fewest actions, UNREACHED where there is no way.
         first_of, order: The marked entries by value (`sort_sources`).
         reached, pending: Scratch, zeros, a word per lap and state.
         queues: Scratch, shape (2, laps times states).
         carried: Scratch, what the present layer reaches, shape (laps times states,).
         members: Scratch, shape (3, 2).
+        at_layer: Where the search is, updated: the layer that comes next, whose entries are final after it; entries of its queue; which of
+            the two queues it is. Zeros at first.
+
+    Returns:
+        Whether there are more layers.
     """
     states = place_of.shape[0]
     free = p.angles_kept == 1
-    now = 0
-    n = 0
-    layer = 0
-    while n or layer + 1 < first_of.shape[0]:
+    layer = at_layer[0]
+    n = at_layer[1]
+    now = at_layer[2]
+    if n or layer + 1 < first_of.shape[0]:
         if layer + 1 < first_of.shape[0]:
             for at in range(first_of[layer], first_of[layer + 1]):
                 entry = order[at]
                 bit = ALL_ANGLES if free else np.uint64(1) << np.uint64(entry % p.angles_kept)
                 n = push(entry // p.angles_kept, bit, reached, pending, queues[now], n)
         if layer + 1 >= UNREACHED:
-            return
+            return False
         m = 0
         for at in range(n):
             state = queues[now, at]
@@ -229,6 +234,8 @@ def sweep_back(
                 p, where, lap, members, count, mask, masks, beside, cross, reached, pending, queues[1 - now], m
             )
             m = push_limbs(p, where, lap, members, count, mask, masks, grabs, reached, pending, queues[1 - now], m)
-        now = 1 - now
-        n = m
-        layer += 1
+        at_layer[0] = layer + 1
+        at_layer[1] = m
+        at_layer[2] = 1 - now
+        return True
+    return False

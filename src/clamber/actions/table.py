@@ -6,6 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ..errors import SpecError
+
 
 @dataclass(frozen=True, slots=True)
 class ActionTable:
@@ -19,7 +21,14 @@ class ActionTable:
 
     @classmethod
     def build(cls, entries: Sequence[tuple[str, Sequence[int], bool]]) -> "ActionTable":
-        """A table from (name, codes, may run) of each entry."""
+        """A table from (name, codes, may run) of each entry; whether a problem has the codes is asked where they meet it.
+
+        Raises:
+            SpecError: If a code is no whole number of 32 bits.
+        """
+        for name, codes, _ in entries:
+            if not all(isinstance(code, int | np.integer) and -(2**31) <= code < 2**31 for code in codes):
+                raise SpecError("action table", f"actions.{name}", list(codes), "must be whole numbers of 32 bits")
         lengths = [len(codes) for _, codes, _ in entries]
         return cls(
             tuple(name for name, _, _ in entries),

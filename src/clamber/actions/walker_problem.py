@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Final
 
 import numpy as np
@@ -15,7 +16,8 @@ from ..statics.walker import WALKER_GOAL, WALKER_PARAMS, WALKER_STANCE
 from ..statics.walker_checks import WALKER_CHECKS
 from ..tasks.walker import Goal, WalkerTask
 from ..types import Floats
-from .codes import MOVE, RELEASE, pack
+from .code_limits import CodeLimits
+from .codes import MOVE, NONE, RELEASE, pack
 from .loops import replay
 from .params import Params
 from .problem import CompiledProblem, Records
@@ -73,9 +75,14 @@ class WalkerProblem(CompiledProblem):
         """
         params = walker_params(task)
         start = start_stance(task, params)
-        super().__init__(params, start, actions, CHECKS, FEATURE_NAMES, threads)
         self.task = task
+        super().__init__(params, start, actions, CHECKS, FEATURE_NAMES, threads)
         assert len(FEATURE_NAMES) == FEATURES
+
+    @cached_property
+    def limits(self) -> CodeLimits:
+        """The codes, and the indices in stances, that there are here."""
+        return walker_limits(self.task)
 
     @property
     def landmarks(self) -> int:
@@ -101,6 +108,15 @@ class WalkerProblem(CompiledProblem):
     def is_done(self, stance: Records) -> bool:
         """Whether a stance has met every goal."""
         return bool(stance["stage"][0] >= len(self.task.goals))
+
+
+def walker_limits(task: WalkerTask) -> CodeLimits:
+    """Moves of the lifted frame and the swap; which frame a code is about follows from the stance."""
+    return CodeLimits(
+        label=f"task '{task.name}'",
+        kinds={NONE: (1, 0, 0), MOVE: (1, 0, len(MOVES) - 1), RELEASE: (1, 0, 0)},
+        fields={"stands": (0, len(FRAMES) - 1, 1), "stage": (0, len(task.goals), 1)},
+    )
 
 
 def start_stance(task: WalkerTask, params: Params) -> Records:

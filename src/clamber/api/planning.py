@@ -149,9 +149,9 @@ def answer(
     Raises:
         SpecError: If an action violates a hard check.
     """
-    packed = np.asarray(codes, np.int32)
     family = plan_family(task)
     problem = family.problem(task)
+    packed = problem.limits.codes(codes)
     replay = problem.replay(packed)
     if not replay.ok:
         step, check_ = len(replay.reasons), family.checks[int(replay.reasons[-1])]

@@ -1,17 +1,17 @@
 """The application: its commands, what all of them share, and how it leaves.
 
-Exit codes: 0 found, holds, or done; 1 no plan, or a violation; 2 bad input; 130 interrupted.
+Exit codes: 0 found, holds, or done; 1 no plan, or a violation; 2 bad input; 70 an unexpected error; 130 interrupted.
 """
 
 import os
 import sys
 from collections.abc import Sequence
-from typing import Annotated
+from typing import Annotated, Any, cast
 
 import typer
 
 from .. import __version__
-from ..errors import ClamberError
+from ..errors import ClamberError, printable
 from .command_end import until_command_ends
 from .commands import add_commands
 from .help_text import command_of
@@ -60,10 +60,31 @@ def main(arguments: Sequence[str] | None = None) -> None:
     called = next((word for word in words if not word.startswith("-")), "")
     completes = "_CLAMBER_COMPLETE" in os.environ  # the words come another way
     try:
-        command_of(application(None if completes else called))(args=words, prog_name="clamber")
+        command = command_of(application(None if completes else called))
+        sys.exit(command(args=words, prog_name="clamber", standalone_mode=False))
     except ClamberError as error:
-        print(f"clamber: {error}", file=sys.stderr)
+        print(printable(f"clamber: {error}"), file=sys.stderr)
         sys.exit(2)
+    except typer.TyperException as error:  # words that are no options, or not what options take
+        from typer.rich_utils import rich_format_error
+
+        error.message = printable(error.message)
+        rich_format_error(cast(Any, error))
+        sys.exit(error.exit_code)
+    except typer.Abort as error:  # Typer's word for a file that ended too early
+        _leave_unexpectedly(error.__cause__ or error, words)
+    except MemoryError:
+        print("clamber: needs more memory than there is; ask for less", file=sys.stderr)
+        sys.exit(2)
+    except Exception as error:
+        _leave_unexpectedly(error, words)
     finally:
         fall_silent()
         until_command_ends.close()
+
+
+def _leave_unexpectedly(error: BaseException, words: Sequence[str]) -> None:
+    from .unexpected import UNEXPECTED, unexpected
+
+    print(unexpected(error, words), file=sys.stderr)
+    sys.exit(UNEXPECTED)

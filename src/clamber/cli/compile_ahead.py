@@ -4,7 +4,7 @@ import os
 from dataclasses import dataclass
 from typing import Final
 
-from .. import compiled
+from .. import kernel_cache
 from .command_end import until_command_ends
 
 
@@ -26,8 +26,8 @@ def compile_ahead(*uses: Use) -> None:
 
     The command compiles what it needs as if nobody else did; a kernel that is being compiled elsewhere it waits for (`turns`).
     """
-    missing = [use.function for use in uses if not compiled.is_compiled(use.kernel)]
-    if missing and os.access(compiled.cache_folder(), os.W_OK):  # else none could hand its machine code over
+    missing = [use.function for use in uses if not kernel_cache.is_compiled(use.kernel)]
+    if missing and os.access(kernel_cache.cache_folder(), os.W_OK):  # else none could hand its machine code over
         from ..jobs.ahead import ahead  # a second start does without
 
         until_command_ends.enter_context(ahead(missing))

@@ -42,7 +42,10 @@ def print_facts(console: Console, found: "Json", wrong: list[str]) -> None:
     for each in found["extensions"]:
         table.add_row("added", f"{each['kind']}: {each['name']}, of {each['package']}")
     state = "compiled" if kernels["compiled"] else "not compiled yet: the first command does it, once"
-    table.add_row("kernels", f"{state}; {kernels['functions']} functions, {_size(kernels['bytes'])}")
+    if kernels["problem"] is not None:
+        state = f"compiled anew each time: the folder is {kernels['state']}"
+    checked = ", every index checked" if kernels["bounds_checked"] else ""
+    table.add_row("kernels", f"{state}; {kernels['functions']} functions, {_size(kernels['bytes'])}{checked}")
     table.add_row("", kernels["folder"])
     if kernels["older_folders"]:
         words = f"{_size(kernels['older_bytes'])} in {kernels['older_folders']} folders beside it"

@@ -7,11 +7,11 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, Final
 
-from .. import __version__, compiled
+from .. import __version__, kernel_cache, sources
 from ..extensions import GROUPS, ExtensionError, all_outside, load_outside, outside, package_of
 from ..jobs.cores import usable_cores
 from ..types import Json
@@ -29,7 +29,7 @@ _REQUIREMENT: Final = re.compile(r"([A-Za-z0-9._-]+)[^;]*(?:;\s*extra\s*==\s*['\
 def facts() -> Json:
     """All of it as plain data; sizes in bytes."""
     return {
-        "clamber": {"version": __version__, "folder": str(Path(compiled.__file__).parent)},
+        "clamber": {"version": __version__, "folder": str(sources.PACKAGE)},
         "python": {"version": platform.python_version(), "executable": sys.executable},
         "machine": machine(),
         "required": parts(None),
@@ -46,11 +46,14 @@ def problems(found: Json) -> list[str]:
     """What keeps Clamber from working, in sentences; empty where nothing does."""
     missing = [name for name, version in found["required"].items() if version is None]
     wrong = [f"{name} is not installed: pip install {name}" for name in missing]
-    if not found["kernels"]["writable"]:
-        wrong.append(
-            f"{found['kernels']['folder']} cannot be written, so kernels are compiled at every start: name another "
-            "folder in CLAMBER_CACHE"
-        )
+    if found["kernels"]["problem"] is not None:
+        wrong.append(found["kernels"]["problem"])
+    for state, what in (("damaged", "is damaged"), ("foreign", "could have been written by others")):
+        names = found["kernels"][state]
+        more = "" if len(names) < 2 else f", and {len(names) - 1} more"
+        if names:
+            file = Path(found["kernels"]["folder"]) / names[0]
+            wrong.append(f"{file} {what}{more}: not loaded, and compiled anew when it is needed; you may remove it")
     wrong += [f"{each['error']}" for each in found["extensions"] if each["error"] is not None]
     return wrong
 
@@ -119,27 +122,31 @@ def _version(name: str) -> str | None:
 
 def kernels() -> Json:
     """Where the compiled kernels lie, whether those of this version are there, and what older ones take up."""
-    root, folder = compiled.cache_root(), compiled.cache_folder()
+    root, folder = kernel_cache.cache_root(), kernel_cache.cache_folder()
     older = [path for path in root.glob("kernels-*") if path != folder] if root.is_dir() else []
+    problem = kernel_cache.cache_problem()
+    states = {} if problem is not None else kernel_cache.cache_states(folder)
     return {
         "folder": str(folder),
-        "compiled": compiled.is_compiled(FIRST_KERNEL),
+        "state": problem[0] if problem is not None else _worst(states),
+        "problem": None if problem is None else kernel_cache.advice(problem),
+        "damaged": states.get("damaged", []),
+        "foreign": states.get("foreign", []),
+        "bounds_checked": kernel_cache.bounds_checked(),
+        "compiled": problem is None and kernel_cache.is_compiled(FIRST_KERNEL),
         "functions": sum(1 for _ in folder.glob("*.nbc")),
         "bytes": _size(folder),
         "older_folders": len(older),
         "older_bytes": sum(_size(path) for path in older),
-        "writable": _is_writable(root),
     }
+
+
+def _worst(states: Mapping[str, list[str]]) -> str:
+    return next((state for state in (kernel_cache.FOREIGN, kernel_cache.DAMAGED) if state in states), kernel_cache.FINE)
 
 
 def _size(folder: Path) -> int:
     return sum(path.stat().st_size for path in folder.glob("*") if path.is_file())
-
-
-def _is_writable(folder: Path) -> bool:
-    """Whether a folder, or the nearest one above it that is there, takes new files."""
-    there = next((path for path in (folder, *folder.parents) if path.exists()), None)
-    return there is not None and there.is_dir() and os.access(there, os.W_OK)
 
 
 def gl(run: Callable[..., Any] = subprocess.run) -> str | None:

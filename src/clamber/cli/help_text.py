@@ -7,14 +7,17 @@ import typer
 from rich.markup import escape
 from typer.core import TyperCommand, TyperGroup
 
+from .limits import limit_numbers
+
 Command: TypeAlias = TyperCommand | TyperGroup
 
 
 def command_of(app: typer.Typer) -> Command:
-    """The command of an application, its texts and those of all commands below it printed as they are written."""
+    """The command of an application: its texts and those of all commands below it as they are written, its numbers within limits."""
     top = typer.main.get_command(app)
     assert isinstance(top, Command)
-    for _, command in commands_below(top):
+    for path, command in commands_below(top):
+        limit_numbers(command, path)
         if command.rich_markup_mode == "rich":  # a plain terminal prints no markup, so none is to be escaped
             for told in (command, *command.params):
                 text = getattr(told, "help", None)

@@ -31,6 +31,10 @@ class LiveLine:
         if self._live is not None and not self._quiet:
             self._live.stop()
 
+    def say(self, words: str) -> None:
+        """Tell something that is not to be overwritten, asked for or not."""
+        self._console.print(words, soft_wrap=True)
+
     def show(self, words: str) -> None:
         """Tell this moment, if it is time to."""
         if self._quiet:

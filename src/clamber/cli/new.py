@@ -141,9 +141,10 @@ def _check_new(path: Path, force: bool) -> None:
         FileError: If it can't, or is there already and `force` is not given.
     """
     from ..errors import FileError
+    from ..regular_files import is_there
 
     check_writable(path)
-    if path.exists() and not force:
+    if is_there(path) and not force:
         raise FileError(str(path), "is there already", "name another file, or write over it with --force")
 
 

@@ -36,6 +36,10 @@ NoiseTexts: TypeAlias = Annotated[
         "--noise", metavar="KEY=WIDTH", help="How far a property may be off, such as friction=30%; or usual, or none."
     ),
 ]
+Faults: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option("--fault", metavar="KIND", help="A fault that each run has one of, or any (docs/faults.md)."),
+]
 AsJson: TypeAlias = Annotated[bool, typer.Option("--json", help="Print one JSON value and nothing else.")]
 Quiet: TypeAlias = Annotated[bool, typer.Option("--quiet", "-q", help="Tell nothing on the way.")]
 Output: TypeAlias = Annotated[Path | None, typer.Option("--output", "-o", metavar="FILE", help="File to write.")]

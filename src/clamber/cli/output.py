@@ -1,29 +1,40 @@
 """What commands print: JSON or tables on stdout, everything on the way on stderr."""
 
 import json
-import os
 import sys
 import time
+from collections.abc import Iterator
 from pathlib import Path
 from threading import Event, Thread
 from typing import Any, Final
 
-from rich.console import Console
+from rich.console import Console, ConsoleOptions, RenderableType
 from rich.padding import Padding
+from rich.segment import Segment
 from rich.table import Table
 from rich.text import Text
 
-from ..errors import FileError
+from ..errors import printable
+from ..regular_files import check_target
+
+
+class PlainConsole(Console):
+    """A console on which texts from files and names of files show what is in them, and steer nothing."""
+
+    def render(self, renderable: RenderableType, options: ConsoleOptions | None = None) -> Iterator[Segment]:
+        """What is printed, piece by piece; pieces that steer are the console's own."""
+        for piece in super().render(renderable, options):
+            yield piece if piece.control or piece.text.isprintable() else Segment(printable(piece.text), piece.style)
 
 
 def stdout() -> Console:
     """Where results go; 80 columns and no colour when piped."""
-    return Console(highlight=False, markup=False, emoji=False)
+    return PlainConsole(highlight=False, markup=False, emoji=False)
 
 
 def stderr() -> Console:
     """Where progress and notices go."""
-    return Console(stderr=True, highlight=False, markup=False, emoji=False)
+    return PlainConsole(stderr=True, highlight=False, markup=False, emoji=False)
 
 
 def print_json(value: Any) -> None:
@@ -47,11 +58,12 @@ def print_indented(console: Console, words: str, indent: int = 2) -> None:
 
 def announce_compilation(*, quiet: bool = False) -> None:
     """Tells on stderr of kernels that are compiled while the command runs, here or in its workers, and how far that is."""
-    from .. import compiled
+    from .. import kernel_cache
 
     if not quiet:
+        kernel_cache.tell_no_cache()
         _command_ended.clear()
-        Thread(target=_tell_compilation, args=(compiled.cache_folder(), stderr()), daemon=True).start()
+        Thread(target=_tell_compilation, args=(kernel_cache.cache_folder(), stderr()), daemon=True).start()
 
 
 _command_ended: Final = Event()
@@ -95,13 +107,7 @@ def check_writable(path: Path | None) -> None:
     """Makes sure that a file can be written before hours are spent on what goes into it.
 
     Raises:
-        FileError: If its folder is missing or not writable, or the path is a folder.
+        FileError: As `check_target`.
     """
-    if path is None:
-        return
-    if path.is_dir():
-        raise FileError(str(path), "is a folder", "name a file")
-    if not path.absolute().parent.is_dir():
-        raise FileError(str(path), f"the folder {path.absolute().parent} does not exist", "make it first")
-    if not os.access(path.absolute().parent, os.W_OK):
-        raise FileError(str(path), "cannot be written", "name a file in a writable folder")
+    if path is not None:
+        check_target(path)

@@ -2,9 +2,10 @@
 
 import signal
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from types import FrameType
-from typing import TYPE_CHECKING, Annotated, NoReturn
+from typing import TYPE_CHECKING, Annotated, Any, Self
 
 import typer
 
@@ -66,7 +67,10 @@ class ServeWords:
     def say(self, told: str) -> None:
         """Tell how it goes, unless nothing is to be told."""
         if not self.quiet:
-            stderr().print(told, soft_wrap=True)
+            with suppress(
+                OSError, SystemExit
+            ):  # who reads it is gone, on which rich would leave; a robot is held all the same
+                stderr().print(told, soft_wrap=True)
 
 
 @plant.command()
@@ -81,7 +85,8 @@ def serve(
 ) -> None:
     """Serve a task's simulated robot to one client at a time: volts in, counts out, 200 times a second (docs/hardware.md).
 
-    `clamber run TASK --plant ADDRESS` climbs through it. The address is the one line on stdout, with --json one value.
+    `clamber run TASK --plant ADDRESS` climbs through it, `clamber plant stop ADDRESS` stops it. The address is the one line on stdout, with
+    --json one value. Ctrl-C, SIGTERM and SIGHUP stop the robot safely and hold it for 2 s first (exit codes 130, 143, 129).
     """
     from ..execution.link.channel import listen, unlink
     from ..experiments.climb.run_plan import climbing_task
@@ -92,19 +97,21 @@ def serve(
     for_task, for_plant = split_settings(words.overrides or ())
     chosen = climbing_task(load_task(task, for_task))
     make = _server_of(chosen, for_plant, words)
-    before = signal.signal(signal.SIGTERM, _interrupt)
     listener, address = listen(words.wished())
-    try:
-        server = make(listener)
-        _announce(chosen, address, words)
-        server.serve()
-    except KeyboardInterrupt:
-        words.say("the server ends: nothing holds the robot any more")
-        raise typer.Exit(130) from None
-    finally:
-        listener.close()
-        unlink(address)
-        signal.signal(signal.SIGTERM, before)
+    with EndBySignal() as end:
+        try:
+            server = make(listener)
+            end.ask = server.ask_to_end
+            _announce(chosen, address, words)
+            server.serve()
+        except KeyboardInterrupt:
+            pass
+        finally:
+            listener.close()
+            unlink(address)
+        if end.number is not None:
+            words.say(f"the server ends ({signal.Signals(end.number).name}): nothing holds the robot any more")
+            raise typer.Exit(128 + end.number)
     raise typer.Exit(1 if server.stops else 0)
 
 
@@ -139,5 +146,58 @@ def _announce(chosen: "LimbedTask", address: "Address", words: ServeWords) -> No
     words.say(f"'{robot}' on '{board}', {'in real time' if words.real_time else 'in lock-step'}; Ctrl-C ends")
 
 
-def _interrupt(number: int, where: FrameType | None) -> NoReturn:
-    raise KeyboardInterrupt
+class EndBySignal:
+    """Has signals end a server: the first asks it to, and the next does not wait for it."""
+
+    def __init__(self) -> None:
+        self.ask: Callable[[str], None] | None = None
+        """Tells the server why it is to end; None: there is none yet."""
+        self.number: int | None = None
+        """The first signal."""
+        self._before: dict[int, Any] = {}
+
+    def __enter__(self) -> Self:
+        for name in ("SIGINT", "SIGTERM", "SIGHUP"):
+            if hasattr(signal, name):
+                number = int(getattr(signal, name))
+                self._before[number] = signal.signal(number, self._caught)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for number, before in self._before.items():
+            signal.signal(number, before)
+
+    def _caught(self, number: int, _: FrameType | None) -> None:
+        first, self.number = self.number is None, self.number or number
+        if not first or self.ask is None:
+            raise KeyboardInterrupt
+        self.ask(signal.Signals(number).name)
+
+
+Served = Annotated[str, typer.Argument(metavar="ADDRESS", help="Of its server, such as tcp://127.0.0.1:40917.")]
+
+
+@plant.command()
+def stop(address: Served, as_json: AsJson = False) -> None:
+    """Stop a served robot safely, whoever drives it: its posture is held, and nobody may start before `clamber plant release`.
+
+    Only the user that serves it may.
+    """
+    _ask_server(address, release=False, as_json=as_json)
+
+
+@plant.command()
+def release(address: Served, as_json: AsJson = False) -> None:
+    """Give a robot back that `clamber plant stop` has stopped: a client may start again."""
+    _ask_server(address, release=True, as_json=as_json)
+
+
+def _ask_server(address: str, *, release: bool, as_json: bool) -> None:
+    from ..execution.link.channel import read_address
+    from ..execution.link.client import stop_plant
+
+    said = stop_plant(read_address(address), release=release)
+    if as_json:
+        print_json({"address": address, "said": said})
+    else:
+        print(said)

@@ -5,16 +5,19 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from ..files import Document, find_data, is_path, read_toml
+from ..files import Document, check_schema, find_data, is_path, read_toml
+from ..regular_files import user_path
 from ..robots.library import family_of, read_robot
+from ..robots.limbed import SCHEMA as ROBOT
 from ..robots.limbed import LimbedRobot
 from ..robots.starter import starter_robot
 from ..robots.walker import WalkerRobot
 from ..spec_text import spec_text
-from ..tasks.library import DATA, TASK_FAMILIES
+from ..tasks.library import DATA, TASK_FAMILIES, load_task
 from ..tasks.limbed import TaskSpec
 from ..tasks.walker import WalkerTaskSpec
 from ..types import Json
+from ..worlds.board import SCHEMA as BOARD
 from ..worlds.board import BoardSpec
 from ..worlds.library import read_board
 from ..worlds.starter import starter_board
@@ -44,7 +47,7 @@ def robot_starter(path: Path, limbs: int | None, like: str | None) -> Starter:
         ClamberError: If there is no robot to be like.
     """
     name = name_of(path, "robot")
-    data = starter_robot(name, limbs or LIMBS) if like is None else read_robot(like).data | {"name": name}
+    data = starter_robot(name, limbs or LIMBS) if like is None else _data(read_robot(like), ROBOT) | {"name": name}
     family = family_of(Document(like or name, data))
     lead = (
         ("schema", data["schema"], "The format of this file."),
@@ -61,7 +64,7 @@ def board_starter(path: Path, like: str | None) -> Starter:
         ClamberError: If there is no board to be like.
     """
     name = name_of(path)
-    data = starter_board(name) if like is None else read_board(like).data | {"name": name}
+    data = starter_board(name) if like is None else _data(read_board(like), BOARD) | {"name": name}
     return Starter(data, board_text(data, path))
 
 
@@ -102,7 +105,14 @@ def task_starter(path: Path, robot: str, board: str, like: str | None, overrides
     return Starter(data, spec_text(TASKS[family], data, header=title, lead=lead, examples=EXAMPLES))
 
 
+def _data(document: Document, schema: str) -> Json:
+    """What a file says, if it follows its schema."""
+    check_schema(document, schema)
+    return document.data
+
+
 def _task_like(like: str) -> tuple[Json, str]:
+    load_task(like)  # what is wrong with it is told, and not copied
     path, label = find_data("task", like, DATA)
     document = read_toml(path, label)
     robot = document.data.get("robot")
@@ -121,7 +131,7 @@ def _from(path: Path, named: str) -> str:
     """What a file at `path` calls a robot or a board that the user named from where they stand."""
     if not is_path(named):
         return named
-    target, folder = Path(named).expanduser().resolve(), path.resolve().parent
+    target, folder = user_path(named).resolve(), path.resolve().parent
     return str(target.relative_to(folder)) if target.is_relative_to(folder) else str(target)
 
 
@@ -134,6 +144,8 @@ EXAMPLES: Final[Mapping[tuple[str, str], Any]] = {
     ("EndEffector", "opening"): "5 cm",
     ("Motor", "amplifier_gain"): "0.5 A/V",
     ("Motor", "control_rate"): "500 Hz",
+    ("Motor", "continuous_torque"): "2 N m",
+    ("Motor", "thermal_time"): "120 s",
     ("LimbedRobot", "opposed"): [["limb-1", "limb-2"]],
     ("BoardSpec", "keep_out"): [[["-40 cm", "0 cm"], ["-30 cm", "0 cm"], ["-30 cm", "20 cm"]]],
     ("BoardSpec", "added"): [{"number": 900, "x": "-1 m", "y": "0 m"}],

@@ -8,7 +8,7 @@ from ..experiments.benches import Row
 from ..studies.result import StudyResult
 from .output import plain_table, print_indented
 
-STYLES = {"holds": "bold green", "differs": "bold red", "open": "bold yellow"}
+STYLES = {"holds": "bold green", "consistent": "bold cyan", "differs": "bold red", "open": "bold yellow"}
 """Verdict -> colour."""
 
 

@@ -30,7 +30,8 @@ class ViewWords:
     expose: Annotated[
         str | None,
         typer.Option(
-            metavar="HOST", help="Listen on this address, so that other machines can open the page; no password."
+            metavar="HOST",
+            help="Listen on this address, so that other machines can open the page by its whole address.",
         ),
     ] = None
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")] = True
@@ -72,7 +73,9 @@ def view(
     host = LOOPBACK if words.expose is None else words.expose
     if words.expose is not None:
         stderr().print(
-            f"--expose: whoever reaches {host} can open this page, and plan and run with it; there is no password"
+            f"--expose: whoever reaches {host} and has the address below, with its token, can open this page, and plan and run with it; "
+            "nothing is encrypted",
+            soft_wrap=True,
         )
     app = App(exhibit, host, words.port)
     try:
@@ -99,7 +102,7 @@ def _serve(app: "App", words: ViewWords) -> None:
     if words.as_json:
         print_json({"url": app.url, "title": title})
     else:
-        stdout().print(f"{title}\n{app.url}  (Ctrl-C ends it)")
+        stdout().print(f"{title}\n{app.url}  (Ctrl-C ends it)", soft_wrap=True)
     if words.browser:
         import webbrowser
 

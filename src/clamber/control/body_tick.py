@@ -87,13 +87,13 @@ def _line(table, place, size):
 
 
 @kernel
-def see_tick(table, angle, angle_speed, with_encoder):
+def see_tick(table, angle, angle_speed, angle_from):
     """Estimate where the body is, by the encoders alone and with the play of the joints counted.
 
     Args:
         table: Addresses, shape (TABLE,).
         angle, angle_speed: Of the body by its own encoder [rad], [rad/s].
-        with_encoder: Whether to use those.
+        angle_from: As in `estimate_body`.
     """
     n = table[LIMBS]
     legs = carray(pointer(table[LEGS]), n, LEG)
@@ -107,11 +107,11 @@ def see_tick(table, angle, angle_speed, with_encoder):
         for k in range(2):
             lagged[i, k] = q[i, k] - play[i, k]
     estimate_body(
-        legs, q, qd, weights, holds, angle, angle_speed, with_encoder,
+        legs, q, qd, weights, holds, angle, angle_speed, angle_from,
         _rows(table, TIPS, 2), _rows(table, TIP_SPEEDS, 2), _line(table, POSE, 3), _line(table, TWIST, 3),
     )  # fmt: skip
     estimate_body(
-        legs, lagged, qd, weights, holds, angle, angle_speed, with_encoder,
+        legs, lagged, qd, weights, holds, angle, angle_speed, angle_from,
         _rows(table, SETTLED_TIPS, 2), _rows(table, SPARE_SPEEDS, 2), _line(table, SETTLED, 3), _line(table, SPARE_TWIST, 3),
     )  # fmt: skip
 

@@ -6,6 +6,7 @@ from typing import Any, Final
 
 from ..errors import ClamberError, describe_choices
 from ..files import check_schema, read_toml, write_atomically
+from ..regular_files import is_there
 from ..toml_text import toml_text
 from ..types import Json
 
@@ -129,7 +130,7 @@ def save_recommended(found: list[Recommended], path: Path) -> None:
     Raises:
         FileError: If it cannot be written, or what stands there cannot be read.
     """
-    kept = {(entry.robot, entry.limb, entry.law): entry for entry in (read_recommended(path) if path.exists() else ())}
+    kept = {(entry.robot, entry.limb, entry.law): entry for entry in (read_recommended(path) if is_there(path) else ())}
     kept |= {(entry.robot, entry.limb, entry.law): entry for entry in found}
     gains = [kept[key].to_json() for key in sorted(kept)]
     write_atomically(path, toml_text({"schema": SCHEMA, "gains": gains}, COMMENT))

@@ -1,14 +1,77 @@
 """The closed loop: sense, command, actuate, step, and write down what happened."""
 
+import numpy as np
+
+from ..control.chain import Chain
 from ..control.controller import MeasurementError
 from ..control.outside_law import LoopController
-from ..types import Records
-from .plant import LimbPlant
+from ..types import Floats, Records
+from .joint_hold import JointHold
+from .plant import LimbPlant, Sensed
+from .reading_monitor import Channel, ReadingMonitor
 from .recorder import Recorder
+from .run_ends import FaultError
 from .trace import LimbTrace, empty_trace
 
 
-def close_loop(plant: LimbPlant, controller: LoopController, aims: Records, *, keep: bool = False) -> LimbTrace:
+class LimbGuard:
+    """Believes or bridges the readings of a limb's joints, and holds its posture once one of them, or the link, has failed.
+
+    Args:
+        chain: The limb as it is believed to be.
+        period: Of the control [s].
+    """
+
+    def __init__(self, chain: Chain, period: float) -> None:
+        joints = chain.joints
+        self.monitor = ReadingMonitor(
+            [
+                Channel(name=name, fastest=float(joint["speed"]), limit=float(joint["limit"]))
+                for name, joint in zip(chain.joint_names, joints, strict=True)
+            ],
+            period,
+        )
+        self._chain, self._law = chain, JointHold(joints["rotor"].copy())
+        self.states = np.zeros((1, 2, chain.n))
+        """As believed, shape (1, 2, n)."""
+        self.torques = np.zeros((1, chain.n))
+        """That hold the posture, shape (1, n) [N m]."""
+        self._held: tuple[Floats, Floats] | None = None
+        """Posture that is held, and the torques of its weight there; None before a fault."""
+
+    @property
+    def held(self) -> bool:
+        """Whether the limb holds its posture, as a fault has ended its run."""
+        return self._held is not None
+
+    def reset(self) -> None:
+        """Begin anew, as if all were well."""
+        self.monitor.reset()
+        self._held = None
+
+    def see(self, sensed: Sensed, torques: Floats) -> bool:
+        """Take in a tick's readings and the torques before it; whether the limb is to hold its posture by `torques`, for good."""
+        monitor = self.monitor
+        monitor.values[:], monitor.speeds[:] = sensed.states[0]
+        monitor.commands[:] = torques[0]
+        try:
+            monitor.see(int(sensed.number[0]))
+        except FaultError:
+            if self._held is None:
+                posture = monitor.values.copy()
+                self._held = posture, self._chain.bias(posture, np.zeros(self._chain.n))
+        self.states[0, 0], self.states[0, 1] = monitor.values, monitor.speeds
+        if self._held is None:
+            return False
+        self.torques[0] = self._law.torques(*self._held, monitor.values, monitor.speeds)
+        failed = list(monitor.bad)
+        self.torques[0, failed] = self._held[1][failed]
+        return True
+
+
+def close_loop(
+    plant: LimbPlant, controller: LoopController, aims: Records, *, keep: bool = False, guard: LimbGuard | None = None
+) -> LimbTrace:
     """Run `controller` on `plant`, from where it is, through `aims`.
 
     Args:
@@ -16,6 +79,7 @@ def close_loop(plant: LimbPlant, controller: LoopController, aims: Records, *, k
         controller: Of the plant's batch and period; its memory is cleared.
         aims: Records of `AIM`, shape (ticks, 1) or (ticks, batch).
         keep: Whether a measurement that is not finite ends the run with the trace so far, NaN after it, in place of an error.
+        guard: Of a batch of one: bridges readings that fail and holds the posture after a fault, which its monitor tells; None: none.
 
     Raises:
         MeasurementError: If the plant's sensors say something that is not finite, and not `keep`.
@@ -23,6 +87,9 @@ def close_loop(plant: LimbPlant, controller: LoopController, aims: Records, *, k
     ticks = aims.shape[0]
     trace = empty_trace(controller.chain, aims, controller.period, controller.batch)
     controller.reset()
+    if guard is not None:
+        assert plant.batch == 1
+        guard.reset()
     truth, sensed = plant.truth(), plant.sense()
     before = Recorder(
         (
@@ -36,8 +103,20 @@ def close_loop(plant: LimbPlant, controller: LoopController, aims: Records, *, k
     for k in range(ticks):
         if k:
             plant.sense()
+        states = sensed.states
+        if guard is not None:
+            holds = guard.see(sensed, controller.torques)
+            states = guard.states
+            if holds:
+                controller.torques[:] = guard.torques
+                if guard.monitor.linked:  # else it is to hold by itself
+                    plant.actuate(controller.torques)
+                before.note(k)
+                plant.step()
+                after.note(k)
+                continue
         try:
-            torques = controller.command(aims[k], sensed.states, sensed.wrenches, sensed.mounts)
+            torques = controller.command(aims[k], states, sensed.wrenches, sensed.mounts)
         except MeasurementError:
             if keep:
                 return trace

@@ -87,8 +87,9 @@ class WiredClimber:
         angles, speeds = self._decoder.decode(reading)
         self._gripped[self._switches] = reading.counts[self.wiring.n_encoders :]
         return BodySensed(
-            angles[:-1].reshape(-1, 2), speeds[:-1].reshape(-1, 2), float(angles[-1]), float(speeds[-1]), self._gripped
-        )
+            angles[:-1].reshape(-1, 2), speeds[:-1].reshape(-1, 2), float(angles[-1]), float(speeds[-1]), self._gripped,
+            reading.tick,
+        )  # fmt: skip
 
     def actuate(self, torques: Floats, grips: Ints) -> None:
         """See `BodyPlant`."""
@@ -144,7 +145,8 @@ class WiredLimb:
 
     def sense(self) -> Sensed:
         """See `LimbPlant`."""
-        self._sensed.states[0] = self._decoder.decode(self.hardware.sense())
+        reading = self.hardware.sense()
+        self._sensed.states[0], self._sensed.number[0] = self._decoder.decode(reading), reading.tick
         return self._sensed
 
     def actuate(self, torques: Floats) -> None:

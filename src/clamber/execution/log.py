@@ -1,16 +1,13 @@
 """A log: columns of numbers with names and units, one row a sample, whatever file they came from."""
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Final
 
 import numpy as np
 
 from ..errors import ClamberError, describe_choices
 from ..types import Floats
-
-_TITLE: Final = re.compile(r"\s*(.*?)\s*(?:[\[(]\s*([^\])]*?)\s*[\])])?\s*\Z", re.DOTALL)
+from ..units import split_title
 
 
 class LogError(ClamberError):
@@ -80,13 +77,6 @@ class Log:
     def titles(self) -> list[str]:
         """Names with units, as a file's first line has them."""
         return [f"{name} [{self.units[name]}]" if name in self.units else name for name in self.columns]
-
-
-def split_title(title: str) -> tuple[str, str | None]:
-    """Name and unit of a title such as "shoulder angle [deg]"; None where it states no unit."""
-    match = _TITLE.match(title)
-    assert match is not None  # the pattern takes any text
-    return match.group(1), match.group(2) or None
 
 
 def build_log(titles: list[str], columns: list[Floats], notes: Mapping[str, str], label: str) -> Log:

@@ -9,7 +9,8 @@ import numpy as np
 
 from .log import Log, LogError, build_log
 
-_NOTE: Final = re.compile(r"#\s*([A-Za-z][\w -]*?)\s*:\s*(.*?)\s*\Z")
+_NOTE: Final = re.compile(r"[A-Za-z][\w -]*+")
+"""Name of a note."""
 SEPARATORS: Final = ",;\t"
 """Of these, the one that occurs most in the first line separates the columns."""
 
@@ -35,8 +36,9 @@ def parse_csv(text: str, label: str) -> Log:
     lines = text.splitlines()
     start = 0
     for start, line in enumerate(lines):  # noqa: B007  the place is used below
-        if match := _NOTE.match(line):
-            notes[match.group(1)] = match.group(2)
+        key, colon, value = line[1:].partition(":")
+        if line.startswith("#") and colon and _NOTE.fullmatch(key.strip()):
+            notes[key.strip()] = value.strip()
         if line.strip() and not line.startswith("#"):
             break
     else:

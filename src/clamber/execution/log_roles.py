@@ -10,8 +10,8 @@ import numpy as np
 from ..control.identification.samples import JointSamples
 from ..errors import UnitError, describe_choices
 from ..types import Floats
-from ..units import UNITS, convert, si_unit
-from .log import Log, LogError, split_title
+from ..units import UNITS, convert, si_unit, split_title
+from .log import Log, LogError
 
 ROLES: Final[dict[str, tuple[str, str]]] = {
     "time": ("time", "time"),

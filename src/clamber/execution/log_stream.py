@@ -1,17 +1,22 @@
-"""A log written while it is recorded: whatever ends the process, what was recorded until half a second before can be read."""
+"""A log written while it is recorded: whatever ends the process, what was recorded until half a second before can be read.
+
+Nothing that befalls a log ends what it is a log of: a full disk is told once, and the report says from when on the log is missing.
+"""
 
 import json
 import os
 import time
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from queue import Empty, SimpleQueue
 from threading import Thread
 from types import TracebackType
 from typing import IO, Any, Final
 
-from ..errors import FileError
+from ..regular_files import check_target, open_growing
 from ..types import Floats, Json
 from .log_mcap import NOTES, TOPIC, open_channel, stamp_of
 from .sample_log import report_notes
@@ -21,6 +26,38 @@ FLUSHED: Final = 0.5
 """A sample waits at most that long for those after it before all of them are written, by the wall's clock [s]."""
 PART: Final = ".part"
 """In the name of a log that is not finished."""
+
+
+@dataclass(frozen=True, slots=True)
+class LogGap:
+    """What a log lacks that could not be written to its end."""
+
+    since: float
+    """Time of the first sample that may be missing [s]."""
+    file: str
+    """What there is of it."""
+    problem: str
+    """Why."""
+
+    def __str__(self) -> str:
+        return f"{self.file}: cannot be written ({self.problem}): the log is missing from {self.since:.2f} s on"
+
+    def to_json(self) -> Json:
+        """Plain data."""
+        return {"since": self.since, "file": self.file, "problem": self.problem}
+
+
+def warn(words: str) -> None:
+    """Tell a program that runs robots from Python."""
+    warnings.warn(words, RuntimeWarning, stacklevel=2)
+
+
+@dataclass(frozen=True, slots=True)
+class WantedLog:
+    """A log that a run is to write, and who is told, once, if that cannot go on."""
+
+    path: Path
+    tell: Callable[[str], None] = warn
 
 
 def part_of(path: Path) -> Path:
@@ -43,32 +80,31 @@ class LogStream:
     """
 
     def __init__(self, path: Path, titles: tuple[str, ...], notes: Mapping[str, str], topic: str = TOPIC) -> None:
-        self.path, self.part = path, part_of(path)
+        self.path = check_target(path)
+        self.part = part_of(self.path)
         self._titles, self._notes, self._topic = titles, dict(notes), topic
         self._queue: SimpleQueue[Floats | Mapping[str, str] | None] = SimpleQueue()
         self._thread = Thread(target=self._work, name=f"log {path.name}", daemon=True)
-        self._failed: OSError | None = None
+        self._unsure: float | None = None
+        """Time of the first sample that may not have been written yet [s]."""
+        self.gap: LogGap | None = None
+        """What is missing; None: nothing so far."""
 
     def add(self, row: Floats) -> None:
         """Take a sample, shape (columns,), which must not change any more; one no later than that before is a repetition, and left out.
 
-        Raises:
-            FileError: If the file cannot be written.
+        Once the file cannot be written (`gap`), samples are thrown away.
         """
-        self._check()
+        if self.gap is not None:
+            return
         self._queue.put(row)
         if self._thread.ident is None:
             self._thread.start()
 
     def finish(self, notes: Mapping[str, str]) -> None:
-        """Write what came out as metadata, and let the file have its name.
-
-        Raises:
-            FileError: If the file cannot be written.
-        """
+        """Write what came out as metadata, and let the file have its name, unless there is a `gap`."""
         self._queue.put(dict(notes))
         self._wait()
-        self._check()
 
     def __enter__(self) -> "LogStream":
         return self
@@ -85,21 +121,17 @@ class LogStream:
             self._thread.start()
         self._thread.join()
 
-    def _check(self) -> None:
-        if self._failed is not None:
-            problem = f"cannot be written ({self._failed.strerror})"
-            raise FileError(str(self.part), problem, "name a file in a writable folder with space left") from None
-
     def _work(self) -> None:
         """What the thread does, from the first sample to the last."""
         try:
-            with self.part.open("wb") as file:
+            with open_growing(self.part) as file:
                 notes = self._write(file)
                 os.fsync(file.fileno())
             if notes is not None:
                 os.replace(self.part, self.path)
-        except OSError as error:
-            self._failed = error
+        except Exception as error:  # whatever it is, it is no reason to let go of a robot
+            problem = (error.strerror if isinstance(error, OSError) else None) or str(error) or type(error).__name__
+            self.gap = LogGap(self._unsure or 0.0, str(self.part), problem)
 
     def _write(self, file: IO[bytes]) -> Mapping[str, str] | None:
         """Write samples until the last; the notes of the end, None if it came too early."""
@@ -112,7 +144,8 @@ class LogStream:
         while True:
             if time.monotonic() - flushed > FLUSHED:
                 writer.flush()
-                flushed = time.monotonic()
+                file.flush()
+                flushed, self._unsure = time.monotonic(), None
             try:
                 row = self._queue.get(timeout=FLUSHED)
             except Empty:
@@ -120,6 +153,8 @@ class LogStream:
             if row is None or isinstance(row, Mapping):
                 break
             stamp = stamp_of(float(row[0]))
+            if self._unsure is None:
+                self._unsure = float(row[0])
             if stamp > before:
                 data = json.dumps(dict(zip(self._titles, row.tolist(), strict=True))).encode()
                 writer.add_message(channel, stamp, data, stamp, rows)
@@ -134,28 +169,41 @@ class LogStream:
 
 @contextmanager
 def growing_log(
-    path: Path | None, samples: Samples, titles: tuple[str, ...], notes: Mapping[str, str], topic: str
-) -> Iterator[Callable[[Json], None]]:
-    """A run's log that grows with its samples; what is yielded takes the report, and the file is whole then.
+    wanted: Path | WantedLog | None, samples: Samples, titles: tuple[str, ...], notes: Mapping[str, str], topic: str
+) -> Iterator[Callable[[Json], LogGap | None]]:
+    """A run's log that grows with its samples; what is yielded takes the report, ends the file, and returns what that lacks.
 
     Args:
-        path: The .mcap file that is to be; None: there is none.
+        wanted: The .mcap file that is to be; None: there is none.
         samples: Of the run.
         titles: Of their numbers.
         notes: What is known beforehand.
         topic: Name of the channel.
 
     Raises:
-        FileError: If the file cannot be written.
+        FileError: If the file cannot be made.
     """
-    if path is None:
+    if wanted is None:
         yield lambda _: None
         return
+    path, tell = (wanted.path, wanted.tell) if isinstance(wanted, WantedLog) else (wanted, warn)
     with LogStream(path, titles, notes, topic) as stream:
-        samples.told = stream.add
+        told = False
 
-        def finish(report: Json) -> None:
+        def add(row: Floats) -> None:
+            nonlocal told
+            stream.add(row)
+            if stream.gap is not None and not told:
+                told = True
+                tell(str(stream.gap))
+
+        samples.told = add
+
+        def finish(report: Json) -> LogGap | None:
             stream.add(samples.last())
             stream.finish(report_notes(report))
+            if stream.gap is not None and not told:
+                tell(str(stream.gap))
+            return stream.gap
 
         yield finish

@@ -1,9 +1,11 @@
 """What carries a controller's commands out, simulated or real, here or in another process: one protocol, and what a kind adds."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol, TypeVar
 
-from ..types import Floats, Ints
+import numpy as np
+
+from ..types import Floats, Ints, Json
 from .run_ends import RunEndedError
 
 SensedT_co = TypeVar("SensedT_co", covariant=True)
@@ -42,6 +44,8 @@ class Sensed:
     """Wrench of each limb on what it touches, base frame, shape (batch, 6) [N], [N m]; zero without a sensor."""
     mounts: Floats
     """Wrench of each limb on its mount, about the origin of the base frame, shape (batch, 6) [N], [N m]; zero without a sensor."""
+    number: Ints = field(default_factory=lambda: np.full(1, -1, np.int32))
+    """Of the reading: one more for each period since the reset; -1: nobody tells. Shape (1,)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -82,6 +86,28 @@ class BodySensed:
     """[rad/s]."""
     gripped: Ints
     """1 for grippers that are closed about something, by the gap of their jaws, shape (limbs,); 0 for other ends."""
+    number: int = -1
+    """Of the reading: one more for each period since the reset; -1: nobody tells."""
+
+
+@dataclass(frozen=True, slots=True)
+class HoldBreak:
+    """A hold that has given way, for good."""
+
+    time: float
+    """When [s]."""
+    hold: int
+    """Its number."""
+    force: float
+    """On it then [N]."""
+    why: str
+
+    def to_json(self) -> Json:
+        """Plain data."""
+        return {name: getattr(self, name) for name in self.__slots__}
+
+    def __str__(self) -> str:
+        return f"hold {self.hold} broke at {self.time:.2f} s: {self.why}"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -96,6 +122,8 @@ class BodyTruth:
     """World frame, shape (limbs, 2) [m]."""
     torques: Floats
     """Of the motors over the last tick, shape (limbs, 2) [N m]."""
+    broken: tuple[HoldBreak, ...] = ()
+    """Holds that have given way since the start."""
 
 
 class BodyPlant(Plant[BodySensed, BodyTruth | None], Protocol):

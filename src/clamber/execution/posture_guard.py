@@ -1,18 +1,12 @@
 """What holds a robot up when nobody commands it: without power the gearbox lets it fall, so a safe stop keeps every joint where it is."""
 
-from typing import Final
-
 import numpy as np
 
 from ..robots.limbed import LimbedRobot
 from ..types import Floats
 from .hardware import Decoder, Reading
+from .joint_hold import JointHold
 from .wiring import Wiring, joints_of
-
-RATE: Final = 25.0
-"""Natural frequency of a joint that moves its own motor alone: about what a climber's free limbs have [rad/s]."""
-DAMPING: Final = 0.7
-"""Damping ratio of the same [-]."""
 
 
 class PostureGuard:
@@ -26,7 +20,7 @@ class PostureGuard:
 
     def __init__(self, wiring: Wiring, inertias: Floats, period: float) -> None:
         self._wiring, self._n = wiring, wiring.n_joints
-        self._kp, self._kd = RATE**2 * inertias, 2 * DAMPING * RATE * inertias
+        self._law = JointHold(inertias)
         self._decoder = Decoder(wiring, period)
         self._posture, self._fed = np.zeros(self._n), np.zeros(self._n)
         self.at_rest: Floats = np.append(np.zeros(self._n), np.ones(len(wiring.grippers)))
@@ -42,7 +36,7 @@ class PostureGuard:
     def commands(self, reading: Reading) -> Floats:
         """Of this tick, shape (n_commands,)."""
         angles, speeds = (values[: self._n] for values in self._decoder.decode(reading))
-        volts = self._wiring.volts(self._fed + self._kp * (self._posture - angles) - self._kd * speeds)
+        volts = self._wiring.volts(self._law.torques(self._posture, self._fed, angles, speeds))
         return np.append(volts, self._switches)
 
     def moved(self, reading: Reading) -> float:

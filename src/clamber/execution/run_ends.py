@@ -25,6 +25,12 @@ class StuckError(RunEndedError):
     word = "stuck"
 
 
+class FaultError(RunEndedError):
+    """The robot has noticed a fault in itself and is to stop safely."""
+
+    word = "fault"
+
+
 class RefusedError(RunEndedError):
     """A motion would break a rule of the robot: it is not begun, or stops where it is.
 

@@ -1,14 +1,42 @@
 """What is told of a run, of whatever robot: what may become of an action, and how the whole ended."""
 
-from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from dataclasses import dataclass, field
+from typing import Final, Literal, TypeAlias
+
+from ..types import Json
+from .findings import Finding
 
 Outcome: TypeAlias = Literal[
-    "ok", "stalled", "moved", "missed", "no ground", "not supported", "refused", "stuck", "fell", "stopped", "interrupted"
+    "ok", "stalled", "moved", "missed", "no ground", "not supported", "refused", "stuck", "fell", "fault", "stopped",
+    "interrupted",
 ]  # fmt: skip
 """What became of an action. Done: `ok`, or `stalled` (the body stays off its aim), or `moved` (a frame came down elsewhere). Not done:
 `missed` a hold, found `no ground`, `not supported`, `refused` before it would break a rule, or the robot is `stuck`. Ended in it: the
-robot `fell`, its plant was `stopped`, a user `interrupted` it."""
+robot `fell`, noticed a `fault` in itself and stopped, its plant was `stopped`, a user `interrupted` it."""
+Ending: TypeAlias = Literal["", "held", "stopped safely", "fell"]
+"""What became of the robot after a fault that ended its run: it `held` its posture, or `stopped safely` elsewhere, or `fell`."""
+
+BRACED: Final = 3.0
+"""For which a robot that has stopped for a fault is looked at [s] ..."""
+SETTLED: Final = 0.5
+"""... and by whose last part it is to be at rest [s]."""
+HELD: Final = 0.05
+"""A body that moves less than this from where the fault was noticed holds its posture [m]."""
+RESTS: Final = 0.02
+"""One that moves less than this at the end is at rest [m]."""
+
+
+def ending_of(moved: float, late: float, *, holds: bool) -> Ending:
+    """What became of a robot that has stopped for a fault.
+
+    Args:
+        moved: By its body since then [m].
+        late: By its body in the last part of that [m]; one that swings on a hold is not at rest.
+        holds: Whether something still holds it.
+    """
+    if not holds:
+        return "fell"
+    return "held" if moved < HELD and late < RESTS else "stopped safely"
 
 
 @dataclass(slots=True, kw_only=True)
@@ -25,3 +53,11 @@ class RunReport:
     """Of the body at the end, as believed [m], [rad]; empty if it never stood."""
     true_pose: tuple[float, ...] | None = None
     """As it truly was; None where nobody tells."""
+    findings: list[Finding] = field(default_factory=list)
+    """Faults that the robot noticed in itself, whether they ended the run or were bridged."""
+    ending: Ending = ""
+    """What became of it where one of them ended the run."""
+
+    def faults_to_json(self) -> Json:
+        """What it noticed of faults, as plain data."""
+        return {"findings": [finding.to_json() for finding in self.findings], "ending": self.ending}

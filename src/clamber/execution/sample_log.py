@@ -7,7 +7,8 @@ from typing import Final, TypeAlias
 import numpy as np
 
 from ..types import Floats, Ints, Json
-from .log import Log, split_title
+from ..units import split_title
+from .log import Log
 
 Titles: TypeAlias = Mapping[str, tuple[str, ...]]
 """Field of a trace -> titles of its columns, in the order of a sample's numbers."""

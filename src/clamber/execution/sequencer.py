@@ -5,8 +5,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, Final, Generic, TypeVar, TypeVarTuple
 
-from .run_ends import FallenError, RefusedError, RunEndedError
-from .run_report import Outcome, RunReport
+from .run_ends import FallenError, FaultError, RefusedError, RunEndedError
+from .run_report import Ending, Outcome, RunReport
 
 MOST_RECOVERIES: Final = 3
 """Of one action."""
@@ -97,6 +97,10 @@ class Performer(ABC, Generic[ActionT, ReportT, *ToldTs]):
         """
 
     @abstractmethod
+    def stop_safely(self) -> Ending:
+        """After a fault that the robot has noticed in itself: hold still without what has failed; what became of it."""
+
+    @abstractmethod
     def name(self, action: ActionT) -> str:
         """What a reason calls an action."""
 
@@ -124,7 +128,7 @@ class Sequencer(Generic[ActionT, ReportT, *ToldTs]):
         self._replans = 0
 
     def run(self) -> ReportT:
-        """To the last action, one that is not done, or what else ends it: a fall, a refusal, a stopped plant, Ctrl-C.
+        """To the last action, one that is not done, or what else ends it: a fall, a fault, a refusal, a stopped plant, Ctrl-C.
 
         What happened until then is in the report.
         """
@@ -135,11 +139,27 @@ class Sequencer(Generic[ActionT, ReportT, *ToldTs]):
             report.done = not report.reason
         except KeyboardInterrupt:
             report.reason = "interrupted"
+        except FaultError as fault:
+            report.reason = f"{fault.word}: {fault}"
+            self._stop_safely()
         except RunEndedError as end:
             report.reason = f"{end.word}: {end}"
         report.seconds = performer.time
         performer.end()
         return report
+
+    def _stop_safely(self) -> None:
+        """After a fault: to a stop, and into the report what became of the robot."""
+        report = self.performer.report
+        try:
+            report.ending = self.performer.stop_safely()
+            if report.ending == "fell":  # what falls moves faster than its motors, which looks like a sensor that jumps
+                report.reason = f"{FallenError.word}: noticed by {report.reason}"
+        except KeyboardInterrupt:
+            report.reason = "interrupted"
+        except RunEndedError as end:
+            report.ending = "fell" if isinstance(end, FallenError) else ""
+            report.reason += f"; then {end.word}: {end}"
 
     def _carry_all_out(self) -> str:
         """One action after another; why the last one was not done, empty if all were."""

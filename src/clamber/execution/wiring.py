@@ -11,6 +11,8 @@ from ..types import Floats, Ints
 
 BODY_COUNTS: Final = 4000
 """Of the body's own encoder, a turn; nobody prints it, so ours."""
+LOST_COUNT: Final = -(2**31)
+"""What a counter says that has lost its count."""
 COMMAND_LIMIT: Final = 10.0
 """Most volts that an amplifier takes, either way: inferred, as k_t is, from 10 V giving LIBRA's 3000 oz-in at a gear ratio of 574 [V]."""
 
@@ -49,8 +51,12 @@ class Wiring:
         return self.n_encoders + len(self.grippers)
 
     def angles(self, readings: Ints) -> Floats:
-        """What the encoders say, of readings of shape (n_readings,) or counts alone: shape (n_encoders,) [rad]."""
-        return readings[: self.n_encoders] / self.resolution
+        """What the encoders say, of readings of shape (n_readings,) or counts alone: shape (n_encoders,) [rad]; NaN of a lost count."""
+        counts = readings[: self.n_encoders]
+        angles: Floats = counts / self.resolution
+        if counts.min(initial=0) == LOST_COUNT:
+            angles[counts == LOST_COUNT] = np.nan
+        return angles
 
     def counts(self, angles: Floats) -> Ints:
         """The nearest counts, shape (n_encoders,)."""

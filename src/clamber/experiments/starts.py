@@ -7,7 +7,7 @@ import tempfile
 from pathlib import Path
 from typing import Final
 
-from ..compiled import cache_root
+from ..kernel_cache import cache_root
 from .rows import Row, Say, keep_quiet
 
 COMMAND: Final = (sys.executable, "-c", "from clamber.cli import main; main()")

@@ -6,7 +6,6 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from .. import __version__
 from ..errors import ClamberError
 from ..files import Document
 from ..jobs import Executor, LocalProcesses, map_items
@@ -78,7 +77,7 @@ def run_cases(
     crew = crew or Crew(executor=LocalProcesses(os.cpu_count() or 1))
     chosen = tuple(seeds)
     items: list[Json] = [
-        {"document": task.document, "profile": asdict(profile), "seed": seed, "version": __version__}
+        {"document": task.document, "profile": asdict(profile), "seed": seed}
         for task, profile in cases.values()
         for seed in chosen
     ]

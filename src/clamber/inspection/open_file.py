@@ -1,12 +1,12 @@
 """What kind of thing a file or a name means, and the inspection of it."""
 
 from collections.abc import Callable, Sequence
-from pathlib import Path
 from typing import Any, Final
 
 from ..actions.plan_source import is_plan, plan_names
 from ..errors import SpecError, UnknownNameError, describe_choices
 from ..files import is_path, read_toml
+from ..regular_files import user_path
 from ..robots import load_robot
 from ..robots.library import robot_names
 from ..tasks import load_task, task_names
@@ -60,7 +60,7 @@ def kind_of(name_or_path: str) -> Kind:
                 return kind
         known = dict.fromkeys(name for names in NAMES.values() for name in names())
         raise UnknownNameError("thing", name_or_path, tuple(known))
-    path = Path(name_or_path).expanduser()
+    path = user_path(name_or_path)
     if path.suffix == ".csv":
         return "board"
     document = read_toml(path)

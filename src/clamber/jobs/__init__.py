@@ -4,6 +4,7 @@ from .batch import Kept as Kept
 from .batch import Outcome as Outcome
 from .batch import look_into as look_into
 from .batch import map_items as map_items
+from .batch import read_result as read_result
 from .cluster import ClusterError as ClusterError
 from .cluster import RayCluster as RayCluster
 from .executor import Executor as Executor

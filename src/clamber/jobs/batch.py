@@ -5,13 +5,18 @@ from collections.abc import Callable, Sequence
 from contextlib import closing, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
 
-from ..files import content_hash
+from ..files import Document, content_hash
+from ..regular_files import is_there
+from ..specs import build_spec
 from ..types import Json
 from .executor import Executor
 from .local import LocalProcesses
 from .store import Store
 from .worker import find_function
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,11 +61,24 @@ def look_into(store: Path, function: Callable[[Json], Json], *, about: Json | No
     Raises:
         StoreError: If the file can't be the store of this batch.
     """
-    if not store.exists():
+    if not is_there(store):
         return None
     with Store(store, _identity(function, about), title, resume=True) as kept:
-        note = json.loads(kept.note) if kept.note else None
-        return Kept(note, tuple(result for _, result, _, _ in kept.finished()))
+        return Kept(kept.noted(), tuple(result for _, result, _, _ in kept.finished()))
+
+
+def read_result(kind: type[T], result: Json, store: Path | None = None) -> T:
+    """A result as the record whose fields it has; one from a store may be damaged.
+
+    Args:
+        kind: A dataclass.
+        result: What a function of a batch returned.
+        store: Where it may come from.
+
+    Raises:
+        SpecError: If a field is missing, or has a value of another type.
+    """
+    return build_spec(kind, Document("a result" if store is None else f"{store}: a stored result", result))
 
 
 def _identity(function: Callable[[Json], Json], about: Json | None) -> str:

@@ -18,7 +18,7 @@ from typing import Any, Final
 from ..errors import ClamberError
 from ..types import Json
 from .executor import MOST_TRIES, End
-from .release import in_words, release
+from .release import difference, release
 from .worker import find_function, run_item
 
 CONNECT: Final = 3.0
@@ -167,8 +167,8 @@ class RayCluster:
                 if "release" in told:
                     raise ClusterError(
                         self.address,
-                        f"a worker on {told['host']} has {in_words(told['release'])}, not {in_words(release())}",
-                        "install the same Clamber, Python, NumPy and Numba on every node",
+                        f"a worker on {told['host']} has another release: {difference(release(), told['release'])}",
+                        "install the same Clamber, Python, NumPy, Numba and MuJoCo on every node",
                     )
                 yield End(key, told["result"], told["seconds"], told["error"], tries[key])
 

@@ -1,16 +1,41 @@
-"""What must be the same wherever the items of one batch run, so that they give the same numbers."""
+"""What must be the same wherever and whenever the items of one batch run, so that they give the same numbers."""
+
+import platform
+from functools import cache
+from typing import Final
 
 from .. import __version__
+from ..sources import package_hash
 from ..types import Json
 
+COMPUTE: Final = ("numpy", "numba", "llvmlite", "mujoco")
+"""Packages whose version may change a number."""
 
+
+@cache
 def release() -> Json:
-    """Clamber's version, and the hash of its kernels with the versions of Python, NumPy and Numba that compile them."""
-    from ..compiled import kernel_hash  # loads Numba, which those who name a cluster only don't need
+    """Clamber's version, the hash of all its files, and the versions of Python and of what it computes with."""
+    return {
+        "clamber": __version__,
+        "files": package_hash()[:16],
+        "python": platform.python_version(),
+        **{name: _version(name) for name in COMPUTE},
+    }
 
-    return {"clamber": __version__, "kernels": kernel_hash()}
+
+def difference(mine: Json, theirs: Json) -> str:
+    """What differs between two releases, as errors name it."""
+    return ", ".join(
+        f"{name} {theirs.get(name)}, not {mine.get(name)}"
+        for name in dict.fromkeys((*mine, *theirs))
+        if mine.get(name) != theirs.get(name)
+    )
 
 
-def in_words(told: Json) -> str:
-    """A release as errors name it."""
-    return f"Clamber {told['clamber']} with kernels {told['kernels']}"
+def _version(name: str) -> str | None:
+    import importlib.metadata  # takes longer than the rest of this file
+
+    try:
+        return importlib.metadata.version(name)
+    except importlib.metadata.PackageNotFoundError:
+        return None

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..actions.problems import pose_problem
 from ..actions.yardsticks import yardsticks_of
-from ..compiled import is_compiled
+from ..kernel_cache import is_compiled
 from ..planning.reach.flood import flood
 from ..tasks.limbed import LimbedTask
 from ..toml_text import toml_value

@@ -12,7 +12,7 @@ from ..actions.problem import CompiledProblem
 from ..actions.problems import pose_problem
 from ..errors import SpecError, StartError
 from ..planning.exact.costs import Aim
-from ..planning.exact.explore import Exploration, explore
+from ..planning.exact.explore import Exploration, explore, inform
 from ..tasks import Task
 from ..tasks.library import change_task
 from ..types import Ints
@@ -93,7 +93,7 @@ class Trial:
             return Answer("shut")
         seen = self.search(problem, Aim(), SMALL)
         if not (seen.found or seen.exhausted):
-            seen = self.search(problem.informed(), Aim(), self.max_stances // crew)
+            seen = self.search(inform(problem, self.granted())[0], Aim(), self.max_stances // crew)
         status: Literal["open", "shut", "unsettled"] = (
             "open" if seen.ways else "shut" if seen.exhausted else "unsettled"
         )

@@ -15,7 +15,6 @@ POINTS: Final = 8
 """Points of a range that states no number."""
 MOST_POINTS: Final = 100_000
 """Of one sweep."""
-_RANGE: Final = re.compile(r"(?P<low>.+?)\s*\.\.\s*(?P<high>[^:]+?)\s*(?::\s*(?P<points>.*?)\s*)?\Z")
 
 
 class SweepError(ClamberError):
@@ -63,31 +62,39 @@ def range_axis(text: str) -> Axis:
     option = f"--vary {text}"
     allowed = "write key=low..high:points, such as motor.torque_limit=10Nm..21Nm:12"
     key, _ = split_override(text)
-    match = _RANGE.match(text.partition("=")[2].strip())
-    if match is None:
+    first, dots, rest = text.partition("=")[2].partition("..")
+    second, colon, asked = rest.partition(":")
+    words = first.strip(), second.strip()
+    if not dots or not all(words):
         raise SweepError(option, "is no range", allowed)
-    ends = [split_quantity(match[end]) for end in ("low", "high")]
-    for end, parts in zip((match["low"], match["high"]), ends, strict=True):
+    ends = [_finite(end) for end in words]
+    for end, parts in zip(words, ends, strict=True):
         if parts is None:
             raise SweepError(option, f"'{end}' is no number", allowed)
     (low, unit), (high, other) = (parts for parts in ends if parts is not None)
     if unit != other:
         raise SweepError(option, f"one end is in '{unit}', the other in '{other}'", "state the same unit at both ends")
-    points = _points(match["points"], option)
-    if not low < high:
+    points = _points(asked.strip() if colon else None, option)
+    if not 0.0 < high - low < math.inf:
         raise SweepError(option, "the range is empty", "the first end must be less than the second")
-    whole = not unit and all(re.fullmatch(r"[+-]?\d+", match[end]) for end in ("low", "high"))
+    whole = not unit and all(re.fullmatch(r"[+-]?\d+", end) for end in words)
     steps = [low + (high - low) * k / (points - 1) for k in range(points - 1)] + [high]
     if whole and any(step != round(step) for step in steps):
         span = round(high - low)
-        counts = [n + 1 for n in range(1, span + 1) if span % n == 0]
-        if match["points"] is not None:
+        counts = [n + 1 for n in range(1, min(span, MOST_POINTS) + 1) if span % n == 0]
+        if colon:
             fits = f"take {' or '.join(map(str, counts[:12]))} points, or write a decimal point"
             raise SweepError(option, f"{points} points between whole numbers are not all whole", fits)
         points = max(count for count in counts if count <= POINTS)
         steps = [low + (high - low) * k / (points - 1) for k in range(points)]
     texts = tuple(f"{step:.0f}" if whole else f"{step:.12g} {unit}".rstrip() for step in steps)
     return Axis(key=key, values=texts, numbers=tuple(steps), unit=unit)
+
+
+def _finite(text: str) -> tuple[float, str] | None:
+    """Number and unit of a text; None if it has no finite number."""
+    parts = split_quantity(text)
+    return parts if parts is not None and math.isfinite(parts[0]) else None
 
 
 def _points(text: str | None, option: str) -> int:
@@ -113,7 +120,7 @@ def values_axis(text: str) -> Axis:
         raise SweepError(option, "has an empty value", "write key=a,b,c, such as board=ladder,h")
     if len(set(values)) < len(values):
         raise SweepError(option, "names a value twice", "name each once")
-    parts = [split_quantity(value) for value in values]
+    parts = [_finite(value) for value in values]
     known = [part for part in parts if part is not None]
     if len(known) == len(values) and len({unit for _, unit in known}) == 1:
         return Axis(key=key, values=values, numbers=tuple(number for number, _ in known), unit=known[0][1])
@@ -157,7 +164,7 @@ def read_mark(text: str, axes: Sequence[Axis]) -> Mark:
         raise SweepError(option, f"'{key}' does not vary", f"mark {' or '.join(axis.key for axis in axes)}")
     if axis.numbers is None:
         raise SweepError(option, f"the values of '{key}' are names", "mark numbers")
-    ends = [split_quantity(end.strip()) for end in written.split("..")]
+    ends = [_finite(end.strip()) for end in written.split("..")]
     known = [end for end in ends if end is not None]
     if len(known) < len(ends) or len(ends) > 2:
         raise SweepError(option, f"'{written}' is no number and no range", "write key=value or key=low..high")

@@ -7,10 +7,10 @@ from typing import Any, Final
 
 from ..actions.plan import Plan
 from ..actions.problems import pose_problem
-from ..compiled import is_compiled
 from ..errors import PlannerError
 from ..files import Document
 from ..jobs import Executor, Outcome, map_items
+from ..kernel_cache import is_compiled
 from ..specs import build_spec
 from ..tasks import Task, task_from_document
 from ..types import Json

@@ -4,19 +4,24 @@ import json
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
-from ..actions.problems import pose_problem
-from ..errors import FileError
-from ..files import read_text, write_atomically
+from pydantic import StrictStr
+
+from ..actions.problems import code_limits, pose_problem
+from ..errors import FileError, SpecError
+from ..files import Document, check_schema, parse_json, read_text, write_atomically
+from ..specs import build_spec, spec
 from ..tasks import Task
 from ..types import Json
-from .genetic.learning import Macro, learn
+from .genetic.learning import Count, Macro, learn
 from .genetic.planner import plan_genetic
 from .genetic.profile import Profile, load_profile
 from .progress import Listener
 
-SCHEMA: Final = "clamber-macros-1"
+SCHEMA: Final = "clamber-macros-2"
+UNNAMED: Final = "clamber-macros-1"
+"""What files followed before they named their robot."""
 ENOUGH: Final = 0.8
 """Share of the way to the goal that a macro must lead by itself for the search to stop early."""
 
@@ -26,6 +31,8 @@ class Lesson:
     """What was learned from a task."""
 
     task: str
+    robot: str
+    """Its name."""
     macros: tuple[Macro, ...]
     """By how far each leads alone from the task's start, in words that the family's inventory knows: packed codes."""
     plans: int
@@ -37,6 +44,7 @@ class Lesson:
         return {
             "schema": SCHEMA,
             "task": self.task,
+            "robot": self.robot,
             "plans": self.plans,
             "evaluations": self.evaluations,
             "macros": [asdict(macro) for macro in self.macros],
@@ -94,22 +102,45 @@ def learn_macros(
         if any(macro.from_start * macro.gain >= ENOUGH * goal for macro in macros.values()):
             break
     ranked = sorted(macros.values(), key=lambda macro: (-round(macro.from_start * macro.gain, 6), len(macro.codes)))
-    return Lesson(task.name, tuple(ranked[:most]), plans, evaluations)
+    return Lesson(task.name, task.robot.name, tuple(ranked[:most]), plans, evaluations)
 
 
-def load_macros(path: Path) -> tuple[Macro, ...]:
-    """The macros of a stored lesson.
+@spec
+class _Stored:
+    """A stored lesson, by its types."""
+
+    task: StrictStr
+    robot: StrictStr
+    plans: Count
+    evaluations: Count
+    macros: tuple[Macro, ...]
+
+
+def load_macros(path: Path, task: Task) -> tuple[Macro, ...]:
+    """The macros of a stored lesson, for a task.
 
     Raises:
-        FileError: If the file is no lesson.
+        FileError: If the file is no JSON.
+        SpecError: If it is no lesson, or of another robot, or has a code that is no action of the task.
     """
-    allowed = "macros are what `clamber learn -o` writes"
+    label = str(path)
     try:
-        data: Any = json.loads(read_text(path))
-        if data["schema"] != SCHEMA:
-            raise ValueError(f"schema is {data['schema']!r}, not {SCHEMA!r}")
-        return tuple(
-            Macro(**{**macro, "codes": tuple(int(code) for code in macro["codes"])}) for macro in data["macros"]
+        data = parse_json(read_text(path))
+    except ValueError as error:
+        raise FileError(label, f"holds no macros: {error}", "macros are what `clamber learn -o` writes") from None
+    if not isinstance(data, dict):
+        raise FileError(label, "holds no macros: it is no JSON object", "macros are what `clamber learn -o` writes")
+    if data.get("schema") == UNNAMED:
+        raise FileError(label, f"follows {UNNAMED!r}, which names no robot", "learn again: clamber learn TASK -o FILE")
+    document = Document(label, data)
+    check_schema(document, SCHEMA)
+    stored = build_spec(_Stored, document, without=("schema",))
+    if stored.robot != task.robot.name:
+        allowed = (
+            f"must be '{task.robot.name}', the robot of task '{task.name}'; learn its own: clamber learn TASK -o FILE"
         )
-    except (ValueError, KeyError, TypeError, RecursionError) as error:
-        raise FileError(str(path), f"holds no macros: {error}", allowed) from None
+        raise SpecError(label, "robot", stored.robot, allowed)
+    limits = code_limits(task)
+    for i, macro in enumerate(stored.macros):
+        limits.macro(macro.codes, f"macros.{i}.codes", label)
+    return stored.macros

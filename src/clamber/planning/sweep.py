@@ -9,11 +9,10 @@ from itertools import product
 from pathlib import Path
 from typing import Final
 
-from .. import __version__
-from ..compiled import is_compiled
 from ..errors import ClamberError, SpecError, StartError
 from ..files import write_atomically
-from ..jobs import Executor, Outcome, map_items
+from ..jobs import Executor, Outcome, map_items, read_result
+from ..kernel_cache import is_compiled
 from ..tasks import Task, load_task, task_from_document
 from ..types import Json
 from ..units import OZ_IN
@@ -160,9 +159,7 @@ def run_sweep(
         assert isinstance(loaded[0], SpecError)
         raise loaded[0]
     settings = dict(options or {})
-    items: list[Json] = [
-        {"document": task.document, "planner": planner, "options": settings, "version": __version__} for task in tasks
-    ]
+    items: list[Json] = [{"document": task.document, "planner": planner, "options": settings} for task in tasks]
     if executor is None or executor.here:
         _compile(tasks, planner)
     outcomes = iter(
@@ -181,7 +178,7 @@ def run_sweep(
     points = tuple(
         Point(values=values, status=NO_START, reason=task.headline)
         if isinstance(task, SpecError)
-        else _point(values, next(outcomes))
+        else _point(values, next(outcomes), store)
         for values, task in zip(places, loaded, strict=True)
     )
     return Sweep(task=name, planner=planner, axes=tuple(axes), points=points, marks=tuple(marks))
@@ -214,10 +211,10 @@ def plan_point(item: Json) -> Json:
     return point
 
 
-def _point(values: tuple[str, ...], outcome: Outcome) -> Point:
+def _point(values: tuple[str, ...], outcome: Outcome, store: Path | None) -> Point:
     if outcome.result is None:
         return Point(values=values, status=FAILED, reason=outcome.error or "", seconds=outcome.seconds)
-    return Point(values=values, seconds=outcome.seconds, **outcome.result)
+    return read_result(Point, outcome.result | {"values": values, "seconds": outcome.seconds}, store)
 
 
 def _load(name: str, overrides: Sequence[str]) -> Task | SpecError:

@@ -2,15 +2,17 @@
 
 import cmath
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import field, replace
 from typing import Annotated, Final, Literal
 
+import numpy as np
 from pydantic import Field, StrictStr
 
 from ..errors import UnknownNameError, describe_choices
 from ..files import Document, check_schema
 from ..specs import Name, Provenance, build_spec, collect_sources, spec
+from ..types import Floats
 from ..units import (
     GRAVITY,
     Angle,
@@ -31,6 +33,7 @@ from ..units import (
     PositiveLength,
     PositiveRatio,
     PositiveResistance,
+    PositiveTime,
     PositiveTorque,
     PositiveTorqueConstant,
 )
@@ -149,6 +152,10 @@ class Motor:
     """Whole play at a joint's output [rad]."""
     control_rate: PositiveFrequency | None = None
     """Control cycles per second [Hz]."""
+    continuous_torque: PositiveTorque | None = None
+    """Torque at a joint that a motor bears for ever [N m]; a plant's server stops a robot whose windings get hotter than it makes them."""
+    thermal_time: PositiveTime | None = None
+    """Time constant of the windings' temperature [s]; goes with `continuous_torque`."""
 
 
 @spec
@@ -179,6 +186,10 @@ class LimbedRobot:
         if name not in self.limb_names:
             raise UnknownNameError(f"limb of {self.name}", name, self.limb_names)
         return self.limb_names.index(name)
+
+    def outline(self) -> Floats:
+        """Corners of the body without its margin: the convex hull of the ports, anticlockwise, body frame, shape (n, 2) [m]."""
+        return _hull((limb.port_x, limb.port_y) for limb in self.limbs)
 
     @property
     def limb_names(self) -> tuple[str, ...]:
@@ -238,3 +249,23 @@ def _check(robot: LimbedRobot, document: Document) -> None:
     link_weight = sum(sum(limb.link_masses) for limb in robot.limbs) * GRAVITY
     if not link_weight < robot.weight:
         raise document.problem("weight", f"must be more than the links weigh together ({link_weight:.3g} N)")
+
+
+def _hull(points: Iterable[tuple[float, float]]) -> Floats:
+    """Convex hull of a few points, anticlockwise (Andrew's monotone chain), shape (n, 2)."""
+    ordered = sorted(set(points))
+    if len(ordered) < 3:
+        return np.array(ordered)
+    halves: list[tuple[float, float]] = []
+    for run in (ordered, ordered[::-1]):
+        chain: list[tuple[float, float]] = []
+        for point in run:
+            while len(chain) >= 2 and _turn(chain[-2], chain[-1], point) <= 0.0:
+                chain.pop()
+            chain.append(point)
+        halves += chain[:-1]
+    return np.array(halves)
+
+
+def _turn(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float]) -> float:
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])

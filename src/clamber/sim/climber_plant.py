@@ -15,6 +15,7 @@ from ..worlds.board import Board
 from .climber_model import HookShape, climber_spec
 from .climber_wires import command_motors, sense_climber
 from .grippers import Grippers
+from .hold_limits import HoldLimits
 from .limb_flaws import ForceSensor, LimbFlaws
 from .pinned_tips import pin_tips
 from .wrench_reader import WrenchReader
@@ -91,6 +92,7 @@ class ClimberPlant:
         self._pegs = self._believed if pegs is None else pegs
         radius = max(hold.radius for hold in board.holds)
         self.grippers = Grippers(robot, self._pegs, radius, self.model, self._data, self.period)
+        self._hold_limits = HoldLimits(board, robot.weight, self.grippers, self.model, self._data, self.period)
         self._grips = np.zeros(len(robot.limbs), np.int32)
         self._press: WrenchReader | None = None
         if presser is not None and flaws.wall is not None:
@@ -111,6 +113,7 @@ class ClimberPlant:
         import mujoco
 
         mujoco.mj_resetData(self.model, self._data)
+        self._hold_limits.reset()
         self._qpos[:3] = pose
         self._qpos[self._at[1:]] = np.ravel(q)
         mujoco.mj_forward(self.model, self._data)
@@ -141,7 +144,7 @@ class ClimberPlant:
             self.tick, self._ring, self._before, self._states,
         )  # fmt: skip
         return BodySensed(
-            self._q, self._qd, self._states.item(0, 0, 0), self._states.item(0, 1, 0), self.grippers.gripped
+            self._q, self._qd, self._states.item(0, 0, 0), self._states.item(0, 1, 0), self.grippers.gripped, self.tick
         )
 
     def actuate(self, torques: Floats, grips: Ints) -> None:
@@ -168,6 +171,10 @@ class ClimberPlant:
         """Push the body at its centre until the next call, world frame [N]."""
         self._pushed[:2] = force
 
+    def weaken(self, hold: int, strength: float) -> None:
+        """Give a hold another strength [N] than its board states, until the next reset."""
+        self._hold_limits.weaken(hold, strength)
+
     def pause(self) -> None:
         """See `BodyPlant`: nothing to do, as time stands still meanwhile."""
 
@@ -183,6 +190,7 @@ class ClimberPlant:
                 self._step(self.model, self._data, 1)
         self.grippers.feel()
         self.tick += 1
+        self._hold_limits.feel(self.time)
 
     def _drive(self, time: float) -> bool:
         """Put what the motors give at the present speeds on the joints; whether that may be held for `time` [s]."""
@@ -202,4 +210,5 @@ class ClimberPlant:
             q.reshape(-1, 2),
             self._site_places[self._sites, :2],
             self._given[0].reshape(-1, 2).copy(),
+            self._hold_limits.broken,
         )

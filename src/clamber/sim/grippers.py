@@ -42,6 +42,11 @@ class Grippers:
         """1 where jaws are closed about a peg: what a gap sensor in the jaws tells, shape (limbs,)."""
         self.forces = np.zeros(n)
         """What closed jaws take, shape (limbs,) [N]."""
+        self.pulls = np.zeros((n, 3))
+        """Force of closed jaws on their peg, world frame, shape (limbs, 3) [N]."""
+        self.caught: Ints = np.full(n, -1, np.int32)
+        """Index of the peg that closed jaws are about, or were last, shape (limbs,)."""
+        self._gone = np.zeros(len(pegs), bool)
         self.slips = 0
         """How often a peg has been lost to too much force."""
         ends = [limb.end for limb in robot.limbs]
@@ -60,6 +65,7 @@ class Grippers:
         self._over[:] = 0.0
         self.forces[:] = 0.0
         self.slips = 0
+        self._gone[:] = False
         for pin in self._pins.values():
             self._data.eq_active[pin] = 0
 
@@ -89,11 +95,19 @@ class Grippers:
             if self.gripped[i]:
                 # rows of equality constraints come first
                 rows = data.efc_id[: data.ne] == self._pins[i]
-                self.forces[i] = math.sqrt(float(np.sum(np.square(data.efc_force[: data.ne][rows]))))
+                self.pulls[i] = -data.efc_force[: data.ne][rows]
+                self.forces[i] = math.sqrt(float(np.sum(np.square(self.pulls[i]))))
                 self._over[i] = self._over[i] + self._period if self.forces[i] > self._strength[i] else 0.0
                 if self._over[i] >= GIVING_WAY:
                     self._let_go(i)
                     self.slips += 1
+
+    def lose(self, peg: int) -> None:
+        """Let a peg go that is no more: jaws about it stay shut on nothing, and none catches it again."""
+        self._gone[peg] = True
+        for i in self.limbs:
+            if self.gripped[i] and self.caught[i] == peg:
+                self._let_go(i)
 
     def _close(self, i: int) -> None:
         self._shut[i] = 1
@@ -102,6 +116,7 @@ class Grippers:
         turn = data.xmat[body].reshape(3, 3)
         tip = data.xpos[body] + turn @ self._tips[i]
         away = np.hypot(*(self._pegs - tip[:2]).T)
+        away[self._gone] = math.inf
         nearest = int(np.argmin(away))
         if away[nearest] > self._capture[i]:
             return
@@ -110,7 +125,7 @@ class Grippers:
         self._model.eq_data[pin, :3], self._model.eq_data[pin, 3:6] = self._caught_at[i], peg
         self._part[i] = 0.0
         data.eq_active[pin] = 1
-        self.gripped[i] = 1
+        self.gripped[i], self.caught[i] = 1, nearest
 
     def _let_go(self, i: int) -> None:
         self._data.eq_active[self._pins[i]] = 0

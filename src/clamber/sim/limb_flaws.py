@@ -2,8 +2,10 @@
 
 import math
 from dataclasses import dataclass
+from typing import Final
 
 from .plant_rules import (
+    MOST_DELAY,
     Flaws,
     PlantError,
     check_finite,
@@ -12,6 +14,9 @@ from .plant_rules import (
     check_rates,
     check_seed,
 )
+
+MOST_COUNTS: Final = 10**9
+"""Encoder counts per motor turn; no encoder has as many."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -135,7 +140,7 @@ class LimbFlaws(Flaws):
         check_part("model_error", self.model_error)
         chancy = ("speed_noise", "wrench_noise", "model_error")
         check_seed(self.seed, {key: getattr(self, key) for key in chancy})
-        for key in ("encoder_counts", "delay"):
-            if not isinstance(getattr(self, key), int) or getattr(self, key) < 0:
-                raise PlantError(key, getattr(self, key), "must be a whole number, 0 or more")
+        for key, most in (("encoder_counts", MOST_COUNTS), ("delay", MOST_DELAY)):
+            if not isinstance(getattr(self, key), int) or not 0 <= getattr(self, key) <= most:
+                raise PlantError(key, getattr(self, key), f"must be a whole number, 0 to {most}")
         check_rates(self.control_rate, self.physics_rate)

@@ -101,6 +101,7 @@ class MujocoLimb:
         self._electronics.read(self._angles if chances is None else self._angles + chances.phase, self._speeds)
         if chances is not None:
             chances.disturb(self._sensed.states)
+        self._sensed.number[0] = self.tick
         self._forces.sense(self.tick)
         return self._sensed
 

@@ -65,6 +65,7 @@ class OdeLimb:
         self._electronics.read(states[:, 0] if chances is None else states[:, 0] + chances.phase, states[:, 1])
         if chances is not None:
             chances.disturb(self._sensed.states)
+        self._sensed.number[0] = self.tick
         return self._sensed
 
     def actuate(self, torques: Floats) -> None:

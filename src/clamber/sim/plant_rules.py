@@ -3,9 +3,16 @@
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import fields, replace
-from typing import Any, Self
+from typing import Any, Final, Self
 
 from ..errors import ClamberError, describe_choices
+
+MOST_RATE: Final = 1e5
+"""Of control and of simulation [Hz]: a second of it takes half a minute then, and no contact here moves faster."""
+MOST_DELAY: Final = 10_000
+"""Control periods that a measurement may be late: that many are kept."""
+MOST_SEED: Final = 2**62
+"""Of what is left to chance: kernels draw by 63 bits."""
 
 
 class PlantError(ClamberError):
@@ -41,8 +48,8 @@ def check_part(name: str, part: float) -> None:
 
 def check_seed(seed: int | None, chancy: Mapping[str, float]) -> None:
     """Make sure that a seed can be one, and that there is one where anything is left to chance: key -> how much."""
-    if seed is not None and seed < 0:
-        raise PlantError("seed", seed, "must be a whole number, 0 or more")
+    if seed is not None and not 0 <= seed <= MOST_SEED:
+        raise PlantError("seed", seed, "must be a whole number, 0 or more, of 62 bits")
     for key, value in chancy.items():
         if seed is None and value > 0.0:
             raise PlantError(key, value, "needs a seed")
@@ -51,8 +58,8 @@ def check_seed(seed: int | None, chancy: Mapping[str, float]) -> None:
 def check_rates(control: float, physics: float) -> None:
     """Make sure that a control period is a whole number of the simulation's steps; both rates in [Hz]."""
     for key, rate in (("control_rate", control), ("physics_rate", physics)):
-        if not 0.0 < rate < math.inf:
-            raise PlantError(key, rate, "must be more than 0 Hz, and finite")
+        if not 0.0 < rate <= MOST_RATE:
+            raise PlantError(key, rate, f"must be more than 0 and at most {MOST_RATE:g} Hz")
     steps = physics / control
     if abs(steps - round(steps)) > 1e-9 * steps or round(steps) < 1:
         raise PlantError(

@@ -134,7 +134,7 @@ class WalkerSim:
         if self.flaws.force_noise > 0.0:
             sensed.forces.ravel()[:] += self.flaws.force_noise * self._cells.standard_normal(6)
         return WalkerSensed(
-            self.time, sensed.actuators, sensed.legs, sensed.forces, self._inclines.readings, sensed.arm
+            self.time, sensed.actuators, sensed.legs, sensed.forces, self._inclines.readings, sensed.arm, self.tick
         )
 
     def actuate(self, actuators: Floats, legs: Floats, arm: Floats) -> None:

@@ -5,9 +5,13 @@ from functools import partial
 from typing import Final, TypeAlias
 
 from .bevly_1997 import PAPER
+from .bevly_1997.body_angle import find_poses
 from .bevly_1997.body_circle import lead_body
 from .bevly_1997.body_climb import climb_two_steps, show_gait
+from .bevly_1997.body_coordinated import compare_schemes
 from .bevly_1997.body_cycle import sweep_stiffness
+from .bevly_1997.body_limit import limit_pulls
+from .bevly_1997.body_potential import cross_body
 from .bevly_1997.body_push import push_body
 from .bevly_1997.body_push_up import push_body_up
 from .bevly_1997.body_table import count_lost_pegs
@@ -15,7 +19,10 @@ from .bevly_1997.evolution import follow_h, follow_modified_ladder
 from .bevly_1997.h_torques import compare_h_torques
 from .bevly_1997.hook_check import check_hooks
 from .bevly_1997.inventory_size import count_modules
+from .bevly_1997.learned_module import learn_to_climb, plan_with_modules_alone
 from .bevly_1997.limb_circle import track_circle
+from .bevly_1997.limb_claims import compare_admittance, damp_directions
+from .bevly_1997.limb_force import press_walls
 from .bevly_1997.limb_models import compare_models
 from .bevly_1997.limb_open_loop import compare_transforms
 from .bevly_1997.limb_push import push_and_release
@@ -24,7 +31,11 @@ from .bevly_1997.no_rotation import rotation_is_needed, rotation_is_not_needed
 from .bevly_1997.nominal_gait import climb_with_gait
 from .bevly_1997.planner_success import count_successes
 from .bevly_1997.printed_plans import PRINTED, repeat_plan
+from .bevly_1997.push_pull import compare_push_pull
+from .bevly_1997.search_variants import compare_crossovers, compare_subgoals
+from .bevly_1997.static_torques import compare_torques
 from .bevly_1997.step_size import vary_step_size
+from .bevly_1997.uneven_terrain import climb_uneven
 from .boards_exact import STUDY as BOARDS_EXACT
 from .boards_exact.hook_cones import compare_hooks, narrow_cones
 from .boards_exact.least_torque import find_least_torques
@@ -40,9 +51,12 @@ from .hoshino_1995.fig_8 import walk_level
 from .hoshino_1995.fig_9 import compare_directions
 from .hoshino_1995.fig_10 import compare_freedoms
 from .hoshino_1995.fig_11 import vary_gain
+from .hoshino_1995.passing_steps import pass_steps
+from .hoshino_1995.plane_walks import turn_anywhere, walk_everywhere
 from .hoshino_1995.printed_numbers import compare_numbers
 from .hoshino_1995.regions import draw_figure_4
 from .hoshino_1995.section_6_2 import count_freedoms
+from .hoshino_1995.tool_experiment import follow_in_dynamics
 from .result import StudyResult
 
 Repeat: TypeAlias = Callable[[], StudyResult]
@@ -53,6 +67,9 @@ ON_ONE_LIMB: Final[dict[str, Repeat]] = {
     "fig-3-12": partial(step_response, "fig-3-12", "mujoco"),
     "fig-3-13": track_circle,
     "fig-3-14": push_and_release,
+    "fig-3-15": press_walls,
+    "section-3-2-3": damp_directions,
+    "section-3-3-2": compare_admittance,
 }
 """Chapter 3 of Bevly 1997: laws in closed loop."""
 SEEDED: Final = {"table-4-2": count_lost_pegs}
@@ -63,7 +80,12 @@ ON_A_BODY: Final[dict[str, Repeat]] = {
     "fig-4-17": lead_body,
     "fig-4-18": push_body_up,
     "fig-4-19": push_body,
+    "section-4-4-2": limit_pulls,
+    "section-4-4-3": find_poses,
     "section-4-4-4": sweep_stiffness,
+    "section-4-4-5": compare_schemes,
+    "section-4-4-6": cross_body,
+    "section-5-2": climb_uneven,
     **SEEDED,
 }
 """Chapter 4 of Bevly 1997: the whole robot in contact dynamics."""
@@ -75,11 +97,18 @@ OF_LEVELLING: Final[dict[str, Repeat]] = {
     "fig-9": compare_directions,
 }
 """Sections 4 and 5: the upper surface inclined by its legs, and kept level on a slope."""
+OF_WALKING: Final[dict[str, Repeat]] = {
+    "walk-directions": walk_everywhere,
+    "turn-about-points": turn_anywhere,
+    "passing-steps": pass_steps,
+}
+"""Sections 3.2 and 7: walks in contact dynamics."""
 OF_ARM_AND_BODY: Final[dict[str, Repeat]] = {
     "fig-10": compare_freedoms,
     "fig-11": vary_gain,
     "section-6-2": count_freedoms,
     "equation-19": check_second_term,
+    "tool-experiment": follow_in_dynamics,
 }
 """Section 6: the tool moved by arm and body."""
 STUDIES: Final[dict[str, dict[str, Repeat]]] = {
@@ -95,6 +124,12 @@ STUDIES: Final[dict[str, dict[str, Repeat]]] = {
         "modified-ladder-evolution": follow_modified_ladder,
         "h-evolution": follow_h,
         "planner-success": count_successes,
+        "tail-crossover": compare_crossovers,
+        "sub-goals": compare_subgoals,
+        "learned-module": learn_to_climb,
+        "modules-alone": plan_with_modules_alone,
+        "push-pull": compare_push_pull,
+        "static-torques": compare_torques,
         **ON_ONE_LIMB,
         **ON_A_BODY,
     },
@@ -107,7 +142,7 @@ STUDIES: Final[dict[str, dict[str, Repeat]]] = {
         "narrowest-cone": narrow_cones,
         "peg-spacing": vary_spacing,
     },
-    HOSHINO: {**OF_FRAMES, **OF_LEVELLING, **OF_ARM_AND_BODY},
+    HOSHINO: {**OF_FRAMES, **OF_LEVELLING, **OF_WALKING, **OF_ARM_AND_BODY},
 }
 """Paper or subject -> result -> what repeats it; the command line, the pages and the tests read it."""
 

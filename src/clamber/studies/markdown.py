@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..errors import FileError
 from ..files import write_atomically
+from ..regular_files import make_folder
 from .library import STUDIES
 from .result import StudyResult, Table, Value
 
@@ -17,10 +17,7 @@ def write_markdown(results: Sequence[StudyResult], folder: Path) -> None:
     """
     for result in results:
         own = folder / result.paper
-        try:
-            own.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise FileError(str(own), f"cannot be made ({error.strerror})", "name a writable folder") from None
+        make_folder(own)
         for figure in result.figures:
             figure.draw(own / f"{_stem(result, figure.name)}.png")
         write_atomically(own / f"{result.result}.md", result_page(result))

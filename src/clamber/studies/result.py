@@ -7,7 +7,7 @@ from typing import Literal, TypeAlias
 
 from ..types import Json
 
-Verdict: TypeAlias = Literal["holds", "differs", "open"]
+Verdict: TypeAlias = Literal["holds", "consistent", "differs", "open"]
 Value: TypeAlias = int | float | str | None
 
 
@@ -51,7 +51,8 @@ class StudyResult:
     claim: str
     """What the paper says, in our words, with the place where it says so."""
     verdict: Verdict
-    """holds: we get it too; differs: we do not; open: what is printed, or what we did, does not decide it."""
+    """holds: we get it too; consistent: likewise, but numbers of ours were fitted to it; differs: we do not; open: what is printed, or
+    what we did, does not decide it."""
     compared: tuple[Compared, ...]
     deviations: tuple[str, ...]
     """What we inferred, chose or left out, each in a sentence."""

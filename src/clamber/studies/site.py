@@ -5,7 +5,7 @@ from collections import Counter
 from pathlib import Path
 from typing import Final
 
-from ..errors import FileError
+from ..regular_files import is_file, make_folder
 from ..viewing.report.folder import open_report
 from ..viewing.report.pages import write_page, write_style
 from .library import STUDIES, TITLES
@@ -32,7 +32,7 @@ class StudySite:
         for paper, results in STUDIES.items():
             for result in results:
                 path = folder / paper / f"{result}.json"
-                if path.is_file():
+                if is_file(path):
                     self._told[paper, result] = read_result(path)
 
     @property
@@ -57,10 +57,7 @@ class StudySite:
         """
         seconds = time.perf_counter() - began
         own = self.folder / result.paper
-        try:
-            own.mkdir(exist_ok=True)
-        except OSError as error:
-            raise FileError(str(own), f"cannot be made ({error.strerror})", "name a writable folder") from None
+        make_folder(own)
         keep_result(result, own, seconds)
         self._told[result.paper, result.result] = read_result(own / f"{result.result}.json")
         self.write()
@@ -92,6 +89,8 @@ class StudySite:
                 for paper in STUDIES
                 if any(one.paper == paper for one in told)
             ],
-            counts={verdict: counts[verdict] for verdict in ("holds", "differs", "open") if counts[verdict]},
+            counts={
+                verdict: counts[verdict] for verdict in ("holds", "consistent", "differs", "open") if counts[verdict]
+            },
             mixed=states if states > 1 else 0,
         )

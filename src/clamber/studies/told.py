@@ -5,19 +5,17 @@ import math
 from dataclasses import asdict
 from functools import cache
 from pathlib import Path
-from typing import Annotated, Any, Final
+from typing import Annotated, Any
 
 from pydantic import StringConstraints, TypeAdapter, ValidationError
 
 from .. import __version__
 from ..errors import FileError
 from ..files import content_hash, read_text, write_atomically
+from ..jobs.release import release
 from ..specs import spec
 from .result import StudyResult, Value, Verdict
 
-PACKAGE: Final = Path(__file__).resolve().parent.parent
-UNRELATED: Final = ("cli", "openings", "viewing/report")
-"""Folders of the package on which no result depends."""
 PictureFile = Annotated[str, StringConstraints(pattern=r"^[\w.-]+\.png$")]
 """Beside the result's page."""
 
@@ -55,7 +53,7 @@ class ToldResult:
     seeds: str
     version: str
     sources: str
-    """SHA-256 of the files of the package that it depends on."""
+    """Of the release that it came from; see `sources`."""
     seconds: float
     """That it took."""
 
@@ -116,16 +114,9 @@ def seeds_in_words(seeds: range) -> str:
     return str(seeds[0]) if len(seeds) == 1 else f"{seeds[0]} to {seeds[-1]}"
 
 
-@cache
 def sources() -> str:
-    """SHA-256 of all files of the package that results depend on."""
-    files = {
-        name: content_hash(path.read_bytes())
-        for path in sorted(PACKAGE.rglob("*"))
-        if path.suffix in {".py", ".toml", ".json", ".csv"}
-        and not (name := path.relative_to(PACKAGE).as_posix()).startswith(UNRELATED)
-    }
-    return content_hash(files)
+    """SHA-256 of what results come from: all files of the package, and the versions of what it computes with."""
+    return content_hash(release())
 
 
 @cache

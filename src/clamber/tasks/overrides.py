@@ -2,12 +2,11 @@
 
 import copy
 import json
-import tomllib
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..errors import MISSING, SpecError, describe_choices
-from ..files import Document, element_index, element_names
+from ..files import Document, element_index, element_names, parse_toml
 from ..types import Json
 from ..units import QUANTITY_KEYS, split_quantity
 
@@ -26,8 +25,8 @@ def split_override(text: str) -> tuple[str, Any]:
 
 def _parse(text: str) -> Any:
     try:
-        parsed = tomllib.loads(f"value = {text}")
-    except (ValueError, RecursionError):
+        parsed = parse_toml(f"value = {text}")
+    except ValueError:
         return text
     try:
         json.dumps(parsed)  # a date is TOML, but no plain data

@@ -19,6 +19,8 @@ from .style import styled
 MILLI: Final = 1e3
 COORDINATED: Final = "#8C564B"
 """Colour of the earlier scheme."""
+OWN: Final = "#B5A900"
+"""Colour of the robot's own control as it climbs."""
 
 
 def line_of(entry: BodyEntry) -> dict[str, Any]:
@@ -26,6 +28,8 @@ def line_of(entry: BodyEntry) -> dict[str, Any]:
     gains = entry.gains
     if gains.scheme == "coordinated":
         return {"color": COORDINATED, "lw": 1.4}
+    if gains.mapping == "wrench":
+        return {"color": OWN, "lw": 1.4}
     wide = 2.0 if gains.law == "scct" and gains.scheme == "body" else 1.4
     match = entry.label.partition(", ")[2]
     line = MATCH_LINES.get(match, "-") if gains.scheme == "body" else MATCH_LINES["mean"]

@@ -185,8 +185,7 @@ def write_run(run: ClimbRun, path: Path) -> None:
         write_log(run.trace.to_log(), path, TOPIC)
         return
     with styled():
-        pegs = run.task.world.positions() + run.drawn.pegs if run.drawn.pegs.any() else None
-        view = ClimbRunView(run.task, run.trace, run.report.actions, pegs)
+        view = ClimbRunView(run.task, run.trace, run.report.actions, run.true_pegs)
         if suffix in WRITERS:
             WRITERS[suffix](view, path)
         else:

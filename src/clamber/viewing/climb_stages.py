@@ -1,5 +1,7 @@
 """A climb that was carried out, as still pictures: the robot at the end of each action, and the body's way over time."""
 
+from collections.abc import Mapping
+from itertools import cycle
 from pathlib import Path
 from textwrap import wrap
 from typing import Final
@@ -7,6 +9,7 @@ from typing import Final
 import numpy as np
 from matplotlib.figure import Figure
 
+from ..execution.climb.climb_trace import ClimbTrace
 from ..experiments.climb.run_plan import ClimbRun
 from ..types import Floats
 from . import style
@@ -86,8 +89,36 @@ def draw_body_over_time(run: ClimbRun, path: str | Path) -> None:
                         action.start + action.seconds / 2, 1.02, str(number), ha="center", va="bottom", fontsize=8,
                         color=style.QUIET, transform=axes.get_xaxis_transform(),
                     )  # fmt: skip
-        grid[0].legend(loc="lower right", fontsize=8, ncols=2)
+        grid[0].legend(loc="best", fontsize=8, ncols=2)
         grid[1].set_xlabel("time [s]")
         what = "; ".join(f"{number} {action.title}" for number, action in enumerate(run.report.actions, 1))
         figure.suptitle("\n".join(wrap(what, WIDTH)), x=0.01, ha="left", fontsize=8, color=style.QUIET)
+        save_figure(figure, path)
+
+
+def draw_heights(traces: Mapping[str, ClimbTrace], path: str | Path) -> None:
+    """Draw how far above its aim the body truly is over time, one line for each control.
+
+    Args:
+        traces: Label -> a climb of a plant that tells the truth.
+        path: A file (.png, .svg, .pdf).
+
+    Raises:
+        SuffixError: If the file's suffix names no format for still pictures.
+        FileError: If the file cannot be written.
+    """
+    check_suffix(path, CANVASES)
+    with styled():
+        figure = Figure(figsize=(8.6, 3.8), layout="constrained")
+        axes = figure.subplots()
+        for (label, trace), colour in zip(traces.items(), cycle(style.PARTS)):
+            assert trace.true_pose is not None
+            above = (trace.true_pose[:, 1] - trace.aim[:, 1]) * MILLI
+            axes.plot(trace.time, above, color=colour, lw=1.4, label=label)
+            axes.plot(trace.time[-1:], above[-1:], color=colour, marker="o", ms=4)
+        style.bare(axes)
+        axes.grid(color=style.FAINT, lw=0.6)
+        axes.set_xlabel("time [s]")
+        axes.set_ylabel("body above its aim [mm]")
+        axes.legend(fontsize=8, ncols=3)
         save_figure(figure, path)

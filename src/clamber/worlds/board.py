@@ -23,12 +23,17 @@ from ..units import (
     PositiveDensity,
     PositiveForce,
     PositiveLength,
+    Quantity,
     Ratio,
 )
+from .overlap import find_overlap
 from .scatter import DEFAULT_GAP, MOST_PACKED, GapError, scatter
 
 SCHEMA: Final = "clamber-board-1"
-
+MOST_HOLDS: Final = 100_000
+"""Of a board: as many as the arrays of a stance are made for in some seconds; a climber's wall has some thousands."""
+HoldRadius = Annotated[float, Quantity("length", at_least=1e-6)]
+"""Radius [m], a micrometre or more."""
 
 SHORT_KEYS: Final = {"spacing": "ladder.width", "rung": "ladder.spacing", "rungs": "ladder.rungs"}
 """How the climbing literature calls the distances of a ladder: holds apart across, and up -> keys of its board."""
@@ -44,7 +49,7 @@ class Hold:
     """Centre [m]."""
     y: Length
     """Centre [m]."""
-    radius: PositiveLength
+    radius: HoldRadius
     """Radius of the disc that stands for it; the board's `hold_radius` unless stated [m]."""
     direction: Angle | None = None
     """World direction about which it can be pulled [rad]; None: every direction."""
@@ -100,10 +105,11 @@ class LadderSpec:
 
     def holds(self, radius: float) -> tuple[Hold, ...]:
         """The holds, by number."""
+        removed = frozenset(self.removed)
         return tuple(
             Hold(number=number, x=self.width * ((number - 1) % 2), y=self.spacing * ((number - 1) // 2), radius=radius)
             for number in range(1, 2 * self.rungs + 1)
-            if number not in self.removed
+            if number not in removed
         )
 
 
@@ -156,7 +162,7 @@ class GridSpec:
 class RandomSpec:
     """Scatters holds at random over a rectangle whose lower left corner is the origin; its height follows from the density."""
 
-    holds: Annotated[int, Field(strict=True, ge=1, le=100_000)]
+    holds: Annotated[int, Field(strict=True, ge=1, le=MOST_HOLDS)]
     """How many."""
     density: PositiveDensity
     """Holds per area [1/m^2]."""
@@ -198,7 +204,7 @@ class BoardSpec:
     title: StrictStr = ""
     source: StrictStr = ""
     """Where the places of the holds come from."""
-    hold_radius: PositiveLength | None = None
+    hold_radius: HoldRadius | None = None
     """Radius of every hold that states none [m]."""
     position_error: NonNegativeLength = 0.0
     """How well the places are known, either way [m]."""
@@ -230,6 +236,8 @@ def build_board(document: Document) -> Board:
         raise document.problem("hold_radius", "must be given beside a generator, such as '5 mm'")
     if stated.ladder is not None:
         _check_removed(stated.ladder, document)
+    if stated.grid is not None and stated.grid.rows * stated.grid.columns > MOST_HOLDS:
+        raise document.problem("grid", f"makes {stated.grid.rows * stated.grid.columns} holds; at most {MOST_HOLDS}")
     radius = stated.hold_radius or 0.0
     if stated.random is not None:
         holds: tuple[Hold, ...] | None = _random_holds(stated.random, radius, document)
@@ -300,6 +308,8 @@ def _check_holds(board: Board, document: Document, listed: str, added: Container
 
     if not holds:
         raise document.problem(listed, "the board has no holds; it needs at least one")
+    if len(holds) > MOST_HOLDS:
+        raise document.problem(listed, f"makes {len(holds)} holds; at most {MOST_HOLDS}")
     for before, after in pairwise(holds):
         if before.number == after.number:
             key = "added" if after.number in added else listed
@@ -308,17 +318,11 @@ def _check_holds(board: Board, document: Document, listed: str, added: Container
         if (hold.direction is None) != (hold.cone is None):
             key = "added" if hold.number in added else listed
             raise document.problem(f"{key}.{hold.number}", "states 'direction' and 'cone' both or neither")
-    widest = 2.0 * max(hold.radius for hold in holds)
-    across = sorted(holds, key=lambda hold: hold.x)
-    for index, a in enumerate(across):
-        for b in across[index + 1 :]:
-            if b.x - a.x >= widest:
-                break
-            distance = math.hypot(b.x - a.x, b.y - a.y)
-            if distance < a.radius + b.radius:
-                first, second = sorted((a.number, b.number))
-                sizes = f"{distance:.4g} m apart, radii {a.radius:.4g} and {b.radius:.4g} m"
-                raise document.problem(key_of(first, second), f"holds {first} and {second} overlap: {sizes}")
+    overlap = find_overlap(holds)
+    if overlap is not None:
+        a, b = sorted(overlap, key=lambda hold: hold.number)
+        sizes = f"{math.hypot(b.x - a.x, b.y - a.y):.4g} m apart, radii {a.radius:.4g} and {b.radius:.4g} m"
+        raise document.problem(key_of(a.number, b.number), f"holds {a.number} and {b.number} overlap: {sizes}")
 
 
 def check_polygon(polygon: Polygon, document: Document, key: str) -> None:

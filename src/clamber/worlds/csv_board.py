@@ -1,7 +1,5 @@
 """Boards from a table of points: one hold per line, x and y, in lengths with a unit or in a picture's pixels with a scale."""
 
-import csv
-import io
 import math
 import re
 from dataclasses import dataclass
@@ -9,15 +7,14 @@ from pathlib import Path
 from typing import Final
 
 from ..errors import FileError, SpecError, UnitError
-from ..files import Document, read_text
+from ..files import Document, csv_rows, read_text
 from ..types import Json
-from ..units import UNITS, convert
+from ..units import UNITS, convert, split_title
 from .board import SCHEMA, Board, build_board
 
 DEFAULT_RADIUS: Final = "5 mm"
 """Radius of holds that come without one."""
 PIXELS: Final = ("px", "pixel", "pixels")
-_HEADER_UNIT: Final = re.compile(r"[\[(]\s*([^\])]+?)\s*[\])]")
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,9 +44,7 @@ def read_points(path: Path) -> Points:
     lines: list[int] = []
     unit: str | None = None
     seen_header = False
-    reader = csv.reader(io.StringIO(text), skipinitialspace=True)
-    for row in reader:
-        line = reader.line_num
+    for line, row in csv_rows(text, name):
         cells = [cell.strip() for cell in row]
         if not any(cells) or cells[0].startswith("#"):
             continue
@@ -154,7 +149,7 @@ def _is_number(cell: str) -> bool:
 def _header_unit(name: str, line: int, cells: list[str]) -> str | None:
     if [cell[:1].lower() for cell in cells] != ["x", "y"]:
         raise FileError(f"{name}:{line}", f"is neither a header nor numbers: {', '.join(cells)}", "start with x, y")
-    found = {match.group(1) for cell in cells if (match := _HEADER_UNIT.search(cell))}
+    found = {unit for _, unit in map(split_title, cells) if unit is not None}
     if len(found) > 1:
         raise FileError(f"{name}:{line}", f"names two units: {', '.join(sorted(found))}", "use one unit")
     return found.pop() if found else None

@@ -2,13 +2,14 @@
 
 import socket
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
 import pytest
-from toy_robot import INERTIA, PERIOD, WIRING, ToyRobot, about
+from toy_robot import INERTIA, PERIOD, WIRING, ToyRobot, about, envelope
 
 from clamber.execution.hardware import Hardware
 from clamber.execution.link.channel import (
@@ -38,7 +39,7 @@ def toy_server(
     listener, found = listen(address)
     guard = PostureGuard(WIRING, INERTIA, PERIOD)
     slowly = about(real_time=real_time, pace=0.05 if real_time else 1.0)
-    server = PlantServer(ToyRobot(), slowly, guard, listener, say=told, once=True)
+    server = PlantServer(ToyRobot(), slowly, guard, envelope(), listener, say=told, once=True)
     thread = threading.Thread(target=server.serve, daemon=True)
     thread.start()
     try:
@@ -217,6 +218,7 @@ def test_who_is_no_server_of_plants_makes_no_link(answer: bytes, said: str) -> N
         (frame(Kind.SAMPLE, 3, sample(1, 3)[:-1]), "the length of a SAMPLE"),
         (frame(Kind.SAMPLE, 9, sample(1, 3)), "the number is 9"),
         (frame(Kind.SAMPLE, 3, sample(1, 2)), "answers another command"),
+        (frame(Kind.SAMPLE, 3, sample(0, 3)), "is lost: its tick stands still at 0"),
         (frame(Kind.SAMPLE, 3, sample(1, 3, truth=np.array((np.nan, 0.0)))), "the truth of a SAMPLE is nan"),
         (frame(Kind.SAMPLE, 3, sample(1, 3, stop=Stop.ENDED)), "safe stop: its server ends"),
         (frame(Kind.REFUSAL, 3, pack_refusal("message: no")), "refuses: message: no"),
@@ -234,6 +236,26 @@ def test_a_server_that_is_lost_on_the_way_ends_the_run_with_a_reason(answer: byt
         assert said in str(stopped.value)
         if "ends" not in said:
             assert np.array_equal(remote.truth(), truth), "the log keeps the last that was known"
+        remote.close()
+
+
+def test_a_plant_whose_ticks_stand_still_is_lost_though_samples_come() -> None:
+    def go_on(channel: Channel) -> None:
+        number = 3
+        while True:
+            channel.socket.send(frame(Kind.SAMPLE, number, sample(7, 2)))
+            number += 1
+            time.sleep(0.05)
+
+    quick = frame(Kind.WELCOME, 1, pack_about(about(real_time=True)))
+    with fake_server(quick, frame(Kind.SAMPLE, 2, sample(7, 2)), go_on) as address:
+        remote = RemoteHardware(address)
+        remote.reset(np.zeros(2))
+        began = time.monotonic()
+        with pytest.raises(PlantStoppedError, match="its tick stands still at 7"):
+            while time.monotonic() - began < 20.0:
+                remote.step()
+        assert time.monotonic() - began >= 200 * PERIOD
         remote.close()
 
 

@@ -132,7 +132,7 @@ def header(**changes: object) -> bytes:
         (b"GET / HTTP/1.1\r\n", "first word is b'GET '"),
         (b"G", "first word"),
         (header(version=2), "the version is 2; must be 1"),
-        (header(kind=0), "the kind is 0; must be 1 to 8"),
+        (header(kind=0), "the kind is 0; must be 1 to 10"),
         (header(kind=99), "the kind is 99"),
         (header(size=1), "the length of a BYE is 1; must be 0 bytes or less"),
         (header(kind=4, size=2**32 - 1), "the length of a COMMAND is 4294967295; must be 512 bytes or less"),

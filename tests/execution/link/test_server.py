@@ -190,6 +190,14 @@ GARBAGE = [
     (frame(Kind.COMMAND, 99, pack_numbers(np.zeros(2))), "the number is 99"),
     (frame(Kind.COMMAND, 4, pack_numbers(np.zeros(3))), "the length of a COMMAND is 24; must be 16 bytes here"),
     (frame(Kind.COMMAND, 4, pack_numbers(np.array((np.nan, 0.0)))), "number 1 of a COMMAND is nan"),
+    (
+        frame(Kind.COMMAND, 4, pack_numbers(np.array((1.0, 1e308)))),
+        "number 2 of a COMMAND is 1e+308; must be -10 to 10 V (second joint)",
+    ),
+    (
+        frame(Kind.COMMAND, 4, pack_numbers(np.array((-10.1, 0.0)))),
+        "number 1 of a COMMAND is -10.1; must be -10 to 10 V",
+    ),
     (frame(Kind.SAMPLE, 4, b""), "a client's message is a SAMPLE"),
     (frame(Kind.START, 4, pack_numbers(np.array((1e9, 0.0)))), "a number of a START"),
     (frame(Kind.COMMAND, 4, pack_numbers(np.zeros(2)))[:30], "the rest of a message is missing"),
@@ -261,7 +269,10 @@ def test_a_second_client_is_told_that_the_plant_is_taken_and_the_first_goes_on()
 
     server, _, _ = play(script, real_time=False)
     first, second = seen
-    assert unpack_refusal(second.others[0].payload) == "another client drives this plant"
+    host, port = first.channel.socket.getsockname()
+    assert unpack_refusal(second.others[0].payload).startswith(
+        f"another client drives this plant: {host}:{port}, for 0 s"
+    )
     assert first.samples[-1].tick == 1
     assert not server.stops
 

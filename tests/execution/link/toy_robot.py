@@ -10,6 +10,7 @@ import numpy as np
 
 from clamber.execution.hardware import Reading
 from clamber.execution.link.channel import Channel, ConnectionEndedError
+from clamber.execution.link.envelope import Envelope, JointLimits
 from clamber.execution.link.messages import About, Kind, Message, Sample, pack_numbers, unpack_about, unpack_sample
 from clamber.execution.link.server import PlantServer
 from clamber.execution.posture_guard import PostureGuard
@@ -19,6 +20,14 @@ from clamber.types import Floats
 PERIOD = 0.005
 WIRING = Wiring(np.array((1e4, 1e4, 1e3)), np.ones(2), np.full(2, 10.0))
 INERTIA = np.array((0.4, 0.8))
+LIMITS = JointLimits(
+    names=("first joint", "second joint"), lower=np.full(2, -2.0), upper=np.full(2, 2.0), speeds=np.full(2, 4.0),
+    continuous=np.array((4.0, 8.0)), thermal_time=2.0,
+)  # fmt: skip
+
+
+def envelope() -> Envelope:
+    return Envelope(WIRING, LIMITS, PERIOD)
 
 
 class ToyRobot:
@@ -26,8 +35,8 @@ class ToyRobot:
 
     period = PERIOD
 
-    def __init__(self, load: float = 0.0) -> None:
-        self.load, self.commands = load, list[Floats]()
+    def __init__(self, load: float = 0.0, lose_time: Callable[[], None] = lambda: None) -> None:
+        self.load, self.commands, self.lose_time = load, list[Floats](), lose_time
         self.q, self.qd, self._volts, self._tick = np.zeros(2), np.zeros(2), np.zeros(2), 0
 
     def reset(self, start: Floats) -> None:
@@ -44,6 +53,7 @@ class ToyRobot:
         pass
 
     def step(self) -> None:
+        self.lose_time()
         for _ in range(5):
             self.qd += (WIRING.torques(self._volts) - self.load) / INERTIA * PERIOD / 5
             self.q = self.q + self.qd * PERIOD / 5
@@ -74,6 +84,10 @@ class ScriptedClock:
 
     def now(self) -> float:
         return self._time
+
+    def lose(self, seconds: float) -> None:
+        """Time passes while the server is at something else."""
+        self._time += seconds
 
     def select(self, sockets: list[socket.socket], timeout: float | None) -> list[socket.socket]:
         ready = select.select(sockets, [], [], 0.0)[0]
@@ -118,14 +132,16 @@ class Driver:
 
 
 def play(
-    script: Callable[[tuple[str, int]], Iterator[float]], *, real_time: bool, load: float = 0.0, once: bool = False
-) -> tuple[PlantServer, ToyRobot, list[str]]:
-    """Serve a toy robot while a script runs, in one thread and in no time."""
-    robot, told = ToyRobot(load), list[str]()
-    listener = socket.create_server(("127.0.0.1", 0))
+    script: Callable[[tuple[str, int]], Iterator[float]], *, real_time: bool, load: float = 0.0, once: bool = False,
+    lost: float = 0.0, say: Callable[[str], None] | None = None,
+) -> tuple[PlantServer, ToyRobot, list[str]]:  # fmt: skip
+    """Serve a toy robot while a script runs, in one thread and in no time; each of its steps loses so much of the clock's [s]."""
+    listener = socket.create_server(("127.0.0.1", 0), backlog=200)
+    clock, told = ScriptedClock(script(listener.getsockname())), list[str]()
+    robot = ToyRobot(load, lambda: clock.lose(lost))
     server = PlantServer(
-        robot, about(real_time=real_time), PostureGuard(WIRING, INERTIA, PERIOD), listener, say=told.append, once=once,
-        clock=ScriptedClock(script(listener.getsockname())),
+        robot, about(real_time=real_time), PostureGuard(WIRING, INERTIA, PERIOD), envelope(), listener, say=say or told.append,
+        once=once, clock=clock,
     )  # fmt: skip
     with contextlib.suppress(OverError):
         server.serve()

@@ -9,7 +9,7 @@ from clamber.errors import UnknownNameError
 from clamber.execution.climb.body_gains import BodyGains
 from clamber.execution.climb.limb_task import LimbTask
 from clamber.execution.climb.whole_body import WholeBody
-from clamber.experiments.climb.body_bench import BodyEntry, run_body
+from clamber.experiments.climb.body_bench import ANGLES, BodyEntry, run_body
 from clamber.experiments.climb.body_entries import CONTROLS, make_entries, read_triple
 from clamber.experiments.climb.body_measures import measure_body
 from clamber.experiments.climb.body_scenario import circle, push, push_up
@@ -22,7 +22,7 @@ from clamber.types import Floats
 
 FREE = LimbFlaws(friction=0.0, damping=0.0, physics_rate=1000.0)
 REFERENCE = BodyGains(kp=(400.0, 400.0, 40.0), kd=(20.0, 20.0, 2.0), mapping="thesis", limit="none", weight_fed=1.0)
-TABLE_4_1 = BodyGains(kp=(100.0, 50.0, 10.0), kd=(10.0, 5.0, 1.0), mapping="thesis", limit="thesis")
+TABLE_4_1 = BodyGains(kp=(100.0, 50.0, 10.0), kd=(10.0, 5.0, 1.0), mapping="thesis", limit="thesis", alpha=0.0)
 PINNED = ladder_stand(fixed=True, below=0.05)
 
 
@@ -92,8 +92,8 @@ def test_a_steady_push_moves_the_pinned_body_by_force_over_stiffness() -> None:
 
 def test_pinned_tips_stay_where_they_are_and_the_estimate_is_the_truth() -> None:
     scenario = circle(PINNED.pose, 0.005, radius=0.05, lap=6.0)
-    for encoder in (True, False):
-        trace = run_body(PINNED, scenario, BodyEntry("scct", REFERENCE, encoder), FREE).trace
+    for angle in ANGLES:
+        trace = run_body(PINNED, scenario, BodyEntry("scct", REFERENCE, angle), FREE).trace
         assert trace.off.max() < 2e-4
         np.testing.assert_allclose(trace.believed[1:], trace.pose[:-1], atol=5e-4)
 
@@ -140,6 +140,17 @@ def test_the_limit_of_the_thesis_keeps_hooks_on_through_pushes_from_either_side(
     trials = push_trials(ladder_stand(), BodyEntry("scct", TABLE_4_1), flaws, force=(60.0, 0.0), seconds=0.5, trials=6)
     assert {trial.side for trial in trials} == {1, -1}
     assert all(trial.measures.unhooked_at is None and trial.measures.off_max < 2e-3 for trial in trials)
+
+
+def test_a_soft_body_rests_under_the_printed_limit_and_sways_with_an_alpha_beyond_it() -> None:
+    """Section 4.4.2: the thesis asks for accelerations of at least alpha, 0 or more; its own gains are for 0."""
+    stand, sways = ladder_stand(), {}
+    scenario = push(stand.pose, 0.005, force=(8.0, 0.0), seconds=0.2, after=5.0)
+    for alpha in (0.0, 0.3):
+        gains = replace(TABLE_4_1, kp=(25.0, 50.0, 10.0), kd=(2.5, 2.5, 0.5), alpha=alpha)
+        trace = run_body(stand, scenario, BodyEntry("", gains), bench_flaws("ideal")).trace
+        sways[alpha] = float(np.ptp(trace.pose[-400:, 0]))
+    assert sways[0.0] < 1e-3 < 20e-3 < sways[0.3]
 
 
 def test_a_hook_that_comes_off_is_told() -> None:

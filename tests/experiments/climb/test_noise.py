@@ -12,6 +12,7 @@ from clamber.experiments.climb.noise import (
     assumed_backlash,
     check_noise,
     draw,
+    draw_for,
     drawn_flaws,
     drawn_hook,
     drawn_robot,
@@ -24,6 +25,8 @@ from clamber.robots.library import load_robot
 from clamber.robots.limbed import LimbedRobot
 from clamber.sim.climber_plant import ClimberPlant
 from clamber.sim.limb_flaws import LimbFlaws
+from clamber.tasks import load_task
+from clamber.tasks.limbed import LimbedTask
 from clamber.units import DEGREE, GRAVITY
 from clamber.worlds.library import load_board
 
@@ -40,12 +43,19 @@ def libra() -> LimbedRobot:
     return robot
 
 
+def climbable(name: str) -> LimbedTask:
+    task = load_task(name)
+    assert isinstance(task, LimbedTask)
+    return task
+
+
 def test_each_key_draws_from_its_own_stream() -> None:
-    usual = read_noise(named_noise("usual"), ["joint_friction=10%"])
-    all_drawn = draw(usual, libra(), HOLDS, 7)
+    uneven = ["joint_friction=10%", "terrain=20mm", "tilt=2deg", "missing=30%"]
+    usual, task = read_noise(named_noise("usual"), uneven), climbable("ladder")
+    all_drawn = draw_for(task, usual, 7)
     for off in NOISE:
         nothing = f"{off}=0{'%' if NOISE[off].dimension == 'ratio' else NOISE[off].unit}"
-        without = draw(read_noise(usual, [nothing]), libra(), HOLDS, 7)
+        without = draw_for(task, read_noise(usual, [nothing]), 7)
         for key in NOISE:
             name = "pegs" if key == "peg_error" else key
             kept, left = np.asarray(getattr(all_drawn, name)), np.asarray(getattr(without, name))

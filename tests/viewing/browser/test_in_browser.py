@@ -37,7 +37,7 @@ def test_plan_plays_and_jumps(serve: Serve, visit: Open) -> None:
     shown.says(f"Step {worst + 1} of 63")
     assert shown.page.locator('[data-clamber="margins"] tr').count() > 5
     assert shown.wrong == []
-    assert all(url.startswith((app.url, "blob:", "data:")) for url in shown.asked)
+    assert all(url.startswith((app.place, "blob:", "data:")) for url in shown.asked)
 
 
 @pytest.mark.slow

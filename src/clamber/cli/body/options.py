@@ -54,7 +54,18 @@ class BodyWords:
             help="Of the hooks' pulls: none, thesis, counted, shared, feasible; where they are fixed none, else thesis.",
         ),
     ] = None  # fmt: skip
-    encoder: Annotated[bool, typer.Option(help="Whether the body's own encoder tells its angle.")] = True
+    alpha: Annotated[
+        float | None,
+        typer.Option(
+            min=0.0,
+            help="Least acceleration of a hook along its grab direction [m/s^2] (thesis, 4.4.2); 0 with the limit thesis, else 0.3.",
+        ),
+    ] = None
+    angle: Annotated[
+        str,
+        typer.Option(metavar="NAME", help="What tells the body's angle: encoder, line (between two tips), second-tip."),
+    ] = "encoder"
+    encoder: Annotated[bool, typer.Option(hidden=True)] = True
     fixed: Annotated[
         bool | None, typer.Option("--fixed/--hooked", help="Tips fixed to their pegs, or hooked onto them.")
     ] = None
@@ -93,18 +104,25 @@ class BodyWords:
     def build_entries(self, stand: "BodyStand") -> "list[BodyEntry]":
         """The controls to be compared."""
         from ...errors import UnknownNameError
-        from ...execution.climb.body_gains import LIMITS, BodyGains
+        from ...execution.climb.body_gains import LIMITS, BodyGains, usual_alpha
+        from ...experiments.climb.body_bench import ANGLES
         from ...experiments.climb.body_entries import make_entries, read_triple
 
         kp = read_triple("kp", self.kp)
         kd = (kp[0] / 10, kp[1] / 10, kp[2] / 10) if self.kd is None else read_triple("kd", self.kd)
         fed = (1.0 if stand.fixed else BodyGains().weight_fed) if self.weight_fed is None else self.weight_fed
         limit = self.limit or ("none" if stand.fixed else "thesis")
-        for kind, name, known in (("mapping", self.mapping, ("thesis", "kinematic")), ("limit", limit, LIMITS)):
+        angle = self.angle if self.encoder else "line"  # --no-encoder, as it was called before
+        for kind, name, known in (
+            ("mapping", self.mapping, ("thesis", "kinematic")),
+            ("limit", limit, LIMITS),
+            ("angle", angle, ANGLES),
+        ):
             if name not in known:
                 raise UnknownNameError(kind, name, tuple(known))
-        reference = BodyGains(kp=kp, kd=kd, mapping=self.mapping, limit=limit, weight_fed=fed)
-        return make_entries(self.controllers or (), reference, stand, self.match.value, encoder=self.encoder)
+        alpha = usual_alpha(limit) if self.alpha is None else self.alpha
+        reference = BodyGains(kp=kp, kd=kd, mapping=self.mapping, limit=limit, alpha=alpha, weight_fed=fed)
+        return make_entries(self.controllers or (), reference, stand, self.match.value, angle=angle)
 
 
 def run_bench(words: BodyWords, stand: "BodyStand", scenario: "BodyScenario", flaws: "LimbFlaws") -> None:
@@ -124,7 +142,10 @@ def run_bench(words: BodyWords, stand: "BodyStand", scenario: "BodyScenario", fl
         print_json({
             "kind": scenario.kind,
             "controls": [
-                {"control": run.entry.label, "kp": list(run.entry.gains.kp), "kd": list(run.entry.gains.kd)}
+                {
+                    "control": run.entry.label, "kp": list(run.entry.gains.kp), "kd": list(run.entry.gains.kd),
+                    "limit": run.entry.gains.limit, "alpha": run.entry.gains.alpha,
+                }
                 | one.to_json()
                 for run, one in zip(runs, measured, strict=True)
             ],

@@ -43,9 +43,11 @@ def portrait(
     """
     from ...experiments.limb.entries import read_law
     from ...experiments.limb.portrait import paint_portraits, portraits_json
-    from .portrait_text import check_folder, draw_portraits, print_markdown, print_portraits
+    from ...regular_files import make_folder
+    from .portrait_text import draw_portraits, print_markdown, print_portraits
 
-    check_folder(folder)
+    if folder is not None:
+        make_folder(folder)
     announce_compilation(quiet=quiet)
     matched = None if reference is None else read_law(reference)
     portraits = paint_portraits(

@@ -7,7 +7,6 @@ from typing import Final
 
 from rich.console import Console
 
-from ...errors import FileError
 from ...experiments.limb.portrait import Portrait
 from ..output import plain_table
 
@@ -16,20 +15,6 @@ NUMBERS: Final = tuple(
     f"{scene}\n{plant}" for scene in ("step", "circle", "fed", "push") for plant in ("ideal", "nom.")
 )
 ERRORS: Final = tuple(f"{plant}\n{what}" for plant in ("ideal", "nom.") for what in ("mean N", "worst N"))
-
-
-def check_folder(folder: Path | None) -> None:
-    """Make the folder of the pictures.
-
-    Raises:
-        FileError: If that cannot be done.
-    """
-    if folder is None:
-        return
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise FileError(str(folder), f"cannot be made a folder ({error.strerror})", "name another") from None
 
 
 def draw_portraits(portraits: Sequence[Portrait], folder: Path) -> None:

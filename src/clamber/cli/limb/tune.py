@@ -49,8 +49,9 @@ def tune(
     from ...experiments.limb.flaw_texts import named_flaws, read_flaws
     from ...experiments.limb.points import read_elbow, read_point
     from ...experiments.limb.tune import tune as find
+    from ...regular_files import is_there
 
-    if save is not None and save.exists():
+    if save is not None and is_there(save):
         read_recommended(save)
     plant = read_flaws(named_flaws(flaws.value, limbed_robot(robot)), settings or ())
     at = (0.22, 0.0) if start is None else read_point("start", start)

@@ -56,7 +56,7 @@ def plan(
 
 def _search(task: "Task", words: PlanWords, seeker: "Seeker") -> "PlanResult":
     """Search as was asked for: on islands, or by one planner, whose trouble with the start is told with what would allow it."""
-    options = words.planner_options()
+    options = words.planner_options(task)
     if words.islands is not None:
         from .islands import islands_result
 

@@ -2,12 +2,15 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ..options import AsJson, Output, Overrides, PlannerName, Quiet, Ray, Workers
 from ..output import check_writable
+
+if TYPE_CHECKING:
+    from ...tasks import Task
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +68,7 @@ class PlanWords:
         for file in (self.output, self.checkpoint, self.history):
             check_writable(file)
 
-    def planner_options(self) -> dict[str, Any]:
+    def planner_options(self, task: "Task") -> dict[str, Any]:
         """What the planner is told: what is usual as far as it takes it, and what was asked for.
 
         Raises:
@@ -82,7 +85,7 @@ class PlanWords:
         stated = {
             "--checks": ("max_checks", self.checks),
             "--checkpoint": ("checkpoint", self.checkpoint),
-            "--macros": ("macros", None if self.macros is None else load_macros(self.macros)),
+            "--macros": ("macros", None if self.macros is None else load_macros(self.macros, task)),
             "--minimize": ("minimize", None if self.minimize is None else read_costs("--minimize", self.minimize)),
             "--stances": ("max_stances", self.stances),
             "--width": ("width", self.width),

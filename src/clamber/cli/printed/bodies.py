@@ -25,6 +25,10 @@ class BodyControl(BodyErrors):
     kp: list[float]
     """Along x, y [N/m] and turning [N m/rad]."""
     kd: list[float]
+    limit: str
+    """Of the hooks' pulls."""
+    alpha: float
+    """Least acceleration of a hook along its grab direction, for the limits that know one [m/s^2]."""
 
 
 class Bodies(Printed):

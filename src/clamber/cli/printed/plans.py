@@ -228,6 +228,8 @@ class Learned(Printed):
 
     file_schema: str = Field(alias="schema")
     task: str
+    robot: str
+    """Its name; another robot's macros are refused."""
     plans: Count
     """Looked at."""
     evaluations: Count

@@ -16,7 +16,7 @@ class ActionDone(Printed):
     kind: str
     """none, move, release or grab."""
     title: str
-    outcome: Literal["ok", "stalled", "missed", "fell", "interrupted", "stopped", "not supported"]
+    outcome: Literal["ok", "stalled", "missed", "fell", "fault", "interrupted", "stopped", "not supported"]
     start: float
     seconds: float
     tries: int
@@ -38,6 +38,37 @@ class NewPlan(Printed):
     """Actions of the new plan."""
 
 
+@means_as("execution/plant.py:HoldBreak")
+class BrokenHold(Printed):
+    """A hold that truly gave way, for good."""
+
+    time: float
+    hold: int
+    force: float
+    why: str
+    """Above its strength, or pulled outside its direction."""
+
+
+@means_as("execution/findings.py:Finding")
+class Noticed(Printed):
+    """A fault that the robot noticed in itself."""
+
+    kind: str
+    where: str
+    time: float
+    why: str
+    """In words, with its numbers."""
+
+
+@means_as("execution/log_stream.py:LogGap")
+class Unwritten(Printed):
+    """What the log lacks that grew during the run."""
+
+    since: float
+    file: str
+    problem: str
+
+
 @means_as("execution/run_report.py:RunReport")
 @means_as("execution/climb/climb_report.py:ClimbReport")
 class Climbed(Printed):
@@ -52,10 +83,15 @@ class Climbed(Printed):
     short: float
     forced: list[str]
     replans: list[NewPlan]
+    broken: list[BrokenHold]
+    findings: list[Noticed]
+    ending: Literal["", "held", "stopped safely", "fell"]
     actions: list[ActionDone]
     task: str
     wall_seconds: float
     """That it took."""
+    log_gap: Unwritten | None = None
+    """There only if the log could not be written to its end."""
 
 
 @means_as("experiments/climb/lessons.py:Lesson")
@@ -113,7 +149,7 @@ class StepDone(Printed):
     number: int
     frame: Literal["Delta", "Y"]
     way: float
-    outcome: Literal["ok", "moved", "no ground", "refused", "fell", "stopped", "interrupted"]
+    outcome: Literal["ok", "moved", "no ground", "refused", "fell", "fault", "stopped", "interrupted"]
     start: float
     times: PhaseTimes
     balance: float | None
@@ -173,6 +209,8 @@ class Walked(Printed):
     """Of the inclinometers, as calibrated [rad]."""
     kicks: Count
     """How often the plate tilted without its legs telling."""
+    findings: list[Noticed]
+    ending: Literal["", "held", "stopped safely", "fell"]
     steps: list[StepDone]
     walk: str
     tilt: float
@@ -182,6 +220,8 @@ class Walked(Printed):
     wall_seconds: float
     hold: Held | None = None
     """There only if the walk has a point to hold and its way was laid."""
+    log_gap: Unwritten | None = None
+    """There only if the log could not be written to its end."""
 
 
 @means_as("experiments/climb/trial_summary.py:Cause")
@@ -231,6 +271,50 @@ class Effect(Printed):
     """In words."""
 
 
+class EarlyFinding(Noticed):
+    """A fault that the robot noticed before there was one: a false alarm."""
+
+
+class TriedFault(Printed):
+    """The fault that a trial's robot had, and how that ended."""
+
+    kind: str
+    start: float
+    """From when on [s]."""
+    size: float
+    """How much, in SI units: of spikes and drift what the sensor is off, of packets the part or number of them, of a hold [N]."""
+    channel: Count
+    """Index of the sensor or motor; number of the hold."""
+    where: str
+    """Its name; empty for the link."""
+    seed: Count
+    """Of what it leaves to chance."""
+    noticed: float | None
+    """When the robot noticed it first [s]; null if it never did."""
+    noticed_as: str
+    """As what, such as "no answer"."""
+    at: str
+    """Where, as the robot has it."""
+    early: list[EarlyFinding]
+    """False alarms before it began."""
+    ending: Literal["recovered", "held", "stopped safely", "fell", "error"]
+
+
+@means_as("experiments/fault_trials.py:FaultRow")
+class FaultKindTried(Printed):
+    """Trials with one kind of fault, or all of them."""
+
+    kind: str
+    n: Count
+    noticed: Count
+    located: Count
+    delay: float | None
+    early: Count
+    endings: dict[str, Count]
+    intervals: dict[str, Interval]
+    """95 % interval of each ending's share."""
+
+
 @means_as("experiments/climb/trial.py:ClimbTrial")
 class ClimbTrial(Printed):
     """How one climb ended."""
@@ -251,6 +335,7 @@ class ClimbTrial(Printed):
     replans: Count
     recovered: Count
     drawn: dict[str, float]
+    fault: TriedFault | None
 
 
 @means_as("experiments/climb/trial_summary.py:TrialSummary")
@@ -281,6 +366,10 @@ class ClimbTrials(Printed):
     saved: Count
     forced: list[str]
     effects: list[Effect]
+    faults: list[FaultKindTried]
+    """By kind; none in trials without."""
+    held_out: bool
+    """Whether all seeds are held out: none that any tuning may use."""
     trials: list[ClimbTrial]
 
 
@@ -306,6 +395,7 @@ class WalkTrial(Printed):
     kicks: Count
     held_way: float | None
     held_error: float | None
+    fault: TriedFault | None
 
 
 @means_as("experiments/walk/trials.py:WalkCause")
@@ -339,6 +429,10 @@ class WalkTrials(Printed):
     """Of the share of those that were balanced, 95 % (Wilson)."""
     causes: list[WalkCause]
     """Why walks ended early, the commonest first."""
+    faults: list[FaultKindTried]
+    """By kind; none in trials without."""
+    held_out: bool
+    """Whether all seeds are held out: none that any tuning may use."""
     trials: list[WalkTrial]
 
 

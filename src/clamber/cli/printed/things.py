@@ -102,8 +102,9 @@ class StudyResult(Printed):
     paper: str
     result: str
     claim: str
-    verdict: Literal["holds", "differs", "open"]
-    """holds: we get it too; differs: we do not; open: what is printed, or what we did, does not decide it."""
+    verdict: Literal["holds", "consistent", "differs", "open"]
+    """holds: we get it too; consistent: likewise, but numbers of ours were fitted to it; differs: we do not; open: what is printed, or
+    what we did, does not decide it."""
     numbers: dict[str, int | float | str | None]
     """Name to our value, each printed one under the same name with ", printed"."""
     deviations: list[str]
@@ -150,12 +151,21 @@ class Kernels(Printed):
     """Compiled kernels."""
 
     folder: str
+    state: Literal["fine", "damaged", "foreign", "unwritable"]
+    """foreign: others could have written it; what is not fine is not loaded."""
+    problem: str | None
+    """Why the folder is not used, so that every command compiles anew."""
+    damaged: list[str]
+    """Files of it."""
+    foreign: list[str]
+    """Files of it that others could have written."""
+    bounds_checked: bool
+    """Whether kernels check every index (CLAMBER_BOUNDSCHECK=1)."""
     compiled: bool
     functions: Count
     bytes: Count
     older_folders: Count
     older_bytes: Count
-    writable: bool
 
 
 class Health(Printed):
@@ -206,6 +216,15 @@ class NewTask(Printed):
     name: str
     start: dict[str, Any]
     """The start that was found, as the file has it."""
+
+
+class PlantTold(Printed):
+    """Printed by who has stopped a served robot, or given it back."""
+
+    address: str
+    """Of its server."""
+    said: str
+    """What the server has done."""
 
 
 class Served(Printed):

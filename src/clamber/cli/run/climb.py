@@ -60,7 +60,7 @@ def run_climb(what: str, words: RunWords, telling: RunReport) -> None:
     with ClimbLine(stderr(), quiet=words.quiet) as line:
         run = run_plan(
             task, plan, flaws, noise=deviations, seed=words.seed, force=words.force, replan=again, progress=line.update,
-            label=what, log=words.growing, plant=words.plant,
+            label=what, log=words.log(line.say), plant=words.plant,
         )  # fmt: skip
     tell_cuts(len(cuts))
     for file in words.outputs:
@@ -70,7 +70,7 @@ def run_climb(what: str, words: RunWords, telling: RunReport) -> None:
     if words.as_json:
         print_json(run.to_json())
     else:
-        print_run(stdout(), run, (*words.outputs, *page))
+        print_run(stdout(), run, (*words.written(run.log_gap), *page))
     raise typer.Exit(130 if run.report.reason == "interrupted" else 0 if run.report.done else 1)
 
 

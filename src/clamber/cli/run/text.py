@@ -48,6 +48,8 @@ def print_run(console: Console, run: ClimbRun, written: Sequence[Path] = ()) -> 
         )
     for objection in report.forced:
         console.print(f"forced in spite of {objection}")
+    if run.log_gap is not None:
+        console.print(str(run.log_gap), soft_wrap=True)
     for path in written:
         console.print(f"written: {path}", soft_wrap=True)
 

@@ -63,7 +63,8 @@ def walk_and_tell(
     deviations = read_walk_noise(named_walk_noise("none"), words.noise or ())
     flaws = walk_flaws(walk, split_settings(words.overrides or ())[1])
     with WalkLine(stderr(), quiet=words.quiet) as line:
-        run = run_walk(walk, flaws, noise=deviations, seed=words.seed, lay=lay, progress=line.update, log=words.growing)
+        log = words.log(line.say)
+        run = run_walk(walk, flaws, noise=deviations, seed=words.seed, lay=lay, progress=line.update, log=log)
     for file in words.outputs:
         if file != words.growing:
             write_walk(run, file)
@@ -71,7 +72,7 @@ def walk_and_tell(
     if words.as_json:
         print_json(run.to_json())
     else:
-        print_walk(stdout(), run, (*words.outputs, *page))
+        print_walk(stdout(), run, (*words.written(run.log_gap), *page))
     raise typer.Exit(130 if run.report.reason == "interrupted" else 0 if run.done else 1)
 
 
@@ -97,6 +98,8 @@ def print_walk(console: Console, run: WalkRun, written: Sequence[Path] = ()) -> 
             console.print(line)
     if report.kicks:
         console.print(f"kicked {report.kicks} times: the plate tilted without its legs telling")
+    if run.log_gap is not None:
+        console.print(str(run.log_gap), soft_wrap=True)
     for path in written:
         console.print(f"written: {path}", soft_wrap=True)
 

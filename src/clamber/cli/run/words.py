@@ -1,13 +1,17 @@
 """The options of `clamber run`."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from ..options import PLAN_SECONDS, AsJson, CarriedOutIn, NoiseTexts, Overrides, PlannerName, PlanSeconds, Quiet, Replan
 from ..output import check_writable
+
+if TYPE_CHECKING:
+    from ...execution.log_stream import LogGap, WantedLog
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,3 +58,13 @@ class RunWords:
     def growing(self) -> Path | None:
         """The log that is written as the robot moves; the other files are written at the end."""
         return next((file for file in self.outputs if file.suffix.lower() == ".mcap"), None)
+
+    def log(self, tell: Callable[[str], None]) -> "WantedLog | None":
+        """That log, and who is told if it cannot be written to its end."""
+        from ...execution.log_stream import WantedLog
+
+        return None if self.growing is None else WantedLog(self.growing, tell)
+
+    def written(self, gap: "LogGap | None") -> tuple[Path, ...]:
+        """The files that are whole at the end of a run."""
+        return tuple(file for file in self.outputs if gap is None or file != self.growing)

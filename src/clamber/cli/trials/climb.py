@@ -4,6 +4,7 @@ from pathlib import Path
 
 import typer
 
+from ...execution.fault import FAULTS, check_faults
 from ...experiments.climb.noise import named_noise, read_noise
 from ...experiments.climb.run_plan import open_climb
 from ...experiments.climb.trial import TrialSetup, climb_once
@@ -13,12 +14,15 @@ from ...planning.planners import find_planner
 from ..compile_ahead import CLIMBING, compile_ahead
 from ..crew import CrewWords
 from ..output import announce_compilation, print_json, stderr, stdout, tell_cuts
+from .fault_text import any_error
 from .text import TrialsLine, print_trials
 from .words import TrialsWords
 
 
 def climb_trials_of(what: str, asked: TrialsWords, words: CrewWords) -> None:
     """Climb with every seed and print what came of it; leaves with 1 where a climb failed, or fewer than asked for succeed for sure.
+
+    With faults a climb may fail: then it leaves with 1 only where one raised.
 
     Args:
         what: The task's or plan's name or file.
@@ -28,6 +32,7 @@ def climb_trials_of(what: str, asked: TrialsWords, words: CrewWords) -> None:
     if words.output is not None:
         _check_suffix(words.output, asked.replay)
     find_planner(asked.planner)
+    asked.check()
     least = asked.least
     setup = _planned(what, asked, words)
     if asked.replay is not None:
@@ -42,11 +47,15 @@ def climb_trials_of(what: str, asked: TrialsWords, words: CrewWords) -> None:
 
         draw_trials(summary, words.output)
     if words.as_json:
-        print_json(summary.to_json() | {"trials": [trial.to_json() for trial in told.ended]})
+        print_json(
+            summary.to_json() | {"held_out": asked.held_out, "trials": [trial.to_json() for trial in told.ended]}
+        )
     else:
-        print_trials(stdout(), summary, words.output)
+        print_trials(stdout(), summary, asked.seeds, words.output)
     if summary.n < summary.asked:
         raise typer.Exit(130)
+    if setup.faults and least is None:
+        raise typer.Exit(1 if any_error(summary.faults) else 0)
     raise typer.Exit(0 if (summary.done == summary.n if least is None else summary.interval[0] >= least) else 1)
 
 
@@ -68,9 +77,10 @@ def _planned(what: str, asked: TrialsWords, words: CrewWords) -> TrialSetup:
     if asked.replay is None:
         words.executor.check()  # before a minute is spent on a plan
     task, plan, plant = open_climb(what, asked.task, asked.overrides or ())
+    check_faults(asked.fault or (), tuple(FAULTS))
     setup = TrialSetup(
         task=task, noise=widths, plan=plan, plant=plant, planner=asked.planner, seconds=asked.seconds,
-        replan=asked.replan, force=asked.force,
+        replan=asked.replan, force=asked.force, faults=tuple(asked.fault or ()),
     )  # fmt: skip
     cuts: list[None] = []
     try:

@@ -9,9 +9,11 @@ from ...experiments.climb.noise import NOISE
 from ...experiments.climb.sensitivity import VERDICTS, Effect, Third
 from ...experiments.climb.trial_summary import Cause, Spread, TrialSummary
 from ...experiments.climb.trials import Trials
+from ...experiments.held_out import seeds_in_words
 from ...experiments.intervals import wilson_interval
 from ..live_line import LiveLine
 from ..output import plain_table
+from .fault_text import print_faults
 
 MOST_NAMED = 6
 """Seeds and steps of a cause that are named; the rest is in the JSON."""
@@ -26,11 +28,12 @@ class TrialsLine(LiveLine):
         self.show(f"{n} of {trials.asked}: {done} climbed, {_percent(done, n)}")
 
 
-def print_trials(console: Console, summary: TrialSummary, written: Path | None) -> None:
+def print_trials(console: Console, summary: TrialSummary, seeds: Sequence[int], written: Path | None) -> None:
     """Print success with its interval, a row for each cause of failure, times, and a row for each key of the noise."""
     n, done = summary.n, summary.done
     early = f" (of {summary.asked} asked for)" if n < summary.asked else ""
     console.print(f"{done} of {n} climbs of '{summary.task}' succeeded{early}: {_percent(done, n)}", style="bold")
+    console.print(seeds_in_words(seeds))
     console.print(f"noise: {summary.noise}")
     for objection in summary.forced:
         console.print(f"forced in spite of {objection}")
@@ -55,6 +58,8 @@ def print_trials(console: Console, summary: TrialSummary, written: Path | None) 
         )
     if summary.speed is not None:
         console.print(f"{summary.speed:.0f} times as fast as it happens, each worker")
+    if summary.faults:
+        print_faults(console, summary.faults)
     if summary.effects:
         _print_effects(console, summary.effects)
     if written is not None:

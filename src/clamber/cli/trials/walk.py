@@ -9,8 +9,12 @@ import typer
 from rich.console import Console
 
 from ...actions.plan import Plan
+from ...execution.fault import check_faults
+from ...experiments.fault_trials import fault_rows
+from ...experiments.held_out import seeds_in_words
 from ...experiments.intervals import wilson_interval
 from ...experiments.plant_settings import split_settings
+from ...experiments.walk.faults import failing_of
 from ...experiments.walk.noise import named_walk_noise, read_walk_noise
 from ...experiments.walk.planned import careful, lay_plan, walk_of
 from ...experiments.walk.run_walk import walk_flaws
@@ -24,6 +28,7 @@ from ..for_climbs import refuse_for_walk
 from ..live_line import LiveLine
 from ..output import announce_compilation, plain_table, print_json, stderr, stdout
 from ..run.walk_plan import plan_walk
+from .fault_text import any_error, print_faults
 from .text import share_range, some
 from .words import TrialsWords
 
@@ -50,7 +55,7 @@ def walk_trials_of(what: str, asked: TrialsWords, words: CrewWords) -> None:
         asked: How, and how often.
         words: Who runs them, where they are kept, how they are told.
     """
-    least = asked.least
+    asked.check()
     refuse_for_walk(what, asked, (*PLANS_ONLY, *CLIMBS_ONLY))
     refuse_for_walk(what, words, CLIMBS_ONLY)
     sizes = read_walk_noise(named_walk_noise("usual"), asked.noise or ())
@@ -59,7 +64,9 @@ def walk_trials_of(what: str, asked: TrialsWords, words: CrewWords) -> None:
     walk_flaws(walk, for_plant)  # what cannot be is told before workers start
     words.executor.check()
     announce_compilation(quiet=words.quiet)
-    _try_and_tell(WalkSetup(walk, sizes, tuple(for_plant)), asked.seeds, least, words)
+    faults = tuple(asked.fault or ())
+    check_faults(faults, failing_of(walk.robot).kinds)
+    _try_and_tell(WalkSetup(walk, sizes, tuple(for_plant), faults=faults), asked, words)
 
 
 def planned_walk_trials_of(
@@ -74,7 +81,7 @@ def planned_walk_trials_of(
         asked: How, and how often.
         words: Who runs them, where they are kept, how they are told.
     """
-    least = asked.least
+    asked.check()
     refuse_for_walk(what, asked, CLIMBS_ONLY)
     refuse_for_walk(what, words, CLIMBS_ONLY)
     find_planner(asked.planner)
@@ -82,36 +89,42 @@ def planned_walk_trials_of(
     for_plant = tuple(split_settings(asked.overrides or ())[1])
     words.executor.check()  # before a minute is spent on a plan
     task = task if plan is not None else careful(task)
-    setup = WalkSetup(task, sizes, for_plant, plan, plan is None)
+    faults = tuple(asked.fault or ())
+    check_faults(faults, failing_of(task.robot).kinds)
+    setup = WalkSetup(task, sizes, for_plant, plan, plan is None, faults)
     walk_flaws(walk_of(task), for_plant)
     plan = plan or setup.stored_plan(words.store)
     announce_compilation(quiet=words.quiet)
     plan = plan or plan_walk(task, asked.planner, seconds=asked.seconds, seed=0, quiet=words.quiet)
     lay_plan(task, plan, what)  # what it violates is told before workers start
-    _try_and_tell(replace(setup, plan=plan), asked.seeds, least, words)
+    _try_and_tell(replace(setup, plan=plan), asked, words)
 
 
-def _try_and_tell(setup: WalkSetup, seeds: Sequence[int], least: float | None, words: CrewWords) -> None:
+def _try_and_tell(setup: WalkSetup, asked: TrialsWords, words: CrewWords) -> None:
+    least = asked.least
     with WalkTrialsLine(stderr(), quiet=words.quiet) as line:
         trials = run_walk_trials(
-            setup, seeds, executor=words.executor, store=words.store, resume=words.resume, told=line.update
+            setup, asked.seeds, executor=words.executor, store=words.store, resume=words.resume, told=line.update
         )
     if words.as_json:
-        print_json(trials.to_json())
+        print_json(trials.to_json() | {"held_out": asked.held_out})
     else:
-        print_walk_trials(stdout(), trials)
+        print_walk_trials(stdout(), trials, asked.seeds)
     if len(trials.ended) < trials.asked:
         raise typer.Exit(130)
+    if setup.faults and least is None:
+        raise typer.Exit(1 if any_error(fault_rows(trials.ended)) else 0)
     raise typer.Exit(0 if (trials.done == trials.asked if least is None else trials.interval[0] >= least) else 1)
 
 
-def print_walk_trials(console: Console, trials: WalkTrials) -> None:
+def print_walk_trials(console: Console, trials: WalkTrials, seeds: Sequence[int]) -> None:
     """Print how often walks came to their end, and the spread of what is measured of them."""
     n = len(trials.ended)
     low, high = trials.interval
     style = "bold green" if trials.done == n else "bold red"
     console.print(f"{trials.done} of {n} walks '{trials.setup.name}' came to their end", style=style)
     console.print(f"95 % between {100 * low:.1f} and {100 * high:.1f} %")
+    console.print(seeds_in_words(seeds))
     low, high = wilson_interval(trials.balanced, n)
     console.print(
         f"{trials.balanced} of {n} kept their balance throughout: 95 % between {100 * low:.1f} and {100 * high:.1f} %"
@@ -119,6 +132,8 @@ def print_walk_trials(console: Console, trials: WalkTrials) -> None:
     causes = trials.causes()
     if causes:
         print_walk_causes(console, causes)
+    if trials.setup.faults:
+        print_faults(console, fault_rows(trials.ended))
     lost = [trial.seed for trial in trials.ended if trial.done and not (trial.margin or 0.0) > 0.0]
     if lost:
         console.print(f"came to their end without a margin of balance at some tick: seeds {some(lost)}")

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from ..options import PLAN_SECONDS, CarriedOutIn, NoiseTexts, Overrides, PlannerName, PlanSeconds, Replan
+from ..options import PLAN_SECONDS, CarriedOutIn, Faults, NoiseTexts, Overrides, PlannerName, PlanSeconds, Replan
 
 
 @dataclass(frozen=True, slots=True)
@@ -13,8 +13,14 @@ class TrialsWords:
     """Options of `clamber trials`, as they came: what is carried out, and how often."""
 
     n: Annotated[int, typer.Option("-n", min=1, help="How many climbs.")] = 24
-    seed: Annotated[int, typer.Option(min=0, help="Of the first climb; each further one has the next.")] = 0
+    seed: Annotated[
+        int,
+        typer.Option(
+            min=0, help="Of the first climb; each further one has the next. From 1000000000 on: held out, for rates."
+        ),
+    ] = 0
     noise: NoiseTexts = None
+    fault: Faults = None
     task: CarriedOutIn = None
     planner: PlannerName = "auto"
     seconds: PlanSeconds = PLAN_SECONDS
@@ -34,17 +40,43 @@ class TrialsWords:
         return range(self.seed, self.seed + self.n)
 
     @property
+    def held_out(self) -> bool:
+        """Whether no tuning may have used the seeds.
+
+        Raises:
+            HeldOutError: If that is true of some only.
+        """
+        from ...experiments.held_out import are_held_out
+
+        return are_held_out(self.seeds)
+
+    @property
     def least(self) -> float | None:
         """Share of success that is asked for with confidence; None: all are to succeed.
 
         Raises:
             BadParameter: If it is no share.
         """
-        if self.at_least is None:
-            return None
-        from ...units import parse_quantity
+        return None if self.at_least is None else _share(self.at_least)
 
-        share = parse_quantity(self.at_least, "ratio")
-        if not 0.0 <= share <= 1.0:
-            raise typer.BadParameter(f"{self.at_least} must be 0 to 100 %", param_hint="--at-least")
-        return share
+    def check(self) -> None:
+        """Refuse what can't be, before anything is planned.
+
+        Raises:
+            BadParameter: If `at_least` is no share.
+            HeldOutError: If some seeds are held out and some are not.
+        """
+        if self.at_least is not None:
+            _share(self.at_least)
+        from ...experiments.held_out import are_held_out
+
+        are_held_out(self.seeds)
+
+
+def _share(text: str) -> float:
+    from ...units import parse_quantity
+
+    share = parse_quantity(text, "ratio")
+    if not 0.0 <= share <= 1.0:
+        raise typer.BadParameter(f"{text} must be 0 to 100 %", param_hint="--at-least")
+    return share

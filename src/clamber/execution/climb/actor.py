@@ -245,10 +245,15 @@ class Actor:
         return float(np.hypot(*(body.aim[:2] - body.settled[:2])))
 
     def pose(self, step: int) -> Floats:
-        """The plan's pose, its angle counted on from where the body is."""
+        """The plan's pose, by as much aside as its holds are from where they were mapped, its angle counted on from where the body is."""
         pose, angle = self.course.pose(step), self.climber.body.aim[2]
+        pose[:2] += self.shift(step)
         pose[2] = angle + math.remainder(pose[2] - angle, math.tau)
         return pose
+
+    def shift(self, step: int) -> Floats:
+        """How far the holds of a step of the plan are believed to be from where they were mapped, shape (2,) [m]."""
+        return self.climber.map.shift(number for number in self.course.holds(step).values() if number)
 
     def limb(self, name: str) -> int:
         """Index of a limb."""

@@ -51,8 +51,11 @@ class BodyGains:
     """Most torque of a limb near a hold, so that what it meets is not thrown off; a tip on its way gets its weight besides [N m]."""
     firm: float = 8.0
     """Likewise of a limb that tugs at its hold: enough to carry half the weight at arm's length [N m]."""
-    least_pull: float = 0.3
-    """alpha of the hook limit."""
+    alpha: float = 0.3
+    """Least acceleration of a hook along its grab direction, 4.4.2 of the thesis, for the limits "thesis", "counted" and "shared"
+    [m/s^2]. The thesis takes 0 or more. 0.3 is ours, for the limits that count the weight; with "thesis", which does not, it sets soft
+    bodies swaying (`usual_alpha`).
+    """
     weight_fed: float = 0.95
     """Part of the weight that is fed forward."""
     mapping: str = "wrench"
@@ -67,10 +70,20 @@ class BodyGains:
     """"coordinated": with how much the pressing tip is to pull at its hold [N]."""
     hold_stiffness: float = 20_000.0
     """"coordinated": that the holds are believed to have [N/m]."""
+    potential: float = 0.0
+    """Strength of the virtual potential about the body that repels free limbs (Bevly 1997, 4.4.6): F_0 of
+    `control.virtual_potential` over the robot's weight [-]; 0: none."""
+    potential_range: float = 0.2
+    """Gap from which on it repels, rho_0 over the length of the longest limb [-]."""
 
 
 USUAL: Final = BodyGains()
 """Those of a climb."""
+
+
+def usual_alpha(limit: str) -> float:
+    """Least acceleration of a hook where nothing is said [m/s^2]: 0 for the printed limit, which does not count the weight; else ours."""
+    return 0.0 if limit == "thesis" else USUAL.alpha
 
 
 def records_of(gains: BodyGains, robot: LimbedRobot) -> Records:

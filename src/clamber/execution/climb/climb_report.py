@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 from ...tasks.limbed import LimbedTask
 from ...types import Floats, Json
+from ..plant import HoldBreak
 from ..run_report import Outcome, RunReport
 
 
@@ -54,6 +55,8 @@ class ClimbReport(RunReport):
     """Where a new plan was made: after which of `actions`, its length, why."""
     forced: list[str] = field(default_factory=list)
     """Objections to the plan that were overridden."""
+    broken: list[HoldBreak] = field(default_factory=list)
+    """Holds that truly gave way, where that is told."""
     short: float = 0.0
     """By how much the body, truly where that is told, misses the last goal's box [m]."""
 
@@ -68,6 +71,8 @@ class ClimbReport(RunReport):
             "short": self.short,
             "forced": self.forced,
             "replans": self.replans,
+            "broken": [one.to_json() for one in self.broken],
+            **self.faults_to_json(),
             "actions": [action.to_json() for action in self.actions],
         }
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...types import Floats, Ints, Json
 from ..log import Log, LogError
+from ..plant import HoldBreak
 from ..sample_log import fields_of, report_notes, report_of, sample_log, table_of, width
 from ..samples import Samples
 from .climber import Climber
@@ -39,6 +40,10 @@ class Truth(Protocol):
     @property
     def tips(self) -> Floats:
         """World frame, shape (limbs, 2) [m]."""
+
+    @property
+    def broken(self) -> tuple[HoldBreak, ...]:
+        """Holds that have given way since the start."""
 
 
 def climb_titles(limbs: tuple[str, ...], *, true: bool) -> dict[str, tuple[str, ...]]:
@@ -160,6 +165,10 @@ class TracedClimber(Climber):
     def tick(self) -> None:
         """As a climber's, kept; the tick of a fall is, too."""
         self.samples.over(super().tick)
+
+    def brace_tick(self) -> None:
+        """As a climber's, kept."""
+        self.samples.over(super().brace_tick)
 
     def sample(self) -> Floats:
         """Of now, in the order of `titles`."""

@@ -10,14 +10,19 @@ import numpy as np
 from ...robots.limbed import LimbedRobot
 from ...types import Floats, Ints
 from ...worlds.board import Board
-from ..plant import BodyPlant
+from ..joint_hold import JointHold
+from ..plant import BodyPlant, BodySensed
+from ..reading_monitor import ReadingMonitor
 from ..run_ends import FallenError as FallenError
+from ..run_ends import FaultError
+from ..wiring import joints_of
 from .approach import Approaches, rank
 from .body_gains import BodyGains
 from .fall import FallWatch
 from .hold_map import HoldMap, TipDifference
 from .limb_task import LimbTask
 from .postures import postures
+from .self_watch import SelfWatch, channels_of
 from .slip import SlipWatch
 from .whole_body import WholeBody
 
@@ -66,6 +71,8 @@ class Climber:
         gains: Of body and limbs.
         map_error: Largest error of a hold's place in the map, each way along each axis [m]; what sensors and play add is reckoned apart.
         backlash: Whole play of a joint that is reckoned with at first [rad]; None: that of the robot's file.
+        terrain: Covariance of the holds' places besides that error, see `HoldMap`.
+        watched: Whether readings are tested before they are believed, and faults end the run; a bench looks itself.
     """
 
     def __init__(
@@ -77,12 +84,17 @@ class Climber:
         gains: BodyGains = BodyGains(),  # noqa: B008  # frozen
         map_error: float = 0.0,
         backlash: float | None = None,
+        terrain: Floats | None = None,
+        watched: bool = False,
     ) -> None:
         self.robot, self.plant, self.map_error = robot, plant, map_error
         self.body = WholeBody(robot, period=plant.period, gains=gains, backlash=backlash)
         self.fall, self.slip = FallWatch(self.body), SlipWatch(self.body)
+        self.watched = watched
+        self.monitor = ReadingMonitor(channels_of(robot), plant.period)
+        self.watch = SelfWatch(self.body, self.monitor)
         self.holds = {hold.number: np.array((hold.x, hold.y)) for hold in board.holds}
-        self.map = HoldMap(self.holds, map_error, backlash=self.body.backlash)
+        self.map = HoldMap(self.holds, map_error, backlash=self.body.backlash, terrain=terrain)
         self.peg_radius = max(hold.radius for hold in board.holds)
         self.approaches = Approaches(robot, self.body.legs, lambda number: self.peg_radius + self.map.error(number))
         self.balance: Callable[[], None] | None = None
@@ -136,6 +148,8 @@ class Climber:
         self.ticks = self._strained = self._slipped = self._pinned = 0
         self.fall.reset()
         self.slip.reset()
+        self.monitor.reset()
+        self.watch.reset()
 
     def tick(self) -> None:
         """Sense, command, step.
@@ -143,9 +157,10 @@ class Climber:
         Raises:
             SlippedError: If a hook has come off.
             FallenError: If no limb holds, nothing carries the robot, a gripper has slipped, or the body is far or turned from its aim.
+            FaultError: If a sensor, a motor or the link to the plant has failed.
         """
         sensed = self.plant.sense()
-        self.body.see(sensed.q, sensed.qd, sensed.angle - self.map.offset, sensed.angle_speed)
+        self._believe(sensed)
         if self.balance is not None:
             self.balance()
         self.gripped[:] = sensed.gripped
@@ -183,6 +198,51 @@ class Climber:
             raise FallenError(f"the body stays {1e3 * off:.0f} mm off its aim")
         if off > ASTRAY or turned > TURNED:
             raise FallenError(f"the body is {1e3 * off:.0f} mm off its aim and turned by {np.degrees(turned):.0f} deg")
+        if self.watched:
+            self.watch.see(self.fall.forces, self.monitor.values.item(-1))
+
+    def _believe(self, sensed: BodySensed) -> None:
+        """Let the body see what is to be believed of a tick's readings.
+
+        Raises:
+            FaultError: If a sensor, a joint or the link has failed.
+        """
+        if not self.watched:
+            self.body.see(sensed.q, sensed.qd, sensed.angle - self.map.offset, sensed.angle_speed)
+            return
+        monitor = self.monitor
+        n = 2 * self.body.n
+        values, speeds = monitor.values, monitor.speeds
+        values[:n], values[n] = sensed.q.ravel(), sensed.angle
+        speeds[:n], speeds[n] = sensed.qd.ravel(), sensed.angle_speed
+        monitor.commands[:n] = self.body.torques.ravel()
+        monitor.see(sensed.number)
+        q, qd = values[:n].reshape(-1, 2), speeds[:n].reshape(-1, 2)
+        self.body.see(q, qd, values.item(n) - self.map.offset, speeds.item(n))
+
+    def brace(self, seconds: float) -> None:
+        """After a fault: hold every joint where it is, those that have failed by the torque that they had; grippers stay as they are."""
+        monitor, body, n = self.monitor, self.body, 2 * self.body.n
+        monitor.closed = True
+        law = JointHold(np.array([joint.inertia for joint in joints_of(self.robot)]))
+        failed = [k for k in monitor.bad if k < n]
+        posture, fed = body.q.ravel().copy(), monitor.usual_commands[:n].copy()
+        for _ in range(round(seconds / self.plant.period)):
+            try:
+                self._believe(self.plant.sense())
+            except FaultError:  # told already, and bridged
+                body.q[:], body.qd[:] = monitor.values[:n].reshape(-1, 2), monitor.speeds[:n].reshape(-1, 2)
+            torques = law.torques(posture, fed, body.q.ravel(), body.qd.ravel())
+            torques[failed] = fed[failed]
+            body.torques[:] = torques.reshape(-1, 2)
+            self.brace_tick()
+
+    def brace_tick(self) -> None:
+        """One tick of it: a plant whose link has failed is left to hold by itself."""
+        if self.monitor.linked:
+            self.plant.actuate(self.body.torques, self.grips)
+        self.plant.step()
+        self.ticks += 1
 
     @property
     def hangs(self) -> bool:

@@ -1,14 +1,15 @@
 """A climber that carries out a plan: what the sequencer is told of its actions, the hooks that it brings back, and its new plans."""
 
+import math
 from collections.abc import Callable
-from typing import TypeAlias
+from typing import Final, TypeAlias
 
 import numpy as np
 
 from ...actions.plan import Plan
 from ...tasks.limbed import LimbedTask
 from ...types import Floats
-from ..run_report import Outcome
+from ..run_report import BRACED, SETTLED, Ending, Outcome, ending_of
 from ..sequencer import Attempt, Performer
 from .actor import ARRIVED, Actor
 from .climb_report import ActionReport, ClimbReport, beyond
@@ -24,6 +25,9 @@ Progress: TypeAlias = Callable[[int, int, str, float], None]
 """Told before each action: its step, how many there are, the action in words, the time [s]."""
 Group: TypeAlias = tuple[int, int]
 """First and last step, from 1, of what is carried out in one go."""
+
+AT_HOLD: Final = 0.03
+"""A tip nearer to where a hold is believed to be may be on it [m]: the map's error, the play and the slot of a hook."""
 
 
 class Climbing(Performer[Group, ClimbReport, int, int, str, float]):
@@ -140,6 +144,7 @@ class Climbing(Performer[Group, ClimbReport, int, int, str, float]):
         task = task_from_here(self.course, action[0], held, self._actor.missed)
         self.climber.plant.pause()
         plan = self.replan(task)
+        self.climber.monitor.after_pause()
         if plan is None:
             return False
         course = lay_course(task, plan, "new plan")
@@ -151,6 +156,28 @@ class Climbing(Performer[Group, ClimbReport, int, int, str, float]):
         self._actor.course, self._groups = course, iter(course.groups())
         return True
 
+    def stop_safely(self) -> Ending:
+        """See `Performer`: every joint holds where it is, but for the one that has failed."""
+        before = self._place()
+        self.climber.plant.pause()
+        self.climber.brace(BRACED - SETTLED)
+        between = self._place()
+        self.climber.brace(SETTLED)
+        after = self._place()
+        return ending_of(math.dist(before, after), math.dist(between, after), holds=self._holds())
+
+    def _holds(self) -> bool:
+        """Whether a tip is where a hold is, truly where that is told."""
+        climber = self.climber
+        tips = [climber.body.tip(i) for i in range(climber.body.n)] if climber.truth is None else climber.truth().tips
+        return any(math.dist(tip, hold) < AT_HOLD for tip in tips for hold in climber.holds.values())
+
+    def _place(self) -> tuple[float, float]:
+        """Of the body, truly where that is told [m]."""
+        climber = self.climber
+        x, y = (climber.body.settled if climber.truth is None else climber.truth().pose)[:2]
+        return float(x), float(y)
+
     def name(self, action: Group) -> str:
         """See `Performer`."""
         return f"step {action[0]}, {self.course.actions[action[0] - 1].title}"
@@ -159,17 +186,24 @@ class Climbing(Performer[Group, ClimbReport, int, int, str, float]):
         """See `Performer`: a climb is done only where the body came to the goal."""
         report, climber = self.report, self.climber
         report.pose = _tuple(climber.body.settled)
+        report.findings = list(climber.monitor.findings)
         pose = climber.body.settled
         if climber.truth is not None:
-            pose = climber.truth().pose
+            truth = climber.truth()
+            pose = truth.pose
             report.true_pose = _tuple(pose)
-        report.short = beyond(self.course.task, pose)
+            report.broken = list(truth.broken)
+        # on uneven terrain the goal is where the holds of the plan's end are
+        shift = np.array((*self._actor.shift(len(self.course.actions)), 0.0))
+        report.short = beyond(self.course.task, pose - shift)
         planned = beyond(self.course.task, self.course.pose(len(self.course.actions)))
         if report.done and report.short > planned + ARRIVED:
             report.done = False
             stalled = sum(action.outcome == "stalled" for action in report.actions)
             done = f"{stalled} of its moves did not arrive, and" if stalled else "every action was carried out, but"
             report.reason = f"short: {done} the body ends {1e3 * report.short:.0f} mm short of the goal"
+        if report.broken and not report.done:
+            report.reason += f" ({report.broken[-1]})"
 
 
 def _tuple(pose: Floats) -> tuple[float, float, float]:

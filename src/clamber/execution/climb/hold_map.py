@@ -1,7 +1,7 @@
 """What the climber knows of its holds' places and of its sensors' errors: an extended Kalman filter that learns from hooks on holds."""
 
 import math
-from collections.abc import MutableMapping
+from collections.abc import Iterable, MutableMapping
 from dataclasses import dataclass
 from typing import Final
 
@@ -50,9 +50,18 @@ class HoldMap:
         places: Number -> believed place, world frame, shape (2,) [m]; changed as the map learns, also by others.
         error: Largest error of a place before anything is learned, each way along each axis, evenly spread [m].
         backlash: Whole play of a joint as it is believed [rad].
+        terrain: Covariance of all places' x and y in turn besides that error, for a board that is warped or turned as a whole, so that a
+            hold that is touched tells of its neighbours, shape (2 n, 2 n) [m^2]; None: each is off by itself.
     """
 
-    def __init__(self, places: MutableMapping[int, Floats], error: float, *, backlash: float = 0.0) -> None:
+    def __init__(
+        self,
+        places: MutableMapping[int, Floats],
+        error: float,
+        *,
+        backlash: float = 0.0,
+        terrain: Floats | None = None,
+    ) -> None:
         self.places, self._error = places, error
         self.offset = 0.0
         """What the body's encoder tells too much [rad]."""
@@ -62,6 +71,10 @@ class HoldMap:
         own = np.full(2 * len(places) + 2, max(error, 1e-6) ** 2 / 3.0)
         own[-2], own[-1] = ANGLE_ERROR**2, PLAY_ERROR**2 if backlash > 0.0 else 0.0
         self._variance = np.diag(own)
+        self._mapped = None if terrain is None else {number: place.copy() for number, place in places.items()}
+        self._latest: tuple[int, ...] = ()
+        if terrain is not None:
+            self._variance[:-2, :-2] += terrain
 
     def learn(self, number: int, other: int, seen: TipDifference) -> Floats:
         """Two hooks are on their holds: the difference of their tips corrects all that hangs together with it.
@@ -77,6 +90,7 @@ class HoldMap:
             What of it is put down to joints that may be anywhere in their play: by how much their angles at the gear outputs are more than
             believed, shape (joints,) [rad].
         """
+        self._latest = (number, other)
         slope = self._slope(number, other, seen)
         lack = seen.place - (self.places[number] - self.places[other])
         noise = seen.unsure + TIP_ERROR**2 * np.eye(2)
@@ -95,10 +109,28 @@ class HoldMap:
         self._variance = 0.5 * (self._variance + self._variance.T)
         return np.asarray(-(seen.loose**2 * seen.by_joints).T @ weight @ lack)
 
+    def shift(self, numbers: Iterable[int]) -> Floats:
+        """How far holds are believed to be from where they were mapped, on the average, shape (2,) [m]; none on even terrain."""
+        known = [number for number in numbers if number in self.places]
+        if self._mapped is None or not known:
+            return np.zeros(2)
+        return np.asarray(np.mean([self.places[number] - self._mapped[number] for number in known], axis=0))
+
     def error(self, number: int) -> float:
-        """How far off a hold's place may be along each axis: the map's error, less what has been learned [m]."""
+        """How far off a hold's place may be along each axis: the map's error, less what has been learned [m].
+
+        On uneven terrain, seen from the holds that were learned last: all that is near may be off alike, and is met alike.
+        """
         k = self._row[number]
-        return math.sqrt(3.0 * max(self._variance[k, k], self._variance[k + 1, k + 1]))
+        spans = [self._variance[k : k + 2, k : k + 2]]
+        if self._mapped is not None and any(one != number for one in self._latest):
+            rows = [self._row[one] for one in self._latest if one != number]
+            spans = [
+                spans[0] + self._variance[j : j + 2, j : j + 2] - self._variance[k : k + 2, j : j + 2]
+                - self._variance[j : j + 2, k : k + 2]
+                for j in rows
+            ]  # fmt: skip
+        return math.sqrt(3.0 * min(max(span[0, 0], span[1, 1]) for span in spans))
 
     def doubt(self, number: int, other: int, seen: TipDifference) -> float:
         """How far off a tip that is on a hold may seem to be along each axis, by another tip that is on its own [m].

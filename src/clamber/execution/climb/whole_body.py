@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 
 from ...control import body_tick as at
+from ...control.body_estimate import ENCODER
 from ...control.body_tick import JOB, TABLE, command_tick, see_tick
 from ...control.chain import chain_of_limb
 from ...control.controller import Controller, still_aim
@@ -14,6 +15,7 @@ from ...control.hook_forces import MOST_CUTS, pair_forces
 from ...control.law_settings import LawSettings
 from ...control.play import weight_moment
 from ...control.records import AXES
+from ...control.virtual_potential import repel_limbs
 from ...robots.limbed import LimbedRobot
 from ...types import Floats
 from .body_gains import USUAL, BodyGains, records_of
@@ -31,6 +33,11 @@ STRETCHED: Final = math.radians(15.0)
 HANDING_OVER: Final = 0.4
 """Time in which the load passes from the limbs that carried to those that will [s]."""
 
+REPELLED: Final = ("tip", "joints")
+"""What free limbs do that a virtual potential keeps off the body; one that pushes at a hold is steered by what it feels there."""
+MOST_REPELLED: Final = 3.0
+"""Largest force of the potential over the robot's weight [-] (chosen): it stops a limb that comes at full speed, whose rotors are most
+of its inertia; with the weight itself one got through."""
 BENT: Final = math.radians(12.0)
 """Where the soft stop of an elbow begins, before it is straight [rad]."""
 STOP: Final = 6.0
@@ -105,7 +112,7 @@ class WholeBody:
             at.SPARE_SPEEDS: np.zeros((n, 2)), at.SPARE_TWIST: np.zeros(3), at.CARRIERS: self._carriers,
             at.PULLS: np.zeros((n, 2)), at.FORCES: np.zeros((n, 2)),
             at.OLD_PULLS: np.zeros((n, 2)), at.OLD_FORCES: np.zeros((n, 2)),
-            at.CUTS: self._cuts, at.DRAGS: np.zeros((n, 2)), at.LEAST: np.full(n, gains.least_pull),
+            at.CUTS: self._cuts, at.DRAGS: np.zeros((n, 2)), at.LEAST: np.full(n, gains.alpha),
             at.PRESSED: np.zeros(n, np.int64), at.LOADS: np.zeros((n, 2)), at.LAG: self._lag, at.LOADS_NOW: np.zeros(2),
             at.WANTED: np.zeros(3), at.FED: np.zeros(3), at.LIMB_AIM: self._aim, at.STATES: self._states,
             at.FELT: np.zeros((1, AXES)), at.TORQUES: self.torques, at.SURE: self.sure,
@@ -115,17 +122,31 @@ class WholeBody:
             assert array.flags.c_contiguous
             self._table[place] = array.ctypes.data
         self._table[at.LIMBS] = n
+        longest = max(limb.length for limb in robot.limbs)
+        self._field = np.array(
+            (gains.potential_range * longest, gains.potential * robot.weight, MOST_REPELLED * robot.weight)
+        )
+        self._outline, self._skin = robot.outline(), robot.body_margin + robot.link_radius
+        self._free = np.zeros(n, np.int64)
+        self.gaps = np.full(n, np.inf)
+        """Gap of each free limb's second link to the body, with a virtual potential; infinity for others [m]."""
         self._scheme = None if gains.scheme == "body" else SCHEMES[gains.scheme](self)
 
-    def see(self, q: Floats, qd: Floats, angle: float, angle_speed: float, *, with_encoder: bool = True) -> None:
-        """Take in a tick's measurements and estimate where the body is."""
+    def see(self, q: Floats, qd: Floats, angle: float, angle_speed: float, *, angle_from: int = ENCODER) -> None:
+        """Take in a tick's measurements and estimate where the body is.
+
+        Args:
+            q, qd: Joint angles and speeds, shape (limbs, 2).
+            angle, angle_speed: Of the body by its own encoder [rad], [rad/s].
+            angle_from: One of `control.body_estimate`: ENCODER, LINE, SECOND_TIP.
+        """
         self.q[:], self.qd[:] = q, qd
         for i, task in enumerate(self.tasks):
             self.held[i] = task.holds
             if task.holds:
                 self._holds[i] = task.place
         self._pass_load()
-        see_tick(self._table, angle, angle_speed, with_encoder)
+        see_tick(self._table, angle, angle_speed, angle_from)
 
     def reckon_with(self, backlash: float) -> None:
         """Believe in another backlash of every joint from now on [rad]."""
@@ -272,6 +293,9 @@ class WholeBody:
         for i, task in enumerate(self.tasks):
             if task.side:
                 self.torques[i, 1] += task.side * STOP * max(0.0, 1.0 - task.side * self.q.item(i, 1) / BENT)
+        if self.gains.potential > 0.0:
+            self._free[:] = [task.doing in REPELLED for task in self.tasks]
+            repel_limbs(self.legs, self.q, self._free, self._outline, self._skin, self._field, self.torques, self.gaps)
         if self._scheme is not None:
             self._scheme.hold(self, [i for i, task in enumerate(self.tasks) if task.doing == "hold"])
         return self.torques

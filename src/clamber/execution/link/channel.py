@@ -93,6 +93,13 @@ def listen(address: Address) -> tuple[socket.socket, Address]:
     return server, address
 
 
+def address_of(listener: socket.socket) -> Address:
+    """Where a socket of `listen` listens."""
+    if listener.family == socket.AF_INET:
+        return Address("tcp", *listener.getsockname())
+    return Address("unix", listener.getsockname())
+
+
 def unlink(address: Address) -> None:
     """Remove the file of a Unix domain socket that `listen` made."""
     if address.kind == "unix" and os.path.exists(address.host) and stat.S_ISSOCK(os.stat(address.host).st_mode):

@@ -1,6 +1,7 @@
 """The way to a plant in another process: the same `Hardware` as if it were here."""
 
 import contextlib
+import time
 from types import TracebackType
 from typing import Final, Self
 
@@ -20,13 +21,17 @@ from .messages import (
     Stop,
     cut,
     pack_numbers,
+    pack_stop,
     unpack_about,
     unpack_refusal,
     unpack_sample,
 )
+from .token import read_token
 
 ANSWER: Final = 10.0
 """Longest wait for a server's answer [s]."""
+STILL_TICKS: Final = 200
+"""Periods of the clock in which a plant that keeps its own time must tell of a new tick; a busy machine loses a few."""
 
 
 class RemoteHardware:
@@ -56,6 +61,8 @@ class RemoteHardware:
         none = np.zeros(self.about.truths)
         self.sample = Sample(0, 0, Stop.NONE, np.zeros(self.about.readings, np.int32), none)
         """The latest."""
+        self._moved = time.monotonic()
+        """When its tick was new."""
 
     def __enter__(self) -> Self:
         return self
@@ -89,9 +96,10 @@ class RemoteHardware:
         """
         try:
             number = self._send(Kind.START, start)
-            self.sample = self._sample()
+            self.sample = self._sample(ANSWER)
             while self.sample.answers != number:  # of a plant that keeps its own time, samples may be on the way
-                self.sample = self._sample()
+                self.sample = self._sample(ANSWER)
+            self._moved = time.monotonic()
         except PlantStoppedError as stop:
             raise self._no_link(str(stop)) from None
 
@@ -116,8 +124,10 @@ class RemoteHardware:
             PlantStoppedError: If the server is gone, refuses, or has made a safe stop.
         """
         number = self._send(Kind.COMMAND, self._commands)
-        sample = self._sample()
-        if not self.about.real_time and sample.answers != number:
+        sample = self._sample(self._longest_still or ANSWER)
+        if (
+            not self.about.real_time and sample.answers != number and not sample.stop
+        ):  # a stop may come before the answer
             raise PlantStoppedError("the plant's server answers another command")
         self._take(sample)
         if self.about.real_time:
@@ -128,17 +138,27 @@ class RemoteHardware:
             self._take(self._unpack(message))
 
     def _take(self, sample: Sample) -> None:
+        now = time.monotonic()
+        if sample.tick > self.sample.tick:
+            self._moved = now
+        elif not sample.stop and now - self._moved >= self._longest_still:
+            raise PlantStoppedError(f"the plant's server is lost: its tick stands still at {sample.tick}")
         self.sample = sample
         if sample.stop:
             raise PlantStoppedError(f"the plant has made a safe stop: {STOPS[sample.stop]}")
+
+    @property
+    def _longest_still(self) -> float:
+        """For which a tick may stay the same [s]: none at all where every command is one."""
+        return STILL_TICKS * self.period / self.about.pace if self.about.real_time else 0.0
 
     def truth(self) -> Floats:
         """See `Hardware`: that of the latest sample, also once the plant has stopped."""
         return self.sample.truth
 
-    def _sample(self) -> Sample:
+    def _sample(self, patience: float) -> Sample:
         try:
-            return self._unpack(self._channel.wait(ANSWER))
+            return self._unpack(self._channel.wait(patience))
         except (ConnectionEndedError, MessageError) as error:
             raise PlantStoppedError(f"the plant's server is lost: {error}") from None
 
@@ -177,3 +197,23 @@ class RemoteHardware:
 
     def _no_link(self, problem: str) -> LinkError:
         return LinkError(str(self._address), problem, "see docs/hardware.md")
+
+
+def stop_plant(address: Address, *, release: bool = False) -> str:
+    """Stop a plant safely, whoever drives it, or give it back after such a stop; what its server says of it.
+
+    Raises:
+        LinkError: If nobody serves a plant there, or the server refuses.
+    """
+    token, channel = read_token(address), connect(address, ANSWER)
+    try:
+        channel.send(Kind.STOP, pack_stop(token, release=release))
+        answer = channel.wait(ANSWER)
+        said = unpack_refusal(answer.payload)
+    except (ConnectionEndedError, MessageError) as error:
+        raise LinkError(str(address), f"no plant's server answers there: {error}", "see docs/hardware.md") from None
+    finally:
+        channel.hang_up()
+    if answer.kind is not Kind.DONE:
+        raise LinkError(str(address), f"its server refuses: {said}", "see docs/hardware.md")
+    return said

@@ -25,6 +25,9 @@ HEADER: Final = _HEAD.size + _SUM.size
 _WELCOME: Final = struct.Struct("<HHHHHHdd32s32s")
 _SAMPLE: Final = struct.Struct("<QIHH")
 _REFUSAL: Final = struct.Struct("<200s")
+_STOP: Final = struct.Struct("<HH32s")
+TOKEN: Final = 32
+"""Bytes of an operator's token."""
 
 
 class Kind(IntEnum):
@@ -38,6 +41,8 @@ class Kind(IntEnum):
     BYE = 6
     REFUSAL = 7
     PAUSE = 8
+    STOP = 9
+    DONE = 10
 
 
 class Stop(IntEnum):
@@ -48,6 +53,9 @@ class Stop(IntEnum):
     LOST = 2
     GARBLED = 3
     ENDED = 4
+    OPERATOR = 5
+    OVERRUN = 6
+    ENVELOPE = 7
 
 
 STOPS: Final = {
@@ -56,6 +64,9 @@ STOPS: Final = {
     Stop.LOST: "its client is gone",
     Stop.GARBLED: "its client sent what is no message",
     Stop.ENDED: "its server ends",
+    Stop.OPERATOR: "an operator has stopped it",
+    Stop.OVERRUN: "its server does not keep up with the clock",
+    Stop.ENVELOPE: "the robot is beyond its limits",
 }
 """In words."""
 
@@ -134,6 +145,8 @@ def most_payload(kind: Kind) -> int:
         Kind.COMMAND: 8 * MOST_JOINTS,
         Kind.SAMPLE: _SAMPLE.size + 4 * MOST_JOINTS + 8 * MOST_TRUTHS,
         Kind.REFUSAL: _REFUSAL.size,
+        Kind.STOP: _STOP.size,
+        Kind.DONE: _REFUSAL.size,
     }.get(kind, 0)
 
 
@@ -278,13 +291,32 @@ def pack_refusal(why: str) -> bytes:
 
 
 def unpack_refusal(payload: bytes) -> str:
-    """Why a server refuses.
+    """Why a server refuses, or, of a DONE, what it has done.
 
     Raises:
         MessageError: If it cannot be read.
     """
     _check_size(Kind.REFUSAL, payload, _REFUSAL.size)
     return _text(payload, "reason")
+
+
+def pack_stop(token: bytes, *, release: bool = False) -> bytes:
+    """Payload of a STOP: an operator's token, and whether the plant is to be given back after one before."""
+    return _STOP.pack(release, 0, token)
+
+
+def unpack_stop(payload: bytes) -> tuple[bytes, bool]:
+    """Token of a STOP, and whether it gives the plant back.
+
+    Raises:
+        MessageError: If it says what cannot be.
+    """
+    _check_size(Kind.STOP, payload, _STOP.size)
+    release, spare, token = _STOP.unpack(payload)
+    for word, value, high in (("release", release, 1), ("spare", spare, 0)):
+        if not 0 <= value <= high:
+            raise MessageError(f"'{word}' of a STOP", value, f"must be 0 to {high}")
+    return token, bool(release)
 
 
 def unpack_nothing(kind: Kind, payload: bytes) -> None:

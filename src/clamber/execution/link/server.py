@@ -1,18 +1,18 @@
 """The server of a plant: it owns the hardware, carries a client's commands out, and holds the robot up when there is none."""
 
 import contextlib
-import select
+import hmac
 import socket
-import time
-from collections import deque
 from collections.abc import Callable
-from typing import Final, Protocol
+from typing import Final
 
 import numpy as np
 
 from ..hardware import Hardware, Reading
 from ..posture_guard import PostureGuard
-from .channel import PIECE, Channel, ConnectionEndedError
+from .channel import Channel, ConnectionEndedError, LinkError, address_of
+from .clock import Clock, Lateness, WallClock
+from .envelope import Envelope
 from .messages import (
     STOPS,
     About,
@@ -26,60 +26,45 @@ from .messages import (
     pack_sample,
     unpack_nothing,
     unpack_numbers,
+    unpack_stop,
 )
+from .reception import PATIENCE, Reception, peer_of
+from .token import read_token, remove_token, write_token
 
-MOST_TICKS: Final = 20_000
-"""Whose lateness is kept."""
 SILENT_TICKS: Final = 2
 """So many ticks without a command, and the robot stops."""
-PATIENCE: Final = 2.0
-"""For a client's first message, and for the rest of one that has begun [s]."""
-MOST_LEAVING: Final = 8
-"""Connections that may be hanging up at once; knocking often must not use up what the system lets a process open."""
+MOST_MESSAGES: Final = 64
+"""Of a client between two ticks of the clock; it is to send one, and reading more than this costs a good part of a tick."""
+IDLE: Final = 30.0
+"""For which a client that drives nothing may be silent while another asks for the plant [s]."""
 LONGEST_PAUSE: Final = 120.0
-"""That a client may ask for; a robot that hangs on warm motors is no place to think for longer [s]."""
+"""That a client may ask for; a robot that hangs on warm motors is no place to think for longer [s]. One that drives a plant that waits for
+its commands may be silent for as long while another asks for it."""
 HELD: Final = 2.0
 """For which a plant that waits for commands is held after a safe stop, to see whether the robot stays [s]."""
+LATCHED: Final = "an operator has stopped this plant; `clamber plant release` gives it back"
 Say = Callable[[str], None]
-
-
-class Clock(Protocol):
-    """Time as a server has it."""
-
-    def now(self) -> float:
-        """[s], from anywhere."""
-
-    def select(self, sockets: list[socket.socket], timeout: float | None) -> list[socket.socket]:
-        """Those of `sockets` that can be read, after waiting for one for at most `timeout` [s]; None: for ever."""
-
-
-class WallClock:
-    """The machine's."""
-
-    def now(self) -> float:
-        """See `Clock`."""
-        return time.monotonic()
-
-    def select(self, sockets: list[socket.socket], timeout: float | None) -> list[socket.socket]:
-        """See `Clock`."""
-        return select.select(sockets, [], [], timeout)[0]
 
 
 class PlantServer:
     """Serves a plant to one client at a time, for ever or until the first has gone.
 
     In lock-step a command is one period. In real time the plant moves on by the server's own clock, takes the latest command, and
-    after two ticks without one makes a safe stop: see `PostureGuard`. A client that is lost or talks nonsense is a safe stop in both.
-    After a safe stop commands change nothing until there is a new start.
+    after two ticks without one makes a safe stop: see `PostureGuard`. A client that is lost or talks nonsense is a safe stop in both,
+    and so is a robot beyond its envelope. After a safe stop commands change nothing until there is a new start.
 
     Args:
         hardware: The plant.
         about: What clients are told of it.
         guard: Of the same robot.
+        envelope: Of the same robot.
         listener: Where clients connect.
-        say: Told what happens.
+        say: Told what happens; one that fails stops nothing.
         once: Whether to end when the first client has gone.
         clock: The machine's unless given.
+
+    Raises:
+        LinkError: If its token cannot be written, by which operators may stop it.
     """
 
     def __init__(
@@ -87,55 +72,69 @@ class PlantServer:
         hardware: Hardware,
         about: About,
         guard: PostureGuard,
+        envelope: Envelope,
         listener: socket.socket,
         *,
         say: Say,
         once: bool = False,
         clock: Clock | None = None,
     ) -> None:
-        self.hardware, self.about, self.guard = hardware, about, guard
+        self.hardware, self.about, self.guard, self.envelope = hardware, about, guard, envelope
         self.stop = Stop.NONE
         """Of the last client."""
         self.stops: list[Stop] = []
         """All safe stops so far."""
-        self._lateness: deque[float] = deque(maxlen=MOST_TICKS)
-        listener.setblocking(False)
-        self._listener, self._say, self._once = listener, say, once
         self._clock = WallClock() if clock is None else clock
+        self._reception, self._tell, self._once = Reception(listener, self._clock.now), say, once
+        self._address = address_of(listener)
         self._wall_period = about.period / about.pace
+        self._lateness = Lateness(self._wall_period)
         self._channel: Channel | None = None
-        self._leaving: list[tuple[Channel, float]] = []
-        """Those that have been let go, and until when."""
-        self._welcomed, self._since = False, 0.0
-        self._placed = self._driven = self._paused = False
+        self._who, self._taken, self._heard = "", 0.0, 0.0
+        """Of the client: who it is, since when it is there, and when it last said something."""
+        self._since, self._said = 0.0, 0
+        """When what a client says was last whole; its messages since the last tick."""
+        self._placed = self._driven = self._paused = self._latched = False
         self._reading = Reading(np.zeros(about.readings, np.int32), 0)
         self._commands = guard.at_rest.copy()
         self._fresh, self._silent, self._answers = False, 0, 0
         self._next, self._held_until = 0.0, 0
-        self._over = False
+        self._over, self._ending = False, ""
+        self._bell, self._rope = socket.socketpair()
+        self._rope.setblocking(False)
+        write_token(self._address)
 
     def serve(self) -> None:
-        """Until the first client has gone, if `once`; for ever else."""
+        """Until the first client has gone, if `once`; until `ask_to_end` else."""
         try:
             while not self._over:
                 self._turn()
         finally:
-            self._listener.close()
             if self._channel is not None:
                 self._tell_end()
-            for channel, _ in self._leaving:
-                channel.hang_up()
+            self._reception.close()
+            self._bell.close()
+            self._rope.close()
+            remove_token(self._address)
+
+    def ask_to_end(self, why: str) -> None:
+        """Have the server make a safe stop, hold for 2 s and end; may be called from signal handlers and other threads."""
+        self._ending = self._ending or why
+        with contextlib.suppress(OSError):
+            self._rope.send(b"!")
 
     def _turn(self) -> None:
-        sockets = [self._listener, *(channel.socket for channel, _ in self._leaving)]
+        sockets = [*self._reception.sockets(), self._bell]
         if self._channel is not None:
             sockets.append(self._channel.socket)
         ready = self._clock.select(sockets, self._patience())
-        self._sweep(ready)
-        if self._listener in ready:
-            self._welcome()
         if self._channel is not None:
             self._attend(self._channel, self._channel.socket in ready)
+        for channel, messages in self._reception.first_words(ready):
+            self._welcome(channel, messages)
+        if self._bell in ready:
+            self._bell.recv(16)
+            self._close_down()
         if self.about.real_time and self._placed:
             late = self._clock.now() - self._next
             if late >= 0.0:
@@ -145,49 +144,104 @@ class PlantServer:
         """How long there is nothing to do but wait for bytes."""
         if self.about.real_time and self._placed:
             return max(0.0, self._next - self._clock.now())
-        if self._leaving or (self._channel is not None and (not self._welcomed or self._channel.partial)):
+        if self._reception.busy or (self._channel is not None and self._channel.partial):
             return PATIENCE / 4
         return None
 
-    def _welcome(self) -> None:
+    def _welcome(self, channel: Channel, messages: list[Message]) -> None:
+        """Take in the first that somebody says: it may become the client, or is an operator."""
+        first, *rest = messages
         try:
-            made, _ = self._listener.accept()
-            channel = Channel(made)
-        except OSError:  # whoever knocked is gone
+            if first.kind is Kind.STOP:
+                self._obey_operator(channel, first)
+                return
+            if first.kind is not Kind.HELLO:
+                raise MessageError("the first message", f"a {first.kind.name}", "must be a HELLO or STOP")
+            unpack_nothing(first.kind, first.payload)
+        except (MessageError, ConnectionEndedError, LinkError) as error:
+            self._say(f"a connection is let go: {error}")
+            self._reception.refuse(channel, str(error))
+            self._reception.dismiss(channel)
             return
-        if self._channel is None:
-            self._channel, self._welcomed, self._since = channel, False, self._clock.now()
+        now = self._clock.now()
+        silent = now - self._heard
+        if self._channel is not None and silent > (LONGEST_PAUSE if self._driven and not self.stop else IDLE):
+            self._reception.refuse(self._channel, "another client has asked for the plant")
+            self._let_go(Stop.LOST, f"it has said nothing for {silent:.0f} s, and another asks")
+        busy = self._closed
+        if self._channel is not None:
+            busy = f"another client drives this plant: {self._who}, for {now - self._taken:.0f} s, last heard {silent:.1f} s ago"
+        if busy:
+            self._reception.refuse(channel, busy)
+            self._reception.dismiss(channel)
             return
-        self._refuse(channel, "another client drives this plant")
-        self._dismiss(channel)
+        self._channel, self._who, self._taken, self._heard, self._since = channel, peer_of(channel), now, now, now
+        try:
+            channel.send(Kind.WELCOME, pack_about(self.about))
+        except ConnectionEndedError as end:
+            self._let_go(Stop.LOST, str(end))
+            return
+        self._take_in(channel, rest)
+
+    @property
+    def _closed(self) -> str:
+        """Why nobody may start; nothing if one may."""
+        return LATCHED if self._latched else "its server ends" if self._ending else ""
+
+    def _obey_operator(self, channel: Channel, message: Message) -> None:
+        """Stop safely, whoever drives, or give the plant back after such a stop.
+
+        Raises:
+            MessageError: If the message is none, or its token another.
+            LinkError: If there is no token.
+        """
+        token, release = unpack_stop(message.payload)
+        if not hmac.compare_digest(token, read_token(self._address)):
+            raise MessageError("the token of a STOP", "another", "must be that of this server")
+        self._latched = not release
+        if self._driven and not self.stop and not release:
+            self._make_stop(Stop.OPERATOR, "")
+        said = "clients may start again" if release else f"stopped at tick {self._reading.tick}; {LATCHED}"
+        self._say(f"an operator: {said}")
+        channel.send(Kind.DONE, pack_refusal(said))
+        self._reception.dismiss(channel)
 
     def _attend(self, channel: Channel, ready: bool) -> None:
-        """Take in what the client says; it is let go if that is no message, or none comes."""
+        """Take in what the client says; it is let go if that is no message, or the rest of one does not come."""
         try:
-            if ready:
-                for message in channel.read():
-                    self._obey(channel, message)
-                    if self._channel is None:
-                        return
-            if self._welcomed and not channel.partial:
-                self._since = self._clock.now()
-            elif self._clock.now() - self._since > PATIENCE:
-                what = "the rest of a message" if channel.partial else "a HELLO"
-                raise MessageError(what, "missing", f"must come within {PATIENCE:g} s")
+            messages = channel.read() if ready else []
         except ConnectionEndedError as end:
             self._let_go(Stop.LOST, str(end))
         except MessageError as error:
-            self._refuse(channel, str(error))
-            self._let_go(Stop.GARBLED, str(error))
+            self._send_away(Stop.GARBLED, str(error))
+        else:
+            self._take_in(channel, messages)
+
+    def _take_in(self, channel: Channel, messages: list[Message]) -> None:
+        try:
+            for message in messages:
+                self._heard = self._clock.now()
+                self._said += 1
+                if self.about.real_time and self._placed and self._said > MOST_MESSAGES:
+                    raise MessageError(
+                        "a client's messages between two ticks", self._said, f"must be at most {MOST_MESSAGES}"
+                    )
+                self._obey(channel, message)
+                if self._channel is not channel:
+                    return
+            if not channel.partial:
+                self._since = self._clock.now()
+            elif self._clock.now() - self._since > PATIENCE:
+                raise MessageError("the rest of a message", "missing", f"must come within {PATIENCE:g} s")
+        except ConnectionEndedError as end:
+            self._let_go(Stop.LOST, str(end))
+        except MessageError as error:
+            self._send_away(Stop.GARBLED, str(error))
 
     def _obey(self, channel: Channel, message: Message) -> None:
         kind, payload = message.kind, message.payload
-        if not self._welcomed:
-            if kind is not Kind.HELLO:
-                raise MessageError("the first message", f"a {kind.name}", "must be a HELLO")
-            unpack_nothing(kind, payload)
-            self._welcomed = True
-            channel.send(Kind.WELCOME, pack_about(self.about))
+        if kind is Kind.START and self._closed:
+            self._send_away(Stop.NONE, self._closed)
         elif kind is Kind.START:
             self._start(channel, message)
         elif kind is Kind.COMMAND:
@@ -205,6 +259,8 @@ class PlantServer:
         start = unpack_numbers(message.kind, message.payload, self.about.starts)
         self.hardware.reset(start)
         self._reading, self._answers = self.hardware.sense(), message.number
+        self.envelope.reset()
+        self._lateness.forget_overruns()
         self._commands = self.guard.at_rest.copy()
         self.guard.hold(self._reading, self._commands)
         self.stop, self._placed, self._driven = Stop.NONE, True, False
@@ -214,6 +270,7 @@ class PlantServer:
 
     def _command(self, channel: Channel, message: Message) -> None:
         commands = unpack_numbers(message.kind, message.payload, self.about.commands)
+        self.envelope.check(commands)
         if not self._placed:
             raise MessageError("a COMMAND", "the first", "must follow a START")
         self._answers = message.number
@@ -225,6 +282,7 @@ class PlantServer:
         self._paused = False
         if not self.about.real_time:
             self._advance(commands)
+            self._watch()
             self._send_sample(channel)
 
     def _pause(self, message: Message) -> None:
@@ -236,20 +294,24 @@ class PlantServer:
 
     def _tick(self, late: float) -> None:
         """One period by the clock."""
-        self._lateness.append(late)
+        self._lateness.note(late)
         self._next += self._wall_period
+        self._said = 0
         if late > self._wall_period:
             self._next = self._clock.now() + self._wall_period  # lost time is not caught up with
         if self._driven and not self.stop and not self._fresh:
             self._silent += 1
             if self._silent >= (LONGEST_PAUSE / self.about.period if self._paused else SILENT_TICKS):
                 self._make_stop(Stop.SILENT, "")
+        if self._driven and not self.stop and (problem := self._lateness.problem()) is not None:
+            self._make_stop(Stop.OVERRUN, problem)
         self._fresh = False
         if self._driven and not self.stop and not self._paused:
             self._advance(self._commands)
+            self._watch()
         else:
             self._hold()
-        if self._channel is not None and self._welcomed:
+        if self._channel is not None:
             try:
                 self._send_sample(self._channel)
             except ConnectionEndedError as end:
@@ -259,6 +321,13 @@ class PlantServer:
         self.hardware.actuate(commands)
         self.hardware.step()
         self._reading = self.hardware.sense()
+        self.envelope.warm(commands)
+
+    def _watch(self) -> None:
+        """Stop a robot that its client has driven beyond its limits."""
+        fault = self.envelope.fault(self._reading)
+        if fault is not None:
+            self._make_stop(Stop.ENVELOPE, fault)
 
     def _send_sample(self, channel: Channel, stop: Stop | None = None) -> None:
         reading = self._reading
@@ -286,38 +355,18 @@ class PlantServer:
             self._held_until = 0
             moved = np.degrees(self.guard.moved(self._reading))
             self._say(f"held for {HELD:g} s: no joint has moved by more than {moved:.2f} deg")
-            self._over = self._over or (self._once and self._channel is None)
+            self._over = self._over or bool(self._ending) or (self._once and self._channel is None)
 
-    def _refuse(self, channel: Channel, why: str) -> None:
-        with contextlib.suppress(ConnectionEndedError):
-            channel.send(Kind.REFUSAL, pack_refusal(why), timeout=0.0)
-
-    def _dismiss(self, channel: Channel) -> None:
-        """Hang up, but not before the client has: else the system throws away what it has not read yet, such as why."""
-        with contextlib.suppress(OSError):
-            channel.socket.shutdown(socket.SHUT_WR)
-        self._leaving.append((channel, self._clock.now() + PATIENCE))
-        if len(self._leaving) > MOST_LEAVING:
-            self._leaving.pop(0)[0].hang_up()
-
-    def _sweep(self, ready: list[socket.socket]) -> None:
-        """Let those go that have hung up, or do not."""
-        for entry in list(self._leaving):
-            channel, until = entry
-            gone = self._clock.now() > until
-            try:
-                gone = gone or (channel.socket in ready and not channel.socket.recv(PIECE))
-            except OSError:
-                gone = True
-            if gone:
-                self._leaving.remove(entry)
-                channel.hang_up()
+    def _send_away(self, stop: Stop, why: str) -> None:
+        assert self._channel is not None
+        self._reception.refuse(self._channel, why)
+        self._let_go(stop, why)
 
     def _let_go(self, stop: Stop, why: str) -> None:
         """The client goes, or is sent; a robot that it drove stays as it is."""
         channel, self._channel = self._channel, None
         assert channel is not None
-        self._dismiss(channel)
+        self._reception.dismiss(channel)
         if self._driven and not self.stop:
             if stop:
                 self._make_stop(stop, why)
@@ -326,22 +375,21 @@ class PlantServer:
                 self._say("the client has ended; the posture is held")
         elif stop:
             self._say(f"the client is let go: {why}")
-        self._tell_times()
+        times = self._lateness.summary()
+        if times is not None:
+            self._say(times)
         self._driven = False
-        self._over = self._once and self._welcomed and not self._held_until
+        self._over = self._over or (self._once and not self._held_until)
 
-    def _tell_times(self) -> None:
-        """How well the clock was kept for the client that goes."""
-        if not self._lateness:
-            return
-        late = np.array(self._lateness)
-        self._lateness.clear()
-        middle, most = 1e3 * np.quantile(late, (0.5, 0.99))
-        lost = int(np.count_nonzero(late > self._wall_period))
-        self._say(
-            f"the last {len(late)} ticks began {middle:.2f} ms late in the median, 99 % within {most:.2f} ms; "
-            f"{lost} were a period late or more"
-        )
+    def _close_down(self) -> None:
+        """A safe stop, held until it is seen whether the robot stays; at once where nobody drives it."""
+        if self._driven and not self.stop:
+            self._make_stop(Stop.ENDED, self._ending)
+        self._over = not self._held_until
+
+    def _say(self, what: str) -> None:
+        with contextlib.suppress(OSError):  # whoever listened is gone, such as a terminal
+            self._tell(what)
 
     def _tell_end(self) -> None:
         """The server itself ends."""

@@ -28,6 +28,8 @@ class WalkerSensed:
     """How far the plate's x axis and its y axis rise above the horizontal by two inclinometers, shape (2,) [rad]; with noise and offset."""
     arm: Floats
     """Joint angles, shape (joints,) [rad]; of no joints without an arm."""
+    number: int = -1
+    """Of the reading: one more for each period since the reset; -1: nobody tells."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -77,5 +77,6 @@ class WalkReport(RunReport):
             "missed": None if missed is None else list(missed),
             "offsets": list(self.offsets),
             "kicks": self.kicks,
+            **self.faults_to_json(),
             "steps": [step.to_json() for step in self.steps],
         }

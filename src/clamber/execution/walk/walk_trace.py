@@ -174,6 +174,14 @@ class TracedWalker(Walker):
         """As a walker's, kept; the tick of a fall is, too."""
         self.samples.over(super().tick)
 
+    def brace_tick(self) -> None:
+        """One tick without a command: motors of length stay where they were last told to be. Kept, too."""
+        self.samples.over(self._let_pass)
+
+    def _let_pass(self) -> None:
+        self.plant.step()
+        self.ticks += 1
+
     def sample(self) -> Floats:
         """Of now, in the order of `titles`; finite."""
         true = self.plant.truth()

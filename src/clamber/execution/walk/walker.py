@@ -29,6 +29,7 @@ from ...units import GRAVITY
 from ..run_ends import FallenError as FallenError
 from ..run_ends import RefusedError as RefusedError
 from .falls import FallWatch
+from .own_sensors import OwnSensors
 from .plant import WalkerPlant
 from .plate_room import PlateRoom
 from .settings import WalkSettings
@@ -98,6 +99,7 @@ class Walker:
         self.period = plant.period
         self.inclination = Inclination(trust, plant.period)
         self.falls = FallWatch(GRAVITY * weight_of(robot, payload=payload).total, plant.period)
+        self.sensors = OwnSensors(robot, plant.period)
         self._delta, self._y = robot.attachments()
         self._rest = robot.feet()
         self._room = np.empty((9, 3))
@@ -167,6 +169,7 @@ class Walker:
             self.arm = np.array(self.robot.arm.rest)
         self.arm_aims = self.arm.copy()
         self.plant.reset(pose, place, np.asarray(legs, float).reshape(2, 3), self.arm)
+        self.sensors.reset()
         self.ticks = self.kicks = 0
         self.lengths[:] = self.commanded[:] = self.free_aims[:] = np.asarray(legs, float).ravel()
         self._trims[:] = 0.0
@@ -176,12 +179,13 @@ class Walker:
         self.stands[:] = 0
         readings = []
         for _ in range(max(1, round(looks / self.period))):
-            sensed = self.plant.sense()
+            sensed = self.sensors.read(self.plant.sense())
             readings.append(np.array(sensed.inclines))
             self.actuators[:] = sensed.actuators
             self.plant.step()
             self.ticks += 1
         self._take_in()
+        self.sensors.monitor.after_pause()  # the first tick reads the same once more
         self.stands[:] = self.forces > self.settings.touch
         if self.stands.sum() < 3:
             raise FallenError(f"at the start only {self.stands.sum()} feet carry the robot")
@@ -206,6 +210,7 @@ class Walker:
 
         Raises:
             FallenError: If the robot falls.
+            FaultError: If a sensor, a motor or the link to the plant has failed.
         """
         self._take_in()
         self._sink(min(1.0, self.period / SMOOTHED))
@@ -283,10 +288,11 @@ class Walker:
         return lengths
 
     def _take_in(self) -> None:
-        sensed = self.plant.sense()
+        sensed = self.sensors.read(self.plant.sense())
         self.sensed[:], self.forces[:] = sensed.legs.ravel(), sensed.forces.ravel()
         self.readings[:] = sensed.inclines
         self.touched[:] = np.where(self.forces > self.settings.touch, self.touched + 1, 0)
+        self.sensors.follow(self.actuators, self.commanded, self.arm)
         if follow_branch(self._delta, self._y, sensed.actuators, self.place, self._room) != FOUND:
             raise FallenError("the actuators' lengths belong to no posture of the mechanism near the last one")
         leg_places(self._rest, self.place, self.places)

@@ -9,7 +9,7 @@ import numpy as np
 from ...control.gait import DELTA, PhaseTimes, Step, Y
 from ...types import Floats
 from ..run_ends import RefusedError, StuckError
-from ..run_report import Outcome
+from ..run_report import BRACED, SETTLED, Ending, Outcome, ending_of
 from ..sequencer import Attempt, Performer
 from . import motions
 from .calibrate import calibrate, feel_give
@@ -26,6 +26,8 @@ Start: TypeAlias = Callable[[], None]
 Progress: TypeAlias = Callable[[int, float, float], None]
 """Told before each step: its number, the way done and the whole way [m]."""
 
+TIPPED: Final = math.radians(30.0)
+"""A plate that is tilted more has tipped over [rad]: no walk is on ground so steep."""
 SHORTER: Final = (0.6, 0.3, 0.0)
 """Shares of a step at which a frame that found no ground tries again [-]."""
 
@@ -157,6 +159,30 @@ class Walking(Performer[Step, WalkReport, int, float, float]):
         if not self.course.landed(action, self.walker):
             raise StuckError(f"the ground lets neither frame go on from {self.course.way:.3f} m")
 
+    def stop_safely(self) -> Ending:
+        """See `Performer`: every motor stays where it is."""
+        walker = self.walker
+        walker.plant.pause()
+        places = [self._place()]
+        for seconds in (BRACED - SETTLED, SETTLED):
+            for _ in range(round(seconds / walker.period)):
+                walker.brace_tick()
+            places.append(self._place())
+        moved, late = math.dist(places[0], places[2]), math.dist(places[1], places[2])
+        return ending_of(moved, late, holds=self._stands())
+
+    def _stands(self) -> bool:
+        """Whether three feet are on the ground and the plate is not tipped over, truly where that is told."""
+        true = self.walker.plant.truth()
+        touching = self.walker.stands if true is None else true.touching
+        tilt = np.abs((self.walker.pose if true is None else true.pose)[4:]).max()
+        return int(np.count_nonzero(touching)) >= 3 and float(tilt) < TIPPED
+
+    def _place(self) -> tuple[float, ...]:
+        """Of the plate, truly where that is told [m]."""
+        true = self.walker.plant.truth()
+        return tuple(map(float, (self.walker.pose if true is None else true.pose)[:3]))
+
     def name(self, action: Step) -> str:
         """See `Performer`."""
         return f"step {self.walker.step}"
@@ -164,6 +190,7 @@ class Walking(Performer[Step, WalkReport, int, float, float]):
     def end(self) -> None:
         """See `Performer`."""
         report, walker = self.report, self.walker
+        report.findings = list(walker.sensors.monitor.findings)
         if self._stood:
             report.kicks = walker.kicks
             report.pose = tuple(map(float, walker.pose))

@@ -3,10 +3,10 @@
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Final
 
-from ... import __version__
-from ...jobs import LocalProcesses, Outcome, map_items
+from ...jobs import LocalProcesses, Outcome, map_items, read_result
 from ...planning.budgets import Allowance, Contender, contenders
 from ...types import Json
 from ..trials import Crew
@@ -116,7 +116,6 @@ def run_contest(
             "document": case.document,
             "planner": contender.planner,
             "options": {"seed": seed, **contender.options, **contender.limits(allowance)},
-            "version": __version__,
         }
         for case, contender, seed in plays
     ]
@@ -135,12 +134,12 @@ def run_contest(
         progress=crew.progress,
     )
     trials = tuple(
-        _trial(case.name, contender.name, seed, outcome)
+        _trial(case.name, contender.name, seed, outcome, crew.store)
         for (case, contender, seed), outcome in zip(plays, outcomes, strict=True)
     )
     return Contest(cases=boards, contenders=field, allowance=allowance, trials=trials)
 
 
-def _trial(case: str, contender: str, seed: int, outcome: Outcome) -> Trial:
+def _trial(case: str, contender: str, seed: int, outcome: Outcome, store: Path | None) -> Trial:
     told: dict[str, Any] = outcome.result or {"status": "failed", "reason": outcome.error or ""}
-    return Trial(case=case, contender=contender, seed=seed, **told)
+    return read_result(Trial, told | {"case": case, "contender": contender, "seed": seed}, store)

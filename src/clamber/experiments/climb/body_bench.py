@@ -6,6 +6,7 @@ from typing import Final
 
 import numpy as np
 
+from ...control.body_estimate import ENCODER, LINE, SECOND_TIP
 from ...execution.climb.body_gains import BodyGains
 from ...execution.climb.whole_body import WholeBody
 from ...sim.limb_flaws import LimbFlaws
@@ -16,6 +17,9 @@ from .body_stand import BodyStand
 SLOT: Final = 0.008
 """A peg farther than this from a hook's seat has left the straight walls of its slot: the hook is off [m]."""
 
+ANGLES: Final = {"encoder": ENCODER, "line": LINE, "second-tip": SECOND_TIP}
+"""Name -> source of the body's angle: its own encoder, the line between the tips, the height of the second tip (printed, 4.4.3)."""
+
 
 @dataclass(frozen=True, slots=True)
 class BodyEntry:
@@ -23,10 +27,11 @@ class BodyEntry:
 
     label: str
     gains: BodyGains
-    encoder: bool = True
-    """Whether the body's own encoder tells its angle; else the line between the tips does."""
+    angle: str = "encoder"
+    """Source of the body's angle, a name of `ANGLES`."""
     first_limb: bool = False
-    """Whether the first holding limb alone tells where the body is, as in the thesis (4.4.3); else all that hold do."""
+    """Whether the first holding limb alone tells where the body is, as in the thesis (4.4.3); else all that hold do, unless the angle
+    is that of the "second-tip"."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -66,7 +71,13 @@ class BodyRun:
 
 
 def run_body(
-    stand: BodyStand, scenario: BodyScenario, entry: BodyEntry, flaws: LimbFlaws, *, pegs: Floats | None = None
+    stand: BodyStand,
+    scenario: BodyScenario,
+    entry: BodyEntry,
+    flaws: LimbFlaws,
+    *,
+    pegs: Floats | None = None,
+    map_errors: Floats | None = None,
 ) -> BodyRun:
     """Run one entry.
 
@@ -76,9 +87,13 @@ def run_body(
         entry: Its control.
         flaws: Of the plant.
         pegs: Where the holds truly are, shape (n_holds, 2) [m]; None: as believed.
+        map_errors: How far from there the control believes each limb's hold, the robot put on it where it is, shape (limbs, 2) [m].
     """
     climber, plant = stand.put(flaws, entry.gains, pegs=pegs)
     body = climber.body
+    if map_errors is not None:
+        for task, error in zip(body.tasks, map_errors, strict=True):
+            task.place += error
     holding = [i for i, limb in enumerate(stand.robot.limbs) if limb.name in stand.holds]
     numbers = [hold.number for hold in stand.board.holds]
     places = stand.board.positions() if pegs is None else pegs
@@ -90,7 +105,7 @@ def run_body(
         sensed = plant.sense()
         if not np.isfinite(sensed.q).all():
             break
-        body.see(sensed.q, sensed.qd, sensed.angle, sensed.angle_speed, with_encoder=entry.encoder)
+        body.see(sensed.q, sensed.qd, sensed.angle, sensed.angle_speed, angle_from=ANGLES[entry.angle])
         if entry.first_limb:
             count_from(body, holding[0])
         body.aim[:], body.aim_speed[:] = scenario.aims[k], scenario.speeds[k]

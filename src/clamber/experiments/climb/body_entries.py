@@ -37,7 +37,7 @@ def make_entries(
     stand: BodyStand,
     match: BodyMatch,
     *,
-    encoder: bool = True,
+    angle: str = "encoder",
     pose: Floats | None = None,
 ) -> list[BodyEntry]:
     """An entry for each text; SCCT has the reference's gains, all others gains that hold the body as stiffly in the sense of `match`.
@@ -47,14 +47,14 @@ def make_entries(
         reference: Gains of the reference, whose law is SCCT.
         stand: Where gains are matched.
         match: What "as stiffly" means; "none": the same numbers.
-        encoder: Whether the body's own encoder tells its angle.
+        angle: Source of the body's angle, a name of `ANGLES`.
         pose: Where gains are matched; None: at the stand's start.
 
     Raises:
         UnknownNameError: If there is no such law.
     """
     there = stand if pose is None else replace(stand, pose=pose)
-    return [BodyEntry(text, read_gains(text, reference, there, match), encoder) for text in texts or USUAL]
+    return [BodyEntry(text, read_gains(text, reference, there, match), angle) for text in texts or USUAL]
 
 
 def read_gains(text: str, reference: BodyGains, stand: BodyStand, match: BodyMatch) -> BodyGains:

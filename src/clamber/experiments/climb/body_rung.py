@@ -7,15 +7,15 @@ from typing import Any, Final
 
 import numpy as np
 
-from ... import __version__
 from ...errors import ClamberError
 from ...execution.climb.body_gains import BodyGains
-from ...execution.climb.climb_trace import TracedClimber
+from ...execution.climb.climb_trace import ClimbTrace, TracedClimber
 from ...execution.climb.climber import Climber, FallenError
 from ...execution.climb.ends import grab, release
 from ...execution.climb.motions import move_body
-from ...jobs import Executor, map_items
+from ...jobs import Executor, map_items, read_result
 from ...sim.climber_plant import ClimberPlant
+from ...sim.limb_flaws import LimbFlaws
 from ...tasks import load_task
 from ...tasks.limbed import LimbedTask
 from ...types import Floats, Json
@@ -90,22 +90,53 @@ def climb_rung(gains: BodyGains, seed: int) -> RungTrial:
 
     Pegs, friction and weight are drawn from the seed; the plant is nominal otherwise.
     """
-    task = load_task("ladder")
-    assert isinstance(task, LimbedTask)
+    climber, reason = _rung_with_noise(gains, seed)
+    return RungTrial(not reason, climber.lost, reason, climber.time)
+
+
+def watch_rung(gains: BodyGains, plant: str) -> tuple[RungTrial, ClimbTrace]:
+    """The same rung with pegs, friction and weight as they are believed to be, and its trace.
+
+    Args:
+        gains: Of body and limbs.
+        plant: "ideal" or "nominal".
+    """
+    task = _ladder()
+    climber, reason = _climb_on(task, gains, bench_flaws(plant), task.world.positions(), map_error=0.0)
+    return RungTrial(not reason, climber.lost, reason, climber.time), climber.trace()
+
+
+def _rung_with_noise(gains: BodyGains, seed: int) -> tuple[WatchedClimber, str]:
+    task = _ladder()
     draw = np.random.default_rng(seed)
     flaws = bench_flaws("nominal").with_changes(friction=1.0 + draw.uniform(-FRICTION, FRICTION))
     weight = 1.0 + draw.uniform(-WEIGHT, WEIGHT)
     numbers = [hold.number for hold in task.world.holds]
     shifts = draw.uniform(-PEG_ERROR, PEG_ERROR, (len(numbers), 2))
     shifts[[numbers.index(number) for number in (2, 3, 4)]] = 0.0  # the robot was put on these
-    pegs = task.world.positions() + shifts
-    plant = ClimberPlant(replace(task.robot, weight=weight * task.robot.weight), task.world, flaws, pegs=pegs)
+    return _climb_on(
+        task, gains, flaws, task.world.positions() + shifts, map_error=PEG_ERROR, weight=weight * task.robot.weight
+    )
+
+
+def _ladder() -> LimbedTask:
+    task = load_task("ladder")
+    assert isinstance(task, LimbedTask)
+    return task
+
+
+def _climb_on(
+    task: LimbedTask, gains: BodyGains, flaws: LimbFlaws, pegs: Floats, *, map_error: float, weight: float | None = None
+) -> tuple[WatchedClimber, str]:
+    """The climber at its end, and why it ended early, or nothing."""
+    robot = task.robot if weight is None else replace(task.robot, weight=weight)
+    plant = ClimberPlant(robot, task.world, flaws, pegs=pegs)
+    numbers = [hold.number for hold in task.world.holds]
     climber = WatchedClimber(
-        task.robot, task.world, plant, gains=gains, map_error=PEG_ERROR,
+        task.robot, task.world, plant, gains=gains, map_error=map_error,
         pegs=dict(zip(numbers, pegs, strict=True)), truth=plant.truth,
     )  # fmt: skip
-    reason = _climb(climber)
-    return RungTrial(not reason, climber.lost, reason, climber.time)
+    return climber, _climb(climber)
 
 
 def _climb(climber: Climber) -> str:
@@ -157,9 +188,7 @@ def climb_rungs(
         RungError: If a trial raised.
     """
     pairs = [(label, seed) for label in controls for seed in seeds]
-    items: list[Json] = [
-        {"gains": asdict(controls[label]), "seed": seed, "version": __version__} for label, seed in pairs
-    ]
+    items: list[Json] = [{"gains": asdict(controls[label]), "seed": seed} for label, seed in pairs]
     ends = map_items(
         run_item, items, executor=executor, store=store, about={"items": items}, resume=resume, progress=progress,
         title=f"{len(seeds)} rungs with each of {', '.join(controls)}",
@@ -168,5 +197,5 @@ def climb_rungs(
     for (label, seed), end in zip(pairs, ends, strict=True):
         if end.result is None:
             raise RungError(label, seed, end.error or "failed")
-        told[label].append(RungTrial(**end.result))
+        told[label].append(read_result(RungTrial, end.result, store))
     return told

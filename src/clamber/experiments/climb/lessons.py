@@ -10,6 +10,7 @@ from ...actions.plan import Plan
 from ...execution.climb.course import lay_course
 from ...jobs import Executor
 from ...tasks.limbed import LimbedTask
+from ..held_out import check_training
 from .cautions import CAUTIONS, steady
 from .rehearsal import grab_before
 from .rerouting import cut_before, grabs_of, mended, other_end, without
@@ -105,7 +106,11 @@ def learn(
         lessons: Most changes that are tried.
         seconds: Most time for each search for a plan.
         told: Of the best plan so far, and the change that was tried last; of the first rehearsal without one.
+
+    Raises:
+        HeldOutError: If a seed is held out for rates.
     """
+    check_training(seeds)
     best = Rehearsed(plan, tuple(climbs(plan, seeds)))
     told(best, None)
     changes, seen = _changes(task, best, seconds), {plan.codes(task).tobytes()}

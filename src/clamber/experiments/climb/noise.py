@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
+import numpy.typing as npt
 
 from ...errors import ClamberError, UnitError, describe_choices
 from ...robots.limbed import Limb, LimbedRobot
@@ -13,6 +14,7 @@ from ...sim.limb_flaws import LimbFlaws
 from ...tasks.limbed import LimbedTask
 from ...types import Floats, Ints, Json
 from ...units import DEGREE, GRAVITY, parse_quantity
+from .terrain import ABSENT, may_be_missing, turned, warp
 
 
 class NoiseError(ClamberError):
@@ -79,6 +81,16 @@ NOISE: Final[dict[str, NoiseKind]] = {
     ),
     "joint_angle": NoiseKind(
         dimension="angle", unit="deg", scale=DEGREE, width=0.3 * DEGREE, words="zero of each joint's encoder", many=True
+    ),
+    "terrain": NoiseKind(
+        dimension="length", unit="mm", scale=1e-3, width=0.0, words="warp of the board: neighbouring pegs alike, none at the start",
+        many=True,
+    ),
+    "tilt": NoiseKind(
+        dimension="angle", unit="deg", scale=DEGREE, width=0.0, words="turn of the whole board about the start"
+    ),
+    "missing": NoiseKind(
+        dimension="ratio", unit="%", scale=0.01, width=0.0, words="part of the pegs that are not there", below_one=True, many=True
     ),
 }  # fmt: skip
 """Key -> what deviates, evenly spread over its width to either side. Zeros of encoders: half a turn of a motor at a joint, and what an
@@ -150,7 +162,7 @@ def read_widths(kinds: Mapping[str, NoiseKind], widths: Mapping[str, float], tex
 
 def noise_of(document: Json) -> Noise:
     """The noise that `Noise.to_json` described."""
-    return Noise({key: float(document[key]) for key in NOISE})
+    return Noise({key: float(document.get(key, 0.0)) for key in NOISE})
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -170,6 +182,11 @@ class Drawn:
     body_angle: float
     joint_angle: Floats
     """Shape (limbs, 2) [rad]."""
+    terrain: Floats
+    """Shape (n_holds, 2) [m]."""
+    tilt: float
+    missing: npt.NDArray[np.bool_]
+    """Shape (n_holds,)."""
 
     def to_json(self, pegs: Ints | None = None) -> Json:
         """One number for each key: the deviation, and of many alike the largest: of pegs the distance, of joints the size.
@@ -177,7 +194,9 @@ class Drawn:
         Args:
             pegs: Indices of those that count; None: all.
         """
-        told = {key: getattr(self, key) for key in NOISE if key != "peg_error"}
+        told = {key: getattr(self, key) for key in NOISE if key not in ("peg_error", "terrain", "missing")}
+        told["terrain"] = float(np.hypot(self.terrain[:, 0], self.terrain[:, 1]).max(initial=0.0))
+        told["missing"] = int(self.missing.sum())
         told["joint_friction"] = float(np.abs(self.joint_friction).max())
         told["joint_angle"] = float(np.abs(self.joint_angle).max())
         off = np.hypot(self.pegs[:, 0], self.pegs[:, 1])
@@ -192,7 +211,7 @@ def draw(noise: Noise, robot: LimbedRobot, n_holds: int, seed: int) -> Drawn:
     Args:
         noise: Widths.
         robot: As believed.
-        n_holds: Of the board; those that the robot is put on at the start are as far off as any.
+        n_holds: Of the board; those that the robot is put on at the start are as far off as any. Their terrain is even here.
         seed: Of all draws.
     """
     n = len(robot.limbs)
@@ -202,6 +221,9 @@ def draw(noise: Noise, robot: LimbedRobot, n_holds: int, seed: int) -> Drawn:
         return noise.widths[key] * stream.uniform(-1.0, 1.0, shape)
 
     return Drawn(
+        terrain=np.zeros((n_holds, 2)),
+        tilt=float(share("tilt")),
+        missing=np.zeros(n_holds, np.bool_),
         pegs=share("peg_error", n_holds, 2),
         joint_friction=share("joint_friction", n, 2),
         joint_angle=share("joint_angle", n, 2),
@@ -221,8 +243,18 @@ def draw(noise: Noise, robot: LimbedRobot, n_holds: int, seed: int) -> Drawn:
 
 
 def draw_for(task: LimbedTask, noise: Noise, seed: int) -> Drawn:
-    """What a seed makes of a noise for a task (`draw`)."""
-    return draw(noise, task.robot, len(task.world.holds), seed)
+    """What a seed makes of a noise for a task (`draw`), of its terrain, too: that needs to know where its holds are."""
+    drawn = draw(noise, task.robot, len(task.world.holds), seed)
+    bent, gone = (np.random.default_rng([seed, *key.encode()]) for key in ("terrain", "missing"))
+    lacking = may_be_missing(task) & (gone.uniform(size=len(task.world.holds)) < noise.widths["missing"])
+    return replace(drawn, terrain=noise.widths["terrain"] * warp(task, bent), missing=lacking)
+
+
+def true_places(task: LimbedTask, drawn: Drawn) -> Floats:
+    """Where the holds truly are, shape (n_holds, 2) [m]; those that are missing are far away."""
+    places: Floats = task.world.positions() + drawn.pegs + drawn.terrain + turned(task, drawn.tilt)
+    places[drawn.missing] += ABSENT
+    return places
 
 
 def check_noise(noise: Noise, robot: LimbedRobot, flaws: LimbFlaws) -> None:

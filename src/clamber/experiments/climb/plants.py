@@ -9,6 +9,7 @@ from ...errors import ClamberError, describe_choices
 from ...execution.hardware import WiredClimber
 from ...execution.link.channel import LinkError, read_address
 from ...execution.link.client import RemoteHardware
+from ...execution.link.envelope import envelope_of
 from ...execution.link.messages import About
 from ...execution.link.server import PlantServer, Say
 from ...execution.plant import BodyPlant, BodyTruth
@@ -18,7 +19,7 @@ from ...sim.climber_plant import ClimberPlant
 from ...sim.limb_flaws import LimbFlaws
 from ...sim.wires import ClimberWires
 from ...tasks.limbed import LimbedTask
-from .noise import Drawn, drawn_flaws, drawn_hook, drawn_robot, encoder_offsets
+from .noise import Drawn, drawn_flaws, drawn_hook, drawn_robot, encoder_offsets, true_places
 
 HERE: Final = ("torques", "volts")
 """Plants in this process: torques in and angles out, or through simulated amplifiers and counters."""
@@ -103,7 +104,7 @@ def drawn_plant(task: LimbedTask, flaws: LimbFlaws, drawn: Drawn) -> ClimberPlan
         drawn_robot(task.robot, drawn),
         task.world,
         drawn_flaws(flaws, drawn),
-        pegs=task.world.positions() + drawn.pegs,
+        pegs=true_places(task, drawn),
         shape=drawn_hook(drawn),
         offsets=encoder_offsets(drawn),
     )
@@ -131,6 +132,7 @@ def climb_server(
     Raises:
         SpecError: If the robot has no amplifiers or encoders that its wires could carry.
         PlantError: If the converters cannot be.
+        LinkError: If the token cannot be written by which operators may stop it.
     """
     wiring = wiring_of(task.robot, plant.flaws.encoder_counts)
     hardware = ClimberWires(plant, wiring, dac_bits=dac_bits)
@@ -139,4 +141,5 @@ def climb_server(
         len(hardware.truth()), real_time, hardware.period, pace,
     )  # fmt: skip
     guard = guard_of(task.robot, wiring, hardware.period)
-    return PlantServer(hardware, about, guard, listener, say=say, once=once)
+    envelope = envelope_of(task.robot, wiring, hardware.period)
+    return PlantServer(hardware, about, guard, envelope, listener, say=say, once=once)

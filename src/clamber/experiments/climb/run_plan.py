@@ -5,24 +5,30 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from ...actions.plan import Plan
 from ...actions.plan_source import is_plan, open_plan
 from ...errors import SpecError
+from ...execution.climb.body_gains import USUAL, BodyGains
 from ...execution.climb.climb_report import ClimbReport
 from ...execution.climb.climb_trace import TOPIC, ClimbTrace, TracedClimber, limb_notes
 from ...execution.climb.climbing import Climbing, Progress, Replan
 from ...execution.climb.course import climbable, lay_course
-from ...execution.log_stream import growing_log
+from ...execution.fault import Fault
+from ...execution.log_stream import LogGap, WantedLog, growing_log
 from ...execution.plant import BodyPlant
 from ...execution.sequencer import Sequencer
 from ...sim.limb_flaws import LimbFlaws
 from ...tasks import Task, load_task
 from ...tasks.limbed import LimbedTask
-from ...types import Json
+from ...types import Floats, Json
 from ..limb.flaw_texts import named_flaws, read_flaws
 from ..plant_settings import split_settings
-from .noise import NO_NOISE, Drawn, Noise, assumed_backlash, check_noise, draw_for
+from .faults import failing_body
+from .noise import NO_NOISE, Drawn, Noise, assumed_backlash, check_noise, draw_for, true_places
 from .plants import climbing_plant, drawn_plant, truth_of
+from .terrain import terrain_covariance
 from .warm_up import warm_up
 
 PHYSICS_RATE: float = 1000.0
@@ -41,6 +47,10 @@ class ClimbRun:
     """How far things truly were from what was believed."""
     wall_seconds: float
     """That it took, without compiling or loading kernels and without looking for new plans on the way."""
+    fault: Fault | None = None
+    """That the robot had."""
+    log_gap: LogGap | None = None
+    """What its log lacks; None: nothing, or there is none."""
 
     @property
     def done(self) -> bool:
@@ -52,9 +62,19 @@ class ClimbRun:
         """Why not; empty where it did."""
         return self.report.reason
 
+    @property
+    def true_pegs(self) -> Floats | None:
+        """Where the holds truly are, shape (n_holds, 2) [m], NaN for those that are missing; None: all where they are mapped."""
+        mapped, places = self.task.world.positions(), true_places(self.task, self.drawn)
+        places[self.drawn.missing] = np.nan
+        return None if np.array_equal(places, mapped) else places
+
     def to_json(self) -> Json:
         """Plain data."""
-        return self.report.to_json() | {"task": self.task.name, "wall_seconds": self.wall_seconds}
+        told = {"task": self.task.name, "wall_seconds": self.wall_seconds}
+        if self.log_gap is not None:
+            told["log_gap"] = self.log_gap.to_json()
+        return self.report.to_json() | told
 
 
 def open_climb(what: str, task: str | None, settings: Sequence[str]) -> tuple[LimbedTask, Plan | None, tuple[str, ...]]:
@@ -113,8 +133,10 @@ def run_plan(
     replan: Replan | None = None,
     progress: Progress | None = None,
     label: str = "plan",
-    log: Path | None = None,
+    log: Path | WantedLog | None = None,
     plant: str = "torques",
+    gains: BodyGains = USUAL,
+    fault: Fault | None = None,
 ) -> ClimbRun:
     """Carry a plan out.
 
@@ -130,9 +152,11 @@ def run_plan(
         label: What errors call the plan.
         log: An .mcap file that grows as the robot climbs (`execution.log_stream`).
         plant: By name or address, see `climbing_plant`.
+        gains: How body and limbs are controlled.
+        fault: That the robot has; None: none.
 
     Raises:
-        FileError: If the log cannot be written.
+        FileError: If the log cannot be made; one that cannot be written to its end does not end the run.
         PlanRefusedError: If something speaks against the plan and it is not forced.
         SpecError: If an action is none that the task's robot and board have.
         StartError: If the start violates a hard check.
@@ -153,23 +177,32 @@ def run_plan(
     check_noise(noise, task.robot, flaws)
     drawn = draw_for(task, noise, seed)
     with climbing_plant(plant, task, lambda: drawn_plant(task, flaws, drawn)) as moved:
-        climber = believing_climber(task, moved, noise, drawn)
+        body = moved if fault is None else failing_body(task.robot, moved, fault)
+        climber = believing_climber(task, body, noise, drawn, gains)
         again = None if replan is None else timed_replan
         sequencer = Sequencer(Climbing(climber, course, replan=again, force=force), progress=progress)
         with growing_log(log, climber.samples, climber.titles, limb_notes(climber.limbs), TOPIC) as finish:
             report = sequencer.run()
             notes = report.to_json() | {"task": task.name, "noise": noise.to_json(), "seed": seed}
-            finish(notes)
-    return ClimbRun(task, plan, report, climber.trace(notes), drawn, time.perf_counter() - began - planning)
+            if fault is not None:
+                notes |= {"fault": fault.to_json()}
+            gap = finish(notes)
+    taken = time.perf_counter() - began - planning
+    return ClimbRun(task, plan, report, climber.trace(notes), drawn, taken, fault, gap)
 
 
-def believing_climber(task: LimbedTask, plant: BodyPlant, noise: Noise, drawn: Drawn) -> TracedClimber:
+def believing_climber(
+    task: LimbedTask, plant: BodyPlant, noise: Noise, drawn: Drawn, gains: BodyGains = USUAL
+) -> TracedClimber:
     """The controller of a plant as it was drawn: it knows the nominal robot, and how far off its map may be."""
     return TracedClimber(
         task.robot,
         task.world,
         plant,
+        gains=gains,
         map_error=noise.widths["peg_error"],
+        terrain=terrain_covariance(task, noise.widths["terrain"], noise.widths["tilt"]),
         backlash=assumed_backlash(task.robot, drawn),
         truth=truth_of(plant),
+        watched=True,
     )

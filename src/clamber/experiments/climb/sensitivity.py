@@ -80,7 +80,7 @@ def find_effects(trials: Sequence[ClimbTrial]) -> list[Effect]:
     from scipy.stats import mannwhitneyu
 
     drew = [trial for trial in trials if trial.drawn]
-    keys = [key for key in NOISE if any(trial.drawn[key] != 0.0 for trial in drew)]
+    keys = [key for key in NOISE if any(trial.drawn.get(key, 0.0) != 0.0 for trial in drew)]
     failed = np.array([not trial.done for trial in drew], bool)
     bad, good = int(failed.sum()), int((~failed).sum())
     tests: dict[tuple[str, bool], tuple[float, float]] = {}

@@ -1,17 +1,20 @@
 """One climb of many: what it has in common with the others, what its seed draws, how it ended, and the same climb again."""
 
 from dataclasses import dataclass
-from importlib.metadata import version
+from pathlib import Path
 from typing import Final
 
 import numpy as np
 
 from ...actions.plan import Plan
 from ...execution.climb.climbing import Progress, Replan
-from ...jobs.release import release
+from ...execution.fault import draw_fault
+from ...jobs import read_result
 from ...tasks import task_from_document
 from ...tasks.limbed import LimbedTask
 from ...types import Json
+from ..fault_trials import told_fault
+from .faults import BEGINS, failing_of
 from .noise import Noise, noise_of
 from .planning import replanner
 from .run_plan import ClimbRun, climbing_flaws, run_plan
@@ -42,6 +45,8 @@ class TrialSetup:
     """Whether to plan again where a hold cannot be had."""
     force: bool = False
     """Whether to carry out a plan that something speaks against."""
+    faults: tuple[str, ...] = ()
+    """Kinds of faults, one of which each trial has; none without."""
 
     def about(self) -> Json:
         """What tells these trials from others; not how many, nor from which seed on."""
@@ -52,8 +57,7 @@ class TrialSetup:
             "noise": self.noise.to_json(),
             "planner": [self.planner, self.seconds, self.replan],
             "force": self.force,
-            "release": release() | {"mujoco": version("mujoco")},
-        }
+        } | ({"faults": list(self.faults)} if self.faults else {})
 
     @property
     def title(self) -> str:
@@ -70,6 +74,7 @@ class TrialSetup:
             "noise": self.noise.to_json(),
             "planner": [self.planner, self.seconds, self.replan],
             "force": self.force,
+            "faults": list(self.faults),
             "seed": seed,
         }
 
@@ -106,15 +111,21 @@ class ClimbTrial:
     """Hooks that came off and were brought back."""
     drawn: Json
     """Deviation of each key of the noise; of pegs, of those that the plan takes."""
+    fault: Json | None = None
+    """The fault that the robot had, when it was noticed, and how that ended; None in trials without."""
 
     def to_json(self) -> Json:
         """Plain data."""
         return {name: getattr(self, name) for name in self.__slots__}
 
 
-def trial_of(told: Json) -> ClimbTrial:
-    """The trial that a worker told, or `ClimbTrial.to_json`."""
-    return ClimbTrial(**{name: told[name] for name in ClimbTrial.__slots__})
+def trial_of(told: Json, store: Path | None = None) -> ClimbTrial:
+    """The trial that a worker told, or a store has, or `ClimbTrial.to_json`.
+
+    Raises:
+        SpecError: If it is none.
+    """
+    return read_result(ClimbTrial, told, store)
 
 
 def error_trial(seed: int, error: str) -> ClimbTrial:
@@ -162,9 +173,10 @@ def climb_once(
     assert setup.plan is not None, "plan first"
     planner = replanner(setup.planner, seconds=setup.seconds, seed=PLAN_SEED, threads=1)  # others climb meanwhile
     way = PlansOnTheWay(planner, plans, [])
+    fault = draw_fault(setup.faults, seed, failing_of(setup.task, setup.plan), BEGINS) if setup.faults else None
     run = run_plan(
         setup.task, setup.plan, climbing_flaws(setup.task, setup.plant), noise=setup.noise, seed=seed,
-        force=setup.force, replan=way if setup.replan else None, progress=progress,
+        force=setup.force, replan=way if setup.replan else None, progress=progress, fault=fault,
     )  # fmt: skip
     return run, _judged(setup, seed, run, way.told), way.told
 
@@ -192,6 +204,7 @@ def _judged(setup: TrialSetup, seed: int, run: ClimbRun, told: list[Json | None]
         replans=len(report.replans),
         recovered=sum(action.recovered for action in report.actions),
         drawn=run.drawn.to_json(np.array(taken, np.int32)),
+        fault=told_fault(run.fault, report.done, report),
     )
 
 
@@ -228,6 +241,7 @@ def run_trial(item: Json) -> Json:
         seconds=seconds,
         replan=replan,
         force=item["force"],
+        faults=tuple(item["faults"]),
     )
     _, trial, plans = climb_once(setup, item["seed"])
     return trial.to_json() | {"plans": plans}

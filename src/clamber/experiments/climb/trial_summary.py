@@ -9,6 +9,7 @@ import numpy as np
 from ...execution.climb.course import Course, lay_course, names_of
 from ...types import Json
 from ...units import INCH
+from ..fault_trials import FaultRow, fault_rows
 from ..intervals import wilson_interval
 from .sensitivity import Effect, find_effects
 from .trials import Trials
@@ -111,6 +112,8 @@ class TrialSummary:
     forced: tuple[str, ...]
     """What speaks against the plan, which was carried out all the same."""
     effects: tuple[Effect, ...]
+    faults: tuple[FaultRow, ...] = ()
+    """A row for each kind of fault, and one for all; none in trials without."""
 
     @property
     def interval(self) -> tuple[float, float]:
@@ -140,6 +143,7 @@ class TrialSummary:
             "saved": self.saved,
             "forced": list(self.forced),
             "effects": [effect.to_json() for effect in self.effects],
+            "faults": [row.to_json() for row in self.faults],
         }
 
 
@@ -171,7 +175,8 @@ def sum_up(trials: Trials) -> TrialSummary:
         recovering=len(recovering),
         saved=sum(trial.done for trial in recovering),
         forced=tuple(names_of(course.objections)),
-        effects=tuple(find_effects(ended)),
+        effects=() if trials.setup.faults else tuple(find_effects(ended)),
+        faults=fault_rows(ended) if trials.setup.faults else (),
     )
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ...actions.plan import Plan
-from ...errors import ClamberError
+from ...errors import ClamberError, SpecError
 from ...execution.climb.course import lay_course
 from ...jobs import Executor, Kept, Outcome, look_into, map_items
 from ...types import Json
@@ -69,8 +69,11 @@ def stored_trial(
     """
     kept = _kept(setup, store)
     for one in () if kept is None else kept.results:
-        if one["seed"] == seed:
-            return trial_of(one), one["plans"]
+        if one.get("seed") == seed:
+            plans = one.get("plans")
+            if not isinstance(plans, list) or not all(plan is None or isinstance(plan, dict) for plan in plans):
+                raise SpecError(f"{store}: a stored result", "plans", plans, "must be a list of plans")
+            return trial_of(one, store), plans
     return None, None
 
 
@@ -122,13 +125,15 @@ def run_trials(
     assert setup.plan is not None, "plan first"
     kept = _kept(setup, store) if resume else None
     wanted = set(seeds)
-    before = [] if kept is None else [trial_of(result) for result in kept.results if result["seed"] in wanted]
+    before = (
+        [] if kept is None else [trial_of(result, store) for result in kept.results if result.get("seed") in wanted]
+    )
     trials = Trials(setup, len(seeds), before)
 
     def take(ended: int, total: int, outcome: Outcome) -> None:
         trials.wall_seconds += outcome.seconds
         if outcome.result is not None:
-            trials.ended.append(trial_of(outcome.result))
+            trials.ended.append(trial_of(outcome.result, store))
         if told is not None:
             told(trials)
 
@@ -148,7 +153,7 @@ def run_trials(
         )
         trials.wall_seconds = sum(outcome.seconds for outcome in outcomes)
         trials.ended = [
-            error_trial(seed, outcome.error or "") if outcome.result is None else trial_of(outcome.result)
+            error_trial(seed, outcome.error or "") if outcome.result is None else trial_of(outcome.result, store)
             for seed, outcome in zip(seeds, outcomes, strict=True)
         ]
     return trials

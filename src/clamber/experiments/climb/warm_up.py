@@ -45,4 +45,4 @@ def _on_the_ladder() -> LimbedTask:
 
 def _climber(task: LimbedTask) -> TracedClimber:
     plant = ClimberPlant(task.robot, task.world, named_flaws("nominal", task.robot))
-    return TracedClimber(task.robot, task.world, plant)
+    return TracedClimber(task.robot, task.world, plant, watched=True)

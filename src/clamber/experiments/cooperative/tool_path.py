@@ -12,6 +12,7 @@ from ...control.quintic import quintic_share
 from ...errors import UnitError, UnknownNameError, describe_choices
 from ...execution.log import Log, LogError
 from ...execution.log_files import read_log
+from ...regular_files import user_path
 from ...types import Floats
 from ...units import UNITS, convert, si_unit
 
@@ -101,7 +102,7 @@ def load_tool_path(name_or_file: str) -> ToolPath:
         LogError: If it is no path.
     """
     if Path(name_or_file).suffix or "/" in name_or_file:
-        return path_of(read_log(Path(name_or_file).expanduser()))
+        return path_of(read_log(user_path(name_or_file)))
     if name_or_file not in path_names():
         raise UnknownNameError("tool path", name_or_file, path_names())
     return path_of(read_log(DATA / f"{name_or_file}.csv"), name_or_file)

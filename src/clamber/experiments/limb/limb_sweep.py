@@ -8,11 +8,10 @@ from itertools import pairwise, product
 from pathlib import Path
 from typing import Any, Final
 
-from ... import __version__
 from ...control.law_settings import LAWS, LawError, LawSettings
 from ...errors import UnknownNameError
 from ...files import write_atomically
-from ...jobs import Executor, Outcome, map_items
+from ...jobs import Executor, Outcome, map_items, read_result
 from ...planning.axes import Axis, check_axes
 from ...sim.limb_flaws import LimbFlaws
 from ...types import Json
@@ -254,7 +253,7 @@ def run_limb_sweep(
     built = [bench.build_point(limb, varied) for varied in places]  # every mistake is told before anything runs
     labels = tuple(entry.label for entry in built[0][1])
     told: Json = asdict(bench) | {"start": list(bench.start), "laws": list(bench.laws)}
-    about = {"bench": told, "version": __version__}
+    about = {"bench": told}
     items: list[Json] = [about | {"varied": varied} for varied in places]
     title = f"the limb sweep over {' and '.join(axis.key for axis in axes)}"
     asked: dict[str, Any] = {"workers": workers, "executor": executor, "progress": progress}
@@ -263,7 +262,7 @@ def run_limb_sweep(
         about=about | {"axes": [axis.to_json() for axis in axes]}, **asked,
     )  # fmt: skip
     points = tuple(
-        {label: Cell(**_result(end, varied)[label]) for label in labels}
+        {label: read_result(Cell, _result(end, varied).get(label) or {}, store) for label in labels}
         for end, varied in zip(ends, places, strict=True)
     )
     scan = _scanned(axes)

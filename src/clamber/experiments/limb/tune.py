@@ -14,11 +14,10 @@ from typing import Any, Final
 
 import numpy as np
 
-from ... import __version__
 from ...control.law_settings import LAWS, LawSettings
 from ...control.recommended import Recommended
 from ...errors import ClamberError
-from ...jobs import Executor, Outcome, map_items
+from ...jobs import Executor, Outcome, map_items, read_result
 from ...sim.limb_flaws import LimbFlaws
 from ...types import Json
 from .bench_limb import BenchLimb, bench_limb
@@ -293,13 +292,13 @@ def tune(
     for name in names:
         read_law(name).record(limb.chain, flaws.period)
     about: Json = {"robot": robot or limb.robot.name, "limb": limb.name, "flaws": asdict(flaws)}
-    about |= {"start": list(limb.start), "q0": limb.q0.tolist(), "margin": margin, "version": __version__}
+    about |= {"start": list(limb.start), "q0": limb.q0.tolist(), "margin": margin}
     items: list[Json] = [about | {"law": name, "damping_time": time} for name in names for time in damping_times]
     title = f"the tuning of {limb.robot.name}'s {limb.name} limb"
     common: dict[str, Any] = {"workers": workers, "executor": executor, "progress": progress}
     ends = map_items(find_edge, items, store=store, resume=resume, about=about, title=title, **common)
     edges = {
-        name: _edges(name, [end for item, end in zip(items, ends, strict=True) if item["law"] == name])
+        name: _edges(name, [end for item, end in zip(items, ends, strict=True) if item["law"] == name], store)
         for name in names
     }
     best = {name: chosen_edge(found) for name, found in edges.items()}
@@ -336,9 +335,9 @@ def _result(law: str, end: Outcome) -> Json:
     return end.result
 
 
-def _edges(law: str, ends: Sequence[Outcome]) -> tuple[Edge, ...]:
+def _edges(law: str, ends: Sequence[Outcome], store: Path | None) -> tuple[Edge, ...]:
     told = [_result(law, end) for end in ends]
-    found = tuple(Edge(**one) for one in told if "problem" not in one)
+    found = tuple(read_result(Edge, one, store) for one in told if "problem" not in one)
     if not found:
         raise TuningError(law, told[0]["problem"], "nothing is recommended")
     return found

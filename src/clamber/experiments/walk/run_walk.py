@@ -12,7 +12,9 @@ import numpy as np
 from ...control.quickest import Gait, quickest_way
 from ...control.track import Track, through
 from ...errors import UnitError, describe_choices
-from ...execution.log_stream import growing_log
+from ...execution.fault import Fault
+from ...execution.faulty_plants import FaultyWalker
+from ...execution.log_stream import LogGap, WantedLog, growing_log
 from ...execution.run_ends import RunEndedError
 from ...execution.sequencer import Sequencer
 from ...execution.walk.course import Course, TrackCourse
@@ -54,6 +56,10 @@ class WalkRun:
     """That it took."""
     held: HeldPoint | None = None
     """Where the walk has a point to hold, and the way was laid."""
+    fault: Fault | None = None
+    """That the robot had."""
+    log_gap: LogGap | None = None
+    """What its log lacks; None: nothing, or there is none."""
 
     @property
     def done(self) -> bool:
@@ -97,6 +103,8 @@ class WalkRun:
         }
         if self.held is not None:
             told["hold"] = self.held.to_json()
+        if self.log_gap is not None:
+            told["log_gap"] = self.log_gap.to_json()
         return self.report.to_json() | told
 
 
@@ -167,7 +175,8 @@ def run_walk(
     settings: WalkSettings | None = None,
     lay: Lay | None = None,
     progress: Progress | None = None,
-    log: Path | None = None,
+    log: Path | WantedLog | None = None,
+    fault: Fault | None = None,
 ) -> WalkRun:
     """Carry a walk out.
 
@@ -180,14 +189,16 @@ def run_walk(
         lay: The course that it follows, laid where it stands; None: the walk's own way.
         progress: Told before each step.
         log: An .mcap file that grows as the robot walks (`execution.log_stream`).
+        fault: That the robot has; None: none.
 
     Raises:
-        FileError: If the log cannot be written.
+        FileError: If the log cannot be made; one that cannot be written to its end does not end the run.
     """
     began = time.perf_counter()
     walk = walk.with_seed(seed)
     drawn = noise.flaws(flaws, seed) if any(noise.widths.values()) else flaws
-    plant = TracedPlant(WalkerSim(walk.robot, walk.ground, drawn))
+    moved = WalkerSim(walk.robot, walk.ground, drawn)
+    plant = TracedPlant(moved if fault is None else FaultyWalker(moved, fault))
     how = settings
     if how is None:
         # where ground may be higher than the walker can tell, its feet stay up until they are over their next footholds
@@ -207,10 +218,11 @@ def run_walk(
     with growing_log(log, walker.samples, walker.titles, walker_notes(), TOPIC) as finish:
         report = Sequencer(walking, progress=progress).run()
         notes = report.to_json() | {"walk": walk.name, "noise": noise.to_json(), "seed": seed}
-        finish(notes)
+        gap = finish(notes)
     true = plant.trace()
     held = holds[0].as_it_was(true) if holds else None
-    return WalkRun(walk, report, walker.trace(notes), true, time.perf_counter() - began, held)
+    taken = time.perf_counter() - began
+    return WalkRun(walk, report, walker.trace(notes), true, taken, held, fault, gap)
 
 
 def stand(walker: TracedWalker, walk: Walk) -> None:

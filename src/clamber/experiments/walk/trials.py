@@ -3,22 +3,23 @@
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from importlib.metadata import version
 from pathlib import Path
 from typing import Final
 
 import numpy as np
 
 from ...actions.plan import Plan
-from ...jobs import Executor, Outcome, look_into, map_items
-from ...jobs.release import release
+from ...execution.fault import draw_fault
+from ...jobs import Executor, Outcome, look_into, map_items, read_result
 from ...tasks import task_from_document
 from ...tasks.walker import WalkerTask
 from ...tasks.walks import Walk
 from ...tasks.walks.library import walk_from_document
 from ...types import Floats, Json
 from ...units import DEGREE
+from ..fault_trials import fault_rows, told_fault
 from ..intervals import wilson_interval
+from .faults import BEGINS, failing_of
 from .noise import WalkNoise
 from .planned import lay_plan, walk_of
 from .run_walk import run_walk, walk_flaws
@@ -41,6 +42,8 @@ class WalkSetup:
     """Of a task."""
     planned: bool = False
     """Whether a planner made the plan, so that it is no part of what was asked for."""
+    faults: tuple[str, ...] = ()
+    """Kinds of faults, one of which each trial has; none without."""
 
     @property
     def name(self) -> str:
@@ -62,7 +65,7 @@ class WalkSetup:
         told = self._plain()
         if isinstance(self.walked, WalkerTask):
             told["plan"] = None if self.plan is None or self.planned else self.plan.to_json()
-        return told | {"release": release() | {"mujoco": version("mujoco")}}
+        return told
 
     def item(self, seed: int) -> Json:
         """One trial for a worker."""
@@ -72,7 +75,8 @@ class WalkSetup:
         return told | {"seed": seed}
 
     def _plain(self) -> Json:
-        return {"document": self.walked.document, "plant": list(self.plant), "noise": self.noise.to_json()}
+        told = {"document": self.walked.document, "plant": list(self.plant), "noise": self.noise.to_json()}
+        return told | ({"faults": list(self.faults)} if self.faults else {})
 
     def stored_plan(self, store: Path | None) -> Plan | None:
         """The plan that the store of these trials was begun with; None where there is none yet.
@@ -127,6 +131,8 @@ class WalkTrial:
     """Way over which the tool was to be held at a point [m]; None where the walk has none, or ended before it was laid."""
     held_error: float | None = None
     """Largest distance of the tool from that point while it was held [m]; None where the robot did not come so far."""
+    fault: Json | None = None
+    """The fault that the robot had, when it was noticed, and how that ended; None in trials without."""
 
     def to_json(self) -> Json:
         """Plain data."""
@@ -197,6 +203,7 @@ class WalkTrials:
             "level": self.level,
             "balanced_interval": list(wilson_interval(self.balanced, len(self.ended))),
             "causes": [{name: getattr(cause, name) for name in WalkCause.__slots__} for cause in self.causes()],
+            "faults": [row.to_json() for row in fault_rows(self.ended)] if self.setup.faults else [],
             "trials": [trial.to_json() for trial in self.ended],
         }
 
@@ -223,14 +230,17 @@ def run_walk_trial(item: Json) -> Json:
         walk, lay = walk_of(task), lay_plan(task, Plan.from_json(item["plan"] | {"document": item["document"]}))
     else:
         walk = walk_from_document(item["document"])
-    run = run_walk(walk, walk_flaws(walk, item["plant"]), noise=WalkNoise(item["noise"]), seed=item["seed"], lay=lay)
+    faults, seed = item.get("faults", ()), item["seed"]
+    fault = draw_fault(faults, seed, failing_of(walk.robot), BEGINS) if faults else None
+    flaws, noise = walk_flaws(walk, item["plant"]), WalkNoise(item["noise"])
+    run = run_walk(walk, flaws, noise=noise, seed=seed, lay=lay, fault=fault)
     report, margin = run.report, run.margin
     off, turned = (None, None) if report.missed is None else report.missed
     way, error = (None, None) if run.held is None else (run.held.part.way, run.held.largest)
     return WalkTrial(
         seed=item["seed"], done=run.done, reason=run.reason, seconds=report.seconds, steps=len(report.steps),
         tilt=run.tilt, margin=margin if np.isfinite(margin) else None, off=off, turned=turned, kicks=report.kicks,
-        held_way=way, held_error=error,
+        held_way=way, held_error=error, fault=told_fault(fault, run.done, report),
     ).to_json()  # fmt: skip
 
 
@@ -263,7 +273,7 @@ def run_walk_trials(
     def take(ended: int, total: int, outcome: Outcome) -> None:
         trials.wall_seconds += outcome.seconds
         if outcome.result is not None:
-            trials.ended.append(WalkTrial(**outcome.result))
+            trials.ended.append(read_result(WalkTrial, outcome.result, store))
         if told is not None:
             told(trials)
 
@@ -281,7 +291,9 @@ def run_walk_trials(
         )
         trials.wall_seconds = sum(outcome.seconds for outcome in outcomes)
         trials.ended = [
-            _error(seed, outcome.error or "") if outcome.result is None else WalkTrial(**outcome.result)
+            _error(seed, outcome.error or "")
+            if outcome.result is None
+            else read_result(WalkTrial, outcome.result, store)
             for seed, outcome in zip(seeds, outcomes, strict=True)
         ]
     return trials

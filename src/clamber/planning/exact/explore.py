@@ -15,8 +15,12 @@ from .kernels import explore_some, furthest, plant
 from .memory import BUCKETS, Memory
 from .records import EXHAUSTED, FOUND, FULL, NEAREST, NEWEST, RUNNING, SEARCH, SHORTEST
 
+FIRST_QUOTA: Final = 64
+"""Stances expanded before the first look at the clock."""
 QUOTA: Final = 20_000
-"""Stances expanded between looks at the clock."""
+"""Most stances expanded between two looks at the clock."""
+LOOK: Final = 0.2
+"""Between two looks at the clock, about [s]; a stance of some robots takes a hundred times as long as one of others."""
 FINENESS: Final = {"effort": 64, "peak": BUCKETS / 16}
 """Buckets per start stance's cost, where costs aren't whole."""
 LEAST_ACTIONS: Final = Aim()
@@ -61,6 +65,16 @@ class Exploration:
     """Check -> actions that it forbade."""
 
 
+def inform(problem: CompiledProblem, seconds: float | None) -> tuple[CompiledProblem, float | None]:
+    """The problem with its family's best bound, as far as that can be worked out in `seconds`, and what is left of them [s]."""
+    started = time.monotonic()
+
+    def left() -> float | None:
+        return None if seconds is None else max(0.0, seconds - (time.monotonic() - started))
+
+    return problem.informed(lambda: left() == 0.0), left()
+
+
 def explore(
     problem: CompiledProblem,
     *,
@@ -77,7 +91,7 @@ def explore(
     Args:
         problem: The task; `problem.informed()` has the better bound.
         most_stances: Memory: most stances kept (about 150 bytes and a key each, half as much again while memory grows).
-        seconds: Most time [s].
+        seconds: Most time [s]; the first stances are expanded whatever it is, so that the bound at the start is known.
         tell: Called now and then with stances seen and the lower bound.
         aim: What is minimized.
         dominance: Drop stances for freer ones (more goals met, fewer hangs used) reached at no more cost.
@@ -101,15 +115,21 @@ def explore(
     )  # fmt: skip
     status, interrupted = RUNNING if planted else EXHAUSTED, False
     try:
-        while status in (RUNNING, FULL) and (seconds is None or time.monotonic() - started < seconds):
+        quota, looked = FIRST_QUOTA, time.monotonic()
+        while status in (RUNNING, FULL):
             if status == FULL and not memory.grow(len(codes)):
                 break
             status = explore_some(
                 params, search, state[0], memory.nodes, memory.labels, memory.keys, memory.heads, memory.steps, memory.table, codes,
-                stances, margins, words, row, tally, QUOTA,
+                stances, margins, words, row, tally, quota,
             )  # fmt: skip
             if tell is not None and status != EXHAUSTED:  # nothing is open any more, so there is no least cost of it
                 tell(int(state["nodes"][0]), _reached(state, search))
+            before, looked = looked, time.monotonic()
+            if seconds is not None and looked - started >= seconds:
+                break
+            took = looked - before
+            quota = min(QUOTA, 2 * quota) if took < LOOK / 2 else max(FIRST_QUOTA, quota // 2) if took > LOOK else quota
     except KeyboardInterrupt:
         interrupted = True
     ways = _ways(problem, memory)

@@ -13,7 +13,7 @@ from ...tasks import Task
 from ...types import Json
 from ..progress import Exploring, Listener
 from .costs import COSTS, Aim, check_costs
-from .explore import Exploration, Way
+from .explore import Exploration, Way, inform
 from .minimize import UNDER, Minimizer
 from .planner import MOST_STANCES, exact_problem
 
@@ -101,7 +101,7 @@ def plan_front(
     """
     started = time.monotonic()
     check_costs("costs", costs, task)
-    problem = exact_problem(task, threads=threads).informed()
+    problem, seconds = inform(exact_problem(task, threads=threads), seconds)
 
     def tell(stances: int, bound: float, cost: str) -> None:
         if progress is not None:

@@ -13,7 +13,7 @@ from ...tasks import Task
 from ..progress import Exploring, Listener
 from ..result import PlanResult, Status, furthest_of
 from .costs import COSTS, check_costs, describe_order
-from .explore import Exploration
+from .explore import Exploration, inform
 from .minimize import Minimizer
 
 MOST_STANCES = 8_000_000
@@ -71,7 +71,8 @@ def plan_exact(
     def left() -> float | None:
         return None if seconds is None else max(0.0, seconds - (time.monotonic() - started))
 
-    searches = Minimizer(plain.informed(), most_stances=max_stances, seconds=seconds, tell=tell)
+    informed, granted = inform(plain, left())
+    searches = Minimizer(informed, most_stances=max_stances, seconds=granted, tell=tell)
     seen = searches.least(minimize)
     proved = seen
     if seen.exhausted:

@@ -1,13 +1,17 @@
 """Learn a macro: a sequence that a plan that works repeats, or could repeat, found, tried from several starts, and kept (thesis 2.2.2)."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
+from pydantic import Field, StrictInt
 
 from ...actions.problem import CompiledProblem, Records
 from ...actions.table import ActionTable
+from ...specs import spec
 from .evolve import Evolution, Genes
+
+Count = Annotated[int, Field(strict=True, ge=0, lt=2**62)]
 
 SHORTEST, LONGEST = 2, 24
 """Genes of a macro."""
@@ -21,20 +25,21 @@ LEAST_GAIN = 1e-3
 """Progress that every repetition must make [m]."""
 
 
-@dataclass(frozen=True, slots=True)
+@spec
 class Macro:
     """A learned module: several actions as one."""
 
-    name: str
-    codes: tuple[int, ...]
-    gain: float
+    name: Annotated[str, Field(strict=True, min_length=1, max_length=64)]
+    codes: tuple[StrictInt, ...]
+    """Packed actions; whether the task has them is asked where they meet it."""
+    gain: Annotated[float, Field(allow_inf_nan=False)]
     """Progress of the body in one go [m]."""
-    starts: int
+    starts: Count
     """Of the starts that it was tried from, in how many it worked."""
-    tried: int
-    seen: int
+    tried: Count
+    seen: Count
     """How often the plan itself has the sequence."""
-    from_start: int
+    from_start: Count
     """How often in a row it works from the task's own start."""
 
 

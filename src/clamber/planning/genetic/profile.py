@@ -33,7 +33,7 @@ class Search:
     """Share of children that are mutated."""
     mutation_inserts: StrictBool
     """Whether mutation only inserts a module; else it also replaces and removes."""
-    niching: Annotated[float, Field(ge=0.0)]
+    niching: Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
     """Fitness taken off per rank inside a niche (equal goals met, contacts and coarse x); 0 for none."""
     best_prefix: StrictBool
     """Whether a plan counts by its best prefix, and is cut there, rather than at its failure."""
@@ -65,7 +65,7 @@ class Profile:
     name: StrictStr
     title: StrictStr = ""
     search: Search
-    weights: dict[str, float]
+    weights: dict[StrictStr, Annotated[float, Field(allow_inf_nan=False)]]
     """Feature -> weight; features that a family has and the profile does not name weigh nothing."""
 
 

@@ -13,7 +13,7 @@ from ...actions.problems import first_goal_only, pose_problem
 from ...errors import PlannerError
 from ...tasks import Task
 from ..exact.costs import Aim
-from ..exact.explore import Exploration, explore
+from ..exact.explore import Exploration, explore, inform
 from ..genetic.planner import plan_genetic
 from ..genetic.profile import Profile
 from ..progress import Exploring, Listener
@@ -83,7 +83,8 @@ def _way_to_first_goal(task: Task, threads: int | None, seconds: float | None) -
     if len(task.goals) < 2:
         return ()
     near = pose_problem(first_goal_only(task), threads=threads).problem
-    seen = explore(near.informed(), most_stances=SUB_PLAN, seconds=seconds)
+    near, seconds = inform(near, seconds)
+    seen = explore(near, most_stances=SUB_PLAN, seconds=seconds)
     return (Plan.of_codes(task, seen.codes, planner="exact"),) if seen.found else ()
 
 
@@ -97,7 +98,8 @@ def _explore(
             progress(Exploring(stances, bound))
 
     aim = Aim(at_most=None if most is None else most - 1)
-    return explore(problem.informed(), most_stances=max_stances, seconds=seconds, tell=tell, aim=aim)
+    problem, seconds = inform(problem, seconds)
+    return explore(problem, most_stances=max_stances, seconds=seconds, tell=tell, aim=aim)
 
 
 def _answer(task: Task, problem: CompiledProblem, told: PlanResult, seen: Exploration, seconds: float) -> PlanResult:

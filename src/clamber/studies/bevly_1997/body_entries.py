@@ -1,6 +1,7 @@
 """What chapter 4 compares on the body: SCCT, J^T held as stiffly in every sense, joint PD and the scheme of 4.4.5."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Final
 
 from ...execution.climb.body_gains import BodyGains
@@ -11,18 +12,26 @@ from ...experiments.climb.body_stiffness import BodyMatch
 from ..result import Verdict
 
 SCCT: Final = "SCCT"
+OWN: Final = "our own control"
+BIASED: Final = f"{SCCT}, alpha {BodyGains().alpha:g}"
 JOINT_PD: Final = "joint PD"
 EARLIER: Final = "scheme of 4.4.5"
 MATCHED: Final[tuple[BodyMatch, ...]] = ("yy", "mean", "diagonal")
 """The senses of "as stiffly" that decide."""
 TABLE_4_1: Final = BodyGains(
-    kp=(100.0, 50.0, 10.0), kd=(5.0, 2.5, 0.5), mapping="thesis", limit="thesis", weight_fed=0.95
+    kp=(100.0, 50.0, 10.0), kd=(5.0, 2.5, 0.5), mapping="thesis", limit="thesis", alpha=0.0, weight_fed=0.95
 )
 """The printed gains, the printed map T, the printed limit of the hooks' accelerations."""
+OURS: Final = BodyGains()
+"""Our own control as it climbs: map, limit and gains of ours."""
+OUR_ALPHA: Final = replace(TABLE_4_1, alpha=OURS.alpha)
+"""The printed ones with an alpha of ours."""
 PLANT: Final = (
     "The plant is our simulation, not the robot: contact dynamics of MuJoCo, hooks and pegs as drawn for it (their sizes are not "
     "printed).",
     "T is the printed one with its mistakes mended (section 4.4.1: rows swapped, signs, the moment of the x forces left out).",
+    f"The limit of 4.4.2 keeps a hook's acceleration along its grab direction at alpha or more, \"some offset greater than or equal to "
+    f'zero"; its number is not printed. 0 is taken for it, without a bias; {OURS.alpha:g} m/s^2 is ours.',
 )
 
 

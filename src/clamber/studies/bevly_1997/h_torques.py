@@ -6,6 +6,7 @@ from ...planning.genetic.planner import plan_genetic
 from ...units import DEGREE, INCH, OZ_IN
 from ..result import Compared, Figure, StudyResult
 from . import PAPER
+from .printed_plans import ABOUT_1900
 from .replayed import H_START, INFERRED, limbed_task, replay_printed
 
 LIMIT = 1500.0
@@ -33,7 +34,8 @@ def compare_h_torques() -> StudyResult:
 
         draw_stance(hand.task, hand.replay, at, path)
 
-    held = by_planner < LIMIT < by_hand and checked.ok and ours.status == "found"
+    low, high = ABOUT_1900
+    held = by_planner < LIMIT and low <= by_hand < high and checked.ok and ours.status == "found"
     return StudyResult(
         paper=PAPER,
         result="h-torques",
@@ -51,6 +53,8 @@ def compare_h_torques() -> StudyResult:
         ),
         deviations=(
             *INFERRED,
+            "The verdict asks of the hand-made plan a largest torque that rounds to 1900 oz-in, of the printed planner's one below "
+            "1500, and a plan of ours below 1500.",
             "The curves of figure 2.18 are not in the text that we have; the two limits are.",
             'Our own plan comes from the profile "default", polished for length, with 1500 oz-in as the hard limit; hangs are allowed.',
         ),

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Final
 
 from ...files import Document, data_names, find_data, read_toml
+from ...regular_files import is_file, user_path
 from ...robots.library import family_of, read_robot
 from ...types import Json
 from ...worlds.library import read_ground
@@ -28,7 +29,7 @@ def is_walk(name_or_path: str) -> bool:
     path = Path(name_or_path)
     if name_or_path in walk_names():
         return True
-    return path.suffix == ".toml" and path.is_file() and read_toml(path).data.get("schema") == SCHEMA
+    return path.suffix == ".toml" and is_file(path) and read_toml(path).data.get("schema") == SCHEMA
 
 
 def load_walk(name_or_path: str, overrides: Sequence[str] = ()) -> Walk:
@@ -77,7 +78,7 @@ def _with_paths(document: Document) -> Document:
             if "through" in piece:
                 raise document.problem(f"way.{i}", "must state through or path, not both")
             inside = document.label_of(f"way.{i}.path") == document.label and document.folder is not None
-            file = Path(path).expanduser()
+            file = user_path(path)
             pieces.append(piece | {"through": read_path(document.folder / file if inside else file)})  # type: ignore[operator]
         else:
             pieces.append(piece)

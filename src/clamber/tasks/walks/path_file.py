@@ -1,21 +1,17 @@
 """Paths from a table of places: a place per line, x, y and perhaps the heading, under a line that names columns and units."""
 
-import csv
-import io
 import math
-import re
 from pathlib import Path
 from typing import Final
 
 from ...errors import FileError, UnitError, describe_choices
-from ...files import read_text
-from ...units import convert
+from ...files import csv_rows, read_text
+from ...units import convert, split_title
 
 COLUMNS: Final = {"x": "length", "y": "length", "heading": "angle"}
 """Name -> dimension; the last one may be missing."""
 MOST: Final = 10_000
 """Places of a path."""
-_TITLE: Final = re.compile(r"([a-z]+)\s*[\[(]\s*([^\])]+?)\s*[\])]\Z")
 
 
 def read_path(path: Path) -> list[dict[str, str]]:
@@ -30,7 +26,7 @@ def read_path(path: Path) -> list[dict[str, str]]:
             the error gives the line.
     """
     name, units, places = str(path), dict[str, str](), list[dict[str, str]]()
-    for line, row in enumerate(csv.reader(io.StringIO(read_text(path)), skipinitialspace=True), start=1):
+    for line, row in csv_rows(read_text(path), name):
         cells = [cell.strip() for cell in row]
         if not any(cells) or cells[0].startswith("#"):
             continue
@@ -53,15 +49,14 @@ def read_path(path: Path) -> list[dict[str, str]]:
 def _read_titles(where: str, cells: list[str]) -> dict[str, str]:
     units: dict[str, str] = {}
     for cell in cells:
-        match = _TITLE.match(cell)
-        key = match.group(1) if match else cell
+        key, unit = split_title(cell)
         if key not in COLUMNS:
             raise FileError(where, f"names the column {cell!r}", f"there are {describe_choices(key, COLUMNS)}")
-        if match is None:
+        if unit is None:
             raise FileError(where, f"names no unit of {key}", f"write '{key} [{'deg' if key == 'heading' else 'm'}]'")
         if key in units:
             raise FileError(where, f"names {key} twice", "name each column once")
-        units[key] = match.group(2)
+        units[key] = unit
         try:
             convert(1.0, units[key], COLUMNS[key])
         except UnitError as error:

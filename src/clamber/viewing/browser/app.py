@@ -22,7 +22,7 @@ from .climb_scenery import FOV, join
 from .exhibit import Exhibit, planned_exhibit, run_film, walk_exhibit
 from .ground_panel import GroundPanel
 from .inputs import by_hand, set_input
-from .own_pages import own_pages_only
+from .own_pages import Guard, UnguardedError, check_guarded, guarded
 from .playback import Playback
 from .save_panel import SavePanel
 from .scenery import Camera
@@ -87,6 +87,29 @@ def free_port(host: str, port: int) -> int:
         return int(probe.getsockname()[1])
 
 
+def guarded_server(host: str, guard: Guard) -> "viser.ViserServer":
+    """A server of pages that answers who has its token, and pages of its own.
+
+    Args:
+        host: Where it listens.
+        guard: Knows the port and the token.
+
+    Raises:
+        UnguardedError: If it would answer others; it is stopped.
+    """
+    import viser
+
+    with contextlib.redirect_stdout(io.StringIO()):  # it greets; who opens it says where it is
+        with guarded(guard):
+            server = viser.ViserServer(host=host, port=guard.port, label="Clamber", verbose=False)
+        try:
+            check_guarded(host, server.get_port(), guard)
+        except UnguardedError:
+            server.stop()
+            raise
+    return server
+
+
 class App:
     """A viewer that is open.
 
@@ -99,6 +122,7 @@ class App:
     Raises:
         MissingViserError: If its package is missing.
         PortError: If it cannot listen there.
+        UnguardedError: If its server would answer anybody.
     """
 
     def __init__(self, exhibit: Exhibit, host: str = LOOPBACK, port: int = 0, folder: Path = Path()) -> None:
@@ -106,9 +130,8 @@ class App:
         import viser
 
         chosen = free_port(host, port)
-        guard = own_pages_only(chosen) if host == LOOPBACK else contextlib.nullcontext()
-        with guard, contextlib.redirect_stdout(io.StringIO()):  # it greets; who opens it says where it is
-            self.server = viser.ViserServer(host=host, port=chosen, label="Clamber", verbose=False)
+        self.guard = Guard(chosen) if host == LOOPBACK else Guard(chosen, names=None)
+        self.server = guarded_server(host, self.guard)
         self.exhibit = exhibit
         server = self.server
         light_scene(server)
@@ -201,6 +224,11 @@ class App:
 
     @property
     def url(self) -> str:
+        """What opens the page: where it is, with the token."""
+        return f"{self.place}/?token={self.guard.token}"
+
+    @property
+    def place(self) -> str:
         """Where the page is."""
         host = self.server.get_host()
         shown = {"0.0.0.0": LOOPBACK, "::": "[::1]"}.get(host, f"[{host}]" if ":" in host else host)

@@ -124,8 +124,7 @@ def walk_exhibit(walk: Walk) -> Exhibit:
 def run_film(exhibit: Exhibit, run: ClimbRun | WalkRun) -> Film[Any]:
     """The film of what was just carried out."""
     if isinstance(run, ClimbRun):
-        pegs = run.task.world.positions() + run.drawn.pegs if run.drawn.pegs.any() else None
-        return ClimbFilm(ClimbRunView(run.task, run.trace, run.report.actions, pegs))
+        return ClimbFilm(ClimbRunView(run.task, run.trace, run.report.actions, run.true_pegs))
     walk = run.walk
     return WalkFilm(walk.robot, walk.ground, run.true, run.report.to_json(), exhibit.title, payload=walk.payload)
 

@@ -16,9 +16,10 @@ from .. import style
 from ..output import check_suffix
 from ..panel import Gauges
 from ..player import round_all
-from .app import LOOPBACK, aim_camera, check_viser, free_port, light_scene
+from .app import LOOPBACK, aim_camera, check_viser, free_port, guarded_server, light_scene
 from .exhibit import Exhibit
 from .film import Film
+from .own_pages import Guard
 from .page_script import PANEL
 from .panel_html import head_html, step_margins_html
 from .stage import STRIPS, Stage
@@ -43,10 +44,8 @@ def write_page(exhibit: Exhibit, path: Path) -> int:
     """
     check_suffix(path, SUFFIXES)
     check_viser()
-    import viser
-
-    with contextlib.redirect_stdout(io.StringIO()):  # it greets, and nobody is to come
-        server = viser.ViserServer(host=LOOPBACK, port=free_port(LOOPBACK, 0), verbose=False)
+    with contextlib.redirect_stdout(io.StringIO()):  # its last words
+        server = guarded_server(LOOPBACK, Guard(free_port(LOOPBACK, 0)))  # nobody is to come
         try:
             page = _record(server, exhibit)
         finally:

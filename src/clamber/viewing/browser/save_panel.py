@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from ...errors import ClamberError, FileError, SpecError
-from ...files import write_atomically
+from ...regular_files import is_there, write_together
 from .. import style
 from .inputs import by_hand
 from .panel_html import message_html
@@ -56,9 +56,8 @@ class SavePanel:
             raise SpecError("save", "name", name, "must be a letter and up to 47 letters, digits, '-' and '_'; no path")
         texts = {self._folder / file: text for file, text in self._files(name).items()}
         for path in texts:
-            if path.exists() and path not in self._written:  # what this page wrote it may write again
+            if is_there(path) and path not in self._written:  # what this page wrote it may write again
                 raise FileError(str(path), "is there already", "choose another name")
-        for path, text in texts.items():
-            write_atomically(path, text)
-            self._written.add(path)
+        write_together(texts)
+        self._written.update(texts)
         return list(texts)

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 from typing import Final
 
 from ...actions.plan import Plan
-from ...compiled import is_compiled
 from ...experiments.climb.planning import plan_to_climb, replanner
 from ...experiments.climb.rehearsal import Rehearsal, rehearse
 from ...experiments.climb.run_plan import ClimbRun, climbing_flaws, climbing_task, run_plan
 from ...experiments.walk.planned import careful, lay_plan, walk_of
 from ...experiments.walk.run_walk import WalkRun, run_walk, walk_flaws
+from ...kernel_cache import is_compiled
 from ...planning.planners import plan_task
 from ...planning.progress import Moment, Routing, progress_text
 from ...tasks import Task

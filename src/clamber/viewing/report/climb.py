@@ -80,7 +80,10 @@ def _facts(run: ClimbRun) -> tuple[tuple[str, str], ...]:
         ("Time", f"{report.seconds:.1f} s"),
         ("Body at the end", f"x {x:.3f} m, y {y:.3f} m, {round(theta / DEGREE, 1) + 0.0:.1f} deg"),
         ("From the goal", f"{MILLI * report.short:.0f} mm"),
-        ("Seed of the noise", str(notes.get("seed", 0)) if run.drawn.pegs.any() or _noisy(notes) else "none drawn"),
+        (
+            "Seed of the noise",
+            str(notes.get("seed", 0)) if run.true_pegs is not None or _noisy(notes) else "none drawn",
+        ),
     )
 
 

@@ -6,6 +6,7 @@ from typing import Final, Literal, TypeAlias
 
 from ...errors import FileError
 from ...files import read_text, write_atomically
+from ...regular_files import make_folder
 
 MARK: Final = "report.json"
 """Says that a folder is a report."""
@@ -21,16 +22,14 @@ def open_report(folder: Path, kind: Kind) -> None:
     """
     name = str(folder)
     try:
-        if folder.exists() and not folder.is_dir():
-            raise FileError(name, "is a file", "name a folder for the report")
-        folder.mkdir(parents=True, exist_ok=True)
+        make_folder(folder)
         mark = folder / MARK
         if not mark.is_file() and any(folder.iterdir()):
             raise FileError(
                 name, "holds files and is no report", "name a new folder, an empty one, or an earlier report"
             )
     except OSError as error:
-        raise FileError(name, f"cannot be made ({error.strerror})", "name a folder where you may write") from None
+        raise FileError(name, f"cannot be read ({error.strerror})", "name a folder where you may write") from None
     if mark.is_file() and (there := _kind_of(mark)) != kind:
         raise FileError(name, f"is a report of the kind '{there}'", f"one of '{kind}' needs a folder of its own")
     write_atomically(mark, json.dumps({"schema": SCHEMA, "kind": kind}) + "\n")

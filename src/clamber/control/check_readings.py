@@ -1,0 +1,85 @@
+r"""Which readings of sensors to believe, and which joints do not answer their motors. Kernel.
+
+A reading a is believed where :math:`|a - (x + v k T)| \le v_{max} k T`, with x and v of the last reading that was believed, k ticks of T
+ago: no joint gets farther from going on as it went than its fastest speed brings it. Others are bridged by :math:`x + v k T`.
+"""
+
+import math
+
+from ..compiled import kernel
+
+FASTEST, ANSWER, FULL, SLOW = 0, 1, 2, 3
+"""Rows of `bounds`: largest speed; change of the command that moves every joint; a command that is nearly all that there is, and the
+speed below which a joint does not follow it."""
+VALUE, SPEED, AGE, SEEN, SAME, LOW, HIGH, DRIVEN, MEAN = 0, 1, 2, 3, 4, 5, 6, 7, 8
+"""Rows of `memory`: last believed value and speed, ticks since; whether there is one; ticks without any change of the reading, least and
+largest command meanwhile; ticks of a full command that the joint does not follow; the command, smoothed."""
+BOUNDS, MEMORY = 4, 9
+"""Rows of each."""
+BELIEVED, NO_NUMBER, JUMP, NOTHING_NEW = 0, 1, 2, 3
+"""Verdicts."""
+
+
+@kernel
+def check_readings(values, speeds, commands, bounds, period, elapsed, smoothing, patience, memory, verdicts):
+    """Believe or bridge the readings of a tick.
+
+    Args:
+        values, speeds: As read, and as believed afterwards, shape (n,).
+        commands: Of the motors since the reading before, shape (n,).
+        bounds: Rows as above, shape (4, n).
+        period: Between two ticks [s].
+        elapsed: Ticks since the newest reading before; 0: there is no newer one.
+        smoothing: Part of the way to the newest command that the smoothed one goes in a tick.
+        patience: Ticks for which a joint may stay where it is, and may not follow a full command, shape (2,).
+        memory: Rows as above; changed, shape (9, n).
+        verdicts: Filled, shape (n,).
+
+    Returns:
+        Whether there is anything to look at: a reading not believed, or a joint that does not answer its motor.
+    """
+    told = False
+    for c in range(values.size):
+        a = values[c]
+        v = speeds[c]
+        x = memory[VALUE, c]
+        age = memory[AGE, c] + max(elapsed, 1)
+        ahead = age * period
+        command = commands[c]
+        memory[MEAN, c] += smoothing * (command - memory[MEAN, c])
+        verdict = BELIEVED
+        if elapsed == 0:
+            verdict = NOTHING_NEW
+        elif not math.isfinite(a):
+            verdict = NO_NUMBER
+        elif memory[SEEN, c] > 0.0 and abs(a - (x + memory[SPEED, c] * ahead)) > bounds[FASTEST, c] * ahead:
+            verdict = JUMP
+        verdicts[c] = verdict
+        if verdict != BELIEVED:
+            memory[AGE, c] = age
+            values[c] = x + memory[SPEED, c] * ahead
+            speeds[c] = memory[SPEED, c]
+            told = True
+            continue
+        if memory[SEEN, c] > 0.0 and (age > 1.0 or not math.isfinite(v)):
+            v = (a - x) / ahead  # the speed as read may be that from a reading that was not believed
+            speeds[c] = v
+        if memory[SEEN, c] > 0.0 and a == x:
+            memory[SAME, c] += age
+            memory[LOW, c] = min(memory[LOW, c], command)
+            memory[HIGH, c] = max(memory[HIGH, c], command)
+        else:
+            memory[SAME, c] = 0.0
+            memory[LOW, c] = command
+            memory[HIGH, c] = command
+        against = abs(command) >= bounds[FULL, c] and (v if command > 0.0 else -v) < bounds[SLOW, c]
+        memory[DRIVEN, c] = memory[DRIVEN, c] + age if against else 0.0
+        if memory[SAME, c] >= patience[0] and memory[HIGH, c] - memory[LOW, c] > bounds[ANSWER, c]:
+            told = True
+        if memory[DRIVEN, c] >= patience[1]:
+            told = True
+        memory[VALUE, c] = a
+        memory[SPEED, c] = min(max(v, -bounds[FASTEST, c]), bounds[FASTEST, c])
+        memory[AGE, c] = 0.0
+        memory[SEEN, c] = 1.0
+    return told

@@ -1,0 +1,160 @@
+"""Faults of a climber that no single reading shows: motors that claim to bear what weighs nothing, and tips that wander on their holds."""
+
+import math
+from collections.abc import Sequence
+from itertools import combinations
+from typing import Final
+
+import numpy as np
+
+from ...robots.limbed import LimbedRobot
+from ...types import Floats
+from ..reading_monitor import Channel, ReadingMonitor
+from .whole_body import WholeBody
+
+UNBALANCED: Final = 1.5
+"""Tips that feel a sum so far from the weight, in weights, feel what is not there: a motor does not give what it is told [-]. Climbs
+without a fault come to 0.7 of a weight while joints cross their play, and at once back again ..."""
+FOR: Final = 0.1
+"""... so for that long [s]."""
+WANDERED: Final = 0.018
+"""Two tips on their holds that have moved so far against each other since they came there are there no more, or a sensor drifts [m]: the
+play of the joints and the slots makes less than half of it."""
+LOOKED_AT: Final = 0.05
+"""Time between two looks at that [s]."""
+WANDERING: Final = 1.0
+"""A hook that slides off is told as a slip, and caught, within half of this; what lasts longer is a fault [s]."""
+
+
+def channels_of(robot: LimbedRobot) -> tuple[Channel, ...]:
+    """The encoders of a climber, limb by limb, then that of its body."""
+    motor = robot.motor
+    joints = [
+        Channel(
+            name=f"{limb.name} {name}",
+            fastest=joint.no_load_speed or motor.no_load_speed,
+            limit=joint.torque_limit or motor.torque_limit,
+        )
+        for limb in robot.limbs
+        for name, joint in (("shoulder", limb.shoulder), ("elbow", limb.elbow))
+    ]
+    # a body that hangs turns as its limb does: by both joints together at the most
+    return *joints, Channel(name="body", fastest=2.0 * max(channel.fastest for channel in joints))
+
+
+class SelfWatch:
+    """Looks at what all sensors and motors of a climber say together, tick by tick.
+
+    Args:
+        body: What knows the limbs and their tasks.
+        monitor: Whose channels they are; it ends the run.
+    """
+
+    def __init__(self, body: WholeBody, monitor: ReadingMonitor) -> None:
+        self._body, self._monitor = body, monitor
+        self._most = UNBALANCED * body.robot.weight
+        self._patience, self._every = round(FOR / body.period), max(1, round(LOOKED_AT / body.period))
+        joints = monitor.channels[: 2 * body.n]
+        self._limits = np.array([joint.limit for joint in joints])
+        self._no_load = np.array([joint.fastest for joint in joints])
+        self._pairs = list(combinations(range(body.n), 2))
+        self.reset()
+
+    def reset(self) -> None:
+        """Begin anew, as if all were well."""
+        self._unbalanced = self._ticks = 0
+        self._wandered = 0
+        self._came: dict[tuple[int, int], tuple[tuple[int, int], Floats]] = {}
+        """Pair -> its holds, and how its tips lay to each other when both had come there, by the encoders and with the play counted [m]."""
+
+    def see(self, forces: Floats, angle: float) -> None:
+        """Take in a tick.
+
+        Args:
+            forces: What the tips feel, world frame, shape (limbs, 2) [N]; infinite where they cannot tell.
+            angle: Of the body by its encoder [rad].
+
+        Raises:
+            FaultError: If a motor or a sensor has failed.
+        """
+        x = y = 0.0
+        for fx, fy in forces.tolist():
+            x += fx
+            y += fy
+        off = math.hypot(x, y + self._body.robot.weight)
+        sure = self._monitor.clear > self._patience  # accelerations that were bridged are no forces
+        too_much = sure and self._most < off < math.inf and self._gives_what_is_asked()
+        self._unbalanced = self._unbalanced + 1 if too_much else 0
+        if self._unbalanced > self._patience:
+            self._tell_motor(np.array((x, y + self._body.robot.weight)), off)
+        self._ticks += 1
+        if self._ticks % self._every == 0:
+            self._look_at_tips(angle)
+
+    def _gives_what_is_asked(self) -> bool:
+        """Whether no motor is so fast that it gives less than it is told, by its torque-speed line."""
+        torques, speeds = self._body.torques.ravel(), self._body.qd.ravel()
+        most = self._limits * (1.0 - np.sign(torques) * speeds / self._no_load)
+        return bool((np.abs(torques) <= np.maximum(most, 0.0)).all())
+
+    def _tell_motor(self, rest: Floats, off: float) -> None:
+        """Which joint's torque, were it not there, would explain most of what is felt too much."""
+        best, joint = -1.0, 0
+        for i in range(self._body.n):
+            matrix = self._body.turned_by_joints(i)
+            if abs(np.linalg.det(matrix)) < 1e-6:
+                continue
+            pushes = np.linalg.inv(matrix).T * self._body.torques[i]  # one column a joint: its part in the tip's force
+            for k in range(2):
+                size = float(np.hypot(*pushes[:, k]))
+                explained = float(pushes[:, k] @ rest) / max(size, 1e-9) if size > 0.0 else 0.0
+                if explained > best:
+                    best, joint = explained, 2 * i + k
+        self._monitor.bad.add(joint)
+        weight = self._body.robot.weight
+        why = f"motor dead or weak: the tips would bear {off / weight:.1f} weights more than there are"
+        self._monitor.fail("unbalanced", self._monitor.channels[joint].name, why)
+
+    def _look_at_tips(self, angle: float) -> None:
+        body, wandered = self._body, False
+        for pair in self._pairs:
+            a, b = pair
+            one, other = body.tasks[a], body.tasks[b]
+            if one.doing not in ("hold", "cling") or other.doing not in ("hold", "cling"):
+                self._came.pop(pair, None)
+                continue
+            shift = angle - float(body.pose[2])
+            between = np.concatenate(
+                (
+                    _turned(angle, body.tips[a] - body.tips[b]),
+                    _turned(float(body.settled[2]) + shift, body.settled_tips[a] - body.settled_tips[b]),
+                )
+            )
+            known = self._came.get(pair)
+            if known is None or known[0] != (one.hold, other.hold):
+                self._came[pair] = (one.hold, other.hold), between
+                continue
+            moved = between - known[1]
+            size = min(math.hypot(*moved[:2]), math.hypot(*moved[2:]))
+            if size > WANDERED:
+                wandered = True
+                if self._wandered * LOOKED_AT > WANDERING:
+                    self._tell_sensor(pair, moved[:2], size)
+        self._wandered = self._wandered + 1 if wandered else 0
+
+    def _tell_sensor(self, pair: Sequence[int], moved: Floats, size: float) -> None:
+        """Which sensor alone would explain the most of it: of the joints of both limbs, and of the body."""
+        body, (a, b) = self._body, pair
+        arm = _turned(float(body.pose[2]), body.tips[a] - body.tips[b])
+        ways = [(2 * i + k, body.turned_by_joints(i)[:, k]) for i in pair for k in range(2)]
+        ways.append((2 * body.n, np.array((-arm[1], arm[0]))))
+        sensor = max(ways, key=lambda way: abs(float(way[1] @ moved)) / max(float(np.hypot(*way[1])), 1e-9))[0]
+        self._monitor.bad.add(sensor)
+        names = " and ".join(f"'{body.robot.limbs[i].name}'" for i in pair)
+        why = f"sensor drifts, or a hook slides: the tips of {names} have moved {1e3 * size:.0f} mm against each other on their holds"
+        self._monitor.fail("drift", self._monitor.channels[sensor].name, why)
+
+
+def _turned(angle: float, way: Floats) -> Floats:
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array((c * way[0] - s * way[1], s * way[0] + c * way[1]))

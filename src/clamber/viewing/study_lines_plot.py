@@ -1,0 +1,74 @@
+"""Lines or points of a few curves over a common axis, a panel each group: the pictures of studies that need no more."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from matplotlib.figure import Figure
+
+from ..types import Floats
+from . import style
+from .output import CANVASES, check_suffix, save_figure
+from .style import styled
+
+ACROSS: Final = 3
+"""Most panels in one row; more come two by two."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Points:
+    """A curve."""
+
+    x: Sequence[float] | Floats
+    y: Sequence[float] | Floats
+    marked: bool = False
+    """Whether it is drawn as points without a line."""
+    dashed: bool = False
+
+
+def draw_panels(
+    panels: Mapping[str, Mapping[str, Points]], axes_labels: tuple[str, str], title: str, path: str | Path
+) -> None:
+    """Draw one panel for each group of curves, with a common scale; the same label has the same colour in all.
+
+    Args:
+        panels: Panel's title -> label -> curve.
+        axes_labels: Of the x and the y axis.
+        title: Of the picture.
+        path: A file (.png, .svg, .pdf).
+
+    Raises:
+        SuffixError: If the file's suffix names no format for still pictures.
+        FileError: If the file cannot be written.
+    """
+    check_suffix(path, CANVASES)
+    labels = list(dict.fromkeys(label for curves in panels.values() for label in curves))
+    colours = dict(zip(labels, style.PARTS, strict=False))
+    with styled():
+        columns = len(panels) if len(panels) <= ACROSS else 2
+        rows = -(-len(panels) // columns)
+        figure = Figure(figsize=(1.6 + (4.0 if columns < 3 else 3.2) * columns, 0.8 + 3.2 * rows), layout="constrained")
+        grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
+        for axes, (name, curves) in zip(grid.flat, panels.items(), strict=False):
+            for label, curve in curves.items():
+                if curve.marked:
+                    axes.scatter(curve.x, curve.y, s=18, color=colours[label], alpha=0.7, linewidths=0, label=label)
+                else:
+                    axes.plot(
+                        curve.x, curve.y, color=colours[label], lw=1.6, ls="--" if curve.dashed else "-", label=label
+                    )
+            axes.set_title(name, fontsize=9.5)
+            axes.grid(color=style.FAINT, lw=0.6)
+            style.bare(axes)
+        for axes in grid.flat[len(panels) :]:
+            axes.set_visible(False)
+        for axes in grid[-1]:
+            axes.set_xlabel(axes_labels[0])
+        for axes in grid[:, 0]:
+            axes.set_ylabel(axes_labels[1])
+        lines = {line.get_label(): line for axes in grid.flat for line in axes.get_legend_handles_labels()[0]}
+        if lines:
+            figure.legend(handles=[*lines.values()], loc="outside lower center", ncols=min(len(lines), 3), fontsize=8.5)
+        figure.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
+        save_figure(figure, path)

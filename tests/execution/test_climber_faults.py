@@ -1,0 +1,173 @@
+"""A climber with a fault: it goes on, holds its posture, stops safely or falls, and always says which fault it has noticed."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from clamber.execution.climb.climb_trace import TracedClimber
+from clamber.execution.climb.climbing import Climbing
+from clamber.execution.climb.course import lay_course
+from clamber.execution.fault import ANY, FAULTS, Fault, FaultChoiceError, draw_fault
+from clamber.execution.faulty_plants import FaultyHardware
+from clamber.execution.hardware import WiredClimber
+from clamber.execution.posture_guard import guard_of
+from clamber.execution.sequencer import Sequencer
+from clamber.execution.wiring import wiring_of
+from clamber.experiments.climb.climb_work import two_rungs
+from clamber.experiments.climb.faults import failing_of
+from clamber.experiments.climb.noise import named_noise
+from clamber.experiments.climb.plants import truth_of
+from clamber.experiments.climb.run_plan import ClimbRun, climbing_flaws, run_plan
+from clamber.experiments.fault_trials import ENDINGS, ending_of_run
+from clamber.sim.climber_plant import ClimberPlant
+from clamber.sim.wires import ClimberWires
+from tiers import first_fast
+
+FIRST = 8.0
+"""When the faults of these tests begin [s]: the robot climbs its second action."""
+JOINTS = ("right shoulder", "right elbow", "left shoulder", "left elbow", "bottom shoulder", "bottom elbow")
+
+
+def climbed(fault: Fault | None, seed: int = 1) -> ClimbRun:
+    task, plan = two_rungs()
+    return run_plan(task, plan, climbing_flaws(task, ()), noise=named_noise("usual"), seed=seed, fault=fault)
+
+
+def fault_of(kind: str, size: float, channel: int = 0, start: float = FIRST) -> Fault:
+    return Fault(kind=kind, start=start, size=size, channel=channel, where=JOINTS[channel % 6], seed=5)
+
+
+def test_a_climb_without_a_fault_notices_none() -> None:
+    run = climbed(None)
+    assert run.done, run.reason
+    assert run.report.findings == []
+    assert run.to_json()["findings"] == [] and run.to_json()["ending"] == ""
+
+
+@pytest.mark.parametrize("channel", first_fast([3, 6, 0]))
+def test_no_number_for_a_tick_is_bridged_and_the_climb_goes_on(channel: int) -> None:
+    """Once it was an input error, with no report and nothing held."""
+    run = climbed(fault_of("nan", 0.004, channel))
+    assert run.done, run.reason
+    (told,) = run.report.findings
+    assert told.kind == "no number"
+    assert told.where == (JOINTS[channel] if channel < 6 else "body")
+    assert told.time == pytest.approx(FIRST, abs=0.015)
+
+
+def test_spikes_are_not_believed_and_the_climb_goes_on() -> None:
+    """Of 20 deg in a reading of a hundred: once a fall after 1.5 s."""
+    run = climbed(fault_of("spikes", math.radians(20.0), 2))
+    assert run.done, run.reason
+    assert {(told.kind, told.where) for told in run.report.findings} == {("jump", "left shoulder")}
+
+
+@pytest.mark.parametrize(
+    ("kind", "size", "within", "told"),
+    [
+        ("nan", 9.0, 0.1, {"no number"}),
+        ("dead", 1.0, 6.0, {"unbalanced", "no answer", "overpowered"}),
+        *(
+            pytest.param(*case, marks=pytest.mark.slow)
+            for case in [
+                ("drift", 0.15, 4.0, {"drift"}),
+                ("lost", 1.0, 0.1, {"no reading"}),
+                ("late", 6.0, 0.2, {"late readings", "no reading"}),
+            ]
+        ),
+    ],
+)
+def test_what_cannot_be_bridged_ends_in_a_held_posture_and_names_the_fault(
+    kind: str, size: float, within: float, told: set[str]
+) -> None:
+    run = climbed(fault_of(kind, size, 0))
+    assert not run.done
+    assert run.reason.startswith("fault: ")
+    assert run.report.ending in ("held", "stopped safely")
+    found = run.report.findings[-1]
+    assert FIRST < found.time < FIRST + within
+    assert found.kind in told
+    if FAULTS[kind].target != "link":
+        assert found.where == "right shoulder"
+    assert run.report.true_pose is not None and run.report.true_pose[1] > 0.0  # it has not dropped
+    assert run.report.actions[-1].outcome == "fault"
+    assert run.trace.time[-1] == pytest.approx(found.time + 3.0, abs=0.05)  # what came of it is in the log, too
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("channel", [0, 1, 2])
+def test_a_stuck_sensor_is_noticed_before_its_joint_is_ten_degrees_off(channel: int) -> None:
+    """While the joint stands still nobody can tell."""
+    run = climbed(fault_of("stuck", 1.0, channel))
+    assert run.report.ending == "held", run.reason
+    found = run.report.findings[-1]
+    assert (found.where, found.time > FIRST) == (JOINTS[channel], True)
+    assert run.trace.true_angles is not None
+    angle = run.trace.true_angles.reshape(len(run.trace.time), -1)[:, channel]
+    off = np.abs(angle - angle[np.searchsorted(run.trace.time, FIRST)])[
+        (run.trace.time >= FIRST) & (run.trace.time <= found.time)
+    ]
+    assert off.max() < math.radians(10.0) + 2.0 * math.radians(2.0)  # the play on either side
+
+
+@pytest.mark.parametrize(("kind", "size"), first_fast([("repeated", 0.1), ("jitter", 0.05), ("late", 1.0)]))
+def test_a_rough_link_is_told_and_climbed_with(kind: str, size: float) -> None:
+    run = climbed(fault_of(kind, size))
+    assert run.report.ending != "fell", run.reason
+    assert run.report.findings and run.report.findings[0].time == pytest.approx(FIRST, abs=1.0)
+    assert run.report.findings[0].kind in ("no reading", "uneven ticks")
+
+
+def test_a_hold_that_breaks_is_the_told_cause() -> None:
+    task, _ = two_rungs()
+    number = next(iter(task.start.holds.values()))
+    run = climbed(Fault(kind="hold", start=1.0, size=5.0, channel=number, where=f"hold {number}"))
+    assert [one.hold for one in run.report.broken] == [number]
+    assert run.done or f"hold {number} broke" in run.reason
+
+
+@pytest.mark.slow
+@settings(max_examples=12, deadline=None)
+@given(st.integers(0, 2**31 - 1), st.floats(0.01, 12.0))
+def test_any_fault_at_any_tick_ends_in_a_report(seed: int, start: float) -> None:
+    task, plan = two_rungs()
+    fault = draw_fault([ANY], seed, failing_of(task, plan), (start, start))
+    run = climbed(fault, seed % 100)
+    assert run.done != bool(run.reason)
+    assert ending_of_run(run.done, run.report) in ENDINGS
+    assert run.to_json() is not None
+
+
+@pytest.mark.parametrize(
+    ("kind", "size", "told"),
+    first_fast([("nan", 9.0, "no number"), ("stuck", 1.0, ""), ("dead", 1.0, ""), ("lost", 1.0, "no reading")]),
+)
+def test_faults_on_the_wires_are_noticed_as_those_of_a_plant(kind: str, size: float, told: str) -> None:
+    task, plan = two_rungs()
+    flaws = climbing_flaws(task, ()).with_changes(encoder_counts=400)
+    simulated, wiring = ClimberPlant(task.robot, task.world, flaws), wiring_of(task.robot, 400)
+    guard = guard_of(task.robot, wiring, simulated.period)
+    wires = FaultyHardware(ClimberWires(simulated, wiring), fault_of(kind, size, 2, 3.0), wiring.resolution, guard)
+    plant = WiredClimber(wires, wiring)
+    climber = TracedClimber(task.robot, task.world, plant, truth=truth_of(plant), watched=True)
+    report = Sequencer(Climbing(climber, lay_course(task, plan))).run()
+    assert report.reason.startswith("fault: "), report.reason
+    assert report.findings[-1].time > 3.0
+    assert told in {finding.kind for finding in report.findings} or not told
+    assert np.isfinite(simulated.truth().pose).all() and simulated.truth().pose[1] > -0.3  # it holds
+
+
+def test_faults_are_drawn_by_their_seed_and_say_which() -> None:
+    task, plan = two_rungs()
+    failing = failing_of(task, plan)
+    assert set(failing.kinds) == set(FAULTS)
+    drawn = [draw_fault([ANY], seed, failing, (1.0, 20.0)) for seed in range(300)]
+    assert drawn == [draw_fault([ANY], seed, failing, (1.0, 20.0)) for seed in range(300)]
+    assert {fault.kind for fault in drawn} == set(FAULTS)
+    assert all(1.0 <= fault.start <= 20.0 and np.isfinite(fault.size) and fault.size > 0.0 for fault in drawn)
+    assert {fault.where for fault in drawn if fault.target == "sensor"} == {*JOINTS, "body"}
+    with pytest.raises(FaultChoiceError, match="stuck"):
+        draw_fault(["stuk"], 1, failing, (1.0, 20.0))
