@@ -1,6 +1,7 @@
 """A page of the viewer that is open in a browser, as tests drive it."""
 
 import math
+import time
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +26,15 @@ class Visit:
         page.on("console", lambda said: self.wrong.append(said.text) if said.type == "error" else None)
         page.on("pageerror", lambda error: self.wrong.append(str(error)))
         page.on("request", lambda request: self.asked.append(request.url))
+
+    def draws(self, seconds: float) -> bool:
+        """Whether the page has a picture within some time [s]."""
+        waited_from = time.monotonic()
+        while time.monotonic() - waited_from < seconds:
+            if self.page.locator("canvas[data-engine]").is_visible():
+                return True
+            self.page.wait_for_timeout(100)
+        return False
 
     def picture(self, name: str) -> bytes:
         """Keep a picture of the page, and return that of its canvas."""

@@ -1,5 +1,6 @@
 """The viewer behind its page: the clock, what is shown of a plan and its run, and work that fails without harm."""
 
+import socket
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -17,7 +18,7 @@ from clamber.tasks.limbed import LimbedTask
 from clamber.tasks.walker import WalkerTask
 from clamber.tasks.walks import Walk
 from clamber.viewing.browser import work_panel
-from clamber.viewing.browser.app import App, PortError, free_port
+from clamber.viewing.browser.app import App, PortError, check_port
 from clamber.viewing.browser.exhibit import open_exhibit
 from clamber.viewing.browser.film import Film
 from clamber.viewing.browser.run_film import ClimbFilm
@@ -175,10 +176,19 @@ def test_run_without_a_plan_is_told_of(serve: Serve) -> None:
 
 
 def test_ports_are_checked() -> None:
-    assert free_port("127.0.0.1", 0) > 0
+    check_port("127.0.0.1", 0)
     with pytest.raises(PortError, match=r"cannot listen on 192\.0\.2\.1"):
-        free_port("192.0.2.1", 0)  # of no machine
+        check_port("192.0.2.1", 0)  # of no machine
     assert issubclass(PortError, ClamberError)
+
+
+def test_a_port_that_is_taken_between_the_check_and_the_start_is_told_of(monkeypatch: pytest.MonkeyPatch) -> None:
+    """viser listens on the next one in silence, where the viewer's address does not lead."""
+    monkeypatch.setattr("clamber.viewing.browser.app.check_port", lambda host, port: None)
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        port = other.getsockname()[1]
+        with pytest.raises(PortError, match=f"port {port}: another program has just taken it"):
+            App(open_exhibit(["gap"]), port=port)
 
 
 def test_an_edited_board_is_saved_with_its_task_and_its_plan(tmp_path: Path, serve: Serve) -> None:

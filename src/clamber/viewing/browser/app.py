@@ -71,8 +71,8 @@ def check_viser() -> None:
         raise MissingViserError from None
 
 
-def free_port(host: str, port: int) -> int:
-    """The port if it is free, or with 0 one that is.
+def check_port(host: str, port: int) -> None:
+    """Makes sure that a port is free, or with 0 that there is one.
 
     Raises:
         PortError: If it cannot be listened on.
@@ -84,7 +84,6 @@ def free_port(host: str, port: int) -> int:
             probe.bind((host, port))
         except (OSError, OverflowError) as error:
             raise PortError(host, port, getattr(error, "strerror", None) or str(error)) from None
-        return int(probe.getsockname()[1])
 
 
 def guarded_server(host: str, guard: Guard) -> "viser.ViserServer":
@@ -92,9 +91,10 @@ def guarded_server(host: str, guard: Guard) -> "viser.ViserServer":
 
     Args:
         host: Where it listens.
-        guard: Knows the port and the token.
+        guard: Knows the port, or learns it where it is 0, and the token.
 
     Raises:
+        PortError: If another program has taken the port; viser would go on to the next, of which the guard knows nothing.
         UnguardedError: If it would answer others; it is stopped.
     """
     import viser
@@ -102,8 +102,13 @@ def guarded_server(host: str, guard: Guard) -> "viser.ViserServer":
     with contextlib.redirect_stdout(io.StringIO()):  # it greets; who opens it says where it is
         with guarded(guard):
             server = viser.ViserServer(host=host, port=guard.port, label="Clamber", verbose=False)
+        port = server.get_port()
+        if guard.port not in (0, port):
+            server.stop()
+            raise PortError(host, guard.port, "another program has just taken it")
+        guard.port = port
         try:
-            check_guarded(host, server.get_port(), guard)
+            check_guarded(host, port, guard)
         except UnguardedError:
             server.stop()
             raise
@@ -129,8 +134,8 @@ class App:
         check_viser()
         import viser
 
-        chosen = free_port(host, port)
-        self.guard = Guard(chosen) if host == LOOPBACK else Guard(chosen, names=None)
+        check_port(host, port)
+        self.guard = Guard(port) if host == LOOPBACK else Guard(port, names=None)
         self.server = guarded_server(host, self.guard)
         self.exhibit = exhibit
         server = self.server

@@ -32,14 +32,13 @@ class Guard:
     """What a request must bring: a token, in the address or in the cookie that the page with it sets, and of a websocket a page of ours.
 
     Args:
-        port: Of the server.
+        port: Of the server; 0 until it is known, and nothing is answered.
         names: Hosts by which pages may call it; None: any, for who has exposed it knows them.
     """
 
     def __init__(self, port: int, names: tuple[str, ...] | None = LOOPBACK_NAMES) -> None:
         self.port, self.token = port, secrets.token_urlsafe(16)
-        self._hosts = None if names is None else tuple(f"{name}:{port}" for name in names)
-        self._cookie = f"clamber-{port}"
+        self._names = names
 
     def admits(self, path: str, headers: Any) -> bool:
         """Whether a request is answered.
@@ -51,7 +50,8 @@ class Guard:
         if any(len(headers.get_all(name)) > 1 for name in ("Host", "Origin", "Upgrade", "Cookie")):
             return False
         host = headers.get("Host", "")
-        if self._hosts is not None and host not in self._hosts:  # a name of somebody's that leads to this machine
+        name, _, port = host.rpartition(":")
+        if self._names is not None and (name not in self._names or port != str(self.port)):  # a name that leads here
             return False
         if "Upgrade" in headers and headers.get("Origin") not in (f"http://{host}", f"https://{host}"):
             return False
@@ -60,7 +60,7 @@ class Guard:
     def answer(self, path: str, response: Any) -> None:
         """Have the browser bring the token from now on, where the address had it."""
         if self._is_token(self._in_path(path)):
-            response.headers["Set-Cookie"] = f"{self._cookie}={self.token}; Path=/; HttpOnly; SameSite=Strict"
+            response.headers["Set-Cookie"] = f"clamber-{self.port}={self.token}; Path=/; HttpOnly; SameSite=Strict"
         response.headers["Referrer-Policy"] = "no-referrer"
 
     def _is_token(self, said: str) -> bool:
@@ -72,7 +72,7 @@ class Guard:
     def _in_cookie(self, cookies: str) -> str:
         for cookie in cookies.split(";"):
             name, _, value = cookie.strip().partition("=")
-            if name == self._cookie:
+            if name == f"clamber-{self.port}":
                 return value
         return ""
 

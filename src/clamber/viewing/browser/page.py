@@ -16,7 +16,7 @@ from .. import style
 from ..output import check_suffix
 from ..panel import Gauges
 from ..player import round_all
-from .app import LOOPBACK, aim_camera, check_viser, free_port, guarded_server, light_scene
+from .app import LOOPBACK, aim_camera, check_viser, guarded_server, light_scene
 from .exhibit import Exhibit
 from .film import Film
 from .own_pages import Guard
@@ -45,7 +45,7 @@ def write_page(exhibit: Exhibit, path: Path) -> int:
     check_suffix(path, SUFFIXES)
     check_viser()
     with contextlib.redirect_stdout(io.StringIO()):  # its last words
-        server = guarded_server(LOOPBACK, Guard(free_port(LOOPBACK, 0)))  # nobody is to come
+        server = guarded_server(LOOPBACK, Guard(0))  # nobody is to come
         try:
             page = _record(server, exhibit)
         finally:
