@@ -19,6 +19,7 @@ from clamber.actions.limbed_problem import LimbedProblem
 from clamber.actions.loops import replay
 from clamber.actions.table import ActionTable
 from clamber.errors import StartError
+from clamber.statics.elbows import has_assignment
 from clamber.tasks.limbed import LimbedTask
 from plain.evaluator import CHECKS, Action, PlainEvaluator, PlainResult, PlainStance
 from plain.variants import random_task
@@ -87,7 +88,9 @@ class Walker:
         named = [None if h < 0 else self.numbers[h] for h in s["hold"][: self.n].tolist()]
         left = [None if h < 0 else self.numbers[h] for h in s["left"][: self.n].tolist()]
         feet = [tuple(foot) if h is None else None for foot, h in zip(s["foot"].tolist(), named, strict=False)]
-        open_now = [{b for b in (0, 1) if bits >> b & 1} for bits in s["open"][: self.n].tolist()]
+        open_now = {
+            tuple(m >> i & 1 for i in range(self.n)) for m in range(1 << self.n) if has_assignment(s["elbows"], m)
+        }
         whole = [int(s[name]) for name in ("ix", "iy", "ia", "in_use", "hangs", "stage", "laps", "count")]
         ix, iy, ia, in_use, hangs, stage, laps, count = whole
         return PlainStance(ix, iy, ia, named, left, feet, in_use, hangs, stage, laps, open_now, count)
@@ -184,10 +187,8 @@ def differing_stances(walker: Walker, after: Any, result: PlainResult) -> Iterat
             assert there is not None
             if math.dist(there, foot) > 1e-12 or got.left[i] != expected.left[i]:
                 yield f"foot {i}: kernel {there} from {got.left[i]}, plain {foot} from {expected.left[i]}"
-    if walker.task.rules.branch == "kept" and forces_agree(walker, after, result):
-        for i in expected.holders():
-            if got.open[i] != expected.open[i]:
-                yield f"open {i}: kernel {got.open[i]}, plain {expected.open[i]}"
+    if walker.task.rules.branch == "kept" and forces_agree(walker, after, result) and got.open != expected.open:
+        yield f"open: kernel {sorted(got.open)}, plain {sorted(expected.open)}"
 
 
 def forces_agree(walker: Walker, after: Any, result: PlainResult) -> bool:

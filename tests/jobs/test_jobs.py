@@ -67,14 +67,14 @@ def test_what_always_kills_its_worker_or_raises_is_an_outcome_and_harms_no_other
     assert [one.result is None for one in told] == [False, True, True, False]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("stop", [signal.SIGKILL, signal.SIGINT])
 def test_a_batch_stopped_at_several_moments_ends_with_the_same_results_and_runs_nothing_finished_again(
     tmp_path: Path, stop: signal.Signals
 ) -> None:
     store, log = tmp_path / "store.db", tmp_path / "log"
+    n, sleep = 96, 0.04  # so long that a stop reaches it on a busy machine, too
     for enough in (1, 4, 9):
-        process = start_batch(tmp_path)
+        process = start_batch(tmp_path, n, sleep)
         while process.poll() is None and sum(ran(log).values()) < enough:
             time.sleep(0.005)
         process.send_signal(stop)
@@ -82,14 +82,14 @@ def test_a_batch_stopped_at_several_moments_ends_with_the_same_results_and_runs_
         time.sleep(0.1)  # its workers leave with it
         kept = finished(store)
         before = ran(log)
-    assert 0 < kept < 16
+    assert 0 < kept < n
     with sqlite3.connect(store) as file:
         names = [row[0] for row in file.execute("SELECT json_extract(item, '$.n') FROM items")]
-    told = map_items(square, batch(tmp_path), workers=2, store=store, about=None, resume=True)
-    assert [one.result["square"] for one in told if one.result] == [n**2 for n in range(16)]
+    told = map_items(square, batch(tmp_path, n, sleep), workers=2, store=store, about=None, resume=True)
+    assert [one.result["square"] for one in told if one.result] == [k**2 for k in range(n)]
     assert [one.stored for one in told].count(True) == kept
     assert all(ran(log)[name] == before[name] for name in names), "a finished item was run again"
-    assert finished(store) == 16
+    assert finished(store) == n
 
 
 def start_batch(folder: Path, *size: object) -> "subprocess.Popen[bytes]":

@@ -3,12 +3,13 @@
 Slow and obvious on purpose. Holds go by their number, limbs by their index from 0; SI units and radians.
 """
 
+import itertools
 import math
 from dataclasses import dataclass, field
 from typing import Any
 
 from .carriers import Carrier, best_option, torques
-from .forces import NO_SPLIT_TORQUE, shared_load
+from .forces import BETTER, NO_SPLIT_TORQUE, shared_load
 from .hook import hang_margins, many_margin, pair_margins
 from .interference import FAR, clearance, contains, holder_room, interference_margins, point_to_segment, swing_clearance
 from .kinematics import (
@@ -37,6 +38,12 @@ Action = tuple[Any, ...]
 ("random", limb, u); u in [0, 1) is the random number already drawn."""
 
 
+Assignment = tuple[int, ...]
+"""A branch for each limb."""
+BENDS = ("joint", "torque", "power", "keep_out", "limb_limb", "limb_body", "limb_peg", "hook", "holder_peg")
+"""The checks that elbows change."""
+
+
 @dataclass
 class PlainStance:
     """Where the robot is and what it remembers."""
@@ -53,8 +60,8 @@ class PlainStance:
     hangs: int
     stage: int
     laps: int
-    open: list[set[int]]
-    """Branches still open per limb, read under `branch = "kept"` only."""
+    open: set[Assignment]
+    """Assignments of elbows still open, read under `branch = "kept"` only."""
     count: int
 
     def copy(self) -> "PlainStance":
@@ -69,12 +76,16 @@ class PlainStance:
             self.hangs,
             self.stage,
             self.laps,
-            [set(s) for s in self.open],
+            set(self.open),
             self.count,
         )
 
     def holders(self) -> list[int]:
         return [i for i, h in enumerate(self.hold) if h is not None]
+
+    def free_elbow(self, limb: int) -> None:
+        """The limb's elbow is bound to nothing any more."""
+        self.open = {(*one[:limb], branch, *one[limb + 1 :]) for one in self.open for branch in (0, 1)}
 
 
 @dataclass
@@ -113,8 +124,12 @@ class Judgement:
     power: float
     branches: list[int]
     forces: list[Point]
-    good: list[set[int]] = field(default_factory=list)
-    """Per limb the branches that stay open after a valid action."""
+    load: float = 0.0
+    """What the split makes least over the branches, where it does."""
+    met: bool = True
+    """Whether the split meets the cuts of ends and holds."""
+    good: set[Assignment] = field(default_factory=set)
+    """The assignments that stay open after a valid action."""
 
 
 class PlainEvaluator:
@@ -145,8 +160,8 @@ class PlainEvaluator:
         holders = [i for i, h in enumerate(hold) if h is not None]
         names = [limb.name for limb in limbs]
         in_use = names.index(start.in_use) if start.in_use else (holders[-1] if holders else None)
-        both = [{0, 1} for _ in limbs]
-        return PlainStance(0, 0, 0, hold, [None] * self.n, foot, in_use, 0, 0, 0, both, 0)
+        every = set(itertools.product((0, 1), repeat=self.n))
+        return PlainStance(0, 0, 0, hold, [None] * self.n, foot, in_use, 0, 0, 0, every, 0)
 
     def pose(self, s: PlainStance) -> Pose:
         start = self.task.start
@@ -195,7 +210,7 @@ class PlainEvaluator:
             return
         s.foot[limb] = to_body(self.pose(s), self.place(number))
         s.left[limb], s.hold[limb] = number, None
-        s.open[limb] = {0, 1}
+        s.free_elbow(limb)
         s.in_use = limb
 
     def grab(self, stance: PlainStance, action: Action) -> PlainResult:
@@ -254,7 +269,7 @@ class PlainEvaluator:
                 stance, max((self.spare(limb, pose, h, grabbing=True) for h in unheld), default=NO_CANDIDATE)
             )
         after.hold[limb], after.foot[limb], after.left[limb] = number, None, None
-        after.open[limb] = {0, 1}
+        after.free_elbow(limb)
         after.in_use = limb
         return self.settle(stance, after, number, {limb})
 
@@ -320,11 +335,11 @@ class PlainEvaluator:
         if len(after.holders()) == 1:
             swing = self.hang(after)
             after.hangs += len(before.holders()) >= 2
-        seen = self.judge(after, swing, grabbed)
+        kept = self.rules.branch == "kept" and bool(after.holders())
+        seen = self.judge_kept(after, swing, grabbed) if kept else self.judge(after, swing, grabbed)
         reason = self.why_not(seen.margins)
-        if reason is None and self.rules.branch == "kept":
-            for i in after.holders():
-                after.open[i] = seen.good[i]
+        if reason is None and kept:
+            after.open = seen.good
         return PlainResult(after, reason, seen.margins, seen.torques, seen.power, seen.branches, number, seen.forces)
 
     def hang(self, s: PlainStance) -> Swing | None:
@@ -346,7 +361,56 @@ class PlainEvaluator:
 
     # Checks
 
-    def judge(self, s: PlainStance, swing: Swing | None, grabbed: set[int]) -> Judgement:
+    def judge_kept(self, s: PlainStance, swing: Swing | None, grabbed: set[int]) -> Judgement:
+        """Each assignment by itself; check by check, those that violate a hard one drop out, or where all do, all but the best."""
+        seen: dict[Assignment, Judgement] = {}
+        bent: dict[tuple[int, ...], Judgement] = {}  # a free limb's elbow changes nothing
+        for one in sorted(s.open, key=lambda one: one[::-1]):
+            mine = tuple(one[i] for i in s.holders())
+            if mine not in bent:
+                bent[mine] = self.judge(s, swing, grabbed, one)
+            seen[one] = bent[mine]
+        left = list(seen)
+        for check in BENDS:
+            if check in self.rules.hard:
+                best = max(seen[one].margins[check] for one in left)
+                left = [one for one in left if seen[one].margins[check] >= min(best, -EPS)]
+        taken = left[0]
+        for one in left[1:]:
+            if self.is_preferred(s, seen[one], seen[taken], one, taken):
+                taken = one
+        seen[taken].good = set(left)
+        return seen[taken]
+
+    def is_preferred(self, s: PlainStance, new: Judgement, old: Judgement, one: Assignment, other: Assignment) -> bool:
+        """For less load where the split depends on elbows, else limb by limb."""
+        pose, carriers = self.pose(s), self.carriers(s, self.pose(s), [[] for _ in range(self.n)])
+        split = len(carriers) >= 3 or (len(carriers) == 2 and self.rules.force_rule != "thesis")
+        if split:
+            if new.met != old.met:
+                return new.met
+            if abs(new.load - old.load) > (1e-9 if len(carriers) == 2 else BETTER):
+                return new.load < old.load
+            if abs(new.margins["joint"] - old.margins["joint"]) > EPS:
+                return new.margins["joint"] > old.margins["joint"]
+        for i in s.holders():
+            if one[i] == other[i]:
+                continue
+            both = [option(self.robot.limbs[i], pose, self.place(s.hold[i] or 0), b) for b in (0, 1)]
+            mine = next((c for c in carriers if c.index == i), None)
+            if mine is not None and split:
+                return one[i] == 0
+            force = new.forces[i]
+            if mine is None:
+                return one[i] == best_option([(o, (0.0, 0.0)) for o in both]).branch
+            if math.isnan(force[0]):
+                return one[i] == best_option([(o, (NO_SPLIT_TORQUE, NO_SPLIT_TORQUE)) for o in both]).branch
+            return one[i] == best_option([(o, torques(mine, o, force)) for o in both]).branch
+        return False
+
+    def judge(
+        self, s: PlainStance, swing: Swing | None, grabbed: set[int], bent: Assignment | None = None
+    ) -> Judgement:
         limbs, rules, pose = self.robot.limbs, self.rules, self.pose(s)
         holders = s.holders()
         zero = [(0.0, 0.0)] * self.n
@@ -367,11 +431,11 @@ class PlainEvaluator:
                 target = to_world(pose, foot)
             tips.append(target)
             both.append([option(limb, pose, target, b) for b in (0, 1)])
-            usables.append(usable(both[i], self.allowed(s, i)))
+            usables.append(usable(both[i]) if bent is None or number is None else [both[i][bent[i]]])
 
         margins["reach"] = min(self.reach_margin(i, pose, s.hold[i] or 0, grabbing=i in grabbed) for i in holders)
         margins["joint"] = min(
-            max((o.joint_margin for o in both[i] if o.branch in self.allowed(s, i)), default=-math.pi) for i in holders
+            max(o.joint_margin for o in both[i] if bent is None or o.branch == bent[i]) for i in holders
         )
         margins["support"] = float(len(holders) - rules.min_supports)
         margins["hangs"] = FAR if rules.max_hangs == -1 else float(rules.max_hangs - s.hangs)
@@ -379,7 +443,8 @@ class PlainEvaluator:
             margins["hangs"] = -1.0
 
         carriers = self.carriers(s, pose, usables)
-        split, given = shared_load(carriers, self.task)
+        load = shared_load(carriers, self.task)
+        split, given = load.forces, load.options
         taken = [best_option([(o, (0.0, 0.0)) for o in u]) for u in usables]
         all_torques, forces = list(zero), list(zero)
         for j, c in enumerate(carriers):
@@ -406,29 +471,16 @@ class PlainEvaluator:
             margins["swing"] = min(margins["swing"], swing.radius * (rules.max_swing - abs(swing.turn)))
         own = [s.hold[i] if s.hold[i] is not None else s.left[i] for i in range(self.n)]
         margins.update(interference_margins(self.task, pose, taken, tips, own))
-        margins["hook"], in_good = self.hook(carriers, taken, 0.0 if swing is None else swing.turn)
+        margins["hook"] = self.hook(carriers, 0.0 if swing is None else swing.turn)
         held = [h for h in s.hold if h is not None]
         margins["shared"] = -1.0 if len(set(held)) < len(held) else 0.0
         xs = [c.hold.x for c in carriers]
         within = min(max(xs) - pose.x, pose.x - min(xs)) if len(xs) > 1 else 0.0
         margins["stability"] = within - rules.inside
-        room = {
-            i: {o.branch: holder_room(self.task, pose, limbs[i], o, self.holds[s.hold[i]]) for o in both[i]}
-            for i in s.holders()
-        }
-        counted = {i: s.open[i] if rules.branch == "kept" else {taken[i].branch} for i in room}
-        margins["holder_peg"] = min(max((room[i][b] for b in counted[i]), default=-FAR) for i in room)
-        if rules.hook_width == 0.0:
-            margins["holder_peg"] = FAR
-        good = self.still_open(s, both, carriers, split, in_good)
-        if "holder_peg" in rules.hard:
-            for i in room:
-                good[i] -= {branch for branch in counted[i] if room[i][branch] < -EPS}
-        return Judgement(margins, all_torques, power, [o.branch for o in taken], forces, good)
-
-    def allowed(self, s: PlainStance, limb: int) -> set[int]:
-        kept = self.rules.branch == "kept" and s.hold[limb] is not None
-        return s.open[limb] if kept else {0, 1}
+        margins["holder_peg"] = min(
+            holder_room(self.task, pose, limbs[i], taken[i], self.holds[s.hold[i] or 0]) for i in holders
+        )
+        return Judgement(margins, all_torques, power, [o.branch for o in taken], forces, load.value, load.met)
 
     def carriers(self, s: PlainStance, pose: Pose, usables: list[list[Option]]) -> list[Carrier]:
         holders = s.holders()
@@ -446,41 +498,17 @@ class PlainEvaluator:
     def load(self, c: Carrier, o: Option, split: list[Point] | None, j: int) -> tuple[float, float]:
         return (NO_SPLIT_TORQUE, NO_SPLIT_TORQUE) if split is None else torques(c, o, split[j])
 
-    def hook(self, carriers: list[Carrier], taken: list[Option], turn: float) -> tuple[float, dict[int, set[int]]]:
-        """Margin [N], and per carrier the branches that are in a good combination."""
+    def hook(self, carriers: list[Carrier], turn: float) -> float:
+        """Margin [N], of the best branches."""
         W, cone, pull = self.robot.weight, self.rules.hook_cone, self.rules.hook_pull
         if len(carriers) == 1:
-            by_branch = hang_margins(carriers[0], W, turn, cone, pull)
-            good = {b for b, margin in by_branch.items() if margin >= -EPS}
-            return max(by_branch.values()), {carriers[0].index: good}
+            return max(hang_margins(carriers[0], W, turn, cone, pull).values())
         if len(carriers) == 2:
-            by_pair = pair_margins(carriers[0], carriers[1], W, cone, pull)
-            pairs = [pair for pair, margin in by_pair.items() if margin >= -EPS]
-            return max(by_pair.values()), {c.index: {p[j] for p in pairs} for j, c in enumerate(carriers)}
-        return many_margin(carriers, [taken[c.index] for c in carriers], W, cone, pull), {}
-
-    def still_open(
-        self,
-        s: PlainStance,
-        both: list[list[Option]],
-        carriers: list[Carrier],
-        split: list[Point] | None,
-        in_good: dict[int, set[int]],
-    ) -> list[set[int]]:
-        keep = [set(branches) for branches in s.open]
-        by_limb = {c.index: (j, c) for j, c in enumerate(carriers)}
-        for i in s.holders():
-            for o in both[i]:
-                bad = o.joint_margin < -EPS
-                if i in by_limb:
-                    j, c = by_limb[i]
-                    loads = zip(self.load(c, o, split, j), c.limits, strict=True)
-                    bad = bad or any(limit - abs(t) < -EPS for t, limit in loads)
-                if "hook" in self.rules.hard and i in in_good:
-                    bad = bad or o.branch not in in_good[i]
-                if bad:
-                    keep[i].discard(o.branch)
-        return keep
+            return max(pair_margins(carriers[0], carriers[1], W, cone, pull).values())
+        return max(
+            many_margin(carriers, list(options), W, cone, pull)
+            for options in itertools.product(*(c.options for c in carriers))
+        )
 
     # Goals
 

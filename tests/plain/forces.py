@@ -6,6 +6,7 @@ squares problem; three or more are a programme in all force components. No break
 
 import itertools
 import math
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -25,6 +26,8 @@ from .carriers import (
 from .hook import BIG, EXACT, cone_cuts, force_cuts, lam_interval, pull_row
 from .kinematics import Option, Point
 
+BETTER = 1e-7
+"""By how much a split of three or more must be better for other branches to be taken, in units of the limits or of the weight."""
 NO_SPLIT_TORQUE = 1e6
 """What every joint counts when no force split exists [N m]."""
 
@@ -49,16 +52,31 @@ def thesis_split(a: Carrier, b: Carrier, robot: Any) -> list[Point] | None:
     return [(A * ax, A * ay), (B * bx, B * by)]
 
 
-def two_carrier_split(a: Carrier, b: Carrier, task: Any, norm: bool) -> tuple[list[Point] | None, list[Option]]:
+@dataclass(frozen=True)
+class Load:
+    """How carriers share the weight."""
+
+    forces: list[Point] | None
+    """Of each hold on its limb [N], world; None when no split exists."""
+    options: list[Option]
+    """The branches that go with it; none: each limb takes the one that is best for its force."""
+    value: float = 0.0
+    """What was made least over the branches."""
+    met: bool = True
+    """Whether the cuts of ends and holds are met, or not asked for."""
+
+
+def two_carrier_split(a: Carrier, b: Carrier, task: Any, norm: bool) -> Load:
     """Least torque (or least norm) over branches and lambda, within the cuts if they can be met; and the branches."""
     split = general_split(a, b, task.robot.weight)
     if split is None:
-        return None, []
+        return Load(None, [], math.inf, False)
     combos = list(itertools.product(a.options, b.options))
     windows = [
         lam_interval(force_cuts((a, b), combo, split, task.rules.hook_cone, task.rules.hook_pull)) for combo in combos
     ]
     kept = [(combo, w) for combo, w in zip(combos, windows, strict=True) if w is not None]
+    met = bool(kept)
     if not kept:
         kept = [(combo, (-BIG, BIG)) for combo in combos]
     best, best_lam, taken = math.inf, 0.0, kept[0][0]
@@ -75,7 +93,8 @@ def two_carrier_split(a: Carrier, b: Carrier, task: Any, norm: bool) -> tuple[li
         cost = sum(x * x for x in ratios) if norm else max(abs(x) for x in ratios)
         if cost < best - 1e-9:
             best, best_lam, taken = cost, lam, combo
-    return [(c[0] + best_lam * s[0], c[1] + best_lam * s[1]) for c, s in split], list(taken)
+    forces = [(c[0] + best_lam * s[0], c[1] + best_lam * s[1]) for c, s in split]
+    return Load(forces, list(taken), best, met)
 
 
 def least_norm_lam(const: list[float], slope: list[float]) -> float:
@@ -94,8 +113,10 @@ def least_largest_lam(const: list[float], slope: list[float], low: float, high: 
     return float(answer.x[0])
 
 
-def many_carrier_split(carriers: list[Carrier], options: list[Option], task: Any) -> list[Point] | None:
-    """Three or more carriers in given branches; the cuts hold if they can be met (not under `min_norm`)."""
+def many_carrier_split(
+    carriers: list[Carrier], options: list[Option], task: Any, *, within: bool
+) -> list[Point] | None:
+    """Three or more carriers in given branches, within the cuts or without them (under `min_norm` there are none)."""
     n = len(carriers)
     A_eq, b_eq = balance(carriers, task.robot.weight)
     torque = [
@@ -117,10 +138,34 @@ def many_carrier_split(carriers: list[Carrier], options: list[Option], task: Any
         for normal in normals:
             cuts.append(placed(normal, i, n))
             right.append(distance)
-    flat = least_largest_split(torque, A_eq, b_eq, cuts, right)
-    if flat is None and cuts:
-        flat = least_largest_split(torque, A_eq, b_eq, [], [])
-    return in_pairs(flat)
+    return in_pairs(least_largest_split(torque, A_eq, b_eq, cuts if within else [], right if within else []))
+
+
+def best_many_split(carriers: list[Carrier], task: Any) -> Load:
+    """Three or more carriers over all branches, those that are best at equal shares first; the cuts hold if they can be met."""
+    norm = task.rules.force_rule == "min_norm"
+    share = (0.0, task.robot.weight / len(carriers))
+    ordered = []
+    for c in carriers:
+        first = best_option([(o, torques(c, o, share)) for o in c.options])
+        ordered.append([first, *(o for o in c.options if o is not first)])
+    for cut in (True, False):
+        best = Load(None, [], math.inf, cut)
+        for combo in itertools.product(*ordered):
+            forces = many_carrier_split(carriers, list(combo), task, within=cut)
+            if forces is None:
+                continue
+            ratios = [
+                t / limit
+                for c, o, f in zip(carriers, combo, forces, strict=True)
+                for t, limit in zip(torques(c, o, f), c.limits, strict=True)
+            ]
+            value = sum(x * x for x in ratios) if norm else max(abs(x) for x in ratios)
+            if value < best.value - BETTER:
+                best = Load(forces, list(combo), value, cut)
+        if best.forces is not None or norm:
+            return best
+    return best
 
 
 def in_pairs(flat: list[float] | None) -> list[Point] | None:
@@ -157,28 +202,19 @@ def least_squares_split(torque: list[list[float]], A_eq: list[list[float]], b_eq
     return [float(x) for x in F0 + null @ z0]
 
 
-def shared_load(carriers: list[Carrier], task: Any) -> tuple[list[Point] | None, list[Option]]:
-    """Force of each hold on its limb [N], world (None when no split exists), and the branches that go with it.
-
-    No branches: each limb takes the one that is best for its force.
-    """
+def shared_load(carriers: list[Carrier], task: Any) -> Load:
+    """How the carriers share the weight, by the task's rule."""
     W = task.robot.weight
     if len(carriers) == 1:
-        return [(0.0, W)], []
+        return Load([(0.0, W)], [])
     if len(carriers) == 2:
         a, b = carriers
         if task.rules.force_rule == "thesis":
-            return thesis_split(a, b, task.robot), []
+            return Load(thesis_split(a, b, task.robot), [])
         return two_carrier_split(a, b, task, norm=task.rules.force_rule == "min_norm")
-    options = equal_share_options(carriers, W)
-    return many_carrier_split(carriers, options, task), options
+    return best_many_split(carriers, task)
 
 
 def split_forces(carriers: list[Carrier], task: Any) -> list[Point] | None:
     """Force of each hold on its limb [N], world; None when no split exists."""
-    return shared_load(carriers, task)[0]
-
-
-def equal_share_options(carriers: list[Carrier], weight: float) -> list[Option]:
-    share = (0.0, weight / len(carriers))
-    return [best_option([(o, torques(c, o, share)) for o in c.options]) for c in carriers]
+    return shared_load(carriers, task).forces

@@ -1,6 +1,7 @@
 """Distances between limbs, body, holds and keep-outs (docs/model.md, section 9)."""
 
 import cmath
+import itertools
 import math
 from typing import Any
 
@@ -148,7 +149,8 @@ def clearance(task: Any, p: Point) -> float:
 def swing_clearance(task: Any, centre: Point, radius: float, start: float, turn: float) -> float:
     """The same over the arc about `centre` from angle `start` through `turn` [rad], both ends included."""
     nearest = math.inf
-    for hold in task.world.holds:
+    ways = (turn, -turn) if abs(turn) > math.pi - 1e-9 else (turn,)  # straight above: either way
+    for hold, turn in itertools.product(task.world.holds, ways):
         dx, dy = hold.x - centre[0], hold.y - centre[1]
         for angle in (start, start + turn):
             end = (centre[0] + radius * math.cos(angle), centre[1] + radius * math.sin(angle))

@@ -103,8 +103,7 @@ def option(limb: Any, pose: Pose, target: Point, branch: int) -> Option:
     return Option(branch, t1, t2, elbow, tip, margin, phi + t1 + t2 + limb.end.angle)
 
 
-def usable(both: list[Option], allowed: set[int]) -> list[Option]:
-    """The branches that may be taken: allowed and within limits; else allowed; else both."""
-    permitted = [o for o in both if o.branch in allowed]
-    within = [o for o in permitted if o.joint_margin >= -EPS]
-    return within or permitted or both
+def usable(both: list[Option]) -> list[Option]:
+    """The branches that may be taken: those within limits, else both."""
+    within = [o for o in both if o.joint_margin >= -EPS]
+    return within or both

@@ -3,6 +3,7 @@
 import itertools
 import math
 import random
+from collections.abc import Sequence
 from types import SimpleNamespace
 from typing import Any
 
@@ -10,10 +11,10 @@ import pytest
 
 from .carriers import Carrier, torques
 from .evaluator import Action, PlainEvaluator, PlainStance
-from .forces import equal_share_options, is_push_pull, split_forces
+from .forces import is_push_pull, shared_load, split_forces
 from .hook import cone_cuts, pair_margins
 from .interference import contains, polygon_distance, swing_clearance
-from .kinematics import Point, Pose, forward, limb_length, option, port_in_world, to_world, usable, wrap
+from .kinematics import Option, Point, Pose, forward, limb_length, option, port_in_world, to_world, usable, wrap
 
 WEIGHT = 40.0  # [N]
 LIMIT = 20.0  # [N m]
@@ -105,7 +106,7 @@ def carrier_of(rng: random.Random, task: Any, pose: Pose, member: Any, index: in
     both = [option(member, pose, tip, b) for b in (0, 1)]
     r = (tip[0] - pose.x, tip[1] - pose.y)
     port = port_in_world(member, pose)
-    return Carrier(index, member, place, r, port, usable(both, {0, 1}), (LIMIT, LIMIT))
+    return Carrier(index, member, place, r, port, usable(both), (LIMIT, LIMIT))
 
 
 def assert_balanced(carriers: list[Carrier], forces: list[Point]) -> None:
@@ -342,26 +343,26 @@ def test_a_strict_grab_equals_a_release_and_a_grab() -> None:
 
 @pytest.mark.parametrize("rule", ["thesis", "min_norm"])
 @pytest.mark.parametrize("kind", ["gripper", "hook"])
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(10))
 def test_no_other_split_of_three_holds_is_better(rule: str, kind: str, seed: int) -> None:
     rng = random.Random(seed)
     task, pose, _ = pair_of(rng, rule, hook_cone=1.5)
     for member in task.robot.limbs:
         member.end.kind = kind
     carriers = [carrier_of(rng, task, pose, member, i) for i, member in enumerate(task.robot.limbs)]
-    options = equal_share_options(carriers, WEIGHT)
-    forces = split_forces(carriers, task)
+    load = shared_load(carriers, task)
+    forces = load.forces
     assert forces is not None
 
-    def cost(split: list[Point]) -> float:
+    def cost(split: list[Point], options: Sequence[Option]) -> float:
         loads = [t for c, o, f in zip(carriers, options, split, strict=True) for t in torques(c, o, f)]
         return max(map(abs, loads)) if rule == "thesis" else sum(t * t for t in loads)
 
-    def pulls(split: list[Point], slack: float) -> bool:
+    def pulls(split: list[Point], options: Sequence[Option], slack: float) -> bool:
         rows = [(f, row) for c, o, f in zip(carriers, options, split, strict=True) for row in cone_cuts(c, o, 1.5)]
         return all(row[0] * f[0] + row[1] * f[1] >= -slack for f, row in rows)
 
-    need_pull = pulls(forces, 1e-6)
+    need_pull = pulls(forces, load.options, 1e-6)
     for _ in range(2000):
         other = [list(f) for f in forces]
         for (i, a), (j, b) in itertools.combinations(enumerate(carriers), 2):  # squeezes keep the balance
@@ -371,8 +372,9 @@ def test_no_other_split_of_three_holds_is_better(rule: str, kind: str, seed: int
                 other[i][axis] += along
                 other[j][axis] -= along
         split = [(f[0], f[1]) for f in other]
-        if not need_pull or pulls(split, 0.0):
-            assert cost(split) >= cost(forces) * (1.0 - 1e-6)
+        elbows = [rng.choice(c.options) for c in carriers]
+        if not need_pull or pulls(split, elbows, 0.0):
+            assert cost(split, elbows) >= cost(forces, load.options) * (1.0 - 1e-5)
 
 
 def test_opposed_limbs_on_one_vertical_line_push_and_pull() -> None:

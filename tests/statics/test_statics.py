@@ -387,3 +387,19 @@ def crowded_grabs(problem: LimbedProblem) -> set[tuple[int, int]]:
                 if reasons[0] < 0:
                     good.add((i, h))
     return good
+
+
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_a_body_straight_above_its_hold_may_swing_either_way(side: float) -> None:
+    """Whichever way it falls, the check `swing` asks for room; a peg on one side counts as one on the other."""
+    above, task = 0.25, load_task("ladder", ["rules.hard=[]"])
+    assert isinstance(task, LimbedTask)
+    places = ((0.0, 0.0), (side * (above + 0.03), 0.0), (0.0, above + 0.2))
+    holds = tuple(Hold(number=k, x=x, y=y, radius=0.005) for k, (x, y) in enumerate(places, 1))
+    right, left, bottom = task.robot.limb_names
+    start = replace(task.start, x=0.0, y=above, theta=0.0, holds={right: 1, left: 3}, feet={bottom: (0.0, -0.1)})
+    posed = replace(task, world=Board(name="above", title="", holds=holds), start=start)
+    problem = LimbedProblem(posed, STAY, every_check=True, threads=1)
+    swung = problem.replay(np.array([pack(codes.RELEASE, 1, 0)], np.int32), go_on=True)
+    assert abs(float(swung.stances["turned"][-1])) == pytest.approx(math.pi)
+    assert swung.margins[-1, CHECKS.index("swing")] == pytest.approx(0.03 - task.rules.clearance)

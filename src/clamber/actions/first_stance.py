@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 import numpy.typing as npt
 
+from ..statics.elbows import EVERY
 from ..statics.records import STANCE, TICKS
 from ..tasks.limbed import LimbedTask
 from ..types import Json
@@ -121,7 +122,7 @@ def _stance(task: LimbedTask, holds: tuple[int, ...], ticks: tuple[int, int]) ->
     start = np.zeros(1, STANCE)
     start["hold"] = start["left"] = start["resolved"] = -1
     start["ix"], start["iy"] = ticks
-    start["open"] = 3
+    start["elbows"] = EVERY
     for i, (limb, hold) in enumerate(zip(task.robot.limbs, holds, strict=True)):
         start["hold"][0, i] = hold
         start["foot"][0, i] = task.start.feet.get(limb.name, (limb.port_x, limb.port_y))

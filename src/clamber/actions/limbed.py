@@ -4,6 +4,7 @@ import math
 
 from ..compiled import inlined, kernel
 from ..robots.kinematics import SOLUTION
+from ..statics.elbows import WORDS, free_elbow
 from ..statics.hang import hang
 from ..statics.limbed import N_CHECKS, REACH, SUPPORT, judge
 from ..statics.near import cells_about, cells_in_row
@@ -40,10 +41,11 @@ def copy_stance(n, s, t):
     t.bearing = s.bearing
     t.power = s.power
     t.torque = s.torque
+    for w in range(WORDS):
+        t.elbows[w] = s.elbows[w]
     for i in range(n):
         t.hold[i] = s.hold[i]
         t.left[i] = s.left[i]
-        t.open[i] = s.open[i]
         t.branch[i] = s.branch[i]
         for j in range(2):
             t.foot[i, j] = s.foot[i, j]
@@ -63,7 +65,7 @@ def let_go(p, s, i):
     s.foot[i, 1] = s.c * dy - s.s * dx
     s.left[i] = s.hold[i]
     s.hold[i] = -1
-    s.open[i] = 3
+    free_elbow(s.elbows, p.n_limbs, i)
     s.in_use = i
 
 
@@ -234,7 +236,7 @@ def act(p, before, code, after, margins):
     if after.hold[i] >= 0:
         after.left[i] = after.hold[i]
     after.hold[i] = h
-    after.open[i] = 3
+    free_elbow(after.elbows, p.n_limbs, i)
     after.in_use = i
     after.resolved = h
     if reason == -2:

@@ -34,6 +34,7 @@ def limbed_params(task: LimbedTask, *, every_check: bool) -> Params:
     goals = _goals(task, polygons, int(offsets[-1]))
     vertices = [vertex for polygon in polygons for vertex in polygon]
     hull = robot.outline()
+    rows = 1 << len(robot.limbs) if task.rules.branch == "kept" else 0  # margins of each assignment of elbows
     record = np.zeros(1, PARAMS)
     _fill_rules(record[0], task, grid, every_check=every_check)
     return Params(
@@ -46,7 +47,7 @@ def limbed_params(task: LimbedTask, *, every_check: bool) -> Params:
         vertices=np.array(vertices, np.float64).reshape(-1, 2),
         keep_out=offsets,
         hull=hull,
-        work=np.zeros(work_size(len(robot.limbs), len(hull)) + len(CHECKS)),
+        work=np.zeros(work_size(len(robot.limbs), len(hull)) + len(CHECKS) * (1 + rows)),
     )
 
 

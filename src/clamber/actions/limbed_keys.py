@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from ..compiled import kernel
+from ..statics.elbows import EVERY, words_of
 from ..statics.limbed import HANGS
 from ..statics.near import cells_about, cells_in_row
 from ..statics.pose import count_holders, held, place, port_of, solve
@@ -13,11 +14,16 @@ from .codes import HOLD, MOVE, RELEASE, pack_code
 from .relaxed_places import actions_left
 
 KEY_WORDS = 10
-"""Integers of a key; three more per limb where checks of interference are hard."""
+"""Integers of a key, see `key_length`."""
 RELEASES, GRABS, ANY_HOLD = 1 << 6, 1 << 7, 1 << 8
 """Bits of `allowed`: beside the six moves, releases, grabs of holds that no limb holds, grabs of those that one holds."""
 FOOT_SCALE = float(1 << 40)
 """Free feet are kept in a key to 2^-40 m."""
+
+
+def key_length(limbs: int, kept: bool, reads_feet: bool) -> int:
+    """Integers of a key: more for kept elbows of seven or eight limbs, and three more per limb where checks of interference are hard."""
+    return KEY_WORDS + (max(1, (1 << limbs) // 64) - 1 if kept else 0) + (3 * limbs if reads_feet else 0)
 
 
 @kernel
@@ -44,19 +50,19 @@ def key(p, s, words):
     idle = s.in_use + 1 if p.idle and holders >= 3 and s.in_use >= 0 and s.hold[s.in_use] >= 0 else 0
     hangs = s.hangs if p.max_hangs >= 0 else 0
     words[7] = idle | hangs << 8 | s.stage << 32
-    opened = 0
-    if p.kept:
-        for i in range(n):
-            if s.hold[i] >= 0:
-                opened |= s.open[i] << (2 * i)
-    words[8] = opened
+    words[8] = s.elbows[0] if p.kept else 0
     words[9] = s.laps
-    if words.shape[0] > KEY_WORDS:  # checks of interference are hard: they read free feet, and the holds these left
+    at = KEY_WORDS
+    if p.kept:
+        for w in range(1, words_of(n)):
+            words[at] = s.elbows[w]
+            at += 1
+    if words.shape[0] > at:  # checks of interference are hard: they read free feet, and the holds these left
         for i in range(n):
             free = s.hold[i] < 0
-            words[KEY_WORDS + 3 * i] = np.int64(round(s.foot[i, 0] * FOOT_SCALE)) if free else 0
-            words[KEY_WORDS + 3 * i + 1] = np.int64(round(s.foot[i, 1] * FOOT_SCALE)) if free else 0
-            words[KEY_WORDS + 3 * i + 2] = s.left[i] if free else -1
+            words[at + 3 * i] = np.int64(round(s.foot[i, 0] * FOOT_SCALE)) if free else 0
+            words[at + 3 * i + 1] = np.int64(round(s.foot[i, 1] * FOOT_SCALE)) if free else 0
+            words[at + 3 * i + 2] = s.left[i] if free else -1
 
 
 @kernel
@@ -78,12 +84,16 @@ def restore(p, words, s):
     place(p, s)
     if p.circles:
         s.bearing = math.atan2(s.y - p.centre_y, s.x - p.centre_x)
+    at = KEY_WORDS
+    s.elbows[0] = words[8] if p.kept else EVERY
+    for w in range(1, words_of(p.n_limbs)):
+        s.elbows[w] = words[at] if p.kept else EVERY
+        at += 1 if p.kept else 0
+    long = words.shape[0] > at
     for i in range(p.n_limbs):
-        long = words.shape[0] > KEY_WORDS
-        s.left[i] = words[KEY_WORDS + 3 * i + 2] if long else -1
-        s.open[i] = (words[8] >> (2 * i)) & 3 if p.kept and s.hold[i] >= 0 else 3
-        s.foot[i, 0] = words[KEY_WORDS + 3 * i] / FOOT_SCALE if long else 0.0
-        s.foot[i, 1] = words[KEY_WORDS + 3 * i + 1] / FOOT_SCALE if long else 0.0
+        s.left[i] = words[at + 3 * i + 2] if long else -1
+        s.foot[i, 0] = words[at + 3 * i] / FOOT_SCALE if long else 0.0
+        s.foot[i, 1] = words[at + 3 * i + 1] / FOOT_SCALE if long else 0.0
         if s.hold[i] >= 0:
             solve(p, s, i)
 

@@ -3,6 +3,7 @@
 import numpy as np
 
 from ..compiled import carray, inlined, kernel, pointer
+from ..statics.elbows import reflect_elbows
 from ..statics.pose import place
 from ..statics.records import LIMBS
 
@@ -40,11 +41,12 @@ def reflect(p, s, t):
     t.turned = 0.0
     t.bearing = 0.0
     place(p, t)
+    if p.kept:
+        reflect_elbows(s.elbows, p.n_limbs, limb_image(p), t.elbows)
     for i in range(p.n_limbs):
         j = limb_image(p)[i]
         t.hold[j] = hold_image(p)[s.hold[i]] if s.hold[i] >= 0 else -1
         t.left[j] = hold_image(p)[s.left[i]] if s.left[i] >= 0 else -1
-        t.open[j] = (s.open[i] & 1) << 1 | s.open[i] >> 1
         t.foot[j, 0] = -s.foot[i, 0]
         t.foot[j, 1] = s.foot[i, 1]
     return True

@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from ..errors import StartError
 from ..statics.checks import LIMBED_CHECKS
+from ..statics.elbows import EVERY
 from ..statics.records import PARAMS, STANCE
 from ..tasks.limbed import LimbedTask
 from .code_limits import CodeLimits
@@ -22,7 +23,7 @@ from .limbed import step
 from .limbed_arrays import CHECKS, limbed_params
 from .limbed_freer import freer
 from .limbed_goals import FEATURES, done, measure
-from .limbed_keys import KEY_WORDS, bound, candidates, cell, key, restore
+from .limbed_keys import bound, candidates, cell, key, key_length, restore
 from .limbed_map import BURDENS, aims, burden, spot
 from .limbed_mirror import reflect
 from .limbed_symmetry import mirrored_code, with_mirror
@@ -134,7 +135,7 @@ class LimbedProblem(CompiledProblem):
         """Integers of a stance's key: more where checks that read free feet are hard."""
         fenced = "keep_out" in self.task.rules.hard and bool(self.task.world.keep_out)
         reads_feet = fenced or any(name in self.task.rules.hard for name in FOOT_CHECKS)
-        return KEY_WORDS + (3 * len(self.task.robot.limbs) if reads_feet else 0)
+        return key_length(len(self.task.robot.limbs), self.task.rules.branch == "kept", reads_feet)
 
     @cached_property
     def branching(self) -> int:
@@ -239,7 +240,7 @@ def start_stance(task: LimbedTask, params: Params) -> Records:
         else:
             start["foot"][0, i] = task.start.feet[limb.name]
     start["in_use"] = last if task.start.in_use is None else names.index(task.start.in_use)
-    start["open"] = 3
+    start["elbows"] = EVERY
     start["x"], start["y"] = task.start.x, task.start.y
     start["bearing"] = params.record["centre_angle"] if params.record["circles"] else 0.0
     margins = np.zeros((1, len(CHECKS)))

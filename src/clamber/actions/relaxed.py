@@ -11,6 +11,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from ..statics.elbows import EVERY
 from ..statics.limbed import HANGS, REACH
 from ..statics.records import STANCE, TICKS
 from .params import AnyArray, Params
@@ -47,7 +48,7 @@ def with_bound(params: Params, is_late: Callable[[], bool] = lambda: False) -> P
         return params
     framed = params.extended(fields)
     scratch = np.zeros(1, STANCE)
-    scratch["hold"], scratch["open"] = -1, 3
+    scratch["hold"], scratch["elbows"] = -1, EVERY
     grips = _grips(framed, scratch, places, is_late)
     if grips is None:
         return params

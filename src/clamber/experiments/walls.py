@@ -16,6 +16,7 @@ from ..actions.problem import Records
 from ..actions.problems import pose_problem
 from ..actions.random_task import climb_data, random_task
 from ..files import write_atomically
+from ..statics.elbows import EVERY
 from ..statics.records import STANCE, TICKS
 from ..tasks import load_task
 from ..toml_text import toml_text
@@ -132,7 +133,7 @@ def sampled_stances(problem: LimbedProblem, count: int, seed: int) -> Records:
         start = np.zeros(1, STANCE)
         start["ix"], start["iy"] = cells * TICKS
         start["hold"] = start["left"] = start["resolved"] = -1
-        start["open"], start["in_use"] = 3, int(draw.integers(len(task.robot.limbs)))
+        start["elbows"], start["in_use"] = EVERY, int(draw.integers(len(task.robot.limbs)))
         for i, limb in enumerate(task.robot.limbs):
             near = tree.query_ball_point((x + limb.port_x, y + limb.port_y), limb.length)
             near = sorted(set(near) - set(start["hold"][0].tolist()))

@@ -51,17 +51,15 @@ def interval(limb, hold, solved, branch, px, py, f, with_torque):
 
 @kernel
 def pair_margin(p, s, a, b, use_a, use_b):
-    """`hook` margin of two carriers, and the branches of each that appear in some good combination (bit sets)."""
+    """`hook` margin of two carriers [N]: that of the best combination of the branches that they may use (bit sets)."""
     f = work(p)[:8]
     hold_a = holds(p)[s.hold[a]]
     hold_b = holds(p)[s.hold[b]]
     if not general_split(p.weight, hold_a.x, hold_a.y, hold_b.x, hold_b.y, s.x, f):
-        return -UNLIMITED, 0, 0
+        return -UNLIMITED
     ax, ay = port_of(limbs(p)[a], s)
     bx, by = port_of(limbs(p)[b], s)
     best = -math.inf
-    good_a = 0
-    good_b = 0
     for i in range(2):
         if not use_a & (1 << i):
             continue
@@ -70,17 +68,13 @@ def pair_margin(p, s, a, b, use_a, use_b):
             if not use_b & (1 << j):
                 continue
             lo_b, hi_b, flat_b = interval(limbs(p)[b], hold_b, s.solved[b], j, bx, by, f[4:], True)
-            margin = min(0.5 * (min(hi_a, hi_b) - max(lo_a, lo_b)), min(flat_a, flat_b))
-            best = max(best, margin)
-            if margin >= -TOLERANCE:
-                good_a |= 1 << i
-                good_b |= 1 << j
-    return best, good_a, good_b
+            best = max(best, min(0.5 * (min(hi_a, hi_b) - max(lo_a, lo_b)), min(flat_a, flat_b)))
+    return best
 
 
 @kernel
 def hang_margin(p, s, a, use):
-    """`hook` margin of the one carrier, over both ends of its turn; and its good branches."""
+    """`hook` margin of the one carrier, over both ends of its turn [N]: that of the best branch that it may use (bit set)."""
     weight = p.weight
     limb = limbs(p)[a]
     hold = holds(p)[s.hold[a]]
@@ -91,7 +85,6 @@ def hang_margin(p, s, a, use):
     if strength < math.inf:
         fixed = min(fixed, strength - weight)
     best = -math.inf
-    good = 0
     for i in range(2):
         if not use & (1 << i):
             continue
@@ -105,9 +98,7 @@ def hang_margin(p, s, a, use):
             if limb.pull > 0.0:
                 margin = min(margin, -weight * max(gy, start) - limb.pull)
         best = max(best, margin)
-        if margin >= -TOLERANCE:
-            good |= 1 << i
-    return best, good
+    return best
 
 
 @kernel
@@ -164,9 +155,11 @@ def least_norm(alpha, beta, lo, hi):
 
 @kernel
 def least_pair(p, s, a, b, use_a, use_b, norm):
-    """The split of two carriers with the least torque: branch of a, branch of b, lam; branch -1 if their holds coincide.
+    """The split of two carriers with the least torque. Exact: over every combination of the branches that they may use (bit sets).
 
-    Exact: over every combination of usable branches, within the cuts of end effectors and holds if those can be met at all.
+    Returns:
+        Branch of a (-1: their holds coincide), branch of b, lam [N], what was made least, and whether the cuts of end effectors and
+        holds are met; they are left out where no combination meets them.
     """
     f = work(p)[:8]
     alpha = work(p)[8:12]
@@ -176,12 +169,12 @@ def least_pair(p, s, a, b, use_a, use_b, norm):
     best_i = -1
     best_j = -1
     best_lam = 0.0
+    best = math.inf
     if not general_split(p.weight, hold_a.x, hold_a.y, hold_b.x, hold_b.y, s.x, f):
-        return best_i, best_j, best_lam
+        return best_i, best_j, best_lam, best, False
     ax, ay = port_of(limbs(p)[a], s)
     bx, by = port_of(limbs(p)[b], s)
     for bound in range(2):  # first within the cuts, then without
-        best = math.inf
         for i in range(2):
             if not use_a & (1 << i):
                 continue
@@ -212,8 +205,8 @@ def least_pair(p, s, a, b, use_a, use_b, norm):
                     best_j = j
                     best_lam = lam
         if best_i >= 0:
-            break
-    return best_i, best_j, best_lam
+            return best_i, best_j, best_lam, best, bound == 0
+    return best_i, best_j, best_lam, best, False
 
 
 @kernel

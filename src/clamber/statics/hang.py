@@ -8,6 +8,9 @@ from .near import arc_clearance
 from .pose import count_holders, place
 from .records import UNLIMITED, holds
 
+STRAIGHT = 1.0e-9
+"""A body that is straight above its hold to within this may swing either way [rad]."""
+
 
 @kernel
 def hang(p, s):
@@ -27,6 +30,8 @@ def hang(p, s):
     s.turned += turn
     place(p, s)
     near = arc_clearance(p, hold.x, hold.y, r, angle, turn)
+    if abs(turn) > math.pi - STRAIGHT:
+        near = min(near, arc_clearance(p, hold.x, hold.y, r, angle, -turn))
     margin = near - p.clearance if near < math.inf else UNLIMITED
     if p.max_swing < math.pi:
         margin = min(margin, r * (p.max_swing - abs(turn)))

@@ -6,7 +6,7 @@ from ..compiled import kernel
 from .distances import point_segment, polygon_polygon, segment_polygon, segment_segment
 from .near import SIGHT, cells_about, cells_in_row
 from .pose import port_of, solve, take_branch, tip_of, usable
-from .records import TOLERANCE, UNLIMITED, cells, holds, hull, keep_out, limbs, vertices, work
+from .records import UNLIMITED, cells, holds, hull, keep_out, limbs, vertices, work
 
 KEEP_OUT, LIMB_LIMB, LIMB_BODY, LIMB_PEG, HOLDER_PEG = 8, 9, 10, 11, 15
 """Places of these checks among the margins."""
@@ -15,18 +15,23 @@ BESIDE = 0.1
 
 
 @kernel
+def bend_free_limbs(p, s):
+    """Solve the limbs that hold nothing, and give each the branch that it takes."""
+    for i in range(p.n_limbs):
+        if s.hold[i] < 0:
+            solve(p, s, i)
+            s.branch[i] = take_branch(p, s, i, usable(s, i, -1), 0.0, 0.0)
+
+
+@kernel
 def interference(p, s, margins):
-    """Margins of limbs, body, holds and keep-outs against each other [m]."""
+    """Margins of limbs, body, holds and keep-outs against each other, in the branches taken [m]."""
     n = p.n_limbs
     corners = p.n_hull
     body = work(p)[64 : 64 + 2 * corners].reshape((corners, 2))
     for i in range(corners):
         body[i, 0] = s.x + s.c * hull(p)[i, 0] - s.s * hull(p)[i, 1]
         body[i, 1] = s.y + s.s * hull(p)[i, 0] + s.c * hull(p)[i, 1]
-    for i in range(n):
-        if s.hold[i] < 0:
-            solve(p, s, i)
-            s.branch[i] = take_branch(p, s, i, usable(s, i, p.kept), 0.0, 0.0)
     limb_limb = UNLIMITED
     limb_body = UNLIMITED
     limb_peg = UNLIMITED
@@ -76,28 +81,18 @@ def interference(p, s, margins):
 
 @kernel
 def holder_gap(p, s):
-    """`holder_peg` margin: how far links and hooks of holders are from other holds [m], and, two bits a limb, the branches that are clear.
+    """`holder_peg` margin: how far links and hooks of holders are from other holds, in the branches taken [m].
 
-    Under `branch = "kept"` the best of a limb's open branches counts, else the one taken. A hook needs the strip that it sweeps as it
-    comes straight onto its hold: as wide as it is, from as far ahead of the tip, along the grab direction, as it reaches, to where its
-    way begins. But for its mouth, which opens by 45 deg to either side.
+    A hook needs the strip that it sweeps as it comes straight onto its hold: as wide as it is, from as far ahead of the tip, along the
+    grab direction, as it reaches, to where its way begins. But for its mouth, which opens by 45 deg to either side.
     """
     gap = UNLIMITED
-    clear = 3 * 0x5555
     if p.hook_width == 0.0:
-        return gap, clear
+        return gap
     for i in range(p.n_limbs):
-        if s.hold[i] < 0:
-            continue
-        best = -UNLIMITED
-        for branch in range(2):
-            if (p.kept and s.open[i] & (1 << branch)) or (not p.kept and branch == s.branch[i]):
-                room = _holder_room(p, s, i, branch)
-                best = max(best, room)
-                if room < -TOLERANCE:
-                    clear &= ~(1 << (2 * i + branch))
-        gap = min(gap, best)
-    return gap, clear
+        if s.hold[i] >= 0:
+            gap = min(gap, _holder_room(p, s, i, s.branch[i]))
+    return gap
 
 
 @kernel

@@ -58,16 +58,18 @@ def count_holders(p, s):
 
 
 @inlined
-def usable(s, i, kept):
-    """Branches of limb i to choose from (bit set): those allowed and within joint limits, else those allowed, else both."""
-    allowed = s.open[i] if kept and s.hold[i] >= 0 else 3
+def usable(s, i, assignment):
+    """Branches of limb i to choose from (bit set): a holder's of the assignment of elbows, if there is one, else those within limits.
+
+    Where none is within joint limits: both.
+    """
+    if assignment >= 0 and s.hold[i] >= 0:
+        return 1 << ((assignment >> i) & 1)
     within = 0
     for branch in range(2):
-        if allowed & (1 << branch) and s.solved[i, 1 + 5 * branch] >= -TOLERANCE:
+        if s.solved[i, 1 + 5 * branch] >= -TOLERANCE:
             within |= 1 << branch
-    if within:
-        return within
-    return allowed if allowed else 3
+    return within if within else 3
 
 
 @inlined

@@ -176,9 +176,9 @@ STANCE = np.dtype(
         ("ix", "i8"),
         ("iy", "i8"),
         ("ia", "i8"),
+        ("elbows", "i8", (4,)),  # assignments still open (`statics.elbows`); read where branches are kept
         ("hold", "i4", (LIMBS,)),  # index into the holds; -1: free
         ("left", "i4", (LIMBS,)),  # the hold it held last
-        ("open", "i4", (LIMBS,)),  # branches still open, bit 0 and 1
         ("branch", "i4", (LIMBS,)),  # branch taken
         ("in_use", "i4"),
         ("hangs", "i4"),

@@ -1,38 +1,60 @@
 """How the carriers share the weight, and the torques and power that this takes (page "The model", section 7)."""
 
-from ..compiled import inlined
+import math
+
+from ..compiled import inlined, kernel
 from .forces import NO_SPLIT, general_split, thesis_split
 from .grip import least_pair
-from .many import many_least_norm, many_split
+from .many import CUT, NORM, UNCUT, best_many
 from .pose import joint_torques, take_branch, usable
 from .records import holds, limbs, work
 
 
 @inlined
-def share(p, s):
-    """Forces, branches and torques of all limbs; sets carriers, push_pull, force, torques, power and torque of the stance."""
-    n = p.n_limbs
+def find_carriers(p, s):
+    """Set the stance's carriers; returns their number, and the first two."""
     holders = 0
-    for i in range(n):
+    for i in range(p.n_limbs):
         if s.hold[i] >= 0:
             holders += 1
-    carriers = 0
+    s.carriers = 0
     a = -1
     b = -1
     k = 0
-    for i in range(n):
-        s.force[i, 0] = 0.0
-        s.force[i, 1] = 0.0
+    for i in range(p.n_limbs):
         if s.hold[i] >= 0 and not (p.idle and holders >= 3 and i == s.in_use):
-            carriers |= 1 << i
+            s.carriers |= 1 << i
             k += 1
             if a < 0:
                 a = i
             elif b < 0:
                 b = i
-    s.carriers = carriers
+    return k, a, b
+
+
+@kernel
+def share(p, s, k, a, b, assignment):
+    """Forces, branches and torques of all holders; sets push_pull, force, branch, torques, power and torque of the stance.
+
+    Args:
+        p, s: Parameters and stance, with its carriers.
+        k: Their number.
+        a, b: The first two.
+        assignment: Of the elbows that are kept; -1: each limb takes what is best.
+
+    Returns:
+        What the split makes least over branches (0 for a split that knows none), and whether the cuts of ends and holds are met, or
+        there are none to be met.
+    """
+    n = p.n_limbs
+    carriers = s.carriers
+    for i in range(n):
+        s.force[i, 0] = 0.0
+        s.force[i, 1] = 0.0
     s.push_pull = 0
     split = True
+    value = 0.0
+    met = True
     given_a = -1
     given_b = -1
     if k == 1:
@@ -54,9 +76,9 @@ def share(p, s):
             s.force[b, 1] = fby
         else:
             s.push_pull = 0 if opposed or rax * rbx < 0.0 else 1
-            use_a = usable(s, a, p.kept)
-            use_b = usable(s, b, p.kept)
-            given_a, given_b, lam = least_pair(p, s, a, b, use_a, use_b, p.force_rule == 2)
+            use_a = usable(s, a, assignment)
+            use_b = usable(s, b, assignment)
+            given_a, given_b, lam, value, met = least_pair(p, s, a, b, use_a, use_b, p.force_rule == 2)
             split = given_a >= 0
             if split:
                 f = work(p)[:8]
@@ -65,6 +87,12 @@ def share(p, s):
                 s.force[a, 1] = f[1] + lam * f[3]
                 s.force[b, 0] = f[4] + lam * f[6]
                 s.force[b, 1] = f[5] + lam * f[7]
+    elif k >= 3:
+        value = best_many(p, s, carriers, NORM if p.force_rule == 2 else CUT, assignment, s.force)
+        if value == math.inf and p.force_rule != 2:
+            met = False
+            value = best_many(p, s, carriers, UNCUT, assignment, s.force)
+        split = value < math.inf
     for i in range(n):
         if s.hold[i] < 0:
             continue
@@ -72,17 +100,8 @@ def share(p, s):
             s.branch[i] = given_a
         elif i == b and given_b >= 0:
             s.branch[i] = given_b
-        elif k >= 3 and carriers & (1 << i):
-            s.branch[i] = take_branch(p, s, i, usable(s, i, p.kept), 0.0, p.weight / k)
-        else:
-            s.branch[i] = take_branch(p, s, i, usable(s, i, p.kept), s.force[i, 0], s.force[i, 1])
-    if k >= 3:
-        if p.force_rule == 2:
-            split = many_least_norm(p, s, carriers, s.force)
-        else:
-            split, _ = many_split(p, s, carriers, 0, s.force)
-            if not split:
-                split, _ = many_split(p, s, carriers, 1, s.force)
+        elif k < 3 or not carriers & (1 << i):
+            s.branch[i] = take_branch(p, s, i, usable(s, i, assignment), s.force[i, 0], s.force[i, 1])
     worst = 0.0
     power = 0.0
     for i in range(n):
@@ -101,4 +120,4 @@ def share(p, s):
         power += t1 * t1 * limbs(p)[i].heat1 + t2 * t2 * limbs(p)[i].heat2
     s.torque = worst
     s.power = power
-    return k
+    return value, met

@@ -10,6 +10,7 @@ from ...actions.plan import Plan
 from ...actions.plan_families import plan_family
 from ...actions.planned import PlannedAction
 from ...errors import ClamberError
+from ...statics.elbows import open_branches
 from ...tasks.library import change_task
 from ...tasks.limbed import LimbedTask
 from ...types import Floats, Ints, Records
@@ -82,8 +83,11 @@ class Course:
 
         By the plan's checks, and by what hooks and motors bear: a hook that is taken from the wrong side may pull up where it is to carry.
         """
-        bit = 1 if elbow > 0 else 2
-        return all(int(self.stances[k]["open"][i]) & bit and self._bears(i, k, elbow) for k in self.stays(i, step))
+        n, bit = len(self.task.robot.limbs), 1 if elbow > 0 else 2
+        return all(
+            open_branches(self.stances[k]["elbows"], n, i) & bit and self._bears(i, k, elbow)
+            for k in self.stays(i, step)
+        )
 
     def _bears(self, i: int, step: int, elbow: int) -> bool:
         """Whether carriers would hold after a step, hardly worse than as chosen, with one limb's elbow on a side."""

@@ -10,6 +10,7 @@ from ...control.hook_forces import MOST_CUTS, pair_forces
 from ...control.swing_path import clearance
 from ...robots.hooks import HOOK_AHEAD, HOOK_WAY, HOOK_WIDTH
 from ...robots.limbed import LimbedRobot
+from ...statics.elbows import has_assignment
 from ...statics.interference import hook_gap
 from ...types import Floats, Ints, Records
 from ...worlds.board import Board
@@ -88,8 +89,10 @@ def _costs(robot: LimbedRobot, board: Board, stances: Records, states: Ints) -> 
         carriers = [i for i in held if int(stance["carriers"]) >> i & 1]
         for k, state in enumerate(states):
             q = np.zeros((limbs, 2))
+            if not has_assignment(stance["elbows"], sum(int(side) << i for i, side in enumerate(state))):
+                costs[step, k] += BARRED
             for i in held:
-                if not found[i] or not int(stance["open"][i]) >> int(state[i]) & 1:
+                if not found[i]:
                     costs[step, k] += BARRED
                     continue
                 posture = found[i][int(state[i])]

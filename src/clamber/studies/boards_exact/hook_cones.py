@@ -22,11 +22,10 @@ SHOWN: Final = (45.0, 30.0, 25.0, 20.0, 15.0, 12.0)
 """More cones for the curve [deg]."""
 MONOTONE: Final = (
     "What a cone allows, a wider one allows, too, so one boundary parts the cones. At most two legs of LIBRA carry, and the "
-    "thesis's forces do not look at the cone. Each cut of the wider cone follows from those of the narrower one, so the spread of "
-    "forces that the check asks for exists at least for the same elbows; so no elbow closes earlier in the wider cone, and the "
-    "branch taken, the one of least torque among at least the same ones, has no more torque. Reach, clearance and hangs don't "
-    "look at branches. So a plan in the narrower cone holds in the wider one, action by action. Every plan at a narrowest cone "
-    "was replayed in the cone of 90 deg, too.",
+    "thesis's forces do not look at the cone. Each cut of the wider cone follows from those of the narrower one, so whatever "
+    "sides of all elbows bear a stance in the narrower cone bear it in the wider one, and never fewer are left there. Reach, "
+    "clearance and hangs don't look at elbows. So a plan in the narrower cone holds in the wider one, action by action. Every "
+    "plan at a narrowest cone was replayed in the cone of 90 deg, too.",
 )
 """Why bisection is a proof."""
 
