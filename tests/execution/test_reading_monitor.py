@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from clamber.execution.reading_monitor import BRIDGED, FULLY_DRIVEN, UNMOVED, Channel, ReadingMonitor
+from clamber.execution.reading_monitor import BRIDGED, FULLY_DRIVEN, UNMOVED, YIELDS, Channel, ReadingMonitor
 from clamber.execution.run_ends import FaultError
 from clamber.types import Floats
 
@@ -101,11 +101,27 @@ def test_a_stuck_sensor_is_told_once_its_motor_is_driven_otherwise() -> None:
 
 def test_a_joint_that_gives_way_to_a_full_command_is_told() -> None:
     watch, ticks = ticks_to_an_end(
-        lambda k, q, qd: (q, qd), commands=lambda k: np.array((-0.95 * LIMIT * np.sign(sway(k)[1][0]), 0.0))
+        lambda k, q, qd: (q, qd),
+        commands=lambda k: np.array((-0.95 * LIMIT * np.sign(sway(k)[1][0]) * (k >= 110), 0.0)),
     )
-    assert ticks != -1
+    assert YIELDS <= (ticks + 1) * PERIOD <= 2.0 * YIELDS
     assert watch.findings[-1].kind == "overpowered"
-    assert FULLY_DRIVEN > 0.0
+
+
+def test_a_joint_that_a_full_command_does_not_move_is_told_later() -> None:
+    """Arms that hold the body against a push stand still under all of their torque for a while."""
+
+    def still(k: int, q: Floats, qd: Floats) -> tuple[Floats, Floats]:
+        return np.array((sway(100)[0][0] + 1e-4 * (k % 2), q[1])), np.array((0.0, qd[1]))
+
+    def driven(k: int) -> Floats:
+        return np.array((0.95 * LIMIT * (k >= 100), 0.0))
+
+    watch, ticks = ticks_to_an_end(still, commands=driven)
+    assert FULLY_DRIVEN <= (ticks + 1) * PERIOD <= FULLY_DRIVEN + 0.1
+    assert watch.findings[-1].kind == "overpowered"
+    _, never = ticks_to_an_end(still, commands=lambda k: driven(k) * (k * PERIOD % 1.0 < 0.4))
+    assert never == -1
 
 
 @pytest.mark.parametrize(

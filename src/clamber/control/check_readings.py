@@ -11,10 +11,11 @@ from ..compiled import kernel
 FASTEST, ANSWER, FULL, SLOW = 0, 1, 2, 3
 """Rows of `bounds`: largest speed; change of the command that moves every joint; a command that is nearly all that there is, and the
 speed below which a joint does not follow it."""
-VALUE, SPEED, AGE, SEEN, SAME, LOW, HIGH, DRIVEN, MEAN = 0, 1, 2, 3, 4, 5, 6, 7, 8
+VALUE, SPEED, AGE, SEEN, SAME, LOW, HIGH, DRIVEN, MEAN, YIELDING = 0, 1, 2, 3, 4, 5, 6, 7, 8, 9
 """Rows of `memory`: last believed value and speed, ticks since; whether there is one; ticks without any change of the reading, least and
-largest command meanwhile; ticks of a full command that the joint does not follow; the command, smoothed."""
-BOUNDS, MEMORY = 4, 9
+largest command meanwhile; ticks of a full command that the joint does not follow; the command, smoothed; ticks of a full command against
+which the joint turns."""
+BOUNDS, MEMORY = 4, 10
 """Rows of each."""
 BELIEVED, NO_NUMBER, JUMP, NOTHING_NEW = 0, 1, 2, 3
 """Verdicts."""
@@ -31,8 +32,8 @@ def check_readings(values, speeds, commands, bounds, period, elapsed, smoothing,
         period: Between two ticks [s].
         elapsed: Ticks since the newest reading before; 0: there is no newer one.
         smoothing: Part of the way to the newest command that the smoothed one goes in a tick.
-        patience: Ticks for which a joint may stay where it is, and may not follow a full command, shape (2,).
-        memory: Rows as above; changed, shape (9, n).
+        patience: Ticks for which a joint may stay where it is, may not follow a full command, and may turn against one, shape (3,).
+        memory: Rows as above; changed, shape (10, n).
         verdicts: Filled, shape (n,).
 
     Returns:
@@ -72,11 +73,13 @@ def check_readings(values, speeds, commands, bounds, period, elapsed, smoothing,
             memory[SAME, c] = 0.0
             memory[LOW, c] = command
             memory[HIGH, c] = command
-        against = abs(command) >= bounds[FULL, c] and (v if command > 0.0 else -v) < bounds[SLOW, c]
-        memory[DRIVEN, c] = memory[DRIVEN, c] + age if against else 0.0
+        along = v if command > 0.0 else -v
+        full = abs(command) >= bounds[FULL, c]
+        memory[DRIVEN, c] = memory[DRIVEN, c] + age if full and along < bounds[SLOW, c] else 0.0
+        memory[YIELDING, c] = memory[YIELDING, c] + age if full and along < -bounds[SLOW, c] else 0.0
         if memory[SAME, c] >= patience[0] and memory[HIGH, c] - memory[LOW, c] > bounds[ANSWER, c]:
             told = True
-        if memory[DRIVEN, c] >= patience[1]:
+        if memory[DRIVEN, c] >= patience[1] or memory[YIELDING, c] >= patience[2]:
             told = True
         memory[VALUE, c] = a
         memory[SPEED, c] = min(max(v, -bounds[FASTEST, c]), bounds[FASTEST, c])

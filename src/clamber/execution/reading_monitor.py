@@ -23,6 +23,7 @@ from ..control.check_readings import (
     NO_NUMBER,
     SAME,
     SLOW,
+    YIELDING,
     check_readings,
 )
 from ..types import Floats
@@ -39,8 +40,11 @@ JUDGED: Final = 0.5
 """... over about so long [s]."""
 UNMOVED: Final = 0.1
 """For so long a reading stays the same to the last count while its motor's command changes, before that is a fault [s]."""
-FULLY_DRIVEN: Final = 0.2
-"""For so long a joint does not follow a full command, before that is a fault [s]."""
+FULLY_DRIVEN: Final = 1.0
+"""For so long a joint does not follow a full command, before that is a fault [s]: arms that hold the body against the push of a third have
+been seen to do so for 0.35 s in climbs without a fault."""
+YIELDS: Final = 0.2
+"""For so long a joint turns against a full command, before that is a fault [s]."""
 ANSWERING: Final = 0.3
 """A change of command by this part of a joint's torque limit moves it by a count [-]: twice what has been seen in climbs without a fault,
 where friction of 1.3 times the file's keeps a joint still."""
@@ -83,7 +87,7 @@ class ReadingMonitor:
             self._bounds[FASTEST, k], self._bounds[SLOW, k] = channel.fastest, FOLLOWS * channel.fastest
             self._bounds[ANSWER, k], self._bounds[FULL, k] = ANSWERING * channel.limit, FULL_COMMAND * channel.limit
         self._verdicts = np.zeros(n, np.int64)
-        self._patience = np.ceil(np.array((UNMOVED, FULLY_DRIVEN)) / period)
+        self._patience = np.ceil(np.array((UNMOVED, FULLY_DRIVEN, YIELDS)) / period)
         self._smoothing = min(1.0, period / MEANT)
         self._most = max(LEAST_BRIDGED, round(BRIDGED / period))
         self._judged = JUDGED / period
@@ -216,7 +220,8 @@ class ReadingMonitor:
             change = memory[HIGH, c] - memory[LOW, c]
             why = f"its reading has not changed by a count for {memory[SAME, c] * self.period:.2f} s, its command by {change:.3g}"
             self.fail("no answer", self.channels[c].name, f"sensor stuck or motor dead: {why}")
-        for c in np.flatnonzero(believed & (memory[DRIVEN] >= self._patience[1])):
+        overcome = (memory[DRIVEN] >= self._patience[1]) | (memory[YIELDING] >= self._patience[2])
+        for c in np.flatnonzero(believed & overcome):
             self.bad.add(int(c))
             why = f"it has been driven with {self.commands[c]:.3g} for {memory[DRIVEN, c] * self.period:.2f} s and does not follow"
             self.fail("overpowered", self.channels[c].name, f"motor dead, weak or overloaded: {why}")
