@@ -4,7 +4,7 @@ import pytest
 
 from clamber.experiments.walk.most import Tried
 from clamber.studies.hoshino_1995.passing_steps import judge_steps
-from clamber.studies.hoshino_1995.plane_walks import Strayed, judge_strayed, turn_anywhere_of, walk_everywhere_of
+from clamber.studies.hoshino_1995.plane_walks import Strayed, judge_strayed, turn_anywhere, walk_everywhere
 from clamber.studies.hoshino_1995.tool_experiment import judge_following
 from clamber.studies.library import OF_ARM_AND_BODY, OF_WALKING
 
@@ -37,8 +37,8 @@ def test_the_rules_on_steps_and_on_the_tool_can_say_no() -> None:
 
 @pytest.mark.slow
 def test_a_walk_aside_and_a_turn_about_a_point_go_where_they_are_asked_to_go() -> None:
-    assert walk_everywhere_of((120,)).verdict == "holds"
-    assert turn_anywhere_of(((0.25, 0.0),)).verdict == "holds"
+    assert walk_everywhere((120,)).verdict == "holds"
+    assert turn_anywhere(((0.25, 0.0),)).verdict == "holds"
 
 
 EXPECTED = {"walk-directions": "holds", "turn-about-points": "holds", "tool-experiment": "holds"}

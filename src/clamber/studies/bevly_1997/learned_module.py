@@ -68,16 +68,11 @@ def judge_modules_alone(ladder: bool, modified: bool | None, by_actions: bool) -
 
 def learn_to_climb() -> StudyResult:
     """A module learned on the ladder, and plans of a ladder three times as tall with it and without."""
-    return learn_to_climb_of(SEEDS)
-
-
-def learn_to_climb_of(seeds: range) -> StudyResult:
-    """The same for chosen seeds."""
     profile, ladder = load_profile("thesis"), limbed_task("ladder")
     lesson = learn_macros(ladder, seeds=LESSONS, profile=profile, max_evaluations=BUDGET)
     tall = limbed_task("ladder", TALL)
     plain, helped = (
-        run_trials(tall, varied(profile, {"polish": 0}), seeds, max_evaluations=BUDGET, macros=macros)
+        run_trials(tall, varied(profile, {"polish": 0}), SEEDS, max_evaluations=BUDGET, macros=macros)
         for macros in ((), lesson.macros)
     )
     pairs = list(zip(plain.evaluations, helped.evaluations, strict=True))
@@ -90,7 +85,7 @@ def learn_to_climb_of(seeds: range) -> StudyResult:
         result="learned-module",
         claim='Section 2.2.2: a repeated sequence can be one module of a higher level, "climb up one step"; the planner can learn it, and '
         "with it in the inventory the search is smaller.",
-        verdict=judge_learning(met, saved, len(seeds)),
+        verdict=judge_learning(met, saved, len(SEEDS)),
         compared=(
             Compared("the module learned on the ladder: actions", None if macro is None else len(macro.codes)),
             Compared("rungs that it climbs in one go", None if macro is None else macro.gain / (RUNG * INCH)),
@@ -104,11 +99,11 @@ def learn_to_climb_of(seeds: range) -> StudyResult:
                 None if macro is None else alone["tall"],
             ),
             Compared("evaluated plans until it was learned", lesson.evaluations),
-            Compared(f"ladder three times as tall: seeds of {len(seeds)} that find a plan without it", plain.found),
-            Compared(f"ladder three times as tall: seeds of {len(seeds)} that find a plan with it", helped.found),
+            Compared(f"ladder three times as tall: seeds of {len(SEEDS)} that find a plan without it", plain.found),
+            Compared(f"ladder three times as tall: seeds of {len(SEEDS)} that find a plan with it", helped.found),
             Compared("evaluations without it, median", _finite(median_or_nothing(plain.evaluations))),
             Compared("evaluations with it, median", _finite(median_or_nothing(helped.evaluations))),
-            Compared(f"seeds of {len(seeds)} in which it saves evaluations", saved),
+            Compared(f"seeds of {len(SEEDS)} in which it saves evaluations", saved),
         ),
         deviations=(
             *INFERRED,
@@ -121,10 +116,10 @@ def learn_to_climb_of(seeds: range) -> StudyResult:
             "A module names pegs by how near they are. At a ladder's top, where there are none above, others are the nearest, so that it "
             "stops there, however far it has climbed.",
         ),
-        seeds=seeds,
+        seeds=SEEDS,
         table=Table(
             ("seed", "evaluations without the module", "evaluations with it"),
-            tuple((seed, a, b) for seed, (a, b) in zip(seeds, pairs, strict=True)),
+            tuple((seed, a, b) for seed, (a, b) in zip(SEEDS, pairs, strict=True)),
         ),
     )
 

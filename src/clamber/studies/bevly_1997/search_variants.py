@@ -79,22 +79,17 @@ def judge_subgoals(counts: Sequence[tuple[int, int]], seeds: int) -> Verdict:
 
 def compare_crossovers() -> StudyResult:
     """Tail crossover beside one-point and two-point crossover, all else as the thesis has it, on every task."""
-    return compare_crossovers_of(CROSSED, TASKS)
-
-
-def compare_crossovers_of(seeds: range, tasks: tuple[str, ...]) -> StudyResult:
-    """The same for chosen seeds and tasks."""
     profile = load_profile("thesis")
     told: dict[tuple[str, str], Trials] = {}
     for kind in ("tail", *RIVALS):
-        for name in tasks:
+        for name in TASKS:
             search = varied(profile, {"crossover": kind})
-            told[kind, name] = run_trials(limbed_task(name), search, seeds, max_evaluations=BUDGET)
-    duels = {rival: [fight(told["tail", name], told[rival, name]) for name in tasks] for rival in RIVALS}
+            told[kind, name] = run_trials(limbed_task(name), search, CROSSED, max_evaluations=BUDGET)
+    duels = {rival: [fight(told["tail", name], told[rival, name]) for name in TASKS] for rival in RIVALS}
     rows: list[tuple[Value, ...]] = []
     for (kind, name), trials in told.items():
-        won, lost = (None, None) if kind == "tail" else duels[kind][tasks.index(name)]
-        rows.append((name, kind, trials.found, len(seeds), _median(trials), won, lost))
+        won, lost = (None, None) if kind == "tail" else duels[kind][TASKS.index(name)]
+        rows.append((name, kind, trials.found, len(CROSSED), _median(trials), won, lost))
     return StudyResult(
         paper=PAPER,
         result="tail-crossover",
@@ -103,15 +98,15 @@ def compare_crossovers_of(seeds: range, tasks: tuple[str, ...]) -> StudyResult:
         compared=(
             *(
                 Compared(
-                    f"{kind.replace('_', '-')} crossover: seeds that find a plan, all tasks, of {len(seeds) * len(tasks)}",
-                    sum(told[kind, name].found for name in tasks),
+                    f"{kind.replace('_', '-')} crossover: seeds that find a plan, all tasks, of {len(CROSSED) * len(TASKS)}",
+                    sum(told[kind, name].found for name in TASKS),
                 )
                 for kind in ("tail", *RIVALS)
             ),
             *(
                 Compared(f"tail against {rival.replace('_', '-')}: seeds won / lost, {name}", f"{won} / {lost}")
                 for rival in RIVALS
-                for name, (won, lost) in zip(tasks, duels[rival], strict=True)
+                for name, (won, lost) in zip(TASKS, duels[rival], strict=True)
             ),
             *(
                 Compared(
@@ -132,7 +127,7 @@ def compare_crossovers_of(seeds: range, tasks: tuple[str, ...]) -> StudyResult:
             "were run.",
             "The profile's spread of cut points was chosen for tail crossover, on other seeds; the rivals have no such setting.",
         ),
-        seeds=seeds,
+        seeds=CROSSED,
         table=Table(
             ("task", "crossover", "found", "seeds", "evaluations, median", "lost to tail", "won against tail"),
             tuple(rows),
@@ -142,26 +137,21 @@ def compare_crossovers_of(seeds: range, tasks: tuple[str, ...]) -> StudyResult:
 
 def compare_subgoals() -> StudyResult:
     """The search with the sub-goals of H, across and circle, and with the goal alone."""
-    return compare_subgoals_of(SEEDS, WITH_SUBGOALS)
-
-
-def compare_subgoals_of(seeds: range, tasks: tuple[str, ...]) -> StudyResult:
-    """The same for chosen seeds and tasks."""
     profile = load_profile("thesis")
     rows: list[tuple[Value, ...]] = []
     counts: list[tuple[int, int]] = []
-    for name in tasks:
+    for name in WITH_SUBGOALS:
         guided, alone = (
-            run_trials(limbed_task(name), varied(profile, {"subgoals": given}), seeds, max_evaluations=BUDGET)
+            run_trials(limbed_task(name), varied(profile, {"subgoals": given}), SEEDS, max_evaluations=BUDGET)
             for given in (True, False)
         )
         counts.append((guided.found, alone.found))
-        rows.append((name, len(seeds), guided.found, _median(guided), alone.found, _median(alone)))
+        rows.append((name, len(SEEDS), guided.found, _median(guided), alone.found, _median(alone)))
     return StudyResult(
         paper=PAPER,
         result="sub-goals",
         claim="Section 2.2.2: in some tasks sub-goals are necessary for success, as the search hardly goes back and looks ahead little.",
-        verdict=judge_subgoals(counts, len(seeds)),
+        verdict=judge_subgoals(counts, len(SEEDS)),
         compared=tuple(
             Compared(f"{row[0]}: seeds of {row[1]} that find a plan {words}", row[k])
             for row in rows
@@ -175,7 +165,7 @@ def compare_subgoals_of(seeds: range, tasks: tuple[str, ...]) -> StudyResult:
             f"without; differs if on no task clearly fewer find one without (Fisher's exact test, one-sided, {CLEAR:g}); open in between: "
             "they help, but the search does without. The rule was fixed before the seeds were run.",
         ),
-        seeds=seeds,
+        seeds=SEEDS,
         table=Table(
             ("task", "seeds", "found with", "evaluations with, median", "found without", "evaluations without, median"),
             tuple(rows),

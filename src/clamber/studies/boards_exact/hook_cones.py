@@ -89,17 +89,12 @@ def compare_hooks() -> StudyResult:
 
 def narrow_cones() -> StudyResult:
     """The narrowest cone of each board."""
-    return narrow_cones_of(BOARDS, SHOWN)
-
-
-def narrow_cones_of(boards: tuple[str, ...], shown: tuple[float, ...]) -> StudyResult:
-    """The same for chosen boards, with more cones for the curve."""
-    bisected = run_all(bisect_item, [{"board": board} for board in boards])
+    bisected = run_all(bisect_item, [{"board": board} for board in BOARDS])
     tried = {
         board: {degrees: proof_of(proof) for degrees, proof in told["tried"]}
-        for board, told in zip(boards, bisected, strict=True)
+        for board, told in zip(BOARDS, bisected, strict=True)
     }
-    more = [(board, degrees) for board in boards for degrees in (*CONES[1:], *shown) if degrees not in tried[board]]
+    more = [(board, degrees) for board in BOARDS for degrees in (*CONES[1:], *SHOWN) if degrees not in tried[board]]
     for (board, degrees), proof in zip(
         more, prove_all([{"name": board, "overrides": hooked(degrees)} for board, degrees in more]), strict=True
     ):

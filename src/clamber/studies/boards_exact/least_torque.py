@@ -13,20 +13,15 @@ from .torque_front import NUDGE, limit
 
 def find_least_torques() -> StudyResult:
     """Least torques of the five boards, the start fixed and free."""
-    return find_least_torques_of(BOARDS)
-
-
-def find_least_torques_of(boards: tuple[str, ...]) -> StudyResult:
-    """The same for chosen boards."""
-    fixed = prove_all([{"name": board, "overrides": MODEL, "minimize": ("torque", "length")} for board in boards])
-    calms = [calm_of(told) for told in run_all(calmest_item, [{"board": board} for board in boards])]
+    fixed = prove_all([{"name": board, "overrides": MODEL, "minimize": ("torque", "length")} for board in BOARDS])
+    calms = [calm_of(told) for told in run_all(calmest_item, [{"board": board} for board in BOARDS])]
     items: list[Json] = [
         {"name": board, "overrides": (*calm.proof.overrides, limit(calm.proof.torque or 0.0, nudge))}
-        for board, calm in zip(boards, calms, strict=True)
+        for board, calm in zip(BOARDS, calms, strict=True)
         for nudge in (NUDGE, -NUDGE)
     ]
     sides = prove_all(items)
-    rows = [_row(board, fixed[k], calms[k], *sides[2 * k : 2 * k + 2]) for k, board in enumerate(boards)]
+    rows = [_row(board, fixed[k], calms[k], *sides[2 * k : 2 * k + 2]) for k, board in enumerate(BOARDS)]
     held = all(proof.feasible == (k % 2 == 0) for k, proof in enumerate(sides)) and all(
         proof.valid for proof in (*fixed, *(calm.proof for calm in calms))
     )

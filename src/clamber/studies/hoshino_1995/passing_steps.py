@@ -33,22 +33,17 @@ def judge_steps(walks: Sequence[Tried]) -> Verdict:
 
 def pass_steps() -> StudyResult:
     """A walk over three steps of different heights with some seeds, and the highest single step."""
-    return pass_steps_of(SEEDS, SINGLE)
-
-
-def pass_steps_of(seeds: range, single: Sequence[int]) -> StudyResult:
-    """The same for chosen seeds and heights of a single step [mm]."""
-    runs = {seed: _walk(LEVELS, DISTANCE, seed) for seed in seeds}
+    runs = {seed: _walk(LEVELS, DISTANCE, seed) for seed in SEEDS}
     walks = {seed: Tried.of(f"seed {seed}", run) for seed, run in runs.items()}
     most = find_most(
-        [f"{height} mm" for height in single],
+        [f"{height} mm" for height in SINGLE],
         lambda value: Tried.of(value, _walk(((0.6, float(value.split()[0])),), AHEAD, 0)),
     )
     rows: list[tuple[Value, ...]] = [
         (*_row(walk), runs[seed].report.kicks, len(runs[seed].report.steps)) for seed, walk in walks.items()
     ]
     rows += [(*_row(tried), None, None) for tried in most.tried]
-    shown = runs[seeds[0]]
+    shown = runs[SEEDS[0]]
 
     def course(path: Path) -> None:
         from ...viewing.walk_run_view import write_walk
@@ -73,12 +68,12 @@ def pass_steps_of(seeds: range, single: Sequence[int]) -> StudyResult:
         ),
         deviations=(
             "The paper prints no sizes of the steps. Ours are 15 and 30 mm up and 45 mm down, as walls, half a metre apart; the robot is "
-            f"told nothing of them. Holds if the walk comes to its end with its centre of mass inside the feet with {len(seeds)} seeds; "
+            f"told nothing of them. Holds if the walk comes to its end with its centre of mass inside the feet with {len(SEEDS)} seeds; "
             "the rule was fixed before the walks were made. The highest single step is shown beside it and decides nothing.",
             "Noise is as usual but for the inclinometers' offset, which is known.",
             SIMULATED,
         ),
-        seeds=seeds,
+        seeds=SEEDS,
         table=Table(
             ("walk", "passed in balance", "least margin [mm]", "largest tilt [deg]", "why not", "kicks", "slides"),
             tuple(rows),

@@ -59,13 +59,8 @@ def judge_strayed(walks: Sequence[Strayed]) -> Verdict:
     return "holds" if kept and walks else "differs"
 
 
-def walk_everywhere() -> StudyResult:
-    """Half a metre in each of twelve directions, the heading kept."""
-    return walk_everywhere_of(DIRECTIONS)
-
-
-def walk_everywhere_of(directions: tuple[int, ...]) -> StudyResult:
-    """The same for chosen directions [deg]."""
+def walk_everywhere(directions: tuple[int, ...] = DIRECTIONS) -> StudyResult:
+    """Half a metre in each of twelve directions [deg], the heading kept."""
     runs = {
         direction: _walk(f'[{{ direction = "{direction} deg", distance = "{DISTANCE} m" }}]', direction)
         for direction in directions
@@ -133,13 +128,8 @@ def walk_everywhere_of(directions: tuple[int, ...]) -> StudyResult:
     )
 
 
-def turn_anywhere() -> StudyResult:
-    """A turn on the spot and about points before, beside and behind the robot."""
-    return turn_anywhere_of(CENTRES)
-
-
-def turn_anywhere_of(centres: tuple[tuple[float, float], ...]) -> StudyResult:
-    """The same about chosen points [m]."""
+def turn_anywhere(centres: tuple[tuple[float, float], ...] = CENTRES) -> StudyResult:
+    """A turn on the spot and about points before, beside and behind the robot [m]."""
     runs: dict[tuple[float, float], WalkRun] = {}
     walks: dict[tuple[float, float], Strayed] = {}
     for k, (x, y) in enumerate(centres):
