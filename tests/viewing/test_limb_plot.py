@@ -12,7 +12,7 @@ from clamber.experiments.limb.entries import make_entries
 from clamber.experiments.limb.result import LimbResult, compare_laws
 from clamber.experiments.limb.scenario import Scenario, circle_scenario, push_scenario, step_scenario
 from clamber.sim.limb_flaws import LimbFlaws
-from clamber.viewing import limb_plot
+from clamber.viewing import limb_plot, output
 from clamber.viewing.output import SuffixError
 
 REFERENCE = LawSettings(law="scct", kp=100.0, kd=10.0)
@@ -42,7 +42,7 @@ def test_a_picture_says_how_gains_were_matched_and_who_ran_on_what(
     def keep(figure: Figure, path: Any) -> None:
         drawn.append(figure)
 
-    monkeypatch.setattr(limb_plot, "save_figure", keep)
+    monkeypatch.setattr(output, "save_figure", keep)
     limb_plot.draw_limb_result(compared(kind, flaws=LimbFlaws(backlash=0.02, delay=1)), tmp_path / "a.png")
     text = " ".join(each.get_text() for each in drawn[0].texts)
     assert "matched by 'mean'" in text and "backlash 1.146 deg" in text and "delay 1" in text

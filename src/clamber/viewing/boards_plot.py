@@ -6,14 +6,12 @@ from typing import Any, Final
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
 from ..experiments.boards.contest import Contest, Truth
 from ..experiments.boards.standing import Standing, ranking
 from . import style
-from .output import CANVASES, check_suffix, save_figure
-from .style import styled
+from .output import drawing
 
 LINES: Final = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)))
 """The first eight planners have colours of their own, the next ones the same colours in dashes."""
@@ -34,20 +32,17 @@ def draw_boards(contest: Contest, path: str | Path) -> None:
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
     truths = contest.truths()
     order = ranking(contest, truths)
     looks = {
         contender.name: {"color": style.PARTS[k % len(style.PARTS)], "ls": LINES[k // len(style.PARTS) % len(LINES)]}
         for k, contender in enumerate(contest.contenders)
     }
-    with styled():
-        figure = Figure(figsize=(9.6, 2.6 + 0.24 * max(8, len(order))), layout="constrained")
+    with drawing(path, (9.6, 2.6 + 0.24 * max(8, len(order)))) as figure:
         left, right = figure.subplots(1, 2, width_ratios=(1.25, 1.0))
         _solved(left, contest, truths, order, looks)
         _gaps(right, order, looks)
         figure.legend(loc="outside lower center", ncols=min(7, len(order)), fontsize=8)
-        save_figure(figure, path)
 
 
 def _solved(axes: Axes, contest: Contest, truths: dict[str, Truth], order: Sequence[Standing], looks: Any) -> None:

@@ -3,12 +3,9 @@
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from matplotlib.figure import Figure
-
 from ..types import Floats
 from . import style
-from .output import CANVASES, check_suffix, save_figure
-from .style import styled
+from .output import drawing
 
 
 def draw_angle_errors(inclined: Floats, errors: Mapping[str, Sequence[float]], path: str | Path) -> None:
@@ -23,9 +20,7 @@ def draw_angle_errors(inclined: Floats, errors: Mapping[str, Sequence[float]], p
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
-    with styled():
-        figure = Figure(figsize=(6.4, 4.2), layout="constrained")
+    with drawing(path, (6.4, 4.2)) as figure:
         axes = figure.subplots()
         for (rule, found), colour, marker in zip(errors.items(), style.PARTS, ("o", "s"), strict=False):
             axes.scatter(inclined, found, s=16, color=colour, marker=marker, alpha=0.6, linewidths=0, label=rule)
@@ -38,4 +33,3 @@ def draw_angle_errors(inclined: Floats, errors: Mapping[str, Sequence[float]], p
         style.bare(axes)
         axes.legend(fontsize=8.5, loc="upper left")
         figure.suptitle("The body's angle from two limbs", x=0.01, ha="left", fontsize=11, fontweight="bold")
-        save_figure(figure, path)

@@ -5,12 +5,10 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
-from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from . import style
-from .output import CANVASES, check_suffix, save_figure
-from .style import styled
+from .output import drawing
 
 LEAST: Final = 0.01
 """Smaller motion is drawn as this [mm]."""
@@ -36,12 +34,10 @@ def draw_onsets(
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
     places = list(dict.fromkeys(place for _, place, _, _ in swings))
     colours = dict(zip(dict.fromkeys(b for _, _, b, _ in swings), style.PARTS, strict=False))
     dashes = dict(zip(dict.fromkeys(p for _, _, _, p in swings), DASHES, strict=False))
-    with styled():
-        figure = Figure(figsize=(4.4 * len(places), 4.4), layout="constrained")
+    with drawing(path, (4.4 * len(places), 4.4)) as figure:
         grid = figure.subplots(1, len(places), sharex=True, sharey=True, squeeze=False)[0]
         for axes, place in zip(grid, places, strict=True):
             axes.axhline(cycle, color=style.ALERT, lw=0.8)
@@ -60,4 +56,3 @@ def draw_onsets(
         handles += [Line2D([], [], color=style.QUIET, ls=dash, label=f"play {p}") for p, dash in dashes.items()]
         figure.legend(handles=handles, loc="outside lower center", ncols=3, fontsize=8, handlelength=3.2)
         figure.suptitle("From which stiffness on the body cycles", x=0.01, ha="left", fontsize=11, fontweight="bold")
-        save_figure(figure, path)

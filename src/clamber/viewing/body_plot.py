@@ -6,15 +6,13 @@ from typing import Any, Final
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ..experiments.climb.body_bench import SLOT, BodyEntry, BodyRun
 from ..experiments.climb.body_scenario import BodyScenario
 from . import style
 from .law_colours import LAW_COLOURS, MATCH_LINES, WANTED
-from .output import CANVASES, check_suffix, save_figure
-from .style import styled
+from .output import drawing
 
 MILLI: Final = 1e3
 COORDINATED: Final = "#8C564B"
@@ -67,11 +65,9 @@ def draw_body_circles(laps: Mapping[str, tuple[BodyScenario, Sequence[BodyRun]]]
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
     count = len(next(iter(laps.values()))[1])
     angle = np.linspace(0.0, 2 * np.pi, 181)
-    with styled():
-        figure = Figure(figsize=(max(3.6, 1.9 * count), 2.0 * len(laps) + 0.7), layout="constrained")
+    with drawing(path, (max(3.6, 1.9 * count), 2.0 * len(laps) + 0.7)) as figure:
         grid = figure.subplots(len(laps), count, sharex=True, sharey=True, squeeze=False)
         for row, (name, (scenario, runs)) in enumerate(laps.items()):
             assert scenario.centre is not None
@@ -91,7 +87,6 @@ def draw_body_circles(laps: Mapping[str, tuple[BodyScenario, Sequence[BodyRun]]]
         for axes in grid[-1]:
             axes.set_xlabel("x [mm]")
         figure.suptitle("Last lap; in the middle the radial RMS", x=0.01, ha="left", fontsize=11, fontweight="bold")
-        save_figure(figure, path)
 
 
 def draw_body_times(
@@ -109,11 +104,8 @@ def draw_body_times(
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
     names = ("x [mm]", "y off the aim [mm]" if from_aim else "y [mm]", "angle [deg]", "tip off its peg [mm]")
-    with styled():
-        width = max(6.0, 4.2 * len(columns))
-        figure = Figure(figsize=(width, 7.4), layout="constrained")
+    with drawing(path, (max(6.0, 4.2 * len(columns)), 7.4)) as figure:
         grid = figure.subplots(4, len(columns), sharex=True, sharey="row", squeeze=False)
         for column, (name, runs) in enumerate(columns.items()):
             for run in reversed(runs):
@@ -142,7 +134,6 @@ def draw_body_times(
             for run in runs:
                 shown.setdefault(run.entry.label, Line2D([], [], label=run.entry.label, **line_of(run.entry)))
         figure.legend(handles=list(shown.values()), loc="outside lower center", ncols=3, fontsize=8, handlelength=3.2)
-        save_figure(figure, path)
 
 
 def _draw_times(axes: Sequence[Axes], run: BodyRun, from_aim: bool) -> None:

@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import Any, Protocol
 
 import numpy as np
-from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ..actions.problem import Replay
@@ -13,9 +12,8 @@ from ..tasks.limbed import LimbedTask
 from ..types import Floats
 from ..units import OZ_IN
 from . import style
-from .output import CANVASES, check_suffix, save_figure
+from .output import drawing
 from .scene import halo
-from .style import styled
 from .torques import torque_limits
 
 
@@ -51,9 +49,7 @@ def draw_history(history: Sequence[Generation], path: str | Path, *, goals: Sequ
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
-    with styled():
-        figure = Figure(figsize=(7.2, 4.8), layout="constrained")
+    with drawing(path, (7.2, 4.8)) as figure:
         upper, lower = figure.subplots(2, 1, sharex=True)
         number = [entry.generation for entry in history]
         stages = np.array([entry.stage for entry in history])
@@ -87,7 +83,6 @@ def draw_history(history: Sequence[Generation], path: str | Path, *, goals: Sequ
             style.bare(axes)
             axes.grid(axis="y", color=style.FAINT, lw=0.6)
             axes.set_axisbelow(True)
-        save_figure(figure, path)
 
 
 def largest_torques(task: LimbedTask, replay: Replay) -> Floats:
@@ -120,10 +115,8 @@ def draw_torques(
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
     limit = float(torque_limits(task).min()) if limit is None else limit
-    with styled():
-        figure = Figure(figsize=(7.6, 4.0), layout="constrained")
+    with drawing(path, (7.6, 4.0)) as figure:
         axes = figure.subplots()
         most = limit
         for k, (label, replay) in enumerate(replays.items()):
@@ -154,4 +147,3 @@ def draw_torques(
         axes.grid(axis="y", color=style.FAINT, lw=0.6)
         axes.set_axisbelow(True)
         figure.legend(loc="outside lower center", ncols=2 if len(replays) > 1 else 1, fontsize=8)
-        save_figure(figure, path)

@@ -15,7 +15,7 @@ from ..types import Floats
 from . import style
 from .climb_run_view import ClimbRunView
 from .climber import ClimberArtists
-from .output import CANVASES, check_suffix, save_figure
+from .output import CANVASES, check_suffix, drawing, save_figure
 from .scene import Bounds
 from .style import styled
 from .wall import draw_scene
@@ -70,11 +70,9 @@ def draw_body_over_time(run: ClimbRun, path: str | Path) -> None:
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
     trace = run.trace
     poses = trace.believed if trace.true_pose is None else trace.true_pose
-    with styled():
-        figure = Figure(figsize=(8.6, 5.2), layout="constrained")
+    with drawing(path, (8.6, 5.2)) as figure:
         grid = figure.subplots(2, 1, sharex=True, height_ratios=(1.0, 1.4))
         for which, (axes, name) in enumerate(zip(grid, ("x [mm]", "y [mm]"), strict=True)):
             axes.plot(trace.time, trace.aim[:, which] * MILLI, color=style.INK, lw=0.9, label="as aimed at")
@@ -93,7 +91,6 @@ def draw_body_over_time(run: ClimbRun, path: str | Path) -> None:
         grid[1].set_xlabel("time [s]")
         what = "; ".join(f"{number} {action.title}" for number, action in enumerate(run.report.actions, 1))
         figure.suptitle("\n".join(wrap(what, WIDTH)), x=0.01, ha="left", fontsize=8, color=style.QUIET)
-        save_figure(figure, path)
 
 
 def draw_heights(traces: Mapping[str, ClimbTrace], path: str | Path) -> None:
@@ -107,9 +104,7 @@ def draw_heights(traces: Mapping[str, ClimbTrace], path: str | Path) -> None:
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
-    with styled():
-        figure = Figure(figsize=(8.6, 3.8), layout="constrained")
+    with drawing(path, (8.6, 3.8)) as figure:
         axes = figure.subplots()
         for (label, trace), colour in zip(traces.items(), cycle(style.PARTS)):
             assert trace.true_pose is not None
@@ -121,4 +116,3 @@ def draw_heights(traces: Mapping[str, ClimbTrace], path: str | Path) -> None:
         axes.set_xlabel("time [s]")
         axes.set_ylabel("body above its aim [mm]")
         axes.legend(fontsize=8, ncols=3)
-        save_figure(figure, path)

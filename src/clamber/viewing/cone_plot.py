@@ -4,12 +4,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Final
 
-from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from . import style
-from .output import CANVASES, check_suffix, save_figure
-from .style import bare, styled
+from .output import drawing
+from .style import bare
 
 ROOM: Final = 0.05
 """Least distance of two names, as a part of the height."""
@@ -26,9 +25,7 @@ def draw_cones(lengths: Mapping[str, Mapping[float, int | None]], path: str | Pa
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
-    with styled():
-        figure = Figure(figsize=(7.2, 4.8), layout="constrained")
+    with drawing(path, (7.2, 4.8)) as figure:
         axes = figure.subplots()
         bare(axes)
         ends: list[tuple[float, str, str]] = []
@@ -65,7 +62,6 @@ def draw_cones(lengths: Mapping[str, Mapping[float, int | None]], path: str | Pa
         figure.supxlabel(
             "bars and angles: the narrowest cone; left of them there is no plan, proved", fontsize=8, color=style.QUIET
         )
-        save_figure(figure, path)
 
 
 def _apart(ends: Sequence[tuple[float, str, str]], room: float) -> list[float]:

@@ -5,14 +5,12 @@ from typing import Any, Final
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from ..control.cooperative.planted_feet import SUPPORT_WORDS
 from ..experiments.cooperative.follow import FollowRun
 from . import style
 from .arm_and_body import draw_robot, set_space
-from .output import CANVASES, check_suffix, save_figure
-from .style import styled
+from .output import drawing
 
 WANTED: Final = style.QUIET
 TOOL: Final = style.PARTS[0]
@@ -31,9 +29,7 @@ def draw_follow(run: FollowRun, path: str | Path) -> None:
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
-    with styled():
-        figure = Figure(figsize=(10.0, 5.2), layout="constrained")
+    with drawing(path, (10.0, 5.2)) as figure:
         grid = figure.add_gridspec(2, 2, width_ratios=(1.35, 1.0))
         space: Any = figure.add_subplot(grid[:, 0], projection="3d")
         _draw_space(space, run)
@@ -43,7 +39,6 @@ def draw_follow(run: FollowRun, path: str | Path) -> None:
         title = f"{run.path.label}: {run.options.dof} degrees of freedom, {SUPPORT_WORDS[run.footing.support]} standing"
         figure.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
         figure.supxlabel(run.reason, fontsize=8.5, x=0.01, ha="left", color=style.QUIET)
-        save_figure(figure, path)
 
 
 def _draw_space(space: Any, run: FollowRun) -> None:

@@ -6,7 +6,6 @@ from typing import Any, Final
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
 from ..experiments.limb.bench_limb import BenchLimb
@@ -14,8 +13,8 @@ from ..experiments.limb.force_result import ForceResult, ForceRow, pressing
 from ..experiments.limb.force_scenario import direction
 from ..types import Floats
 from . import style
-from .output import CANVASES, check_suffix, save_figure
-from .style import bare, styled
+from .output import drawing
+from .style import bare
 
 COLOURS: Final = {
     "none": "#6B6B6B",
@@ -44,10 +43,8 @@ def draw_force_result(result: ForceResult, path: str | Path) -> None:
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
     laws = list(dict.fromkeys(row.entry.settings.law for row in result.rows))
-    with styled():
-        figure = Figure(figsize=(9.6, 1.7 + 1.75 * max(2, len(laws))), layout="constrained")
+    with drawing(path, (9.6, 1.7 + 1.75 * max(2, len(laws)))) as figure:
         head = 1.0 - 0.6 / figure.get_figheight()
         figure.get_layout_engine().set(rect=(0.0, 0.0, 1.0, head))  # type: ignore[union-attr, call-arg]
         grid = figure.add_gridspec(max(2, len(laws)), 2, width_ratios=(2.5, 1.0))
@@ -67,7 +64,6 @@ def draw_force_result(result: ForceResult, path: str | Path) -> None:
         held = f"green: within {result.task.tolerance:g} N; (no): not held"
         under = "; ".join(filter(None, (f"plant: {result.plant_words()}", result.belief_words(), held)))
         figure.text(0.012, top - 0.23 / figure.get_figheight(), under, va="top", fontsize=8, color=style.QUIET)
-        save_figure(figure, path)
 
 
 def _way(row: ForceRow) -> str:

@@ -3,15 +3,14 @@
 from pathlib import Path
 from typing import Final
 
-from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ..actions.plan_costs import PlanCost
 from ..actions.plan_families import plan_family
 from ..planning.exact.front import Front
 from . import style
-from .output import CANVASES, check_suffix, save_figure
-from .style import bare, styled
+from .output import drawing
+from .style import bare
 
 LENGTH: Final = PlanCost(feature="length", title="actions of the plan", unit="")
 
@@ -27,9 +26,7 @@ def draw_front(front: Front, path: str | Path) -> None:
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
-    with styled():
-        figure = Figure(figsize=(7.2, 4.4), layout="constrained")
+    with drawing(path, (7.2, 4.4)) as figure:
         axes = figure.subplots()
         bare(axes)
         costs = {"length": LENGTH, **plan_family(front.task).costs(front.task)}
@@ -56,7 +53,6 @@ def draw_front(front: Front, path: str | Path) -> None:
         figure.suptitle(front.task.title, x=0.012, ha="left", fontsize=11, fontweight="bold")
         axes.set_title(f"{front.costs[0]} against {front.costs[1]}, {state}", fontsize=9, fontweight="normal")
         figure.supxlabel(f"proved for: {front.model}", fontsize=6.5, color=style.QUIET, wrap=True)
-        save_figure(figure, path)
 
 
 def _label(cost: PlanCost) -> str:

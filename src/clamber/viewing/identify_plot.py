@@ -4,15 +4,13 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from ..control.identification.joint import IdentifiedJoint
 from ..control.identification.replay import model_speed
 from ..execution.log_identify import Identification
 from ..types import Floats
 from . import style
-from .output import CANVASES, check_suffix, save_figure
-from .style import styled
+from .output import drawing
 
 SHOWN: Final = 20.0
 """Longest piece of a log that is drawn over time [s]."""
@@ -31,14 +29,11 @@ def draw_identification(result: Identification, path: str | Path) -> None:
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
-    with styled():
-        count = len(result.joints)
-        figure = Figure(figsize=(9.2, 3.5 * count + 0.3), layout="constrained")
+    count = len(result.joints)
+    with drawing(path, (9.2, 3.5 * count + 0.3)) as figure:
         parts = figure.subfigures(count, 1, squeeze=False)[:, 0]
         for part, joint in zip(parts, result.joints, strict=True):
             _draw_joint(part, joint)
-        save_figure(figure, path)
 
 
 def _draw_joint(part: Any, joint: IdentifiedJoint) -> None:

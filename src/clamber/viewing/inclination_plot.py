@@ -7,12 +7,10 @@ from typing import Final
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from ..types import Floats
 from . import style
-from .output import CANVASES, check_suffix, save_figure
-from .style import styled
+from .output import drawing
 
 AXES: Final = ("along x", "along y")
 MOVING: Final = "#EEF1F4"
@@ -49,9 +47,7 @@ def draw_inclining(courses: Mapping[str, Course], *, within: float, path: str | 
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
-    with styled():
-        figure = Figure(figsize=(4.9 * len(courses), 5.0), layout="constrained")
+    with drawing(path, (4.9 * len(courses), 5.0)) as figure:
         grid = figure.subplots(2, len(courses), sharex="col", sharey="row", squeeze=False, height_ratios=(1.5, 1.0))
         for (title, course), above, below in zip(courses.items(), *grid, strict=True):
             _draw_inclines(above, course)
@@ -60,7 +56,6 @@ def draw_inclining(courses: Mapping[str, Course], *, within: float, path: str | 
         grid[0, 0].set_ylabel("incline [deg]")
         grid[1, 0].set_ylabel("true error [deg]")
         grid[0, 0].legend(fontsize=8, loc="lower left")
-        save_figure(figure, path)
 
 
 def _draw_inclines(axes: Axes, course: Course) -> None:
@@ -104,9 +99,7 @@ def draw_directions(tilts: Floats, angles: Floats, right: Floats, told: Floats, 
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
-    with styled():
-        figure = Figure(figsize=(6.0, 6.0), layout="constrained")
+    with drawing(path, (6.0, 6.0)) as figure:
         axes = figure.subplots()
         lines = axes.contour(tilts, tilts, angles, levels=np.arange(5.0, 45.0, 5.0), colors=style.FAINT, linewidths=1.2)
         axes.clabel(lines, fontsize=8, fmt="%d°", colors=style.QUIET)
@@ -123,4 +116,3 @@ def draw_directions(tilts: Floats, angles: Floats, right: Floats, told: Floats, 
         axes.set(xlabel="gamma [deg]", ylabel="beta [deg]", aspect="equal", xlim=(-room, room), ylim=(-room, room))
         axes.set_title("Steepest angle of the plate (contours), and which way is up in it", fontsize=9.5)
         figure.legend(loc="outside lower center", ncols=2, fontsize=8)
-        save_figure(figure, path)

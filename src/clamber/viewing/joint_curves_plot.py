@@ -4,12 +4,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
-from matplotlib.figure import Figure
-
 from ..types import Floats
 from . import style
-from .output import CANVASES, check_suffix, save_figure
-from .style import styled
+from .output import drawing
 
 LOOKS: Final[tuple[dict[str, Any], ...]] = (
     {"color": style.BODY, "lw": 4.0, "ls": "-"},
@@ -43,10 +40,8 @@ def draw_joint_curves(panels: Sequence[JointCurves], quantity: str, title: str, 
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
     rows = -(-len(panels) // 3)
-    with styled():
-        figure = Figure(figsize=(8.6, 2.3 * rows + 0.6), layout="constrained")
+    with drawing(path, (8.6, 2.3 * rows + 0.6)) as figure:
         grid = figure.subplots(rows, 3, sharex=True, sharey=True, squeeze=False)
         for axes, panel in zip(grid.flat, panels, strict=False):
             for look, (plant, values) in zip(LOOKS, panel.curves.items(), strict=False):
@@ -65,4 +60,3 @@ def draw_joint_curves(panels: Sequence[JointCurves], quantity: str, title: str, 
         figure.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
         handles, labels = grid[0, 0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=3, fontsize=8, handlelength=3.2)
-        save_figure(figure, path)

@@ -5,14 +5,12 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from ..experiments.walk.run_walk import WalkRun
 from ..types import Floats
 from ..units import DEGREE
 from . import style
-from .output import CANVASES, check_suffix, save_figure
-from .style import styled
+from .output import drawing
 
 MM: Final = 1e3
 FEW: Final = 4000
@@ -34,9 +32,7 @@ def draw_levelling(
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
-    with styled():
-        figure = Figure(figsize=(3.6 * len(level), 4.6), layout="constrained")
+    with drawing(path, (3.6 * len(level), 4.6)) as figure:
         grid = figure.subplots(2, len(level), sharex=True, sharey="row", squeeze=False)
         for (name, run), above, below in zip(level.items(), *grid, strict=True):
             way, tilts, margins = _course(run)
@@ -55,7 +51,6 @@ def draw_levelling(
         grid[0, 0].set_ylabel("tilt, level [deg]")
         grid[1, 0].set_ylabel("margin of balance [mm]")
         grid[1, 0].legend(fontsize=8)
-        save_figure(figure, path)
 
 
 def _course(run: WalkRun) -> tuple[Floats, Floats, Floats]:

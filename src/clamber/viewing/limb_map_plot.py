@@ -18,8 +18,8 @@ from ..planning.axes import Axis
 from ..types import Floats
 from . import style
 from .limb_plot import LINES
-from .output import CANVASES, check_suffix, save_figure
-from .style import bare, styled
+from .output import drawing
+from .style import bare
 
 WIDE: Final = 8.0
 """Curves whose largest value is so many times the smallest are drawn to a logarithmic scale."""
@@ -41,9 +41,7 @@ def draw_limb_sweep(sweep: LimbSweep, path: str | Path, scale: float, unit: str)
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
-    with styled():
-        figure = Figure(figsize=(8.4, 5.4), layout="constrained")
+    with drawing(path, (8.4, 5.4)) as figure:
         figure.get_layout_engine().set(rect=(0.0, 0.0, 1.0, 0.885))  # type: ignore[union-attr, call-arg]
         axes = figure.subplots()
         words = f"{sweep.bench.measure.replace('_', ' ')}{f' [{unit}]' if unit else ''}"
@@ -55,7 +53,6 @@ def draw_limb_sweep(sweep: LimbSweep, path: str | Path, scale: float, unit: str)
             handles = _map(axes, sweep)
         figure.legend(handles=handles, loc="outside lower center", ncols=3, fontsize=8)
         _head(figure, sweep, words)
-        save_figure(figure, path)
 
 
 def _head(figure: Figure, sweep: LimbSweep, words: str) -> None:

@@ -13,8 +13,8 @@ from ..experiments.limb.result import LimbResult, Row
 from ..types import Floats
 from . import style
 from .law_colours import LAW_COLOURS, OUTSIDE
-from .output import CANVASES, check_suffix, save_figure
-from .style import bare, styled
+from .output import drawing
+from .style import bare
 
 MM: Final = 1e3
 LINES: Final = ("-", (0, (5, 1.5)), (0, (1, 1)), (0, (6, 1.5, 1, 1.5)), (0, (3, 1, 1, 1, 1, 1)), (0, (8, 2)))
@@ -36,9 +36,7 @@ def draw_limb_result(result: LimbResult, path: str | Path) -> None:
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
-    with styled():
-        figure = Figure(figsize=(9.6, 6.6), layout="constrained")
+    with drawing(path, (9.6, 6.6)) as figure:
         figure.get_layout_engine().set(rect=(0.0, 0.0, 1.0, HEAD))  # type: ignore[union-attr, call-arg]
         if result.scenario.kind == "circle":
             _draw_circle(figure, result)
@@ -50,7 +48,6 @@ def draw_limb_result(result: LimbResult, path: str | Path) -> None:
         kept = dict(zip(labels, handles, strict=True))
         figure.legend(kept.values(), kept.keys(), loc="outside lower center", ncols=min(4, len(kept)), fontsize=8)
         _head(figure, result)
-        save_figure(figure, path)
 
 
 def _head(figure: Figure, result: LimbResult) -> None:

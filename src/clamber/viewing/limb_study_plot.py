@@ -13,8 +13,7 @@ from ..experiments.limb.contest import Entry, Run
 from ..types import Floats
 from . import style
 from .law_colours import LAW_COLOURS, MATCH_LINES, WANTED
-from .output import CANVASES, check_suffix, save_figure
-from .style import styled
+from .output import drawing
 
 MILLI: Final = 1e3
 
@@ -54,9 +53,7 @@ def draw_step(
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
-    with styled():
-        figure = Figure(figsize=(8.6, 6.6), layout="constrained")
+    with drawing(path, (8.6, 6.6)) as figure:
         grid = figure.subplots(2, len(runs), sharex="row", sharey="row", height_ratios=(1.45, 1.0), squeeze=False)
         for column, (name, shown) in enumerate(runs.items()):
             upper, lower = grid[:, column]
@@ -77,7 +74,6 @@ def draw_step(
         grid[1, 0].set_ylabel("x - 220 mm [mm]")
         figure.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
         _legend(figure, next(iter(runs.values())))
-        save_figure(figure, path)
 
 
 def _hold_axis(upper: Axes, lower: Axes, runs: Sequence[Run], start: tuple[float, float]) -> None:
@@ -108,11 +104,9 @@ def draw_circles(
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
     count = len(next(iter(runs.values())))
     angle = np.linspace(0.0, 2 * np.pi, 181)
-    with styled():
-        figure = Figure(figsize=(1.75 * count, 1.8 * len(runs) + 0.6), layout="constrained")
+    with drawing(path, (1.75 * count, 1.8 * len(runs) + 0.6)) as figure:
         grid = figure.subplots(len(runs), count, sharex=True, sharey=True, squeeze=False)
         for row, (lap, laws) in enumerate(runs.items()):
             for axes, run in zip(grid[row], laws, strict=True):
@@ -138,7 +132,6 @@ def draw_circles(
         figure.suptitle(
             "Second lap of a circle; in the middle the radial RMS", x=0.01, ha="left", fontsize=11, fontweight="bold"
         )
-        save_figure(figure, path)
 
 
 def draw_radial_errors(
@@ -155,13 +148,11 @@ def draw_radial_errors(
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
     cases = list(next(iter(errors.values())))
     laps = list(dict.fromkeys(lap for lap, _ in cases))
     branches = list(dict.fromkeys(branch for _, branch in cases))
     marks = dict(zip(branches, ("o", "^"), strict=False))
-    with styled():
-        figure = Figure(figsize=(7.6, 0.34 * len(errors) + 1.5), layout="constrained")
+    with drawing(path, (7.6, 0.34 * len(errors) + 1.5)) as figure:
         axes = figure.subplots()
         order = sorted(errors, key=lambda label: max(errors[label].values()))
         for row, label in enumerate(order):
@@ -183,7 +174,6 @@ def draw_radial_errors(
         ]  # fmt: skip
         axes.set_title("Radial error on the circle, every law")
         figure.legend(handles=handles, loc="outside lower center", ncols=4, fontsize=8)
-        save_figure(figure, path)
 
 
 def draw_push(
@@ -201,9 +191,7 @@ def draw_push(
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
-    with styled():
-        figure = Figure(figsize=(8.6, 5.6), layout="constrained")
+    with drawing(path, (8.6, 5.6)) as figure:
         grid = figure.subplots(2, len(runs), sharex=True, sharey="row", squeeze=False)
         for column, (name, shown) in enumerate(runs.items()):
             for axes, which in zip(grid[:, column], (0, 1), strict=True):
@@ -220,4 +208,3 @@ def draw_push(
             "Pushed along the soft direction (grey) and let go", x=0.01, ha="left", fontsize=11, fontweight="bold"
         )
         _legend(figure, next(iter(runs.values())), 3)
-        save_figure(figure, path)

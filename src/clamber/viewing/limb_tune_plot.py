@@ -6,14 +6,13 @@ from typing import Any, Final
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from ..experiments.limb.entries import gain_unit
 from ..experiments.limb.flaw_texts import plant_words
 from ..experiments.limb.tune import Tuned, Tuning
 from . import style
-from .output import CANVASES, check_suffix, save_figure
-from .style import bare, styled
+from .output import drawing
+from .style import bare
 
 COLUMNS: Final = 4
 CALM: Final = "#DCEBF5"
@@ -31,11 +30,9 @@ def draw_tuning(result: Tuning, path: str | Path) -> None:
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
     columns = min(COLUMNS, len(result.laws))
     rows = math.ceil(len(result.laws) / columns)
-    with styled():
-        figure = Figure(figsize=(max(5.0, 2.6 * columns), 0.9 + 2.5 * rows), layout="constrained")
+    with drawing(path, (max(5.0, 2.6 * columns), 0.9 + 2.5 * rows)) as figure:
         head = 1.0 - 0.55 / (0.9 + 2.5 * rows)
         figure.get_layout_engine().set(rect=(0.0, 0.0, 1.0, head))  # type: ignore[union-attr, call-arg]
         grid = figure.subplots(rows, columns, squeeze=False).ravel()
@@ -52,7 +49,6 @@ def draw_tuning(result: Tuning, path: str | Path) -> None:
             0.012, 1.0 - 0.32 / height, f"{plant_words(result.flaws)}; margin {result.margin:g}", va="top", fontsize=8,
             color=style.QUIET,
         )  # fmt: skip
-        save_figure(figure, path)
 
 
 def _panel(axes: Axes, law: Tuned) -> None:

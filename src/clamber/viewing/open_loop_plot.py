@@ -7,15 +7,13 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from ..experiments.limb.open_loop import OpenLoopRun
 from ..experiments.limb.open_loop_result import OpenLoopResult
 from ..types import Floats
 from . import style
 from .law_colours import LAW_COLOURS, WANTED
-from .output import CANVASES, check_suffix, save_figure
-from .style import styled
+from .output import drawing
 
 MILLI: Final = 1e3
 NEAR: Final = 10.0
@@ -44,9 +42,7 @@ def draw_open_loop(columns: Mapping[str, Sequence[Drawn]], far: float, title: st
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
-    with styled():
-        figure = Figure(figsize=(9.2 if len(columns) > 1 else 6.4, 4.6), layout="constrained")
+    with drawing(path, (9.2 if len(columns) > 1 else 6.4, 4.6)) as figure:
         grid = figure.subplots(1, 2 * len(columns), squeeze=False)[0]
         for views, reach in ((grid[::2], far), (grid[1::2], NEAR)):
             low, high = _sides([shown.run for paths in columns.values() for shown in paths], reach)
@@ -74,7 +70,6 @@ def draw_open_loop(columns: Mapping[str, Sequence[Drawn]], far: float, title: st
         figure.legend(
             handles, labels, loc="outside lower center", ncols=min(len(labels), 5), fontsize=8, handlelength=3.2
         )
-        save_figure(figure, path)
 
 
 def draw_open_loop_result(result: OpenLoopResult, path: str | Path) -> None:
@@ -126,10 +121,8 @@ def draw_turns(
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
     lines = ("-", (0, (4, 1.5)))
-    with styled():
-        figure = Figure(figsize=(7.6, 4.0), layout="constrained")
+    with drawing(path, (7.6, 4.0)) as figure:
         axes = figure.subplots()
         for law, branches in turns.items():
             for line, (branch, values) in zip(lines, branches.items(), strict=False):
@@ -145,7 +138,6 @@ def draw_turns(
         _quiet(axes)
         axes.set_title("How straight each transform starts, without friction")
         figure.legend(loc="outside lower center", ncols=4, fontsize=8, handlelength=3.0)
-        save_figure(figure, path)
 
 
 def _quiet(axes: Axes) -> None:

@@ -1,6 +1,7 @@
 """Where pictures go: formats by suffix, errors that name them, files written whole."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from PIL import Image
 
 from ..errors import ClamberError, describe_choices
 from ..files import write_atomically
+from .style import styled
 
 CANVASES = {".png": FigureCanvasAgg, ".svg": FigureCanvasSVG, ".pdf": FigureCanvasPdf}
 """Suffix of a still picture -> the canvas that writes it."""
@@ -67,6 +69,21 @@ def check_suffix(path: str | Path, allowed: Iterable[str]) -> str:
     if suffix not in tuple(allowed):
         raise SuffixError(str(path), tuple(allowed))
     return suffix
+
+
+@contextmanager
+def drawing(path: str | Path, size: tuple[float, float]) -> Iterator[Figure]:
+    """A `with` block that fills a figure of some size [in] in Clamber's style, which is written at its end.
+
+    Raises:
+        SuffixError: If the file's suffix names no format for still pictures; before anything is drawn.
+        FileError: If the file cannot be written.
+    """
+    check_suffix(path, CANVASES)
+    with styled():
+        figure = Figure(figsize=size, layout="constrained")
+        yield figure
+        save_figure(figure, path)
 
 
 def save_figure(figure: Figure, path: str | Path, dpi: int = DPI, colours: int | None = None) -> Path:

@@ -2,11 +2,9 @@
 
 from pathlib import Path
 
-from matplotlib.figure import Figure
-
 from ..experiments.climb.press import Pressed
-from .output import CANVASES, check_suffix, save_figure
-from .style import bare, styled
+from .output import drawing
+from .style import bare
 
 FORCE, AIM, TRUE = "#0072B2", "#999999", "#D55E00"
 
@@ -22,9 +20,7 @@ def draw_press(result: Pressed, path: str | Path) -> None:
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
-    with styled():
-        figure = Figure(figsize=(7.2, 5.0), layout="constrained")
+    with drawing(path, (7.2, 5.0)) as figure:
         force, body = figure.subplots(2, 1, sharex=True, height_ratios=(1.4, 1.0))
         force.axhspan(0.9 * result.wanted, 1.1 * result.wanted, color=FORCE, alpha=0.12, lw=0)
         force.plot(result.time, result.force, color=FORCE, lw=0.9)
@@ -39,4 +35,3 @@ def draw_press(result: Pressed, path: str | Path) -> None:
         body.legend(frameon=False, loc="upper left")
         for axes in (force, body):
             bare(axes)
-        save_figure(figure, path)

@@ -5,12 +5,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from matplotlib.figure import Figure
-
 from ..types import Floats
 from . import style
-from .output import CANVASES, check_suffix, save_figure
-from .style import styled
+from .output import drawing
 
 ACROSS: Final = 3
 """Most panels in one row; more come two by two."""
@@ -42,13 +39,11 @@ def draw_panels(
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
     labels = list(dict.fromkeys(label for curves in panels.values() for label in curves))
     colours = dict(zip(labels, style.PARTS, strict=False))
-    with styled():
-        columns = len(panels) if len(panels) <= ACROSS else 2
-        rows = -(-len(panels) // columns)
-        figure = Figure(figsize=(1.6 + (4.0 if columns < 3 else 3.2) * columns, 0.8 + 3.2 * rows), layout="constrained")
+    columns = len(panels) if len(panels) <= ACROSS else 2
+    rows = -(-len(panels) // columns)
+    with drawing(path, (1.6 + (4.0 if columns < 3 else 3.2) * columns, 0.8 + 3.2 * rows)) as figure:
         grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
         for axes, (name, curves) in zip(grid.flat, panels.items(), strict=False):
             for label, curve in curves.items():
@@ -71,4 +66,3 @@ def draw_panels(
         if lines:
             figure.legend(handles=[*lines.values()], loc="outside lower center", ncols=min(len(lines), 3), fontsize=8.5)
         figure.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
-        save_figure(figure, path)

@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from ..control.cooperative.planted_feet import PlantedFeet
 from ..control.cooperative.tool_chain import POSE
@@ -14,8 +13,7 @@ from ..types import Floats
 from ..units import DEGREE
 from . import style
 from .arm_and_body import draw_from_side
-from .output import CANVASES, check_suffix, save_figure
-from .style import styled
+from .output import drawing
 
 ALPHAS: Final = (0.35, 0.6, 1.0)
 """Of start, middle and end."""
@@ -49,10 +47,8 @@ def draw_motions(motions: Sequence[Motion], time: Floats, path: str | Path) -> N
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
     joints = motions[0].q.shape[1] - POSE
-    with styled():
-        figure = Figure(figsize=(12.0, 6.1), layout="constrained")
+    with drawing(path, (12.0, 6.1)) as figure:
         above, below = figure.subfigures(2, 1, squeeze=False, height_ratios=(1.4, 1.0))[:, 0]
         sides = above.subplots(1, len(motions), sharex=True, sharey=True)
         for side, motion, colour in zip(sides, motions, MOTION_COLOURS, strict=False):
@@ -73,7 +69,6 @@ def draw_motions(motions: Sequence[Motion], time: Floats, path: str | Path) -> N
             axes.set_xlabel("time [s]")
             axes.grid(color=style.FAINT, lw=0.6, axis="y")
             style.bare(axes)
-        save_figure(figure, path)
 
 
 def draw_gains(time: Floats, courses: Mapping[float, Floats], means: Mapping[int, Floats], path: str | Path) -> None:
@@ -89,10 +84,8 @@ def draw_gains(time: Floats, courses: Mapping[float, Floats], means: Mapping[int
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
     gains = list(courses)
-    with styled():
-        figure = Figure(figsize=(9.4, 3.8), layout="constrained")
+    with drawing(path, (9.4, 3.8)) as figure:
         left, right = figure.subplots(1, 2, width_ratios=(1.0, 1.25))
         for colour, (gain, course) in zip(COLOURS, courses.items(), strict=False):
             left.plot(time, course, color=colour, lw=1.6, label=f"$k_p$ = {gain:g}")
@@ -110,7 +103,6 @@ def draw_gains(time: Floats, courses: Mapping[float, Floats], means: Mapping[int
         for axes in (left, right):
             style.bare(axes)
             axes.grid(color=style.FAINT, lw=0.6, axis="y")
-        save_figure(figure, path)
 
 
 def draw_freedoms(means: Floats, dofs: Sequence[int], gains: Sequence[float], path: str | Path) -> None:
@@ -126,9 +118,7 @@ def draw_freedoms(means: Floats, dofs: Sequence[int], gains: Sequence[float], pa
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
-    with styled():
-        figure = Figure(figsize=(9.4, 3.6), layout="constrained")
+    with drawing(path, (9.4, 3.6)) as figure:
         for axes, gain, values in zip(figure.subplots(1, len(gains), sharey=True), gains, means, strict=True):
             for way in values:
                 axes.plot(range(len(dofs)), way, color=style.PARTS[4], lw=0.6, alpha=0.6)
@@ -140,4 +130,3 @@ def draw_freedoms(means: Floats, dofs: Sequence[int], gains: Sequence[float], pa
             axes.grid(color=style.FAINT, lw=0.6, axis="y")
         figure.axes[0].set_ylabel("mean V of a way [-]; median in bold")
         figure.axes[0].set_ylim(bottom=0.0)
-        save_figure(figure, path)

@@ -5,12 +5,10 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from ..experiments.walk.run_walk import WalkRun
 from . import style
-from .output import CANVASES, check_suffix, save_figure
-from .style import styled
+from .output import drawing
 
 FEW: Final = 2000
 """Points of a way, about."""
@@ -30,9 +28,7 @@ def draw_paths(runs: Mapping[str, WalkRun], centres: Mapping[str, tuple[float, f
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
-    with styled():
-        figure = Figure(figsize=(6.2, 5.2), layout="constrained")
+    with drawing(path, (6.2, 5.2)) as figure:
         axes = figure.add_subplot()
         for k, (name, run) in enumerate(runs.items()):
             poses = run.true.pose[run.walking][:, [0, 1, 3]]
@@ -51,4 +47,3 @@ def draw_paths(runs: Mapping[str, WalkRun], centres: Mapping[str, tuple[float, f
         axes.grid(color=style.FAINT, lw=0.6)
         style.bare(axes)
         figure.legend(loc="outside right upper", fontsize=8)
-        save_figure(figure, path)

@@ -7,13 +7,11 @@ from typing import Final
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from ..robots.walker.ditch_plan import Crossing
 from ..types import Floats
 from . import style
-from .output import CANVASES, check_suffix, save_figure
-from .style import styled
+from .output import drawing
 
 MM: Final = 1e3
 DELTA, Y = style.PARTS[0], style.PARTS[1]
@@ -35,10 +33,8 @@ def draw_ditch_maps(
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
     top = max(float(widths.max()) for widths in maps.values())
-    with styled():
-        figure = Figure(figsize=(4.6 * len(maps) + 0.8, 4.2), layout="constrained")
+    with drawing(path, (4.6 * len(maps) + 0.8, 4.2)) as figure:
         row = figure.subplots(1, len(maps), sharey=True, squeeze=False)[0]
         for axes, (title, widths) in zip(row, maps.items(), strict=True):
             shown = axes.pcolormesh(directions, thetas, widths, cmap="viridis", vmin=0.0, vmax=top, shading="nearest")
@@ -53,7 +49,6 @@ def draw_ditch_maps(
             axes.set_xticks(range(int(directions[0]), int(directions[-1]) + 1, 30))
         row[0].set_ylabel("angle of the frames, theta [deg]")
         figure.colorbar(shown, ax=row, label="widest ditch [mm]").outline.set_visible(False)
-        save_figure(figure, path)
 
 
 def draw_ditch_curves(directions: Sequence[float], curves: Mapping[float, Floats], path: str | Path) -> None:
@@ -68,9 +63,7 @@ def draw_ditch_curves(directions: Sequence[float], curves: Mapping[float, Floats
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
-    with styled():
-        figure = Figure(figsize=(7.6, 3.8), layout="constrained")
+    with drawing(path, (7.6, 3.8)) as figure:
         axes = figure.subplots()
         for (theta, widths), colour in zip(curves.items(), style.PARTS, strict=False):
             axes.plot(directions, widths, color=colour, lw=1.5, label=f"theta = {theta:g}°")
@@ -84,7 +77,6 @@ def draw_ditch_curves(directions: Sequence[float], curves: Mapping[float, Floats
         axes.set_axisbelow(True)
         style.bare(axes)
         figure.legend(loc="outside lower center", ncols=len(curves), fontsize=8)
-        save_figure(figure, path)
 
 
 def draw_crossing(crossing: Crossing, path: str | Path) -> None:
@@ -98,7 +90,6 @@ def draw_crossing(crossing: Crossing, path: str | Path) -> None:
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
     stances = [(-1, crossing.start.copy())]
     for slide in crossing.slides:
         poses = stances[-1][1].copy()
@@ -109,8 +100,7 @@ def draw_crossing(crossing: Crossing, path: str | Path) -> None:
     rows = math.ceil(len(stances) / COLUMNS)
     wide = 2.6
     tall = wide * float((high[1] - low[1]) / (high[0] - low[0]))
-    with styled():
-        figure = Figure(figsize=(wide * COLUMNS, (tall + 0.3) * rows + 0.5), layout="constrained")
+    with drawing(path, (wide * COLUMNS, (tall + 0.3) * rows + 0.5)) as figure:
         grid = figure.subplots(rows, COLUMNS, squeeze=False)
         for axes in grid.flat:
             axes.set_axis_off()
@@ -126,7 +116,6 @@ def draw_crossing(crossing: Crossing, path: str | Path) -> None:
             f"{len(crossing.slides) - crossing.pivots} slides (blue: Delta-frame, orange: Y-frame, dot: centre of mass)",
             x=0.01, ha="left", fontsize=10, weight="bold",
         )  # fmt: skip
-        save_figure(figure, path)
 
 
 def _stance(axes: Axes, crossing: Crossing, frame: int, poses: Floats) -> None:

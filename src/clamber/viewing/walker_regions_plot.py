@@ -8,7 +8,6 @@ from typing import Final
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Patch, PathPatch
 from matplotlib.path import Path as Outline
@@ -19,8 +18,7 @@ from ..robots.walker.workspace import Part, best_directions, stride, workspace
 from ..types import Floats
 from ..units import DEGREE
 from . import style
-from .output import CANVASES, check_suffix, save_figure
-from .style import styled
+from .output import drawing
 
 MM: Final = 1e3
 STROKES: Final = "#DCE6EE"
@@ -41,10 +39,8 @@ def draw_regions(frames: TwoFrames, thetas: Sequence[float], path: str | Path) -
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
     rows = math.ceil(len(thetas) / COLUMNS)
-    with styled():
-        figure = Figure(figsize=(2.35 * COLUMNS, 2.5 * rows + 0.7), layout="constrained")
+    with drawing(path, (2.35 * COLUMNS, 2.5 * rows + 0.7)) as figure:
         grid = figure.subplots(rows, COLUMNS, sharex=True, sharey=True, squeeze=False)
         for axes in grid.flat[len(thetas) :]:
             axes.set_visible(False)
@@ -65,7 +61,6 @@ def draw_regions(frames: TwoFrames, thetas: Sequence[float], path: str | Path) -
             "Where the Y-frame's origin can be in the Delta-frame, by the angle between the frames",
             x=0.01, ha="left", fontsize=11, weight="bold",
         )  # fmt: skip
-        save_figure(figure, path)
 
 
 def _panel(axes: Axes, frames: TwoFrames, theta: float) -> None:
@@ -118,9 +113,7 @@ def draw_areas(thetas: Sequence[float], areas: Mapping[str, Floats], path: str |
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    check_suffix(path, CANVASES)
-    with styled():
-        figure = Figure(figsize=(7.2, 3.8), layout="constrained")
+    with drawing(path, (7.2, 3.8)) as figure:
         axes = figure.subplots()
         looks = ((style.QUIET, "-"), (style.QUIET, (0, (4, 2))), (FREE, "-"), (GUARDED, "-"))
         for (name, values), (colour, dash) in zip(areas.items(), looks, strict=False):
@@ -133,4 +126,3 @@ def draw_areas(thetas: Sequence[float], areas: Mapping[str, Floats], path: str |
         axes.grid(color=style.FAINT, lw=0.6)
         axes.set_axisbelow(True)
         style.bare(axes)
-        save_figure(figure, path)
