@@ -14,12 +14,11 @@ from ...execution.climb.postures import postures
 from ...types import Floats
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
-from . import PAPER
+from . import MILLI, PAPER
+from .body_entries import PEG_ERROR
 from .hook_check import PLANS
 from .replayed import INFERRED, Replayed, replay_printed
 
-PEG_ERROR: Final = 0.00635
-"""How well the thesis knows its pegs, each way along each axis [m]."""
 PLAY: Final = 1.0 * DEGREE
 """Half the printed backlash: where in its play each joint is, either way [rad]."""
 DRAWS: Final = 40
@@ -32,7 +31,6 @@ LOST: Final = 10.0 * DEGREE
 """An error of angle from which on a pose is of no use [rad]."""
 CLIMBED: Final = "Table D.1, ladder"
 """The task that the thesis carried out."""
-MILLI: Final = 1e3
 
 
 @dataclass(frozen=True, slots=True)

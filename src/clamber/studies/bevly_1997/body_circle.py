@@ -10,7 +10,7 @@ from ...experiments.climb.body_measures import measure_body
 from ...experiments.climb.body_scenario import BodyScenario, circle
 from ...experiments.climb.body_stand import bench_flaws, ladder_stand
 from ..result import Compared, Figure, StudyResult, Table, Value
-from . import PAPER
+from . import MILLI, PAPER
 from .body_entries import MATCHED, OURS, OWN, PLANT, SCCT, judged, rivals, scct_and_transposes, transpose
 
 RADIUS: Final = 0.05
@@ -21,7 +21,6 @@ PLANTS: Final = ("ideal", "nominal")
 REFERENCE: Final = BodyGains(
     kp=(400.0, 400.0, 40.0), kd=(20.0, 20.0, 2.0), mapping="thesis", limit="none", weight_fed=1.0
 )
-MILLI: Final = 1e3
 COLUMNS: Final = (
     *("plant", "lap [s]", "control", "Kp of x, y, angle"),
     *("radial RMS [mm]", "RMS distance from the aim [mm]", "largest turn [deg]"),

@@ -20,11 +20,10 @@ from ...tasks.limbed import LimbedTask
 from ...types import Floats
 from ...units import INCH
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
-from . import PAPER
+from . import MILLI, PAPER
 from .body_entries import OURS, OWN, PLANT, SCCT, TABLE_4_1
 from .nominal_gait import GAIT
 
-MILLI: Final = 1e3
 RUNGS: Final = 2
 PRINTED: Final = f"{SCCT}, Table 4.1, limit of 4.4.2"
 IDEAL: Final = f"{PRINTED}, ideal plant"

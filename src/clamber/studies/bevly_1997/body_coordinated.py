@@ -14,19 +14,16 @@ from ...experiments.climb.body_scenario import push
 from ...experiments.climb.body_stand import BodyStand, bench_flaws, ladder_stand
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
-from . import PAPER
-from .body_entries import EARLIER, PLANT, SCCT, TABLE_4_1
+from . import MILLI, PAPER
+from .body_entries import EARLIER, PEG_ERROR, PLANT, SCCT, TABLE_4_1
 
 SEEDS: Final = 12
-PEG_ERROR: Final = 0.00635
-"""How well the thesis knows its pegs, each way along each axis [m]."""
 STAND: Final = 3.0
 """Time that the body stands [s]."""
 FORCE: Final = 60.0
 """Of the push that asks legs to push as well as pull, half a sine of 0.5 s, as in `fig-4-19` [N]."""
 WEIGHTS: Final = {"fed": 0.95, "not fed": 0.0}
 """Name -> part of the weight that is fed forward."""
-MILLI: Final = 1e3
 
 
 @dataclass(frozen=True, slots=True)

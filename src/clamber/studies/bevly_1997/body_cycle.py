@@ -14,7 +14,7 @@ from ...experiments.climb.body_stand import BodyStand, bench_flaws, ladder_stand
 from ...sim.climber_model import HookShape
 from ...sim.limb_flaws import LimbFlaws
 from ..result import Compared, Figure, StudyResult, Table, Value
-from . import PAPER
+from . import MILLI, PAPER
 from .body_entries import BIASED, OUR_ALPHA, OURS, OWN, PLANT, SCCT, TABLE_4_1
 
 GAINS: Final = tuple(float(100.0 * 2 ** (k / 2)) for k in range(-4, 15))
@@ -34,7 +34,6 @@ PLACES: Final = {"one hook": True, "both hooks": False}
 HELD: Final = ("on hooks", "fixed")
 BESIDE: Final = {f"on hooks, {BIASED}": BIASED, f"on hooks, {OWN}": OWN}
 """How the tips are held and by which other control -> that control; with 0 and 2 deg of backlash and 1 mm of play."""
-MILLI: Final = 1e3
 Swings = dict[tuple[str, str, float, str], list[float]]
 """Held, place, backlash [deg], play -> peak to peak along x for each of GAINS [mm]."""
 

@@ -26,6 +26,8 @@ OURS: Final = BodyGains()
 """Our own control as it climbs: map, limit and gains of ours."""
 OUR_ALPHA: Final = replace(TABLE_4_1, alpha=OURS.alpha)
 """The printed ones with an alpha of ours."""
+PEG_ERROR: Final = 0.00635
+"""How well the thesis knows its pegs, each way along each axis [m]."""
 PLANT: Final = (
     "The plant is our simulation, not the robot: contact dynamics of MuJoCo, hooks and pegs as drawn for it (their sizes are not "
     "printed).",

@@ -15,7 +15,7 @@ from ...experiments.climb.body_rung import FRICTION, PEG_ERROR, WEIGHT, RungTria
 from ...experiments.held_out import FIRST_HELD_OUT
 from ...jobs import LocalProcesses
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
-from . import PAPER
+from . import MILLI, PAPER
 from .body_entries import OURS, OWN, PLANT, TABLE_4_1
 
 SEEDS: Final = range(FIRST_HELD_OUT, FIRST_HELD_OUT + 20)
@@ -31,7 +31,6 @@ CONTROLS: Final[dict[str, BodyGains]] = {
     OWN: OURS,
 }
 """Label -> gains; all but the last with the printed map and the gains of Table 4.1."""
-MILLI: Final = 1e3
 
 
 def judge_limit(ideal: RungTrial, noisy: Sequence[RungTrial]) -> Verdict:

@@ -16,7 +16,7 @@ from ...robots.limbed import LimbedRobot
 from ...statics.distances import segment_polygon
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Verdict
-from . import PAPER
+from . import MILLI, PAPER
 from .body_entries import PLANT, TABLE_4_1
 
 SAFE: Final = 0.01
@@ -27,7 +27,6 @@ SEED: Final = 3
 """Of the rung that is climbed with the potential and without."""
 WAY: Final = 1.5
 """In which a reference goes to its target [s], and then stays for as long."""
-MILLI: Final = 1e3
 WITHOUT, WITH = "no potential", "potential"
 STRENGTHS: Final = {WITHOUT: 0.0, WITH: STRENGTH}
 

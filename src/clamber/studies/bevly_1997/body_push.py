@@ -15,10 +15,9 @@ from ...experiments.climb.body_stiffness import body_stiffness
 from ...experiments.climb.body_trials import PushTrial, push_trials
 from ...sim.limb_flaws import LimbFlaws
 from ..result import Compared, Figure, StudyResult, Table, Value
-from . import PAPER
+from . import MILLI, PAPER
 from .body_entries import BIASED, EARLIER, JOINT_PD, OUR_ALPHA, OURS, OWN, PLANT, SCCT, TABLE_4_1, rivals
 
-MILLI: Final = 1e3
 SLOW: Final = 8.0
 """Size of the push along each axis that tells the stiffness [N]."""
 HARD: Final = 60.0

@@ -9,7 +9,7 @@ from ...experiments.climb.body_measures import BodyMeasures, measure_body
 from ...experiments.climb.body_scenario import push_up
 from ...experiments.climb.body_stand import bench_flaws, ladder_stand
 from ..result import Compared, Figure, StudyResult, Table, Value
-from . import PAPER
+from . import MILLI, PAPER
 from .body_entries import (
     BIASED,
     MATCHED,
@@ -29,7 +29,6 @@ HEIGHT: Final = 0.075
 """[m]."""
 SECONDS: Final = 0.5
 PLANTS: Final = ("ideal", "nominal")
-MILLI: Final = 1e3
 COLUMNS: Final = (
     *("plant", "control", "largest |x - x0| [mm]", "RMS distance from the aim [mm]", "largest turn [deg]"),
     *("distance from the aim after 1.5 s [mm]", "hooks"),

@@ -9,7 +9,6 @@ from ...actions.problem import CompiledProblem, Records
 from ...actions.problems import pose_problem
 from ...experiments.ablation import varied
 from ...experiments.reductions import TALL
-from ...experiments.rows import median_or_nothing
 from ...experiments.trials import run_trials
 from ...planning.genetic.learning import Macro
 from ...planning.genetic.profile import load_profile
@@ -22,7 +21,7 @@ from ..result import Compared, StudyResult, Table, Value, Verdict
 from . import PAPER
 from .modified_ladder import NO_HANGS
 from .replayed import INFERRED, limbed_task
-from .search_variants import WEIGHTS
+from .search_variants import WEIGHTS, median_evaluations
 
 SEEDS: Final = range(100, 110)
 """Of the plans of the tall ladder."""
@@ -101,8 +100,8 @@ def learn_to_climb() -> StudyResult:
             Compared("evaluated plans until it was learned", lesson.evaluations),
             Compared(f"ladder three times as tall: seeds of {len(SEEDS)} that find a plan without it", plain.found),
             Compared(f"ladder three times as tall: seeds of {len(SEEDS)} that find a plan with it", helped.found),
-            Compared("evaluations without it, median", _finite(median_or_nothing(plain.evaluations))),
-            Compared("evaluations with it, median", _finite(median_or_nothing(helped.evaluations))),
+            Compared("evaluations without it, median", median_evaluations(plain)),
+            Compared("evaluations with it, median", median_evaluations(helped)),
             Compared(f"seeds of {len(SEEDS)} in which it saves evaluations", saved),
         ),
         deviations=(
@@ -196,7 +195,3 @@ def _key(stance: Records) -> tuple[bytes, ...]:
     whole = (stance[name].tobytes() for name in ("hold", "left", "branch", "in_use", "hangs", "stage", "laps"))
     places = (np.round(stance[name], 9).tobytes() for name in ("x", "y", "angle", "foot"))
     return (*whole, *places)
-
-
-def _finite(value: float) -> float | None:
-    return value if np.isfinite(value) else None

@@ -13,7 +13,7 @@ from ...experiments.limb.matching import Match
 from ...experiments.limb.scenario import Scenario, circle_scenario
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Value
-from . import PAPER
+from . import MILLI, PAPER
 from .limb_entries import (
     BASELINES,
     BRANCHES,
@@ -42,7 +42,6 @@ REFERENCE: Final[LawSettings] = scct(200.0, 10.0)
 SOFTER: Final[LawSettings] = scct(100.0, 10.0)
 SOFT_TRANSPOSE: Final = "J^T, yy of Kp 100"
 FED: Final = ", fed forward"
-MILLI: Final = 1e3
 COLUMNS: Final = (
     *("lap [s]", "branch", "law", "Kp", "Kd"),
     *("radial RMS [mm]", "largest radial [mm]", "RMS distance from the aim [mm]"),

@@ -12,7 +12,7 @@ from ...experiments.limb.force_result import ForceResult, pressing, run_force
 from ...experiments.limb.force_scenario import ForceTask
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
-from . import PAPER
+from . import MILLI, PAPER
 from .limb_entries import IDEAL, PLANT, leg_1
 
 ANGLES: Final = (60.0, 90.0, 120.0)
@@ -30,7 +30,6 @@ IMPLICIT: Final = "implicit-force"
 KNOWN: Final = "known"
 ASKEW: Final = f"angle {WRONG_ANGLE:g} deg wrong"
 STIFFER: Final = f"stiffness {WRONG_STIFFNESS:g} times too high"
-MILLI: Final = 1e3
 
 
 @dataclass(frozen=True, slots=True)

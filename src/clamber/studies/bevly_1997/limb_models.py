@@ -16,7 +16,7 @@ from ...sim.plants import plant_maker
 from ...types import Floats
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value
-from . import PAPER
+from . import MILLI, PAPER
 from .limb_entries import IDEAL
 
 JOINTS: Final = tuple((limb, joint) for joint in (0, 1) for limb in (0, 1, 2))
@@ -62,7 +62,6 @@ class JointDrive:
         return float(np.abs(self.curves[plant][0] - self.curves[SIMPLE][0]).max())
 
 
-MILLI: Final = 1e3
 SIMPLE: Final = "simple model"
 LIMB: Final = "limb in MuJoCo"
 LIKE_ROBOT: Final = "with play and encoders"

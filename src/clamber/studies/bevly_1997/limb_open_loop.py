@@ -18,7 +18,7 @@ from ...experiments.limb.open_loop import (
 from ...types import Floats
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value
-from . import PAPER
+from . import MILLI, PAPER
 from .limb_entries import BRANCHES, IDEAL, PLANT, SMOOTH, leg_1
 
 DOWN: Final = -math.pi / 2
@@ -46,7 +46,6 @@ NAMES: Final = {
 FRICTIONS: Final = {"Table 3.1": IDEAL, "none": SMOOTH}
 ROUND: Final = np.arange(72) * math.tau / 72
 """Directions of the tip [rad]."""
-MILLI: Final = 1e3
 
 
 def _degrees(angle: float | None) -> float | None:

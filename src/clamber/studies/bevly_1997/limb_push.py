@@ -13,7 +13,7 @@ from ...experiments.limb.matching import tip_stiffness
 from ...experiments.limb.scenario import Scenario, push_scenario
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Value
-from . import PAPER
+from . import MILLI, PAPER
 from .limb_bandwidth import CYCLE, TIMES, first_to_cycle
 from .limb_entries import (
     BASELINES,
@@ -46,7 +46,6 @@ FORCE: Final = 30.0
 START: Final = 0.5
 RELEASE: Final = 2.5
 SECONDS: Final = 6.0
-MILLI: Final = 1e3
 SHOWN: Final = (SCCT, *(transpose(match) for match in MATCHED), OPERATIONAL, PLAIN_RATE)
 """In the picture."""
 COLUMNS: Final = (

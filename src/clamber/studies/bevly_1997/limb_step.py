@@ -9,7 +9,7 @@ from ...control.law_settings import LawSettings
 from ...experiments.limb.contest import Run, run_contest
 from ...experiments.limb.scenario import step_scenario
 from ..result import Compared, Figure, StudyResult, Table, Value
-from . import PAPER
+from . import MILLI, PAPER
 from .limb_entries import (
     BASELINES,
     BRANCHES,
@@ -34,7 +34,6 @@ REFERENCE: Final[LawSettings] = scct(100.0, 10.0)
 STEP: Final = 0.02
 """Downwards [m]."""
 SECONDS: Final = 2.0
-MILLI: Final = 1e3
 COLUMNS: Final = (
     *("friction", "branch", "law", "Kp", "Kd"),
     *("largest |x - 0.22| [mm]", "y at the end [mm]", "past y = -20 mm by [mm]"),

@@ -89,7 +89,7 @@ def compare_crossovers() -> StudyResult:
     rows: list[tuple[Value, ...]] = []
     for (kind, name), trials in told.items():
         won, lost = (None, None) if kind == "tail" else duels[kind][TASKS.index(name)]
-        rows.append((name, kind, trials.found, len(CROSSED), _median(trials), won, lost))
+        rows.append((name, kind, trials.found, len(CROSSED), median_evaluations(trials), won, lost))
     return StudyResult(
         paper=PAPER,
         result="tail-crossover",
@@ -146,7 +146,9 @@ def compare_subgoals() -> StudyResult:
             for given in (True, False)
         )
         counts.append((guided.found, alone.found))
-        rows.append((name, len(SEEDS), guided.found, _median(guided), alone.found, _median(alone)))
+        rows.append(
+            (name, len(SEEDS), guided.found, median_evaluations(guided), alone.found, median_evaluations(alone))
+        )
     return StudyResult(
         paper=PAPER,
         result="sub-goals",
@@ -173,7 +175,7 @@ def compare_subgoals() -> StudyResult:
     )
 
 
-def _median(trials: Trials) -> float | None:
+def median_evaluations(trials: Trials) -> float | None:
     """Evaluations to a plan, seeds without one counted as more than any; None if the middle one is such a seed."""
     middle = median_or_nothing(trials.evaluations)
     return middle if math.isfinite(middle) else None

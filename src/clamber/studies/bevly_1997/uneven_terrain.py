@@ -23,7 +23,7 @@ from ...jobs import LocalProcesses
 from ...tasks.limbed import LimbedTask
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
-from . import PAPER
+from . import MILLI, PAPER
 from .body_climb import gait_plan
 from .body_entries import PLANT
 from .replayed import limbed_task
@@ -43,7 +43,6 @@ ALONE: Final = ("peg_error=6.35mm",)
 ABLE: Final = 0.9
 """Part of the climbs from which on it is able to [-]."""
 HALF: Final = 0.5
-MILLI: Final = 1e3
 
 
 def judged(climbed: Mapping[str, float], alone: Mapping[str, float]) -> Verdict:

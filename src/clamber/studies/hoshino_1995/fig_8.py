@@ -6,14 +6,13 @@ from typing import Final
 import numpy as np
 
 from ...execution.walk.walk_trace import PHASES
-from ...experiments.walk.noise import WalkNoise, named_walk_noise, read_walk_noise
-from ...experiments.walk.run_walk import WalkRun, run_walk, walk_flaws
-from ...tasks.walks import load_walk
+from ...experiments.walk.noise import WalkNoise, named_walk_noise
+from ...experiments.walk.run_walk import WalkRun
 from ...types import Floats
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value
 from . import CAPTIONS, PAPER, SIMULATED
-from .walker import MM
+from .walker import MM, known_noise, run_changed
 
 WAYS: Final = {"up": 0.0, "across": 90.0, "down": 180.0}
 """Name -> direction of the steepest ascent, from the robot's heading [deg]."""
@@ -28,7 +27,7 @@ SETTLE: Final = PHASES.index("settle")
 def walk_level() -> StudyResult:
     """Up, across and down with everything as noisy as usual; and the same walks with the plate left parallel to the slope."""
     level = {name: _walk(uphill, named_walk_noise("usual")) for name, uphill in WAYS.items()}
-    known = read_walk_noise(named_walk_noise("usual"), ("inclinometer_offset=0deg",))
+    known = known_noise()
     tilted = {name: _walk(uphill, known, "level=false", "start.plate=ground") for name, uphill in WAYS.items()}
     ends = all(run.done for run in level.values())
     rests = max(_at_rest(run) for run in level.values())
@@ -79,8 +78,7 @@ def walk_level() -> StudyResult:
 
 
 def _walk(uphill: float, noise: WalkNoise, *changes: str) -> WalkRun:
-    walk = load_walk("slope-walk", (f"way.0.distance={DISTANCE}", f"ground.uphill={uphill}deg", *changes))
-    return run_walk(walk, walk_flaws(walk, ()), noise=noise)
+    return run_changed("slope-walk", (f"way.0.distance={DISTANCE}", f"ground.uphill={uphill}deg", *changes), noise)
 
 
 def _at_rest(run: WalkRun) -> float:

@@ -7,13 +7,11 @@ from typing import Final
 import numpy as np
 
 from ...experiments.walk.most import Most, Tried, find_most
-from ...experiments.walk.noise import named_walk_noise, read_walk_noise
-from ...experiments.walk.run_walk import WalkRun, run_walk, walk_flaws
-from ...tasks.walks import load_walk
+from ...experiments.walk.run_walk import WalkRun
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import PAPER, SIMULATED
-from .walker import MM, hoshino
+from .walker import MM, hoshino, known_noise, run_changed
 
 LEVELS: Final = ((0.6, 15.0), (1.1, 45.0), (1.6, 0.0))
 """Where the ground changes its height [m], and to what [mm]: steps of 15 and 30 mm up, and one of 45 mm down."""
@@ -88,9 +86,8 @@ def _walk(levels: Sequence[tuple[float, float]], distance: float, seed: int) -> 
         f'{{ x_min = "{at} m", x_max = "{end} m", y_min = "-10 m", y_max = "10 m", height = "{height} mm" }}'
         for (at, height), end in zip(levels, ends, strict=True)
     )
-    walk = load_walk("step-walk", (f"ground.blocks=[{blocks}]", f"way.0.distance={distance}m"))
-    noise = read_walk_noise(named_walk_noise("usual"), ("inclinometer_offset=0deg",))
-    return run_walk(walk, walk_flaws(walk, ()), noise=noise, seed=seed)
+    changes = (f"ground.blocks=[{blocks}]", f"way.0.distance={distance}m")
+    return run_changed("step-walk", changes, known_noise(), seed)
 
 
 def _row(tried: Tried) -> tuple[Value, ...]:

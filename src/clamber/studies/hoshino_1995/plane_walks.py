@@ -8,16 +8,14 @@ from typing import Final
 
 import numpy as np
 
-from ...experiments.walk.noise import named_walk_noise, read_walk_noise
-from ...experiments.walk.run_walk import WalkRun, run_walk, walk_flaws
+from ...experiments.walk.run_walk import WalkRun
 from ...robots.walker import TwoFrames
 from ...robots.walker.turning import turning_range
 from ...robots.walker.workspace import stride
-from ...tasks.walks import load_walk
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import PAPER, SIMULATED
-from .walker import MM, hoshino
+from .walker import MM, hoshino, known_noise, run_changed
 
 DIRECTIONS: Final = tuple(range(0, 360, 30))
 """Of the walks [deg]."""
@@ -231,6 +229,4 @@ def strayed(run: WalkRun, direction: float | None, turn: float, about: tuple[flo
 
 
 def _walk(way: str, seed: int) -> WalkRun:
-    walk = load_walk("level-walk", (f"way={way}",))
-    noise = read_walk_noise(named_walk_noise("usual"), ("inclinometer_offset=0deg",))
-    return run_walk(walk, walk_flaws(walk, ()), noise=noise, seed=seed)
+    return run_changed("level-walk", (f"way={way}",), known_noise(), seed)

@@ -1,7 +1,12 @@
-"""The paper's robot, as its file states it."""
+"""The paper's robot, as its file states it, and its walks."""
 
+from collections.abc import Sequence
+
+from ...experiments.walk.noise import WalkNoise, named_walk_noise, read_walk_noise
+from ...experiments.walk.run_walk import WalkRun, run_walk, walk_flaws
 from ...robots.library import load_robot
 from ...robots.walker import WalkerRobot
+from ...tasks.walks import load_walk
 
 MM = 1e3
 CM2 = 1e4
@@ -14,3 +19,14 @@ def hoshino() -> WalkerRobot:
     robot = load_robot("hoshino")
     assert isinstance(robot, WalkerRobot)
     return robot
+
+
+def known_noise() -> WalkNoise:
+    """The usual noise but for the inclinometers' offset, which is known."""
+    return read_walk_noise(named_walk_noise("usual"), ("inclinometer_offset=0deg",))
+
+
+def run_changed(name: str, changes: Sequence[str], noise: WalkNoise, seed: int = 0) -> WalkRun:
+    """A shipped walk with changes, each "key=value", carried out on its usual plant."""
+    walk = load_walk(name, changes)
+    return run_walk(walk, walk_flaws(walk, ()), noise=noise, seed=seed)
