@@ -11,7 +11,7 @@ from .bodies import Bodies, PushTrial
 from .limb_logs import Identified, Recorded
 from .limbs import Contest, Forces, LimbSweep, OpenLoop, Portraits, Tuned
 from .plans import Front, Inventory, Learned, NoStart, Planned, Polished, Verdict
-from .runs import Climbed, ClimbTrials, Most, Pressed, Rehearsed, ReplayedTrial, Walked, WalkTrials
+from .runs import Climbed, Pressed, Rehearsed, Walked
 from .searches import BenchRow, Reach, Sweep
 from .things import (
     Drawn,
@@ -28,6 +28,7 @@ from .things import (
     Served,
     StudyResult,
 )
+from .trials import ClimbTrials, Most, ReplayedTrial, WalkTrials
 from .walkers import Crossing, Family, Followed, WidestDitch
 
 PRINTED: Final[dict[str, Any]] = {
