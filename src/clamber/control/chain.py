@@ -225,8 +225,8 @@ def chain_of_limb(robot: LimbedRobot, name: str, *, basis: ShareBasis = "inertia
 
 def _fill_joint(record: Records, joint: Joint, robot: LimbedRobot) -> None:
     record["rotor"], record["damping"], record["friction"] = joint.inertia, joint.damping, joint.friction
-    record["limit"] = joint.torque_limit or robot.motor.torque_limit
-    record["speed"] = joint.no_load_speed or robot.motor.no_load_speed
+    record["limit"] = robot.torque_limit_of(joint)
+    record["speed"] = robot.no_load_speed_of(joint)
     record["back_emf"] = (joint.gear * robot.motor.torque_constant) ** 2 / robot.motor.resistance
     record["lower"], record["upper"] = joint.lower, joint.upper
     record["rest"] = (joint.lower + joint.upper) / 2

@@ -6,7 +6,7 @@ from ..robots.limbed import LimbedRobot
 from ..types import Floats
 from .hardware import Decoder, Reading
 from .joint_hold import JointHold
-from .wiring import Wiring, joints_of
+from .wiring import Wiring
 
 
 class PostureGuard:
@@ -46,4 +46,4 @@ class PostureGuard:
 
 def guard_of(robot: LimbedRobot, wiring: Wiring, period: float) -> PostureGuard:
     """The guard of a whole climber."""
-    return PostureGuard(wiring, np.array([joint.inertia for joint in joints_of(robot)]), period)
+    return PostureGuard(wiring, np.array([joint.inertia for joint in robot.joints]), period)

@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 
 from ..errors import SpecError
-from ..robots.limbed import Joint, LimbedRobot
+from ..robots.limbed import LimbedRobot
 from ..types import Floats, Ints
 
 BODY_COUNTS: Final = 4000
@@ -76,11 +76,6 @@ def within(values: Floats, most: Floats | float) -> Floats:
     return np.minimum(np.maximum(values, -most), most)
 
 
-def joints_of(robot: LimbedRobot) -> list[Joint]:
-    """In the order of wires: limb by limb as the robot's file has them, shoulder before elbow."""
-    return [joint for limb in robot.limbs for joint in (limb.shoulder, limb.elbow)]
-
-
 def encoder_resolution(robot: LimbedRobot, counts: int) -> Floats:
     """Counts per radian of every joint, on the motor's side of its gear, then of the body's angle, shape (2 limbs + 1,).
 
@@ -88,7 +83,7 @@ def encoder_resolution(robot: LimbedRobot, counts: int) -> Floats:
         robot: The climber.
         counts: Per motor turn; 0 for perfect encoders, whose resolution is told as 0.
     """
-    gears = np.array([joint.gear for joint in joints_of(robot)])
+    gears = np.array([joint.gear for joint in robot.joints])
     return np.append(counts * gears, BODY_COUNTS if counts else 0) / (2 * np.pi)
 
 
@@ -110,9 +105,8 @@ def wiring_of(robot: LimbedRobot, counts: int | None = None) -> Wiring:
         raise SpecError(
             f"robot '{robot.name}'", "motor.encoder_counts", counts, "must be 1 or more: sensors are counted"
         )
-    joints = joints_of(robot)
-    per_volt = motor.amplifier_gain * motor.torque_constant * np.array([joint.gear for joint in joints])
-    limits = np.array([joint.torque_limit or motor.torque_limit for joint in joints])
+    per_volt = motor.amplifier_gain * motor.torque_constant * np.array([joint.gear for joint in robot.joints])
+    limits = np.array([robot.torque_limit_of(joint) for joint in robot.joints])
     grippers = tuple(i for i, limb in enumerate(robot.limbs) if limb.end.kind == "gripper")
     return Wiring(encoder_resolution(robot, counts), per_volt, np.minimum(limits / per_volt, COMMAND_LIMIT), grippers)
 

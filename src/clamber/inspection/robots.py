@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from ..robots.library import Robot
-from ..robots.limbed import Joint, Limb, LimbedRobot
+from ..robots.limbed import Limb, LimbedRobot
 from ..robots.walker import WalkerRobot
 from ..units import DEGREE, GRAVITY
 from .finding import Finding
@@ -46,7 +46,7 @@ def reach_of(limb: Limb) -> tuple[float, float]:
 
 def _limbed_facts(robot: LimbedRobot) -> dict[str, str]:
     nearest, farthest = zip(*(reach_of(limb) for limb in robot.limbs), strict=True)
-    torques = [_torque(robot, joint) for limb in robot.limbs for joint in (limb.shoulder, limb.elbow)]
+    torques = [robot.torque_limit_of(joint) for joint in robot.joints]
     made_up = sum(each.source == "made up" for each in robot.sources.values())
     return {
         "family": "limbed climber",
@@ -61,10 +61,6 @@ def _limbed_facts(robot: LimbedRobot) -> dict[str, str]:
 def _span(values: list[float], unit: str) -> str:
     low, high = min(values), max(values)
     return f"{low:.4g} {unit}" if high - low < 1e-9 else f"{low:.4g} to {high:.4g} {unit}"
-
-
-def _torque(robot: LimbedRobot, joint: Joint) -> float:
-    return robot.motor.torque_limit if joint.torque_limit is None else joint.torque_limit
 
 
 def _odd_limbs(robot: LimbedRobot) -> Iterator[str]:
@@ -92,7 +88,7 @@ def _odd_limbs(robot: LimbedRobot) -> Iterator[str]:
 
 
 def _weak(robot: LimbedRobot, limb: Limb, reach: float) -> Iterator[str]:
-    needed, limit = 0.5 * robot.weight * 0.5 * reach, _torque(robot, limb.shoulder)
+    needed, limit = 0.5 * robot.weight * 0.5 * reach, robot.torque_limit_of(limb.shoulder)
     if needed > limit:
         yield (
             f"limb '{limb.name}' is weak: with half of the weight on it and its tip half of its reach to the side, its "

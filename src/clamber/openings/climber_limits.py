@@ -33,11 +33,10 @@ INTERFERENCE: Final = frozenset({"limb_limb", "limb_body", "limb_peg"})
 def motor_dials(task: LimbedTask) -> Iterator[Dial]:
     """The torque limit of the motors, that of all joints where some have their own, and the power limit."""
     rules, motor = task.rules, task.robot.motor
-    joints = [joint for limb in task.robot.limbs for joint in (limb.shoulder, limb.elbow)]
     if "torque" in rules.hard:
         ounces = _stated_unit(task, "robot.motor.torque_limit") == "oz-in"
         size = OZ_IN if ounces else 1.0
-        if any(joint.torque_limit is None for joint in joints):
+        if any(joint.torque_limit is None for joint in task.robot.joints):
             yield key_dial(
                 "motor.torque_limit",
                 motor.torque_limit / size,

@@ -187,6 +187,24 @@ class LimbedRobot:
             raise UnknownNameError(f"limb of {self.name}", name, self.limb_names)
         return self.limb_names.index(name)
 
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """Limb by limb as the robot's file has them, shoulder before elbow."""
+        return tuple(joint for limb in self.limbs for joint in (limb.shoulder, limb.elbow))
+
+    @property
+    def joint_names(self) -> tuple[str, ...]:
+        """Such as "left elbow", in the order of `joints`."""
+        return tuple(f"{limb.name} {joint}" for limb in self.limbs for joint in ("shoulder", "elbow"))
+
+    def torque_limit_of(self, joint: Joint) -> float:
+        """Its own, or that of all motors [N m]."""
+        return joint.torque_limit or self.motor.torque_limit
+
+    def no_load_speed_of(self, joint: Joint) -> float:
+        """Its own, or that of all motors [rad/s]."""
+        return joint.no_load_speed or self.motor.no_load_speed
+
     def outline(self) -> Floats:
         """Corners of the body without its margin: the convex hull of the ports, anticlockwise, body frame, shape (n, 2) [m]."""
         return _hull((limb.port_x, limb.port_y) for limb in self.limbs)
@@ -235,7 +253,7 @@ def _check(robot: LimbedRobot, document: Document) -> None:
                 raise document.problem(f"{key}.lower", "must be less than 'upper'")
             if joint.upper - joint.lower > math.tau * (1 + 1e-12):
                 raise document.problem(f"{key}.upper", "must be at most one turn above 'lower'")
-    numbers = [joint.number for limb in robot.limbs for joint in (limb.shoulder, limb.elbow)]
+    numbers = [joint.number for joint in robot.joints]
     for limb in robot.limbs:
         for which, joint in (("shoulder", limb.shoulder), ("elbow", limb.elbow)):
             if numbers.count(joint.number) > 1:

@@ -20,13 +20,7 @@ NEAR_LIMIT: Final = 0.9
 
 def torque_limits(task: LimbedTask) -> Floats:
     """Torque limits of shoulders and elbows [N m], shape (n_limbs, 2)."""
-    motor = task.robot.motor.torque_limit
-    return np.array(
-        [
-            [motor if joint.torque_limit is None else joint.torque_limit for joint in (limb.shoulder, limb.elbow)]
-            for limb in task.robot.limbs
-        ]
-    )
+    return np.array([task.robot.torque_limit_of(joint) for joint in task.robot.joints]).reshape(-1, 2)
 
 
 def show_torque(torque: float, *, ounces: bool) -> str:
@@ -45,7 +39,7 @@ def torque_gauges(task: LimbedTask) -> Gauges:
     ounces = length_unit(task)[0] == "in"
     return Gauges(
         title="Joint torques",
-        names=tuple(f"{limb.name} {joint}" for limb in task.robot.limbs for joint in ("shoulder", "elbow")),
+        names=task.robot.joint_names,
         colours=tuple(style.PARTS[(k // 2) % len(style.PARTS)] for k in range(len(limits))),
         low=np.zeros(len(limits)),
         high=limits,

@@ -15,7 +15,6 @@ from ..plant import BodyPlant, BodySensed
 from ..reading_monitor import ReadingMonitor
 from ..run_ends import FallenError as FallenError
 from ..run_ends import FaultError
-from ..wiring import joints_of
 from .approach import Approaches, rank
 from .body_gains import BodyGains
 from .fall import FallWatch
@@ -224,7 +223,7 @@ class Climber:
         """After a fault: hold every joint where it is, those that have failed by the torque that they had; grippers stay as they are."""
         monitor, body, n = self.monitor, self.body, 2 * self.body.n
         monitor.closed = True
-        law = JointHold(np.array([joint.inertia for joint in joints_of(self.robot)]))
+        law = JointHold(np.array([joint.inertia for joint in self.robot.joints]))
         failed = [k for k in monitor.bad if k < n]
         posture, fed = body.q.ravel().copy(), monitor.usual_commands[:n].copy()
         for _ in range(round(seconds / self.plant.period)):

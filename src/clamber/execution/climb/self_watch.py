@@ -28,15 +28,9 @@ WANDERING: Final = 1.0
 
 def channels_of(robot: LimbedRobot) -> tuple[Channel, ...]:
     """The encoders of a climber, limb by limb, then that of its body."""
-    motor = robot.motor
     joints = [
-        Channel(
-            name=f"{limb.name} {name}",
-            fastest=joint.no_load_speed or motor.no_load_speed,
-            limit=joint.torque_limit or motor.torque_limit,
-        )
-        for limb in robot.limbs
-        for name, joint in (("shoulder", limb.shoulder), ("elbow", limb.elbow))
+        Channel(name=name, fastest=robot.no_load_speed_of(joint), limit=robot.torque_limit_of(joint))
+        for name, joint in zip(robot.joint_names, robot.joints, strict=True)
     ]
     # a body that hangs turns as its limb does: by both joints together at the most
     return *joints, Channel(name="body", fastest=2.0 * max(channel.fastest for channel in joints))

@@ -121,7 +121,7 @@ def envelope_of(robot: LimbedRobot, wiring: Wiring, period: float, limbs: Sequen
         names=tuple(f"{limb.name} {which}" for limb in chosen for which in ("shoulder", "elbow")),
         lower=np.array([joint.lower for joint in joints]),
         upper=np.array([joint.upper for joint in joints]),
-        speeds=np.array([joint.no_load_speed or motor.no_load_speed for joint in joints]),
+        speeds=np.array([robot.no_load_speed_of(joint) for joint in joints]),
         continuous=np.full(len(joints), np.inf if none else motor.continuous_torque),
         thermal_time=motor.thermal_time or np.inf,
     )

@@ -9,7 +9,6 @@ from ...actions.plan import Plan
 from ...execution.fault import Failing, Fault
 from ...execution.faulty_plants import FaultyBody
 from ...execution.plant import BodyPlant
-from ...execution.wiring import joints_of
 from ...robots.limbed import LimbedRobot
 from ...tasks.limbed import LimbedTask
 
@@ -22,8 +21,7 @@ GRABS: Final = 6
 def failing_of(task: LimbedTask, plan: Plan) -> Failing:
     """Encoders, motors, and the holds that the plan comes to first."""
     robot = task.robot
-    names = [f"{limb.name} {joint}" for limb in robot.limbs for joint in ("shoulder", "elbow")]
-    spans = [joint.upper - joint.lower for joint in joints_of(robot)]
+    names, spans = robot.joint_names, [joint.upper - joint.lower for joint in robot.joints]
     taken = [*task.start.holds.values(), *(action.hold for action in plan.actions if action.hold is not None)]
     holds = tuple(dict.fromkeys(hold for hold in taken if hold))[:GRABS]
     sensors = dict(zip(names, spans, strict=True)) | {"body": math.tau}
@@ -32,4 +30,4 @@ def failing_of(task: LimbedTask, plan: Plan) -> Failing:
 
 def failing_body(robot: LimbedRobot, plant: BodyPlant, fault: Fault) -> FaultyBody:
     """The plant with a fault."""
-    return FaultyBody(plant, fault, np.array([joint.inertia for joint in joints_of(robot)]))
+    return FaultyBody(plant, fault, np.array([joint.inertia for joint in robot.joints]))
