@@ -107,7 +107,7 @@ def test_who_pauses_may_be_late() -> None:
 
 def test_who_is_late_finds_the_plant_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
     stopped, looked = threading.Event(), threading.Event()
-    monkeypatch.setattr("clamber.execution.link.server.HELD", 0.1)
+    monkeypatch.setattr("clamber.execution.link.served_plant.HELD", 0.1)
 
     def told(_: str) -> None:
         stopped.set()

@@ -6,20 +6,16 @@ import socket
 from collections.abc import Callable
 from typing import Final
 
-import numpy as np
-
-from ..hardware import Hardware, Reading
+from ..hardware import Hardware
 from ..posture_guard import PostureGuard
 from .channel import Channel, ConnectionEndedError, LinkError, address_of
 from .clock import Clock, Lateness, WallClock
 from .envelope import Envelope
 from .messages import (
-    STOPS,
     About,
     Kind,
     Message,
     MessageError,
-    Sample,
     Stop,
     pack_about,
     pack_refusal,
@@ -29,6 +25,7 @@ from .messages import (
     unpack_stop,
 )
 from .reception import PATIENCE, Reception, peer_of
+from .served_plant import ServedPlant
 from .token import read_token, remove_token, write_token
 
 SILENT_TICKS: Final = 2
@@ -40,8 +37,6 @@ IDLE: Final = 30.0
 LONGEST_PAUSE: Final = 120.0
 """That a client may ask for; a robot that hangs on warm motors is no place to think for longer [s]. One that drives a plant that waits for
 its commands may be silent for as long while another asks for it."""
-HELD: Final = 2.0
-"""For which a plant that waits for commands is held after a safe stop, to see whether the robot stays [s]."""
 LATCHED: Final = "an operator has stopped this plant; `clamber plant release` gives it back"
 Say = Callable[[str], None]
 
@@ -79,11 +74,7 @@ class PlantServer:
         once: bool = False,
         clock: Clock | None = None,
     ) -> None:
-        self.hardware, self.about, self.guard, self.envelope = hardware, about, guard, envelope
-        self.stop = Stop.NONE
-        """Of the last client."""
-        self.stops: list[Stop] = []
-        """All safe stops so far."""
+        self.about, self._plant = about, ServedPlant(hardware, about, guard, envelope, self._say, self._note_held)
         self._clock = WallClock() if clock is None else clock
         self._reception, self._tell, self._once = Reception(listener, self._clock.now), say, once
         self._address = address_of(listener)
@@ -94,15 +85,16 @@ class PlantServer:
         """Of the client: who it is, since when it is there, and when it last said something."""
         self._since, self._said = 0.0, 0
         """When what a client says was last whole; its messages since the last tick."""
-        self._placed = self._driven = self._paused = self._latched = False
-        self._reading = Reading(np.zeros(about.readings, np.int32), 0)
-        self._commands = guard.at_rest.copy()
-        self._fresh, self._silent, self._answers = False, 0, 0
-        self._next, self._held_until = 0.0, 0
-        self._over, self._ending = False, ""
+        self._fresh, self._silent, self._answers, self._next = False, 0, 0, 0.0
+        self._latched, self._over, self._ending = False, False, ""
         self._bell, self._rope = socket.socketpair()
         self._rope.setblocking(False)
         write_token(self._address)
+
+    @property
+    def stops(self) -> list[Stop]:
+        """All safe stops so far."""
+        return self._plant.stops
 
     def serve(self) -> None:
         """Until the first client has gone, if `once`; until `ask_to_end` else."""
@@ -135,14 +127,14 @@ class PlantServer:
         if self._bell in ready:
             self._bell.recv(16)
             self._close_down()
-        if self.about.real_time and self._placed:
+        if self.about.real_time and self._plant.placed:
             late = self._clock.now() - self._next
             if late >= 0.0:
                 self._tick(late)
 
     def _patience(self) -> float | None:
         """How long there is nothing to do but wait for bytes."""
-        if self.about.real_time and self._placed:
+        if self.about.real_time and self._plant.placed:
             return max(0.0, self._next - self._clock.now())
         if self._reception.busy or (self._channel is not None and self._channel.partial):
             return PATIENCE / 4
@@ -165,7 +157,7 @@ class PlantServer:
             return
         now = self._clock.now()
         silent = now - self._heard
-        if self._channel is not None and silent > (LONGEST_PAUSE if self._driven and not self.stop else IDLE):
+        if self._channel is not None and silent > (LONGEST_PAUSE if self._plant.under_way else IDLE):
             self._reception.refuse(self._channel, "another client has asked for the plant")
             self._let_go(Stop.LOST, f"it has said nothing for {silent:.0f} s, and another asks")
         busy = self._closed
@@ -199,9 +191,9 @@ class PlantServer:
         if not hmac.compare_digest(token, read_token(self._address)):
             raise MessageError("the token of a STOP", "another", "must be that of this server")
         self._latched = not release
-        if self._driven and not self.stop and not release:
-            self._make_stop(Stop.OPERATOR, "")
-        said = "clients may start again" if release else f"stopped at tick {self._reading.tick}; {LATCHED}"
+        if self._plant.under_way and not release:
+            self._plant.make_stop(Stop.OPERATOR)
+        said = "clients may start again" if release else f"stopped at tick {self._plant.reading.tick}; {LATCHED}"
         self._say(f"an operator: {said}")
         channel.send(Kind.DONE, pack_refusal(said))
         self._reception.dismiss(channel)
@@ -222,7 +214,7 @@ class PlantServer:
             for message in messages:
                 self._heard = self._clock.now()
                 self._said += 1
-                if self.about.real_time and self._placed and self._said > MOST_MESSAGES:
+                if self.about.real_time and self._plant.placed and self._said > MOST_MESSAGES:
                     raise MessageError(
                         "a client's messages between two ticks", self._said, f"must be at most {MOST_MESSAGES}"
                     )
@@ -256,41 +248,32 @@ class PlantServer:
             raise MessageError("a client's message", f"a {kind.name}", "must be a START, COMMAND, PAUSE or BYE")
 
     def _start(self, channel: Channel, message: Message) -> None:
-        start = unpack_numbers(message.kind, message.payload, self.about.starts)
-        self.hardware.reset(start)
-        self._reading, self._answers = self.hardware.sense(), message.number
-        self.envelope.reset()
+        self._plant.start(unpack_numbers(message.kind, message.payload, self.about.starts))
         self._lateness.forget_overruns()
-        self._commands = self.guard.at_rest.copy()
-        self.guard.hold(self._reading, self._commands)
-        self.stop, self._placed, self._driven = Stop.NONE, True, False
-        self._fresh, self._silent, self._held_until, self._paused = False, 0, 0, False
+        self._fresh, self._silent, self._answers = False, 0, message.number
         self._next = self._clock.now() + self._wall_period
         self._send_sample(channel)
 
     def _command(self, channel: Channel, message: Message) -> None:
         commands = unpack_numbers(message.kind, message.payload, self.about.commands)
-        self.envelope.check(commands)
-        if not self._placed:
+        self._plant.check(commands)
+        if not self._plant.placed:
             raise MessageError("a COMMAND", "the first", "must follow a START")
         self._answers = message.number
-        if self.stop:  # until a new start
+        if not self._plant.stop:  # else until a new start
+            self._plant.drive(commands)
+            self._fresh, self._silent = True, 0
             if not self.about.real_time:
-                self._send_sample(channel)
-            return
-        self._commands, self._fresh, self._driven, self._silent = commands, True, True, 0
-        self._paused = False
+                self._plant.step()
         if not self.about.real_time:
-            self._advance(commands)
-            self._watch()
             self._send_sample(channel)
 
     def _pause(self, message: Message) -> None:
         """The guard holds, and silence is no stop, until the next command."""
         self._answers = message.number
-        if self._driven and not self.stop and not self._paused:
-            self._paused, self._silent = True, 0
-            self.guard.hold(self._reading, self._commands)
+        if self._plant.under_way and not self._plant.paused:
+            self._silent = 0
+            self._plant.pause()
 
     def _tick(self, late: float) -> None:
         """One period by the clock."""
@@ -299,63 +282,27 @@ class PlantServer:
         self._said = 0
         if late > self._wall_period:
             self._next = self._clock.now() + self._wall_period  # lost time is not caught up with
-        if self._driven and not self.stop and not self._fresh:
+        if self._plant.under_way and not self._fresh:
             self._silent += 1
-            if self._silent >= (LONGEST_PAUSE / self.about.period if self._paused else SILENT_TICKS):
-                self._make_stop(Stop.SILENT, "")
-        if self._driven and not self.stop and (problem := self._lateness.problem()) is not None:
-            self._make_stop(Stop.OVERRUN, problem)
+            if self._silent >= (LONGEST_PAUSE / self.about.period if self._plant.paused else SILENT_TICKS):
+                self._plant.make_stop(Stop.SILENT)
+        if self._plant.under_way and (problem := self._lateness.problem()) is not None:
+            self._plant.make_stop(Stop.OVERRUN, problem)
         self._fresh = False
-        if self._driven and not self.stop and not self._paused:
-            self._advance(self._commands)
-            self._watch()
-        else:
-            self._hold()
+        self._plant.step()
         if self._channel is not None:
             try:
                 self._send_sample(self._channel)
             except ConnectionEndedError as end:
                 self._let_go(Stop.LOST, str(end))
 
-    def _advance(self, commands: np.ndarray) -> None:
-        self.hardware.actuate(commands)
-        self.hardware.step()
-        self._reading = self.hardware.sense()
-        self.envelope.warm(commands)
-
-    def _watch(self) -> None:
-        """Stop a robot that its client has driven beyond its limits."""
-        fault = self.envelope.fault(self._reading)
-        if fault is not None:
-            self._make_stop(Stop.ENVELOPE, fault)
-
     def _send_sample(self, channel: Channel, stop: Stop | None = None) -> None:
-        reading = self._reading
-        sample = Sample(
-            reading.tick, self._answers, self.stop if stop is None else stop, reading.counts, self.hardware.truth()
-        )
+        sample = self._plant.sample(self._answers, stop)
         channel.send(Kind.SAMPLE, pack_sample(sample), timeout=0.0 if self.about.real_time else PATIENCE)
 
-    def _make_stop(self, stop: Stop, why: str) -> None:
-        """From now on the guard holds the posture."""
-        self.stop = stop
-        self.stops.append(stop)
-        self.guard.hold(self._reading, self._commands)
-        self._say(
-            f"safe stop at tick {self._reading.tick}: {STOPS[stop]}{f' ({why})' if why else ''}; the posture is held"
-        )
-        self._held_until = self._reading.tick + round(HELD / self.about.period)
-        while not self.about.real_time and self._held_until:
-            self._hold()
-
-    def _hold(self) -> None:
-        """One period with the guard; told, some time after a safe stop, how still the robot stays."""
-        self._advance(self.guard.commands(self._reading))
-        if self._held_until and self._reading.tick >= self._held_until:
-            self._held_until = 0
-            moved = np.degrees(self.guard.moved(self._reading))
-            self._say(f"held for {HELD:g} s: no joint has moved by more than {moved:.2f} deg")
-            self._over = self._over or bool(self._ending) or (self._once and self._channel is None)
+    def _note_held(self) -> None:
+        """The robot has been held for a while after a safe stop: a server that is to end has waited for that."""
+        self._over = self._over or bool(self._ending) or (self._once and self._channel is None)
 
     def _send_away(self, stop: Stop, why: str) -> None:
         assert self._channel is not None
@@ -367,25 +314,25 @@ class PlantServer:
         channel, self._channel = self._channel, None
         assert channel is not None
         self._reception.dismiss(channel)
-        if self._driven and not self.stop:
+        if self._plant.under_way:
             if stop:
-                self._make_stop(stop, why)
+                self._plant.make_stop(stop, why)
             else:
-                self.guard.hold(self._reading, self._commands)
+                self._plant.hold_here()
                 self._say("the client has ended; the posture is held")
         elif stop:
             self._say(f"the client is let go: {why}")
         times = self._lateness.summary()
         if times is not None:
             self._say(times)
-        self._driven = False
-        self._over = self._over or (self._once and not self._held_until)
+        self._plant.driven = False
+        self._over = self._over or (self._once and not self._plant.held_until)
 
     def _close_down(self) -> None:
         """A safe stop, held until it is seen whether the robot stays; at once where nobody drives it."""
-        if self._driven and not self.stop:
-            self._make_stop(Stop.ENDED, self._ending)
-        self._over = not self._held_until
+        if self._plant.under_way:
+            self._plant.make_stop(Stop.ENDED, self._ending)
+        self._over = not self._plant.held_until
 
     def _say(self, what: str) -> None:
         with contextlib.suppress(OSError):  # whoever listened is gone, such as a terminal
@@ -396,6 +343,6 @@ class PlantServer:
         channel = self._channel
         assert channel is not None
         with contextlib.suppress(ConnectionEndedError):
-            if self._placed:
+            if self._plant.placed:
                 self._send_sample(channel, Stop.ENDED)
         channel.hang_up()
