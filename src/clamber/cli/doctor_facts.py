@@ -14,6 +14,7 @@ from typing import Any, Final
 from .. import __version__, kernel_cache, sources
 from ..extensions import GROUPS, ExtensionError, all_outside, load_outside, outside, package_of
 from ..jobs.cores import usable_cores
+from ..jobs.release import version_of
 from ..types import Json
 
 FIRST_KERNEL: Final = "replay"
@@ -100,7 +101,7 @@ def extras() -> tuple[str, ...]:
 
 def parts(extra: str | None) -> dict[str, str | None]:
     """Package -> its installed version, None if it is missing: of one optional part, or what is always needed."""
-    return {name: _version(name) for name, of in _requirements() if of == extra}
+    return {name: version_of(name) for name, of in _requirements() if of == extra}
 
 
 def _requirements() -> list[tuple[str, str | None]]:
@@ -111,13 +112,6 @@ def _requirements() -> list[tuple[str, str | None]]:
         return []
     found = (_REQUIREMENT.match(line) for line in lines)
     return [(match[1], match[2]) for match in found if match is not None]
-
-
-def _version(name: str) -> str | None:
-    try:
-        return importlib.metadata.version(name)
-    except importlib.metadata.PackageNotFoundError:
-        return None
 
 
 def kernels() -> Json:

@@ -4,10 +4,10 @@ import math
 import os
 import platform
 from collections.abc import Mapping, Sequence
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from .. import __version__
+from ..jobs.release import version_of
 from .rows import Row
 
 COUNTED = ("numpy", "numba", "mujoco", "scipy", "pin", "mink", "deap", "pymoo", "pygad")
@@ -44,11 +44,8 @@ def machine() -> str:
         f"Python {platform.python_version()}",
         f"clamber {__version__}",
     ]
-    for package in COUNTED:
-        try:
-            told.append(f"{package} {version(package)}")
-        except PackageNotFoundError:
-            continue
+    found = {package: version_of(package) for package in COUNTED}
+    told += [f"{package} {version}" for package, version in found.items() if version is not None]
     return ", ".join(told) + "."
 
 

@@ -19,7 +19,7 @@ def release() -> Json:
         "clamber": __version__,
         "files": package_hash()[:16],
         "python": platform.python_version(),
-        **{name: _version(name) for name in COMPUTE},
+        **{name: version_of(name) for name in COMPUTE},
     }
 
 
@@ -32,7 +32,8 @@ def difference(mine: Json, theirs: Json) -> str:
     )
 
 
-def _version(name: str) -> str | None:
+def version_of(name: str) -> str | None:
+    """Of an installed package; None if it is missing."""
     import importlib.metadata  # takes longer than the rest of this file
 
     try:
