@@ -60,7 +60,7 @@ class LegByLeg:
             aim["place"][0, :2], aim["twist"][0, :2] = self._seen_from_aim(body, i)
             force = -self._forces[i]
             turn = -(body.pose[2] + limb.port_angle)
-            aim["wrench"][0, :2] = _turned(force, turn)
+            aim["wrench"][0, :2] = turned(force, turn)
             self._states[0, 0], self._states[0, 1] = body.q[i], body.qd[i]
             body.torques[i] = controller.command(aim, self._states)[0]
 
@@ -70,8 +70,8 @@ class LegByLeg:
         limb = body.robot.limbs[i]
         arm = body.tasks[i].place - body.aim[:2]
         speed = -body.aim_speed[:2] + body.aim_speed[2] * np.array((arm[1], -arm[0]))
-        place = _turned(arm, -body.aim[2]) - (limb.port_x, limb.port_y)
-        return _turned(place, -limb.port_angle), _turned(speed, -body.aim[2] - limb.port_angle)
+        place = turned(arm, -body.aim[2]) - (limb.port_x, limb.port_y)
+        return turned(place, -limb.port_angle), turned(speed, -body.aim[2] - limb.port_angle)
 
 
 class Coordinated:
@@ -114,7 +114,8 @@ class Coordinated:
         return gains.leg_kp * (behind + inwards * depth) - gains.leg_kd * float(body.tip_speed(second) @ line)
 
 
-def _turned(vector: Floats, angle: float) -> Floats:
+def turned(vector: Floats, angle: float) -> Floats:
+    """A vector, shape (2,), turned by an angle [rad]."""
     c, s = math.cos(angle), math.sin(angle)
     return np.array((c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]))
 

@@ -10,6 +10,7 @@ import numpy as np
 from ...robots.limbed import LimbedRobot
 from ...types import Floats
 from ..reading_monitor import Channel, ReadingMonitor
+from .body_schemes import turned
 from .whole_body import WholeBody
 
 UNBALANCED: Final = 1.5
@@ -120,8 +121,8 @@ class SelfWatch:
             shift = angle - float(body.pose[2])
             between = np.concatenate(
                 (
-                    _turned(angle, body.tips[a] - body.tips[b]),
-                    _turned(float(body.settled[2]) + shift, body.settled_tips[a] - body.settled_tips[b]),
+                    turned(body.tips[a] - body.tips[b], angle),
+                    turned(body.settled_tips[a] - body.settled_tips[b], float(body.settled[2]) + shift),
                 )
             )
             known = self._came.get(pair)
@@ -139,7 +140,7 @@ class SelfWatch:
     def _tell_sensor(self, pair: Sequence[int], moved: Floats, size: float) -> None:
         """Which sensor alone would explain the most of it: of the joints of both limbs, and of the body."""
         body, (a, b) = self._body, pair
-        arm = _turned(float(body.pose[2]), body.tips[a] - body.tips[b])
+        arm = turned(body.tips[a] - body.tips[b], float(body.pose[2]))
         ways = [(2 * i + k, body.turned_by_joints(i)[:, k]) for i in pair for k in range(2)]
         ways.append((2 * body.n, np.array((-arm[1], arm[0]))))
         sensor = max(ways, key=lambda way: abs(float(way[1] @ moved)) / max(float(np.hypot(*way[1])), 1e-9))[0]
@@ -147,8 +148,3 @@ class SelfWatch:
         names = " and ".join(f"'{body.robot.limbs[i].name}'" for i in pair)
         why = f"sensor drifts, or a hook slides: the tips of {names} have moved {1e3 * size:.0f} mm against each other on their holds"
         self._monitor.fail("drift", self._monitor.channels[sensor].name, why)
-
-
-def _turned(angle: float, way: Floats) -> Floats:
-    c, s = math.cos(angle), math.sin(angle)
-    return np.array((c * way[0] - s * way[1], s * way[0] + c * way[1]))

@@ -90,8 +90,15 @@ def climb_rung(gains: BodyGains, seed: int) -> RungTrial:
 
     Pegs, friction and weight are drawn from the seed; the plant is nominal otherwise.
     """
-    climber, reason = _rung_with_noise(gains, seed)
-    return RungTrial(not reason, climber.lost, reason, climber.time)
+    task = _ladder()
+    draw = np.random.default_rng(seed)
+    flaws = bench_flaws("nominal").with_changes(friction=1.0 + draw.uniform(-FRICTION, FRICTION))
+    weight = 1.0 + draw.uniform(-WEIGHT, WEIGHT)
+    numbers = [hold.number for hold in task.world.holds]
+    shifts = draw.uniform(-PEG_ERROR, PEG_ERROR, (len(numbers), 2))
+    shifts[[numbers.index(number) for number in (2, 3, 4)]] = 0.0  # the robot was put on these
+    pegs = task.world.positions() + shifts
+    return _climb_on(task, gains, flaws, pegs, map_error=PEG_ERROR, weight=weight)[0]
 
 
 def watch_rung(gains: BodyGains, plant: str) -> tuple[RungTrial, ClimbTrace]:
@@ -102,21 +109,8 @@ def watch_rung(gains: BodyGains, plant: str) -> tuple[RungTrial, ClimbTrace]:
         plant: "ideal" or "nominal".
     """
     task = _ladder()
-    climber, reason = _climb_on(task, gains, bench_flaws(plant), task.world.positions(), map_error=0.0)
-    return RungTrial(not reason, climber.lost, reason, climber.time), climber.trace()
-
-
-def _rung_with_noise(gains: BodyGains, seed: int) -> tuple[WatchedClimber, str]:
-    task = _ladder()
-    draw = np.random.default_rng(seed)
-    flaws = bench_flaws("nominal").with_changes(friction=1.0 + draw.uniform(-FRICTION, FRICTION))
-    weight = 1.0 + draw.uniform(-WEIGHT, WEIGHT)
-    numbers = [hold.number for hold in task.world.holds]
-    shifts = draw.uniform(-PEG_ERROR, PEG_ERROR, (len(numbers), 2))
-    shifts[[numbers.index(number) for number in (2, 3, 4)]] = 0.0  # the robot was put on these
-    return _climb_on(
-        task, gains, flaws, task.world.positions() + shifts, map_error=PEG_ERROR, weight=weight * task.robot.weight
-    )
+    trial, climber = _climb_on(task, gains, bench_flaws(plant), task.world.positions(), map_error=0.0)
+    return trial, climber.trace()
 
 
 def _ladder() -> LimbedTask:
@@ -126,17 +120,17 @@ def _ladder() -> LimbedTask:
 
 
 def _climb_on(
-    task: LimbedTask, gains: BodyGains, flaws: LimbFlaws, pegs: Floats, *, map_error: float, weight: float | None = None
-) -> tuple[WatchedClimber, str]:
-    """The climber at its end, and why it ended early, or nothing."""
-    robot = task.robot if weight is None else replace(task.robot, weight=weight)
-    plant = ClimberPlant(robot, task.world, flaws, pegs=pegs)
+    task: LimbedTask, gains: BodyGains, flaws: LimbFlaws, pegs: Floats, *, map_error: float, weight: float = 1.0
+) -> tuple[RungTrial, WatchedClimber]:
+    """How a rung of a robot of so many times its weight ended, and the climber at its end."""
+    plant = ClimberPlant(replace(task.robot, weight=weight * task.robot.weight), task.world, flaws, pegs=pegs)
     numbers = [hold.number for hold in task.world.holds]
     climber = WatchedClimber(
         task.robot, task.world, plant, gains=gains, map_error=map_error,
         pegs=dict(zip(numbers, pegs, strict=True)), truth=plant.truth,
     )  # fmt: skip
-    return climber, _climb(climber)
+    reason = _climb(climber)
+    return RungTrial(not reason, climber.lost, reason, climber.time), climber
 
 
 def _climb(climber: Climber) -> str:

@@ -15,7 +15,6 @@ from ...execution.climb.course import climbable
 from ...experiments.climb.body_bench import SLOT
 from ...experiments.climb.body_stand import bench_flaws
 from ...experiments.climb.run_plan import ClimbRun, run_plan
-from ...tasks import load_task
 from ...tasks.limbed import LimbedTask
 from ...types import Floats
 from ...units import INCH
@@ -23,6 +22,7 @@ from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import MILLI, PAPER
 from .body_entries import OURS, OWN, PLANT, SCCT, TABLE_4_1
 from .nominal_gait import GAIT
+from .replayed import limbed_task
 
 RUNGS: Final = 2
 PRINTED: Final = f"{SCCT}, Table 4.1, limit of 4.4.2"
@@ -107,9 +107,7 @@ def gait_plan(task: LimbedTask, rungs: int) -> Plan:
 @cache
 def climbed(rungs: int, gains: BodyGains = OURS, plant: str = "nominal") -> ClimbRun:
     """That gait, carried out on a plant, "nominal" or "ideal"."""
-    task = load_task("ladder")
-    assert isinstance(task, LimbedTask)
-    strict = climbable(task)
+    strict = climbable(limbed_task("ladder"))
     return run_plan(strict, gait_plan(strict, rungs), bench_flaws(plant), gains=gains)
 
 

@@ -102,13 +102,6 @@ def follow_modified_ladder() -> StudyResult:
     ]  # fmt: skip
     ratios = [curve.after / curve.before for curve in curves if curve.passed is not None]
     ratio = median(ratios) if ratios else None
-    shown = next((climb for climb in climbs if climb.status == "found"), climbs[0])
-
-    def curve(path: Path) -> None:
-        from ...viewing.charts import draw_history
-
-        draw_history(shown.history, path, goals=[goal.name for goal in task.goals])
-
     return StudyResult(
         paper=PAPER,
         result="modified-ladder-evolution",
@@ -152,7 +145,7 @@ def follow_modified_ladder() -> StudyResult:
             ),
             tuple(rows),
         ),
-        figures=(Figure("fitness", "Fitness and actions that hold, generation by generation (figure 2.16).", curve),),
+        figures=(_figure(climbs, task, "2.16"),),
     )
 
 
@@ -174,13 +167,6 @@ def follow_h() -> StudyResult:
     ratios = _ratios(rows, 4, 5)
     ratio = median(ratios) if ratios else None
     jumps = all(len(str(row[3]).split(", ")) == len(task.goals) - 1 for row in rows if row[1] == "found")
-    shown = next((climb for climb in climbs if climb.status == "found"), climbs[0])
-
-    def curve(path: Path) -> None:
-        from ...viewing.charts import draw_history
-
-        draw_history(shown.history, path, goals=[goal.name for goal in task.goals])
-
     return StudyResult(
         paper=PAPER,
         result="h-evolution",
@@ -205,8 +191,20 @@ def follow_h() -> StudyResult:
             ("seed", "status", "generations", "sub-goals at", "slope around [m/generation]", "slope elsewhere"),
             tuple(rows),
         ),
-        figures=(Figure("fitness", "Fitness and actions that hold, generation by generation (figure 2.19).", curve),),
+        figures=(_figure(climbs, task, "2.19"),),
     )
+
+
+def _figure(climbs: list[PlanResult], task: LimbedTask, number: str) -> Figure:
+    """The first search that found a plan, as the figure of that number."""
+    shown = next((climb for climb in climbs if climb.status == "found"), climbs[0])
+
+    def curve(path: Path) -> None:
+        from ...viewing.charts import draw_history
+
+        draw_history(shown.history, path, goals=[goal.name for goal in task.goals])
+
+    return Figure("fitness", f"Fitness and actions that hold, generation by generation (figure {number}).", curve)
 
 
 def _flat_below(curve: Curve) -> bool:
