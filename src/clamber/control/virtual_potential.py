@@ -126,9 +126,6 @@ def _nearest_points(ax, ay, bx, by, corners):
     # inside: the middle of the part of the link that is in the body
     low = 0.0 if a_in else low
     high = 1.0 if b_in else high
-    if a_in and b_in:
-        low = 0.0
-        high = 1.0
     t = 0.5 * (low + high)
     x = ax + t * (bx - ax)
     y = ay + t * (by - ay)
