@@ -7,7 +7,7 @@ from typing import Any, Final
 
 from ..files import Document, check_schema, find_data, is_path, read_toml
 from ..regular_files import user_path
-from ..robots.library import family_of, read_robot
+from ..robots.library import family_of, load_robot, read_robot
 from ..robots.limbed import SCHEMA as ROBOT
 from ..robots.limbed import LimbedRobot
 from ..robots.starter import starter_robot
@@ -19,7 +19,7 @@ from ..tasks.walker import WalkerTaskSpec
 from ..types import Json
 from ..worlds.board import SCHEMA as BOARD
 from ..worlds.board import BoardSpec
-from ..worlds.library import read_board
+from ..worlds.library import load_board, read_board
 from ..worlds.starter import starter_board
 from .new_files import name_of, task_data
 
@@ -47,7 +47,11 @@ def robot_starter(path: Path, limbs: int | None, like: str | None) -> Starter:
         ClamberError: If there is no robot to be like.
     """
     name = name_of(path, "robot")
-    data = starter_robot(name, limbs or LIMBS) if like is None else _data(read_robot(like), ROBOT) | {"name": name}
+    if like is None:
+        data = starter_robot(name, limbs or LIMBS)
+    else:
+        load_robot(like)
+        data = _data(read_robot(like), ROBOT) | {"name": name}
     family = family_of(Document(like or name, data))
     lead = (
         ("schema", data["schema"], "The format of this file."),
@@ -64,7 +68,11 @@ def board_starter(path: Path, like: str | None) -> Starter:
         ClamberError: If there is no board to be like.
     """
     name = name_of(path)
-    data = starter_board(name) if like is None else _data(read_board(like), BOARD) | {"name": name}
+    if like is None:
+        data = starter_board(name)
+    else:
+        load_board(like)  # what is wrong with it is told, and not copied
+        data = _data(read_board(like), BOARD) | {"name": name}
     return Starter(data, board_text(data, path))
 
 
