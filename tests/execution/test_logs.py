@@ -1,21 +1,26 @@
 import io
 import json
 import string
+import tracemalloc
 from pathlib import Path
 
+import lz4.frame
 import numpy as np
 import pytest
+import zstandard
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mcap.data_stream import RecordBuilder
 from mcap.reader import make_reader
-from mcap.writer import Writer
+from mcap.records import Chunk, Footer, Header
+from mcap.writer import CompressionType, Writer
 
 from clamber.errors import ClamberError, FileError
 from clamber.execution.log import Log, LogError
 from clamber.execution.log_columns import read_mapping
 from clamber.execution.log_csv import csv_text, parse_csv
 from clamber.execution.log_files import read_log, write_log
-from clamber.execution.log_mcap import mcap_bytes, parse_mcap
+from clamber.execution.log_mcap import MAGIC, MOST_INFLATED, mcap_bytes, parse_mcap
 from clamber.execution.log_roles import role_of, samples_of
 from clamber.units import DEGREE
 
@@ -84,6 +89,66 @@ def test_a_foreign_mcap_file_is_read_by_dotted_names_and_its_messages_times() ->
     samples = samples_of(log).joints
     assert [joint.name for joint in samples] == ["0", "1"]
     np.testing.assert_allclose(samples[1].time, 0.005 * np.arange(25), atol=1e-12)
+
+
+@pytest.mark.parametrize("compression", ["zstd", "lz4", ""])
+def test_a_log_comes_back_however_its_chunks_are_compressed_in_the_order_of_its_times(compression: str) -> None:
+    out = io.BytesIO()
+    kind = {"zstd": CompressionType.ZSTD, "lz4": CompressionType.LZ4, "": CompressionType.NONE}[compression]
+    writer = Writer(out, chunk_size=500, compression=kind)
+    writer.start()
+    channel = writer.register_channel("limb", "json", writer.register_schema("State", "jsonschema", b"{}"))
+    for k in (3, 1, 2, 0, *range(4, 60)):
+        writer.add_message(channel, k, json.dumps({"time": k, "q1": 0.1 * k}).encode(), k)
+    writer.finish()
+    for content in (out.getvalue(), out.getvalue()[:-20]):
+        assert parse_mcap(content, "log").column("time").tolist() == list(range(60))
+
+
+def bomb(compression: str, says: int, holds: int) -> bytes:
+    """A file of one chunk of blanks that says how much it holds, which may be a lie."""
+    out = RecordBuilder()
+    out.write(MAGIC)
+    Header("", "").write(out)
+    data = {"zstd": zstandard.compress, "lz4": lz4.frame.compress, "": bytes}[compression](bytes(holds))
+    Chunk(compression, data, 0, 0, 0, says).write(out)
+    Footer(0, 0, 0).write(out)
+    out.write(MAGIC)
+    return bytes(out.end())
+
+
+@pytest.mark.parametrize("compression", ["zstd", "lz4"])
+@pytest.mark.parametrize(
+    ("says", "holds", "told"),
+    [
+        (2**35, 1000, f"chunks of {2**35} bytes: at most {MOST_INFLATED} are read"),
+        (2**63, 2**25, f"chunks of {2**63} bytes: at most {MOST_INFLATED} are read"),
+        (1000, 2**25, "says that it holds 1000 bytes holds more"),
+        (1000, 999, "says that it holds 1000 bytes holds 999"),
+    ],
+)
+@pytest.mark.parametrize("end", [None, -5])
+def test_a_chunk_that_inflates_without_bounds_is_refused_by_name_and_not_taken_in(
+    compression: str, says: int, holds: int, told: str, end: int | None
+) -> None:
+    content = bomb(compression, says, holds)[:end]
+    assert len(content) < 2**20
+    tracemalloc.start()
+    try:
+        with pytest.raises(LogError, match=f"^bomb.mcap.*{told}"):
+            parse_mcap(content, "bomb.mcap")
+        assert tracemalloc.get_traced_memory()[1] < 2**23
+    finally:
+        tracemalloc.stop()
+
+
+def test_chunks_that_are_small_by_themselves_are_counted_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    content = mcap_bytes(ramp())
+    monkeypatch.setattr("clamber.execution.log_mcap.MOST_INFLATED", 20_000)
+    assert_equal(parse_mcap(content, "log"), ramp())
+    long = mcap_bytes(ramp(3000))
+    with pytest.raises(LogError, match=r"chunks of \d+ bytes: at most 20000 are read"):
+        parse_mcap(long, "log")
 
 
 def test_numbers_leave_in_si_units_and_a_missing_unit_is_told() -> None:

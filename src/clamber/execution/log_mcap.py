@@ -9,6 +9,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from ..types import Floats
 from .log import Log, LogError, build_log
 
 TOPIC: Final = "limb"
@@ -21,6 +22,9 @@ NOTES: Final = "clamber"
 """Metadata record with the notes that are known only at the end of a log."""
 LATEST: Final = 2**64 - 1
 """Largest time that a message can have [ns]."""
+MOST_INFLATED: Final = 512 * 1024 * 1024
+"""What the chunks of a file may hold in all [bytes]: numbers as JSON shrink to a quarter, so that a log of the largest size that is read
+still passes; a file of some kB may well hold a thousand times its size, and all of it is in memory at once."""
 MAGIC: Final = bytes((137, 77, 67, 65, 80, 48, 13, 10))
 """First and last bytes of a whole file."""
 _HEAD: Final = struct.Struct("<BQ")
@@ -75,35 +79,36 @@ def parse_mcap(content: bytes, label: str, topic: str | None = None) -> Log:
         topic: Channel to read; None: the only one, or the one called `TOPIC`.
 
     Raises:
-        LogError: If it is no MCAP file, no such channel is in it, or its messages are not JSON with the same numbers each.
+        LogError: If it is no MCAP file, holds more than `MOST_INFLATED`, has no such channel, or its messages are not JSON with the same
+            numbers each.
     """
     cut = not content.endswith(MAGIC)
     try:
-        channels = _read_cut(content) if cut else _read(content)
+        channels = _read(content, label, cut=cut)
+    except LogError:
+        raise
     except Exception as error:  # the reader raises whatever a broken record makes of its struct, codec or index
         what = f"is not a readable MCAP file ({type(error).__name__}: {error})"
         raise LogError(label, None, None, None, what[:300]) from None
     name = _choose(channels, topic, label)
     chosen = channels[name]
-    rows: list[dict[str, float]] = []
+    rows: list[Floats] = []
+    first: dict[str, float] = {}
     for k, (_, data) in enumerate(chosen.messages, start=1):
         flat: dict[str, float] = {}
         try:
             _flatten(json.loads(data), "", flat)
         except (ValueError, RecursionError, OverflowError) as error:
             raise LogError(label, name, k, None, f"is not valid JSON: {str(error)[:200]}") from None
-        rows.append(flat)
-    titles = list(rows[0])
-    if not titles:
-        raise LogError(label, name, 1, None, "must be an object that holds numbers")
-    for k, flat in enumerate(rows, start=1):
-        if flat.keys() != rows[0].keys():
-            odd = sorted(flat.keys() ^ rows[0].keys())[0]
-            raise LogError(
-                label, odd, k, "there" if odd in flat else "missing", "every message must hold the same numbers"
-            )
-    table = np.array([[flat[title] for title in titles] for flat in rows])
-    columns = list(table.T.copy())
+        first = first or flat
+        if not first:
+            raise LogError(label, name, k, None, "must be an object that holds numbers")
+        if flat.keys() != first.keys():
+            odd = sorted(flat.keys() ^ first.keys())[0]
+            how = "there" if odd in flat else "missing"
+            raise LogError(label, odd, k, how, "every message must hold the same numbers")
+        rows.append(np.array([flat[title] for title in first]))
+    titles, columns = list(first), list(np.stack(rows, axis=1))
     if not any(title.split("[")[0].strip().lower() in ("time", "timestamp", "t") for title in titles):
         titles.insert(0, "time [s]")
         stamps = np.array([stamp - chosen.messages[0][0] for stamp, _ in chosen.messages], dtype=np.float64)
@@ -121,43 +126,69 @@ class _Channel:
     """Times [ns] and data."""
 
 
-def _read(content: bytes) -> dict[str, _Channel]:
-    """The channels of a whole file by topic."""
-    from mcap.reader import make_reader
-
-    reader = make_reader(io.BytesIO(content), validate_crcs=True)
-    channels: dict[str, _Channel] = {}
-    for schema, channel, message in reader.iter_messages():
-        _keep(channels, schema, channel, message)
-    for record in reader.iter_metadata():
-        _add_notes(channels, record)
-    return channels
-
-
-def _read_cut(content: bytes) -> dict[str, _Channel]:
-    """The channels of a file that ends in the middle, record by record up to the last whole one."""
+def _read(content: bytes, label: str, *, cut: bool) -> dict[str, _Channel]:
+    """The channels of a file by topic, their messages by time; of one that ends in the middle, those up to its last whole record."""
     from mcap.exceptions import EndOfFile
-    from mcap.records import Channel, Message, Metadata, Schema
-    from mcap.stream_reader import StreamReader
+    from mcap.records import Channel, Chunk, Message, Metadata, Schema
+    from mcap.stream_reader import StreamReader, breakup_chunk
 
     channels: dict[str, _Channel] = {}
     schemas: dict[int, Any] = {}
     known: dict[int, Any] = {}
-    reader = StreamReader(io.BytesIO(content[: _whole_records(content)]), validate_crcs=True)
+    notes: dict[str, str] = {}
+    whole = content[: _whole_records(content)] if cut else content
+    left = MOST_INFLATED
     try:
-        for record in reader.records:
-            if isinstance(record, Schema):
-                schemas[record.id] = record
-            elif isinstance(record, Channel):
-                known[record.id] = record
-            elif isinstance(record, Message):
-                channel = known[record.channel_id]
-                _keep(channels, schemas.get(channel.schema_id), channel, record)
-            elif isinstance(record, Metadata):
-                _add_notes(channels, record)
+        for outer in StreamReader(io.BytesIO(whole), emit_chunks=True, validate_crcs=True).records:
+            records = [outer]
+            if isinstance(outer, Chunk):
+                left -= outer.uncompressed_size
+                if left < 0:
+                    held = f"chunks of {MOST_INFLATED - left} bytes"
+                    raise LogError(label, None, None, held, f"at most {MOST_INFLATED} are read, uncompressed")
+                records = breakup_chunk(_inflated(outer), validate_crc=True)
+            for record in records:
+                if isinstance(record, Schema):
+                    schemas[record.id] = record
+                elif isinstance(record, Channel):
+                    known[record.id] = record
+                elif isinstance(record, Message):
+                    channel = known[record.channel_id]
+                    _keep(channels, schemas.get(channel.schema_id), channel, record)
+                elif isinstance(record, Metadata) and record.name == NOTES:
+                    notes |= record.metadata
     except EndOfFile:
-        pass
+        if not cut:
+            raise
+    for found in channels.values():
+        found.messages.sort(key=lambda message: message[0])
+        found.notes |= notes
     return channels
+
+
+def _inflated(chunk: Any) -> Any:
+    """A chunk without compression, whose bytes are as many as it says; what it truly holds may be far more, and is not taken in.
+
+    Raises:
+        ValueError: If it holds more or less.
+    """
+    import lz4.frame  # both come with mcap
+    import zstandard
+
+    size = chunk.uncompressed_size
+    if chunk.compression == "zstd":
+        data = zstandard.ZstdDecompressor().stream_reader(chunk.data).read(size + 1)
+    elif chunk.compression == "lz4":
+        data = lz4.frame.LZ4FrameDecompressor().decompress(chunk.data, max_length=size + 1)
+    elif chunk.compression == "":
+        data = chunk.data
+    else:
+        raise ValueError(f"a chunk is compressed by '{chunk.compression[:40]}'")
+    if len(data) != size:
+        raise ValueError(
+            f"a chunk that says that it holds {size} bytes holds {'more' if len(data) > size else len(data)}"
+        )
+    return replace(chunk, compression="", data=data)
 
 
 def _whole_records(content: bytes) -> int:
@@ -177,12 +208,6 @@ def _keep(channels: dict[str, _Channel], schema: Any, channel: Any, message: Any
         channel.topic, _Channel(channel.message_encoding, dict(channel.metadata) if ours else {})
     )
     found.messages.append((message.log_time, message.data))
-
-
-def _add_notes(channels: dict[str, _Channel], record: Any) -> None:
-    if record.name == NOTES:
-        for channel in channels.values():
-            channel.notes.update(record.metadata)
 
 
 def _choose(channels: dict[str, _Channel], topic: str | None, label: str) -> str:
