@@ -1,7 +1,9 @@
 """What is told of a run, of whatever robot: what may become of an action, and how the whole ended."""
 
 from dataclasses import dataclass, field
-from typing import Final, Literal, TypeAlias
+from typing import Annotated, Final, Literal, TypeAlias
+
+from pydantic import Field
 
 from ..types import Json
 from .findings import Finding
@@ -13,6 +15,8 @@ Outcome: TypeAlias = Literal[
 """What became of an action. Done: `ok`, or `stalled` (the body stays off its aim), or `moved` (a frame came down elsewhere). Not done:
 `missed` a hold, found `no ground`, `not supported`, `refused` before it would break a rule, or the robot is `stuck`. Ended in it: the
 robot `fell`, noticed a `fault` in itself and stopped, its plant was `stopped`, a user `interrupted` it."""
+Moment: TypeAlias = Annotated[float, Field(ge=0.0, le=1e9)]
+"""Time since a run's start, or how long something took, as a log may have it [s]."""
 Ending: TypeAlias = Literal["", "held", "stopped safely", "fell"]
 """What became of the robot after a fault that ended its run: it `held` its posture, or `stopped safely` elsewhere, or `fell`."""
 

@@ -2,16 +2,21 @@
 
 import json
 from collections.abc import Mapping
-from typing import Final, TypeAlias
+from typing import Any, Final, TypeAlias, TypeVar
 
 import numpy as np
 
+from ..files import Document, parse_json
+from ..specs import build_spec
 from ..types import Floats, Ints, Json
 from ..units import split_title
-from .log import Log
+from .log import Log, LogError
 
+T = TypeVar("T")
 Titles: TypeAlias = Mapping[str, tuple[str, ...]]
 """Field of a trace -> titles of its columns, in the order of a sample's numbers."""
+LARGEST: Final = 1e9
+"""Of a run's samples, in SI units: thirty years, and a million kilometres."""
 REPORT: Final = "report"
 """Note of a log that holds what came out, as JSON."""
 
@@ -22,8 +27,45 @@ def report_notes(notes: Json) -> dict[str, str]:
 
 
 def report_of(log: Log) -> Json | None:
-    """The report of a run's log; None where it was cut."""
-    return json.loads(log.notes[REPORT]) if REPORT in log.notes else None
+    """The report of a run's log; None where it was cut.
+
+    Raises:
+        LogError: If it is no table, no JSON, or has a number that is not finite.
+    """
+    if REPORT not in log.notes:
+        return None
+    report = note_of(log, REPORT)
+    if not isinstance(report, dict):
+        raise LogError(log.label, None, None, None, f"its note '{REPORT}' must be a table")
+    return report
+
+
+def note_of(log: Log, name: str) -> Any:
+    """What a note holds as JSON.
+
+    Raises:
+        LogError: If it is none, or has a number that is not finite.
+    """
+    try:
+        return parse_json(log.notes[name])
+    except ValueError as error:
+        raise LogError(
+            log.label, None, None, None, f"its note '{name}' is not valid JSON: {str(error)[:200]}"
+        ) from None
+
+
+def told_of(report: Json | None, kind: type[T], label: str) -> T:
+    """What is read back of a report: the keys that `kind` has, whatever others there are.
+
+    Args:
+        report: Of a log; None: it tells nothing.
+        kind: A dataclass.
+        label: What errors call the log.
+
+    Raises:
+        SpecError: If a key is missing, or its value is none that it may have.
+    """
+    return build_spec(kind, Document(f"{label}, note '{REPORT}'", report or {}))
 
 
 def sample_log(trace: object, titles: Titles, notes: Mapping[str, str], label: str) -> Log:
@@ -54,10 +96,15 @@ def table_of(log: Log, titles: Titles) -> Floats:
     """The samples of a log, shape (rows, columns).
 
     Raises:
-        LogError: If it lacks a column.
+        LogError: If it lacks a column, or has a number that is larger than any of a robot (`LARGEST`).
     """
-    names = (split_title(title)[0] for of_field in titles.values() for title in of_field)
-    return np.stack([log.column(name) for name in names], axis=1)
+    names = [split_title(title)[0] for of_field in titles.values() for title in of_field]
+    table = np.stack([log.column(name) for name in names], axis=1)
+    if (large := np.argwhere(np.abs(table) > LARGEST)).size:
+        row, column = large[0].tolist()
+        allowed = f"must lie between -{LARGEST:g} and {LARGEST:g}"
+        raise LogError(log.label, names[column], row + 1, table[row, column], allowed)
+    return table
 
 
 def width(titles: Titles) -> int:

@@ -1,5 +1,7 @@
 """Films: plans rest in their stances, runs are where their traces say, and the forces that a run tells carry the weight."""
 
+import json
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -126,6 +128,59 @@ def test_log_shows_the_run_that_it_is_of(climbed: ClimbRun, tmp_path: Path) -> N
         open_exhibit([str(path), "gecko-climb"])
     with pytest.raises(LogError, match="no log of a walk"):
         open_exhibit(["patch-walk", str(path)])
+
+
+def spoilt_action(**changed: object) -> str:
+    action = {
+        "first": 1, "last": 1, "kind": "move", "title": "up", "outcome": "ok", "start": 0.5, "seconds": 2.0, "tries": 1, "off": 0.0,
+        "body_error": None, "tip_error": None,
+    }  # fmt: skip
+    return json.dumps({"task": "ladder", "actions": [{k: v for k, v in (action | changed).items() if v != "nothing"}]})
+
+
+@pytest.mark.parametrize(
+    ("report", "told"),
+    [
+        ("", "its note 'report' is not valid JSON"),
+        ('{"task": "ladder", "actions": [', "its note 'report' is not valid JSON"),
+        ("[" * 100_000, "its note 'report' is not valid JSON"),
+        ("[1, 2]", "its note 'report' must be a table"),
+        ('{"task": "ladder", "short": NaN}', "its note 'report' is not valid JSON: NaN"),
+        ('{"task": "ladder", "actions": {"a": 1}}', "note 'report': actions: must be a"),
+        ('{"task": "ladder", "actions": [3]}', "note 'report': actions.0 = 3: must be a table"),
+        (spoilt_action(outcome="flew"), "note 'report': actions.0.outcome = 'flew': must be 'ok'"),
+        (spoilt_action(start="soon"), "note 'report': actions.0.start = 'soon': must be"),
+        (spoilt_action(seconds=1e300), "note 'report': actions.0.seconds = 1e[+]300: must be"),
+        (spoilt_action(title="nothing"), "note 'report': actions.0.title: must be given"),
+        ('{"task": "ladder", "replans": [{}]}', "note 'report': replans.0.after: must be given"),
+    ],
+)
+def test_a_damaged_report_is_refused_by_the_name_of_its_log_and_key(
+    climbed: ClimbRun, tmp_path: Path, report: str, told: str
+) -> None:
+    path, log = tmp_path / "climb.mcap", climbed.trace.to_log()
+    write_log(replace(log, notes={**log.notes, "report": report}), path, TOPIC)
+    with pytest.raises(ClamberError, match=rf"^.*climb\.mcap(: |, ){told}"):
+        open_exhibit([str(path), "ladder"])
+
+
+@pytest.mark.parametrize(
+    ("limbs", "told"), [("right, left", "its note 'limbs' is not valid JSON"), ("[3]", "must be a list of names")]
+)
+def test_a_log_with_damaged_names_of_limbs_is_refused(climbed: ClimbRun, tmp_path: Path, limbs: str, told: str) -> None:
+    path, log = tmp_path / "climb.mcap", climbed.trace.to_log()
+    write_log(replace(log, notes={**log.notes, "limbs": limbs}), path, TOPIC)
+    with pytest.raises(LogError, match=told):
+        open_exhibit([str(path)])
+
+
+def test_numbers_that_no_robot_has_are_refused_by_column_and_row(climbed: ClimbRun, tmp_path: Path) -> None:
+    path, log = tmp_path / "climb.mcap", climbed.trace.to_log()
+    far = log.column("body x true").copy()
+    far[6] = 1e300
+    write_log(replace(log, columns={**log.columns, "body x true": far}), path, TOPIC)
+    with pytest.raises(LogError, match=r"climb\.mcap, column 'body x true', row 7 = 1e\+300: must lie between"):
+        open_exhibit([str(path)])
 
 
 def test_planned_walk_stands_on_the_ground() -> None:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from clamber.control.support import support_margin
+from clamber.errors import SpecError
 from clamber.execution.log import Log, LogError
 from clamber.execution.log_files import read_log, write_log
 from clamber.execution.walk.walk_trace import LEG_NAMES, PHASES
@@ -142,3 +143,21 @@ def test_a_log_without_the_forces_of_the_ground_is_named_for_what_it_lacks(colum
     write_log(replace(columns, columns=kept), tmp_path / "older.mcap", "walk")
     with pytest.raises(LogError, match="ground force"):
         open_exhibit([str(tmp_path / "older.mcap")])
+
+
+@pytest.mark.parametrize(
+    ("steps", "told"),
+    [
+        ("null", "note 'report': steps = None: must be a"),
+        ('[{"frame": "Y"}]', "note 'report': steps.0.way: must be given"),
+        ('[{"frame": "Y", "way": 0.1, "outcome": "ok", "start": -1e300}]', "note 'report': steps.0.start = -1e[+]300: must be"),
+        ('[{"frame": "Y", "way": 0.1, "outcome": [], "start": 0.0}]', "note 'report': steps.0.outcome = \[\]: must be 'ok'"),
+    ],
+)  # fmt: skip
+def test_a_walks_damaged_report_is_refused_by_the_name_of_its_log_and_key(
+    columns: Log, tmp_path: Path, steps: str, told: str
+) -> None:
+    path = tmp_path / "walk.mcap"
+    write_log(replace(columns, notes={**columns.notes, "report": f'{{"steps": {steps}}}'}), path, "walk")
+    with pytest.raises(SpecError, match=rf"walk\.mcap, {told}"):
+        open_exhibit([str(path), "slope-walk"])

@@ -2,11 +2,14 @@
 
 import math
 from dataclasses import dataclass, field
+from typing import Annotated
+
+from pydantic import Field
 
 from ...tasks.limbed import LimbedTask
 from ...types import Floats, Json
 from ..plant import HoldBreak
-from ..run_report import Outcome, RunReport
+from ..run_report import Moment, Outcome, RunReport
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,9 +22,9 @@ class ActionReport:
     kind: str
     title: str
     outcome: Outcome
-    start: float
+    start: Moment
     """When it began [s]."""
-    seconds: float
+    seconds: Moment
     tries: int
     """Pushes of the hook of a grab; ways of the body; 1 for the rest."""
     off: float
@@ -42,6 +45,22 @@ class ActionReport:
     def to_json(self) -> Json:
         """Plain data."""
         return {name: getattr(self, name) for name in self.__slots__}
+
+
+@dataclass(frozen=True, slots=True)
+class LoggedReplan:
+    """What is read back of a new plan that was made on the way."""
+
+    after: Annotated[int, Field(ge=0)]
+    """So many actions had been carried out before it."""
+
+
+@dataclass(frozen=True, slots=True)
+class LoggedClimb:
+    """What is read back of the report in a climb's log."""
+
+    actions: list[ActionReport] = field(default_factory=list)
+    replans: list[LoggedReplan] = field(default_factory=list)
 
 
 @dataclass(slots=True)

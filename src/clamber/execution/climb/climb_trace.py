@@ -10,7 +10,7 @@ import numpy as np
 from ...types import Floats, Ints, Json
 from ..log import Log, LogError
 from ..plant import HoldBreak
-from ..sample_log import fields_of, report_notes, report_of, sample_log, table_of, width
+from ..sample_log import fields_of, note_of, report_notes, report_of, sample_log, table_of, width
 from ..samples import Samples
 from .climber import Climber
 
@@ -119,7 +119,10 @@ class ClimbTrace:
         """
         if "limbs" not in log.notes:
             raise LogError(log.label, None, None, None, "is no log of a climb: its notes name no limbs")
-        limbs = tuple(json.loads(log.notes["limbs"]))
+        limbs = note_of(log, "limbs")
+        if not isinstance(limbs, list) or not limbs or not all(isinstance(name, str) for name in limbs):
+            raise LogError(log.label, None, None, None, "its note 'limbs' must be a list of names")
+        limbs = tuple(limbs)
         fields = climb_titles(limbs, true="body x true" in log.columns)
         return cls.from_table(limbs, table_of(log, fields), report_of(log))
 

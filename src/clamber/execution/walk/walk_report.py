@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from ...control.gait import PhaseTimes
 from ...types import Json
-from ..run_report import Outcome, RunReport
+from ..run_report import Moment, Outcome, RunReport
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +38,25 @@ class StepReport:
         plain = {name: getattr(self, name) for name in self.__slots__}
         plain |= {name: None for name in ("balance", "off") if not math.isfinite(plain[name])}
         return plain | {"times": {name: getattr(self.times, name) for name in PhaseTimes.__slots__}}
+
+
+@dataclass(frozen=True, slots=True)
+class LoggedStep:
+    """What is read back of a step; see `StepReport`."""
+
+    frame: str
+    way: float
+    outcome: Outcome
+    start: Moment
+    off: float | None = None
+    reason: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class LoggedWalk:
+    """What is read back of the report in a walk's log."""
+
+    steps: list[LoggedStep] = field(default_factory=list)
 
 
 @dataclass(slots=True)

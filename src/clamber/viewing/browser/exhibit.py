@@ -12,10 +12,12 @@ from ...actions.plan_families import plan_family
 from ...actions.plan_source import check_name, is_plan, open_plan
 from ...actions.problem import Replay
 from ...errors import SpecError
-from ...execution.climb.climb_report import ActionReport
+from ...execution.climb.climb_report import ActionReport, LoggedClimb
 from ...execution.climb.climb_trace import ClimbTrace
 from ...execution.log import Log, LogError
 from ...execution.log_files import SUFFIXES, read_log
+from ...execution.sample_log import told_of
+from ...execution.walk.walk_report import LoggedWalk
 from ...execution.walk.walk_trace import WalkTrace
 from ...experiments.climb.run_plan import ClimbRun
 from ...experiments.walk.run_walk import WalkRun
@@ -183,17 +185,12 @@ def _climb_trace(log: Log, task: LimbedTask) -> tuple[ClimbTrace, list[ActionRep
     if trace.limbs != task.robot.limb_names:
         limbs = ", ".join(trace.limbs)
         raise LogError(log.label, None, None, f"limbs {limbs}", f"robot '{task.robot.name}' has other ones; {NAMED}")
-    try:
-        actions = [ActionReport(**action) for action in (trace.notes or {}).get("actions", ())]
-    except TypeError as error:
-        raise LogError(
-            log.label, None, None, "report", f"tells of actions in another way than this version: {error}"
-        ) from None
-    return trace, actions
+    return trace, told_of(trace.notes, LoggedClimb, log.label).actions
 
 
 def _walk_trace(log: Log) -> WalkTrace:
     trace = WalkTrace.from_log(log)
+    told_of(trace.notes, LoggedWalk, log.label)
     if not np.isfinite(trace.believed).all():
         raise LogError(log.label, None, None, None, "tells no place of the robot")
     return trace

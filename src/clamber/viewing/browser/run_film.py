@@ -100,7 +100,7 @@ class ClimbFilm(Film[Moment]):
         if step > self._of_first_plan:
             return None
         action = self.actions[step - 1]
-        if action.last >= len(plan.steps):
+        if max(action.first, action.last) >= len(plan.steps):
             return None
         share = min(1.0, (time - action.start) / max(action.seconds, 1e-9))
         begin, end = float(plan.starts[action.first]), float(plan.ends[action.last])
