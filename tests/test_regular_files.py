@@ -97,6 +97,40 @@ def test_several_files_are_written_together_or_not_at_all(odd: dict[str, Path], 
     assert good.read_text() == late.read_text() == "after"
 
 
+@pytest.mark.parametrize("links", [True, False])
+@pytest.mark.parametrize("failure", [PermissionError(13, "Permission denied"), KeyboardInterrupt()])
+def test_a_rename_that_fails_leaves_what_was_there(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, failure: BaseException, links: bool
+) -> None:
+    there, new, last = (tmp_path / name for name in ("a.toml", "b.toml", "c.toml"))
+    there.write_text("before")
+    last.write_text("last")
+    there.chmod(0o640)
+    rename = os.replace
+
+    def replace(source: Path, target: Path) -> None:
+        if Path(target) == last:
+            raise failure
+        rename(source, target)
+
+    def link(source: Path, target: Path) -> None:
+        raise OSError(95, "Operation not supported")
+
+    with monkeypatch.context() as patched:
+        patched.setattr(os, "replace", replace)
+        if not links:
+            patched.setattr(os, "link", link)
+        with pytest.raises((FileError, KeyboardInterrupt)) as refused:
+            write_together({there: "after", new: "after", last: "after"})
+    assert refused.type is KeyboardInterrupt or str(last) in str(refused.value)
+    assert {path.name: path.read_text() for path in tmp_path.iterdir()} == {"a.toml": "before", "c.toml": "last"}
+    assert there.stat().st_mode & 0o777 == 0o640
+    write_together({there: "after", new: "after", last: "after"})
+    assert {path.name: path.read_text() for path in tmp_path.iterdir()} == dict.fromkeys(
+        ("a.toml", "b.toml", "c.toml"), "after"
+    )
+
+
 def test_what_is_too_large_or_has_no_end_is_not_read(tmp_path: Path) -> None:
     large = tmp_path / "large.toml"
     with large.open("wb") as file:

@@ -1,6 +1,9 @@
 """The one way to the file system for what users name: regular files only are read, made and replaced, whole or not at all."""
 
+import contextlib
 import os
+import secrets
+import shutil
 import stat
 import tempfile
 from collections.abc import Mapping
@@ -115,23 +118,38 @@ def write_atomically(path: Path, content: str | bytes) -> None:
 
 
 def write_together(contents: Mapping[Path, str | bytes]) -> None:
-    """Writes several files: all beside their targets, and then all renamed, so that a full disk leaves none or all.
+    """Writes several files, all or none: all beside their targets, and then all renamed; where one cannot be, those before are put back.
+
+    A process that is killed between two renames, which take some microseconds, leaves the first ones changed.
 
     Raises:
-        FileError: As `write_atomically`; then no file has changed, unless one could not be renamed after others were.
+        FileError: As `write_atomically`; then no file has changed, unless one cannot be put back either.
     """
     made: dict[Path, Path] = {}
+    kept: dict[Path, Path] = {}
+    renamed: list[Path] = []
     path = Path()
     try:
         targets = {path: check_target(path) for path in contents}
         for path, target in targets.items():
             made[target] = _write_beside(target, contents[path])
+            if len(targets) > 1 and target.exists():
+                kept[target] = _keep_beside(target)
         for path, target in targets.items():  # noqa: B007  the path is named where this fails
             os.replace(made[target], target)
-    except OSError as error:
-        raise _unwritable(path, error) from None
+            renamed.append(target)
+    except BaseException as error:
+        for target in renamed:
+            with contextlib.suppress(OSError):
+                if target in kept:
+                    os.replace(kept[target], target)
+                else:
+                    target.unlink()
+        if isinstance(error, OSError):
+            raise _unwritable(path, error) from None
+        raise
     finally:
-        for temporary in made.values():
+        for temporary in (*made.values(), *kept.values()):
             temporary.unlink(missing_ok=True)
 
 
@@ -174,6 +192,16 @@ def _write_beside(target: Path, content: str | bytes) -> Path:
         os.unlink(name)
         raise
     return Path(name)
+
+
+def _keep_beside(target: Path) -> Path:
+    """A second name, in the target's folder, for the file that is there."""
+    kept = target.with_name(f".clamber-{secrets.token_hex(8)}")
+    try:
+        os.link(target, kept)
+    except OSError:  # a file system without links
+        shutil.copy2(target, kept)
+    return kept
 
 
 def _check_kind(name: str, status: os.stat_result) -> None:
