@@ -9,7 +9,7 @@ import sys
 import time
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 import pytest
@@ -18,15 +18,17 @@ from climbs_by_hand import setup_of
 import clamber
 from clamber.actions.limbed_plans import thesis_code
 from clamber.actions.plan import Plan
+from clamber.errors import SpecError
 from clamber.execution.climb.climb_trace import TracedClimber
 from clamber.execution.climb.course import PlanRefusedError
 from clamber.experiments.climb import run_plan as runs
 from clamber.experiments.climb import trial as one
 from clamber.experiments.climb import trials as module
-from clamber.experiments.climb.noise import NO_NOISE, NoiseError, named_noise, read_noise
-from clamber.experiments.climb.trial import climb_once
+from clamber.experiments.climb.noise import NO_NOISE, NOISE, NoiseError, named_noise, read_noise
+from clamber.experiments.climb.trial import climb_once, error_trial, trial_of
 from clamber.experiments.climb.trials import NoPlanError, run_trials, stored_trial, with_plan
 from clamber.jobs import LocalProcesses, StoreError
+from clamber.types import Json
 
 LETS_GO = (300, 3)
 """The bottom limb releases, and the body goes up: two seconds of climb."""
@@ -100,6 +102,26 @@ def test_plans_made_on_the_way_are_kept_and_taken_again(monkeypatch: pytest.Monk
     assert again == first
     assert same == plans
     assert len(asked) == 1
+
+
+FAULT: Final = {"kind": "stuck", "where": "body", "start": 1.0, "noticed": None, "at": "", "ending": "fell"}
+
+
+@pytest.mark.parametrize(
+    ("changed", "told"),
+    [
+        ({"drawn": {"friction": "much"}}, "drawn.friction = 'much': must be"),
+        ({"drawn": {"friction": 0.1}}, r"drawn\.\w+: must be given"),
+        ({"fault": {"kind": "stuck"}}, "where: must be given"),
+        ({"fault": FAULT | {"noticed": "soon"}}, "noticed = 'soon': must be"),
+        ({"fault": FAULT | {"kind": []}}, "kind = .*: must be"),
+    ],
+)
+def test_a_damaged_trial_of_a_store_is_refused_by_field(changed: Json, told: str) -> None:
+    whole = error_trial(3, "raised").to_json() | {"drawn": dict.fromkeys(NOISE, 0.0), "fault": FAULT}
+    assert trial_of(whole, Path("trials.db")).fault == FAULT
+    with pytest.raises(SpecError, match=rf"^trials\.db: a stored result: {told}"):
+        trial_of(whole | changed, Path("trials.db"))
 
 
 @pytest.mark.usefixtures("in_this_process")

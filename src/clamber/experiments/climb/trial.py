@@ -7,15 +7,16 @@ from typing import Final
 import numpy as np
 
 from ...actions.plan import Plan
+from ...errors import MISSING, SpecError
 from ...execution.climb.climbing import Progress, Replan
 from ...execution.fault import draw_fault
 from ...jobs import read_result
 from ...tasks import task_from_document
 from ...tasks.limbed import LimbedTask
 from ...types import Json
-from ..fault_trials import told_fault
+from ..fault_trials import check_told, told_fault
 from .faults import BEGINS, failing_of
-from .noise import Noise, noise_of
+from .noise import NOISE, Noise, noise_of
 from .planning import replanner
 from .run_plan import ClimbRun, climbing_flaws, run_plan
 
@@ -109,7 +110,7 @@ class ClimbTrial:
     """New plans that were taken."""
     recovered: int
     """Hooks that came off and were brought back."""
-    drawn: Json
+    drawn: dict[str, float]
     """Deviation of each key of the noise; of pegs, of those that the plan takes."""
     fault: Json | None = None
     """The fault that the robot had, when it was noticed, and how that ended; None in trials without."""
@@ -125,7 +126,11 @@ def trial_of(told: Json, store: Path | None = None) -> ClimbTrial:
     Raises:
         SpecError: If it is none.
     """
-    return read_result(ClimbTrial, told, store)
+    trial = read_result(ClimbTrial, told, store)
+    if trial.drawn and (missing := NOISE.keys() - trial.drawn.keys()):
+        raise SpecError(f"{store}: a stored result", f"drawn.{min(missing)}", MISSING, "must be given")
+    check_told(trial.fault, store)
+    return trial
 
 
 def error_trial(seed: int, error: str) -> ClimbTrial:

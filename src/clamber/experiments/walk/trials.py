@@ -17,7 +17,7 @@ from ...tasks.walks import Walk
 from ...tasks.walks.library import walk_from_document
 from ...types import Floats, Json
 from ...units import DEGREE
-from ..fault_trials import fault_rows, told_fault
+from ..fault_trials import check_told, fault_rows, told_fault
 from ..intervals import wilson_interval
 from .faults import BEGINS, failing_of
 from .noise import WalkNoise
@@ -214,6 +214,12 @@ def cause_of(reason: str) -> str:
     return parts[1] if parts[0].startswith("step ") and len(parts) > 1 else parts[0]
 
 
+def _trial_of(told: Json, store: Path | None) -> WalkTrial:
+    trial = read_result(WalkTrial, told, store)
+    check_told(trial.fault, store)
+    return trial
+
+
 def run_walk_trial(item: Json) -> Json:
     """One walk; runs in a worker.
 
@@ -273,7 +279,7 @@ def run_walk_trials(
     def take(ended: int, total: int, outcome: Outcome) -> None:
         trials.wall_seconds += outcome.seconds
         if outcome.result is not None:
-            trials.ended.append(read_result(WalkTrial, outcome.result, store))
+            trials.ended.append(_trial_of(outcome.result, store))
         if told is not None:
             told(trials)
 
@@ -291,9 +297,7 @@ def run_walk_trials(
         )
         trials.wall_seconds = sum(outcome.seconds for outcome in outcomes)
         trials.ended = [
-            _error(seed, outcome.error or "")
-            if outcome.result is None
-            else read_result(WalkTrial, outcome.result, store)
+            _error(seed, outcome.error or "") if outcome.result is None else _trial_of(outcome.result, store)
             for seed, outcome in zip(seeds, outcomes, strict=True)
         ]
     return trials
