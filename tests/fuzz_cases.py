@@ -6,14 +6,16 @@ import random
 import shutil
 import tomllib
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Final
+
+import numpy as np
 
 import clamber
 from clamber.cli.app import application
 from clamber.cli.help_text import command_of, commands_below
-from spoiling import CELLS, JUNK, spoil_bytes, spoil_store, spoilt, spoilt_table, toml_file
+from spoiling import CELLS, JUNK, spoil_bytes, spoil_data, spoil_store, spoilt, spoilt_table, toml_file
 
 PACKAGE: Final = Path(clamber.__file__).parent
 FEW: Final = ("--evaluations", "5", "--threads", "1", "--no-openings", "--quiet")
@@ -21,6 +23,10 @@ SWEEP: Final = (
     *("sweep", "ladder", "--vary", "motor.torque_limit=8Nm..9Nm:2", "--planner", "exact", "--workers", "1"),
     *("--set", "rules.max_hangs=0", "--set", "goal.y_min=15in", "--store", "store.db"),
 )
+
+TRIALS: Final = ("trials", "two.json", "-n", "1", "--workers", "1", "--store", "trials.db", "--quiet")
+NOWHERE: Final = ("--plant", "tcp://127.0.0.1:1")
+"""A plant that nobody serves: a run ends once all that it was given has been read."""
 
 
 def _words(*lines: str) -> tuple[str, ...]:
@@ -112,6 +118,7 @@ def prepare(folder: Path, run: Callable[..., int]) -> None:
     from clamber.execution.climb.course import climbable
     from clamber.execution.log_files import read_log, write_log
     from clamber.tasks import load_task
+    from clamber.viewing.browser.app import check_viser
 
     task: Any = climbable(load_task("ladder"))  # type: ignore[arg-type]
     codes = [thesis_code(task, number) for number in (300, 3)]
@@ -141,6 +148,10 @@ def prepare(folder: Path, run: Callable[..., int]) -> None:
     (folder / "macros.json").write_text(json.dumps(lesson))
     run("plan", "ladder", *FEW, "--checkpoint", "checkpoint.json")
     run(*SWEEP)
+    run("run", "two.json", "-o", "climb.mcap", "--quiet")
+    run(*TRIALS)
+    write_log(_stood().to_log(), folder / "walk.mcap")
+    check_viser()
     for words in QUICK:
         run(*words)
     for name in ("robot.toml", "task.toml", "board.toml", "b.toml", "robot.urdf", "plan.csv", "whole.csv", "limb.csv"):
@@ -151,6 +162,17 @@ def prepare(folder: Path, run: Callable[..., int]) -> None:
         os.mkfifo(folder / name)
     (folder / "link.json").symlink_to("of-link.json")
     (folder / "circle.json").symlink_to("circle.json")
+
+
+def _stood() -> Any:
+    """The trace of a walker that stands for two seconds."""
+    from clamber.execution.sample_log import width
+    from clamber.execution.walk.walk_trace import WalkTrace, walk_titles
+
+    table = np.zeros((20, width(walk_titles(true=True))))
+    table[:, 0] = 0.1 * np.arange(20)
+    step = {"number": 1, "frame": "Y", "way": 0.1, "outcome": "ok", "start": 0.5, "off": None, "reason": ""}
+    return WalkTrace.from_table(table, {"walk": "slope-walk", "steps": [step, step | {"number": 2, "start": 1.0}]})
 
 
 def case(number: int, folder: Path) -> tuple[str, ...]:
@@ -278,6 +300,73 @@ def _recording(rng: random.Random, folder: Path) -> list[str]:
     ).split()
 
 
+def _run_log(rng: random.Random, folder: Path) -> list[str]:
+    from clamber.execution.log_files import read_log, write_log
+
+    kind, beside = rng.choice(
+        (("climb", ["two.json"]), ("climb", ["ladder"]), ("climb", []), ("walk", ["slope-walk"]), ("walk", []), ("walk", ["ladder"]))
+    )  # fmt: skip
+    path = folder / "run.mcap"
+    if rng.random() < 0.3:
+        path.write_bytes(spoil_bytes(rng, (folder / f"{kind}.mcap").read_bytes()))
+    else:
+        log = read_log(folder / f"{kind}.mcap")
+        columns = {name: values.copy() for name, values in log.columns.items()}
+        notes: dict[str, Any] = dict(log.notes)
+        if rng.random() < 0.5:
+            notes = {name: json.loads(text) for name, text in notes.items()}
+            spoil_data(rng, notes)
+            notes = {str(name): json.dumps(value) for name, value in notes.items()}
+        elif rng.random() < 0.3:
+            text = rng.choice(list(notes.values()))
+            notes[rng.choice(list(notes))] = spoil_bytes(rng, text.encode()).decode("latin-1")
+        else:
+            name, rows = rng.choice(list(columns)), rng.choice((slice(None), slice(3, 4), slice(0, 1), slice(-1, None)))
+            columns[name][rows] = rng.choice((0.0, -1.0, 0.5, 1e9, -1e9, 1e300, -1e300, 1e-320, 2.0**31, 1e5))
+        if rng.random() < 0.1:
+            del columns[rng.choice(list(columns))]
+        if rng.random() < 0.1:
+            few = rng.choice((1, 2))
+            columns = {name: values[:few] for name, values in columns.items()}
+        write_log(replace(log, columns=columns, notes=notes), path)
+    return rng.choice(
+        (["view", "run.mcap", *beside, "--save", "page.html"], ["view", *beside, "run.mcap", "--save", "page.html", "--json"],
+         ["export", "run.mcap", "-o", "x.csv"])
+    )  # fmt: skip
+
+
+def _shown(rng: random.Random, folder: Path) -> list[str]:
+    """Pictures and pages of spoilt files."""
+    kinds = {"task.toml": _task, "plan.json": _plan, "walk.toml": _walk, "printed.toml": _printed_plan}
+    name = rng.choice(list(kinds))
+    kinds[name](rng, folder)
+    return rng.choice(
+        (["show", name, "-o", "x.png"], ["show", name, "-o", "x.svg", "--step", "1"], ["show", name, "-o", "x.png", "--torques"],
+         ["view", name, "--save", "page.html"], ["view", "--task", name, "two.json", "--save", "page.html"])
+    )  # fmt: skip
+
+
+def _carried_out(rng: random.Random, folder: Path) -> list[str]:
+    """Spoilt files that are to be carried out, where something refuses that before the robot moves."""
+    kinds = {"task.toml": _task, "plan.json": _plan, "walk.toml": _walk, "robot.toml": _robot, "board.toml": _board}
+    name = rng.choice(list(kinds))
+    kinds[name](rng, folder)
+    if name in ("robot.toml", "board.toml"):
+        changed = ["two.json", "--set", f"{name[:5]}={name}"]
+        return rng.choice((["run", *changed, *NOWHERE], ["trials", *changed, "-n", "1", "--fault", "no-such-fault"]))
+    return rng.choice(
+        (["run", name, "--set", "nokey=1"], ["trials", name, "-n", "1", "--fault", "no-such-fault"],
+         ["run", "two.json", "--task", name, *NOWHERE] if name == "task.toml" else ["run", name, *NOWHERE])
+    )  # fmt: skip
+
+
+def _trials_store(rng: random.Random, folder: Path) -> list[str]:
+    store = rng.choice(("trials.db", "trials.db", "trials.db", "store.db"))
+    spoil_store(rng, folder / store)
+    more = rng.choice((["--resume"], ["--resume", "--json"], ["--replay", "0"], ["--resume", "-o", "x.png"]))
+    return [word if word != "trials.db" else store for word in TRIALS] + more
+
+
 def _junk(rng: random.Random) -> str:
     value = rng.choice((*JUNK, *CELLS, *REAL))
     return value if isinstance(value, str) else json.dumps(value)[:2000]
@@ -374,6 +463,7 @@ RECIPES: Final = (
     *(_robot,) * 3, *(_board,) * 3, _ground, *(_task,) * 3, _walk, *(_plan,) * 2, _printed_plan, _macros, _checkpoint, _store, _profile,
     _gains,
     *(_table,) * 3, _recording, *(_override,) * 2, _law, _plant, _noise, *(_quick_with_options,) * 3, *(_refused_with_options,) * 4,
+    *(_run_log,) * 2, *(_shown,) * 2, _carried_out, _trials_store,
 )  # fmt: skip
 
 
