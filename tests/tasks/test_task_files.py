@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from clamber.errors import SpecError
 from clamber.tasks import load_task
 from clamber.tasks.library import task_names
 from clamber.tasks.task_files import task_files
@@ -36,3 +37,9 @@ def test_a_robot_that_was_changed_gets_a_file_of_its_own(tmp_path: Path) -> None
     assert set(files) == {"weak.toml", "weak-board.toml", "weak-robot.toml"}
     written(tmp_path, files)
     assert load_task(str(tmp_path / "weak.toml")).robot == task.robot
+
+
+@pytest.mark.parametrize("between", ["[[1], 2]", "['x']", "[1.5]"])
+def test_holds_that_a_start_is_between_are_numbers(between: str) -> None:
+    with pytest.raises(SpecError, match=r"start\.between = \[.*: must be a list of numbers of holds"):
+        load_task("ladder", [f"start.between={between}"])

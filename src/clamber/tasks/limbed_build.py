@@ -58,6 +58,8 @@ def _with_place(document: Document, board: Board) -> Document:
         return document
     places = {hold.number: (hold.x, hold.y) for hold in board.holds}
     for number in between:
+        if not isinstance(number, int):
+            raise document.problem("start.between", "must be a list of numbers of holds")
         if number not in places:
             allowed = f"board '{board.name}' has no hold {number!r}; {listed(set(places))}"
             raise document.problem("start.between", allowed)
