@@ -113,6 +113,19 @@ def test_a_stuck_sensor_is_noticed_before_its_joint_is_ten_degrees_off(channel: 
     assert off.max() < math.radians(10.0) + 2.0 * math.radians(2.0)  # the play on either side
 
 
+@pytest.mark.parametrize("seed", first_fast([3, 2]))
+def test_a_bodys_stuck_sensor_is_noticed_once_the_body_has_turned_by_some_degrees(seed: int) -> None:
+    """Once a limb's joint was blamed, 1.5 s later."""
+    run = climbed(fault_of("stuck", 1.0, 6), seed)
+    assert run.report.ending == "held", run.reason
+    (found,) = run.report.findings
+    assert (found.kind, found.where) == ("no answer", "body")
+    assert run.trace.true_pose is not None
+    angle, began = run.trace.true_pose[:, 2], int(np.searchsorted(run.trace.time, FIRST))
+    off = np.abs(angle - angle[began])[began : int(np.searchsorted(run.trace.time, found.time))]
+    assert math.radians(0.8) < off.max() < math.radians(2.5)
+
+
 @pytest.mark.parametrize(("kind", "size"), first_fast([("repeated", 0.1), ("jitter", 0.05), ("late", 1.0)]))
 def test_a_rough_link_is_told_and_climbed_with(kind: str, size: float) -> None:
     run = climbed(fault_of(kind, size))

@@ -1,4 +1,4 @@
-"""Faults of a climber that no single reading shows: motors that claim to bear what weighs nothing, and tips that wander on their holds."""
+"""Faults of a climber that no single reading shows: motors that bear what weighs nothing, tips that wander, a body that turns unread."""
 
 import math
 from collections.abc import Sequence
@@ -9,6 +9,7 @@ import numpy as np
 
 from ...robots.limbed import LimbedRobot
 from ...types import Floats
+from ...units import DEGREE
 from ..reading_monitor import Channel, ReadingMonitor
 from .body_schemes import turned
 from .whole_body import WholeBody
@@ -25,6 +26,12 @@ LOOKED_AT: Final = 0.05
 """Time between two looks at that [s]."""
 WANDERING: Final = 1.0
 """A hook that slides off is told as a slip, and caught, within half of this; what lasts longer is a fault [s]."""
+
+TURNED: Final = 1.0 * DEGREE
+"""A body that has turned by more than this by the tips that hold it, while its encoder has not changed by a count, has an encoder that is
+stuck [rad]: climbs without a fault come to half of it, for 0.1 s while joints cross their play ..."""
+TURNING: Final = 0.5
+"""... so for that long [s]."""
 
 
 def channels_of(robot: LimbedRobot) -> tuple[Channel, ...]:
@@ -61,6 +68,9 @@ class SelfWatch:
         self._wandered = 0
         self._came: dict[tuple[int, int], tuple[tuple[int, int], Floats]] = {}
         """Pair -> its holds, and how its tips lay to each other when both had come there, by the encoders and with the play counted [m]."""
+        self._turning, self._angle = 0, math.nan
+        self._lines: dict[tuple[int, int], tuple[tuple[int, int], tuple[float, float]]] = {}
+        """Pair -> its holds, and how its line lay, likewise, when the body's encoder changed last or the pair began to hold [rad]."""
 
     def see(self, forces: Floats, angle: float) -> None:
         """Take in a tick.
@@ -82,8 +92,12 @@ class SelfWatch:
         self._unbalanced = self._unbalanced + 1 if too_much else 0
         if self._unbalanced > self._patience:
             self._tell_motor(np.array((x, y + self._body.robot.weight)), off)
+        if angle != self._angle:
+            self._angle = angle
+            self._lines.clear()
         self._ticks += 1
         if self._ticks % self._every == 0:
+            self._look_at_body()
             self._look_at_tips(angle)
 
     def _gives_what_is_asked(self) -> bool:
@@ -109,6 +123,29 @@ class SelfWatch:
         weight = self._body.robot.weight
         why = f"motor dead or weak: the tips would bear {off / weight:.1f} weights more than there are"
         self._monitor.fail("unbalanced", self._monitor.channels[joint].name, why)
+
+    def _look_at_body(self) -> None:
+        """Whether every two limbs that hold the body say that it turns; a hook that slides moves against all others alone."""
+        body, turned = self._body, []
+        for pair in self._pairs:
+            one, other = (body.tasks[i] for i in pair)
+            if one.doing != "hold" or other.doing != "hold":
+                self._lines.pop(pair, None)
+                continue
+            lines = _direction(body.tips, pair), _direction(body.settled_tips, pair)
+            known = self._lines.get(pair)
+            if known is None or known[0] != (one.hold, other.hold):
+                known = self._lines[pair] = (one.hold, other.hold), lines
+            turned.append(
+                min(abs(math.remainder(now - was, math.tau)) for now, was in zip(lines, known[1], strict=True))
+            )
+        self._turning = self._turning + 1 if min(turned, default=0.0) > TURNED else 0
+        if self._turning * LOOKED_AT > TURNING:
+            sensor = 2 * body.n
+            self._monitor.bad.add(sensor)
+            told = f"by its holding limbs the body has turned by {min(turned) / DEGREE:.1f} deg"
+            why = f"sensor stuck: its reading has not changed by a count, and {told}"
+            self._monitor.fail("no answer", self._monitor.channels[sensor].name, why)
 
     def _look_at_tips(self, angle: float) -> None:
         body, wandered = self._body, False
@@ -148,3 +185,9 @@ class SelfWatch:
         names = " and ".join(f"'{body.robot.limbs[i].name}'" for i in pair)
         why = f"sensor drifts, or a hook slides: the tips of {names} have moved {1e3 * size:.0f} mm against each other on their holds"
         self._monitor.fail("drift", self._monitor.channels[sensor].name, why)
+
+
+def _direction(tips: Floats, pair: tuple[int, int]) -> float:
+    """Of the line between two tips, body frame [rad]."""
+    x, y = (tips[pair[0]] - tips[pair[1]]).tolist()
+    return math.atan2(y, x)
