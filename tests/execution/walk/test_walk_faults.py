@@ -39,7 +39,8 @@ def test_a_walk_without_a_fault_notices_none() -> None:
             ("nan", 9.0, "no number"),
             ("spikes", 0.1, "jump"),
             ("lost", 1.0, "no reading"),
-            ("late", 8.0, "late readings"),
+            ("late", 3.0, "late readings"),
+            ("late", 8.0, "no reading"),  # none for more than 50 ms
             ("dead", 1.0, "no answer"),
             ("stuck", 1.0, "no answer"),
             ("drift", 0.004, ""),
