@@ -139,7 +139,7 @@ def disagreements(walker: Walker, before: Any, code: int) -> tuple[list[str], st
     """What the two say differently about one action, an exemption if one applies, and the kernel's stance and reason."""
     task, plain = walker.task, walker.plain
     after, margins, number = walker.kernel_step(walker.problem, before, code)
-    bare, _, bare_number = walker.kernel_step(walker.bare, before, code)
+    bare, bare_margins, bare_number = walker.kernel_step(walker.bare, before, code)
     start = walker.plain_stance(before)
     result = plain.step(start, walker.plain_action(code, start))
     reason = CHECKS[number] if number >= 0 else None
@@ -147,6 +147,9 @@ def disagreements(walker: Walker, before: Any, code: int) -> tuple[list[str], st
     found: list[str] = []
     if number != bare_number or any(not np.array_equal(after[f], bare[f]) for f in ("ix", "iy", "ia", "hold", "stage")):
         found.append(f"without reports: reason {bare_number}, with {number}")
+    looked_at = [k for k, name in enumerate(CHECKS) if name != "keep_out" or name in task.rules.hard]
+    if any(not math.isnan(bare_margins[k]) and bare_margins[k] != margins[k] for k in looked_at):
+        found.append(f"without reports: margins {bare_margins.tolist()}, with {margins.tolist()}")
     on_edge = [c for c in task.rules.hard if any(abs(m[c] + 1e-9) < EDGE for m in (mine, result.margins))]
     if on_edge:
         return found, f"on the edge of {on_edge[0]}", after, number

@@ -170,6 +170,8 @@ def judge_assignments(p, s, k, a, b, margins):
         rows[m, MEMBER] = 0.0
         if not m & ~held and is_open(s.elbows, m):
             none = False
+            for check in range(N_CHECKS):
+                rows[m, check] = math.nan
             rows[m, MEMBER] = 1.0
             joint = math.inf
             for i in range(n):
