@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from clamber.actions.plan import Plan
 from clamber.execution.climb.climb_trace import TracedClimber
 from clamber.execution.climb.climbing import Climbing
 from clamber.execution.climb.course import lay_course
@@ -28,6 +29,8 @@ from tiers import first_fast
 
 FIRST = 8.0
 """When the faults of these tests begin [s]: the robot climbs its second action."""
+CAUGHT = (134217732, 134217730, 536870919, 545259526, 285212672)
+"""The first five actions of our own plan up the ladder."""
 JOINTS = ("right shoulder", "right elbow", "left shoulder", "left elbow", "bottom shoulder", "bottom elbow")
 
 
@@ -45,6 +48,15 @@ def test_a_climb_without_a_fault_notices_none() -> None:
     assert run.done, run.reason
     assert run.report.findings == []
     assert run.to_json()["findings"] == [] and run.to_json()["ending"] == ""
+
+
+def test_a_link_that_is_caught_at_a_peg_is_no_fault() -> None:
+    """For 0.2 s it bears 2 weights that the tips do not feel: once this ended the climb as a weak motor, as it did 7 of 300."""
+    task, _ = two_rungs()
+    plan = Plan.of_codes(task, CAUGHT)
+    run = run_plan(task, plan, climbing_flaws(task, ()), noise=named_noise("usual"), seed=1_000_000_154)
+    assert run.done, run.reason
+    assert run.report.findings == []
 
 
 @pytest.mark.parametrize("channel", first_fast([3, 6, 0]))

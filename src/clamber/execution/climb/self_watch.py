@@ -15,10 +15,13 @@ from .body_schemes import turned
 from .whole_body import WholeBody
 
 UNBALANCED: Final = 1.5
-"""Tips that feel a sum so far from the weight, in weights, feel what is not there: a motor does not give what it is told [-]. Climbs
-without a fault come to 0.7 of a weight while joints cross their play, and at once back again ..."""
+"""Sum of the forces of all tips and the weight, over the weight, beyond which something else pushes, or a motor does not give what it is
+told [-]. Climbs without a fault come to 0.7 while joints cross their play, and to 3 where a link is caught at a peg."""
+EXPLAINED: Final = 0.5
+"""What is left of that sum, over the weight, without a part of one joint's torque: less than this, and that joint's motor is the one [-].
+A link that is caught leaves more, by its place; over eight climbs in which one was, it left less for 0.04 s at most."""
 FOR: Final = 0.1
-"""... so for that long [s]."""
+"""Time for which one and the same joint has to explain it [s]."""
 WANDERED: Final = 0.018
 """Two tips on their holds that have moved so far against each other since they came there are there no more, or a sensor drifts [m]: the
 play of the joints and the slots makes less than half of it."""
@@ -64,7 +67,9 @@ class SelfWatch:
 
     def reset(self) -> None:
         """Begin anew, as if all were well."""
-        self._unbalanced = self._ticks = 0
+        self._ticks = 0
+        self._explained = np.zeros(2 * self._body.n, int)
+        """Joint -> ticks on end in which it alone has explained what is felt too much."""
         self._wandered = 0
         self._came: dict[tuple[int, int], tuple[tuple[int, int], Floats]] = {}
         """Pair -> its holds, and how its tips lay to each other when both had come there, by the encoders and with the play counted [m]."""
@@ -88,10 +93,13 @@ class SelfWatch:
             y += fy
         off = math.hypot(x, y + self._body.robot.weight)
         sure = self._monitor.clear > self._patience  # accelerations that were bridged are no forces
-        too_much = sure and self._most < off < math.inf and self._gives_what_is_asked()
-        self._unbalanced = self._unbalanced + 1 if too_much else 0
-        if self._unbalanced > self._patience:
-            self._tell_motor(np.array((x, y + self._body.robot.weight)), off)
+        if sure and self._most < off < math.inf and self._gives_what_is_asked():
+            left = self._without_one(np.array((x, y + self._body.robot.weight)))
+            self._explained = np.where(left < EXPLAINED * self._body.robot.weight, self._explained + 1, 0)
+            if self._explained.max() > self._patience:
+                self._tell_motor(int(np.where(self._explained > self._patience, left, math.inf).argmin()), off)
+        else:
+            self._explained[:] = 0
         if angle != self._angle:
             self._angle = angle
             self._lines.clear()
@@ -106,19 +114,25 @@ class SelfWatch:
         most = self._limits * (1.0 - np.sign(torques) * speeds / self._no_load)
         return bool((np.abs(torques) <= np.maximum(most, 0.0)).all())
 
-    def _tell_motor(self, rest: Floats, off: float) -> None:
-        """Which joint's torque, were it not there, would explain most of what is felt too much."""
-        best, joint = -1.0, 0
+    def _without_one(self, rest: Floats) -> Floats:
+        """What is left of a force without a part, or all, of one joint's torque, for each joint [N]; infinite where a limb is straight.
+
+        Args:
+            rest: Forces of all tips and the weight together [N].
+        """
+        left = np.full(2 * self._body.n, math.inf)
         for i in range(self._body.n):
             matrix = self._body.turned_by_joints(i)
             if abs(np.linalg.det(matrix)) < 1e-6:
                 continue
             pushes = np.linalg.inv(matrix).T * self._body.torques[i]  # one column a joint: its part in the tip's force
             for k in range(2):
-                size = float(np.hypot(*pushes[:, k]))
-                explained = float(pushes[:, k] @ rest) / max(size, 1e-9) if size > 0.0 else 0.0
-                if explained > best:
-                    best, joint = explained, 2 * i + k
+                push = pushes[:, k]
+                part = min(1.0, max(0.0, float(push @ rest) / max(float(push @ push), 1e-9)))
+                left[2 * i + k] = np.hypot(*(rest - part * push))
+        return left
+
+    def _tell_motor(self, joint: int, off: float) -> None:
         self._monitor.bad.add(joint)
         weight = self._body.robot.weight
         why = f"motor dead or weak: the tips would bear {off / weight:.1f} weights more than there are"
