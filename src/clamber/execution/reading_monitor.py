@@ -47,7 +47,8 @@ YIELDS: Final = 0.2
 """For so long a joint turns against a full command, before that is a fault [s]."""
 ANSWERING: Final = 0.3
 """A change of command by this part of a joint's torque limit moves it by a count [-]: twice what has been seen in climbs without a fault,
-where friction of 1.3 times the file's keeps a joint still."""
+where friction of 1.3 times the file's keeps a joint still. A joint whose limb is held at both ends may stay still all the same, as only
+the squeeze between its hold and others changes: there the tips must have moved against each other besides."""
 FULL_COMMAND: Final = 0.9
 """Part of a torque limit that counts as a full command [-]."""
 FOLLOWS: Final = 0.01
@@ -82,6 +83,10 @@ class ReadingMonitor:
         n = len(self.channels)
         self.values, self.speeds, self.commands = np.zeros(n), np.zeros(n), np.zeros(n)
         """Readings and speeds, to be filled in before `see` and believed afterwards; commands since the reading before, shape (n,)."""
+        self.free = np.ones(n, np.bool_)
+        """Whether what moves a reading is free to move: the joints of a limb that holds on are not, shape (n,)."""
+        self.silent = np.zeros(n, np.bool_)
+        """Whether a reading stays the same whatever its motor does; of a joint that is not free, that alone is no fault, shape (n,)."""
         self._bounds, self._memory = np.zeros((BOUNDS, n)), np.zeros((MEMORY, n))
         for k, channel in enumerate(self.channels):
             self._bounds[FASTEST, k], self._bounds[SLOW, k] = channel.fastest, FOLLOWS * channel.fastest
@@ -112,6 +117,7 @@ class ReadingMonitor:
         self.findings.clear()
         self._known.clear()
         self.bad.clear()
+        self.silent[:] = False
         self.linked, self.closed = True, False
         self._ticks, self._newest, self._ahead, self._overdue, self._stale = 0, -1, 0, 0, 0
         self.clear = 0
@@ -192,6 +198,17 @@ class ReadingMonitor:
         self.note(kind, where, why)
         raise FaultError(f"{where}: {kind}: {why}" if where else f"{kind}: {why}")
 
+    def tell_silent(self, c: int) -> None:
+        """End the run, as a channel's reading stays the same whatever its motor does.
+
+        Raises:
+            FaultError: Always.
+        """
+        self.bad.add(c)
+        change, time = self._memory[HIGH, c] - self._memory[LOW, c], self._memory[SAME, c] * self.period
+        why = f"its reading has not changed by a count for {time:.2f} s, its command by {change:.3g}"
+        self.fail("no answer", self.channels[c].name, f"sensor stuck or motor dead: {why}")
+
     def _look(self) -> None:
         memory = self._memory
         for c in np.flatnonzero((self._verdicts == NO_NUMBER) | (self._verdicts == JUMP)):
@@ -213,13 +230,9 @@ class ReadingMonitor:
         if self._looked != self._ticks - 1:
             self._unanswered[:] = 0.0
         self._unanswered, self._looked = np.where(believed & same, self._unanswered + 1.0, 0.0), self._ticks
-        for c in np.flatnonzero(
-            self._unanswered > self._most
-        ):  # a joint at rest answers a jump of its torque a moment later
-            self.bad.add(int(c))
-            change = memory[HIGH, c] - memory[LOW, c]
-            why = f"its reading has not changed by a count for {memory[SAME, c] * self.period:.2f} s, its command by {change:.3g}"
-            self.fail("no answer", self.channels[c].name, f"sensor stuck or motor dead: {why}")
+        self.silent = self._unanswered > self._most  # a joint at rest answers a jump of its torque a moment later
+        for c in np.flatnonzero(self.silent & self.free):
+            self.tell_silent(int(c))
         overcome = (memory[DRIVEN] >= self._patience[1]) | (memory[YIELDING] >= self._patience[2])
         for c in np.flatnonzero(believed & overcome):
             self.bad.add(int(c))

@@ -16,7 +16,7 @@ class TrialsWords:
     seed: Annotated[
         int,
         typer.Option(
-            min=0, help="Of the first climb; each further one has the next. From 1000001000 on: held out, for rates."
+            min=0, help="Of the first climb; each further one has the next. From 1000002000 on: held out, for rates."
         ),
     ] = 0
     noise: NoiseTexts = None

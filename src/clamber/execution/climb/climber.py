@@ -215,6 +215,8 @@ class Climber:
         values[:n], values[n] = sensed.q.ravel(), sensed.angle
         speeds[:n], speeds[n] = sensed.qd.ravel(), sensed.angle_speed
         monitor.commands[:n] = self.body.torques.ravel()
+        for i, task in enumerate(self.body.tasks):
+            monitor.free[2 * i : 2 * i + 2] = task.free
         monitor.see(sensed.number)
         q, qd = values[:n].reshape(-1, 2), speeds[:n].reshape(-1, 2)
         self.body.see(q, qd, values.item(n) - self.map.offset, speeds.item(n))

@@ -61,6 +61,11 @@ class LimbTask:
         self.rates, self.accelerations = np.zeros(2), np.zeros(2)
 
     @property
+    def free(self) -> bool:
+        """Whether the limb is moved through the air, and touches nothing that it knows of."""
+        return self.doing in ("tip", "joints")
+
+    @property
     def holds(self) -> bool:
         """Whether the limb carries the body."""
         return self.doing in ("hold", "hang")

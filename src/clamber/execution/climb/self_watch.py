@@ -25,6 +25,8 @@ FOR: Final = 0.1
 WANDERED: Final = 0.018
 """Two tips on their holds that have moved so far against each other since they came there are there no more, or a sensor drifts [m]: the
 play of the joints and the slots makes less than half of it."""
+SILENT: Final = 0.009
+"""The same, where a joint of the two stays the same to the count whatever its motor does [m]: more than their play makes."""
 LOOKED_AT: Final = 0.05
 """Time between two looks at that [s]."""
 WANDERING: Final = 1.0
@@ -182,6 +184,10 @@ class SelfWatch:
                 continue
             moved = between - known[1]
             size = min(math.hypot(*moved[:2]), math.hypot(*moved[2:]))
+            if size > SILENT:
+                for c in (2 * a, 2 * a + 1, 2 * b, 2 * b + 1):
+                    if self._monitor.silent[c]:
+                        self._monitor.tell_silent(c)
             if size > WANDERED:
                 wandered = True
                 if self._wandered * LOOKED_AT > WANDERING:
