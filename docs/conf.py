@@ -3,9 +3,10 @@
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parent))  # for the pages made here
+sys.path.insert(0, str(Path(__file__).parent))  # for the generated pages
 
 from api_pages import write_api_pages
+from command_pages import write_command_page
 from json_pages import write_json_page
 
 from clamber import __version__
@@ -35,4 +36,5 @@ html_css_files = ["wide-tables.css"]
 html_show_sourcelink = False
 
 write_api_pages(Path(__file__).parent)
+write_command_page(Path(__file__).parent)
 write_json_page(Path(__file__).parent)

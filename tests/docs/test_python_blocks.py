@@ -13,7 +13,7 @@ from told_commands import FILE, ROOT
 
 import clamber
 
-PAGES = ("python-api", "own-robot")
+PAGES = ("README", "docs/python-api", "docs/own-robot")
 TEN_LINES = 11
 """Of a block, the import and the empty line after it with it."""
 LONG = ("clamber.run(", "find_openings(")
@@ -23,11 +23,11 @@ LONG = ("clamber.run(", "find_openings(")
 def blocks() -> list[Any]:
     found = []
     for page in PAGES:
-        text = (ROOT / "docs" / f"{page}.md").read_text()
+        text = (ROOT / f"{page}.md").read_text()
         for number, block in enumerate(re.findall(r"```python\n(.*?)```", text, re.DOTALL), start=1):
             if not FILE.match(block):
                 slow = [pytest.mark.slow] if any(word in block for word in LONG) else []
-                found.append(pytest.param(block, id=f"{page}-{number}", marks=slow))
+                found.append(pytest.param(block, id=f"{Path(page).name}-{number}", marks=slow))
     return found
 
 
