@@ -10,10 +10,10 @@ from clamber.execution.log_files import read_log, write_log
 from clamber.execution.log_identify import Identification, Known, identify_log
 from clamber.execution.log_roles import samples_of
 from clamber.execution.log_trace import trace_log
-from clamber.experiments.limb.bench_limb import bench_limb
-from clamber.experiments.limb.contest import Entry, run_contest
-from clamber.experiments.limb.excitation import ExcitationError, SensorNoise, record_log
-from clamber.experiments.limb.scenario import circle_scenario
+from clamber.limb_bench.bench_limb import bench_limb
+from clamber.limb_bench.contest import Entry, run_contest
+from clamber.limb_bench.excitation import ExcitationError, SensorNoise, record_log
+from clamber.limb_bench.scenario import circle_scenario
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.units import DEGREE
 

@@ -3,12 +3,12 @@
 from collections.abc import Sequence
 from typing import Any, Final, Literal
 
-from ..experiments.limb.bench_limb import bench_limb, limbed_robot
-from ..experiments.limb.entries import make_entries, match_pose, reference_law
-from ..experiments.limb.flaw_texts import named_flaws, read_flaws
-from ..experiments.limb.matching import Match
-from ..experiments.limb.result import LimbResult, compare_laws
-from ..experiments.limb.scenario import circle_scenario, push_scenario, step_scenario
+from ..limb_bench.bench_limb import bench_limb, limbed_robot
+from ..limb_bench.entries import make_entries, match_pose, reference_law
+from ..limb_bench.matching import Match
+from ..limb_bench.result import LimbResult, compare_laws
+from ..limb_bench.scenario import circle_scenario, push_scenario, step_scenario
+from ..sim.flaw_texts import named_flaws, read_flaws
 
 Motion = Literal["step", "circle", "push"]
 MOTIONS: Final[dict[Motion, Any]] = {"step": step_scenario, "circle": circle_scenario, "push": push_scenario}

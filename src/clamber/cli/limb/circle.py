@@ -19,8 +19,8 @@ def circle(
 ) -> None:
     """Let the aim run round a circle, and compare how far each law leaves it in the last lap."""
     words.check()
-    from ...experiments.limb.points import read_number, read_point
-    from ...experiments.limb.scenario import circle_scenario
+    from ...limb_bench.points import read_number, read_point
+    from ...limb_bench.scenario import circle_scenario
 
     properties = words.build_plant()
     middle, size = read_point("centre", centre), read_number("radius", radius, "length")

@@ -48,10 +48,10 @@ def force(
     """Press on a wall, stand, slide along it and stand again: who holds the force, and how joint friction is dealt with."""
     telling = opt.Telling(output, log, as_json, quiet)
     telling.check(".json")
-    from ...experiments.limb.force_entries import force_entries
-    from ...experiments.limb.force_result import run_force
-    from ...experiments.limb.force_scenario import ForceTask
-    from ...experiments.limb.points import read_number
+    from ...limb_bench.force_entries import force_entries
+    from ...limb_bench.force_result import run_force
+    from ...limb_bench.force_scenario import ForceTask
+    from ...limb_bench.points import read_number
     from .force_text import print_force_result, write_force_result
 
     task = ForceTask(

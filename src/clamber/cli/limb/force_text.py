@@ -4,7 +4,7 @@ from pathlib import Path
 
 from rich.console import Console
 
-from ...experiments.limb.force_result import ForceResult
+from ...limb_bench.force_result import ForceResult
 from ..output import plain_table
 
 TITLES = ("mean\nN", "stand\nN", "slide\nN", "worst\nN", "touch\n%", "off\nmm", "work\nJ", "held")
@@ -40,6 +40,6 @@ def write_force_result(result: ForceResult, path: Path) -> None:
     if path.suffix.lower() == ".json":
         result.save(path)
         return
-    from ...viewing.force_plot import draw_force_result
+    from ...limb_bench.pictures.force_plot import draw_force_result
 
     draw_force_result(result, path)

@@ -82,6 +82,6 @@ def write_identification(result: Identification, path: Path) -> None:
     if path.suffix.lower() == ".toml":
         write_atomically(path, result.toml())
         return
-    from ...viewing.identify_plot import draw_identification
+    from ...limb_bench.pictures.identify_plot import draw_identification
 
     draw_identification(result, path)

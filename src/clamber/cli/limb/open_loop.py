@@ -36,9 +36,9 @@ def open_loop(
     """Put steady torques on the limb at rest, and compare in which direction each law's transform starts the tip."""
     telling = opt.Telling(output, log, as_json, quiet)
     telling.check(".json")
-    from ...experiments.limb.open_loop import TRANSFORMS
-    from ...experiments.limb.open_loop_result import compare_open_loop
-    from ...experiments.limb.points import read_number
+    from ...limb_bench.open_loop import TRANSFORMS
+    from ...limb_bench.open_loop_result import compare_open_loop
+    from ...limb_bench.points import read_number
     from .open_loop_text import print_open_loop, write_open_loop
 
     words = opt.BenchWords(

@@ -5,8 +5,8 @@ from pathlib import Path
 
 from rich.console import Console
 
-from ...experiments.limb.open_loop import FIRST
-from ...experiments.limb.open_loop_result import FAR, OpenLoopResult
+from ...limb_bench.open_loop import FIRST
+from ...limb_bench.open_loop_result import FAR, OpenLoopResult
 from ..output import plain_table
 
 
@@ -52,6 +52,6 @@ def write_open_loop(result: OpenLoopResult, path: Path) -> None:
     if path.suffix.lower() == ".json":
         result.save(path)
         return
-    from ...viewing.open_loop_plot import draw_open_loop_result
+    from ...limb_bench.pictures.open_loop_plot import draw_open_loop_result
 
     draw_open_loop_result(result, path)

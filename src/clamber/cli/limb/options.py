@@ -18,9 +18,9 @@ from ..output import announce_compilation, check_writable, print_json, stderr, s
 if TYPE_CHECKING:
     from ...control.law_settings import LawSettings
     from ...execution.log import Log as RunLog
-    from ...experiments.limb.bench_limb import BenchLimb
-    from ...experiments.limb.contest import Entry
-    from ...experiments.limb.scenario import Scenario
+    from ...limb_bench.bench_limb import BenchLimb
+    from ...limb_bench.contest import Entry
+    from ...limb_bench.scenario import Scenario
     from ...sim.limb_flaws import LimbFlaws
     from ...types import Floats, Json
 
@@ -141,23 +141,23 @@ class BenchWords:
 
     def build_plant(self) -> "LimbFlaws":
         """The plant's properties; checked before anything else is looked at."""
-        from ...experiments.limb.bench_limb import limbed_robot
-        from ...experiments.limb.flaw_texts import named_flaws, read_flaws
+        from ...limb_bench.bench_limb import limbed_robot
+        from ...sim.flaw_texts import named_flaws, read_flaws
 
         base = named_flaws(self.flaws.value, limbed_robot(self.robot))
         return read_flaws(base, self.settings or (), self.seed, drawn=self.trials > 1)
 
     def build_limb(self, flaws: "LimbFlaws", start: tuple[float, float] = (0.22, 0.0)) -> "BenchLimb":
         """The limb at its start, or at `start` where none is said."""
-        from ...experiments.limb.bench_limb import bench_limb
-        from ...experiments.limb.points import read_elbow, read_point
+        from ...limb_bench.bench_limb import bench_limb
+        from ...limb_bench.points import read_elbow, read_point
 
         at = start if self.start is None else read_point("start", self.start)
         return bench_limb(self.robot, self.limb, at, elbow=read_elbow(self.elbow), upright=flaws.upright)
 
     def build_laws(self, limb: "BenchLimb", at: "Floats") -> "tuple[list[Entry], LawSettings]":
         """The entries, and the law that they were matched to at the joint angles `at`."""
-        from ...experiments.limb.entries import make_entries, reference_law
+        from ...limb_bench.entries import make_entries, reference_law
 
         reference = reference_law(self.reference, self.kp, self.kd)
         return make_entries(limb, self.controllers or (), reference, self.match.value, at), reference
@@ -218,8 +218,8 @@ class Telling:
 
 def run_bench(words: BenchWords, limb: "BenchLimb", scenario: "Scenario", flaws: "LimbFlaws") -> None:
     """Run the laws, write and print what came out, and leave with the exit code."""
-    from ...experiments.limb.entries import match_pose
-    from ...experiments.limb.result import compare_laws
+    from ...limb_bench.entries import match_pose
+    from ...limb_bench.result import compare_laws
     from .text import print_limb_result, write_limb_result
 
     announce_compilation(quiet=words.quiet)  # gains are matched by the laws themselves

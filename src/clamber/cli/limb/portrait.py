@@ -41,8 +41,8 @@ def portrait(
 
     Gains are those recommended for the limb, unless they are matched to a reference.
     """
-    from ...experiments.limb.entries import read_law
-    from ...experiments.limb.portrait import paint_portraits, portraits_json
+    from ...limb_bench.entries import read_law
+    from ...limb_bench.portrait import paint_portraits, portraits_json
     from ...regular_files import make_folder
     from .portrait_text import draw_portraits, print_markdown, print_portraits
 

@@ -7,7 +7,7 @@ from typing import Final
 
 from rich.console import Console
 
-from ...experiments.limb.portrait import Portrait
+from ...limb_bench.portrait import Portrait
 from ..output import plain_table
 
 GAINS: Final = ("kp", "kd", "Kxx\nN/mm", "Kyy\nN/mm")
@@ -19,7 +19,7 @@ ERRORS: Final = tuple(f"{plant}\n{what}" for plant in ("ideal", "nom.") for what
 
 def draw_portraits(portraits: Sequence[Portrait], folder: Path) -> None:
     """Write a picture of each law."""
-    from ...viewing.law_portrait import draw_portrait
+    from ...limb_bench.pictures.law_portrait import draw_portrait
 
     for each in portraits:
         draw_portrait(each, folder / f"{each.law}.png")

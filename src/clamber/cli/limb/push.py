@@ -19,8 +19,8 @@ def push(
 ) -> None:
     """Push the tip and let it go, and compare how far each law yields, where to, and how it comes back."""
     words.check()
-    from ...experiments.limb.points import read_point
-    from ...experiments.limb.scenario import push_scenario
+    from ...limb_bench.points import read_point
+    from ...limb_bench.scenario import push_scenario
 
     properties = words.build_plant()
     chosen = words.build_limb(properties)

@@ -17,8 +17,8 @@ def step(
 ) -> None:
     """Let the aim jump, and compare how each law gets there: along the step, across it, at rest."""
     words.check()
-    from ...experiments.limb.points import read_point
-    from ...experiments.limb.scenario import step_scenario
+    from ...limb_bench.points import read_point
+    from ...limb_bench.scenario import step_scenario
 
     properties = words.build_plant()
     chosen = words.build_limb(properties)

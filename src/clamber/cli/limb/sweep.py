@@ -68,7 +68,7 @@ def sweep(
         from ...viewing.output import CANVASES, check_suffix
 
         check_suffix(words.output, (".csv", *CANVASES))
-    from ...experiments.limb.limb_sweep import make_bench, run_limb_sweep
+    from ...limb_bench.limb_sweep import make_bench, run_limb_sweep
     from ...planning.axes import range_axis
     from .sweep_text import print_limb_sweep, write_limb_sweep
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from rich.console import Console
 
-from ...experiments.limb.limb_sweep import LimbSweep
+from ...limb_bench.limb_sweep import LimbSweep
 from ..output import plain_table
 from .text import COLUMNS
 
@@ -101,6 +101,6 @@ def write_limb_sweep(result: LimbSweep, path: Path) -> None:
     if path.suffix.lower() == ".csv":
         result.save_table(path)
     else:
-        from ...viewing.limb_map_plot import draw_limb_sweep
+        from ...limb_bench.pictures.limb_map_plot import draw_limb_sweep
 
         draw_limb_sweep(result, path, *measure_scale(result.bench.measure))

@@ -9,10 +9,10 @@ from typing import Final
 import numpy as np
 from rich.console import Console
 
-from ...experiments.limb.entries import gain_unit
-from ...experiments.limb.error_lines import error_line
-from ...experiments.limb.measures import Measures
-from ...experiments.limb.result import LimbResult, Row
+from ...limb_bench.entries import gain_unit
+from ...limb_bench.error_lines import error_line
+from ...limb_bench.measures import Measures
+from ...limb_bench.result import LimbResult, Row
 from ...types import Floats
 from ..output import plain_table
 
@@ -200,6 +200,6 @@ def write_limb_result(result: LimbResult, path: Path) -> None:
     elif suffix == ".csv":
         result.save_table(path)
     else:
-        from ...viewing.limb_plot import draw_limb_result
+        from ...limb_bench.pictures.limb_plot import draw_limb_result
 
         draw_limb_result(result, path)

@@ -45,11 +45,11 @@ def tune(
 
         check_suffix(words.output, CANVASES)
     from ...control.recommended import read_recommended, save_recommended
-    from ...experiments.limb.bench_limb import bench_limb, limbed_robot
-    from ...experiments.limb.flaw_texts import named_flaws, read_flaws
-    from ...experiments.limb.points import read_elbow, read_point
-    from ...experiments.limb.tune import tune as find
+    from ...limb_bench.bench_limb import bench_limb, limbed_robot
+    from ...limb_bench.points import read_elbow, read_point
+    from ...limb_bench.tune import tune as find
     from ...regular_files import is_there
+    from ...sim.flaw_texts import named_flaws, read_flaws
 
     if save is not None and is_there(save):
         read_recommended(save)
@@ -65,7 +65,7 @@ def tune(
     if save is not None:
         save_recommended(result.recommended(), save)
     if words.output is not None:
-        from ...viewing.limb_tune_plot import draw_tuning
+        from ...limb_bench.pictures.limb_tune_plot import draw_tuning
 
         draw_tuning(result, words.output)
     if words.as_json:

@@ -5,9 +5,9 @@ from pathlib import Path
 
 from rich.console import Console
 
-from ...experiments.limb.flaw_texts import plant_words
-from ...experiments.limb.steadiness import QUIET_FROM, STEADY
-from ...experiments.limb.tune import Tuning
+from ...limb_bench.steadiness import QUIET_FROM, STEADY
+from ...limb_bench.tune import Tuning
+from ...sim.flaw_texts import plant_words
 from ..output import plain_table
 
 HEADS = {

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from ...experiments.limb.bench_limb import BenchLimb
-from ...experiments.limb.force_entries import force_entries
-from ...experiments.limb.force_result import ForceResult, pressing, run_force
-from ...experiments.limb.force_scenario import ForceTask
+from ...limb_bench.bench_limb import BenchLimb
+from ...limb_bench.force_entries import force_entries
+from ...limb_bench.force_result import ForceResult, pressing, run_force
+from ...limb_bench.force_scenario import ForceTask
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import MILLI, PAPER
