@@ -8,7 +8,8 @@ from clamber.execution.log import LogError
 from clamber.execution.log_files import read_log, write_log
 from clamber.execution.log_trace import log_trace, trace_log
 from clamber.limb_bench.bench_limb import bench_limb
-from clamber.limb_bench.contest import Entry, run_contest
+from clamber.limb_bench.measures import Entry
+from clamber.limb_bench.runner import run_contest
 from clamber.limb_bench.scenario import circle_scenario
 from clamber.sim.limb_flaws import LimbFlaws
 

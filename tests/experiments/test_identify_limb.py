@@ -11,8 +11,9 @@ from clamber.execution.log_identify import Identification, Known, identify_log
 from clamber.execution.log_roles import samples_of
 from clamber.execution.log_trace import trace_log
 from clamber.limb_bench.bench_limb import bench_limb
-from clamber.limb_bench.contest import Entry, run_contest
 from clamber.limb_bench.excitation import ExcitationError, SensorNoise, record_log
+from clamber.limb_bench.measures import Entry
+from clamber.limb_bench.runner import run_contest
 from clamber.limb_bench.scenario import circle_scenario
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.units import DEGREE

@@ -10,15 +10,9 @@ import pytest
 from clamber.cli import main
 from clamber.errors import UnknownNameError
 from clamber.limb_bench.bench_limb import bench_limb
-from clamber.limb_bench.force_entries import force_entries, force_gains
-from clamber.limb_bench.force_result import (
-    ForceResult,
-    measure_force,
-    pressing,
-    run_force,
-)
-from clamber.limb_bench.force_scenario import ForceTask, direction, force_scenario
-from clamber.limb_bench.scenario import ScenarioError
+from clamber.limb_bench.force import ForceResult, force_entries, force_gains, run_force
+from clamber.limb_bench.measures import measure_force
+from clamber.limb_bench.scenario import ForceTask, ScenarioError, direction, force_scenario
 from clamber.sim.limb_flaws import LimbFlaws
 
 COMPENSATED = (
@@ -49,7 +43,7 @@ def result(label: str, angle: float = 90.0, friction: float = 1.0) -> ForceResul
 def test_with_friction_compensated_20_n_are_held_within_1_n_without_losing_contact(angle: float, label: str) -> None:
     found = result(label, angle)
     held = found.rows[0]
-    force, time = pressing(held.run, found.task), held.run.trace.time
+    force, time = held.run.force_into(found.task.angle), held.run.trace.time
     late = force[time >= found.scenario.settle]
     assert np.abs(late - 20.0).max() <= 1.0
     assert late.min() > 0.0
@@ -87,7 +81,7 @@ def friction_error(angle: float, at: int) -> tuple[float, float]:
 def test_without_compensation_the_error_is_told_and_friction_bounds_it(angle: float) -> None:
     found = result("hybrid / none", angle)
     loose = found.rows[0]
-    force, time = pressing(loose.run, found.task), loose.run.trace.time
+    force, time = loose.run.force_into(found.task.angle), loose.run.trace.time
     still, _ = found.task.judged(time)
     assert loose.measures.worst_standing == np.abs(force[still] - 20.0).max()
     assert loose.measures.worst > 1.0 and not loose.measures.held
@@ -99,7 +93,7 @@ def test_without_compensation_the_error_is_told_and_friction_bounds_it(angle: fl
 @pytest.mark.parametrize("angle", [90.0, ASKEW])
 def test_sliding_friction_spoils_the_force_by_what_statics_say(angle: float) -> None:
     found = result("hybrid / none", angle)
-    force = pressing(found.rows[0].run, found.task)
+    force = found.rows[0].run.force_into(found.task.angle)
     middle = round((found.task.slide_from + 0.5 * found.task.sliding) / found.flaws.period)
     _, error = friction_error(angle, middle)
     assert abs(error) > 2.0
@@ -109,7 +103,7 @@ def test_sliding_friction_spoils_the_force_by_what_statics_say(angle: float) -> 
 @pytest.mark.parametrize("label", ["hybrid / none", "implicit-force / none", "admittance / none"])
 def test_without_friction_all_laws_hold_the_force_at_rest(label: str) -> None:
     found = result(label, friction=0.0)
-    force, time = pressing(found.rows[0].run, found.task), found.rows[0].run.trace.time
+    force, time = found.rows[0].run.force_into(found.task.angle), found.rows[0].run.trace.time
     assert np.abs(force[time > found.task.slide_from - 0.2][:30] - 20.0).max() < 0.05
     assert found.rows[0].measures.held
 
@@ -127,7 +121,7 @@ def test_a_wrong_stiffness_spoils_implicit_force_by_the_closed_form(ratio: float
     mobility = into @ jacobian / trace.chain.joints["share"] @ jacobian.T @ into
     wanted = (mobility + 200.0 / task.task_stiffness) / (mobility + 200.0 / task.stiffness) * task.force
     assert abs(wanted - 20.0) > 0.5
-    assert pressing(only.run, task)[-1] == pytest.approx(wanted, abs=0.05)
+    assert only.run.force_into(task.angle)[-1] == pytest.approx(wanted, abs=0.05)
 
 
 @pytest.mark.parametrize("believed", [60.0, 80.0, 125.0])
@@ -142,7 +136,7 @@ def test_a_wrong_angle_spoils_a_hybrid_force_by_the_closed_form(believed: float)
     into, taken = direction(task.angle), direction(task.task_angle)
     wanted = task.force * (taken @ mobility @ taken) / (taken @ mobility @ into)
     assert abs(wanted - 20.0) > 0.5
-    assert pressing(only.run, task)[-1] == pytest.approx(wanted, abs=0.05)
+    assert only.run.force_into(task.angle)[-1] == pytest.approx(wanted, abs=0.05)
 
 
 @pytest.mark.parametrize("angle", [90.0, TURNED])
@@ -227,5 +221,6 @@ def test_the_measures_are_of_the_true_force_whatever_the_sensor_says() -> None:
     each = found.rows[0]
     assert measure_force(each.run, found.task) == each.measures
     assert each.measures.mean_error == pytest.approx(
-        float(np.mean(pressing(each.run, found.task)[each.run.trace.time >= found.scenario.settle]) - 20.0), abs=1e-6
+        float(np.mean(each.run.force_into(found.task.angle)[each.run.trace.time >= found.scenario.settle]) - 20.0),
+        abs=1e-6,
     )

@@ -7,8 +7,7 @@ import pytest
 from matplotlib.mathtext import MathTextParser
 
 from clamber.control.law_settings import LAWS, LawSettings
-from clamber.limb_bench.pictures.law_equations import LAW_EQUATIONS
-from clamber.limb_bench.pictures.law_portrait import draw_portrait
+from clamber.limb_bench.pictures.portrait import LAW_EQUATIONS, draw_portrait
 from clamber.limb_bench.portrait import paint_portraits
 from clamber.viewing.output import SuffixError
 

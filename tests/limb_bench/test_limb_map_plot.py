@@ -9,8 +9,8 @@ import pytest
 from clamber.limb_bench.bench_limb import bench_limb
 from clamber.limb_bench.limb_sweep import Boundary, LimbSweep, make_bench
 from clamber.limb_bench.limb_sweep_point import Cell
-from clamber.limb_bench.pictures.limb_map_plot import _rims, draw_limb_sweep
-from clamber.limb_bench.pictures.limb_tune_plot import draw_tuning
+from clamber.limb_bench.pictures.draw import draw_result
+from clamber.limb_bench.pictures.sweep import rims
 from clamber.limb_bench.tune import Edge, Tuned, Tuning
 from clamber.planning.axes import range_axis
 from clamber.sim.flaw_texts import named_flaws
@@ -46,7 +46,7 @@ def made_sweep(*, two: bool, divided: bool = True) -> LimbSweep:
 @pytest.mark.parametrize("two", [False, True])
 def test_a_sweep_is_drawn_the_same_each_time(tmp_path: Path, two: bool) -> None:
     for name in ("one.svg", "two.svg"):
-        draw_limb_sweep(made_sweep(two=two), tmp_path / name, 1e3, "mm")
+        draw_result(made_sweep(two=two), tmp_path / name)
     first, second = ((tmp_path / name).read_bytes() for name in ("one.svg", "two.svg"))
     strip = [line for line in first.splitlines() if b"<dc:date>" not in line]
     assert strip == [line for line in second.splitlines() if b"<dc:date>" not in line]
@@ -57,17 +57,14 @@ def test_the_best_law_changes_where_the_better_one_turns_unstable() -> None:
 
 
 def test_rims_lie_half_way_between_values() -> None:
-    np.testing.assert_allclose(_rims(np.array([0.0, 1.0, 3.0])), [-0.5, 0.5, 2.0, 4.0])
+    np.testing.assert_allclose(rims(np.array([0.0, 1.0, 3.0])), [-0.5, 0.5, 2.0, 4.0])
 
 
 @pytest.mark.parametrize("draw", ["sweep", "tuning"])
 def test_a_picture_of_no_known_kind_is_refused(tmp_path: Path, draw: str) -> None:
     result: Any = made_sweep(two=False) if draw == "sweep" else made_tuning()
     with pytest.raises(SuffixError, match=r"map\.doc"):
-        if draw == "sweep":
-            draw_limb_sweep(result, tmp_path / "map.doc", 1.0, "")
-        else:
-            draw_tuning(result, tmp_path / "map.doc")
+        draw_result(result, tmp_path / "map.doc")
     assert not list(tmp_path.iterdir())
 
 
@@ -85,5 +82,5 @@ def made_tuning() -> Tuning:
 
 
 def test_a_tuning_is_drawn(tmp_path: Path) -> None:
-    draw_tuning(made_tuning(), tmp_path / "tune.png")
+    draw_result(made_tuning(), tmp_path / "tune.png")
     assert (tmp_path / "tune.png").read_bytes().startswith(b"\x89PNG")

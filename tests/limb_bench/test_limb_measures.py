@@ -11,8 +11,8 @@ from clamber.control.law_settings import LawSettings
 from clamber.control.records import REPORT
 from clamber.execution.trace import LimbTrace
 from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
-from clamber.limb_bench.contest import Entry, Run, run_contest
-from clamber.limb_bench.measures import NEVER, Measures, instability, measure
+from clamber.limb_bench.measures import NEVER, Entry, Measures, Run, instability, measure
+from clamber.limb_bench.runner import run_contest
 from clamber.limb_bench.scenario import Scenario, circle_scenario, push_scenario, step_scenario
 from clamber.sim.limb_flaws import LimbFlaws
 

@@ -10,13 +10,7 @@ from hypothesis import strategies as st
 from clamber.control.chain import Chain
 from clamber.errors import UnknownNameError
 from clamber.limb_bench.bench_limb import bench_limb
-from clamber.limb_bench.open_loop import (
-    TRANSFORMS,
-    OpenLoopRun,
-    first_turn,
-    run_open_loop,
-    scaled_torques,
-)
+from clamber.limb_bench.open_loop import TRANSFORMS, OpenLoopRun, first_turn, run_open_loop, scaled_torques
 from clamber.limb_bench.scenario import ScenarioError
 from clamber.sim.limb_flaws import LimbFlaws
 

@@ -9,8 +9,9 @@ from matplotlib.figure import Figure
 from clamber.control.law_settings import LawSettings
 from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
 from clamber.limb_bench.entries import make_entries
-from clamber.limb_bench.pictures import limb_plot
-from clamber.limb_bench.result import LimbResult, compare_laws
+from clamber.limb_bench.pictures.draw import draw_result
+from clamber.limb_bench.result import LimbResult, Matching, compare_laws
+from clamber.limb_bench.runner import Contest
 from clamber.limb_bench.scenario import Scenario, circle_scenario, push_scenario, step_scenario
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.viewing import output
@@ -31,7 +32,7 @@ def asked(kind: str) -> tuple[BenchLimb, Scenario]:
 def compared(kind: str, *texts: str, flaws: LimbFlaws) -> LimbResult:
     limb, scenario = asked(kind)
     entries = make_entries(limb, texts or ("scct", "jacobian-transpose"), REFERENCE, "mean", limb.q0)
-    return compare_laws(limb, scenario, entries, flaws, match="mean", reference=REFERENCE)
+    return compare_laws(Contest(limb, scenario, entries, flaws), matching=Matching(REFERENCE, "mean"))
 
 
 @pytest.mark.parametrize("kind", ["step", "circle", "push"])
@@ -44,7 +45,7 @@ def test_a_picture_says_how_gains_were_matched_and_who_ran_on_what(
         drawn.append(figure)
 
     monkeypatch.setattr(output, "save_figure", keep)
-    limb_plot.draw_limb_result(compared(kind, flaws=LimbFlaws(backlash=0.02, delay=1)), tmp_path / "a.png")
+    draw_result(compared(kind, flaws=LimbFlaws(backlash=0.02, delay=1)), tmp_path / "a.png")
     text = " ".join(each.get_text() for each in drawn[0].texts)
     assert "matched by 'mean'" in text and "backlash 1.146 deg" in text and "delay 1" in text
     names = [each.get_text() for legend in drawn[0].legends for each in legend.get_texts()]
@@ -55,10 +56,10 @@ def test_the_same_result_gives_the_same_bytes_and_an_unstable_law_is_drawn(tmp_p
     for kind in ("step", "circle"):
         result = compared(kind, "scct:kp=4000,kd=0", flaws=LimbFlaws(delay=6))
         for name in ("a.png", "b.png"):
-            limb_plot.draw_limb_result(result, tmp_path / name)
+            draw_result(result, tmp_path / name)
         assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
 
 
 def test_a_name_without_a_picture_format_is_refused(tmp_path: Path) -> None:
     with pytest.raises(SuffixError):
-        limb_plot.draw_limb_result(compared("step", flaws=LimbFlaws()), tmp_path / "a.txt")
+        draw_result(compared("step", flaws=LimbFlaws()), tmp_path / "a.txt")

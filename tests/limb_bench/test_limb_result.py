@@ -14,10 +14,10 @@ from clamber.control.law_settings import LAWS, LawSettings
 from clamber.errors import UnknownNameError
 from clamber.execution.closed_loop import close_loop
 from clamber.limb_bench.bench_limb import bench_limb
-from clamber.limb_bench.contest import Entry, run_contest
 from clamber.limb_bench.entries import make_entries
-from clamber.limb_bench.error_lines import error_line
-from clamber.limb_bench.result import LimbResult, compare_laws
+from clamber.limb_bench.measures import Entry
+from clamber.limb_bench.result import LimbResult, Matching, compare_laws, error_line
+from clamber.limb_bench.runner import Contest, run_contest
 from clamber.limb_bench.scenario import ScenarioError, circle_scenario, push_scenario, step_scenario
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.sim.plants import PLANTS
@@ -30,7 +30,7 @@ STEP = step_scenario(LIMB, 200.0, seconds=1.0)
 
 def compare(flaws: LimbFlaws, *texts: str, trials: int = 1) -> LimbResult:
     entries = make_entries(LIMB, texts, REFERENCE, "yy", LIMB.q0)
-    return compare_laws(LIMB, STEP, entries, flaws, trials=trials, match="yy", reference=REFERENCE, match_at=LIMB.q0)
+    return compare_laws(Contest(LIMB, STEP, entries, flaws), trials=trials, matching=Matching(REFERENCE, "yy", LIMB.q0))
 
 
 def without_ticks(told: Any) -> Any:
@@ -103,7 +103,7 @@ def test_a_loop_that_loses_its_numbers_keeps_what_was_and_raises_unless_told() -
 
 def test_matching_by_diagonal_tells_who_has_one_gain_only() -> None:
     entries = make_entries(LIMB, ["scct", "joint-pd", "jacobian-transpose"], REFERENCE, "diagonal", LIMB.q0)
-    result = compare_laws(LIMB, STEP, entries, LimbFlaws(), match="diagonal", reference=REFERENCE)
+    result = compare_laws(Contest(LIMB, STEP, entries, LimbFlaws()), matching=Matching(REFERENCE, "diagonal"))
     assert result.mismatches() == ["joint-pd"]
     assert "diagonal" in result.match_words()
     assert compare(LimbFlaws(), "scct", "joint-pd").mismatches() == []
@@ -118,7 +118,7 @@ def test_every_law_runs_in_every_scenario_and_tells_finite_measures(law: str) ->
         (LIMB, push_scenario(LIMB, 200.0, start=0.1, end=0.4, seconds=1.0)),
     ):
         entries = make_entries(limb, [law], REFERENCE, "yy", limb.q0)
-        result = compare_laws(limb, scenario, entries, LimbFlaws(), match="yy", reference=REFERENCE)
+        result = compare_laws(Contest(limb, scenario, entries, LimbFlaws()), matching=Matching(REFERENCE, "yy"))
         text = json.dumps(result.to_json(), allow_nan=False)
         assert f'"{law}"' in text
         assert np.isfinite(error_line(result.rows[0].run, scenario, result.shown_until()).error).all()
@@ -126,16 +126,20 @@ def test_every_law_runs_in_every_scenario_and_tells_finite_measures(law: str) ->
 
 def test_a_plot_ends_a_while_after_the_last_law_settled_and_never_before_a_wild_one() -> None:
     scenario = step_scenario(LIMB, 200.0, seconds=6.0)
-    calm = compare_laws(LIMB, scenario, [Entry("scct", REFERENCE)], LimbFlaws())
+    calm = compare_laws(Contest(LIMB, scenario, [Entry("scct", REFERENCE)], LimbFlaws()))
     assert calm.shown_until() == pytest.approx(1.0)
     line = error_line(calm.rows[0].run, scenario, calm.shown_until())
     assert len(line.error) == 200
-    wild = compare_laws(LIMB, scenario, [Entry("wild", LawSettings(law="scct", kp=600.0, kd=2.0))], LimbFlaws(delay=1))
+    wild = compare_laws(
+        Contest(LIMB, scenario, [Entry("wild", LawSettings(law="scct", kp=600.0, kd=2.0))], LimbFlaws(delay=1))
+    )
     assert wild.shown_until() == 6.0
 
 
 def test_three_ticks_are_enough_to_be_measured() -> None:
-    result = compare_laws(LIMB, step_scenario(LIMB, 200.0, seconds=0.015), [Entry("scct", REFERENCE)], LimbFlaws())
+    result = compare_laws(
+        Contest(LIMB, step_scenario(LIMB, 200.0, seconds=0.015), [Entry("scct", REFERENCE)], LimbFlaws())
+    )
     told = result.to_json()["laws"][0]["trials"][0]
     assert told["unstable_at"] is None
     assert told["true"]["rest"] == pytest.approx(0.02, rel=0.1)  # it has hardly begun
@@ -160,7 +164,7 @@ def test_a_circle_beyond_the_printed_limits_of_the_elbow_is_told() -> None:
     limb = bench_limb(start=(0.27, 0.0))
     scenario = circle_scenario(limb, 200.0, lap=3.0, laps=1)
     entries = [Entry("scct", REFERENCE)]
-    over = compare_laws(limb, scenario, entries, LimbFlaws()).beyond_limits()
+    over = compare_laws(Contest(limb, scenario, entries, LimbFlaws())).beyond_limits()
     assert set(over) == {"right elbow"}
     assert 4.0 < math.degrees(over["right elbow"]) < 8.0  # the circle itself asks for 5.6 deg
     assert compare(LimbFlaws(), "scct").beyond_limits() == {}

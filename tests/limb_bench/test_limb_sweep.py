@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 from clamber.errors import ClamberError, UnknownNameError
-from clamber.limb_bench.contest import run_contest
 from clamber.limb_bench.limb_sweep import LimbSweep, make_bench, run_limb_sweep
 from clamber.limb_bench.limb_sweep_point import Bench, Cell, find_boundary, run_point, try_laws
 from clamber.limb_bench.measures import measure
+from clamber.limb_bench.runner import run_contest
 from clamber.planning.axes import range_axis
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.sim.plant_rules import PlantError

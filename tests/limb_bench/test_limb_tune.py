@@ -22,7 +22,7 @@ from clamber.control.recommended import (
 )
 from clamber.errors import SpecError, UnknownNameError
 from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
-from clamber.limb_bench.entries import read_law
+from clamber.limb_bench.entries import read_law, with_recommended_gains
 from clamber.limb_bench.matching import tip_stiffness
 from clamber.limb_bench.steadiness import STEADY, peak_to_peak, poses, run_situations, situations
 from clamber.limb_bench.tune import (
@@ -36,7 +36,6 @@ from clamber.limb_bench.tune import (
     rounded_down,
     tune,
 )
-from clamber.limb_bench.tuned_laws import with_recommended_gains
 from clamber.sim.flaw_texts import named_flaws
 from clamber.sim.limb_flaws import LimbFlaws
 from tiers import first_fast

@@ -7,7 +7,8 @@ from clamber.control.chain import chain_of_limb
 from clamber.control.law_settings import LawSettings
 from clamber.errors import UnknownNameError
 from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
-from clamber.limb_bench.contest import Entry, run_contest
+from clamber.limb_bench.measures import Entry
+from clamber.limb_bench.runner import run_contest
 from clamber.limb_bench.scenario import step_scenario
 from clamber.robots.library import load_robot, robot_names
 from clamber.robots.limbed import LimbedRobot

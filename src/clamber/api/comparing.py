@@ -6,7 +6,8 @@ from typing import Any, Final, Literal
 from ..limb_bench.bench_limb import bench_limb, limbed_robot
 from ..limb_bench.entries import make_entries, match_pose, reference_law
 from ..limb_bench.matching import Match
-from ..limb_bench.result import LimbResult, compare_laws
+from ..limb_bench.result import LimbResult, Matching, compare_laws
+from ..limb_bench.runner import Contest
 from ..limb_bench.scenario import circle_scenario, push_scenario, step_scenario
 from ..sim.flaw_texts import named_flaws, read_flaws
 
@@ -71,8 +72,5 @@ def compare(
     scenario = MOTIONS[motion](on_bench, properties.control_rate, **how)
     at = match_pose(on_bench, scenario)
     towards = reference_law(reference, kp, kd)
-    entries = make_entries(on_bench, laws, towards, match, at)
-    return compare_laws(
-        on_bench, scenario, entries, properties, plant=plant, trials=trials, workers=workers, match=match,
-        reference=towards, match_at=at,
-    )  # fmt: skip
+    contest = Contest(on_bench, scenario, make_entries(on_bench, laws, towards, match, at), properties, plant)
+    return compare_laws(contest, trials=trials, workers=workers, matching=Matching(towards, match, at))

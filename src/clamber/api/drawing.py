@@ -10,7 +10,7 @@ from ..actions.plan_families import plan_family
 from ..errors import ClamberError
 from ..experiments.climb.run_plan import ClimbRun
 from ..experiments.walk.run_walk import WalkRun
-from ..limb_bench.pictures.limb_plot import draw_limb_result
+from ..limb_bench.pictures.comparison import draw_comparison
 from ..limb_bench.result import LimbResult
 from ..planning.result import PlanResult
 from ..tasks.limbed import LimbedTask
@@ -53,7 +53,7 @@ def draw(what: Any, path: str | Path, *, step: int | None = None) -> Path:
     elif isinstance(what, WalkRun):
         write_walk(what, file)
     elif isinstance(what, LimbResult):
-        draw_limb_result(what, file)
+        draw_comparison(what, file)
     elif isinstance(what, PlanResult):
         _draw_plan(what.task, what.plan, file, step)
     elif isinstance(what, Plan):

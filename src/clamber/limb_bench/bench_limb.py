@@ -9,6 +9,7 @@ from ..errors import ClamberError
 from ..robots.library import load_robot
 from ..robots.limbed import Limb, LimbedRobot
 from ..types import Floats
+from ..units import PointError
 
 
 class StartError(ClamberError):
@@ -120,3 +121,17 @@ def bench_limb(
         gears = np.array((spec.shoulder.gear, spec.elbow.gear))
         return BenchLimb(loaded, name, chain, gears, np.array(q))
     raise StartError(label, start, "needs joint angles beyond the joints' limits")
+
+
+def read_elbow(text: str | None) -> int | None:
+    """1 or -1 of "+" or "-".
+
+    Raises:
+        PointError: If it is neither.
+    """
+    signs = {"+": 1, "-": -1, "positive": 1, "negative": -1}
+    if text is None:
+        return None
+    if text not in signs:
+        raise PointError("elbow", text, "must be + or -")
+    return signs[text]

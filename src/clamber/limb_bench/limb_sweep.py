@@ -1,7 +1,5 @@
 """Laws over a range of plants or gains: where each is best, and where it goes unstable, its boundary found by bisection."""
 
-import csv
-import io
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, fields
 from itertools import pairwise, product
@@ -10,14 +8,14 @@ from typing import Any, Final
 
 from ..control.law_settings import LAWS, LawError, LawSettings
 from ..errors import UnknownNameError
-from ..files import write_atomically
 from ..jobs import Executor, Outcome, map_items, read_result
 from ..planning.axes import Axis, check_axes
 from ..sim.flaw_texts import WHOLE, named_flaws, plant_words, read_flaws
 from ..sim.limb_flaws import LimbFlaws
 from ..types import Json
-from .bench_limb import bench_limb, limbed_robot
-from .entries import GAINS, reference_law
+from ..units import read_number, read_point
+from .bench_limb import bench_limb, limbed_robot, read_elbow
+from .entries import GAINS, reference_law, with_recommended_gains
 from .limb_sweep_point import (
     GAIN_KEYS,
     PEAK,
@@ -32,8 +30,7 @@ from .limb_sweep_point import (
 )
 from .matching import Match
 from .measures import TipMeasures
-from .points import read_elbow, read_number, read_point
-from .tuned_laws import with_recommended_gains
+from .result import BenchResult
 
 SCHEMA: Final = "clamber-limb-sweep-1"
 PRECISION: Final = 0.02
@@ -69,7 +66,7 @@ class Boundary:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class LimbSweep:
+class LimbSweep(BenchResult):
     """All points of a sweep, the last axis fastest."""
 
     bench: Bench
@@ -136,17 +133,14 @@ class LimbSweep:
             ],
         }
 
-    def save_table(self, path: Path) -> None:
-        """Write one line of CSV for each law at each point, whole or not at all."""
-        text = io.StringIO()
-        table = csv.writer(text, lineterminator="\n")
-        keys = [axis.key for axis in self.axes]
-        table.writerow([*keys, "law", self.bench.measure, "peak_to_peak", "steady"])
-        for k, point in enumerate(self.points):
-            for label, cell in point.items():
-                value = "" if cell.value is None else cell.value
-                table.writerow([*self.values(k).values(), label, value, cell.peak_to_peak, cell.steady])
-        write_atomically(path, text.getvalue())
+    def table(self) -> tuple[list[str], list[list[Any]]]:
+        """One line for each law at each point."""
+        columns = [*(axis.key for axis in self.axes), "law", self.bench.measure, "peak_to_peak", "steady"]
+        return columns, [
+            [*self.values(k).values(), label, cell.value, cell.peak_to_peak, cell.steady]
+            for k, point in enumerate(self.points)
+            for label, cell in point.items()
+        ]
 
 
 def make_bench(

@@ -15,12 +15,12 @@ from ..sim.flaw_texts import DIMENSIONS as FLAWS
 from ..sim.flaw_texts import WHOLE, read_flaw
 from ..sim.limb_flaws import LimbFlaws
 from ..types import Json
+from ..units import read_number
 from .bench_limb import BenchLimb, bench_limb
-from .contest import Entry, Run, run_contest
 from .entries import make_entries, match_pose, read_law, reference_law
 from .matching import Match
-from .measures import Measures, measure
-from .points import read_number
+from .measures import Entry, Measures, Run, measure
+from .runner import run_contest
 from .scenario import Scenario, circle_scenario, push_scenario, step_scenario
 from .stability import scaled_gains
 from .steadiness import RESTING, STEADY, motor_peak_to_peak, peak_to_peak

@@ -2,17 +2,18 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
-from typing import Any, Final
+from dataclasses import asdict, dataclass, fields
+from typing import Any, Final, Generic, TypeVar
 
 import numpy as np
 
+from ..control.law_settings import LawSettings
 from ..execution.trace import LimbTrace
 from ..types import Floats, Json
 from .bench_limb import BenchLimb
-from .contest import Run
-from .scenario import Scenario
+from .scenario import ForceTask, Scenario, direction, left_of
 
+M = TypeVar("M")
 BAND: Final = 0.02
 """Settled is who stays within this part of the motion asked for."""
 CYCLE_FROM: Final = 5.0
@@ -25,6 +26,60 @@ SWING: Final = 0.5
 """Shortest such part [s]: it has to hold a swing of the limb."""
 NEVER: Final = math.inf
 """In place of a time that never came."""
+
+
+UNITS: Final[dict[str, tuple[float, str]]] = {
+    "lag": (math.degrees(1.0), "deg"),
+    "overshoot": (100.0, "%"),
+    "settling": (1.0, "s"),
+    "on_aim": (1.0, "s"),
+    "iae": (1e3, "mm s"),
+    "work": (1.0, "J"),
+    "heat": (1.0, "J"),
+    "saturated": (100.0, "%"),
+    "tick": (1e6, "us"),
+}
+"""Measure -> what it is multiplied by to be shown, and its unit then; all others are lengths, shown in mm."""
+
+
+def measure_scale(name: str) -> tuple[float, str]:
+    """What a measure such as "encoder.rest" is multiplied by to be shown, and its unit then."""
+    return UNITS.get(name.rpartition(".")[2], (1e3, "mm"))
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One law in a contest, under a label."""
+
+    label: str
+    settings: LawSettings
+    own_gains: bool = True
+    """Whether its gains are as stated for it, not matched to a reference."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Run:
+    """What one entry did."""
+
+    entry: Entry
+    trace: LimbTrace
+    tick_seconds: float
+    """Of one call of the controller from Python, on this machine [s]."""
+
+    @property
+    def period(self) -> float:
+        """Of the control [s]; 0 for a single tick."""
+        return float(self.trace.time[1] - self.trace.time[0]) if len(self.trace.time) > 1 else 0.0
+
+    def force_into(self, angle: float) -> Floats:
+        """True force in a direction from the x axis, tick by tick, shape (ticks,) [N]."""
+        force: Floats = self.trace.wrenches[:, 0, :2] @ direction(angle)
+        return force
+
+    def work(self, index: int = 0) -> float:
+        """Sum of what each motor gives or brakes, |torque x turn| [J]."""
+        turned = np.diff(self.trace.true[:, index, 0], axis=0)
+        return float(np.abs(self.trace.applied[:-1, index] * turned).sum())
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -94,6 +149,49 @@ class Measures:
         }
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ForceMeasures:
+    """What one law did to the wall, by the true force, after it had time to settle. Errors are actual less wanted force."""
+
+    mean_error: float
+    """[N]."""
+    worst_standing: float
+    """Largest size of the error before and after the slide [N]."""
+    worst_sliding: float
+    """Largest size of the error during the slide; 0 without one [N]."""
+    worst: float
+    """Largest size of all, where the slide starts and ends too [N]."""
+    contact: float
+    """Share of ticks with the tip on the wall [-]."""
+    held: bool
+    """Whether the tip never left the wall and no error was beyond the tolerance."""
+    bounces: int
+    """How often the tip left the wall before that."""
+    peak: float
+    """Largest force of the whole run, with the impact at the start [N]."""
+    off_line: float
+    """Largest error of the place along the wall, in truth [m]."""
+    work: float
+    """Sum of what each motor gives or brakes, |torque x turn| [J]."""
+
+    def to_json(self) -> Json:
+        """All measures, in SI; a law that left the finite numbers has None."""
+        return {key: value if math.isfinite(value) else None for key, value in asdict(self).items()}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Measured(Generic[M]):
+    """One run of one law, with its measures."""
+
+    run: Run
+    measures: M
+
+    @property
+    def entry(self) -> Entry:
+        """The law."""
+        return self.run.entry
+
+
 def _json(value: float) -> float | None:
     return float(value) if math.isfinite(value) else None
 
@@ -116,8 +214,8 @@ def measure(run: Run, scenario: Scenario, limb: BenchLimb, index: int = 0) -> Me
     return Measures(
         true=true,
         encoder=told,
-        work=_work(trace, index),
-        heat=_heat(trace, limb, index),
+        work=run.work(index),
+        heat=_heat(run, limb, index),
         saturated=_saturated(trace, index),
         tick=run.tick_seconds,
         unstable_at=unstable,
@@ -237,18 +335,37 @@ def instability(trace: LimbTrace, scenario: Scenario, index: int = 0) -> float |
     return float(trace.time[round((calm + 1) * len(trace.time) / count)])
 
 
-def _work(trace: LimbTrace, index: int) -> float:
-    turned = np.diff(trace.true[:, index, 0], axis=0)
-    return float(np.abs(trace.applied[:-1, index] * turned).sum())
-
-
-def _heat(trace: LimbTrace, limb: BenchLimb, index: int) -> float:
-    period = float(trace.time[1] - trace.time[0]) if len(trace.time) > 1 else 0.0
+def _heat(run: Run, limb: BenchLimb, index: int) -> float:
     motor = limb.robot.motor
-    currents = trace.applied[:, index] / (limb.gears * motor.torque_constant)
-    return float((currents**2).sum() * motor.resistance * period)
+    currents = run.trace.applied[:, index] / (limb.gears * motor.torque_constant)
+    return float((currents**2).sum() * motor.resistance * run.period)
 
 
 def _saturated(trace: LimbTrace, index: int) -> float:
     cut = (trace.applied[:, index] != trace.commanded[:, index]).any(axis=1)
     return float(np.mean(cut | (trace.reports["saturated"][:, index] > 0)))
+
+
+def measure_force(run: Run, task: ForceTask) -> ForceMeasures:
+    """Measures of a run of `force_scenario`."""
+    trace = run.trace
+    force = run.force_into(task.angle)
+    still, sliding = task.judged(trace.time)
+    judged = trace.time >= trace.time[np.argmax(still)]
+    error = force - task.force
+    touching = force > 0.0
+    off = (trace.true_places() - trace.wanted_places())[:, 0, :2] @ left_of(direction(task.angle))
+    worst = float(np.abs(error[judged]).max())
+    contact = float(touching[judged].mean())
+    return ForceMeasures(
+        mean_error=float(error[judged].mean()),
+        worst_standing=float(np.abs(error[still]).max()),
+        worst_sliding=float(np.abs(error[sliding]).max()) if sliding.any() else 0.0,
+        worst=worst,
+        contact=contact,
+        held=bool(contact == 1.0 and worst <= task.tolerance),
+        bounces=int((np.diff(touching[~judged].astype(int)) < 0).sum()),
+        peak=float(force.max()),
+        off_line=float(np.abs(off[judged]).max()),
+        work=run.work(),
+    )

@@ -6,9 +6,9 @@ part along the wanted direction for all transforms.
 """
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Final
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any, Final
 
 import numpy as np
 
@@ -16,14 +16,19 @@ from ..control.chain import Chain
 from ..control.controller import still_aim
 from ..errors import UnknownNameError
 from ..execution.trace import LimbTrace, empty_trace
+from ..sim.flaw_texts import plant_words
 from ..sim.limb_flaws import LimbFlaws
 from ..sim.plants import plant_maker
-from ..types import Floats
+from ..types import Floats, Json
 from .bench_limb import BenchLimb
-from .scenario import ScenarioError
+from .result import Comparison
+from .scenario import ScenarioError, left_of
 
 FIRST: Final = 1e-3
 """The first motion is the straight line from the start to where the tip is first this far away [m]."""
+SCHEMA: Final = "clamber-open-loop-1"
+FAR: Final = (0.02, 0.05)
+"""Ways along the wanted direction at which the stray is told [m]."""
 
 
 def _force(chain: Chain, q: Floats, wanted: Floats) -> Floats:
@@ -69,7 +74,7 @@ class OpenLoopRun:
     @property
     def across(self) -> Floats:
         """Way to the left of the wanted direction [m], shape (steps + 1,)."""
-        out: Floats = (self.places - self.places[0]) @ np.array((-self.wanted[1], self.wanted[0]))
+        out: Floats = (self.places - self.places[0]) @ left_of(self.wanted)
         return out
 
     @property
@@ -172,3 +177,72 @@ def run_open_loop(
         trace.applied[k], trace.wrenches[k] = truth.torques, truth.wrenches
     places = np.concatenate((trace.true_places()[:, 0, :2], chain.place(truth.states[0, 0])[None, :2]))
     return OpenLoopRun(transform, force, wanted, torques, trace, places)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class OpenLoopResult(Comparison):
+    """Paths of one limb's tip under several transforms of the same wanted direction."""
+
+    direction: float
+    """From the x axis of the port frame [rad]."""
+    renewed: bool
+    """Whether the torques followed the pose."""
+    runs: tuple[OpenLoopRun, ...]
+
+    @property
+    def moved(self) -> bool:
+        """Whether any transform moved the tip far enough to have a direction."""
+        return any(run.turned() is not None for run in self.runs)
+
+    def plant_words(self) -> str:
+        """The plant and what is not ideal about it, in one line."""
+        return f"{self.plant}, {plant_words(self.flaws, rate=False)}"
+
+    def predicted(self, run: OpenLoopRun) -> float:
+        """Angle of the first acceleration from the wanted direction by the dynamics without friction [rad]."""
+        return first_turn(self.limb.chain, self.limb.q0, run.torques, run.wanted)
+
+    def to_json(self) -> Json:
+        """Everything but the paths, in SI units and radians; `null` where the tip never got so far.
+
+        Keys are stable: schema, limb, plant, force, direction, renewed, first, transforms.
+        """
+        return {
+            "schema": SCHEMA,
+            "limb": self.limb_json(),
+            "plant": {"name": self.plant} | asdict(self.flaws),
+            "force": self.runs[0].force,
+            "direction": self.direction,
+            "renewed": self.renewed,
+            "first": FIRST,
+            "transforms": [
+                {
+                    "law": run.transform,
+                    "torques": run.torques.tolist(),
+                    "turned": run.turned(),
+                    "predicted": self.predicted(run),
+                    "strays": [{"after": far, "stray": run.stray(far)} for far in FAR],
+                    "moved": run.moved,
+                }
+                for run in self.runs
+            ],
+        }
+
+    def traces(self) -> Iterable[tuple[str, LimbTrace]]:
+        """Of each transform."""
+        return ((run.transform, run.trace) for run in self.runs)
+
+
+def compare_open_loop(
+    limb: BenchLimb,
+    flaws: LimbFlaws,
+    transforms: Sequence[str] = tuple(TRANSFORMS),
+    *,
+    seconds: float = 0.7,
+    **how: Any,
+) -> OpenLoopResult:
+    """Run every transform from rest at the limb's start; arguments and errors as in `run_open_loop`."""
+    runs = tuple(run_open_loop(limb, transform, flaws, seconds=seconds, **how) for transform in transforms)
+    defaults = {"plant": "mujoco", "direction": -math.pi / 2, "renewed": False}
+    kept = {key: how.get(key, usual) for key, usual in defaults.items()}
+    return OpenLoopResult(limb=limb, flaws=flaws, runs=runs, **kept)

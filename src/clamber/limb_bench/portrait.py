@@ -12,15 +12,13 @@ from ..sim.flaw_texts import SET, named_flaws
 from ..sim.limb_flaws import LimbFlaws
 from ..types import Floats, Json
 from .bench_limb import BenchLimb, bench_limb
-from .contest import Entry, Run, run_contest
-from .entries import GAINS, gain_unit, make_entries
-from .force_entries import force_gains, force_settings
-from .force_result import ForceRow, run_force
-from .force_scenario import ForceTask
+from .entries import GAINS, gain_unit, make_entries, with_recommended_gains
+from .force import force_gains, force_settings, run_force
 from .matching import Match, tip_stiffness
-from .measures import Measures, measure
-from .scenario import Scenario, circle_scenario, push_scenario, step_scenario
-from .tuned_laws import with_recommended_gains
+from .measures import Entry, ForceMeasures, Measured, Measures, measure
+from .result import BenchResult
+from .runner import run_contest
+from .scenario import ForceTask, Scenario, circle_scenario, push_scenario, step_scenario
 
 SCHEMA: Final = "clamber-limb-portrait-1"
 STEP_START: Final = (0.22, 0.0)
@@ -36,26 +34,18 @@ SCENES: Final = ("step", "circle", "fed", "push")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Motion:
-    """One run, with its measures."""
-
-    run: Run
-    measures: Measures
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Portrait:
+class Portrait(BenchResult):
     """One law in every scene, by plant: "ideal" and "nominal"."""
 
     settings: LawSettings
     stiffness: Floats
     """At the tip at `STEP_START`, shape (2, 2) [N/m]."""
-    motions: Mapping[str, Mapping[str, Motion]]
+    motions: Mapping[str, Mapping[str, Measured[Measures]]]
     """Scene -> plant -> what happened."""
     scenarios: Mapping[str, Scenario]
     """Scene -> what was asked for."""
     task: ForceTask
-    forces: Mapping[str, tuple[ForceRow, ...]]
+    forces: Mapping[str, tuple[Measured[ForceMeasures], ...]]
     """Plant -> on the wall with joint friction left alone, then dealt with; empty of a law that holds no force."""
 
     @property
@@ -159,7 +149,7 @@ def paint_portraits(
     circle = circle_scenario(rounds, rate, lap=3.0)
     scenarios = {"step": step_scenario(stands, rate, seconds=4.0), "circle": circle, "fed": circle}
     scenarios["push"] = push_scenario(stands, rate)
-    told: dict[str, dict[str, list[Motion]]] = {}
+    told: dict[str, dict[str, list[Measured[Measures]]]] = {}
     for scene in SCENES:
         at = rounds if scenarios[scene].kind == "circle" else stands
         told[scene] = {
@@ -184,8 +174,8 @@ def _millimetres(value: float) -> str:
     return f"{1e3 * value:.2f}" if value >= 1e-4 else f"{1e3 * value:.3f}"
 
 
-def _move(limb: BenchLimb, scenario: Scenario, entries: Sequence[Entry], flaws: LimbFlaws) -> list[Motion]:
-    return [Motion(run, measure(run, scenario, limb)) for run in run_contest(limb, scenario, entries, flaws)]
+def _move(limb: BenchLimb, scenario: Scenario, entries: Sequence[Entry], flaws: LimbFlaws) -> list[Measured[Measures]]:
+    return [Measured(run, measure(run, scenario, limb)) for run in run_contest(limb, scenario, entries, flaws)]
 
 
 def _fed(entries: Sequence[Entry]) -> list[Entry]:
@@ -194,7 +184,7 @@ def _fed(entries: Sequence[Entry]) -> list[Entry]:
 
 def _press(
     limb: BenchLimb, task: ForceTask, law: str, plants: Mapping[str, LimbFlaws]
-) -> dict[str, tuple[ForceRow, ...]]:
+) -> dict[str, tuple[Measured[ForceMeasures], ...]]:
     if law not in WAYS:
         return {}
     out = {}

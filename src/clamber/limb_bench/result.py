@@ -1,10 +1,10 @@
-"""The result of a comparison on the limb bench: every law's measures over its trials, as values, JSON and CSV."""
+"""Results of the limb bench as values, JSON, CSV and logs; laws compared by one motion, each with its measures over its trials."""
 
 import csv
 import io
 import json
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass, replace
 from operator import attrgetter
 from pathlib import Path
@@ -14,23 +14,106 @@ import numpy as np
 
 from ..control.law_settings import LawSettings
 from ..execution.log import Log
+from ..execution.log_trace import trace_log
+from ..execution.trace import LimbTrace
 from ..files import write_atomically
 from ..sim.flaw_texts import plant_words
 from ..sim.limb_flaws import LimbFlaws
 from ..types import Floats, Json
 from .bench_limb import BenchLimb
-from .contest import Entry, Run, run_contest, with_sensors
 from .matching import Match, tip_stiffness
-from .measures import Measures, measure, scenario_size
-from .run_logs import run_logs
+from .measures import Entry, Measures, Run, components, measure, radial_error, scenario_size
+from .runner import Contest, run_contest, with_sensors
 from .scenario import Scenario
-from .trial import run_trials
 
 SCHEMA: Final = "clamber-limb-1"
 LEAST_BEYOND: Final = 1e-3
 """Less is the give of a stop [rad]."""
 MISMATCH: Final = 0.01
 """A matched stiffness that is off by more than this part is told."""
+
+
+class BenchResult:
+    """A result that can be kept in files."""
+
+    __slots__ = ()
+
+    def to_json(self) -> Json:
+        """Plain data, in SI units and radians; `null` is what never came."""
+        raise NotImplementedError
+
+    def table(self) -> tuple[list[str], list[list[Any]]]:
+        """Columns and lines of its CSV; an empty field is what never came."""
+        raise NotImplementedError
+
+    def save(self, path: str | Path) -> None:
+        """Write `to_json` to a file, whole or not at all."""
+        write_atomically(Path(path), json.dumps(self.to_json(), indent=2, allow_nan=False) + "\n")
+
+    def save_table(self, path: str | Path) -> None:
+        """Write `table` to a file as CSV, whole or not at all."""
+        text = io.StringIO()
+        columns, lines = self.table()
+        csv.writer(text, lineterminator="\n").writerows((columns, *lines))
+        write_atomically(Path(path), text.getvalue())
+
+    def write(self, path: Path) -> None:
+        """Write a file as its suffix says: .json, .csv or a picture.
+
+        Raises:
+            SuffixError: If it says none of them.
+            FileError: If the file cannot be written.
+        """
+        if path.suffix.lower() == ".json":
+            self.save(path)
+        elif path.suffix.lower() == ".csv":
+            self.save_table(path)
+        else:
+            from .pictures.draw import draw_result  # loads Matplotlib
+
+            draw_result(self, path)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Comparison(BenchResult):
+    """Runs of one limb on one plant."""
+
+    limb: BenchLimb
+    flaws: LimbFlaws
+    plant: str = "mujoco"
+
+    def traces(self) -> Iterable[tuple[str, LimbTrace]]:
+        """Label and trace of each run that is logged."""
+        raise NotImplementedError
+
+    def logs(self) -> dict[str, Log]:
+        """Label -> every tick of a run; notes name robot, limb, law and whether weight acted, which identification needs.
+
+        Raises:
+            LogError: If not even the first tick of a run is finite.
+        """
+        upright = {"upright": "yes"} if self.flaws.upright else {}
+        notes = {"robot": self.limb.robot.name, "limb": self.limb.name} | upright
+        return {label: trace_log(trace, notes=notes | {"law": label}) for label, trace in self.traces()}
+
+    def limb_json(self) -> Json:
+        """The limb, where it starts and its joint angles there."""
+        return {
+            "robot": self.limb.robot.name,
+            "name": self.limb.name,
+            "start": list(self.limb.start),
+            "angles": [float(q) for q in self.limb.q0],
+        }
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Matching:
+    """Which stiffness of which law the gains of others were matched to, and where."""
+
+    reference: LawSettings
+    how: Match = "none"
+    at: Floats | None = None
+    """Joint angles [rad]; None: those at the limb's start."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,14 +139,11 @@ class Row:
         return [value for value in told if value is not None]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class LimbResult:
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class LimbResult(Comparison):
     """What came out of one scenario with several laws on one plant."""
 
-    limb: BenchLimb
     scenario: Scenario
-    flaws: LimbFlaws
-    plant: str
     match: Match
     reference: LawSettings
     """The law that gains were matched to."""
@@ -175,12 +255,7 @@ class LimbResult:
                 "radius": scenario.radius,
                 "aim": [float(value) for value in scenario.aims["place"][-1, 0, :2]],
             },
-            "limb": {
-                "robot": self.limb.robot.name,
-                "name": self.limb.name,
-                "start": list(self.limb.start),
-                "angles": [float(q) for q in self.limb.q0],
-            },
+            "limb": self.limb_json(),
             "plant": {"name": self.plant} | asdict(scenario.on(self.flaws)),
             "match": {
                 "how": self.match,
@@ -194,32 +269,25 @@ class LimbResult:
             "laws": [_law(row) for row in self.rows],
         }
 
-    def logs(self) -> dict[str, Log]:
-        """Label -> every tick of the first trial of each law."""
-        return run_logs(self.limb, self.flaws, ((row.entry.label, row.run.trace) for row in self.rows))
+    def traces(self) -> Iterable[tuple[str, LimbTrace]]:
+        """Of the first trial of each law."""
+        return ((row.entry.label, row.run.trace) for row in self.rows)
 
-    def save(self, path: str | Path) -> None:
-        """Write `to_json` to a file, whole or not at all."""
-        write_atomically(Path(path), json.dumps(self.to_json(), indent=2, allow_nan=False) + "\n")
-
-    def save_table(self, path: str | Path) -> None:
-        """Write one line of CSV for each trial of each law, whole or not at all; an empty field is a time that never came."""
+    def table(self) -> tuple[list[str], list[list[Any]]]:
+        """One line for each trial of each law."""
         lines = []
         for row in self.rows:
-            for trial, told in enumerate(row.measures):
+            for trial, measures in enumerate(row.measures):
                 flat = {"law": row.entry.label, "trial": trial}
-                for key, value in told.to_json().items():
-                    if isinstance(value, dict):
-                        flat |= {f"{key}.{name}": inner for name, inner in value.items()}
-                    else:
-                        flat[key] = value
+                for key, value in measures.to_json().items():
+                    flat |= (
+                        {f"{key}.{name}": inner for name, inner in value.items()}
+                        if isinstance(value, dict)
+                        else {key: value}
+                    )
                 lines.append(flat)
         columns = list(dict.fromkeys(key for line in lines for key in line))
-        text = io.StringIO()
-        table = csv.DictWriter(text, columns, restval="", lineterminator="\n")
-        table.writeheader()
-        table.writerows({key: "" if value is None else value for key, value in line.items()} for line in lines)
-        write_atomically(Path(path), text.getvalue())
+        return columns, [[line.get(column) for column in columns] for line in lines]
 
 
 def _gains(settings: LawSettings) -> Json:
@@ -256,44 +324,72 @@ def _over(row: Row, how: Callable[[list[float]], float]) -> Json:
 
 
 def compare_laws(
-    limb: BenchLimb,
-    scenario: Scenario,
-    entries: Sequence[Entry],
-    flaws: LimbFlaws,
+    contest: Contest,
     *,
-    plant: str = "mujoco",
     trials: int = 1,
     workers: int = 1,
-    match: Match = "none",
-    reference: LawSettings | None = None,
-    match_at: Floats | None = None,
+    matching: Matching | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> LimbResult:
-    """Run every entry `trials` times, on plants drawn from the seed of `flaws` plus the trial's number.
+    """Run every entry `trials` times, on plants drawn from the seed of the contest's plant plus the trial's number.
 
-    Without a seed nothing is left to chance, and all trials are the same. The first trial runs here, is kept whole and tells how long a
-    tick takes; the others run over `workers` processes and are measured there. The result does not depend on how many.
+    The first trial runs here, is kept whole and tells how long a tick takes; the others run over `workers` processes and are measured
+    there. The result does not depend on how many. `matching` is how the entries came by their gains.
 
     Raises:
         LawError: If settings do not fit the limb.
         ClamberError: If a worker failed.
     """
 
-    def told(ended: int) -> None:
+    def ended(later: int) -> None:
         if progress is not None:
-            progress(ended + 1, trials)
+            progress(later + 1, trials)
 
-    first = run_contest(limb, scenario, entries, flaws, plant=plant)
+    limb, scenario, entries, flaws = contest.limb, contest.scenario, contest.entries, contest.flaws
+    first = run_contest(limb, scenario, entries, flaws, plant=contest.plant)
     measured = [[measure(run, scenario, limb) for run in first]]
-    told(0)
-    later = run_trials(limb, scenario, entries, flaws, range(1, trials), plant=plant, workers=workers, progress=told)
+    ended(0)
     measured += [
-        [replace(each, tick=run.tick_seconds) for each, run in zip(trial, first, strict=True)] for trial in later
+        [replace(each, tick=run.tick_seconds) for each, run in zip(trial, first, strict=True)]
+        for trial in contest.measure_trials(range(1, trials), workers, ended)
     ]
-    at = limb.q0 if match_at is None else match_at
-    rows = tuple(
-        Row(run.entry, tip_stiffness(limb.chain, run.entry.settings, at), measures, run)
-        for run, measures in zip(first, zip(*measured, strict=True), strict=True)
+    matching = matching or Matching(LawSettings(law="scct"))
+    at = limb.q0 if matching.at is None else matching.at
+    return LimbResult(
+        limb=limb,
+        flaws=with_sensors(flaws, entries),
+        plant=contest.plant,
+        scenario=scenario,
+        match=matching.how,
+        reference=matching.reference,
+        match_at=at,
+        rows=tuple(
+            Row(run.entry, tip_stiffness(limb.chain, run.entry.settings, at), measures, run)
+            for run, measures in zip(first, zip(*measured, strict=True), strict=True)
+        ),
     )
-    sensing = with_sensors(flaws, entries)
-    return LimbResult(limb, scenario, sensing, plant, match, reference or LawSettings(law="scct"), at, rows)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ErrorLine:
+    """Sizes of one error over a run."""
+
+    what: str
+    over: str
+    error: Floats
+    """Shape (samples,) [m]; NaN after a run that broke off."""
+
+
+def error_line(run: Run, scenario: Scenario, until: float, index: int = 0) -> ErrorLine:
+    """Distance from the circle in the last lap, or until a time [s] from the line of a step or the aim under a push; in truth."""
+    trace = run.trace
+    tip = trace.true_places()[:, index, :2]
+    if scenario.kind == "circle":
+        last = trace.time >= scenario.settle
+        return ErrorLine("distance from the circle", "round the last lap", np.abs(radial_error(tip, scenario)[last]))
+    shown = trace.time < until
+    error = (tip - trace.wanted_places()[:, 0, :2])[shown]
+    if scenario.kind == "step":
+        across = components(error, scenario.direction)[1]
+        return ErrorLine("distance from the line of the step", f"over {until:.3g} s", np.abs(across))
+    return ErrorLine("distance from the aim", f"over {until:.3g} s", np.hypot(error[:, 0], error[:, 1]))

@@ -21,10 +21,11 @@ from ..jobs import Executor, Outcome, map_items, read_result
 from ..sim.limb_flaws import LimbFlaws
 from ..types import Json
 from .bench_limb import BenchLimb, bench_limb
-from .contest import Entry, run_contest
 from .entries import read_law
 from .matching import tip_stiffness
-from .measures import measure
+from .measures import Entry, measure
+from .result import BenchResult
+from .runner import run_contest
 from .scenario import step_scenario
 from .stability import linear_limit, scaled_gains
 from .steadiness import SECONDS, STEADY, Effort, overshoot, poses, unrest
@@ -117,7 +118,7 @@ class Tuned:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Tuning:
+class Tuning(BenchResult):
     """What was found for a limb."""
 
     limb: BenchLimb

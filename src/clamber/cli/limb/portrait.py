@@ -1,14 +1,26 @@
 """`clamber limb portrait`: one picture and one line of figures for each law, for docs/controllers.md."""
 
+import sys
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
+from rich.console import Console
 
 from ..name_completion import names_of
 from ..options import ROBOT, AsJson, Quiet
 from ..output import announce_compilation, print_json, stdout
 from . import options as opt
+
+if TYPE_CHECKING:
+    from ...limb_bench.portrait import Portrait
+
+GAINS: Final = ("kp", "kd", "Kxx\nN/mm", "Kyy\nN/mm")
+NUMBERS: Final = tuple(
+    f"{scene}\n{plant}" for scene in ("step", "circle", "fed", "push") for plant in ("ideal", "nom.")
+)
+ERRORS: Final = tuple(f"{plant}\n{what}" for plant in ("ideal", "nom.") for what in ("mean N", "worst N"))
 
 
 def portrait(
@@ -44,7 +56,6 @@ def portrait(
     from ...limb_bench.entries import read_law
     from ...limb_bench.portrait import paint_portraits, portraits_json
     from ...regular_files import make_folder
-    from .portrait_text import draw_portraits, print_markdown, print_portraits
 
     if folder is not None:
         make_folder(folder)
@@ -54,10 +65,37 @@ def portrait(
         () if laws == ["all"] else laws, robot=robot, limb=limb, matched=matched, match=match.value, seed=seed
     )
     if folder is not None:
-        draw_portraits(portraits, folder)
+        for each in portraits:
+            each.write(folder / f"{each.law}.png")
     if as_json:
         print_json(portraits_json(portraits, seed))
     elif markdown:
         print_markdown(portraits)
     else:
         print_portraits(stdout(), portraits, folder)
+
+
+def print_markdown(portraits: "Sequence[Portrait]") -> None:
+    """Print the rows of motions, and after an empty line those of forces, as docs/controllers.md has them."""
+    rows = ["| " + " | ".join(each.row()) + " |" for each in portraits]
+    forces = ["| " + " | ".join(row) + " |" for each in portraits for row in each.force_rows()]
+    sys.stdout.write("\n".join([*rows, *(["", *forces] if forces else [])]) + "\n")
+
+
+def print_portraits(console: Console, portraits: "Sequence[Portrait]", folder: Path | None = None) -> None:
+    """Print the figures of every law."""
+    opt.show_table(console, ("law", *GAINS), [each.gains_row() for each in portraits])
+    console.print()
+    opt.show_table(console, ("law", *NUMBERS), [each.row() for each in portraits])
+    console.print()
+    console.print("ideal: friction alone; nom.: backlash, encoders, delay too; all in truth, in mm")
+    console.print("step: most across, of 2 cm; circle: radial RMS, last lap of 3 s; fed: with the")
+    console.print("aim's acceleration and friction fed forward; push: yielding along 10 N")
+    rows = [row for each in portraits for row in each.force_rows()]
+    if rows:
+        console.print()
+        opt.show_table(console, ("law", "joint friction", *ERRORS), rows, ("law", "joint friction"))
+        console.print()
+        console.print(f"errors of {portraits[0].task.force:g} N on a wall, standing and sliding")
+    if folder is not None:
+        console.print(f"pictures written to {folder}", soft_wrap=True)

@@ -166,7 +166,7 @@ class BenchedLimb(Printed):
     start: Pair
 
 
-@means_as("limb_bench/force_result.py:ForceMeasures")
+@means_as("limb_bench/measures.py:ForceMeasures")
 class ForceErrors(Printed):
     """What one law did to a wall. Errors are actual less wanted force; null where it left the finite numbers."""
 

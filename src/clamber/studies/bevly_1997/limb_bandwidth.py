@@ -6,7 +6,8 @@ import numpy as np
 
 from ...control.law_settings import LawSettings
 from ...limb_bench.bench_limb import BenchLimb
-from ...limb_bench.contest import Entry, run_contest
+from ...limb_bench.measures import Entry
+from ...limb_bench.runner import run_contest
 from ...limb_bench.scenario import step_scenario
 from ...sim.limb_flaws import LimbFlaws
 from ...units import DEGREE

@@ -8,8 +8,9 @@ import numpy as np
 
 from ...control.law_settings import LawSettings
 from ...limb_bench.bench_limb import BenchLimb
-from ...limb_bench.contest import Entry, Run, run_contest
 from ...limb_bench.matching import tip_stiffness
+from ...limb_bench.measures import Entry, Run
+from ...limb_bench.runner import run_contest
 from ...limb_bench.scenario import Scenario, push_scenario
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Value
@@ -118,7 +119,7 @@ def push_and_release() -> StudyResult:
     }
 
     def times(path: Path) -> None:
-        from ...limb_bench.pictures.limb_study_plot import draw_push
+        from ...limb_bench.pictures.study import draw_push
 
         headings = {"Table 3.1": "friction of Table 3.1", "none": "no Coulomb friction"}
         shown = {heading: [r for r in kept[key] if r.entry.label in SHOWN] for key, heading in headings.items()}

@@ -1,18 +1,25 @@
-"""Laws of force on a wall, each with its ways to deal with joint friction, and gains from the wall's stiffness and the limb's mass."""
+"""Force on a wall: laws with their ways to deal with joint friction, gains from the wall and the limb, and how well each held it."""
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict, dataclass
 from typing import Any, Final
 
 import numpy as np
 
 from ..control.law_settings import LawSettings
 from ..errors import UnknownNameError
+from ..execution.trace import LimbTrace
+from ..sim.flaw_texts import plant_words
 from ..sim.limb_flaws import LimbFlaws
+from ..types import Json
 from .bench_limb import BenchLimb
-from .contest import Entry
-from .force_scenario import ForceTask, direction
+from .measures import Entry, ForceMeasures, Measured, measure_force
+from .result import Comparison
+from .runner import run_contest, with_sensors
+from .scenario import ForceTask, Scenario, direction, force_scenario
+
+SCHEMA: Final = "clamber-limb-force-1"
 
 CONTROLLERS: Final = ("hybrid", "implicit-force", "admittance")
 COMPENSATIONS: Final = ("none", "model", "integral", "wrist", "base", "wrist+model", "base+model")
@@ -130,3 +137,70 @@ def force_entries(
     # only the hybrid law has an integral of force
     pairs = [(law, way) for law, way in pairs if law == "hybrid" or way != "integral"]
     return [Entry(f"{law} / {way}", force_settings(law, way, gains, task)) for law, way in pairs]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class ForceResult(Comparison):
+    """Laws on the same wall, the same limb, the same command."""
+
+    task: ForceTask
+    scenario: Scenario
+    rows: tuple[Measured[ForceMeasures], ...]
+
+    @property
+    def held(self) -> bool:
+        """Whether any law held the force."""
+        return any(row.measures.held for row in self.rows)
+
+    def title(self) -> str:
+        """What was asked for, in a few words."""
+        task = self.task
+        slide = f", {1e2 * abs(task.slide):g} cm along it" if task.slide else ""
+        return f"{task.force:g} N on a wall at {math.degrees(task.angle):g} deg of {task.stiffness / 1e3:g} N/mm{slide}"
+
+    def plant_words(self) -> str:
+        """The plant and what is not ideal about it, in one line."""
+        wall = [f"wall friction {self.task.friction:g}"] if self.task.friction else []
+        return ", ".join((plant_words(self.flaws), *wall))
+
+    def belief_words(self) -> str:
+        """What the laws are wrong about, in one line; empty if nothing."""
+        task = self.task
+        told = []
+        if task.task_angle != task.angle:
+            told.append(f"the angle is {math.degrees(task.task_angle):g} deg")
+        if task.task_stiffness != task.stiffness:
+            told.append(f"the stiffness is {task.task_stiffness / 1e3:g} N/mm")
+        return f"the laws believe that {' and '.join(told)}" if told else ""
+
+    def to_json(self) -> Json:
+        """Everything but the traces, in SI units and radians."""
+        return {
+            "schema": SCHEMA,
+            "task": asdict(self.task),
+            "limb": {"robot": self.limb.robot.name, "name": self.limb.name, "start": list(self.limb.start)},
+            "plant": asdict(self.scenario.on(self.flaws)),
+            "held": self.held,
+            "laws": [
+                {"label": row.entry.label, "settings": asdict(row.entry.settings), **row.measures.to_json()}
+                for row in self.rows
+            ],
+        }
+
+    def traces(self) -> Iterable[tuple[str, LimbTrace]]:
+        """Of each law."""
+        return ((row.entry.label, row.run.trace) for row in self.rows)
+
+
+def run_force(limb: BenchLimb, task: ForceTask, entries: Sequence[Entry], flaws: LimbFlaws) -> ForceResult:
+    """Run every entry alone on the wall.
+
+    Raises:
+        LawError: If settings do not fit the limb.
+        ScenarioError: If the wall is out of reach.
+    """
+    sensing = with_sensors(flaws, entries)
+    scenario = force_scenario(limb, flaws.control_rate, task)
+    runs = run_contest(limb, scenario, entries, sensing)
+    rows = tuple(Measured(run, measure_force(run, task)) for run in runs)
+    return ForceResult(limb=limb, flaws=sensing, task=task, scenario=scenario, rows=rows)

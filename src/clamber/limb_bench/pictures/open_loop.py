@@ -6,16 +6,13 @@ from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 import numpy as np
-from matplotlib.axes import Axes
 
 from ...types import Floats
-from ...viewing import style
 from ...viewing.law_colours import LAW_COLOURS, WANTED
 from ...viewing.output import drawing
-from ..open_loop import OpenLoopRun
-from ..open_loop_result import OpenLoopResult
+from ..open_loop import OpenLoopResult, OpenLoopRun
+from .panels import MM, dress, legend_below, study_title
 
-MILLI: Final = 1e3
 NEAR: Final = 10.0
 """Way of the close view [mm]."""
 
@@ -37,10 +34,6 @@ def draw_open_loop(columns: Mapping[str, Sequence[Drawn]], far: float, title: st
         far: How far along the wanted direction [mm].
         title: Of the picture.
         path: A file (.png, .svg, .pdf).
-
-    Raises:
-        SuffixError: If the file's suffix names no format for still pictures.
-        FileError: If the file cannot be written.
     """
     with drawing(path, (9.2 if len(columns) > 1 else 6.4, 4.6)) as figure:
         grid = figure.subplots(1, 2 * len(columns), squeeze=False)[0]
@@ -56,7 +49,7 @@ def draw_open_loop(columns: Mapping[str, Sequence[Drawn]], far: float, title: st
                 axes.plot([0, 0], [0, -reach], color=WANTED, lw=0.7, zorder=0.5)
                 axes.set_xlim(low, high)
                 axes.set_ylim(-reach, 0.03 * reach)
-                _quiet(axes)
+                dress(axes, grid=0.6)
                 if reach == far:
                     axes.set_aspect("equal", anchor="N")
                     axes.set_title(f"{name}, to scale", fontsize=9.5)
@@ -65,28 +58,16 @@ def draw_open_loop(columns: Mapping[str, Sequence[Drawn]], far: float, title: st
                     axes.set_title(f"{name}, first {reach:g} mm", fontsize=9.5)
                     axes.set_xlabel("across, stretched [mm]")
         grid[0].set_ylabel("along the wanted direction [mm]")
-        figure.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
-        handles, labels = grid[0].get_legend_handles_labels()
-        figure.legend(
-            handles, labels, loc="outside lower center", ncols=min(len(labels), 5), fontsize=8, handlelength=3.2
-        )
+        study_title(figure, title)
+        legend_below(figure, grid[0], 5, handlelength=3.2)
 
 
 def draw_open_loop_result(result: OpenLoopResult, path: str | Path) -> None:
-    """Draw the paths of one limb's tip, every transform in the colour of its law.
-
-    Args:
-        result: From `compare_open_loop`.
-        path: A file (.png, .svg, .pdf).
-
-    Raises:
-        SuffixError: If the file's suffix names no format for still pictures.
-        FileError: If the file cannot be written.
-    """
+    """Draw the paths of one limb's tip, every transform in the colour of its law."""
     lines = ("-", "-", (0, (4, 1.5)), (0, (1, 1)))
     drawn = [Drawn(run.transform, run, lines[k % 4], 2.2 - 0.3 * (k % 4)) for k, run in enumerate(result.runs)]
     # as far as any transform gets, to a tenth of a metre at most
-    far = min(100.0, max(10.0, *(float(run.along.max()) * MILLI for run in result.runs)))
+    far = min(100.0, max(10.0, *(float(run.along.max()) * MM for run in result.runs)))
     kind = "torques that follow the pose" if result.renewed else "steady torques"
     title = f"Open loop: {kind}, {result.runs[0].force:g} N along {math.degrees(result.direction):g} deg"
     draw_open_loop({f"{result.limb.robot.name}, {result.limb.name}": drawn}, far, title, path)
@@ -94,7 +75,7 @@ def draw_open_loop_result(result: OpenLoopResult, path: str | Path) -> None:
 
 def _as_far_as(run: OpenLoopRun, reach: float) -> tuple[Floats, Floats]:
     """Ways across and along the wanted direction up to `reach` along it [mm]."""
-    along, across = run.along * MILLI, run.across * MILLI
+    along, across = run.along * MM, run.across * MM
     end = int(np.argmax(along > reach)) + 1 if along.max() > reach else len(along)
     return across[:end], along[:end]
 
@@ -116,10 +97,6 @@ def draw_turns(
         turns: Name of a law -> branch -> angle off, anticlockwise positive, shape (n,) [deg].
         names: Name of a law -> its label.
         path: A file (.png, .svg, .pdf).
-
-    Raises:
-        SuffixError: If the file's suffix names no format for still pictures.
-        FileError: If the file cannot be written.
     """
     lines = ("-", (0, (4, 1.5)))
     with drawing(path, (7.6, 4.0)) as figure:
@@ -135,12 +112,6 @@ def draw_turns(
         axes.set_xticks(range(0, 361, 45), [f"{a}" for a in range(0, 361, 45)])
         axes.set_xlabel("wanted direction from +x [deg]")
         axes.set_ylabel("first acceleration off it [deg]")
-        _quiet(axes)
+        dress(axes, grid=0.6)
         axes.set_title("How straight each transform starts, without friction")
         figure.legend(loc="outside lower center", ncols=4, fontsize=8, handlelength=3.0)
-
-
-def _quiet(axes: Axes) -> None:
-    style.bare(axes)
-    axes.grid(color=style.FAINT, lw=0.6)
-    axes.set_axisbelow(True)

@@ -11,6 +11,7 @@ from ...execution.log_identify import Identification
 from ...types import Floats
 from ...viewing import style
 from ...viewing.output import drawing
+from .panels import dress
 
 SHOWN: Final = 20.0
 """Longest piece of a log that is drawn over time [s]."""
@@ -19,16 +20,7 @@ MOST_POINTS: Final = 2500
 
 
 def draw_identification(result: Identification, path: str | Path) -> None:
-    """Draw every joint of an identification, one below the other.
-
-    Args:
-        result: At least one joint.
-        path: A file (.png, .svg, .pdf).
-
-    Raises:
-        SuffixError: If the file's suffix names no format for still pictures.
-        FileError: If the file cannot be written.
-    """
+    """Draw every joint of an identification, one below the other."""
     count = len(result.joints)
     with drawing(path, (9.2, 3.5 * count + 0.3)) as figure:
         parts = figure.subfigures(count, 1, squeeze=False)[:, 0]
@@ -44,9 +36,7 @@ def _draw_joint(part: Any, joint: IdentifiedJoint) -> None:
     _draw_left_over(left, joint, span)
     _draw_curve(curve, joint)
     for axes in (speeds, left, curve):
-        style.bare(axes)
-        axes.grid(color=style.FAINT, lw=0.6)
-        axes.set_axisbelow(True)
+        dress(axes, grid=0.6)
     for axes in (speeds, left):
         axes.set_xlim(span)
     speeds.tick_params(labelbottom=False)

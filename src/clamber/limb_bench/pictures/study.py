@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,9 +13,15 @@ from ...types import Floats
 from ...viewing import style
 from ...viewing.law_colours import LAW_COLOURS, MATCH_LINES, WANTED
 from ...viewing.output import drawing
-from ..contest import Entry, Run
+from ..measures import Entry, Run
+from .panels import MM, dress, legend_below, study_title
 
-MILLI: Final = 1e3
+LOOKS: Final[tuple[dict[str, Any], ...]] = (
+    {"color": style.BODY, "lw": 4.0, "ls": "-"},
+    {"color": style.PARTS[0], "lw": 1.4, "ls": "-"},
+    {"color": style.PARTS[1], "lw": 1.1, "ls": (0, (3, 1.5))},
+)
+"""Of the first, second and third plant."""
 
 
 def line_of(entry: Entry) -> dict[str, Any]:
@@ -27,14 +33,8 @@ def line_of(entry: Entry) -> dict[str, Any]:
 
 def _offsets(run: Run, from_place: tuple[float, float]) -> Floats:
     """True tip from a place [mm], shape (ticks, 2)."""
-    out: Floats = (run.trace.true_places()[:, 0, :2] - from_place) * MILLI
+    out: Floats = (run.trace.true_places()[:, 0, :2] - from_place) * MM
     return out
-
-
-def _quiet(axes: Axes) -> None:
-    style.bare(axes)
-    axes.grid(color=style.FAINT, lw=0.6)
-    axes.set_axisbelow(True)
 
 
 def draw_step(
@@ -48,17 +48,13 @@ def draw_step(
         step: How far down it is to go [m].
         title: Of the picture.
         path: A file (.png, .svg, .pdf).
-
-    Raises:
-        SuffixError: If the file's suffix names no format for still pictures.
-        FileError: If the file cannot be written.
     """
     with drawing(path, (8.6, 6.6)) as figure:
         grid = figure.subplots(2, len(runs), sharex="row", sharey="row", height_ratios=(1.45, 1.0), squeeze=False)
         for column, (name, shown) in enumerate(runs.items()):
             upper, lower = grid[:, column]
-            upper.plot([0, 0], [0, -step * MILLI], color=WANTED, lw=0.8)
-            upper.plot(0, -step * MILLI, marker="+", ms=10, mew=1.4, color=WANTED, ls="none")
+            upper.plot([0, 0], [0, -step * MM], color=WANTED, lw=0.8)
+            upper.plot(0, -step * MM, marker="+", ms=10, mew=1.4, color=WANTED, ls="none")
             for run in reversed(shown):
                 off = _offsets(run, start)
                 upper.plot(off[:, 0], off[:, 1], **line_of(run.entry))
@@ -69,10 +65,10 @@ def draw_step(
             upper.set_xlabel("x - 220 mm [mm] (stretched)")
             lower.set_xlabel("time [s]")
             for axes in (upper, lower):
-                _quiet(axes)
+                dress(axes, grid=0.6)
         grid[0, 0].set_ylabel("y [mm]")
         grid[1, 0].set_ylabel("x - 220 mm [mm]")
-        figure.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
+        study_title(figure, title)
         _legend(figure, next(iter(runs.values())))
 
 
@@ -99,10 +95,6 @@ def draw_circles(
         centre: Of the circle [m].
         radius: Of it [m].
         path: A file (.png, .svg, .pdf).
-
-    Raises:
-        SuffixError: If the file's suffix names no format for still pictures.
-        FileError: If the file cannot be written.
     """
     count = len(next(iter(runs.values())))
     angle = np.linspace(0.0, 2 * np.pi, 181)
@@ -111,8 +103,8 @@ def draw_circles(
         for row, (lap, laws) in enumerate(runs.items()):
             for axes, run in zip(grid[row], laws, strict=True):
                 off = _offsets(run, centre)[-round(lap / run.trace.time[1]) :]
-                radial = np.linalg.norm(off, axis=1) - radius * MILLI
-                axes.plot(radius * MILLI * np.cos(angle), radius * MILLI * np.sin(angle), color=WANTED, lw=0.7)
+                radial = np.linalg.norm(off, axis=1) - radius * MM
+                axes.plot(radius * MM * np.cos(angle), radius * MM * np.sin(angle), color=WANTED, lw=0.7)
                 axes.plot(off[:, 0], off[:, 1], color=LAW_COLOURS[run.entry.settings.law], lw=1.5)
                 axes.text(
                     0.0, 0.0, f"{np.sqrt(np.mean(radial**2)):.2f} mm", ha="center", va="center", fontsize=9,
@@ -121,7 +113,7 @@ def draw_circles(
                 axes.set_aspect("equal")
                 axes.set_xticks((-50, 0, 50))
                 axes.set_yticks((-50, 0, 50))
-                _quiet(axes)
+                dress(axes, grid=0.6)
                 if row == 0:
                     axes.set_title(
                         run.entry.label.replace(", ", ",\n"), fontsize=8.5, fontweight="normal", loc="center"
@@ -129,9 +121,7 @@ def draw_circles(
             grid[row, 0].set_ylabel(f"{lap:g} s a lap\ny - y0 [mm]")
         for axes in grid[-1]:
             axes.set_xlabel("x - x0 [mm]")
-        figure.suptitle(
-            "Second lap of a circle; in the middle the radial RMS", x=0.01, ha="left", fontsize=11, fontweight="bold"
-        )
+        study_title(figure, "Second lap of a circle; in the middle the radial RMS")
 
 
 def draw_radial_errors(
@@ -143,10 +133,6 @@ def draw_radial_errors(
         errors: Label -> by time of a lap [s] and branch, radial RMS [mm].
         laws: Label -> name of its law.
         path: A file (.png, .svg, .pdf).
-
-    Raises:
-        SuffixError: If the file's suffix names no format for still pictures.
-        FileError: If the file cannot be written.
     """
     cases = list(next(iter(errors.values())))
     laps = list(dict.fromkeys(lap for lap, _ in cases))
@@ -166,7 +152,7 @@ def draw_radial_errors(
         axes.set_yticks(range(len(order)), order, fontsize=8.5)
         axes.set_xscale("log")
         axes.set_xlabel("radial RMS over the second lap [mm]")
-        _quiet(axes)
+        dress(axes, grid=0.6)
         handles = [
             Line2D([], [], ls="none", marker=marks[branch], color=style.QUIET, ms=5.5,
                    mfc=style.PAPER if lap == max(laps) else style.QUIET, label=f"{lap:g} s a lap, {branch}")
@@ -186,10 +172,6 @@ def draw_push(
         start: Where the tip is to stay [m].
         push: When the push begins and ends [s].
         path: A file (.png, .svg, .pdf).
-
-    Raises:
-        SuffixError: If the file's suffix names no format for still pictures.
-        FileError: If the file cannot be written.
     """
     with drawing(path, (8.6, 5.6)) as figure:
         grid = figure.subplots(2, len(runs), sharex=True, sharey="row", squeeze=False)
@@ -199,12 +181,49 @@ def draw_push(
                 axes.axhline(0.0, color=WANTED, lw=0.7)
                 for run in reversed(shown):
                     axes.plot(run.trace.time, _offsets(run, start)[:, which], **line_of(run.entry))
-                _quiet(axes)
+                dress(axes, grid=0.6)
             grid[0, column].set_title(name, fontsize=9.5)
             grid[-1, column].set_xlabel("time [s]")
         grid[0, 0].set_ylabel("soft: x - 220 mm [mm]")
         grid[1, 0].set_ylabel("stiff: y [mm]")
-        figure.suptitle(
-            "Pushed along the soft direction (grey) and let go", x=0.01, ha="left", fontsize=11, fontweight="bold"
-        )
+        study_title(figure, "Pushed along the soft direction (grey) and let go")
         _legend(figure, next(iter(runs.values())), 3)
+
+
+class JointCurves(NamedTuple):
+    """One panel."""
+
+    title: str
+    note: str
+    time: Floats
+    """Shape (ticks,) [s]."""
+    curves: Mapping[str, Floats]
+    """Plant -> values, shape (ticks,)."""
+
+
+def draw_joint_curves(panels: Sequence[JointCurves], quantity: str, title: str, path: str | Path) -> None:
+    """Draw three panels a row, each with the same plants.
+
+    Args:
+        panels: In order.
+        quantity: Label of the vertical axes, with its unit.
+        title: Of the picture.
+        path: A file (.png, .svg, .pdf).
+    """
+    rows = -(-len(panels) // 3)
+    with drawing(path, (8.6, 2.3 * rows + 0.6)) as figure:
+        grid = figure.subplots(rows, 3, sharex=True, sharey=True, squeeze=False)
+        for axes, panel in zip(grid.flat, panels, strict=False):
+            for look, (plant, values) in zip(LOOKS, panel.curves.items(), strict=False):
+                axes.plot(panel.time, values, label=plant, **look)
+            axes.set_title(panel.title, fontsize=9)
+            axes.text(0.97, 0.06, panel.note, transform=axes.transAxes, ha="right", fontsize=8, color=style.QUIET)
+            dress(axes, grid=0.6)
+        if min(float(values.min()) for panel in panels for values in panel.curves.values()) >= 0.0:
+            grid[0, 0].set_ylim(bottom=0.0)
+        for axes in grid[-1]:
+            axes.set_xlabel("time [s]")
+        for axes in grid[:, 0]:
+            axes.set_ylabel(quantity)
+        study_title(figure, title)
+        legend_below(figure, grid[0, 0], 3, handlelength=3.2)

@@ -1,47 +1,32 @@
-"""Laws on the same limb, the same plant and the same command: run them, keep what happened."""
+"""Laws on the same limb, the same plant and the same command: run them, once or in many trials over processes, keep what happened."""
 
+import base64
 import math
+import pickle
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
 from ..control.chain import Chain
-from ..control.law_settings import LawSettings
 from ..control.outside_law import LoopController, controller_of
+from ..errors import ClamberError
 from ..execution.closed_loop import close_loop
 from ..execution.trace import LimbTrace
+from ..jobs import map_items
 from ..sim.limb_flaws import ForceSensor, LimbFlaws
 from ..sim.plants import plant_maker
+from ..types import Json
 from .bench_limb import BenchLimb
+from .measures import Entry, Measures, Run, measure
 from .scenario import Scenario
 
 MISBELIEVED: Final = ("rotor", "damping", "friction", "mass", "inertia")
 """What a controller may be wrong about, joint by joint; lengths and angles it knows."""
 MOMENT_ARM: Final = 0.05
 """Noise of a sensor's moments over that of its forces, of a size with the sensor [m]."""
-
-
-@dataclass(frozen=True, slots=True)
-class Entry:
-    """One law in a contest, under a label."""
-
-    label: str
-    settings: LawSettings
-    own_gains: bool = True
-    """Whether its gains are as stated for it, not matched to a reference."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Run:
-    """What one entry did."""
-
-    entry: Entry
-    trace: LimbTrace
-    tick_seconds: float
-    """Of one call of the controller from Python, on this machine [s]."""
 
 
 def believed_chain(chain: Chain, flaws: LimbFlaws) -> Chain:
@@ -83,13 +68,7 @@ def run_contest(
 
     Laws that read a force have one to read: the plant gets the sensors of `with_sensors`.
 
-    Args:
-        limb: On the bench.
-        scenario: What is asked of it.
-        entries: The laws.
-        flaws: Of the plant.
-        plant: Its name.
-        timed: Whether to measure how long a tick takes; else `Run.tick_seconds` is NaN.
+    Unless `timed`, `Run.tick_seconds` is NaN.
 
     Raises:
         UnknownNameError: If there is no such plant.
@@ -121,3 +100,63 @@ def _tick_seconds(controller: LoopController, trace: LimbTrace, most: int = 200)
             controller.command(trace.aims[k], state)
         rounds.append((time.perf_counter() - begin) / len(states))
     return min(rounds)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Contest:
+    """What is the same in all trials of a comparison."""
+
+    limb: BenchLimb
+    scenario: Scenario
+    entries: Sequence[Entry]
+    flaws: LimbFlaws
+    """Of the plant, before the seed of a trial is drawn."""
+    plant: str = "mujoco"
+
+    def measure_trial(self, trial: int) -> list[Measures]:
+        """Measures of every entry on the plant of a trial; how long a tick takes is not among them.
+
+        The plant's seed is that of `flaws` plus the trial's number; without a seed all trials are the same.
+        """
+        seed = self.flaws.seed
+        drawn = self.flaws if seed is None else self.flaws.with_changes(seed=seed + trial)
+        runs = run_contest(self.limb, self.scenario, self.entries, drawn, plant=self.plant, timed=False)
+        return [measure(run, self.scenario, self.limb) for run in runs]
+
+    def measure_trials(
+        self, trials: Sequence[int], workers: int, progress: Callable[[int], None]
+    ) -> list[list[Measures]]:
+        """Measures of every entry in each of `trials`, the same for any number of workers; `progress` is told how many have ended.
+
+        Raises:
+            ClamberError: If a worker failed.
+        """
+        out = []
+        if workers == 1:
+            for ended, trial in enumerate(trials, start=1):
+                out.append(self.measure_trial(trial))
+                progress(ended)
+            return out
+        # values of this very program for its own workers: the run of a law is not plain data
+        items = [{"contest": _packed(self), "trial": trial} for trial in trials]
+        ends = map_items(
+            run_trial, items, workers=min(workers, len(trials)), progress=lambda ended, total, end: progress(ended)
+        )
+        for trial, end in zip(trials, ends, strict=True):
+            if end.result is None:
+                raise ClamberError(f"trial {trial}: {end.error}")
+            out.append(_unpacked(end.result["measures"]))
+        return out
+
+
+def run_trial(item: Json) -> Json:
+    """Packed `measures` of every law in one `trial` of a packed `contest`; runs in a worker."""
+    return {"measures": _packed(_unpacked(item["contest"]).measure_trial(item["trial"]))}
+
+
+def _packed(value: object) -> str:
+    return base64.b64encode(pickle.dumps(value)).decode()
+
+
+def _unpacked(text: str) -> Any:
+    return pickle.loads(base64.b64decode(text))

@@ -13,14 +13,12 @@ from ...sim.flaw_texts import SET
 from ...viewing import style
 from ...viewing.law_colours import LAW_COLOURS
 from ...viewing.output import CANVASES, check_suffix, save_figure
-from ...viewing.style import bare, styled
+from ...viewing.style import styled
 from ..entries import gain_unit
-from ..force_result import ForceMeasures, pressing
-from ..measures import components, radial_error
-from ..portrait import Motion, Portrait
-from .law_equations import LAW_EQUATIONS
+from ..measures import ForceMeasures, Measured, Measures, components, radial_error
+from ..portrait import Portrait
+from .panels import MM, dress
 
-MM: Final = 1e3
 DPI: Final = 110
 """Of a file of pixels: about 900 by 400 of them."""
 COLOURS: Final = 96
@@ -34,19 +32,26 @@ LOOKS: Final[dict[str, dict[str, Any]]] = {
 }
 FORCE_LOOKS: Final = (LOOKS["nominal"], LOOKS["ideal"])
 """Joint friction left alone, and dealt with."""
+LAW_EQUATIONS: Final[dict[str, str]] = {
+    "jacobian-transpose": r"$\tau = J^T (K_p e + K_d \dot e)$",
+    "operational-space": r"$\tau = H J^{-1} (K_p e + K_d \dot e - \dot J \dot\theta) + h + g$",
+    "resolved-rate": r"$\tau = k_d\,\{J^{-1} (\dot x_{des} + K_p e \,/\, k_d) - \dot\theta\}$",
+    "resolved-rate-plain": r"$\tau = k_p (\theta_{des} - \theta) + k_d (\dot\theta_{des} - \dot\theta),"
+    r"\;\; \theta_{des} = \int J^{-1} \dot x_{des}\, dt$",
+    "admittance": r"$\tau = k_d K' \{J^{-1} (\dot x_{des} + \dot z + K_p (e + z) / k_d) - \dot\theta\},"
+    r"\;\; m \ddot z + d \dot z + k z = f_{des} - f$",
+    "joint-pd": r"$\tau = k_p (\theta_{des} - \theta) + k_d (\dot\theta_{des} - \dot\theta),"
+    r"\;\; x(\theta_{des}) = x_{des}$",
+    "scct": r"$\tau = K' J^{-1} (K_p e + K_d \dot e)$",
+    "implicit-admittance": r"$\tau = (K'_p + K'_d s)\, J^{-1} (K_p e + K_d \dot e)$",
+    "hybrid": r"$\tau = K' J^{-1} S (K_p e + K_d \dot e) + J^T (E - S)(f_{des} + f_I + d\,\dot e)$",
+    "implicit-force": r"$\tau = K' J^{-1} (K_p (e + f_{des} / k_e) + K_d \dot e) + J^T f_{des}$",
+}
+"""Name of a law -> its torques."""
 
 
 def draw_portrait(portrait: Portrait, path: str | Path) -> None:
-    """Draw one law.
-
-    Args:
-        portrait: Of `paint_portraits`.
-        path: A file (.png, .svg, .pdf).
-
-    Raises:
-        SuffixError: If the file's suffix names no format for still pictures.
-        FileError: If the file cannot be written.
-    """
+    """Draw one law."""
     check_suffix(path, CANVASES)
     with styled():
         figure = Figure(figsize=(8.2, 3.65))
@@ -80,11 +85,7 @@ def _gains(settings: LawSettings) -> str:
 
 
 def _frame(axes: Axes, title: str, told: str, across: str, up: str) -> None:
-    bare(axes)
-    axes.grid(color=style.FAINT, lw=0.5)
-    axes.set_axisbelow(True)
-    axes.set_xlabel(across, fontsize=8)
-    axes.set_ylabel(up, fontsize=8)
+    dress(axes, across, up, fontsize=8)
     axes.text(0.0, 1.1, title, transform=axes.transAxes, fontsize=8.5, fontweight="bold")
     axes.text(0.0, 1.025, told, transform=axes.transAxes, fontsize=8)
 
@@ -99,7 +100,7 @@ def _look(portrait: Portrait, plant: str) -> dict[str, Any]:
     return {"color": LAW_COLOURS[portrait.law], "solid_capstyle": "round", **LOOKS[plant]}
 
 
-def _errors(motion: Motion, direction: tuple[float, float]) -> tuple[Any, Any]:
+def _errors(motion: Measured[Measures], direction: tuple[float, float]) -> tuple[Any, Any]:
     """Along and across, from the aim [mm]."""
     trace = motion.run.trace
     along, across = components((trace.true_places() - trace.wanted_places())[:, 0, :2], direction)
@@ -159,7 +160,9 @@ def _draw_force(axes: Axes, portrait: Portrait) -> None:
     for row, look in zip(rows, FORCE_LOOKS, strict=True):
         way = row.entry.label.partition(" / ")[2]
         label = "friction left alone" if way == "none" else f"friction: {way}"
-        axes.plot(row.run.trace.time, pressing(row.run, task), color=LAW_COLOURS[portrait.law], label=label, **look)
+        axes.plot(
+            row.run.trace.time, row.run.force_into(task.angle), color=LAW_COLOURS[portrait.law], label=label, **look
+        )
     trace = rows[0].run.trace
     axes.plot(trace.time, np.linalg.norm(trace.aims["wrench"][:, 0, :2], axis=1), **WANTED)
     axes.axvline(task.slide_from, color=style.QUIET, lw=0.7, ls=":")

@@ -13,6 +13,7 @@ from ...viewing.output import drawing
 from ...viewing.style import bare
 from ..entries import gain_unit
 from ..tune import Tuned, Tuning
+from .panels import head, legend_below
 
 COLUMNS: Final = 4
 CALM: Final = "#DCEBF5"
@@ -20,35 +21,20 @@ CALM: Final = "#DCEBF5"
 
 
 def draw_tuning(result: Tuning, path: str | Path) -> None:
-    """Draw a panel for each law: limit, linear limit, recommended gains.
-
-    Args:
-        result: From `tune`.
-        path: A file (.png, .svg, .pdf).
-
-    Raises:
-        SuffixError: If the file's suffix names no format for still pictures.
-        FileError: If the file cannot be written.
-    """
+    """Draw a panel for each law: limit, linear limit, recommended gains."""
     columns = min(COLUMNS, len(result.laws))
     rows = math.ceil(len(result.laws) / columns)
     with drawing(path, (max(5.0, 2.6 * columns), 0.9 + 2.5 * rows)) as figure:
-        head = 1.0 - 0.55 / (0.9 + 2.5 * rows)
-        figure.get_layout_engine().set(rect=(0.0, 0.0, 1.0, head))  # type: ignore[union-attr, call-arg]
         grid = figure.subplots(rows, columns, squeeze=False).ravel()
         for axes, law in zip(grid, result.laws, strict=False):
             _panel(axes, law)
         for axes in grid[len(result.laws) :]:
             axes.set_visible(False)
-        handles, labels = grid[0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower center", ncols=len(labels), fontsize=8)
+        legend_below(figure, grid[0], COLUMNS)
         title = f"Largest stable gains, {result.limb.robot.name}'s {result.limb.name} limb"
+        under = f"{plant_words(result.flaws)}; margin {result.margin:g}"
         height = figure.get_figheight()
-        figure.text(0.012, 1.0 - 0.08 / height, title, va="top", fontsize=11, fontweight="bold")
-        figure.text(
-            0.012, 1.0 - 0.32 / height, f"{plant_words(result.flaws)}; margin {result.margin:g}", va="top", fontsize=8,
-            color=style.QUIET,
-        )  # fmt: skip
+        head(figure, title, under, room=1.0 - 0.55 / height, tops=(1.0 - 0.08 / height, 1.0 - 0.32 / height))
 
 
 def _panel(axes: Axes, law: Tuned) -> None:

@@ -2,7 +2,7 @@
 
 import math
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, TypeAlias
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,9 +13,12 @@ from ...viewing import style
 from ...viewing.output import drawing
 from ...viewing.style import bare
 from ..bench_limb import BenchLimb
-from ..force_result import ForceResult, ForceRow, pressing
-from ..force_scenario import direction
+from ..force import ForceResult
+from ..measures import ForceMeasures, Measured
+from ..scenario import direction, left_of
+from .panels import head
 
+Pressed: TypeAlias = Measured[ForceMeasures]
 COLOURS: Final = {
     "none": "#6B6B6B",
     "model": "#E69F00",
@@ -32,21 +35,10 @@ SHOWN: Final = 4.0
 """Errors up to this many tolerances are drawn [-]."""
 
 
-def draw_force_result(result: ForceResult, path: str | Path) -> None:
-    """Draw the true force of every law over time, by controller, beside the limb at the wall.
-
-    Args:
-        result: From `run_force`.
-        path: A file (.png, .svg, .pdf).
-
-    Raises:
-        SuffixError: If the file's suffix names no format for still pictures.
-        FileError: If the file cannot be written.
-    """
+def draw_force(result: ForceResult, path: str | Path) -> None:
+    """Draw the true force of every law over time, by controller, beside the limb at the wall."""
     laws = list(dict.fromkeys(row.entry.settings.law for row in result.rows))
     with drawing(path, (9.6, 1.7 + 1.75 * max(2, len(laws)))) as figure:
-        head = 1.0 - 0.6 / figure.get_figheight()
-        figure.get_layout_engine().set(rect=(0.0, 0.0, 1.0, head))  # type: ignore[union-attr, call-arg]
         grid = figure.add_gridspec(max(2, len(laws)), 2, width_ratios=(2.5, 1.0))
         panels = [figure.add_subplot(grid[k, 0]) for k in range(len(laws))]
         for law, axes in zip(laws, panels, strict=True):
@@ -58,33 +50,34 @@ def draw_force_result(result: ForceResult, path: str | Path) -> None:
         split = (len(laws) + 1) // 2 if len(laws) > 1 else 1
         _draw_place(figure.add_subplot(grid[:split, 1]), result)
         _draw_off_line(figure.add_subplot(grid[split:, 1]), result)
-        top = 1.0 - 0.1 / figure.get_figheight()
         title = f"{result.title()}, {result.limb.robot.name}'s {result.limb.name} limb"
-        figure.text(0.012, top, title, va="top", fontsize=11, fontweight="bold")
         held = f"green: within {result.task.tolerance:g} N; (no): not held"
         under = "; ".join(filter(None, (f"plant: {result.plant_words()}", result.belief_words(), held)))
-        figure.text(0.012, top - 0.23 / figure.get_figheight(), under, va="top", fontsize=8, color=style.QUIET)
+        height = figure.get_figheight()
+        head(
+            figure, title, under, room=1.0 - 0.6 / height, tops=(1.0 - 0.1 / height, 1.0 - 0.1 / height - 0.23 / height)
+        )
 
 
-def _way(row: ForceRow) -> str:
+def _compensation(row: Pressed) -> str:
     return row.entry.label.partition(" / ")[2]
 
 
-def _look(row: ForceRow, k: int) -> dict[str, Any]:
-    return {"color": COLOURS.get(_way(row), style.INK), "ls": LINES[k % len(LINES)], "lw": 1.3}
+def _look(row: Pressed, k: int) -> dict[str, Any]:
+    return {"color": COLOURS.get(_compensation(row), style.INK), "ls": LINES[k % len(LINES)], "lw": 1.3}
 
 
-def _draw_forces(axes: Axes, result: ForceResult, rows: list[ForceRow], law: str) -> None:
+def _draw_forces(axes: Axes, result: ForceResult, rows: list[Pressed], law: str) -> None:
     bare(axes)
     task = result.task
     axes.axhspan(task.force - task.tolerance, task.force + task.tolerance, color=style.GOAL, alpha=0.16, lw=0)
     low, high = task.force - SHOWN * task.tolerance, task.force + SHOWN * task.tolerance
     for k, row in enumerate(rows):
-        force = pressing(row.run, task)
-        told = f"{_way(row)}{'' if row.measures.held else ' (no)'}"
+        force = row.run.force_into(task.angle)
+        told = f"{_compensation(row)}{'' if row.measures.held else ' (no)'}"
         axes.plot(row.run.trace.time, force, label=told, zorder=3, **_look(row, k))
     time = rows[0].run.trace.time
-    late = np.array([pressing(row.run, task)[time >= result.scenario.settle] for row in rows])
+    late = np.array([row.run.force_into(task.angle)[time >= result.scenario.settle] for row in rows])
     room = 0.5 * task.tolerance
     axes.set_ylim(max(-0.02 * task.force, min(low, float(late.min()) - room)), max(high, float(late.max()) + room))
     axes.set_xlim(0.0, float(time[-1]))
@@ -103,14 +96,9 @@ def _draw_forces(axes: Axes, result: ForceResult, rows: list[ForceRow], law: str
     axes.set_ylabel("force [N]")
     axes.set_title(law, fontsize=9)
     axes.legend(
-        loc="upper right",
-        bbox_to_anchor=(1.0, 1.22),
-        ncols=len(rows),
-        fontsize=6.5,
-        handlelength=1.8,
-        columnspacing=0.8,
+        loc="upper right", bbox_to_anchor=(1.0, 1.22), ncols=len(rows), fontsize=6.5, handlelength=1.8, columnspacing=0.8,
         handletextpad=0.5,
-    )
+    )  # fmt: skip
 
 
 def _limb_points(limb: BenchLimb, q: Floats) -> Floats:
@@ -125,7 +113,7 @@ def _draw_place(axes: Axes, result: ForceResult) -> None:
     axes.axis("off")
     task, limb = result.task, result.limb
     into = direction(task.angle)
-    along = np.array((-into[1], into[0]))
+    along = left_of(into)
     surface = np.array(limb.start) + task.gap * into
     reach = 0.06 + abs(task.slide)
     sides = surface + reach * np.array((-1.0, 1.0))[:, None] * along
@@ -156,7 +144,7 @@ def _draw_off_line(axes: Axes, result: ForceResult) -> None:
     bare(axes)
     rows = result.rows[::-1]
     sizes = [1e3 * row.measures.off_line for row in rows]
-    axes.barh(range(len(rows)), sizes, color=[COLOURS.get(_way(row), style.INK) for row in rows], height=0.62)
+    axes.barh(range(len(rows)), sizes, color=[COLOURS.get(_compensation(row), style.INK) for row in rows], height=0.62)
     axes.set_yticks(range(len(rows)), [row.entry.label for row in rows], fontsize=7)
     axes.set_xlabel("most off along the wall [mm]")
     axes.tick_params(axis="y", length=0)

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -17,9 +17,9 @@ from ...planning.axes import Axis
 from ...types import Floats
 from ...viewing import style
 from ...viewing.output import drawing
-from ...viewing.style import bare
 from ..limb_sweep import LimbSweep
-from .limb_plot import LINES
+from ..measures import measure_scale
+from .panels import LINES, dress, head
 
 WIDE: Final = 8.0
 """Curves whose largest value is so many times the smallest are drawn to a logarithmic scale."""
@@ -28,21 +28,10 @@ NONE: Final = "#ECE9E6"
 """Fill of where no law is stable, under a hatch."""
 
 
-def draw_limb_sweep(sweep: LimbSweep, path: str | Path, scale: float, unit: str) -> None:
-    """Draw the measure of every law over one axis, or the best law over two.
-
-    Args:
-        sweep: One or two axes.
-        path: A file (.png, .svg, .pdf).
-        scale: What the measure is multiplied by.
-        unit: Its unit then; empty for a ratio.
-
-    Raises:
-        SuffixError: If the file's suffix names no format for still pictures.
-        FileError: If the file cannot be written.
-    """
+def draw_sweep(sweep: LimbSweep, path: str | Path) -> None:
+    """Draw the measure of every law over one axis, or the best law over two."""
+    scale, unit = measure_scale(sweep.bench.measure)
     with drawing(path, (8.4, 5.4)) as figure:
-        figure.get_layout_engine().set(rect=(0.0, 0.0, 1.0, 0.885))  # type: ignore[union-attr, call-arg]
         axes = figure.subplots()
         words = f"{sweep.bench.measure.replace('_', ' ')}{f' [{unit}]' if unit else ''}"
         if len(sweep.axes) == 1:
@@ -61,9 +50,8 @@ def _head(figure: Figure, sweep: LimbSweep, words: str) -> None:
         bench.kind
     ]
     title = f"Laws on {what} over {' and '.join(axis.key.replace('_', ' ') for axis in sweep.axes)}: {words}"
-    figure.text(0.012, 0.985, title, va="top", fontsize=11, fontweight="bold")
     under = f"plant: {sweep.plant_words()}\ngains: {sweep.gain_words()}"
-    figure.text(0.012, 0.945, under, va="top", fontsize=8, color=style.QUIET, linespacing=1.4)
+    head(figure, title, under, room=0.885, tops=(0.985, 0.945))
 
 
 def _title(axis: Axis) -> str:
@@ -73,6 +61,11 @@ def _title(axis: Axis) -> str:
 
 def _colour(k: int) -> str:
     return style.PARTS[k % len(style.PARTS)]
+
+
+def _limit(k: int) -> dict[str, Any]:
+    """How the limit of a law is drawn in a map."""
+    return {"color": _colour(k), "lw": 1.8, "ls": LINES[k % len(LINES)], "marker": "o", "ms": 3.5}
 
 
 def _curves(axes: Axes, sweep: LimbSweep, scale: float) -> None:
@@ -107,13 +100,10 @@ def _curves(axes: Axes, sweep: LimbSweep, scale: float) -> None:
         axes.set_ylim(0.0, 1.15 * top)
     axes.plot([], [], color=style.QUIET, ls="none", marker="|", ms=11, mew=2.0, label="stability ends here")
     axes.plot([], [], color=style.QUIET, ls="none", marker="x", ms=5, label="unstable")
-    axes.set_xlabel(_title(axis))
-    axes.grid(color=style.FAINT, lw=0.5)
-    axes.set_axisbelow(True)
-    bare(axes)
+    dress(axes, _title(axis))
 
 
-def _rims(numbers: Floats) -> Floats:
+def rims(numbers: Floats) -> Floats:
     """Rims of fields about sorted numbers, half-way between them."""
     inner = (numbers[1:] + numbers[:-1]) / 2
     return np.concatenate(([numbers[0] - (inner[0] - numbers[0])], inner, [numbers[-1] + (numbers[-1] - inner[-1])]))
@@ -131,9 +121,9 @@ def _map(axes: Axes, sweep: LimbSweep) -> list[Patch | Line2D]:
     field = field[np.ix_(columns, rows)].T
     shades = ListedColormap([NONE, *(_colour(k) for k in range(len(place)))])
     axes.pcolormesh(
-        _rims(x), _rims(y), field + 1, cmap=shades, vmin=-0.5, vmax=len(place) + 0.5, alpha=0.45, edgecolor=style.PAPER, lw=0.8,
+        rims(x), rims(y), field + 1, cmap=shades, vmin=-0.5, vmax=len(place) + 0.5, alpha=0.45, edgecolor=style.PAPER, lw=0.8,
     )  # fmt: skip
-    left, low = _rims(x), _rims(y)
+    left, low = rims(x), rims(y)
     for row, column in np.argwhere(field < 0):
         axes.fill(
             left[[column, column + 1, column + 1, column]], low[[row, row, row + 1, row + 1]],
@@ -164,7 +154,7 @@ def _boundary(axes: Axes, sweep: LimbSweep, k: int, label: str) -> None:
     ]
     line = (sorted(other.numbers), lowest) if scan is sweep.axes[1] else (lowest, sorted(other.numbers))
     axes.plot(*line, color=style.PAPER, lw=3.4, zorder=4)
-    axes.plot(*line, color=_colour(k), lw=1.8, ls=LINES[k % len(LINES)], marker="o", ms=3.5, zorder=5)
+    axes.plot(*line, zorder=5, **_limit(k))
 
 
 def _legend(sweep: LimbSweep) -> list[Patch | Line2D]:
@@ -179,16 +169,5 @@ def _legend(sweep: LimbSweep) -> list[Patch | Line2D]:
         out.append(Patch(facecolor=NONE, hatch="////", edgecolor=style.QUIET, lw=0.0, label="no law is stable"))
     for k, label in enumerate(sweep.labels):
         if label in bounded:
-            out.append(
-                Line2D(
-                    [],
-                    [],
-                    color=_colour(k),
-                    lw=1.8,
-                    ls=LINES[k % len(LINES)],
-                    marker="o",
-                    ms=3.5,
-                    label=f"{label}: limit",
-                )
-            )
+            out.append(Line2D([], [], label=f"{label}: limit", **_limit(k)))
     return out
