@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from clamber.limb_bench.bench_limb import bench_limb
-from clamber.limb_bench.limb_sweep import Boundary, LimbSweep, make_bench
-from clamber.limb_bench.limb_sweep_point import Cell
 from clamber.limb_bench.pictures.draw import draw_result
 from clamber.limb_bench.pictures.sweep import rims
+from clamber.limb_bench.sweep import BenchTexts, Boundary, LimbSweep, make_bench
+from clamber.limb_bench.sweep_point import Cell
 from clamber.limb_bench.tune import Edge, Tuned, Tuning
 from clamber.planning.axes import range_axis
 from clamber.sim.flaw_texts import named_flaws
@@ -34,7 +34,7 @@ def made_sweep(*, two: bool, divided: bool = True) -> LimbSweep:
         for label, at in (("a", 350.0), ("b", 250.0))
     )
     return LimbSweep(
-        bench=make_bench(kind="circle"),
+        bench=make_bench(BenchTexts(kind="circle")),
         axes=tuple(axes),
         labels=("a", "b"),
         points=points,

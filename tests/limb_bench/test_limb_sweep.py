@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 from clamber.errors import ClamberError, UnknownNameError
-from clamber.limb_bench.limb_sweep import LimbSweep, make_bench, run_limb_sweep
-from clamber.limb_bench.limb_sweep_point import Bench, Cell, find_boundary, run_point, try_laws
 from clamber.limb_bench.measures import measure
-from clamber.limb_bench.runner import run_contest
+from clamber.limb_bench.runner import Crew, run_contest
+from clamber.limb_bench.sweep import BenchTexts, LimbSweep, make_bench, run_limb_sweep
+from clamber.limb_bench.sweep_point import Bench, Cell, find_boundary, run_point, try_laws
 from clamber.planning.axes import range_axis
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.sim.plant_rules import PlantError
@@ -21,7 +21,7 @@ TOO_STIFF = {"kp": "6000"}
 
 def short_bench(**changes: object) -> Bench:
     words = {"kind": "step", "kp": 100.0, "kd": 4.0, "laws": ("scct",)} | changes
-    return make_bench(**words)  # type: ignore[arg-type]
+    return make_bench(BenchTexts(**words))  # type: ignore[arg-type]
 
 
 def told(bench: Bench) -> dict[str, object]:
@@ -125,9 +125,9 @@ def test_what_cannot_vary_is_named_before_anything_runs(vary: str, names: str) -
 def test_a_sweep_finds_its_boundary_on_any_number_of_workers_and_resumes(tmp_path: Path) -> None:
     bench = short_bench(laws=("scct", "jacobian-transpose"))
     axes = [range_axis("backlash=0deg..2deg:2"), range_axis("kp=1000..6000:3")]
-    alone = run_limb_sweep(bench, axes, workers=1, store=tmp_path / "points.db")
-    together = run_limb_sweep(bench, axes, workers=3)
-    again = run_limb_sweep(bench, axes, workers=1, store=tmp_path / "points.db", resume=True)
+    alone = run_limb_sweep(bench, axes, Crew(store=tmp_path / "points.db"))
+    together = run_limb_sweep(bench, axes, Crew(workers=3))
+    again = run_limb_sweep(bench, axes, Crew(store=tmp_path / "points.db", resume=True))
     assert alone.to_json() == together.to_json() == again.to_json()
     assert alone.scan == "kp"
     assert {(each.label, each.beside) for each in alone.boundaries} >= {("scct", 0.0), ("scct", 2.0)}

@@ -24,6 +24,7 @@ from clamber.errors import SpecError, UnknownNameError
 from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
 from clamber.limb_bench.entries import read_law, with_recommended_gains
 from clamber.limb_bench.matching import tip_stiffness
+from clamber.limb_bench.runner import Crew
 from clamber.limb_bench.steadiness import STEADY, peak_to_peak, poses, run_situations, situations
 from clamber.limb_bench.tune import (
     DAMPING_TIMES,
@@ -195,7 +196,7 @@ ONE_LAW = "jacobian-transpose"
 def test_the_procedure_finds_the_stored_limit_again(limb: BenchLimb, flaws: LimbFlaws, law: str) -> None:
     found = stored(law)[1]
     time = min(DAMPING_TIMES, key=lambda each: abs(each - found.kd / found.kp))
-    (again,) = tune(limb, [law], flaws, damping_times=(time,), workers=2).laws
+    (again,) = tune(limb, [law], flaws, damping_times=(time,), crew=Crew(workers=2)).laws
     assert again.limit_kp == pytest.approx(found.limit_kp, rel=PRECISION)
     assert again.steady
     assert again.limit_kp == pytest.approx(again.linear_kp, rel=0.25)  # friction calms a little beyond the linear limit
@@ -204,7 +205,9 @@ def test_the_procedure_finds_the_stored_limit_again(limb: BenchLimb, flaws: Limb
 @pytest.mark.long
 def test_a_tuning_does_not_depend_on_the_number_of_workers(limb: BenchLimb, flaws: LimbFlaws) -> None:
     alone, together = (
-        tune(limb, ["scct", "joint-pd"], flaws, damping_times=(0.04,), effort="search", workers=workers).to_json()
+        tune(
+            limb, ["scct", "joint-pd"], flaws, damping_times=(0.04,), effort="search", crew=Crew(workers=workers)
+        ).to_json()
         for workers in (1, 3)
     )
     assert alone == together

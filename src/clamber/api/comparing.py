@@ -1,26 +1,23 @@
 """Compare control laws on one limb: the same motion, the same plant, gains matched unless stated."""
 
 from collections.abc import Sequence
-from typing import Any, Final, Literal
+from typing import Any, Final
 
 from ..limb_bench.bench_limb import bench_limb, limbed_robot
 from ..limb_bench.entries import make_entries, match_pose, reference_law
 from ..limb_bench.matching import Match
 from ..limb_bench.result import LimbResult, Matching, compare_laws
 from ..limb_bench.runner import Contest
-from ..limb_bench.scenario import circle_scenario, push_scenario, step_scenario
+from ..limb_bench.scenario import MOTIONS, MotionKind
 from ..sim.flaw_texts import named_flaws, read_flaws
 
-Motion = Literal["step", "circle", "push"]
-MOTIONS: Final[dict[Motion, Any]] = {"step": step_scenario, "circle": circle_scenario, "push": push_scenario}
-"""Name -> what makes it; `compare` hands `how` to it."""
 CENTRE: Final = (0.22, 0.0)
 RADIUS: Final = 0.05
 
 
 def compare(
     laws: Sequence[str] = (),
-    motion: Motion = "step",
+    motion: MotionKind = "step",
     *,
     robot: str = "libra",
     limb: str | None = None,

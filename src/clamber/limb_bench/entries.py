@@ -70,14 +70,15 @@ def read_law(text: str) -> LawSettings:
         UnknownNameError: If no law is called so.
         LawError: If a setting is unknown or its value not allowed.
     """
+    return _parsed(text)[0]
+
+
+def _parsed(text: str) -> tuple[LawSettings, dict[str, Any]]:
+    """A law, and the settings that its text states."""
     law, _, said = text.partition(":")
     law = law.strip()
     if law not in law_names():
         raise UnknownNameError("controller", law, law_names())
-    return LawSettings(law=law).with_changes(**_settings(law, said))
-
-
-def _settings(law: str, said: str) -> dict[str, Any]:
     out: dict[str, Any] = {}
     known = tuple(field.name for field in fields(LawSettings) if field.name != "law")
     for part in filter(None, (word.strip() for word in said.split(","))):
@@ -89,7 +90,7 @@ def _settings(law: str, said: str) -> dict[str, Any]:
         if key in out:
             raise LawError(law, key, value, "is stated twice")
         out[key] = _value(law, key, value)
-    return out
+    return LawSettings(law=law).with_changes(**out), out
 
 
 def _value(law: str, key: str, text: str) -> Any:
@@ -154,16 +155,14 @@ def make_entries(limb: BenchLimb, texts: Sequence[str], reference: LawSettings, 
     out: list[Entry] = []
     chosen = [text.strip() for text in texts or USUAL]
     for text in chosen:
-        said = text.partition(":")[2]
-        settings = read_law(text)
-        stated = _settings(settings.law, said)
+        settings, stated = _parsed(text)
         own = settings.law not in LAWS or any(key in stated for key in GAINS)
         if not own and match == "none":
             settings = replace(settings, kp=reference.kp, kd=reference.kd)
         elif not own:
             settings = match_gains(limb.chain, settings, reference, q, match)
         alone = sum(other.partition(":")[0].strip() == settings.law for other in chosen) == 1
-        label = settings.law if alone else _short_label(settings.law, said)
+        label = settings.law if alone else _short_label(settings.law, text.partition(":")[2])
         while any(entry.label == label for entry in out):
             label += "'"
         out.append(Entry(label, settings, own))
@@ -184,12 +183,9 @@ def reference_law(text: str, kp: float | None, kd: float | None) -> LawSettings:
         UnknownNameError: If no law is called so.
         LawError: If a gain is not allowed.
     """
-    law = read_law(text)
-    stated = _settings(law.law, text.partition(":")[2])
+    law, stated = _parsed(text)
     return replace(
-        law,
-        kp=stated.get("kp", 100.0) if kp is None else kp,
-        kd=stated.get("kd", 10.0) if kd is None else kd,
+        law, kp=stated.get("kp", 100.0) if kp is None else kp, kd=stated.get("kd", 10.0) if kd is None else kd
     )
 
 
@@ -214,9 +210,8 @@ def with_recommended_gains(limb: BenchLimb, texts: Sequence[str], path: Path = S
     known = [one for one in read_recommended(path) if (one.robot, one.limb) == (limb.robot.name, limb.name)]
     out = []
     for text in texts:
-        law = read_law(text)
-        said = text.partition(":")[2]
-        if any(part.partition("=")[0].strip() in GAINS for part in said.split(",")):
+        law, stated = _parsed(text)
+        if any(key in stated for key in GAINS):
             out.append(text)
             continue
         found = [one for one in known if loop_of(read_law(one.law)) == loop_of(law)]
@@ -226,5 +221,5 @@ def with_recommended_gains(limb: BenchLimb, texts: Sequence[str], path: Path = S
                 path.name, f"no gains of {text} for {limb.robot.name}'s {limb.name} limb",
                 f"there are {there}; find them by `clamber limb tune`",
             )  # fmt: skip
-        out.append(f"{text}{',' if said else ':'}kp={found[0].kp!r},kd={found[0].kd!r}")
+        out.append(f"{text}{',' if text.partition(':')[2] else ':'}kp={found[0].kp!r},kd={found[0].kd!r}")
     return out

@@ -138,13 +138,11 @@ class Measures:
 
     def to_json(self) -> Json:
         """All measures in SI; what is None was never reached or is not finite."""
+        costs = {key: _json(getattr(self, key)) for key in ("work", "heat", "saturated", "tick")}
         return {
             "true": self.true.to_json(),
             "encoder": self.encoder.to_json(),
-            "work": _json(self.work),
-            "heat": _json(self.heat),
-            "saturated": _json(self.saturated),
-            "tick": _json(self.tick),
+            **costs,
             "unstable_at": self.unstable_at,
         }
 
@@ -199,11 +197,7 @@ def _json(value: float) -> float | None:
 def measure(run: Run, scenario: Scenario, limb: BenchLimb, index: int = 0) -> Measures:
     """Measures of a run.
 
-    Args:
-        run: Of `run_contest`.
-        scenario: The one that was run.
-        limb: Its motors, for the heat.
-        index: Which limb of the trace's batch.
+    The heat is that of the limb's motors; `index` is that of a limb in the trace's batch.
     """
     trace = run.trace
     unstable = instability(trace, scenario, index)

@@ -1,7 +1,7 @@
 """A portrait of each law: one step, one circle, one push or wall, on an ideal and a nominal limb, at matched or recommended gains."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -16,7 +16,7 @@ from .entries import GAINS, gain_unit, make_entries, with_recommended_gains
 from .force import force_gains, force_settings, run_force
 from .matching import Match, tip_stiffness
 from .measures import Entry, ForceMeasures, Measured, Measures, measure
-from .result import BenchResult
+from .result import BenchResult, settings_json
 from .runner import run_contest
 from .scenario import ForceTask, Scenario, circle_scenario, push_scenario, step_scenario
 
@@ -25,12 +25,12 @@ STEP_START: Final = (0.22, 0.0)
 """Where the step and the push find the limb, and gains are matched [m]."""
 CIRCLE_START: Final = (0.27, 0.0)
 """On the circle of 5 cm about there [m]."""
-FED: Final = {"feed_friction": 1.0, "feed_acceleration": True}
+FEEDFORWARD: Final = {"feed_friction": 1.0, "feed_acceleration": True}
 """What any law may feed forward from the model, besides the aim's speed."""
-WAYS: Final[dict[str, str]] = {"admittance": "wrist+model", "hybrid": "model", "implicit-force": "model"}
-"""Law for forces -> how its portrait deals with joint friction, beside leaving it alone."""
+COMPENSATION: Final[dict[str, str]] = {"admittance": "wrist+model", "hybrid": "model", "implicit-force": "model"}
+"""Law for forces -> compensation of joint friction in its portrait, beside none."""
 SCENES: Final = ("step", "circle", "fed", "push")
-"""Motions of a portrait; "fed" is the circle with `FED`."""
+"""Motions of a portrait; "fed" is the circle with `FEEDFORWARD`."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -99,9 +99,7 @@ class Portrait(BenchResult):
         """Settings, stiffness and figures in SI."""
         return {
             "law": self.law,
-            "settings": {
-                key: list(value) if isinstance(value, tuple) else value for key, value in asdict(self.settings).items()
-            },
+            "settings": settings_json(self.settings),
             "stiffness": self.stiffness.tolist(),
             "figures": self.figures(),
             "forces": {
@@ -153,7 +151,7 @@ def paint_portraits(
     for scene in SCENES:
         at = rounds if scenarios[scene].kind == "circle" else stands
         told[scene] = {
-            plant: _move(at, scenarios[scene], _fed(entries) if scene == "fed" else entries, flaws)
+            plant: _move(at, scenarios[scene], _with_feedforward(entries) if scene == "fed" else entries, flaws)
             for plant, flaws in plants.items()
         }
     task = ForceTask()
@@ -178,19 +176,21 @@ def _move(limb: BenchLimb, scenario: Scenario, entries: Sequence[Entry], flaws: 
     return [Measured(run, measure(run, scenario, limb)) for run in run_contest(limb, scenario, entries, flaws)]
 
 
-def _fed(entries: Sequence[Entry]) -> list[Entry]:
-    return [replace(entry, settings=entry.settings.with_changes(**FED)) for entry in entries]
+def _with_feedforward(entries: Sequence[Entry]) -> list[Entry]:
+    return [replace(entry, settings=entry.settings.with_changes(**FEEDFORWARD)) for entry in entries]
 
 
 def _press(
     limb: BenchLimb, task: ForceTask, law: str, plants: Mapping[str, LimbFlaws]
 ) -> dict[str, tuple[Measured[ForceMeasures], ...]]:
-    if law not in WAYS:
+    if law not in COMPENSATION:
         return {}
     out = {}
     for plant, flaws in plants.items():
         gains = force_gains(limb, task, flaws)
-        entries = [Entry(f"{law} / {way}", force_settings(law, way, gains, task)) for way in ("none", WAYS[law])]
+        entries = [
+            Entry(f"{law} / {way}", force_settings(law, way, gains, task)) for way in ("none", COMPENSATION[law])
+        ]
         out[plant] = run_force(limb, task, entries, flaws).rows
     return out
 

@@ -22,7 +22,7 @@ from ..sim.limb_flaws import LimbFlaws
 from ..types import Floats, Json
 from .bench_limb import BenchLimb
 from .matching import Match, tip_stiffness
-from .measures import Entry, Measures, Run, components, measure, radial_error, scenario_size
+from .measures import Measured, Measures, Run, components, measure, radial_error, scenario_size
 from .runner import Contest, run_contest, with_sensors
 from .scenario import Scenario
 
@@ -117,16 +117,11 @@ class Matching:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Row:
-    """One law and all its trials."""
+class Row(Measured[tuple[Measures, ...]]):
+    """One law and all its trials: the first one's run, and the measures of each."""
 
-    entry: Entry
     stiffness: Floats
     """At the tip, at `LimbResult.match_at`, shape (2, 2) [N/m]."""
-    measures: tuple[Measures, ...]
-    """One of each trial."""
-    run: Run
-    """The first trial's."""
 
     @property
     def unstable(self) -> int:
@@ -259,7 +254,7 @@ class LimbResult(Comparison):
             "plant": {"name": self.plant} | asdict(scenario.on(self.flaws)),
             "match": {
                 "how": self.match,
-                "reference": _gains(self.reference),
+                "reference": settings_json(self.reference),
                 "at": self.match_at.tolist(),
                 "not_matched": self.mismatches(),
             },
@@ -290,14 +285,15 @@ class LimbResult(Comparison):
         return columns, [[line.get(column) for column in columns] for line in lines]
 
 
-def _gains(settings: LawSettings) -> Json:
+def settings_json(settings: LawSettings) -> Json:
+    """All settings of a law."""
     return {key: list(value) if isinstance(value, tuple) else value for key, value in asdict(settings).items()}
 
 
 def _law(row: Row) -> Json:
     return {
         "label": row.entry.label,
-        "settings": _gains(row.entry.settings),
+        "settings": settings_json(row.entry.settings),
         "own_gains": row.entry.own_gains,
         "stiffness": row.stiffness.tolist(),
         "unstable_trials": row.unstable,
@@ -315,10 +311,9 @@ def _over(row: Row, how: Callable[[list[float]], float]) -> Json:
         value = how(values) if values else math.inf
         return value if math.isfinite(value) else None
 
-    tips = {"true": attrgetter("true"), "encoder": attrgetter("encoder")}
     out: Json = {
-        side: {key: figure(attrgetter(f"{side}.{key}")) for key in tip(row.measures[0]).to_json()}
-        for side, tip in tips.items()
+        side: {key: figure(attrgetter(f"{side}.{key}")) for key in getattr(row.measures[0], side).to_json()}
+        for side in ("true", "encoder")
     }
     return out | {key: figure(attrgetter(key)) for key in ("work", "heat", "saturated", "tick")}
 
@@ -364,7 +359,7 @@ def compare_laws(
         reference=matching.reference,
         match_at=at,
         rows=tuple(
-            Row(run.entry, tip_stiffness(limb.chain, run.entry.settings, at), measures, run)
+            Row(run, measures, tip_stiffness(limb.chain, run.entry.settings, at))
             for run, measures in zip(first, zip(*measured, strict=True), strict=True)
         ),
     )

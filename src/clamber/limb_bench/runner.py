@@ -6,6 +6,7 @@ import pickle
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
@@ -15,7 +16,8 @@ from ..control.outside_law import LoopController, controller_of
 from ..errors import ClamberError
 from ..execution.closed_loop import close_loop
 from ..execution.trace import LimbTrace
-from ..jobs import map_items
+from ..jobs import Executor, Outcome, map_items
+from ..jobs.batch import Progress
 from ..sim.limb_flaws import ForceSensor, LimbFlaws
 from ..sim.plants import plant_maker
 from ..types import Json
@@ -147,6 +149,30 @@ class Contest:
                 raise ClamberError(f"trial {trial}: {end.error}")
             out.append(_unpacked(end.result["measures"]))
         return out
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Crew:
+    """Who works through many items, and where what they find is kept; results don't depend on it."""
+
+    workers: int = 1
+    """Processes."""
+    executor: Executor | None = None
+    """In place of local processes."""
+    store: Path | None = None
+    """SQLite file that keeps each result of a titled batch as it ends."""
+    resume: bool = False
+    """Whether to go on with that file."""
+    progress: Progress | None = None
+    """Told of each end."""
+
+    def map(
+        self, function: Callable[[Json], Json], items: Sequence[Json], *, title: str = "", about: Json | None = None
+    ) -> list[Outcome]:
+        """How each item ends; only a titled batch is kept."""
+        kept: dict[str, Any] = {"store": self.store, "resume": self.resume, "title": title} if title else {}
+        who: dict[str, Any] = {"workers": self.workers, "executor": self.executor, "progress": self.progress}
+        return map_items(function, items, about=about, **kept, **who)
 
 
 def run_trial(item: Json) -> Json:

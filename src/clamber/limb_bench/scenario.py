@@ -1,8 +1,9 @@
 """What is asked of the limb: a step, a circle, a push, a force on a wall, as aims tick by tick. One command for every law."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final, Literal
+from typing import Final, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -164,6 +165,15 @@ def push_scenario(
     return Scenario(
         "push", aims, settle=end, direction=direction, push=Push(x=force[0], y=force[1], start=start, end=end)
     )
+
+
+MotionKind: TypeAlias = Literal["step", "circle", "push"]
+MOTIONS: Final[dict[MotionKind, Callable[..., Scenario]]] = {
+    "step": step_scenario,
+    "circle": circle_scenario,
+    "push": push_scenario,
+}
+"""Scenarios that ask for a motion by name."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -7,17 +7,17 @@ at other poses, directions and frictions.
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
 from ..control.law_settings import LAWS, LawSettings
 from ..control.recommended import Recommended
 from ..errors import ClamberError
-from ..jobs import Executor, Outcome, map_items, read_result
+from ..jobs import Outcome, read_result
 from ..sim.limb_flaws import LimbFlaws
 from ..types import Json
 from .bench_limb import BenchLimb, bench_limb
@@ -25,7 +25,7 @@ from .entries import read_law
 from .matching import tip_stiffness
 from .measures import Entry, measure
 from .result import BenchResult
-from .runner import run_contest
+from .runner import Crew, run_contest
 from .scenario import step_scenario
 from .stability import linear_limit, scaled_gains
 from .steadiness import SECONDS, STEADY, Effort, overshoot, poses, unrest
@@ -260,11 +260,7 @@ def tune(
     margin: float = MARGIN,
     damping_times: Sequence[float] = DAMPING_TIMES,
     effort: Effort = "fine",
-    workers: int = 1,
-    executor: Executor | None = None,
-    store: Path | None = None,
-    resume: bool = False,
-    progress: Callable[[int, int, Outcome], None] | None = None,
+    crew: Crew | None = None,
 ) -> Tuning:
     """Find recommended gains of laws on a limb.
 
@@ -276,11 +272,7 @@ def tune(
         margin: The edge over what is recommended.
         damping_times: kd/kp that are tried [s].
         effort: Of the last trial of the recommended gains.
-        workers: Processes; the result doesn't depend on it.
-        executor: Who works, in place of local processes.
-        store: SQLite file that keeps each edge as it is found.
-        resume: Whether to go on with that file.
-        progress: Told of each edge and of each law.
+        crew: Who works, and the file that keeps each edge as it is found.
 
     Raises:
         TuningError: If the margin is not more than 1, or a law has no edge.
@@ -296,10 +288,10 @@ def tune(
     about |= {"start": list(limb.start), "q0": limb.q0.tolist(), "margin": margin}
     items: list[Json] = [about | {"law": name, "damping_time": time} for name in names for time in damping_times]
     title = f"the tuning of {limb.robot.name}'s {limb.name} limb"
-    common: dict[str, Any] = {"workers": workers, "executor": executor, "progress": progress}
-    ends = map_items(find_edge, items, store=store, resume=resume, about=about, title=title, **common)
+    crew = crew or Crew()
+    ends = crew.map(find_edge, items, about=about, title=title)
     edges = {
-        name: _edges(name, [end for item, end in zip(items, ends, strict=True) if item["law"] == name], store)
+        name: _edges(name, [end for item, end in zip(items, ends, strict=True) if item["law"] == name], crew.store)
         for name in names
     }
     best = {name: chosen_edge(found) for name, found in edges.items()}
@@ -307,7 +299,7 @@ def tune(
         about | {"law": name, "damping_time": edge.damping_time, "kp": edge.kp, "effort": effort}
         for name, edge in best.items()
     ]
-    settled = [_result(name, end) for name, end in zip(best, map_items(settle_gains, last, **common), strict=True)]
+    settled = [_result(name, end) for name, end in zip(best, crew.map(settle_gains, last), strict=True)]
     return Tuning(
         limb=limb,
         flaws=flaws,

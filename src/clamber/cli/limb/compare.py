@@ -65,11 +65,6 @@ BLOCKS: Final = " ▁▂▃▄▅▆▇█"
 class BenchWords(opt.LimbWords):
     """Options of every command that compares laws by one motion of the limb, as they came."""
 
-    controllers: opt.Controllers = None
-    kp: opt.Kp = None
-    kd: opt.Kd = None
-    match: opt.Matched = opt.MatchChoice.yy
-    reference: opt.Reference = "scct"
     plant: opt.Plant = "mujoco"
     seed: opt.Seed = None
     trials: Annotated[int, typer.Option(min=1, help="Plants that are drawn, from the seed on.")] = 1
@@ -89,6 +84,7 @@ def step(
     by: Annotated[str, typer.Option(metavar="DX,DY", help="The step, such as 0,-2cm.")] = "0,-2cm",
     seconds: Annotated[float, typer.Option(help="Length of the run [s].")] = 6.0,
     *,
+    laws: opt.LawWords,
     words: BenchWords,
     files: opt.FileWords,
 ) -> None:
@@ -101,7 +97,7 @@ def step(
         dx, dy = read_point("by", by)
         return step_scenario(limb, rate, dx=dx, dy=dy, seconds=seconds)
 
-    _compare(words, files, command)
+    _compare(laws, words, files, command)
 
 
 @takes_words
@@ -111,6 +107,7 @@ def circle(
     lap: Annotated[float, typer.Option(help="Time of one lap [s].")] = 6.0,
     laps: Annotated[int, typer.Option(min=1, help="Laps; the last one is measured.")] = 2,
     *,
+    laws: opt.LawWords,
     words: BenchWords,
     files: opt.FileWords,
 ) -> None:
@@ -124,7 +121,7 @@ def circle(
     def command(limb: "BenchLimb", rate: float) -> "Scenario":
         return circle_scenario(limb, rate, centre=middle, radius=size, lap=lap, laps=laps)
 
-    _compare(words, files, command, (middle[0] + size, middle[1]))
+    _compare(laws, words, files, command, (middle[0] + size, middle[1]))
 
 
 @takes_words
@@ -134,6 +131,7 @@ def push(
     end: Annotated[float, typer.Option("--to", help="When it ends [s].")] = 2.0,
     seconds: Annotated[float, typer.Option(help="Length of the run [s].")] = 6.0,
     *,
+    laws: opt.LawWords,
     words: BenchWords,
     files: opt.FileWords,
 ) -> None:
@@ -146,10 +144,11 @@ def push(
         pushed = read_point("force", force, "force")
         return push_scenario(limb, rate, force=pushed, start=begin, end=end, seconds=seconds)
 
-    _compare(words, files, command)
+    _compare(laws, words, files, command)
 
 
 def _compare(
+    laws: opt.LawWords,
     words: BenchWords,
     files: opt.FileWords,
     command: "Callable[[BenchLimb, float], Scenario]",
@@ -164,13 +163,13 @@ def _compare(
     limb = words.build_limb(flaws, start)
     scenario = command(limb, flaws.control_rate)
     announce_compilation(quiet=files.quiet)  # gains are matched by the laws themselves
-    reference, at = reference_law(words.reference, words.kp, words.kd), match_pose(limb, scenario)
-    entries = make_entries(limb, words.controllers or (), reference, words.match.value, at)
+    reference, at = reference_law(laws.reference, laws.kp, laws.kd), match_pose(limb, scenario)
+    entries = make_entries(limb, laws.controllers or (), reference, laws.match.value, at)
     result = compare_laws(
         Contest(limb, scenario, entries, flaws, words.plant),
         trials=words.trials,
         workers=words.crew,
-        matching=Matching(reference, words.match.value, at),
+        matching=Matching(reference, laws.match.value, at),
         progress=EndsLine(stderr(), "trials", quiet=files.quiet or words.trials == 1).update,
     )
     files.tell(result, lambda console: print_comparison(console, result, everything=words.everything))

@@ -1,6 +1,7 @@
 """`clamber limb open-loop`: steady torques, and where the tip goes first."""
 
 import math
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -14,22 +15,29 @@ if TYPE_CHECKING:
     from ...limb_bench.open_loop import OpenLoopResult
 
 
-@takes_words
-def open_loop(
-    force: Annotated[str, typer.Option(help="Along the wanted direction, such as 10N.")] = "10N",
-    direction: Annotated[str, typer.Option(help="Wanted, from the x axis of the port, such as -90deg.")] = "-90deg",
-    seconds: Annotated[float, typer.Option(help="Length of the run [s].")] = 0.7,
+@dataclass(frozen=True, slots=True)
+class PullWords:
+    """What the torques are to do at the tip, as it came."""
+
+    force: Annotated[str, typer.Option(help="Along the wanted direction, such as 10N.")] = "10N"
+    direction: Annotated[str, typer.Option(help="Wanted, from the x axis of the port, such as -90deg.")] = "-90deg"
+    seconds: Annotated[float, typer.Option(help="Length of the run [s].")] = 0.7
     transforms: Annotated[
         list[str] | None,
         typer.Option("--controller", "-c", metavar="NAME", help="A law whose transform is used; repeat it. All four."),
-    ] = None,
+    ] = None
     renewed: Annotated[
         bool, typer.Option("--renewed", help="Let the torques follow the pose instead of standing still.")
-    ] = False,
+    ] = False
+
+
+@takes_words
+def open_loop(
+    *,
+    pull: PullWords,
+    words: opt.LimbWords,
     plant: opt.Plant = "mujoco",
     seed: opt.Seed = None,
-    *,
-    words: opt.LimbWords,
     files: opt.FileWords,
 ) -> None:
     """Put steady torques on the limb at rest, and compare in which direction each law's transform starts the tip."""
@@ -39,12 +47,11 @@ def open_loop(
 
     flaws = words.build_plant(seed)
     limb = words.build_limb(flaws)
-    size, angle = read_number("force", force, "force"), read_number("direction", direction, "angle")
+    how = {"force": read_number("force", pull.force, "force")}
+    how["direction"] = read_number("direction", pull.direction, "angle")
     announce_compilation(quiet=files.quiet)
-    result = compare_open_loop(
-        limb, flaws, transforms or tuple(TRANSFORMS), force=size, direction=angle, seconds=seconds, renewed=renewed,
-        plant=plant,
-    )  # fmt: skip
+    transforms = pull.transforms or tuple(TRANSFORMS)
+    result = compare_open_loop(limb, flaws, transforms, seconds=pull.seconds, renewed=pull.renewed, plant=plant, **how)
     files.tell(result, lambda console: print_open_loop(console, result))
     raise typer.Exit(0 if result.moved else 1)
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 import typer
 from rich.console import Console
 
+from ..crew import CrewWords
 from ..name_completion import names_of
 from ..options import ROBOT, AsJson, Output, Quiet
 from ..output import check_writable, plain_table, print_json, stdout
@@ -16,6 +17,7 @@ from ..output import check_writable, plain_table, print_json, stdout
 if TYPE_CHECKING:
     from ...limb_bench.bench_limb import BenchLimb
     from ...limb_bench.result import Comparison
+    from ...limb_bench.runner import Crew
     from ...sim.limb_flaws import LimbFlaws
 
 
@@ -35,25 +37,9 @@ class FlawsChoice(StrEnum):
     nominal = "nominal"
 
 
-Controllers: TypeAlias = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--controller", "-c", metavar="NAME[:KEY=VALUE,...]",
-        help="A law, such as scct or jacobian-transpose:kp=1000,kd=100; repeat it. A usual set unless given.",
-        autocompletion=names_of("controllers"),
-    ),
-]  # fmt: skip
-Kp: TypeAlias = Annotated[float | None, typer.Option(help="Stiffness of the reference law, in its unit.")]
-Kd: TypeAlias = Annotated[float | None, typer.Option(help="Damping of the reference law, in its unit.")]
 Matched: TypeAlias = Annotated[
     MatchChoice,
     typer.Option("--match", help="Which tip stiffness laws without gains of their own share with the reference."),
-]
-Reference: TypeAlias = Annotated[
-    str,
-    typer.Option(
-        metavar="NAME[:KEY=VALUE,...]", help="Law that is matched to.", autocompletion=names_of("controllers")
-    ),
 ]
 Robot: TypeAlias = Annotated[str, typer.Option(help="A climber's name or file.", autocompletion=names_of("robots"))]
 LimbName: TypeAlias = Annotated[str | None, typer.Option("--limb", help="Its limb, by name or from 1.")]
@@ -69,6 +55,29 @@ Settings: TypeAlias = Annotated[
 Seed: TypeAlias = Annotated[
     int | None, typer.Option(min=0, help="Draw play, encoder phase, noise and model error (0 where they need one).")
 ]
+
+
+@dataclass(frozen=True, slots=True)
+class LawWords:
+    """Options that name laws and how they come by their gains, as they came."""
+
+    controllers: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--controller", "-c", metavar="NAME[:KEY=VALUE,...]",
+            help="A law, such as scct or jacobian-transpose:kp=1000,kd=100; repeat it. A usual set unless given.",
+            autocompletion=names_of("controllers"),
+        ),
+    ] = None  # fmt: skip
+    kp: Annotated[float | None, typer.Option(help="Stiffness of the reference law, in its unit.")] = None
+    kd: Annotated[float | None, typer.Option(help="Damping of the reference law, in its unit.")] = None
+    match: Matched = MatchChoice.yy
+    reference: Annotated[
+        str,
+        typer.Option(
+            metavar="NAME[:KEY=VALUE,...]", help="Law that is matched to.", autocompletion=names_of("controllers")
+        ),
+    ] = "scct"
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,6 +157,14 @@ class FileWords:
             return
         show(stdout())
         tell_written(stdout(), self.output, *logged)
+
+
+def crew_of(words: CrewWords, what: str) -> "Crew":
+    """Who works through items, called so."""
+    from ...limb_bench.runner import Crew
+
+    told = words.line(what).update
+    return Crew(executor=words.executor, store=words.store, resume=words.resume, progress=told)
 
 
 def check_output(path: Path | None, *suffixes: str) -> None:

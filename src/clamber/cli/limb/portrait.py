@@ -2,6 +2,7 @@
 
 import sys
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
@@ -9,6 +10,7 @@ import typer
 from rich.console import Console
 
 from ..name_completion import names_of
+from ..option_holder import takes_words
 from ..options import ROBOT, AsJson, Quiet
 from ..output import announce_compilation, print_json, stdout
 from . import options as opt
@@ -23,6 +25,25 @@ NUMBERS: Final = tuple(
 ERRORS: Final = tuple(f"{plant}\n{what}" for plant in ("ideal", "nom.") for what in ("mean N", "worst N"))
 
 
+@dataclass(frozen=True, slots=True)
+class PortraitWords:
+    """The limb of the portraits and how laws come by their gains, as it came."""
+
+    reference: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME[:KEY=VALUE,...]",
+            help="Match gains to this law, such as scct:kp=200,kd=10.",
+            autocompletion=names_of("controllers"),
+        ),
+    ] = None
+    match: opt.Matched = opt.MatchChoice.yy
+    robot: opt.Robot = ROBOT
+    limb: opt.LimbName = None
+    seed: Annotated[int, typer.Option(min=0, help="Draws play and encoder phase of the nominal limb.")] = 1
+
+
+@takes_words
 def portrait(
     laws: Annotated[
         list[str],
@@ -33,18 +54,8 @@ def portrait(
     folder: Annotated[
         Path | None, typer.Option("--output", "-o", metavar="DIR", help="Write DIR/LAW.png for each law.")
     ] = None,
-    reference: Annotated[
-        str | None,
-        typer.Option(
-            metavar="NAME[:KEY=VALUE,...]",
-            help="Match gains to this law, such as scct:kp=200,kd=10.",
-            autocompletion=names_of("controllers"),
-        ),
-    ] = None,
-    match: opt.Matched = opt.MatchChoice.yy,
-    robot: opt.Robot = ROBOT,
-    limb: opt.LimbName = None,
-    seed: Annotated[int, typer.Option(min=0, help="Draws play and encoder phase of the nominal limb.")] = 1,
+    *,
+    words: PortraitWords,
     markdown: Annotated[bool, typer.Option("--markdown", help="Print the tables as a page has them.")] = False,
     as_json: AsJson = False,
     quiet: Quiet = False,
@@ -60,15 +71,20 @@ def portrait(
     if folder is not None:
         make_folder(folder)
     announce_compilation(quiet=quiet)
-    matched = None if reference is None else read_law(reference)
+    matched = None if words.reference is None else read_law(words.reference)
     portraits = paint_portraits(
-        () if laws == ["all"] else laws, robot=robot, limb=limb, matched=matched, match=match.value, seed=seed
+        () if laws == ["all"] else laws,
+        robot=words.robot,
+        limb=words.limb,
+        matched=matched,
+        match=words.match.value,
+        seed=words.seed,
     )
     if folder is not None:
         for each in portraits:
             each.write(folder / f"{each.law}.png")
     if as_json:
-        print_json(portraits_json(portraits, seed))
+        print_json(portraits_json(portraits, words.seed))
     elif markdown:
         print_markdown(portraits)
     else:

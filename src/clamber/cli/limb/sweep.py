@@ -13,7 +13,7 @@ from ..output import announce_compilation, print_json, stdout
 from . import options as opt
 
 if TYPE_CHECKING:
-    from ...limb_bench.limb_sweep import LimbSweep
+    from ...limb_bench.sweep import LimbSweep
 
 MARKS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 """Of laws in a map, in their order."""
@@ -59,36 +59,29 @@ def sweep(
     ],
     *,
     command: CommandWords,
-    controllers: opt.Controllers = None,
+    laws: opt.LawWords,
     gains: Annotated[
         GainsChoice,
         typer.Option(help="Of laws without gains of their own: --match to the reference, or as `limb tune` found."),
     ] = GainsChoice.matched,
-    kp: opt.Kp = None,
-    kd: opt.Kd = None,
-    match: opt.Matched = opt.MatchChoice.yy,
-    reference: opt.Reference = "scct",
     limb: opt.NominalLimbWords,
     words: CrewWords,
 ) -> None:
     """Run laws at every point of a range: which is best where, and from where on each is unstable."""
     words.check()
     opt.check_output(words.output, ".csv")
-    from ...limb_bench.limb_sweep import make_bench, run_limb_sweep
+    from ...limb_bench.sweep import BenchTexts, make_bench, run_limb_sweep
     from ...planning.axes import range_axis
 
     axes = [range_axis(text) for text in vary]
-    bench = make_bench(
+    bench = make_bench(BenchTexts(
         kind=command.scenario.value, measure=command.measure, by=command.by, radius=command.radius, lap=command.lap,
-        force=command.force, laws=controllers or (), kp=kp, kd=kd, match=match.value, reference=reference,
+        force=command.force, laws=laws.controllers or (), kp=laws.kp, kd=laws.kd, match=laws.match.value, reference=laws.reference,
         robot=limb.robot, limb=limb.limb, start=limb.start, elbow=limb.elbow, flaws=limb.flaws.value,
         settings=limb.settings or (), recommended=gains is GainsChoice.recommended,
-    )  # fmt: skip
+    ))  # fmt: skip
     announce_compilation(quiet=words.quiet)
-    result = run_limb_sweep(
-        bench, axes, executor=words.executor, store=words.store, resume=words.resume,
-        progress=words.line("points").update,
-    )  # fmt: skip
+    result = run_limb_sweep(bench, axes, opt.crew_of(words, "points"))
     if words.output is not None:
         result.write(words.output)
     if words.as_json:

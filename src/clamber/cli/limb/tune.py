@@ -55,10 +55,7 @@ def tune(
     chosen = limb.build_limb(plant)
     laws = [] if controllers in (None, ["all"]) else list(controllers or ())
     announce_compilation(quiet=words.quiet)
-    result = find(
-        chosen, laws, plant, robot=limb.robot, margin=margin, executor=words.executor, store=words.store, resume=words.resume,
-        progress=words.line("searches").update,
-    )  # fmt: skip
+    result = find(chosen, laws, plant, robot=limb.robot, margin=margin, crew=opt.crew_of(words, "searches"))
     if save is not None:
         save_recommended(result.recommended(), save)
     if words.output is not None:

@@ -231,7 +231,7 @@ class SweepAxis(Printed):
     numbers: list[float] | None
 
 
-@means_as("limb_bench/limb_sweep.py:Boundary")
+@means_as("limb_bench/sweep.py:Boundary")
 class Boundary(Printed):
     """Where one law changes from steady to not, along one axis."""
 

@@ -6,10 +6,10 @@ from typing import Any, Final
 
 from ...execution.log_identify import Identification
 from ..force import ForceResult
-from ..limb_sweep import LimbSweep
 from ..open_loop import OpenLoopResult
 from ..portrait import Portrait
 from ..result import LimbResult
+from ..sweep import LimbSweep
 from ..tune import Tuning
 from .comparison import draw_comparison
 from .force import draw_force

@@ -96,9 +96,14 @@ def _draw_forces(axes: Axes, result: ForceResult, rows: list[Pressed], law: str)
     axes.set_ylabel("force [N]")
     axes.set_title(law, fontsize=9)
     axes.legend(
-        loc="upper right", bbox_to_anchor=(1.0, 1.22), ncols=len(rows), fontsize=6.5, handlelength=1.8, columnspacing=0.8,
+        loc="upper right",
+        bbox_to_anchor=(1.0, 1.22),
+        ncols=len(rows),
+        fontsize=6.5,
+        handlelength=1.8,
+        columnspacing=0.8,
         handletextpad=0.5,
-    )  # fmt: skip
+    )
 
 
 def _limb_points(limb: BenchLimb, q: Floats) -> Floats:

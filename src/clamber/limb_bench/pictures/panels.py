@@ -29,7 +29,8 @@ def head(figure: Figure, title: str, under: str, *, room: float, tops: tuple[flo
     """Write a title and what it holds for above the panels, which keep to `room`; all in parts of the figure's height."""
     figure.get_layout_engine().set(rect=(0.0, 0.0, 1.0, room))  # type: ignore[union-attr, call-arg]
     figure.text(0.012, tops[0], title, va="top", fontsize=11, fontweight="bold")
-    figure.text(0.012, tops[1], under, va="top", fontsize=8, color=style.QUIET, linespacing=1.4)
+    spacing = 1.4 if "\n" in under else 1.2
+    figure.text(0.012, tops[1], under, va="top", fontsize=8, color=style.QUIET, linespacing=spacing)
 
 
 def study_title(figure: Figure, title: str) -> None:

@@ -17,8 +17,8 @@ from ...planning.axes import Axis
 from ...types import Floats
 from ...viewing import style
 from ...viewing.output import drawing
-from ..limb_sweep import LimbSweep
 from ..measures import measure_scale
+from ..sweep import LimbSweep
 from .panels import LINES, dress, head
 
 WIDE: Final = 8.0

@@ -5,7 +5,7 @@ What varies is text, such as "backlash" and "2 deg", so that a point is plain da
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any, Final, Literal, TypeAlias
+from typing import Any, Final
 
 import numpy as np
 
@@ -21,16 +21,15 @@ from .entries import make_entries, match_pose, read_law, reference_law
 from .matching import Match
 from .measures import Entry, Measures, Run, measure
 from .runner import run_contest
-from .scenario import Scenario, circle_scenario, push_scenario, step_scenario
+from .scenario import MOTIONS, MotionKind, Scenario
 from .stability import scaled_gains
 from .steadiness import RESTING, STEADY, motor_peak_to_peak, peak_to_peak
 
-ScenarioKind: TypeAlias = Literal["step", "circle", "push"]
 GAIN_KEYS: Final = ("kp", "kd", "gain")
 """kp and kd of the reference law, which others are matched to; gain multiplies every law's own."""
 REST: Final = 3.0
 """After the scenario the aim stands still so long; the tip must be at rest in the second half of it [s]."""
-USUAL_MEASURE: Final[dict[ScenarioKind, str]] = {"step": "across_max", "circle": "radial_rms", "push": "along_max"}
+USUAL_MEASURE: Final[dict[MotionKind, str]] = {"step": "across_max", "circle": "radial_rms", "push": "along_max"}
 PEAK: Final = "peak_to_peak"
 """Of the true tip at the end of the rest; the one measure that is no field of `Measures`."""
 
@@ -54,7 +53,7 @@ class Bench:
     limb: str | None
     start: tuple[float, float]
     elbow: int | None
-    kind: ScenarioKind
+    kind: MotionKind
     command: Json
     """Arguments of the scenario beside limb and rate."""
     laws: tuple[str, ...]
@@ -111,11 +110,7 @@ class Bench:
         return replace(scenario, aims=np.concatenate((scenario.aims, still))), ticks
 
     def _command(self, limb: BenchLimb, rate: float) -> Scenario:
-        if self.kind == "step":
-            return step_scenario(limb, rate, **self.command)
-        if self.kind == "circle":
-            return circle_scenario(limb, rate, **self.command)
-        return push_scenario(limb, rate, **self.command)
+        return MOTIONS[self.kind](limb, rate, **self.command)
 
 
 def _gain(law: str, key: str, text: str) -> float:

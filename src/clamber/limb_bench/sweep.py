@@ -1,14 +1,13 @@
 """Laws over a range of plants or gains: where each is best, and where it goes unstable, its boundary found by bisection."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, fields
 from itertools import pairwise, product
-from pathlib import Path
 from typing import Any, Final
 
 from ..control.law_settings import LAWS, LawError, LawSettings
 from ..errors import UnknownNameError
-from ..jobs import Executor, Outcome, map_items, read_result
+from ..jobs import Outcome, read_result
 from ..planning.axes import Axis, check_axes
 from ..sim.flaw_texts import WHOLE, named_flaws, plant_words, read_flaws
 from ..sim.limb_flaws import LimbFlaws
@@ -16,21 +15,22 @@ from ..types import Json
 from ..units import read_number, read_point
 from .bench_limb import bench_limb, limbed_robot, read_elbow
 from .entries import GAINS, reference_law, with_recommended_gains
-from .limb_sweep_point import (
+from .matching import Match
+from .measures import TipMeasures
+from .result import BenchResult
+from .runner import Crew
+from .scenario import MotionKind
+from .sweep_point import (
     GAIN_KEYS,
     PEAK,
     USUAL_MEASURE,
     Bench,
     Cell,
-    ScenarioKind,
     SweepKeyError,
     check_key,
     find_boundary,
     run_point,
 )
-from .matching import Match
-from .measures import TipMeasures
-from .result import BenchResult
 
 SCHEMA: Final = "clamber-limb-sweep-1"
 PRECISION: Final = 0.02
@@ -143,58 +143,64 @@ class LimbSweep(BenchResult):
         ]
 
 
-def make_bench(
-    *,
-    kind: ScenarioKind,
-    measure: str | None = None,
-    by: str = "0,-2cm",
-    radius: str = "5cm",
-    lap: float = 3.0,
-    force: str = "10N,0",
-    laws: Sequence[str] = (),
-    kp: float | None = None,
-    kd: float | None = None,
-    match: Match = "yy",
-    reference: str = "scct",
-    robot: str = "libra",
-    limb: str | None = None,
-    start: str | None = None,
-    elbow: str | None = None,
-    flaws: str = "nominal",
-    settings: Sequence[str] = (),
-    recommended: bool = False,
-) -> Bench:
-    """A bench from words as on the command line of `clamber limb`; if `recommended`, laws without gains have those found by tuning.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BenchTexts:
+    """What is the same at every point, in words as on the command line of `clamber limb sweep`."""
+
+    kind: MotionKind
+    measure: str | None = None
+    by: str = "0,-2cm"
+    radius: str = "5cm"
+    lap: float = 3.0
+    force: str = "10N,0"
+    laws: Sequence[str] = ()
+    kp: float | None = None
+    kd: float | None = None
+    match: Match = "yy"
+    reference: str = "scct"
+    robot: str = "libra"
+    limb: str | None = None
+    start: str | None = None
+    elbow: str | None = None
+    flaws: str = "nominal"
+    settings: Sequence[str] = ()
+    recommended: bool = False
+    """Whether laws without gains have those found by tuning."""
+
+
+def make_bench(texts: BenchTexts) -> Bench:
+    """A bench from words.
 
     Raises:
         PointError, PlantError, LawError: If a word cannot be read, or its value is not allowed.
         UnknownNameError: If there is no such robot, law, set of flaws or measure.
     """
-    chosen = USUAL_MEASURE[kind] if measure is None else measure
+    kind = texts.kind
+    chosen = USUAL_MEASURE[kind] if texts.measure is None else texts.measure
     inner = chosen.rpartition(".")[2]
     if chosen not in MEASURES or (inner in TIP_FIELDS and inner not in SCENARIO_MEASURES[kind]):
         sides = ("", "encoder.")
         known = (*(f"{each}{name}" for each in sides for name in SCENARIO_MEASURES[kind]), *RUN_MEASURES)
         raise UnknownNameError(f"measure of a {kind}", chosen, known)
-    plant = read_flaws(named_flaws(flaws, limbed_robot(robot)), settings)
-    law = reference_law(reference, kp, kd)
+    plant = read_flaws(named_flaws(texts.flaws, limbed_robot(texts.robot)), texts.settings)
+    law = reference_law(texts.reference, texts.kp, texts.kd)
     stated: Json
-    size = read_number("radius", radius, "length")
+    size = read_number("radius", texts.radius, "length")
     at = (CENTRE[0] + size, CENTRE[1]) if kind == "circle" else (0.22, 0.0)
     if kind == "step":
-        stated = dict(zip(("dx", "dy"), read_point("by", by), strict=True))
+        stated = dict(zip(("dx", "dy"), read_point("by", texts.by), strict=True))
     elif kind == "circle":
-        stated = {"centre": CENTRE, "radius": size, "lap": lap}
+        stated = {"centre": CENTRE, "radius": size, "lap": texts.lap}
     else:
-        stated = {"force": read_point("force", force, "force")}
-    texts = tuple(laws)
-    where = at if start is None else read_point("start", start)
-    if recommended:
-        chosen_limb = bench_limb(robot, limb, where, elbow=read_elbow(elbow), upright=plant.upright)
-        texts = tuple(with_recommended_gains(chosen_limb, texts or tuple(LAWS)))
+        stated = {"force": read_point("force", texts.force, "force")}
+    laws = tuple(texts.laws)
+    where = at if texts.start is None else read_point("start", texts.start)
+    if texts.recommended:
+        chosen_limb = bench_limb(texts.robot, texts.limb, where, elbow=read_elbow(texts.elbow), upright=plant.upright)
+        laws = tuple(with_recommended_gains(chosen_limb, laws or tuple(LAWS)))
     return Bench(
-        robot=robot, limb=limb, start=where, elbow=read_elbow(elbow),
-        kind=kind, command=stated, laws=texts, reference=law.law, kp=_one(law, "kp"), kd=_one(law, "kd"), match=match,
+        robot=texts.robot, limb=texts.limb, start=where, elbow=read_elbow(texts.elbow),
+        kind=kind, command=stated, laws=laws, reference=law.law, kp=_one(law, "kp"), kd=_one(law, "kd"), match=texts.match,
         measure=chosen, flaws=asdict(plant),
     )  # fmt: skip
 
@@ -210,26 +216,10 @@ def _places(axes: Sequence[Axis]) -> list[tuple[str, ...]]:
     return list(product(*(axis.values for axis in axes)))
 
 
-def run_limb_sweep(
-    bench: Bench,
-    axes: Sequence[Axis],
-    *,
-    workers: int = 1,
-    executor: Executor | None = None,
-    store: Path | None = None,
-    resume: bool = False,
-    progress: Callable[[int, int, Outcome], None] | None = None,
-) -> LimbSweep:
+def run_limb_sweep(bench: Bench, axes: Sequence[Axis], crew: Crew | None = None) -> LimbSweep:
     """Run every law at every point, then look for the boundaries between steady and unsteady neighbours.
 
-    Args:
-        bench: What stays the same.
-        axes: One or two keys of the plant (as of `--set`) or of the gains (`GAIN_KEYS`), with numbers.
-        workers: Processes; the result doesn't depend on it.
-        executor: Who works, in place of local processes.
-        store: SQLite file that keeps each point as it ends.
-        resume: Whether to go on with that file.
-        progress: Told of each end.
+    The axes are one or two keys of the plant (as of `--set`) or of the gains (`GAIN_KEYS`), with numbers.
 
     Raises:
         SweepError: If the axes don't fit together.
@@ -237,6 +227,7 @@ def run_limb_sweep(
         UnknownNameError: If a key cannot vary, or there is no such law or limb.
         PlantError, LawError: If the first point cannot be.
     """
+    crew = crew or Crew()
     check_axes(axes)
     for axis in axes:
         check_key(axis.key)
@@ -250,17 +241,13 @@ def run_limb_sweep(
     about = {"bench": told}
     items: list[Json] = [about | {"varied": varied} for varied in places]
     title = f"the limb sweep over {' and '.join(axis.key for axis in axes)}"
-    asked: dict[str, Any] = {"workers": workers, "executor": executor, "progress": progress}
-    ends = map_items(
-        run_point, items, store=store, resume=resume, title=title,
-        about=about | {"axes": [axis.to_json() for axis in axes]}, **asked,
-    )  # fmt: skip
+    ends = crew.map(run_point, items, title=title, about=about | {"axes": [axis.to_json() for axis in axes]})
     points = tuple(
-        {label: read_result(Cell, _result(end, varied).get(label) or {}, store) for label in labels}
+        {label: read_result(Cell, _result(end, varied).get(label) or {}, crew.store) for label in labels}
         for end, varied in zip(ends, places, strict=True)
     )
     scan = _scanned(axes)
-    boundaries = () if scan is None else _boundaries(about, axes, scan, labels, points, asked)
+    boundaries = () if scan is None else _boundaries(about, axes, scan, points, crew)
     return LimbSweep(
         bench=bench, axes=tuple(axes), labels=labels, points=points, boundaries=boundaries,
         scan=None if scan is None else axes[scan].key,
@@ -282,12 +269,7 @@ def _scanned(axes: Sequence[Axis]) -> int | None:
 
 
 def _boundaries(
-    about: Json,
-    axes: Sequence[Axis],
-    scan: int,
-    labels: Sequence[str],
-    points: Sequence[dict[str, Cell]],
-    asked: dict[str, Any],
+    about: Json, axes: Sequence[Axis], scan: int, points: Sequence[dict[str, Cell]], crew: Crew
 ) -> tuple[Boundary, ...]:
     """Bisect between every two neighbours of the scanned axis of which a law is steady at one alone."""
     axis, other = axes[scan], axes[1 - scan] if len(axes) == 2 else None
@@ -296,7 +278,7 @@ def _boundaries(
     items: list[Json] = []
     found: list[tuple[str, float | None, bool]] = []
     for row in range(1 if other is None else len(other.values)):
-        for label in labels:
+        for label in points[0]:
             for k, up in pairwise(order):
                 at, then = (_index(axes, scan, place, row) for place in (k, up))
                 steady = points[at][label].steady
@@ -311,7 +293,7 @@ def _boundaries(
                 )
                 beside = None if other is None or other.numbers is None else other.numbers[row]
                 found.append((label, beside, steady))
-    ends = map_items(find_boundary, items, **asked) if items else []
+    ends = crew.map(find_boundary, items) if items else []
     return tuple(
         Boundary(label=label, key=axis.key, at=_result(end, item["varied"] | {axis.key: item["low"]})["at"],
                  beside=beside, steady_below=steady)
