@@ -249,7 +249,7 @@ def tip_measures(tip: Floats, trace: LimbTrace, scenario: Scenario) -> TipMeasur
     return TipMeasures(**common)
 
 
-def components(vectors: Floats, direction: Sequence[float]) -> tuple[Floats, Floats]:
+def components(vectors: Floats, direction: Sequence[float] | Floats) -> tuple[Floats, Floats]:
     """Parts of plane vectors along a unit direction and across it, to its left."""
     x, y = direction
     return vectors @ np.array((x, y)), vectors @ np.array((-y, x))

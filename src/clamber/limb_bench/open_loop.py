@@ -21,8 +21,9 @@ from ..sim.limb_flaws import LimbFlaws
 from ..sim.plants import plant_maker
 from ..types import Floats, Json
 from .bench_limb import BenchLimb
+from .measures import components
 from .result import Comparison
-from .scenario import ScenarioError, left_of
+from .scenario import ScenarioError
 
 FIRST: Final = 1e-3
 """The first motion is the straight line from the start to where the tip is first this far away [m]."""
@@ -68,26 +69,30 @@ class OpenLoopRun:
     @property
     def along(self) -> Floats:
         """Way along the wanted direction [m], shape (steps + 1,)."""
-        out: Floats = (self.places - self.places[0]) @ self.wanted
-        return out
+        return components(self.places - self.places[0], self.wanted)[0]
 
     @property
     def across(self) -> Floats:
         """Way to the left of the wanted direction [m], shape (steps + 1,)."""
-        out: Floats = (self.places - self.places[0]) @ left_of(self.wanted)
+        return components(self.places - self.places[0], self.wanted)[1]
+
+    @property
+    def distance(self) -> Floats:
+        """From the start [m], shape (steps + 1,)."""
+        out: Floats = np.linalg.norm(self.places - self.places[0], axis=1)
         return out
 
     @property
     def moved(self) -> float:
         """Furthest distance from the start [m]."""
-        return float(np.linalg.norm(self.places - self.places[0], axis=1).max())
+        return float(self.distance.max())
 
     def turned(self, after: float = FIRST) -> float | None:
         """Angle of the motion from the wanted direction over its first `after` metres, anticlockwise positive [rad].
 
         None: the tip never gets so far.
         """
-        distance = np.linalg.norm(self.places - self.places[0], axis=1)
+        distance = self.distance
         if not distance.max() >= after:
             return None
         k = int(np.argmax(distance >= after))

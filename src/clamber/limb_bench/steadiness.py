@@ -60,7 +60,7 @@ class Situation:
 
 def poses(limb: BenchLimb, reaches: Sequence[float] = REACHES, bearing: float = 0.0) -> list[Floats]:
     """Joint angles at some distances from the port, on both branches of the elbow as far as the joints' limits allow [rad]."""
-    spec = limb.robot.limbs[limb.robot.limb_index(limb.name)]
+    spec = limb.spec
     joints = limb.chain.joints
     out = []
     for reach in reaches:
@@ -98,7 +98,7 @@ def situations(limb: BenchLimb, rate: float, effort: Effort) -> list[Situation]:
 
 def _circles(limb: BenchLimb, rate: float) -> list[Situation]:
     """Circles about the middle of the reach, from their outermost point, on each branch; the aim stops after `CIRCLE_SECONDS`."""
-    spec = limb.robot.limbs[limb.robot.limb_index(limb.name)]
+    spec = limb.spec
     centre = (0.7 * spec.length, 0.0)
     out = []
     for q in poses(limb, (0.7 + CIRCLE / spec.length,)):
@@ -137,18 +137,12 @@ def run_situations(
     return out
 
 
-def peak_to_peak(trace: LimbTrace, since: float = QUIET_FROM) -> Floats:
-    """Longer side of the box that the true tip stays in from `since` on, shape (batch,) [m]; inf where a run diverged."""
-    return _box(trace, trace.true, since)
+def peak_to_peak(trace: LimbTrace, since: float = QUIET_FROM, *, motors: bool = False) -> Floats:
+    """Longer side of the box that the tip stays in from `since` on, shape (batch,) [m]; inf where a run diverged.
 
-
-def motor_peak_to_peak(trace: LimbTrace, since: float) -> Floats:
-    """The same of the tip as the motors' encoders place it."""
-    return _box(trace, trace.sensed, since)
-
-
-def _box(trace: LimbTrace, states: Floats, since: float) -> Floats:
-    late = states[trace.time >= since]
+    The tip is the true one, or the one where the motors' encoders place it.
+    """
+    late = (trace.sensed if motors else trace.true)[trace.time >= since]
     places = np.array([[trace.chain.place(state[0])[:2] for state in row] for row in late])
     sides: Floats = np.ptp(places, axis=0).max(axis=-1)
     return np.where(np.isfinite(sides), sides, np.inf)

@@ -121,7 +121,7 @@ class LimbSweep(BenchResult):
         """Plain data; measures in SI, axes and boundaries in the units of their axes."""
         return {
             "schema": SCHEMA,
-            "bench": asdict(self.bench) | {"start": list(self.bench.start), "laws": list(self.bench.laws)},
+            "bench": self.bench.to_json(),
             "axes": [axis.to_json() for axis in self.axes],
             "laws": list(self.labels),
             "wins": self.wins(),
@@ -237,8 +237,7 @@ def run_limb_sweep(bench: Bench, axes: Sequence[Axis], crew: Crew | None = None)
     limb = bench.build_limb()
     built = [bench.build_point(limb, varied) for varied in places]  # every mistake is told before anything runs
     labels = tuple(entry.label for entry in built[0][1])
-    told: Json = asdict(bench) | {"start": list(bench.start), "laws": list(bench.laws)}
-    about = {"bench": told}
+    about = {"bench": bench.to_json()}
     items: list[Json] = [about | {"varied": varied} for varied in places]
     title = f"the limb sweep over {' and '.join(axis.key for axis in axes)}"
     ends = crew.map(run_point, items, title=title, about=about | {"axes": [axis.to_json() for axis in axes]})

@@ -4,13 +4,12 @@ What varies is text, such as "backlash" and "2 deg", so that a point is plain da
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from typing import Any, Final
 
 import numpy as np
 
 from ..errors import ClamberError, UnknownNameError
-from ..execution.trace import LimbTrace
 from ..sim.flaw_texts import DIMENSIONS as FLAWS
 from ..sim.flaw_texts import WHOLE, read_flaw
 from ..sim.limb_flaws import LimbFlaws
@@ -23,7 +22,7 @@ from .measures import Entry, Measures, Run, measure
 from .runner import run_contest
 from .scenario import MOTIONS, MotionKind, Scenario
 from .stability import scaled_gains
-from .steadiness import RESTING, STEADY, motor_peak_to_peak, peak_to_peak
+from .steadiness import RESTING, STEADY, peak_to_peak
 
 GAIN_KEYS: Final = ("kp", "kd", "gain")
 """kp and kd of the reference law, which others are matched to; gain multiplies every law's own."""
@@ -66,6 +65,15 @@ class Bench:
     """A field of `TipMeasures`, of the truth or with "encoder." before it, of `Measures`, or `PEAK`."""
     flaws: Json
     """Fields of `LimbFlaws`."""
+
+    def to_json(self) -> Json:
+        """Plain data."""
+        return asdict(self) | {"start": list(self.start), "laws": list(self.laws)}
+
+    @classmethod
+    def from_json(cls, value: Json) -> "Bench":
+        """The bench of `to_json`."""
+        return cls(**value | {"start": tuple(value["start"]), "laws": tuple(value["laws"])})
 
     def build_limb(self) -> BenchLimb:
         """The limb at its start."""
@@ -154,20 +162,16 @@ def try_laws(bench: Bench, varied: Json, only: str | None = None) -> dict[str, C
 
 
 def _cell(bench: Bench, limb: BenchLimb, scenario: Scenario, run: Run, ticks: int) -> Cell:
-    since = ticks / _rate(run.trace) + REST / 2
+    since = ticks / (1.0 / run.period) + REST / 2
     swing = float(peak_to_peak(run.trace, since)[0])
     asked = replace(scenario, aims=scenario.aims[:ticks])
     told = measure(replace(run, trace=run.trace.first(ticks)), asked, limb)
     # Behind resting motors a link may still coast through its play: that is no cycle, and dies out
-    resting = float(motor_peak_to_peak(run.trace, since)[0]) <= RESTING
+    resting = float(peak_to_peak(run.trace, since, motors=True)[0]) <= RESTING
     steady = told.unstable_at is None and (swing <= STEADY or resting)
     value = swing if bench.measure == PEAK else _pick(told, bench.measure)
     lost = value is None or not math.isfinite(value)
     return Cell(None if lost else value, swing if math.isfinite(swing) else 1e9, steady)
-
-
-def _rate(trace: LimbTrace) -> float:
-    return 1.0 / float(trace.time[1] - trace.time[0])
 
 
 def _pick(told: Measures, name: str) -> float | None:
@@ -188,8 +192,8 @@ def run_point(item: Json) -> Json:
     Returns:
         The fields of `Cell` by label of the law.
     """
-    cells = try_laws(_bench(item["bench"]), item["varied"])
-    return {label: {"value": c.value, "peak_to_peak": c.peak_to_peak, "steady": c.steady} for label, c in cells.items()}
+    cells = try_laws(Bench.from_json(item["bench"]), item["varied"])
+    return {label: asdict(cell) for label, cell in cells.items()}
 
 
 def find_boundary(item: Json) -> Json:
@@ -202,14 +206,10 @@ def find_boundary(item: Json) -> Json:
     Returns:
         `at`, in that unit.
     """
-    bench, low, high = _bench(item["bench"]), item["low"], item["high"]
+    bench, low, high = Bench.from_json(item["bench"]), item["low"], item["high"]
     while high - low > item["precision"]:
         middle = 0.5 * (low + high)
         text = f"{middle:.12g} {item['unit']}".rstrip()
         cell = try_laws(bench, item["varied"] | {item["key"]: text}, item["label"])[item["label"]]
         low, high = (middle, high) if cell.steady == item["steady"] else (low, middle)
     return {"at": 0.5 * (low + high)}
-
-
-def _bench(told: Json) -> Bench:
-    return Bench(**told | {"start": tuple(told["start"]), "laws": tuple(told["laws"])})

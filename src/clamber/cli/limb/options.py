@@ -16,7 +16,7 @@ from ..output import check_writable, plain_table, print_json, stdout
 
 if TYPE_CHECKING:
     from ...limb_bench.bench_limb import BenchLimb
-    from ...limb_bench.result import Comparison
+    from ...limb_bench.result import BenchResult, Comparison
     from ...limb_bench.runner import Crew
     from ...sim.limb_flaws import LimbFlaws
 
@@ -165,6 +165,17 @@ def crew_of(words: CrewWords, what: str) -> "Crew":
 
     told = words.line(what).update
     return Crew(executor=words.executor, store=words.store, resume=words.resume, progress=told)
+
+
+def tell_batch(result: "BenchResult", words: CrewWords, show: Callable[[Console], None], *also: Path | None) -> None:
+    """Write the output, then print the result: as JSON, or by `show` and with the names of the files, `also` first."""
+    if words.output is not None:
+        result.write(words.output)
+    if words.as_json:
+        print_json(result.to_json())
+        return
+    show(stdout())
+    tell_written(stdout(), *also, words.output)
 
 
 def check_output(path: Path | None, *suffixes: str) -> None:

@@ -9,7 +9,7 @@ from rich.console import Console
 
 from ..crew import CrewWords
 from ..option_holder import takes_words
-from ..output import announce_compilation, print_json, stdout
+from ..output import announce_compilation
 from . import options as opt
 
 if TYPE_CHECKING:
@@ -82,13 +82,7 @@ def sweep(
     ))  # fmt: skip
     announce_compilation(quiet=words.quiet)
     result = run_limb_sweep(bench, axes, opt.crew_of(words, "points"))
-    if words.output is not None:
-        result.write(words.output)
-    if words.as_json:
-        print_json(result.to_json())
-    else:
-        print_limb_sweep(stdout(), result)
-        opt.tell_written(stdout(), words.output)
+    opt.tell_batch(result, words, lambda console: print_limb_sweep(console, result))
     raise typer.Exit(0 if any(result.wins().values()) else 1)
 
 

@@ -10,7 +10,7 @@ from rich.console import Console
 from ..crew import CrewWords
 from ..name_completion import names_of
 from ..option_holder import takes_words
-from ..output import announce_compilation, check_writable, print_json, stdout
+from ..output import announce_compilation, check_writable
 from . import options as opt
 
 if TYPE_CHECKING:
@@ -58,13 +58,7 @@ def tune(
     result = find(chosen, laws, plant, robot=limb.robot, margin=margin, crew=opt.crew_of(words, "searches"))
     if save is not None:
         save_recommended(result.recommended(), save)
-    if words.output is not None:
-        result.write(words.output)
-    if words.as_json:
-        print_json(result.to_json())
-    else:
-        print_tuning(stdout(), result)
-        opt.tell_written(stdout(), save, words.output)
+    opt.tell_batch(result, words, lambda console: print_tuning(console, result), save)
     raise typer.Exit(0 if result.steady else 1)
 
 
