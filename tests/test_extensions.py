@@ -158,9 +158,10 @@ def test_its_law_moves_the_tip_as_ours_of_the_same_equation_does(install: Any) -
     """Where gravity does not act and nothing limits the motors, J^T (kp e - kd v) is our jacobian-transpose."""
     install()
     from clamber.control.law_settings import LawSettings
-    from clamber.experiments.limb.bench_limb import bench_limb
-    from clamber.experiments.limb.contest import Entry, run_contest
-    from clamber.experiments.limb.scenario import step_scenario
+    from clamber.limb_bench.bench_limb import bench_limb
+    from clamber.limb_bench.measures import Entry
+    from clamber.limb_bench.runner import run_contest
+    from clamber.limb_bench.scenario import step_scenario
     from clamber.sim.limb_flaws import LimbFlaws
 
     limb, flaws = bench_limb(), LimbFlaws()

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Final
 from pydantic import GetCoreSchemaHandler
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from .errors import UnitError, describe_choices
+from .errors import ClamberError, UnitError, describe_choices
 
 INCH: Final = 0.0254
 """One inch [m], exact."""
@@ -149,6 +149,48 @@ def read_quantity(raw: object, dimension: str) -> float:
     if not abs(raw) <= LARGEST:
         raise UnitError(raw, "is not a finite number", f"state a finite {dimension} with its unit")
     raise UnitError(raw, "lacks its unit", _suggestion(raw, dimension))
+
+
+class PointError(ClamberError):
+    """A text that is no number or no pair of numbers: names the key, the text and what is allowed."""
+
+    def __init__(self, key: str, text: str, allowed: str) -> None:
+        super().__init__(key, text, allowed)
+        self.key, self.text, self.allowed = key, text, allowed
+
+    def __str__(self) -> str:
+        return f"{self.key} = {self.text}: {self.allowed}"
+
+
+def read_point(key: str, text: str, dimension: str = "length") -> tuple[float, float]:
+    """Two numbers of a text such as "22cm,0"; without a unit they are in SI.
+
+    Raises:
+        PointError: If it is no such pair.
+    """
+    parts = text.split(",")
+    if len(parts) != 2:
+        raise PointError(key, text, "must be two numbers with a comma between, such as 22cm,0")
+    x, y = (read_number(key, part, dimension) for part in parts)
+    return x, y
+
+
+def read_number(key: str, text: str, dimension: str) -> float:
+    """A finite number of a text, in SI or with a unit.
+
+    Raises:
+        PointError: If it is none.
+    """
+    try:
+        value = float(text)
+    except ValueError:
+        try:
+            value = parse_quantity(text, dimension)
+        except UnitError as error:
+            raise PointError(key, text.strip(), f"{error.problem}; {error.allowed}") from None
+    if not math.isfinite(value):
+        raise PointError(key, text.strip(), "must be finite")
+    return value
 
 
 def _suggestion(number: float, dimension: str) -> str:

@@ -68,6 +68,6 @@ ELSEWHERE = {
     "plant stop": "tests/cli/test_plant.py",
     "plant release": "tests/cli/test_plant.py",
     "bench": "tests/experiments/test_boards.py",
-    "limb tune": "tests/experiments/limb/test_limb_tune.py",
+    "limb tune": "tests/limb_bench/test_limb_tune.py",
 }
 """Commands that need a partner, the machine for themselves, or minutes, and the tests that hold them against their schemas."""

@@ -43,7 +43,7 @@ def test_identify_finds_the_friction_of_a_circle_in_its_log(clamber: Any, suffix
     code, out, _ = clamber("limb", "identify", str(log), "--json")
     told = json.loads(out)
     assert code == 0 and told["robot"] == "libra" and told["limb"] == "right"
-    from clamber.experiments.limb.bench_limb import bench_limb
+    from clamber.limb_bench.bench_limb import bench_limb
 
     joints = bench_limb().chain.joints
     for joint, record in zip(told["joints"], joints, strict=True):

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from clamber.experiments.limb.open_loop import TRANSFORMS
+from clamber.limb_bench.open_loop import TRANSFORMS
 
 
 @pytest.fixture

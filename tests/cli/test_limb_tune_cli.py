@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from clamber.experiments.limb import tune
+from clamber.limb_bench import tune
 
 
 @pytest.mark.parametrize(

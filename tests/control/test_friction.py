@@ -5,7 +5,7 @@ import pytest
 
 from clamber.control.controller import Controller, still_aim
 from clamber.control.law_settings import LawSettings
-from clamber.experiments.limb.bench_limb import BenchLimb, bench_limb
+from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
 
 
 @pytest.fixture(scope="module")

@@ -9,7 +9,7 @@ from clamber.control.controller import Controller, MeasurementError, still_aim
 from clamber.control.kinematics import CENTRE, FRAME, place_chain
 from clamber.control.law_settings import LawError, LawSettings
 from clamber.control.torque_loop import read_mount
-from clamber.experiments.limb.bench_limb import bench_limb
+from clamber.limb_bench.bench_limb import bench_limb
 
 PERIOD = 0.005
 

@@ -11,8 +11,8 @@ from clamber.execution.closed_loop import LimbGuard, close_loop
 from clamber.execution.fault import FAULTS, Fault
 from clamber.execution.faulty_plants import FaultyLimb
 from clamber.execution.trace import LimbTrace
-from clamber.experiments.limb.bench_limb import bench_limb
-from clamber.experiments.limb.scenario import circle_scenario
+from clamber.limb_bench.bench_limb import bench_limb
+from clamber.limb_bench.scenario import circle_scenario
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.sim.plants import PLANTS
 

@@ -7,9 +7,10 @@ from clamber.control.law_settings import LawSettings
 from clamber.execution.log import LogError
 from clamber.execution.log_files import read_log, write_log
 from clamber.execution.log_trace import log_trace, trace_log
-from clamber.experiments.limb.bench_limb import bench_limb
-from clamber.experiments.limb.contest import Entry, run_contest
-from clamber.experiments.limb.scenario import circle_scenario
+from clamber.limb_bench.bench_limb import bench_limb
+from clamber.limb_bench.measures import Entry
+from clamber.limb_bench.runner import run_contest
+from clamber.limb_bench.scenario import circle_scenario
 from clamber.sim.limb_flaws import LimbFlaws
 
 

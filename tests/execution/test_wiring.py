@@ -11,7 +11,7 @@ from clamber.errors import SpecError
 from clamber.execution.hardware import Decoder, Reading, WiredClimber, WiredLimb
 from clamber.execution.plant import BodyPlant, BodySensed, LimbPlant
 from clamber.execution.wiring import COMMAND_LIMIT, Wiring, wiring_of, wiring_of_limb
-from clamber.experiments.limb.bench_limb import bench_limb
+from clamber.limb_bench.bench_limb import bench_limb
 from clamber.robots.library import load_robot
 from clamber.robots.limbed import LimbedRobot
 from clamber.sim.climber_plant import ClimberPlant

@@ -11,8 +11,8 @@ from clamber.control.law_settings import LAWS
 from clamber.execution.closed_loop import close_loop
 from clamber.experiments import control_speed, ik_peers
 from clamber.experiments.benches import BENCHES
-from clamber.experiments.limb.bench_limb import BenchLimb, bench_limb
-from clamber.experiments.limb.scenario import step_scenario
+from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
+from clamber.limb_bench.scenario import step_scenario
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.sim.mujoco_limb import MujocoLimb
 from clamber.sim.raw_steps import RawSteps

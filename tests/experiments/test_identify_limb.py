@@ -10,10 +10,11 @@ from clamber.execution.log_files import read_log, write_log
 from clamber.execution.log_identify import Identification, Known, identify_log
 from clamber.execution.log_roles import samples_of
 from clamber.execution.log_trace import trace_log
-from clamber.experiments.limb.bench_limb import bench_limb
-from clamber.experiments.limb.contest import Entry, run_contest
-from clamber.experiments.limb.excitation import ExcitationError, SensorNoise, record_log
-from clamber.experiments.limb.scenario import circle_scenario
+from clamber.limb_bench.bench_limb import bench_limb
+from clamber.limb_bench.excitation import SensorNoise, record_log
+from clamber.limb_bench.measures import Entry
+from clamber.limb_bench.runner import run_contest
+from clamber.limb_bench.scenario import ScenarioError, circle_scenario
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.units import DEGREE
 
@@ -92,7 +93,7 @@ def test_a_recorded_log_keeps_within_the_joints_limits_and_stalls_at_one() -> No
 
 
 def test_noise_that_cannot_be_is_refused() -> None:
-    with pytest.raises(ExcitationError, match=r"noise.current = -1.0: must be 0 or more"):
+    with pytest.raises(ScenarioError, match=r"noise.current = -1.0: must be 0 or more"):
         SensorNoise(current=-1.0)
 
 

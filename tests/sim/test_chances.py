@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from clamber.experiments.limb.bench_limb import bench_limb
-from clamber.experiments.limb.contest import MISBELIEVED, believed_chain
+from clamber.limb_bench.bench_limb import bench_limb
+from clamber.limb_bench.runner import MISBELIEVED, believed_chain
 from clamber.sim.chances import Chances
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.sim.mujoco_limb import MujocoLimb

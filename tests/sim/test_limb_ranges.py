@@ -2,7 +2,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from clamber.experiments.limb.bench_limb import bench_limb
+from clamber.limb_bench.bench_limb import bench_limb
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.sim.limb_model import limb_spec
 from clamber.sim.mujoco_limb import MujocoLimb

@@ -12,8 +12,8 @@ from clamber.control.chain import Chain, chain_of_limb, closed_branches
 from clamber.control.controller import Controller, MeasurementError, still_aim
 from clamber.control.law_settings import LawSettings
 from clamber.execution.closed_loop import close_loop
-from clamber.experiments.limb.bench_limb import BenchLimb, bench_limb
-from clamber.experiments.limb.scenario import step_scenario
+from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
+from clamber.limb_bench.scenario import step_scenario
 from clamber.robots.library import load_robot, robot_names
 from clamber.robots.limbed import LimbedRobot
 from clamber.sim.limb_flaws import LimbFlaws, Push

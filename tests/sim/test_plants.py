@@ -6,9 +6,10 @@ import pytest
 from clamber.control.chain import chain_of_limb
 from clamber.control.law_settings import LawSettings
 from clamber.errors import UnknownNameError
-from clamber.experiments.limb.bench_limb import BenchLimb, bench_limb
-from clamber.experiments.limb.contest import Entry, run_contest
-from clamber.experiments.limb.scenario import step_scenario
+from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
+from clamber.limb_bench.measures import Entry
+from clamber.limb_bench.runner import run_contest
+from clamber.limb_bench.scenario import step_scenario
 from clamber.robots.library import load_robot, robot_names
 from clamber.robots.limbed import LimbedRobot
 from clamber.sim.limb_flaws import LimbFlaws, Push

@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from clamber.experiments.limb.bench_limb import BenchLimb, bench_limb
+from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
 from clamber.sim.limb_flaws import LimbFlaws, Wall
 from clamber.sim.limb_model import limb_spec
 from clamber.sim.mujoco_limb import MujocoLimb

@@ -18,7 +18,7 @@ from clamber.execution.plant import LimbPlant
 from clamber.execution.posture_guard import PostureGuard
 from clamber.execution.trace import LimbTrace
 from clamber.execution.wiring import Wiring, wiring_of_limb
-from clamber.experiments.limb.bench_limb import BenchLimb, bench_limb
+from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
 from clamber.sim.limb_flaws import LimbFlaws, Push
 from clamber.sim.plants import PLANTS
 from clamber.sim.wires import LimbWires

@@ -1,25 +1,23 @@
 """Compare control laws on one limb: the same motion, the same plant, gains matched unless stated."""
 
 from collections.abc import Sequence
-from typing import Any, Final, Literal
+from typing import Any, Final
 
-from ..experiments.limb.bench_limb import bench_limb, limbed_robot
-from ..experiments.limb.entries import make_entries, match_pose, reference_law
-from ..experiments.limb.flaw_texts import named_flaws, read_flaws
-from ..experiments.limb.matching import Match
-from ..experiments.limb.result import LimbResult, compare_laws
-from ..experiments.limb.scenario import circle_scenario, push_scenario, step_scenario
+from ..limb_bench.bench_limb import bench_limb, limbed_robot
+from ..limb_bench.entries import make_entries, match_pose, reference_law
+from ..limb_bench.matching import Match
+from ..limb_bench.result import LimbResult, Matching, compare_laws
+from ..limb_bench.runner import Contest
+from ..limb_bench.scenario import MOTIONS, MotionKind
+from ..sim.flaw_texts import named_flaws, read_flaws
 
-Motion = Literal["step", "circle", "push"]
-MOTIONS: Final[dict[Motion, Any]] = {"step": step_scenario, "circle": circle_scenario, "push": push_scenario}
-"""Name -> what makes it; `compare` hands `how` to it."""
 CENTRE: Final = (0.22, 0.0)
 RADIUS: Final = 0.05
 
 
 def compare(
     laws: Sequence[str] = (),
-    motion: Motion = "step",
+    motion: MotionKind = "step",
     *,
     robot: str = "libra",
     limb: str | None = None,
@@ -71,8 +69,5 @@ def compare(
     scenario = MOTIONS[motion](on_bench, properties.control_rate, **how)
     at = match_pose(on_bench, scenario)
     towards = reference_law(reference, kp, kd)
-    entries = make_entries(on_bench, laws, towards, match, at)
-    return compare_laws(
-        on_bench, scenario, entries, properties, plant=plant, trials=trials, workers=workers, match=match,
-        reference=towards, match_at=at,
-    )  # fmt: skip
+    contest = Contest(on_bench, scenario, make_entries(on_bench, laws, towards, match, at), properties, plant)
+    return compare_laws(contest, trials=trials, workers=workers, matching=Matching(towards, match, at))

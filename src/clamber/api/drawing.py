@@ -9,13 +9,13 @@ from ..actions.plan import Plan
 from ..actions.plan_families import plan_family
 from ..errors import ClamberError
 from ..experiments.climb.run_plan import ClimbRun
-from ..experiments.limb.result import LimbResult
 from ..experiments.walk.run_walk import WalkRun
+from ..limb_bench.pictures.comparison import draw_comparison
+from ..limb_bench.result import LimbResult
 from ..planning.result import PlanResult
 from ..tasks.limbed import LimbedTask
 from ..tasks.walker import WalkerTask
 from ..viewing.climb_run_view import write_run
-from ..viewing.limb_plot import draw_limb_result
 from ..viewing.output import CANVASES
 from ..viewing.pictures import animate, draw_route, draw_stance
 from ..viewing.walk_run_view import write_walk
@@ -53,7 +53,7 @@ def draw(what: Any, path: str | Path, *, step: int | None = None) -> Path:
     elif isinstance(what, WalkRun):
         write_walk(what, file)
     elif isinstance(what, LimbResult):
-        draw_limb_result(what, file)
+        draw_comparison(what, file)
     elif isinstance(what, PlanResult):
         _draw_plan(what.task, what.plan, file, step)
     elif isinstance(what, Plan):

@@ -31,11 +31,10 @@ def press(
     check_writable(output)
     from ..experiments.climb.press import run_press
     from ..experiments.climb.run_plan import PHYSICS_RATE
-    from ..experiments.limb.flaw_texts import named_flaws, read_flaws
-    from ..experiments.limb.points import read_point
     from ..robots.library import load_robot
     from ..robots.limbed import LimbedRobot
-    from ..units import parse_quantity
+    from ..sim.flaw_texts import named_flaws, read_flaws
+    from ..units import parse_quantity, read_point
     from ..viewing.output import CANVASES, check_suffix
     from ..viewing.press_plot import draw_press
     from ..worlds.library import load_board

@@ -9,17 +9,18 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
+from ..control.chain import Chain, chain_of_limb, closed_branches
 from ..control.controller import Controller, still_aim
 from ..control.law_settings import LAWS, LawSettings
 from ..execution.closed_loop import close_loop
+from ..robots.library import load_robot
+from ..robots.limbed import LimbedRobot
 from ..sim.limb_flaws import LimbFlaws, Push
 from ..sim.mujoco_limb import MujocoLimb
 from ..sim.ode_limb import OdeLimb
 from ..sim.raw_steps import RawSteps
 from ..types import Floats, Records
 from .ik_peers import IK_PEERS, Tick, installed
-from .limb.bench_limb import BenchLimb, bench_limb
-from .limb.scenario import step_scenario
 from .rows import NOTHING, Row, Say, keep_quiet
 
 Clock: TypeAlias = Callable[[], float]
@@ -35,8 +36,37 @@ LIMBS: Final = 256
 """Limbs of a batch in closed loop."""
 SECONDS: Final = 1.0
 """Of closed loop in one timing."""
+START: Final = (0.22, 0.0)
+"""Of the tip, port frame [m]."""
+STEP: Final = 0.02
+"""[m]."""
 FORCED: Final = frozenset({"hybrid", "implicit-force"})
 """Laws that are timed with a force along x."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TimedLimb:
+    """The limb that controllers are timed on."""
+
+    chain: Chain
+    gears: Floats
+    """Motor turns per joint turn, shape (n,)."""
+    q0: Floats
+    """Joint angles at the start, shape (n,) [rad]."""
+
+
+def timed_limb() -> TimedLimb:
+    """LIBRA's first limb with its tip at `START`."""
+    robot = load_robot("libra")
+    assert isinstance(robot, LimbedRobot)
+    spec = robot.limbs[0]
+    gears = np.array((spec.shoulder.gear, spec.elbow.gear))
+    return TimedLimb(chain_of_limb(robot, robot.limb_names[0]), gears, np.array(closed_branches(spec, *START)[0]))
+
+
+def step_aims(rate: float, seconds: float) -> Records:
+    """The reference of a 2 cm step downwards, tick by tick; `rate` is the control's [Hz]."""
+    return np.stack([still_aim((START[0], START[1] - STEP))] * round(seconds * rate))
 
 
 def law_named(law: str) -> LawSettings:
@@ -66,7 +96,7 @@ def round_times(works: Sequence[Callable[[], Any]], rounds: int, clock: Clock = 
     return times
 
 
-def random_states(limb: BenchLimb, shape: tuple[int, ...]) -> Floats:
+def random_states(limb: TimedLimb, shape: tuple[int, ...]) -> Floats:
     """Joint angles and speeds about the limb's start, shape (*shape, 2, n)."""
     rng = np.random.default_rng(0)
     out = rng.uniform(-0.3, 0.3, (*shape, 2, limb.chain.n))
@@ -83,7 +113,7 @@ def _tick_often(controller: Controller, aims: Records, states: Floats, wrenches:
 def tick_rows(*, rounds: int = ROUNDS, ticks: int = TICKS, batch: int = BATCH, say: Say = keep_quiet) -> list[Row]:
     """One tick of every law, called from Python: on one limb, and per limb of a batch, on one core."""
     say("one tick of every law")
-    limb, laws = bench_limb(), laws_timed()
+    limb, laws = timed_limb(), laws_timed()
     aims = still_aim((0.22, -0.02))
     rows = []
     for size, aim, label in (
@@ -108,7 +138,7 @@ def _solve_often(tick: Tick, states: Floats, place: Floats, ticks: int) -> None:
 
 def peer_rows(*, rounds: int = ROUNDS, ticks: int = PEER_TICKS, say: Say = keep_quiet) -> list[Row]:
     """The motion of one tick by mink and by pink over our tick of resolved rate control, which has torques besides."""
-    limb = bench_limb()
+    limb = timed_limb()
     states, place = random_states(limb, (STATES, 1)), np.array((0.22, -0.02, 0.0))
     rows = []
     for name, make in IK_PEERS.items():
@@ -162,12 +192,12 @@ def loop_rows(
     say: Say = keep_quiet,
 ) -> list[Row]:
     """Closed-loop simulation, trace and all, over `mj_step` of the same model with the same torques; the 2 cm step, 200 Hz."""
-    limb = bench_limb()
+    limb = timed_limb()
     rows = []
     for loop in loops_timed() if loops is None else loops:
         say(f"closed loop, {loop.label}")
         flaws = loop.flaws
-        aims = step_scenario(limb, flaws.control_rate, seconds=seconds if loop.batch == 1 else seconds / 4).aims
+        aims = step_aims(flaws.control_rate, seconds if loop.batch == 1 else seconds / 4)
         controller = Controller(limb.chain, law_named("scct"), period=flaws.period, batch=loop.batch)
         plant = MujocoLimb(limb.chain, flaws, gears=limb.gears, batch=loop.batch)
 
@@ -186,8 +216,8 @@ def loop_rows(
 
 def ode_row(*, rounds: int = ROUNDS, seconds: float = SECONDS) -> Row:
     """What a closed loop on the ODE takes of real time."""
-    limb, flaws = bench_limb(), LimbFlaws()
-    aims = step_scenario(limb, flaws.control_rate, seconds=seconds).aims
+    limb, flaws = timed_limb(), LimbFlaws()
+    aims = step_aims(flaws.control_rate, seconds)
     controller, plant = Controller(limb.chain, law_named("scct"), period=flaws.period), OdeLimb(limb.chain, flaws)
 
     def closed() -> None:

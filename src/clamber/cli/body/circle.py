@@ -19,7 +19,7 @@ def circle(
     """Let the body's aim run round a circle, the tips fixed to their pegs unless --hooked (thesis, Fig. 4.17)."""
     words.check()
     from ...experiments.climb.body_scenario import circle as round_circle
-    from ...experiments.limb.points import read_number
+    from ...units import read_number
 
     flaws = words.build_plant()
     size = read_number("radius", radius, "length")

@@ -90,7 +90,7 @@ class BodyWords:
     def build_stand(self, *, fixed: bool = False, below: str = "15mm", hanging: bool = False) -> "BodyStand":
         """The robot as it is held; the arguments are what counts where nothing is said."""
         from ...experiments.climb.body_stand import ladder_stand
-        from ...experiments.limb.points import read_number
+        from ...units import read_number
 
         height = read_number("below", self.below or below, "length")
         return ladder_stand(fixed=fixed if self.fixed is None else self.fixed, below=height, hanging=hanging)

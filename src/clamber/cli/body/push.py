@@ -26,7 +26,7 @@ def push(
     words.check()
     from ...experiments.climb.body_scenario import push as pushed
     from ...experiments.climb.body_trials import push_trials
-    from ...experiments.limb.points import read_point
+    from ...units import read_point
     from .text import print_trials
 
     flaws = words.build_plant()

@@ -18,7 +18,7 @@ def push_up(
     """Push the body up on its hooks (thesis, Fig. 4.18)."""
     words.check()
     from ...experiments.climb.body_scenario import push_up as up
-    from ...experiments.limb.points import read_number
+    from ...units import read_number
 
     flaws = words.build_plant()
     stand = words.build_stand()

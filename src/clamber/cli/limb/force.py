@@ -1,14 +1,62 @@
 """`clamber limb force`: a force on a wall, held standing and sliding, with each way to deal with joint friction."""
 
-from typing import Annotated
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+from rich.console import Console
 
-from ..options import ROBOT, AsJson, Output, Quiet
+from ..option_holder import takes_words
 from ..output import announce_compilation
 from . import options as opt
 
+if TYPE_CHECKING:
+    from ...limb_bench.force import ForceResult
+    from ...limb_bench.scenario import ForceTask
 
+TITLES = ("mean\nN", "stand\nN", "slide\nN", "worst\nN", "touch\n%", "off\nmm", "work\nJ", "held")
+
+
+@dataclass(frozen=True, slots=True)
+class WallWords:
+    """The wall and what is asked of the limb there, as it came."""
+
+    size: Annotated[str, typer.Option("--force", help="Into the wall.")] = "20N"
+    angle: Annotated[str, typer.Option(help="Direction into the wall, from the limb's x axis.")] = "90deg"
+    stiffness: Annotated[str, typer.Option(help="Of the wall.")] = "10N/mm"
+    wall_friction: Annotated[
+        float, typer.Option(min=0.0, help="Friction coefficient of the wall; a slip chatters.")
+    ] = 0.0
+    believed_angle: Annotated[str | None, typer.Option(help="What the laws take for the angle.")] = None
+    believed_stiffness: Annotated[str | None, typer.Option(help="What they take for the stiffness.")] = None
+    slide: Annotated[str, typer.Option(help="Way along the wall at full force.")] = "3cm"
+    gap: Annotated[str, typer.Option(help="From the start to the wall.")] = "2mm"
+    tolerance: Annotated[str, typer.Option(help="Largest error of a force that is held.")] = "1N"
+
+    def build_task(self) -> "ForceTask":
+        """What is asked."""
+        from ...limb_bench.scenario import ForceTask
+        from ...units import read_number
+
+        told = {
+            "force": (self.size, "force"),
+            "angle": (self.angle, "angle"),
+            "stiffness": (self.stiffness, "stiffness"),
+            "believed angle": (self.believed_angle, "angle"),
+            "believed stiffness": (self.believed_stiffness, "stiffness"),
+            "slide": (self.slide, "length"),
+            "gap": (self.gap, "length"),
+            "tolerance": (self.tolerance, "force"),
+        }
+        numbers = {
+            key.replace(" ", "_"): read_number(key, text, dimension)
+            for key, (text, dimension) in told.items()
+            if text is not None
+        }
+        return ForceTask(friction=self.wall_friction, **numbers)
+
+
+@takes_words
 def force(
     controllers: Annotated[
         list[str] | None,
@@ -22,58 +70,41 @@ def force(
             help="none, model, integral (of the wrist's force), wrist or base (torque loops), wrist+model or base+model; repeat it.",
         ),
     ] = None,
-    size: Annotated[str, typer.Option("--force", help="Into the wall.")] = "20N",
-    angle: Annotated[str, typer.Option(help="Direction into the wall, from the limb's x axis.")] = "90deg",
-    stiffness: Annotated[str, typer.Option(help="Of the wall.")] = "10N/mm",
-    wall_friction: Annotated[
-        float, typer.Option(min=0.0, help="Friction coefficient of the wall; a slip chatters.")
-    ] = 0.0,
-    believed_angle: Annotated[str | None, typer.Option(help="What the laws take for the angle.")] = None,
-    believed_stiffness: Annotated[str | None, typer.Option(help="What they take for the stiffness.")] = None,
-    slide: Annotated[str, typer.Option(help="Way along the wall at full force.")] = "3cm",
-    gap: Annotated[str, typer.Option(help="From the start to the wall.")] = "2mm",
-    tolerance: Annotated[str, typer.Option(help="Largest error of a force that is held.")] = "1N",
-    robot: opt.Robot = ROBOT,
-    limb: opt.LimbName = None,
-    start: opt.Start = None,
-    elbow: opt.Elbow = None,
-    flaws: opt.Flaws = opt.FlawsChoice.ideal,
-    settings: opt.Settings = None,
+    *,
+    wall: WallWords,
+    words: opt.LimbWords,
     seed: opt.Seed = None,
-    log: opt.Log = None,
-    output: Output = None,
-    as_json: AsJson = False,
-    quiet: Quiet = False,
+    files: opt.FileWords,
 ) -> None:
     """Press on a wall, stand, slide along it and stand again: who holds the force, and how joint friction is dealt with."""
-    telling = opt.Telling(output, log, as_json, quiet)
-    telling.check(".json")
-    from ...experiments.limb.force_entries import force_entries
-    from ...experiments.limb.force_result import run_force
-    from ...experiments.limb.force_scenario import ForceTask
-    from ...experiments.limb.points import read_number
-    from .force_text import print_force_result, write_force_result
+    files.check(".json")
+    from ...limb_bench.force import force_entries, run_force
 
-    task = ForceTask(
-        force=read_number("force", size, "force"),
-        angle=read_number("angle", angle, "angle"),
-        stiffness=read_number("stiffness", stiffness, "stiffness"),
-        friction=wall_friction,
-        believed_angle=None if believed_angle is None else read_number("believed angle", believed_angle, "angle"),
-        believed_stiffness=None
-        if believed_stiffness is None
-        else read_number("believed stiffness", believed_stiffness, "stiffness"),
-        slide=read_number("slide", slide, "length"),
-        gap=read_number("gap", gap, "length"),
-        tolerance=read_number("tolerance", tolerance, "force"),
-    )
-    words = opt.BenchWords(robot=robot, limb=limb, start=start, elbow=elbow, flaws=flaws, settings=settings, seed=seed)
-    properties = words.build_plant()
-    announce_compilation(quiet=quiet)
-    chosen = words.build_limb(properties)
-    entries = force_entries(chosen, task, properties, controllers or (), compensations or ())
-    result = run_force(chosen, task, entries, properties)
-    telling.tell(
-        result, lambda path: write_force_result(result, path), lambda console: print_force_result(console, result)
-    )
+    task = wall.build_task()
+    flaws = words.build_plant(seed)
+    announce_compilation(quiet=files.quiet)
+    limb = words.build_limb(flaws)
+    result = run_force(limb, task, force_entries(limb, task, flaws, controllers or (), compensations or ()), flaws)
+    files.tell(result, lambda console: print_force_result(console, result))
     raise typer.Exit(0 if result.held else 1)
+
+
+def print_force_result(console: Console, result: "ForceResult") -> None:
+    """Print how well each law held the force."""
+    console.print(f"{result.title()}, {result.limb.robot.name}'s {result.limb.name} limb", style="bold")
+    console.print(f"plant: {result.plant_words()}")
+    if result.belief_words():
+        console.print(result.belief_words())
+    console.print()
+    rows = []
+    for row in result.rows:
+        m = row.measures
+        errors = (f"{value + 0.0:.2f}" for value in (m.mean_error, m.worst_standing, m.worst_sliding, m.worst))
+        held = "yes" if m.held else "lost" if m.contact < 1.0 else "no"
+        off, work = f"{1e3 * m.off_line:.2f}", f"{m.work:.2f}"
+        rows.append((row.entry.label, *errors, f"{100 * m.contact:.1f}", off, work, held))
+    opt.show_table(console, ("law / friction", *TITLES), rows, ("law / friction", "held"))
+    console.print()
+    console.print("errors of the true force, after it has settled: mean; largest while standing")
+    console.print("and while sliding; worst, with the slide's start and end; off: along the wall")
+    console.print(f"held: none beyond {result.task.tolerance:g} N, and the tip never off the wall")

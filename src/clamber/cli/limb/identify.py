@@ -2,15 +2,25 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, TypeAlias
+from textwrap import wrap
+from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import typer
+from rich.console import Console
 
+from ...units import DEGREE
 from ..name_completion import names_of
 from ..option_holder import takes_words
 from ..options import AsJson
-from ..output import announce_compilation, check_writable, print_json, stdout
+from ..output import announce_compilation, print_json, stdout
+from . import options as opt
 
+if TYPE_CHECKING:
+    from ...control.identification.estimate import Estimate
+    from ...control.identification.joint import IdentifiedJoint
+    from ...execution.log_identify import Identification
+
+WIDTH = 80
 Column: TypeAlias = str | None
 
 
@@ -63,14 +73,6 @@ class IdentifyWords:
     ] = None
     as_json: AsJson = False
 
-    def check(self) -> None:
-        """Make sure that the output can be written before anything is computed."""
-        check_writable(self.output)
-        if self.output is not None:
-            from ...viewing.output import CANVASES, check_suffix
-
-            check_suffix(self.output, (".toml", *CANVASES))
-
     def mapping(self) -> dict[str, str]:
         """Which columns of the log are what."""
         from ...execution.log_columns import read_mapping
@@ -89,10 +91,9 @@ def identify(
     words: IdentifyWords,
 ) -> None:
     """Find each joint's inertia, damping, friction, amplifier gain and backlash from a log, with standard errors."""
-    words.check()
+    opt.check_output(words.output, ".toml")
     from ...execution.log_files import read_log
     from ...execution.log_identify import Known, identify_log
-    from .identify_text import print_identification, write_identification
 
     mapping = words.mapping()
     known = Known.read(words.torque_constant, words.gear, words.gain)
@@ -115,3 +116,67 @@ def identify(
     else:
         print_identification(stdout(), result)
     raise typer.Exit(0 if result.complete else 1)
+
+
+def print_identification(console: Console, result: "Identification") -> None:
+    """Print every joint's table and what had to be assumed."""
+    whose = f": {result.limb} limb of {result.robot}" if result.robot else ""
+    console.print(f"{result.log}{whose}", style="bold")
+    for joint in result.joints:
+        console.print()
+        _print_joint(console, joint)
+    for note in result.notes:
+        console.print()
+        for line in wrap(f"note: {note}", WIDTH, subsequent_indent="  "):
+            console.print(line)
+
+
+def _print_joint(console: Console, joint: "IdentifiedJoint") -> None:
+    time = joint.samples.time
+    console.print(f"{joint.samples.name}: {time.size} samples, {time[-1] - time[0]:.1f} s", style="bold")
+    if joint.fit is not None and joint.fit.rows is not None:
+        console.print(
+            f"  torque from {joint.torque_from}; angle {joint.fit.lag * 1e3:.1f} ms behind it;"
+            f" {joint.fit.residual:.2g} N m left over"
+        )
+    told = [estimate for estimate in joint.estimates if estimate.value is not None]
+    if told:
+        titles = ("  parameter", "value", "std error", "unit", "in the file", "diff")
+        opt.show_table(console, titles, map(_cells, told), ("  parameter", "unit"))
+    for estimate in joint.estimates:
+        if estimate.value is None:
+            line = f"{estimate.name}: not in this log: needs {estimate.needs}"
+            for words in wrap(line, WIDTH - 2, subsequent_indent="  "):
+                console.print(f"  {words}")
+    rough = joint.rough
+    if rough.damping is not None and rough.friction is not None:
+        inertia = "" if rough.inertia is None else f"inertia {rough.inertia:.3g}, "
+        console.print(
+            f"  by {len(rough.episodes)} constant torques alone: {inertia}damping {rough.damping:.3g},"
+            f" friction {rough.friction:.3g}"
+        )
+
+
+def _cells(estimate: "Estimate") -> tuple[str, ...]:
+    scale, unit = (1.0 / DEGREE, "deg") if estimate.unit == "rad" else (1.0, estimate.unit)
+    value, error = (estimate.value or 0.0) * scale, (estimate.error or 0.0) * scale
+    stated = "" if estimate.stated is None else f"{estimate.stated * scale:.4g}"
+    difference = "" if estimate.difference is None else f"{100 * estimate.difference:+.1f} %"
+    return f"  {estimate.name}", f"{value:.4g}", f"{error:.2g}", unit, stated, difference
+
+
+def write_identification(result: "Identification", path: Path) -> None:
+    """Write a picture, or lines for a robot's file (.toml), as the suffix says.
+
+    Raises:
+        SuffixError: If the suffix names neither.
+        FileError: If the file cannot be written.
+    """
+    if path.suffix.lower() == ".toml":
+        from ...files import write_atomically
+
+        write_atomically(path, result.toml())
+        return
+    from ...limb_bench.pictures.draw import draw_result
+
+    draw_result(result, path)

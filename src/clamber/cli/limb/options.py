@@ -1,32 +1,24 @@
-"""Options that the commands of `clamber limb` share, and how they become a limb, a plant and laws."""
+"""What the commands of `clamber limb` share: options, how they become a limb and its plant, and how a result is kept and printed."""
 
-import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Final, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import typer
 from rich.console import Console
 
-from ..crew import EndsLine
+from ..crew import CrewWords
 from ..name_completion import names_of
 from ..options import ROBOT, AsJson, Output, Quiet
-from ..output import announce_compilation, check_writable, print_json, stderr, stdout
+from ..output import check_writable, plain_table, print_json, stdout
 
 if TYPE_CHECKING:
-    from ...control.law_settings import LawSettings
-    from ...execution.log import Log as RunLog
-    from ...experiments.limb.bench_limb import BenchLimb
-    from ...experiments.limb.contest import Entry
-    from ...experiments.limb.scenario import Scenario
+    from ...limb_bench.bench_limb import BenchLimb
+    from ...limb_bench.result import BenchResult, Comparison
+    from ...limb_bench.runner import Crew
     from ...sim.limb_flaws import LimbFlaws
-    from ...types import Floats, Json
-
-
-LEAST_TRIALS: Final = 4
-"""A worker process is worth its start for so many trials."""
 
 
 class MatchChoice(StrEnum):
@@ -45,39 +37,13 @@ class FlawsChoice(StrEnum):
     nominal = "nominal"
 
 
-Controllers: TypeAlias = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--controller", "-c", metavar="NAME[:KEY=VALUE,...]",
-        help="A law, such as scct or jacobian-transpose:kp=1000,kd=100; repeat it. A usual set unless given.",
-        autocompletion=names_of("controllers"),
-    ),
-]  # fmt: skip
-Kp: TypeAlias = Annotated[float | None, typer.Option(help="Stiffness of the reference law, in its unit.")]
-Kd: TypeAlias = Annotated[float | None, typer.Option(help="Damping of the reference law, in its unit.")]
 Matched: TypeAlias = Annotated[
     MatchChoice,
     typer.Option("--match", help="Which tip stiffness laws without gains of their own share with the reference."),
 ]
-Reference: TypeAlias = Annotated[
-    str,
-    typer.Option(
-        metavar="NAME[:KEY=VALUE,...]", help="Law that is matched to.", autocompletion=names_of("controllers")
-    ),
-]
-Robot: TypeAlias = Annotated[
-    str,
-    typer.Option(help="A climber's name or file.", autocompletion=names_of("robots")),
-]
+Robot: TypeAlias = Annotated[str, typer.Option(help="A climber's name or file.", autocompletion=names_of("robots"))]
 LimbName: TypeAlias = Annotated[str | None, typer.Option("--limb", help="Its limb, by name or from 1.")]
-Start: TypeAlias = Annotated[
-    str | None, typer.Option(metavar="X,Y", help="Where the tip starts in the limb's port frame, such as 22cm,0.")
-]
-Elbow: TypeAlias = Annotated[str | None, typer.Option(metavar="+|-", help="Sign of the elbow's angle.")]
-Plant: TypeAlias = Annotated[
-    str,
-    typer.Option(help="What simulates the limb.", autocompletion=names_of("plants")),
-]
+Plant: TypeAlias = Annotated[str, typer.Option(help="What simulates the limb.", autocompletion=names_of("plants"))]
 Flaws: TypeAlias = Annotated[
     FlawsChoice,
     typer.Option("--flaws", help="nominal: backlash, rate and encoders of the robot's file, one sample of delay."),
@@ -89,108 +55,87 @@ Settings: TypeAlias = Annotated[
 Seed: TypeAlias = Annotated[
     int | None, typer.Option(min=0, help="Draw play, encoder phase, noise and model error (0 where they need one).")
 ]
-Log: TypeAlias = Annotated[
-    Path | None,
-    typer.Option(
-        metavar="FILE",
-        help="Keep every tick of the first trial: .mcap, a channel a law; .csv, a file a law. `limb identify` reads both.",
-    ),
-]
 
 
 @dataclass(frozen=True, slots=True)
-class BenchWords:
-    """Options of every command that compares laws by one motion of the limb, as they came."""
+class LawWords:
+    """Options that name laws and how they come by their gains, as they came."""
 
-    controllers: Controllers = None
-    kp: Kp = None
-    kd: Kd = None
+    controllers: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--controller", "-c", metavar="NAME[:KEY=VALUE,...]",
+            help="A law, such as scct or jacobian-transpose:kp=1000,kd=100; repeat it. A usual set unless given.",
+            autocompletion=names_of("controllers"),
+        ),
+    ] = None  # fmt: skip
+    kp: Annotated[float | None, typer.Option(help="Stiffness of the reference law, in its unit.")] = None
+    kd: Annotated[float | None, typer.Option(help="Damping of the reference law, in its unit.")] = None
     match: Matched = MatchChoice.yy
-    reference: Reference = "scct"
+    reference: Annotated[
+        str,
+        typer.Option(
+            metavar="NAME[:KEY=VALUE,...]", help="Law that is matched to.", autocompletion=names_of("controllers")
+        ),
+    ] = "scct"
+
+
+@dataclass(frozen=True, slots=True)
+class LimbWords:
+    """Options that name a limb and its plant, as they came."""
+
     robot: Robot = ROBOT
     limb: LimbName = None
-    start: Start = None
-    elbow: Elbow = None
-    plant: Plant = "mujoco"
+    start: Annotated[
+        str | None, typer.Option(metavar="X,Y", help="Where the tip starts in the limb's port frame, such as 22cm,0.")
+    ] = None
+    elbow: Annotated[str | None, typer.Option(metavar="+|-", help="Sign of the elbow's angle.")] = None
     flaws: Flaws = FlawsChoice.ideal
     settings: Settings = None
-    seed: Seed = None
-    trials: Annotated[int, typer.Option(min=1, help="Plants that are drawn, from the seed on.")] = 1
-    workers: Annotated[
-        int | None, typer.Option(min=1, help="Processes for the trials; one a core unless given, where there are many.")
-    ] = None
-    everything: Annotated[bool, typer.Option("--all", help="Print every measure, and the gains.")] = False
-    log: Log = None
-    output: Output = None
-    as_json: AsJson = False
-    quiet: Quiet = False
 
-    def check(self) -> None:
-        """Make sure that the files can be written before anything runs."""
-        self.telling.check(".json", ".csv")
-
-    @property
-    def telling(self) -> "Telling":
-        """How the comparison is to be told."""
-        return Telling(self.output, self.log, self.as_json, self.quiet, self.everything)
-
-    @property
-    def crew(self) -> int:
-        """Worker processes: as many as asked for, else one a core, but none for so few trials that its start takes longer."""
-        return self.workers or max(1, min(os.cpu_count() or 1, self.trials // LEAST_TRIALS))
-
-    def build_plant(self) -> "LimbFlaws":
+    def build_plant(self, seed: int | None = None, *, drawn: bool = False) -> "LimbFlaws":
         """The plant's properties; checked before anything else is looked at."""
-        from ...experiments.limb.bench_limb import limbed_robot
-        from ...experiments.limb.flaw_texts import named_flaws, read_flaws
+        from ...limb_bench.bench_limb import limbed_robot
+        from ...sim.flaw_texts import named_flaws, read_flaws
 
         base = named_flaws(self.flaws.value, limbed_robot(self.robot))
-        return read_flaws(base, self.settings or (), self.seed, drawn=self.trials > 1)
+        return read_flaws(base, self.settings or (), seed, drawn=drawn)
 
     def build_limb(self, flaws: "LimbFlaws", start: tuple[float, float] = (0.22, 0.0)) -> "BenchLimb":
         """The limb at its start, or at `start` where none is said."""
-        from ...experiments.limb.bench_limb import bench_limb
-        from ...experiments.limb.points import read_elbow, read_point
+        from ...limb_bench.bench_limb import bench_limb, read_elbow
+        from ...units import read_point
 
         at = start if self.start is None else read_point("start", self.start)
         return bench_limb(self.robot, self.limb, at, elbow=read_elbow(self.elbow), upright=flaws.upright)
 
-    def build_laws(self, limb: "BenchLimb", at: "Floats") -> "tuple[list[Entry], LawSettings]":
-        """The entries, and the law that they were matched to at the joint angles `at`."""
-        from ...experiments.limb.entries import make_entries, reference_law
 
-        reference = reference_law(self.reference, self.kp, self.kd)
-        return make_entries(limb, self.controllers or (), reference, self.match.value, at), reference
+@dataclass(frozen=True, slots=True)
+class NominalLimbWords(LimbWords):
+    """The same, of a plant with the flaws of the robot's file unless others are said."""
 
-
-class Told(Protocol):
-    """A result that can be told."""
-
-    def to_json(self) -> "Json":
-        """As plain data."""
-
-    def logs(self) -> "dict[str, RunLog]":
-        """Label -> what happened, tick by tick."""
+    flaws: Flaws = FlawsChoice.nominal
 
 
 @dataclass(frozen=True, slots=True)
-class Telling:
-    """How a result is to be told."""
+class FileWords:
+    """How a comparison is kept and printed, as it came."""
 
-    output: Path | None
-    log: Path | None
-    as_json: bool
-    quiet: bool
-    everything: bool = False
+    log: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="Keep every tick of the first trial: .mcap, a channel a law; .csv, a file a law. `limb identify` reads both.",
+        ),
+    ] = None
+    output: Output = None
+    as_json: AsJson = False
+    quiet: Quiet = False
 
     def check(self, *suffixes: str) -> None:
         """Make sure that the files can be written before anything runs; `suffixes` are allowed of the output beside those of pictures."""
-        for path in (self.output, self.log):
-            check_writable(path)
-        if self.output is not None:
-            from ...viewing.output import CANVASES, check_suffix
-
-            check_suffix(self.output, (*suffixes, *CANVASES))
+        check_output(self.output, *suffixes)
+        check_writable(self.log)
         if self.log is not None:
             from ...execution.log_files import check_log_suffix
 
@@ -198,10 +143,10 @@ class Telling:
             if self.output is not None and self.output.absolute() == self.log.absolute():
                 raise typer.BadParameter("must be two files", param_hint="--output, --log")
 
-    def tell(self, result: Told, write: Callable[[Path], None], show: Callable[[Console], None]) -> None:
+    def tell(self, result: "Comparison", show: Callable[[Console], None]) -> None:
         """Write the files that are asked for, then print the result: as JSON, or by `show` and with the files' names."""
         if self.output is not None:
-            write(self.output)
+            result.write(self.output)
         logged: tuple[Path, ...] = ()
         if self.log is not None:
             from ...execution.log_files import write_logs
@@ -210,29 +155,61 @@ class Telling:
         if self.as_json:
             print_json(result.to_json())
             return
-        console = stdout()
-        show(console)
-        for path in (*(() if self.output is None else (self.output,)), *logged):
+        show(stdout())
+        tell_written(stdout(), self.output, *logged)
+
+
+def crew_of(words: CrewWords, what: str) -> "Crew":
+    """Who works through items, called so."""
+    from ...limb_bench.runner import Crew
+
+    told = words.line(what).update
+    return Crew(executor=words.executor, store=words.store, resume=words.resume, progress=told)
+
+
+def tell_batch(result: "BenchResult", words: CrewWords, show: Callable[[Console], None], *also: Path | None) -> None:
+    """Write the output, then print the result: as JSON, or by `show` and with the names of the files, `also` first."""
+    if words.output is not None:
+        result.write(words.output)
+    if words.as_json:
+        print_json(result.to_json())
+        return
+    show(stdout())
+    tell_written(stdout(), *also, words.output)
+
+
+def check_output(path: Path | None, *suffixes: str) -> None:
+    """Make sure that a picture, or a file with one of `suffixes`, can be written before anything runs."""
+    check_writable(path)
+    if path is not None:
+        from ...viewing.output import CANVASES, check_suffix
+
+        check_suffix(path, (*suffixes, *CANVASES))
+
+
+def tell_written(console: Console, *paths: Path | None) -> None:
+    """Print the names of files that were written."""
+    for path in paths:
+        if path is not None:
             console.print(f"written to {path}", soft_wrap=True)
 
 
-def run_bench(words: BenchWords, limb: "BenchLimb", scenario: "Scenario", flaws: "LimbFlaws") -> None:
-    """Run the laws, write and print what came out, and leave with the exit code."""
-    from ...experiments.limb.entries import match_pose
-    from ...experiments.limb.result import compare_laws
-    from .text import print_limb_result, write_limb_result
+def show_table(
+    console: Console, titles: Sequence[str], rows: Iterable[Sequence[str]], left: Sequence[str] | None = None
+) -> None:
+    """Print rows under titles; the columns in `left` hold words, the first one unless others are named, all others numbers."""
+    words = titles[:1] if left is None else left
+    table = plain_table(*titles, right=tuple(title for title in titles if title not in words))
+    for row in rows:
+        table.add_row(*row)
+    console.print(table)
 
-    announce_compilation(quiet=words.quiet)  # gains are matched by the laws themselves
-    at = match_pose(limb, scenario)
-    entries, reference = words.build_laws(limb, at)
-    line = EndsLine(stderr(), "trials", quiet=words.quiet or words.trials == 1)
-    result = compare_laws(
-        limb, scenario, entries, flaws, plant=words.plant, trials=words.trials, workers=words.crew,
-        match=words.match.value, reference=reference, match_at=at, progress=line.update,
-    )  # fmt: skip
-    words.telling.tell(
-        result,
-        lambda path: write_limb_result(result, path),
-        lambda console: print_limb_result(console, result, everything=words.everything),
-    )
-    raise typer.Exit(0 if result.stable else 1)
+
+def shown(value: float | None, scale: float = 1.0, digits: int = 2) -> str:
+    """A number of a table; a dash where there is none."""
+    return "-" if value is None else f"{round(value * scale, digits) + 0.0:.{digits}f}"
+
+
+def shown_place(place: Sequence[float]) -> str:
+    """A place in mm."""
+    return ", ".join(f"{round(1e3 * value, 3) + 0.0:g}" for value in place)

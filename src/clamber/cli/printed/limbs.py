@@ -50,7 +50,7 @@ class Matching(Printed):
     """Laws that were to be matched and cannot be: those with one gain for all directions."""
 
 
-@means_as("experiments/limb/measures.py:TipMeasures")
+@means_as("limb_bench/measures.py:TipMeasures")
 class TipErrors(Printed):
     """Errors of the tip; a measure that the scenario does not have is missing, one that never came is null."""
 
@@ -68,7 +68,7 @@ class TipErrors(Printed):
     cycle: float | None = None
 
 
-@means_as("experiments/limb/measures.py:Measures")
+@means_as("limb_bench/measures.py:Measures")
 class Figures(Printed):
     """Mean or worst of the trials."""
 
@@ -80,7 +80,7 @@ class Figures(Printed):
     tick: float | None
 
 
-@means_as("experiments/limb/measures.py:Measures")
+@means_as("limb_bench/measures.py:Measures")
 class Measured(Figures):
     """What one run of one law gave."""
 
@@ -166,7 +166,7 @@ class BenchedLimb(Printed):
     start: Pair
 
 
-@means_as("experiments/limb/force_result.py:ForceMeasures")
+@means_as("limb_bench/measures.py:ForceMeasures")
 class ForceErrors(Printed):
     """What one law did to a wall. Errors are actual less wanted force; null where it left the finite numbers."""
 
@@ -231,7 +231,7 @@ class SweepAxis(Printed):
     numbers: list[float] | None
 
 
-@means_as("experiments/limb/limb_sweep.py:Boundary")
+@means_as("limb_bench/sweep.py:Boundary")
 class Boundary(Printed):
     """Where one law changes from steady to not, along one axis."""
 
@@ -278,7 +278,7 @@ class LimbSweep(Printed):
     points: list[SweepPoint]
 
 
-@means_as("experiments/limb/tune.py:Edge")
+@means_as("limb_bench/tune.py:Edge")
 class Edge(Printed):
     """Where a law stops coming to rest, at one damping time."""
 
@@ -290,7 +290,7 @@ class Edge(Printed):
     overshoot: float
 
 
-@means_as("experiments/limb/tune.py:Tuned")
+@means_as("limb_bench/tune.py:Tuned")
 class TunedLaw(Printed):
     """What was found for one law."""
 

@@ -21,7 +21,7 @@ def means_as(place: str) -> Callable[[type[P]], type[P]]:
     """Give each field of an object that says nothing of itself the meaning that it has where its value is made.
 
     Args:
-        place: A file below the package and a class in it, such as "experiments/limb/measures.py:TipMeasures". Where that says None or
+        place: A file below the package and a class in it, such as "limb_bench/measures.py:TipMeasures". Where that says None or
             inf, JSON has null.
     """
     file, _, name = place.partition(":")

@@ -12,13 +12,13 @@ from ...robots.library import load_robot
 from ...robots.limbed import LimbedRobot
 from ...sim.climber_model import HookShape
 from ...sim.climber_plant import ClimberPlant
+from ...sim.flaw_texts import named_flaws, read_flaws
 from ...sim.limb_flaws import LimbFlaws
 from ...sim.plant_rules import PlantError
 from ...types import Floats
 from ...units import INCH
 from ...worlds.board import Board
 from ...worlds.library import load_board
-from ..limb.flaw_texts import named_flaws, read_flaws
 from .run_plan import PHYSICS_RATE
 
 

@@ -19,11 +19,11 @@ from ...execution.fault import Fault
 from ...execution.log_stream import LogGap, WantedLog, growing_log
 from ...execution.plant import BodyPlant
 from ...execution.sequencer import Sequencer
+from ...sim.flaw_texts import named_flaws, read_flaws
 from ...sim.limb_flaws import LimbFlaws
 from ...tasks import Task, load_task
 from ...tasks.limbed import LimbedTask
 from ...types import Floats, Json
-from ..limb.flaw_texts import named_flaws, read_flaws
 from ..plant_settings import split_settings
 from .faults import failing_body
 from .noise import NO_NOISE, Drawn, Noise, assumed_backlash, check_noise, draw_for, true_places

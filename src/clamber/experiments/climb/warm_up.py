@@ -12,9 +12,9 @@ from ...execution.climb.climbing import Climbing
 from ...execution.climb.course import climbable, lay_course
 from ...execution.sequencer import Sequencer
 from ...sim.climber_plant import ClimberPlant
+from ...sim.flaw_texts import named_flaws
 from ...tasks import load_task
 from ...tasks.limbed import LimbedTask
-from ..limb.flaw_texts import named_flaws
 
 FIRST_GRAB: Final = 106
 """Of the thesis's gait on the ladder, its number of the action."""

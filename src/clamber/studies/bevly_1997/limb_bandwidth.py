@@ -5,9 +5,10 @@ from typing import Final
 import numpy as np
 
 from ...control.law_settings import LawSettings
-from ...experiments.limb.bench_limb import BenchLimb
-from ...experiments.limb.contest import Entry, run_contest
-from ...experiments.limb.scenario import step_scenario
+from ...limb_bench.bench_limb import BenchLimb
+from ...limb_bench.measures import Entry
+from ...limb_bench.runner import run_contest
+from ...limb_bench.scenario import step_scenario
 from ...sim.limb_flaws import LimbFlaws
 from ...units import DEGREE
 from .limb_entries import MATCHED, SCCT, matched_transpose, scct, transpose

@@ -8,9 +8,10 @@ import numpy as np
 
 from ...control.chain import Chain
 from ...control.law_settings import LawSettings
-from ...experiments.limb.contest import Entry, Run, run_contest
-from ...experiments.limb.matching import Match
-from ...experiments.limb.scenario import Scenario, circle_scenario
+from ...limb_bench.matching import Match
+from ...limb_bench.measures import Entry, Run
+from ...limb_bench.runner import run_contest
+from ...limb_bench.scenario import Scenario, circle_scenario
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Value
 from . import MILLI, PAPER
@@ -135,12 +136,12 @@ def track_circle() -> StudyResult:
 
 def _figures(kept: dict[float, list[Run]], rms: Errors) -> tuple[Figure, ...]:
     def circles(path: Path) -> None:
-        from ...viewing.limb_study_plot import draw_circles
+        from ...limb_bench.pictures.study import draw_circles
 
         draw_circles({lap: [r for r in kept[lap] if r.entry.label in SHOWN] for lap in LAPS}, CENTRE, RADIUS, path)
 
     def errors(path: Path) -> None:
-        from ...viewing.limb_study_plot import draw_radial_errors
+        from ...limb_bench.pictures.study import draw_radial_errors
 
         laws = {run.entry.label: run.entry.settings.law for run in kept[LAPS[0]]}
         cases = [(lap, branch) for lap in LAPS for branch in BRANCHES]

@@ -6,10 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from ...experiments.limb.bench_limb import BenchLimb
-from ...experiments.limb.force_entries import force_entries
-from ...experiments.limb.force_result import ForceResult, pressing, run_force
-from ...experiments.limb.force_scenario import ForceTask
+from ...limb_bench.bench_limb import BenchLimb
+from ...limb_bench.force import ForceResult, force_entries, run_force
+from ...limb_bench.scenario import ForceTask
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import MILLI, PAPER
@@ -127,7 +126,9 @@ def _figure(results: Mapping[tuple[str, str, float], ForceResult]) -> Figure:
 
         shown = {
             law: {
-                f"{law}, {case}": Points(result.rows[0].run.trace.time, pressing(result.rows[0].run, result.task))
+                f"{law}, {case}": Points(
+                    result.rows[0].run.trace.time, result.rows[0].run.force_into(result.task.angle)
+                )
                 for (one, case, angle), result in results.items()
                 if one == law and math.isclose(angle, ANGLES[1])
             }

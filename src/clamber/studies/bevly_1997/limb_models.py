@@ -168,7 +168,7 @@ def _row(d: JointDrive) -> tuple[Value, ...]:
 
 def _draw(drives: Sequence[JointDrive], which: int, path: Path) -> None:
     """Angles (0) or speeds (1)."""
-    from ...viewing.joint_curves_plot import JointCurves, draw_joint_curves
+    from ...limb_bench.pictures.study import JointCurves, draw_joint_curves
 
     panels = [
         JointCurves(
@@ -186,7 +186,7 @@ def _draw(drives: Sequence[JointDrive], which: int, path: Path) -> None:
 
 
 def _draw_differences(drives: Sequence[JointDrive], path: Path) -> None:
-    from ...viewing.joint_curves_plot import JointCurves, draw_joint_curves
+    from ...limb_bench.pictures.study import JointCurves, draw_joint_curves
 
     panels = [
         JointCurves(

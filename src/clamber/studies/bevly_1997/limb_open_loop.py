@@ -6,15 +6,8 @@ from typing import Final
 
 import numpy as np
 
-from ...experiments.limb.bench_limb import BenchLimb
-from ...experiments.limb.open_loop import (
-    FIRST,
-    TRANSFORMS,
-    OpenLoopRun,
-    first_turn,
-    run_open_loop,
-    scaled_torques,
-)
+from ...limb_bench.bench_limb import BenchLimb
+from ...limb_bench.open_loop import FIRST, TRANSFORMS, OpenLoopRun, first_turn, run_open_loop, scaled_torques
 from ...types import Floats
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value
@@ -121,7 +114,7 @@ def compare_transforms() -> StudyResult:
 
 def _figures(runs: Runs, renewed: dict[str, OpenLoopRun], turns: Turns) -> tuple[Figure, ...]:
     def paths(path: Path) -> None:
-        from ...viewing.open_loop_plot import Drawn, draw_open_loop
+        from ...limb_bench.pictures.open_loop import Drawn, draw_open_loop
 
         columns = {
             branch: [
@@ -136,7 +129,7 @@ def _figures(runs: Runs, renewed: dict[str, OpenLoopRun], turns: Turns) -> tuple
         draw_open_loop(columns, SHOWN * MILLI, f"Steady torques for a motion along -y, {STRONG:g} N", path)
 
     def directions(path: Path) -> None:
-        from ...viewing.open_loop_plot import draw_turns
+        from ...limb_bench.pictures.open_loop import draw_turns
 
         draw_turns(ROUND, turns, NAMES, path)
 

@@ -7,10 +7,11 @@ from typing import Final
 import numpy as np
 
 from ...control.law_settings import LawSettings
-from ...experiments.limb.bench_limb import BenchLimb
-from ...experiments.limb.contest import Entry, Run, run_contest
-from ...experiments.limb.matching import tip_stiffness
-from ...experiments.limb.scenario import Scenario, push_scenario
+from ...limb_bench.bench_limb import BenchLimb
+from ...limb_bench.matching import tip_stiffness
+from ...limb_bench.measures import Entry, Run
+from ...limb_bench.runner import run_contest
+from ...limb_bench.scenario import Scenario, push_scenario
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Value
 from . import MILLI, PAPER
@@ -118,7 +119,7 @@ def push_and_release() -> StudyResult:
     }
 
     def times(path: Path) -> None:
-        from ...viewing.limb_study_plot import draw_push
+        from ...limb_bench.pictures.study import draw_push
 
         headings = {"Table 3.1": "friction of Table 3.1", "none": "no Coulomb friction"}
         shown = {heading: [r for r in kept[key] if r.entry.label in SHOWN] for key, heading in headings.items()}

@@ -6,8 +6,9 @@ from typing import Final
 import numpy as np
 
 from ...control.law_settings import LawSettings
-from ...experiments.limb.contest import Run, run_contest
-from ...experiments.limb.scenario import step_scenario
+from ...limb_bench.measures import Run
+from ...limb_bench.runner import run_contest
+from ...limb_bench.scenario import step_scenario
 from ..result import Compared, Figure, StudyResult, Table, Value
 from . import MILLI, PAPER
 from .limb_entries import (
@@ -73,7 +74,7 @@ def step_response(result: str, plant: str) -> StudyResult:
     limb = limbs["elbow +"]
 
     def paths(path: Path) -> None:
-        from ...viewing.limb_study_plot import draw_step
+        from ...limb_bench.pictures.study import draw_step
 
         shown = {branch: [run for run in runs if run.entry.label != WEIGHTED_RATE] for branch, runs in kept.items()}
         draw_step(shown, CENTRE, STEP, TITLES[result], path)
