@@ -62,7 +62,7 @@ def bench(
             output, performance_page(measured, shlex.join(("clamber", "bench", *chosen, "-o", str(output))))
         )
     if as_json:
-        print_json([row.to_json() for row in rows])
+        print_json(rows)
     else:
         print_rows(stdout(), rows)
     raise typer.Exit(0 if len(measured) == len(chosen) else 1)

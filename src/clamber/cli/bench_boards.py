@@ -37,7 +37,7 @@ def bench_boards(crew: "Crew", *, output: Path | None, as_json: bool) -> None:
     elif output is not None:
         (save_markdown if output.suffix.lower() == ".md" else save_trials)(contest, output)
     if as_json:
-        print_json([row.to_json() for row in rows_of(contest)])
+        print_json(rows_of(contest))
     else:
         print_contest(stdout(), contest, output)
 

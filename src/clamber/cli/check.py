@@ -46,7 +46,7 @@ def check(
         announce_compilation()
     finding = inspect_file(what, kind, overrides or [])
     if as_json:
-        print_json(finding.to_json())
+        print_json(finding)
     else:
         _print_finding(finding)
     raise typer.Exit(0 if finding.ok else 1)
@@ -55,11 +55,12 @@ def check(
 def _check_plan(what: str, task: str | None, overrides: list[str], everything: bool, as_json: bool) -> None:
     announce_compilation()
     from ..actions.plan_source import open_plan
+    from ..actions.verdict import CheckedPlan
     from .verdict_text import print_verdict
 
     verdict = open_plan(what, task, overrides).check(go_on=everything)
     if as_json:
-        print_json({"kind": "plan"} | verdict.to_json())
+        print_json(CheckedPlan(verdict=verdict))
     else:
         print_verdict(stdout(), verdict, every_step=everything)
     raise typer.Exit(0 if verdict.ok else 1)

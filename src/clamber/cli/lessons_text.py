@@ -1,7 +1,6 @@
 """What a plan learned in rehearsals, as people read it."""
 
 from collections.abc import Sequence
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,7 +11,6 @@ from .output import plain_table
 
 if TYPE_CHECKING:  # loads NumPy, which `--help` does without
     from ..experiments.climb.lessons import Lesson, Rehearsed
-    from ..types import Json
 
 
 class LessonsLine(LiveLine):
@@ -44,18 +42,6 @@ def print_lessons(
         console.print(f"still fails: {where}, {len(seeds)} of {len(best.trials)}")
     if written is not None:
         console.print(f"written: {written}")
-
-
-def to_json(first: "Rehearsed", best: "Rehearsed", tried: "Sequence[Lesson]") -> "Json":
-    """The same as plain data."""
-    return {
-        "climbs": len(first.trials),
-        "climbed_before": first.climbed,
-        "climbed": best.climbed,
-        "actions": [action.to_json() for action in best.plan.actions],
-        "faults": [{"step": step, "seeds": seeds} for step, seeds in best.faults.items()],
-        "lessons": [asdict(lesson) for lesson in tried],
-    }
 
 
 def _climbed(plan: "Rehearsed") -> str:

@@ -53,7 +53,7 @@ def reach(
     elif output is not None:
         result.save_table(output)
     if as_json:
-        print_json(result.to_json())
+        print_json(result)
     else:
         print_reach(stdout(), result, shown, output)
     raise typer.Exit(0 if result.status == "complete" else 1)

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 
 from .crew import executor_of
-from .lessons_text import LessonsLine, print_lessons, to_json
+from .lessons_text import LessonsLine, print_lessons
 from .name_completion import names_of
 from .options import AsJson, CarriedOutIn, NoiseTexts, Output, Overrides, Quiet, Ray, Workers
 from .output import announce_compilation, check_writable, print_json, stderr, stdout
@@ -43,7 +43,7 @@ def rehearse(
     from .compile_ahead import CLIMBING, compile_ahead
 
     compile_ahead(CLIMBING)
-    from ..experiments.climb.lessons import climbs_with, learn
+    from ..experiments.climb.lessons import LearnedPlan, climbs_with, learn
     from ..experiments.climb.noise import named_noise, read_noise
     from ..experiments.climb.run_plan import open_climb
     from ..experiments.climb.trial import TrialSetup
@@ -77,7 +77,7 @@ def rehearse(
         (first, _), (best, _) = told[0], told[-1]
         tried = [lesson for _, lesson in told if lesson is not None]
         if as_json:
-            print_json(to_json(first, best, tried))
+            print_json(LearnedPlan(first, best, tried))
         else:
             print_lessons(stdout(), first, best, tried, output)
     raise typer.Exit(130 if interrupted else 0)

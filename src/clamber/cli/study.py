@@ -105,8 +105,7 @@ def study(
 
         write_markdown(results, words.markdown)
     if words.as_json:
-        told = [one.to_json() for one in results]
-        print_json(told if result is None else told[0] if told else None)
+        print_json(results if result is None else results[0] if results else None)
         return
     print_results(stdout(), results)
     if site is not None:

@@ -72,7 +72,7 @@ def sweep(
     elif words.output is not None:
         result.save_table(words.output)
     if words.as_json:
-        print_json(result.to_json())
+        print_json(result)
     else:
         print_sweep(stdout(), result, words.output)
     raise typer.Exit(0 if result.found else 1)

@@ -42,7 +42,7 @@ def push(
             stand, entry, flaws, force=size, seconds=seconds, trials=trials, seed=seed, progress=line.update
         )
     if words.as_json:
-        print_json({label: [one.to_json() for one in trial] for label, trial in told.items()})
+        print_json(told)
     else:
         for label, trial in told.items():
             print_trials(stdout(), label, trial)

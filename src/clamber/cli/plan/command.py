@@ -45,7 +45,7 @@ def plan(
 
         draw_history(result.history, words.history, goals=[goal.name for goal in problem.goals])
     if words.as_json:
-        print_json(result.to_json() | seeker.to_json(result))
+        print_json(seeker.with_openings(result))
     else:
         from .text import print_result
 

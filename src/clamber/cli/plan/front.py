@@ -39,7 +39,7 @@ def front(task: Task, costs: str, words: PlanWords) -> int:
     elif output is not None:
         found.save(output)
     if words.as_json:
-        print_json(found.to_json())
+        print_json(found)
     else:
         print_front(stdout(), found, output)
     return 0 if found.trades else 1

@@ -2,16 +2,38 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Annotated, Literal
 
 from ...errors import SpecError, StartError
+from ...json_form import INLINE
 from ...openings.find import find_openings
 from ...openings.result import Openings
 from ...planning.result import PlanResult
 from ...tasks import Task
-from ...types import Json
 from ..output import print_json, stderr, stdout
 from .openings_text import print_openings
 from .text import ProgressLine
+
+
+@dataclass(frozen=True, slots=True)
+class Planned:
+    """A plan, or why there is none."""
+
+    result: Annotated[PlanResult, INLINE]
+    openings: Openings | None
+    """What would open the task; None where there is a plan, or nothing was proved or looked for."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NoStart:
+    """The task's start stance is refused; exit code 2."""
+
+    status: Literal["no start"] = "no start"
+    task: str
+    reason: str
+    openings: Openings
+    """What would allow it."""
 
 
 class Seeker:
@@ -30,22 +52,14 @@ class Seeker:
         except (StartError, SpecError) as error:
             if (found := self._find()) is not None:
                 if self._as_json:
-                    print_json(
-                        {
-                            "status": "no start",
-                            "task": self._task.name,
-                            "reason": str(error),
-                            "openings": found.to_json(),
-                        }
-                    )
+                    print_json(NoStart(task=self._task.name, reason=str(error), openings=found))
                 else:
                     print_openings(stdout(), found)
             raise
 
-    def to_json(self, result: PlanResult) -> Json:
-        """The key "openings": None where there is a plan, or nothing was proved or looked for."""
-        found = self._find() if result.status == "infeasible" else None
-        return {"openings": None if found is None else found.to_json()}
+    def with_openings(self, result: PlanResult) -> "Planned":
+        """A planner's answer with the openings of an infeasible task."""
+        return Planned(result, self._find() if result.status == "infeasible" else None)
 
     def print(self, result: PlanResult) -> None:
         """Print them, if no plan is proved."""

@@ -5,18 +5,34 @@ from typing import Any, Final
 
 from pydantic import TypeAdapter
 
+from ...actions.problems import SizedInventory
+from ...actions.verdict import CheckedPlan
 from ...errors import UnknownNameError
+from ...experiments.climb.body_measures import BodyContest
+from ...experiments.climb.body_trials import PushTrial
+from ...experiments.climb.lessons import LearnedPlan
+from ...experiments.climb.press import Pressed
+from ...experiments.climb.run_plan import ClimbRun
+from ...experiments.rows import Row
+from ...experiments.walk.most import MostOfWalk
+from ...experiments.walk.run_walk import WalkRun
+from ...inspection.finding import Finding
+from ...planning.exact.front import Front
+from ...planning.learning import Lesson
+from ...planning.reach.reach import Reach
+from ...planning.result import PlanResult
+from ...planning.sweep import Sweep
+from ...studies.result import StudyResult
 from ...types import Json
-from .bodies import Bodies, PushTrial
+from ..plan.openings import NoStart, Planned
+from ..trials.climb import ClimbTrials, ReplayedTrial
+from ..trials.walk import PrintedWalkTrials
 from .limb_logs import Identified, Recorded
 from .limbs import Contest, Forces, LimbSweep, OpenLoop, Portraits, Tuned
-from .plans import Front, Inventory, Learned, NoStart, Planned, Polished, Verdict
-from .runs import Climbed, Pressed, Rehearsed, Walked
-from .searches import BenchRow, Reach, Sweep
+from .schemas import modelled
 from .things import (
     Drawn,
     Exported,
-    Finding,
     Health,
     Listed,
     NewBoard,
@@ -26,28 +42,26 @@ from .things import (
     PlantTold,
     Saved,
     Served,
-    StudyResult,
 )
-from .trials import ClimbTrials, Most, ReplayedTrial, WalkTrials
 from .walkers import Crossing, Family, Followed, WidestDitch
 
 PRINTED: Final[dict[str, Any]] = {
     "list": Listed,
     "plan": Planned | Front | NoStart,
-    "polish": Polished,
-    "rehearse": Rehearsed,
-    "learn": Learned,
-    "inventory": Inventory,
-    "check": Verdict | Finding,
-    "run": Climbed | Walked,
+    "polish": PlanResult,
+    "rehearse": LearnedPlan,
+    "learn": Lesson,
+    "inventory": SizedInventory,
+    "check": CheckedPlan | Finding,
+    "run": ClimbRun | WalkRun,
     "press": Pressed,
     "follow": Followed,
-    "trials": ClimbTrials | WalkTrials | ReplayedTrial,
-    "most": Most,
+    "trials": ClimbTrials | PrintedWalkTrials | ReplayedTrial,
+    "most": MostOfWalk,
     "show": Drawn,
     "view": Opened | Saved,
     "export": Exported,
-    "bench": list[BenchRow],
+    "bench": list[Row],
     "sweep": Sweep,
     "reach": Reach,
     "calibrate": list[Family],
@@ -70,9 +84,9 @@ PRINTED: Final[dict[str, Any]] = {
     "limb portrait": Portraits,
     "limb sweep": LimbSweep,
     "limb tune": Tuned,
-    "body circle": Bodies,
-    "body push-up": Bodies,
-    "body push": Bodies | dict[str, list[PushTrial]],
+    "body circle": BodyContest,
+    "body push-up": BodyContest,
+    "body push": BodyContest | dict[str, list[PushTrial]],
 }
 """Words of a command after `clamber` -> what it prints."""
 DRAFT: Final = "https://json-schema.org/draft/2020-12/schema"
@@ -80,7 +94,7 @@ DRAFT: Final = "https://json-schema.org/draft/2020-12/schema"
 
 @cache
 def _schema(command: str) -> Json:
-    made = TypeAdapter(PRINTED[command]).json_schema(mode="validation", by_alias=True)
+    made = TypeAdapter(modelled(PRINTED[command])).json_schema(mode="validation", by_alias=True)
     return {"$schema": DRAFT, "title": f"clamber {command} --json"} | {k: v for k, v in made.items() if k != "title"}
 
 

@@ -56,34 +56,6 @@ class Saved(Printed):
     bytes: Count
 
 
-class StartMargin(Printed):
-    """One check of a task's start."""
-
-    check: str
-    unit: str
-    margin: float | None
-    """Signed, in `unit`; null where nothing limits it."""
-    hard: bool
-    """Whether the task's rules forbid what violates it."""
-    holds: bool
-
-
-class Finding(Printed):
-    """What a file is, and what is to be said of it; one that breaks its format is an error, exit code 2."""
-
-    kind: Literal["robot", "board", "ground", "task", "walk"]
-    ok: bool
-    """Whether every hard check of the start holds; files without a start are always."""
-    name: str
-    title: str
-    facts: dict[str, str]
-    """Word to value with its unit, for people."""
-    odd: list[str]
-    """What is allowed and yet most likely not meant."""
-    margins: list[StartMargin]
-    """Of a task's start."""
-
-
 class Exported(Printed):
     """A file that was written for other programs."""
 
@@ -94,24 +66,6 @@ class Exported(Printed):
     bytes: Count
     notes: list[str]
     """What the reader should know, such as what the format cannot say."""
-
-
-class StudyResult(Printed):
-    """A published result and ours; `study PAPER` prints a list of them."""
-
-    paper: str
-    result: str
-    claim: str
-    verdict: Literal["holds", "consistent", "differs", "open"]
-    """holds: we get it too; consistent: likewise, but numbers of ours were fitted to it; differs: we do not; open: what is printed, or
-    what we did, does not decide it."""
-    numbers: dict[str, int | float | str | None]
-    """Name to our value, each printed one under the same name with ", printed"."""
-    deviations: list[str]
-    seeds: list[int]
-    """What it is drawn from; empty: nothing is drawn."""
-    command: str
-    """What repeats it."""
 
 
 class Installed(Printed):

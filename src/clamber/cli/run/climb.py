@@ -68,7 +68,7 @@ def run_climb(what: str, words: RunWords, telling: RunReport) -> None:
             write_run(run, file)
     page = telling.of_climb(run)
     if words.as_json:
-        print_json(run.to_json())
+        print_json(run)
     else:
         print_run(stdout(), run, (*words.written(run.log_gap), *page))
     raise typer.Exit(130 if run.report.reason == "interrupted" else 0 if run.report.done else 1)

@@ -70,7 +70,7 @@ def walk_and_tell(
             write_walk(run, file)
     page = telling.of_walk(run, plan)
     if words.as_json:
-        print_json(run.to_json())
+        print_json(run)
     else:
         print_walk(stdout(), run, (*words.written(run.log_gap), *page))
     raise typer.Exit(130 if run.report.reason == "interrupted" else 0 if run.done else 1)

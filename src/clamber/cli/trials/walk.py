@@ -1,8 +1,8 @@
 """`clamber trials` of a walk, or of a walker's task or plan: many seeds, and what they say together."""
 
 from collections.abc import Sequence
-from dataclasses import replace
-from typing import Final
+from dataclasses import dataclass, replace
+from typing import Annotated, Final
 
 import numpy as np
 import typer
@@ -19,6 +19,7 @@ from ...experiments.walk.noise import named_walk_noise, read_walk_noise
 from ...experiments.walk.planned import careful, lay_plan, walk_of
 from ...experiments.walk.run_walk import walk_flaws
 from ...experiments.walk.trials import LEVEL, WalkCause, WalkSetup, WalkTrials, run_walk_trials
+from ...json_form import INLINE
 from ...planning.planners import find_planner
 from ...tasks.walker import WalkerTask
 from ...tasks.walks import load_walk
@@ -31,6 +32,15 @@ from ..run.walk_plan import plan_walk
 from .fault_text import any_error, print_faults
 from .text import share_range, some
 from .words import TrialsWords
+
+
+@dataclass(frozen=True, slots=True)
+class PrintedWalkTrials:
+    """Many walks, of a walk or of a walker's plan."""
+
+    trials: Annotated[WalkTrials, INLINE]
+    held_out: bool
+    """Whether all seeds are held out: none that any tuning may use."""
 
 
 class WalkTrialsLine(LiveLine):
@@ -107,7 +117,7 @@ def _try_and_tell(setup: WalkSetup, asked: TrialsWords, words: CrewWords) -> Non
             setup, asked.seeds, executor=words.executor, store=words.store, resume=words.resume, told=line.update
         )
     if words.as_json:
-        print_json(trials.to_json() | {"held_out": asked.held_out})
+        print_json(PrintedWalkTrials(trials, asked.held_out))
     else:
         print_walk_trials(stdout(), trials, asked.seeds)
     if len(trials.ended) < trials.asked:

@@ -22,8 +22,9 @@ from ...control.cooperative.settings import Cooperation, own_speeds
 from ...control.cooperative.tool_chain import POSE
 from ...control.quintic import quintic_share
 from ...control.track import Track
+from ...json_form import Jsonable
 from ...robots.walker import WalkerRobot
-from ...types import Floats, Json
+from ...types import Floats
 from . import motions
 from .arm_swing import check_swing
 from .plate_room import ARRIVED
@@ -58,7 +59,7 @@ GAIN: Final = 0.5
 
 
 @dataclass(frozen=True, slots=True)
-class HeldPart:
+class HeldPart(Jsonable):
     """Where the tool was to be held, and what became of it as the robot believes."""
 
     points: tuple[tuple[float, float, float], ...]
@@ -88,13 +89,6 @@ class HeldPart:
     def way(self) -> float:
         """Over which the tool was to be held [m]."""
         return self.last - self.first
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {name: getattr(self, name) for name in self.__slots__} | {
-            "points": [list(point) for point in self.points],
-            "reach": [list(part) for part in self.reach],
-        }
 
 
 class ToolHold:
