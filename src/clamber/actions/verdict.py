@@ -105,7 +105,7 @@ class Verdict(Jsonable):
                     found[name] = margin, row.step
         return found
 
-    @in_json(after="final")
+    @in_json(after="hard")
     def warnings(self) -> dict[str, tuple[int, ...]]:
         """Check that only reports -> steps that violate it."""
         found: dict[str, list[int]] = {}

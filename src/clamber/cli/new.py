@@ -1,5 +1,6 @@
 """`clamber new`: write files to start from."""
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -13,8 +14,29 @@ from .output import announce_compilation, check_writable, print_json, stdout
 
 if TYPE_CHECKING:
     from ..types import Json
+    from .new_files import NewBoard
 
 new = typer.Typer(help="Write a file to start from: robot, board or task.", no_args_is_help=True)
+
+
+@dataclass(frozen=True, slots=True)
+class NewRobot:
+    """A robot that was written."""
+
+    written: dict[str, str]
+    """robot, to the file."""
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class NewTask:
+    """A task that was written."""
+
+    written: dict[str, str]
+    """task, to the file."""
+    name: str
+    start: dict[str, Any]
+    """The start that was found, as the file has it."""
 
 
 @new.callback()
@@ -40,7 +62,7 @@ def robot(
     made = robot_starter(output, limbs, like)
     write_atomically(output, made.text)
     told = f"robot '{made.data['name']}'"
-    _tell({"robot": str(output)}, {"name": made.data["name"]}, told, f"clamber check {output}", as_json)
+    _tell(NewRobot({"robot": str(output)}, made.data["name"]), told, f"clamber check {output}", as_json)
 
 
 @new.command("board")
@@ -72,22 +94,20 @@ def _write_board(
 ) -> None:
     from ..files import write_atomically
     from ..toml_text import toml_text
-    from .new_files import task_data, wall_facts
+    from .new_files import describe_board, task_data
 
-    facts: dict[str, Any] = wall_facts(data, board_file)
-    written = {"board": str(board_file)}
+    written = {"board": str(board_file)} | ({} if task_file is None else {"task": str(task_file)})
+    made = describe_board(data, written)
     following = f"clamber check {board_file}"
     if task_file is not None:
         announce_compilation()
         climb = task_data(data, str(board_file), task_file, overrides)
         comment = "From the lowest stance that the rules allow to the top of the board beside it."
         write_atomically(task_file, toml_text(climb, comment))
-        written["task"] = str(task_file)
         following = f"clamber show {task_file}; clamber plan {task_file} --planner auto"
     write_atomically(board_file, toml_text(data) if text is None else text)
-    apart = f", at least {facts['gap_m']:.4g} m apart" if facts["gap_m"] is not None else ""
-    told = "{holds} holds on {width_m:.4g} x {height_m:.4g} m".format(**facts) + apart
-    _tell(written, facts, told, following, as_json)
+    apart = "" if made.gap_m is None else f", at least {made.gap_m:.4g} m apart"
+    _tell(made, f"{made.holds} holds on {made.width_m:.4g} x {made.height_m:.4g} m{apart}", following, as_json)
 
 
 @new.command("task")
@@ -131,7 +151,7 @@ def task(
     write_atomically(output, made.text)
     told = f"task '{made.data['name']}' for robot '{made.data['robot']}'"
     following = f"clamber check {output}; clamber plan {output} --planner auto"
-    _tell({"task": str(output)}, {"name": made.data["name"], "start": made.data["start"]}, told, following, as_json)
+    _tell(NewTask({"task": str(output)}, made.data["name"], made.data["start"]), told, following, as_json)
 
 
 def _check_new(path: Path, force: bool) -> None:
@@ -148,12 +168,12 @@ def _check_new(path: Path, force: bool) -> None:
         raise FileError(str(path), "is there already", "name another file, or write over it with --force")
 
 
-def _tell(written: dict[str, str], facts: dict[str, Any], told: str, following: str, as_json: bool) -> None:
+def _tell(made: "NewBoard | NewRobot | NewTask", told: str, following: str, as_json: bool) -> None:
     if as_json:
-        print_json({"written": written, **facts})
+        print_json(made)
         return
     console = stdout()
     console.print(told)
-    for kind, path in written.items():
+    for kind, path in made.written.items():
         console.print(f"{kind} written to {path}", soft_wrap=True)
     console.print(f"next: {following}", soft_wrap=True)

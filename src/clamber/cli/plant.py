@@ -73,6 +73,27 @@ class ServeWords:
                 stderr().print(told, soft_wrap=True)
 
 
+@dataclass(frozen=True, slots=True)
+class ServedPlant:
+    """Printed once the server listens."""
+
+    address: str
+    """For `clamber run --plant`."""
+    robot: str
+    board: str
+    real_time: bool
+
+
+@dataclass(frozen=True, slots=True)
+class PlantAnswer:
+    """Printed by who has stopped a served robot, or given it back."""
+
+    address: str
+    """Of its server."""
+    said: str
+    """What the server has done."""
+
+
 @plant.command()
 @takes_words
 def serve(
@@ -140,7 +161,7 @@ def _server_of(
 def _announce(chosen: "LimbedTask", address: "Address", words: ServeWords) -> None:
     robot, board = chosen.robot.name, chosen.world.name
     if words.as_json:
-        print_json({"address": str(address), "robot": robot, "board": board, "real_time": words.real_time})
+        print_json(ServedPlant(str(address), robot, board, words.real_time))
     else:
         print(address, flush=True)
     words.say(f"'{robot}' on '{board}', {'in real time' if words.real_time else 'in lock-step'}; Ctrl-C ends")
@@ -198,6 +219,6 @@ def _ask_server(address: str, *, release: bool, as_json: bool) -> None:
 
     said = stop_plant(read_address(address), release=release)
     if as_json:
-        print_json({"address": address, "said": said})
+        print_json(PlantAnswer(address, said))
     else:
         print(said)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..json_form import Count, Key
 from .name_completion import names_of
 from .option_holder import takes_words
 from .options import AsJson, Overrides
@@ -40,6 +41,23 @@ class ViewWords:
         Path | None, typer.Option(metavar="FILE", help="Write one page (.html) that needs no server, and end.")
     ] = None
     as_json: AsJson = False
+
+
+@dataclass(frozen=True, slots=True)
+class Opened:
+    """Printed once the viewer listens."""
+
+    url: str
+    title: str
+
+
+@dataclass(frozen=True, slots=True)
+class Saved:
+    """`--save`: a page that was written."""
+
+    written: Annotated[Path, Key(kind=str)]
+    title: str
+    bytes: Count
 
 
 @takes_words
@@ -91,7 +109,7 @@ def _save(exhibit: "Exhibit", path: Path, *, as_json: bool) -> None:
 
     size = write_page(exhibit, path)
     if as_json:
-        print_json({"written": str(path), "title": exhibit.title, "bytes": size})
+        print_json(Saved(path, exhibit.title, size))
     else:
         stdout().print(f"written to {path}", soft_wrap=True)
 
@@ -100,7 +118,7 @@ def _serve(app: "App", words: ViewWords) -> None:
     """Tell where the page is, and wait for its end."""
     title = app.exhibit.title
     if words.as_json:
-        print_json({"url": app.url, "title": title})
+        print_json(Opened(app.url, title))
     else:
         stdout().print(f"{title}\n{app.url}  (Ctrl-C ends it)", soft_wrap=True)
     if words.browser:

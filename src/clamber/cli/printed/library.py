@@ -1,9 +1,10 @@
 """What each command prints: its words, and the kinds of values that come out with `--json`."""
 
+from dataclasses import dataclass
 from functools import cache
 from typing import Any, Final
 
-from pydantic import TypeAdapter
+from pydantic import TypeAdapter, create_model
 
 from ...actions.problems import SizedInventory
 from ...actions.verdict import CheckedPlan
@@ -13,40 +14,51 @@ from ...experiments.climb.body_trials import PushTrial
 from ...experiments.climb.lessons import LearnedPlan
 from ...experiments.climb.press import Pressed
 from ...experiments.climb.run_plan import ClimbRun
+from ...experiments.cooperative.follow import FollowRun
 from ...experiments.rows import Row
 from ...experiments.walk.most import MostOfWalk
 from ...experiments.walk.run_walk import WalkRun
+from ...exports.library import Exported
 from ...inspection.finding import Finding
 from ...planning.exact.front import Front
 from ...planning.learning import Lesson
 from ...planning.reach.reach import Reach
 from ...planning.result import PlanResult
 from ...planning.sweep import Sweep
+from ...robots.walker.calibration import Rivals
+from ...robots.walker.ditch_plan import Crossing
 from ...studies.result import StudyResult
 from ...types import Json
+from ..catalogue import ENTRIES
+from ..ditch import WidestDitch
+from ..doctor_facts import Health
+from ..new import NewRobot, NewTask
+from ..new_files import NewBoard
 from ..plan.openings import NoStart, Planned
+from ..plant import PlantAnswer, ServedPlant
+from ..show import Drawn
 from ..trials.climb import ClimbTrials, ReplayedTrial
 from ..trials.walk import PrintedWalkTrials
+from ..view import Opened, Saved
 from .limb_logs import Identified, Recorded
 from .limbs import Contest, Forces, LimbSweep, OpenLoop, Portraits, Tuned
-from .schemas import modelled
-from .things import (
-    Drawn,
-    Exported,
-    Health,
-    Listed,
-    NewBoard,
-    NewRobot,
-    NewTask,
-    Opened,
-    PlantTold,
-    Saved,
-    Served,
-)
-from .walkers import Crossing, Family, Followed, WidestDitch
+from .schemas import STRICT, modelled
 
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A name, and what it stands for."""
+
+    name: str
+    title: str
+
+
+KINDS: Final[dict[str, Any]] = {kind: (modelled(list[Entry]), []) for kind in ENTRIES}
+LISTED: Final[Any] = create_model(
+    "Listed", __config__=STRICT, __doc__="Names by kind; of one kind alone only that is there.", **KINDS
+)
 PRINTED: Final[dict[str, Any]] = {
-    "list": Listed,
+    "list": LISTED,
     "plan": Planned | Front | NoStart,
     "polish": PlanResult,
     "rehearse": LearnedPlan,
@@ -55,7 +67,7 @@ PRINTED: Final[dict[str, Any]] = {
     "check": CheckedPlan | Finding,
     "run": ClimbRun | WalkRun,
     "press": Pressed,
-    "follow": Followed,
+    "follow": FollowRun,
     "trials": ClimbTrials | PrintedWalkTrials | ReplayedTrial,
     "most": MostOfWalk,
     "show": Drawn,
@@ -64,16 +76,16 @@ PRINTED: Final[dict[str, Any]] = {
     "bench": list[Row],
     "sweep": Sweep,
     "reach": Reach,
-    "calibrate": list[Family],
+    "calibrate": list[Rivals],
     "ditch": list[WidestDitch] | Crossing,
     "study": StudyResult | list[StudyResult],
     "doctor": Health,
     "new board": NewBoard,
     "new robot": NewRobot,
     "new task": NewTask,
-    "plant serve": Served,
-    "plant stop": PlantTold,
-    "plant release": PlantTold,
+    "plant serve": ServedPlant,
+    "plant stop": PlantAnswer,
+    "plant release": PlantAnswer,
     "limb step": Contest,
     "limb circle": Contest,
     "limb push": Contest,

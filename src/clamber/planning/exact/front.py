@@ -27,8 +27,8 @@ class Trade(Jsonable):
 
     plan: Annotated[
         Plan,
-        Key("codes", get=Plan.numbers, kind=list[int] | None),
-        Key("actions", get=attrgetter("actions"), kind=tuple[PlannedAction, ...]),
+        Key("codes", get=Plan.numbers, kind=list[int] | None, after="costs"),
+        Key("actions", get=attrgetter("actions"), kind=tuple[PlannedAction, ...], after="codes"),
     ]
     costs: dict[str, float]
     """Length [actions] and every cost of the family, in SI units."""
