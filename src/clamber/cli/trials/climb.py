@@ -17,8 +17,7 @@ from ...planning.planners import find_planner
 from ..compile_ahead import CLIMBING, compile_ahead
 from ..crew import CrewWords
 from ..output import announce_compilation, print_json, stderr, stdout, tell_cuts
-from .fault_text import any_error
-from .text import TrialsLine, print_trials
+from .text import TrialsLine, any_error, print_trials
 from .words import TrialsWords
 
 

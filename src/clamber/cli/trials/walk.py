@@ -29,8 +29,7 @@ from ..for_climbs import refuse_for_walk
 from ..live_line import LiveLine
 from ..output import announce_compilation, plain_table, print_json, stderr, stdout
 from ..run.walk_plan import plan_walk
-from .fault_text import any_error, print_faults
-from .text import share_range, some
+from .text import any_error, print_faults, share_range, some
 from .words import TrialsWords
 
 
