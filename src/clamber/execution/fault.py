@@ -70,7 +70,8 @@ class Fault(Jsonable):
     start: float
     """From when on, since the reset [s]."""
     size: float
-    """How much, in the unit of its kind; of a hold [N], and spans counted [rad], [m], [N]."""
+    """How much, in the SI unit of its kind: of spikes and drift what the sensor is off, of packets the part or number of them; of a hold
+    [N], and spans counted [rad], [m], [N]."""
     channel: Count = 0
     """Index of the sensor or motor; number of the hold."""
     where: str = ""

@@ -29,7 +29,7 @@ class Margin(Jsonable):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Finding(Jsonable):
-    """What a file is and what is to be said of it; a file that breaks a rule of its format is an error and has none."""
+    """What a file is and what is to be said of it; a file that breaks a rule of its format is an error, exit code 2."""
 
     kind: Kind
     name: str

@@ -19,7 +19,7 @@ class Opening(Jsonable):
     after: Annotated[Value, Key("to")]
     """As it would have to be, in `unit`."""
     shut_at: Annotated[float | None, Key("infeasible_at")] = None
-    """The value one step before `after`, at which the task is proved infeasible, in `unit`; None where the values are names."""
+    """The value one step before, at which the task is proved infeasible, in `unit`; None where the values are names."""
     unit: str
     """Empty where the values are names or have none."""
     overrides: tuple[str, ...]
@@ -29,8 +29,8 @@ class Opening(Jsonable):
     shortest: bool
     """Whether that plan is proved to be the shortest."""
     least: bool
-    """Whether it is proved that no smaller change of this kind does; False where values before `shut_at` were not all tried, or where
-    time ran out, so that `shut_at` is farther away than a step."""
+    """Whether it is proved that no smaller change of this kind does; False where values in between were not all tried, or where
+    time ran out, so that `infeasible_at` is farther away than a step."""
 
     @property
     @in_json()

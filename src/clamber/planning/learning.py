@@ -28,7 +28,7 @@ ENOUGH: Final = 0.8
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lesson(Jsonable):
-    """What was learned from a task; its file is the same."""
+    """What was learned from a task; its file is the same. Exit code 1 where nothing repeats."""
 
     schema: str = SCHEMA
     task: str

@@ -64,7 +64,7 @@ class PlanResult(Jsonable):
 
     status: Status
     """optimal: proved to be the best plan by what was `minimized`; found: a plan; infeasible: proved that there is none;
-    bounded: none has fewer than `lower_bound` actions, and the plan, if there is one (`has_plan`), is `gap` above that;
+    bounded: none has fewer than `lower_bound` actions, and the plan, if there is one, is `gap` above that;
     stopped: none yet, and nothing proved."""
     task: Annotated[Task, Key(get=attrgetter("name"), kind=str)]
     reason: str

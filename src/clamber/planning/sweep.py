@@ -37,7 +37,7 @@ class Point(Jsonable):
     values: tuple[str, ...]
     """One per axis, as in an override."""
     status: str
-    """A planner's status, `NO_START`, or `FAILED`."""
+    """A planner's status, "no start", or "failed"."""
     length: int | None = None
     """Actions of the plan; None without one."""
     least_torque: Annotated[float | None, Key("least_torque_Nm")] = None

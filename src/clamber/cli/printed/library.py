@@ -9,6 +9,7 @@ from pydantic import TypeAdapter, create_model
 from ...actions.problems import SizedInventory
 from ...actions.verdict import CheckedPlan
 from ...errors import UnknownNameError
+from ...execution.log_identify import Identification
 from ...experiments.climb.body_measures import BodyContest
 from ...experiments.climb.body_trials import PushTrial
 from ...experiments.climb.lessons import LearnedPlan
@@ -40,8 +41,7 @@ from ..show import Drawn
 from ..trials.climb import ClimbTrials, ReplayedTrial
 from ..trials.walk import PrintedWalkTrials
 from ..view import Opened, Saved
-from .limb_logs import Identified, Recorded
-from .limbs import Contest, Forces, LimbSweep, OpenLoop, Portraits, Tuned
+from .limbs import Contest, Forces, LimbSweep, OpenLoop, Portraits, Recorded, Tuned
 from .schemas import STRICT, modelled
 
 
@@ -91,7 +91,7 @@ PRINTED: Final[dict[str, Any]] = {
     "limb push": Contest,
     "limb open-loop": OpenLoop,
     "limb record": Recorded,
-    "limb identify": Identified,
+    "limb identify": Identification,
     "limb force": Forces,
     "limb portrait": Portraits,
     "limb sweep": LimbSweep,

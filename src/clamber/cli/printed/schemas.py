@@ -74,4 +74,7 @@ def _field(entry: Entry) -> Any:
 
 def _text(told: str) -> str:
     """A docstring in one line, in the words of JSON."""
-    return re.sub(r"\b(None|inf|NaN)\b", "null", " ".join(told.split()))
+    text = re.sub(r", shape \([^)]*\)", "", " ".join(told.split())).replace(" -> ", " to ")
+    text = re.sub(r'(?<!")\b(None|inf|NaN|infinite|not finite)\b(?!")', "null", text)
+    text = re.sub(r"\b(True|False)\b", lambda found: found[0].lower(), text)
+    return text[:1].upper() + text[1:] if text.startswith("null") else text

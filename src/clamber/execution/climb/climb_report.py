@@ -12,6 +12,7 @@ from ...types import Floats
 from ..plant import HoldBreak
 from ..run_report import Moment, Outcome, RunReport
 
+Pose: TypeAlias = tuple[float, float, float]
 ClimbOutcome: TypeAlias = Literal["ok", "stalled", "missed", "fell", "fault", "interrupted", "stopped", "not supported"]
 """Those that an action of a climb may have."""
 
@@ -80,8 +81,10 @@ class NewPlan:
 class ClimbReport(RunReport):
     """How a plan was carried out."""
 
-    pose: tuple[float, ...] = field(default=(0.0, 0.0, 0.0), kw_only=True)
-    """Body at the end, as believed [m], [rad]."""
+    pose: Annotated[tuple[float, ...], Key(kind=Pose)] = field(default=(0.0, 0.0, 0.0), kw_only=True)
+    """Body at the end, as believed: x, y [m], angle [rad]."""
+    true_pose: Annotated[tuple[float, ...] | None, Key(kind=Pose)] = field(default=None, kw_only=True)
+    """As it truly was; None where nobody tells."""
     actions: list[ActionReport] = field(default_factory=list)
     replans: Annotated[list[NewPlan], Key(after="forced")] = field(default_factory=list)
     """Where a new plan was made."""

@@ -65,9 +65,9 @@ class HeldPart(Jsonable):
     points: tuple[tuple[float, float, float], ...]
     """Where the tool was to be, world, as believed [m]: a point, or what it was to go through."""
     first: float
-    """Way of the Delta-frame from which on the tool is held [m] ..."""
+    """Way of the Delta-frame from which on the tool is held [m]."""
     last: float
-    """... and until where."""
+    """Until where [m]."""
     reach: tuple[tuple[float, float], ...]
     """Parts of the way, of what was asked for, where the arm can reach the point [m]."""
     began: float | None

@@ -61,11 +61,13 @@ class LoggedWalk:
 class WalkReport(RunReport):
     """How a walk went; its pose is that of the plate."""
 
+    pose: tuple[float, ...] = field(default=(), kw_only=True)
+    """Plate at the end, as believed: x, y, z [m], alpha, beta, gamma [rad]; empty if it never stood."""
     steps: list[StepReport] = field(default_factory=list)
     prepared: Annotated[float, Key(after="seconds")] = 0.0
     """When the first step began [s]."""
     goal: Annotated[tuple[float, ...], Key(after="true_pose")] = ()
-    """Of the Delta-frame, seen from above, where the course ends [m], [rad]; empty if the walk ended before it was laid."""
+    """Of the Delta-frame, seen from above, where the course ends: x, y [m], heading [rad]; empty if the walk ended before it was laid."""
     offsets: Annotated[tuple[float, float], Key(after="missed")] = (0.0, 0.0)
     """Of the inclinometers, as calibrated [rad]."""
     kicks: Annotated[Count, Key(after="offsets")] = 0

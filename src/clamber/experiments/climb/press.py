@@ -50,7 +50,7 @@ MOVING: Final = 0.02
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pressed(Jsonable):
-    """A force that was held, `rows` ticks long, from when it had risen and settled."""
+    """A force held on a wall while the body moved, `rows` ticks long, from when it had risen and settled."""
 
     wanted: float
     """[N]."""

@@ -40,7 +40,7 @@ PHYSICS_RATE: float = 1000.0
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ClimbRun(Jsonable):
-    """A plan that was carried out."""
+    """A climb that was carried out; exit code 1 where it is not done."""
 
     task: Annotated[LimbedTask, Key(get=attrgetter("name"), kind=str, after="actions")]
     plan: Annotated[Plan, HIDDEN]
@@ -53,7 +53,7 @@ class ClimbRun(Jsonable):
     fault: Annotated[Fault | None, HIDDEN] = None
     """That the robot had."""
     log_gap: Annotated[LogGap | None, Key(after="wall_seconds", may_be_missing=True)] = None
-    """What its log lacks; None: nothing, or there is none."""
+    """What its log lacks, there only if it could not be written to its end; None: nothing, or there is no log."""
 
     @property
     def done(self) -> bool:

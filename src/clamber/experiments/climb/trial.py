@@ -89,7 +89,7 @@ class ClimbTrial(Jsonable):
     done: bool
     """Whether every action was carried out."""
     outcome: str
-    """Of the last action: "ok", or why the climb ended there, such as "fell" or "missed"; `ERROR` where it raised."""
+    """Of the last action: "ok", or why the climb ended there, such as "fell" or "missed"; "error" where it raised."""
     step: Count
     """Number of the last action in its plan, from 1; 0: none began."""
     kind: str

@@ -21,7 +21,7 @@ class HeldPoint(Jsonable):
     part: Annotated[HeldPart, INLINE]
     """Where on the way, and what the robot believes."""
     point: Annotated[Floats, Key("true_point", kind=tuple[float, float, float])]
-    """World, truly [m], shape (3,): where it was to be at first."""
+    """Where it was to be at first, world, as it truly lies [m], shape (3,)."""
     time: Annotated[Floats, HIDDEN]
     """Of the ticks at which it was held, shape (rows,) [s]."""
     errors: Annotated[Floats, HIDDEN]
@@ -35,7 +35,7 @@ class HeldPoint(Jsonable):
     @property
     @in_json(key="largest_error")
     def largest(self) -> float | None:
-        """Largest true distance of the tool from where it was to be [m]; None where the robot did not come so far."""
+        """Largest true distance of the tool from where it was to be while it was held [m]; None where the robot did not come so far."""
         return float(self.errors.max()) if len(self.errors) else None
 
     @in_json()

@@ -46,7 +46,7 @@ WITHIN: Final = 0.005
 
 @dataclass(frozen=True, slots=True, eq=False)
 class WalkRun(Jsonable):
-    """A walk that was carried out."""
+    """A walk that was carried out; exit code 1 where it is not done."""
 
     walk: Annotated[Walk, Key(get=attrgetter("name"), kind=str, after="steps")]
     report: Annotated[WalkReport, INLINE]
@@ -61,7 +61,7 @@ class WalkRun(Jsonable):
     fault: Annotated[Fault | None, HIDDEN] = None
     """That the robot had."""
     log_gap: Annotated[LogGap | None, Key(after="hold", may_be_missing=True)] = None
-    """What its log lacks; None: nothing, or there is none."""
+    """What its log lacks, there only if it could not be written to its end; None: nothing, or there is no log."""
 
     @property
     @in_json()
@@ -72,7 +72,7 @@ class WalkRun(Jsonable):
     @property
     @in_json()
     def reason(self) -> str:
-        """Why not; empty where it did."""
+        """Why it did not; empty where it did."""
         report = self.report
         if not report.done:
             return report.reason

@@ -45,6 +45,7 @@ class Front(Jsonable):
 
     task: Annotated[Task, Key(get=attrgetter("name"), kind=str)]
     costs: tuple[str, str]
+    """The two."""
     trades: tuple[Trade, ...]
     """From the least of the first cost to the least of the second."""
     complete: Annotated[bool, HIDDEN]
