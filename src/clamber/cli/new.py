@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Final, TypeAlias
 import typer
 
 from .name_completion import names_of
-from .option_holder import takes_words
+from .option_holder import takes_options
 from .options import BOARD, ROBOT, AsJson
 from .output import announce_compilation, check_writable, print_json, stdout
 
@@ -23,7 +23,7 @@ Force: TypeAlias = Annotated[bool, typer.Option("--force", help="Write over a fi
 
 
 @dataclass(frozen=True, slots=True)
-class BoardWords:
+class BoardOptions:
     """Options of `clamber new board`, as they came."""
 
     random: Annotated[bool, typer.Option("--random", help="Holds scattered at random, the same for the same seed.")] = (
@@ -138,8 +138,8 @@ def robot(
 
 
 @new.command("board")
-@takes_words
-def board(*, words: BoardWords) -> None:
+@takes_options
+def board(*, words: BoardOptions) -> None:
     """Write a board: made up, at random, from a table or a picture; with --task also a task on it that `clamber plan` takes."""
     words.check()
     board_file = words.board_file

@@ -11,7 +11,7 @@ from rich.console import Console
 
 from .crew import EndsLine, executor_of
 from .name_completion import names_of
-from .option_holder import takes_words
+from .option_holder import takes_options
 from .options import AsJson, Quiet, Resume, Store, Workers
 from .output import announce_compilation, plain_table, print_indented, print_json, stderr, stdout
 
@@ -30,7 +30,7 @@ def results_of(context: typer.Context, incomplete: str) -> list[str]:
 
 
 @dataclass(frozen=True, slots=True)
-class StudyWords:
+class StudyOptions:
     """Options of `clamber study`, as they came."""
 
     as_json: AsJson = False
@@ -63,7 +63,7 @@ class StudyWords:
             raise typer.BadParameter("needs --store or --report, what to go on with", param_hint="--resume")
 
 
-@takes_words
+@takes_options
 def study(
     paper: Annotated[
         str,
@@ -76,7 +76,7 @@ def study(
         str | None, typer.Argument(help="One of its results; all unless given.", autocompletion=results_of)
     ] = None,
     *,
-    words: StudyWords,
+    words: StudyOptions,
 ) -> None:
     """Repeat what a paper reports, and say for each result whether it holds.
 
@@ -113,7 +113,7 @@ def study(
         stdout().print(f"report: {site.index}", soft_wrap=True)
 
 
-def _repeat(paper: str, result: str, words: StudyWords, *, seeded: bool) -> "StudyResult":
+def _repeat(paper: str, result: str, words: StudyOptions, *, seeded: bool) -> "StudyResult":
     """One result; with `seeded`, one of trials with as many seeds as the options say."""
     from ..studies.library import SEEDED, STUDIES
 

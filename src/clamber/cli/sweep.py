@@ -8,7 +8,7 @@ import typer
 from rich.console import Console
 
 from .crew import CrewWords
-from .option_holder import takes_words
+from .option_holder import takes_options
 from .options import Overrides, PlannerName, TaskName
 from .output import announce_compilation, plain_table, print_json, stdout
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from ..planning.sweep import Sweep
 
 
-@takes_words
+@takes_options
 def sweep(
     task: TaskName,
     vary: Annotated[

@@ -9,7 +9,7 @@ import typer
 
 from ..json_form import Count, Key
 from .name_completion import names_of
-from .option_holder import takes_words
+from .option_holder import takes_options
 from .options import AsJson, Overrides
 from .output import announce_compilation, check_writable, print_json, stderr, stdout
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class ViewWords:
+class ViewOptions:
     """Options of `clamber view`, as they came."""
 
     task: Annotated[
@@ -60,7 +60,7 @@ class Saved:
     bytes: Count
 
 
-@takes_words
+@takes_options
 def view(
     things: Annotated[
         list[str],
@@ -71,7 +71,7 @@ def view(
         ),
     ],
     *,
-    words: ViewWords,
+    words: ViewOptions,
 ) -> None:
     """Look at a robot in the browser: play plans and runs, edit a board or a ground, plan, and run.
 
@@ -114,7 +114,7 @@ def _save(exhibit: "Exhibit", path: Path, *, as_json: bool) -> None:
         stdout().print(f"written to {path}", soft_wrap=True)
 
 
-def _serve(app: "App", words: ViewWords) -> None:
+def _serve(app: "App", words: ViewOptions) -> None:
     """Tell where the page is, and wait for its end."""
     title = app.exhibit.title
     if words.as_json:

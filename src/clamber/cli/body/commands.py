@@ -5,21 +5,21 @@ from typing import Annotated
 import typer
 
 from ..crew import EndsLine
-from ..option_holder import takes_words
+from ..option_holder import takes_options
 from ..output import announce_compilation, print_json, stderr, stdout
-from .options import BodyWords, run_bench
+from .options import BodyOptions, run_bench
 
 body = typer.Typer(help="Compare controls of a climber's body that two limbs hold.", no_args_is_help=True)
 
 
 @body.command("circle")
-@takes_words
+@takes_options
 def circle(
     radius: Annotated[str, typer.Option(help="Such as 5cm.")] = "5cm",
     lap: Annotated[float, typer.Option(help="Time of one lap, in seconds.")] = 6.0,
     laps: Annotated[int, typer.Option(min=1, help="The last one is measured.")] = 2,
     *,
-    words: BodyWords,
+    words: BodyOptions,
 ) -> None:
     """Let the body's aim run round a circle, the tips fixed to their pegs unless --hooked (thesis, Fig. 4.17)."""
     words.check()
@@ -33,12 +33,12 @@ def circle(
 
 
 @body.command("push-up")
-@takes_words
+@takes_options
 def push_up(
     height: Annotated[str, typer.Option(help="Such as 7.5cm.")] = "7.5cm",
     seconds: Annotated[float, typer.Option(help="In so many seconds.")] = 0.5,
     *,
-    words: BodyWords,
+    words: BodyOptions,
 ) -> None:
     """Push the body up on its hooks (thesis, Fig. 4.18)."""
     words.check()
@@ -52,7 +52,7 @@ def push_up(
 
 
 @body.command("push")
-@takes_words
+@takes_options
 def push(
     force: Annotated[str, typer.Option(metavar="FX,FY", help="At the body's centre.")] = "60N,0N",
     seconds: Annotated[float, typer.Option(help="How long it acts, as half a sine, in seconds.")] = 0.5,
@@ -62,7 +62,7 @@ def push(
     ] = 1,
     seed: Annotated[int, typer.Option(min=0, help="Of the first trial.")] = 0,
     *,
-    words: BodyWords,
+    words: BodyOptions,
 ) -> None:
     """Push the body and let it go: how far it yields, and whether the hooks stay on (thesis, Fig. 4.19)."""
     words.check()

@@ -28,7 +28,7 @@ class BodyMatchChoice(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class BodyWords:
+class BodyOptions:
     """Options of every command of the body's bench, as they came."""
 
     controllers: Annotated[
@@ -125,7 +125,7 @@ class BodyWords:
         return make_entries(self.controllers or (), reference, stand, self.match.value, angle=angle)
 
 
-def run_bench(words: BodyWords, stand: "BodyStand", scenario: "BodyScenario", flaws: "LimbFlaws") -> None:
+def run_bench(words: BodyOptions, stand: "BodyStand", scenario: "BodyScenario", flaws: "LimbFlaws") -> None:
     """Run the controls one by one, write and print what came out, and leave with 0 if no hook came off, else 1."""
     from ...experiments.climb.body_bench import run_bodies
     from ...experiments.climb.body_measures import BodyContest, measure_body

@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from ..crew import EndsLine, executor_of
-from ..option_holder import takes_words
+from ..option_holder import takes_options
 from ..options import TaskName
 from ..output import announce_compilation, print_json, stderr, stdout
-from .words import PlanWords
+from .options import PlanOptions
 
 if TYPE_CHECKING:
     from ...planning.result import PlanResult
@@ -16,11 +16,11 @@ if TYPE_CHECKING:
     from .openings import Seeker
 
 
-@takes_words
+@takes_options
 def plan(
     task: TaskName,
     *,
-    words: PlanWords,
+    words: PlanOptions,
 ) -> None:
     """Find a sequence of grabs and body moves that every check allows, from the start to the goal."""
     words.check()
@@ -55,7 +55,7 @@ def plan(
     raise typer.Exit(0 if result.has_plan else 1)
 
 
-def _search(task: "Task", words: PlanWords, seeker: "Seeker") -> "PlanResult":
+def _search(task: "Task", words: PlanOptions, seeker: "Seeker") -> "PlanResult":
     """Search as was asked for: on islands, or by one planner, whose trouble with the start is told with what would allow it."""
     options = words.planner_options(task)
     if words.islands is not None:

@@ -7,9 +7,9 @@ from typing import Annotated
 import typer
 
 from ..name_completion import names_of
-from ..option_holder import takes_words
+from ..option_holder import takes_options
+from .options import RunOptions
 from .report import RunReport
-from .words import RunWords
 
 NOT_REPEATED = ("output", "save_plan", "report", "as_json", "quiet")
 """Options that change nothing of a run."""
@@ -39,7 +39,7 @@ def repeat_words(context: typer.Context, without: Container[str]) -> str:
     return shlex.join([*words, *options])
 
 
-@takes_words
+@takes_options
 def run(
     context: typer.Context,
     what: Annotated[
@@ -51,7 +51,7 @@ def run(
         ),
     ],
     *,
-    words: RunWords,
+    words: RunOptions,
 ) -> None:
     """Carry a plan or a walk out on a simulated robot: every action or step, what became of it, and where it ended.
 

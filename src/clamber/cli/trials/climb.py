@@ -17,8 +17,8 @@ from ...planning.planners import find_planner
 from ..compile_ahead import CLIMBING, compile_ahead
 from ..crew import CrewWords
 from ..output import announce_compilation, print_json, stderr, stdout, tell_cuts
+from .options import TrialsOptions
 from .text import TrialsLine, any_error, print_trials
-from .words import TrialsWords
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +39,7 @@ class ReplayedTrial:
     trial: ClimbTrial
 
 
-def climb_trials_of(what: str, asked: TrialsWords, words: CrewWords) -> None:
+def climb_trials_of(what: str, asked: TrialsOptions, words: CrewWords) -> None:
     """Climb with every seed and print what came of it; leaves with 1 where a climb failed, or fewer than asked for succeed for sure.
 
     With faults a climb may fail: then it leaves with 1 only where one raised.
@@ -87,7 +87,7 @@ def _check_suffix(output: Path, replay: int | None) -> None:
         check_run_suffix(output)
 
 
-def _planned(what: str, asked: TrialsWords, words: CrewWords) -> TrialSetup:
+def _planned(what: str, asked: TrialsOptions, words: CrewWords) -> TrialSetup:
     """What every trial has in common, planned if it was not; leaves with 1 where there is no plan."""
     widths = read_noise(named_noise("usual"), asked.noise or ())
     announce_compilation(quiet=words.quiet)

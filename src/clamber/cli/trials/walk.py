@@ -29,8 +29,8 @@ from ..for_climbs import refuse_for_walk
 from ..live_line import LiveLine
 from ..output import announce_compilation, plain_table, print_json, stderr, stdout
 from ..run.walk_plan import plan_walk
+from .options import TrialsOptions
 from .text import any_error, print_faults, share_range, some
-from .words import TrialsWords
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +56,7 @@ PLANS_ONLY: Final = ("task", "planner", "seconds")
 """Those that a walk has no use for, as it needs no plan."""
 
 
-def walk_trials_of(what: str, asked: TrialsWords, words: CrewWords) -> None:
+def walk_trials_of(what: str, asked: TrialsOptions, words: CrewWords) -> None:
     """Walk with every seed and print what came of it; leaves with 1 where a walk failed, or fewer than asked for succeed for sure.
 
     Args:
@@ -79,7 +79,7 @@ def walk_trials_of(what: str, asked: TrialsWords, words: CrewWords) -> None:
 
 
 def planned_walk_trials_of(
-    what: str, task: WalkerTask, plan: Plan | None, asked: TrialsWords, words: CrewWords
+    what: str, task: WalkerTask, plan: Plan | None, asked: TrialsOptions, words: CrewWords
 ) -> None:
     """The same with a walker's task: planned once, or as the store has it planned, then walked with every seed.
 
@@ -109,7 +109,7 @@ def planned_walk_trials_of(
     _try_and_tell(replace(setup, plan=plan), asked, words)
 
 
-def _try_and_tell(setup: WalkSetup, asked: TrialsWords, words: CrewWords) -> None:
+def _try_and_tell(setup: WalkSetup, asked: TrialsOptions, words: CrewWords) -> None:
     least = asked.least
     with WalkTrialsLine(stderr(), quiet=words.quiet) as line:
         trials = run_walk_trials(
