@@ -204,6 +204,7 @@ OTHER_WAYS = {
     "sealed.py": "asks of what it opened whose it is, in the cache",
     "sources.py": "reads the package itself",
     "viewing/report/pages.py": "reads the package itself",
+    "cli/commands.py": "reads the package itself",
     "cli/printed/meanings.py": "reads the package itself",
     "experiments/performance_page.py": "asks the system for its processor",
     "jobs/store.py": "locks a file whose name was checked",

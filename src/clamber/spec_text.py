@@ -67,7 +67,7 @@ _KNOWN: Final[dict[type[Any], tuple[Key, ...]]] = {}
 
 
 def _read_keys(cls: type[Any]) -> Iterator[Key]:
-    hints, docs = typing.get_type_hints(cls, include_extras=True), _docs(cls)
+    hints, docs = typing.get_type_hints(cls, include_extras=True), docs_of(cls)
     for each in fields(cls):
         if each.name in LEFT_OUT:
             continue
@@ -75,7 +75,7 @@ def _read_keys(cls: type[Any]) -> Iterator[Key]:
         yield Key(each.name, hints[each.name], docs.get(each.name, ""), default)
 
 
-def _docs(cls: type[Any]) -> dict[str, str]:
+def docs_of(cls: type[Any]) -> dict[str, str]:
     """Field -> the text below it, from the sources of the class and of those that it is derived from."""
     found: dict[str, str] = {}
     for base in reversed(cls.__mro__):

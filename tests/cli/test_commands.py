@@ -27,5 +27,5 @@ def test_the_list_says_what_the_commands_say() -> None:
 def test_a_command_that_is_called_is_whole_and_the_others_are_not_read(called: str) -> None:
     script = f"import sys; from clamber.cli.app import application; application({called!r}); print(*sys.modules)"
     read = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout.split()
-    places = {name: entry.place.split(":")[0] for name, entry in (COMMANDS | GROUPS).items()}
+    places = {name: place.split(":")[0] for name, place in (COMMANDS | GROUPS).items()}
     assert {name for name, module in places.items() if f"clamber.cli.{module}" in read} == {called}

@@ -195,4 +195,4 @@ def test_where_a_hold_cannot_be_had_another_plan_is_asked_for_from_there() -> No
     assert 6 not in [hold.number for hold in asked[0].world.holds]
     held = asked[0].start.holds
     assert held["left"] == 3
-    assert report.replans[0]["without"] == [6]
+    assert report.replans[0].without == [6]

@@ -32,7 +32,7 @@ class Module:
 
 @dataclass(frozen=True, slots=True)
 class Dropped:
-    """What one filter took out of the inventory."""
+    """Modules that a filter left out."""
 
     filter: str
     reason: str

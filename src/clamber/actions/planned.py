@@ -4,14 +4,14 @@ from typing import Annotated, Literal
 
 from pydantic import Field, StrictStr
 
+from ..json_form import Jsonable
 from ..specs import spec
-from ..types import Json
 
 Finite = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 
 
 @spec
-class PlannedAction:
+class PlannedAction(Jsonable):
     """What the robot is told to do in one step, every choice made."""
 
     kind: Literal["none", "move", "release", "grab"]
@@ -38,17 +38,6 @@ class PlannedAction:
         if self.kind == "grab":
             return f"{self.limb} grabs {self.gene or 'no hold' if self.hold is None else self.hold}"
         return f"{self.limb} releases"
-
-    def to_json(self) -> Json:
-        """Plain data, all keys present."""
-        return {
-            "kind": self.kind,
-            "limb": self.limb,
-            "hold": self.hold,
-            "delta": None if self.delta is None else list(self.delta),
-            "code": self.code,
-            "gene": self.gene,
-        }
 
 
 class ActionError(Exception):

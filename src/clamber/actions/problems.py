@@ -5,8 +5,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Final
 
+from ..json_form import Count, Jsonable, in_json
 from ..tasks import Task
-from ..types import Json
 from .code_limits import CodeLimits
 from .inventory import Dropped, make_inventory
 from .limbed_problem import LimbedProblem, limbed_limits
@@ -23,21 +23,35 @@ class Posed:
     """Modules of the unfiltered inventory."""
     dropped: tuple[Dropped, ...] = ()
 
-    def to_json(self, length: int) -> Json:
-        """The inventory as plain data, with the search sizes D = N^m for plans of `length` actions (thesis 2.2.1)."""
-        modules = len(self.problem.actions)
-        return {
-            "modules": modules,
-            "full_size": self.full_size,
-            "names": list(self.problem.actions.names),
-            "dropped": [
-                {"filter": dropped.filter, "reason": dropped.reason, "names": list(dropped.names)}
-                for dropped in self.dropped
-            ],
-            "length": length,
-            "log10_before": length * math.log10(self.full_size),
-            "log10_after": length * math.log10(modules),
-        }
+    def sized(self, length: int) -> "SizedInventory":
+        """The inventory with the size of the search for plans of `length` actions."""
+        names = tuple(self.problem.actions.names)
+        return SizedInventory(len(names), self.full_size, names, self.dropped, length)
+
+
+@dataclass(frozen=True, slots=True)
+class SizedInventory(Jsonable):
+    """The modules that a plan can be made of, and the search sizes D = N^m (thesis 2.2.1)."""
+
+    modules: Count
+    full_size: Count
+    """Before the filters."""
+    names: tuple[str, ...]
+    dropped: tuple[Dropped, ...]
+    length: Count
+    """Actions of a plan, for the size of the search."""
+
+    @property
+    @in_json()
+    def log10_before(self) -> float:
+        """Logarithm of how many plans of that length there are before the filters."""
+        return self.length * math.log10(self.full_size)
+
+    @property
+    @in_json()
+    def log10_after(self) -> float:
+        """The same after them."""
+        return self.length * math.log10(self.modules)
 
 
 def _limbed(task: Any, threads: int | None, filters: bool) -> Posed:

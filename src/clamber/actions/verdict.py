@@ -2,13 +2,15 @@
 
 import math
 from dataclasses import dataclass, replace
+from typing import Annotated, Literal
 
 import numpy as np
 
+from ..json_form import HIDDEN, INLINE, Count, Jsonable, Key, in_json
 from ..statics.checks import Check
 from ..statics.records import TOLERANCE, UNLIMITED
 from ..tasks import Task
-from ..types import Ints, Json
+from ..types import Ints
 from ..units import DEGREE, INCH, OZ_IN
 from .outside_checks import judge_outside
 from .plan import Plan
@@ -18,42 +20,73 @@ from .problem import Replay
 from .step_verdict import StepVerdict
 
 
+@dataclass(frozen=True, slots=True)
+class Violation:
+    """The first step that violates a hard check."""
+
+    step: int
+    action: int | str
+    check: str | None
+    margin: float | None
+    """In SI units."""
+    reason: str | None
+
+
+@dataclass(frozen=True, slots=True)
+class PlanEnd:
+    """Where the plan ends."""
+
+    x_in: float
+    y_in: float
+    theta_deg: float
+    holds: dict[str, int]
+
+
+@dataclass(frozen=True, slots=True)
+class NearestRule:
+    """How many printed holds the rule "nearest" would have taken too."""
+
+    agree: Count
+    of: Count
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Verdict:
+class Verdict(Jsonable):
     """What came out when a plan was carried out again."""
 
-    task: str
-    planner: str
     ok: bool
     """Whether every action of the plan holds; reaching the goal is told apart (`reached`)."""
-    length: int
+    task: str
+    planner: str
+    length: Count
     """Actions of the plan."""
-    steps: int
+    steps: Count
     """Actions that hold: up to the first violation, or all of them where the replay went on."""
-    went_on: bool
+    went_on: Annotated[bool, HIDDEN]
     """Whether the replay went on past violations."""
-    per_step: tuple[StepVerdict, ...]
-    """As far as the replay went; the violating step is the last where it did not go on."""
-    goals: int
+    goals: Count
     """Goals of the task, sub-goals included."""
-    goals_met: int
-    max_torque: float
-    """Largest joint torque of the actions that hold [N m]."""
-    max_power: float
-    """Largest electrical power that holding a stance takes [W]."""
-    energy: float
-    """Electrical energy of the actions that hold: power of each stance times the time of an action [J]."""
-    pose: tuple[float, float, float]
+    goals_met: Count
+    max_torque: Annotated[float, Key("max_torque_oz_in", per=OZ_IN), Key("max_torque_Nm")]
+    """Largest joint torque of the actions that hold."""
+    max_power: Annotated[float, Key("max_power_W")]
+    """Largest electrical power that holding a stance takes."""
+    energy: Annotated[float, Key("energy_J")]
+    """Electrical energy of the actions that hold: power of each stance times the time of an action."""
+    pose: Annotated[tuple[float, float, float], HIDDEN]
     """Body at the end, world frame [m, m, rad]; before the violating action where the replay stopped there."""
-    holds: dict[str, int]
+    holds: Annotated[dict[str, int], HIDDEN]
     """Limb -> hold at the end, 0 if free."""
-    checks: tuple[Check, ...]
+    checks: Annotated[tuple[Check, ...], HIDDEN]
     hard: tuple[str, ...]
     """Names of the checks that forbid an action; the others report."""
     notes: tuple[str, ...] = ()
     """What was read in a way that the reader should know of, such as a step size taken from the plan."""
+    per_step: tuple[StepVerdict, ...]
+    """As far as the replay went; the violating step is the last where it did not go on."""
 
     @property
+    @in_json(after="steps")
     def reached(self) -> bool:
         """Whether the goal was reached on the way."""
         return self.goals_met >= self.goals
@@ -72,6 +105,7 @@ class Verdict:
                     found[name] = margin, row.step
         return found
 
+    @in_json(after="hard")
     def warnings(self) -> dict[str, tuple[int, ...]]:
         """Check that only reports -> steps that violate it."""
         found: dict[str, list[int]] = {}
@@ -85,36 +119,34 @@ class Verdict:
         asked = [row for row in self.per_step if row.nearest is not None]
         return (sum(row.nearest == row.hold for row in asked), len(asked)) if asked else None
 
-    def to_json(self) -> Json:
-        """Plain data; inches, degrees and oz-in where the key says so, margins in SI."""
-        first, agree = self.first_violation, self.nearest_agree()
+    @in_json(key="first_violation", after="goals_met")
+    def violation(self) -> Violation | None:
+        """The first step that violates a hard check."""
+        row = self.first_violation
+        if row is None:
+            return None
+        margin = None if row.check is None else row.margins[row.check]
+        return Violation(row.step, row.asked, row.check, margin, row.reason)
+
+    @in_json(after="energy_J")
+    def final(self) -> PlanEnd:
+        """Where the plan ends."""
         x, y, theta = self.pose
-        return {
-            "ok": self.ok,
-            "task": self.task,
-            "planner": self.planner,
-            "length": self.length,
-            "steps": self.steps,
-            "reached": self.reached,
-            "goals": self.goals,
-            "goals_met": self.goals_met,
-            "first_violation": None if first is None else _violation(first),
-            "max_torque_oz_in": self.max_torque / OZ_IN,
-            "max_torque_Nm": self.max_torque,
-            "max_power_W": self.max_power,
-            "energy_J": self.energy,
-            "final": {"x_in": x / INCH, "y_in": y / INCH, "theta_deg": theta / DEGREE, "holds": self.holds},
-            "hard": list(self.hard),
-            "warnings": {name: list(steps) for name, steps in self.warnings().items()},
-            "nearest_rule": None if agree is None else {"agree": agree[0], "of": agree[1]},
-            "notes": list(self.notes),
-            "per_step": [row.to_json() for row in self.per_step],
-        }
+        return PlanEnd(x / INCH, y / INCH, theta / DEGREE, self.holds)
+
+    @in_json(after="warnings")
+    def nearest_rule(self) -> NearestRule | None:
+        """How many printed holds the rule "nearest" would have taken too."""
+        agree = self.nearest_agree()
+        return None if agree is None else NearestRule(*agree)
 
 
-def _violation(row: StepVerdict) -> Json:
-    margin = None if row.check is None else row.margins[row.check]
-    return {"step": row.step, "action": row.asked, "check": row.check, "margin": margin, "reason": row.reason}
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CheckedPlan:
+    """What came out when a plan was carried out again."""
+
+    kind: Literal["plan"] = "plan"
+    verdict: Annotated[Verdict, INLINE]
 
 
 def check_plan(

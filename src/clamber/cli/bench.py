@@ -1,15 +1,21 @@
 """`clamber bench`: measure speed and success, beside peers."""
 
 import shlex
+from collections.abc import Iterable
 from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from rich.console import Console
 
 from .crew import EndsLine, check_resume, executor_of
 from .options import AsJson, Output, Ray, Resume, Store, Workers
-from .output import announce_compilation, check_writable, print_json, stderr, stdout
+from .output import announce_compilation, check_writable, plain_table, print_json, stderr, stdout
+
+if TYPE_CHECKING:
+    from ..experiments.rows import Row
+    from ..experiments.trials import Crew
 
 
 def bench(
@@ -28,7 +34,6 @@ def bench(
     check_resume(resume, store)
     from ..experiments.benches import BATCHED, BENCHES, run_bench
     from ..experiments.trials import Crew
-    from .study_text import print_rows
 
     chosen = tuple(names or BENCHES)
     only = chosen[0] if len(chosen) == 1 else None
@@ -40,8 +45,6 @@ def bench(
     if ray is None and only != "start":
         announce_compilation()
     if only == "boards":
-        from .bench_boards import bench_boards
-
         bench_boards(crew, output=output, as_json=as_json)
         return
     from ..execution.plant import PlantStoppedError
@@ -62,9 +65,9 @@ def bench(
             output, performance_page(measured, shlex.join(("clamber", "bench", *chosen, "-o", str(output))))
         )
     if as_json:
-        print_json([row.to_json() for row in rows])
+        print_json(rows)
     else:
-        print_rows(stdout(), rows)
+        _print_rows(stdout(), rows)
     raise typer.Exit(0 if len(measured) == len(chosen) else 1)
 
 
@@ -89,3 +92,68 @@ def _check_asked(
             raise typer.BadParameter(
                 f"{output}: a page is Markdown (.md); pictures are of `boards` alone", param_hint="--output"
             )
+
+
+TABLES = (".md", ".csv")
+
+
+def bench_boards(crew: "Crew", *, output: Path | None, as_json: bool) -> None:
+    """Run the contest and print its tables.
+
+    Args:
+        crew: Who runs the trials, and where they are kept.
+        output: Picture, table (.md) or trials (.csv) to write.
+        as_json: Print the rows as JSON.
+    """
+    check_writable(output)
+    if output is not None:
+        from ..viewing.output import CANVASES, check_suffix
+
+        check_suffix(output, (*CANVASES, *TABLES))
+    from ..experiments.boards.contest import run_contest
+    from ..experiments.boards.tables import rows_of, save_markdown, save_trials
+
+    contest = run_contest(crew=crew)
+    if output is not None and output.suffix.lower() not in TABLES:
+        from ..viewing.boards_plot import draw_boards
+
+        draw_boards(contest, output)
+    elif output is not None:
+        (save_markdown if output.suffix.lower() == ".md" else save_trials)(contest, output)
+    if as_json:
+        print_json(rows_of(contest))
+    else:
+        print_contest(stdout(), contest, output)
+
+
+def print_contest(console: Console, contest: Any, output: Path | None) -> None:
+    """Print the tables, what the columns mean, and whatever contradicts a proof."""
+    from ..experiments.boards.standing import contradictions
+    from ..experiments.boards.tables import tables
+
+    for told in tables(contest):
+        console.print(told.title, style="bold")
+        table = plain_table(*told.columns, right=told.columns[1:])
+        for row in told.rows:
+            table.add_row(*row)
+        console.print(table)
+        console.print()
+    console.print(
+        f"a trial may judge {contest.allowance.checks} actions; solved: with a plan that holds, of the boards that have "
+        "one; gap: median length above the optimum; none: told: proofs, of the boards that have no plan"
+    )
+    wrong = contradictions(contest, contest.truths())
+    for line in wrong:
+        console.print(line, style="bold red", soft_wrap=True)
+    if not wrong:
+        console.print("no answer contradicts a proof")
+    if output is not None:
+        console.print(f"written to {output}", soft_wrap=True)
+
+
+def _print_rows(console: Console, rows: "Iterable[Row]") -> None:
+    """Print a benchmark's rows."""
+    table = plain_table("name", "value", "unit", "aim", right=("value",))
+    for row in rows:
+        table.add_row(row.name, f"{row.value:.4g}", row.unit, "" if row.aim is None else str(row.aim))
+    console.print(table)

@@ -8,8 +8,7 @@ from .options import AsJson
 from .output import announce_compilation, plain_table, print_json, stdout
 
 if TYPE_CHECKING:
-    from ..robots.walker.calibration import Fit, Rivals
-    from ..types import Json
+    from ..robots.walker.calibration import Fit
 
 
 def calibrate(
@@ -41,7 +40,7 @@ def calibrate(
     announce_compilation()
     found = fit_families(published, range(seeds))
     if as_json:
-        print_json([_plain(rivals) for rivals in found])
+        print_json(found)
         return
     console = stdout()
     table = plain_table(
@@ -72,28 +71,3 @@ def _numbers(fit: "Fit") -> tuple[str, ...]:
         f"{sizes.shortest * mm:.1f}", f"{fit.least / DEGREE:.2f}", f"{fit.most / DEGREE:.2f}", f"{fit.step * mm:.2f}",
         f"{fit.misfit:.2f}",
     )  # fmt: skip
-
-
-def _plain(rivals: "Rivals") -> "Json":
-    return {
-        "free": list(rivals.family.free),
-        "family": rivals.family.name,
-        "step_is": rivals.family.reading,
-        "seeds": rivals.seeds,
-        "seeds_that_fit": rivals.good,
-        "fits": [
-            {
-                "seed": fit.seed,
-                "radius_delta_m": fit.sizes.radius,
-                "radius_y_m": fit.sizes.radius * fit.sizes.ratio,
-                "offset_rad": fit.sizes.offset,
-                "shortest_m": fit.sizes.shortest,
-                "first_rad": fit.first,
-                "least_rad": fit.least,
-                "most_rad": fit.most,
-                "step_m": fit.step,
-                "misfit": fit.misfit,
-            }
-            for fit in rivals.fits
-        ],
-    }

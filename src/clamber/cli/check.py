@@ -3,12 +3,15 @@
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from rich.console import Console
 
 from .name_completion import names_of
 from .options import AsJson, Overrides
-from .output import announce_compilation, print_json, stdout
+from .output import announce_compilation, plain_table, print_json, stdout
 
 if TYPE_CHECKING:
+    from ..actions.step_verdict import StepVerdict
+    from ..actions.verdict import Verdict
     from ..inspection.finding import Finding
 
 
@@ -46,7 +49,7 @@ def check(
         announce_compilation()
     finding = inspect_file(what, kind, overrides or [])
     if as_json:
-        print_json(finding.to_json())
+        print_json(finding)
     else:
         _print_finding(finding)
     raise typer.Exit(0 if finding.ok else 1)
@@ -55,19 +58,18 @@ def check(
 def _check_plan(what: str, task: str | None, overrides: list[str], everything: bool, as_json: bool) -> None:
     announce_compilation()
     from ..actions.plan_source import open_plan
-    from .verdict_text import print_verdict
+    from ..actions.verdict import CheckedPlan
 
     verdict = open_plan(what, task, overrides).check(go_on=everything)
     if as_json:
-        print_json({"kind": "plan"} | verdict.to_json())
+        print_json(CheckedPlan(verdict=verdict))
     else:
-        print_verdict(stdout(), verdict, every_step=everything)
+        _print_verdict(stdout(), verdict, every_step=everything)
     raise typer.Exit(0 if verdict.ok else 1)
 
 
 def _print_finding(finding: "Finding") -> None:
     from .output import plain_table
-    from .verdict_text import margin_text
 
     console = stdout()
     console.print(f"{finding.kind} '{finding.name}'" + (f": {finding.title}" if finding.title else ""), style="bold")
@@ -80,7 +82,7 @@ def _print_finding(finding: "Finding") -> None:
         console.print()
         table = plain_table("check of the start", "", "margin", "", right=("margin",))
         for margin in finding.margins:
-            size = "unlimited" if margin.margin is None else margin_text(margin.unit, margin.margin)
+            size = "unlimited" if margin.margin is None else _margin_text(margin.unit, margin.margin)
             kind, state = "hard" if margin.hard else "reports", "" if margin.holds else "VIOLATED"
             bad = margin.hard and not margin.holds
             table.add_row(margin.check, kind, size, state, style="bold red" if bad else None)
@@ -96,3 +98,103 @@ def _print_finding(finding: "Finding") -> None:
         nothing = "nothing is odd" if not finding.odd else f"{len(finding.odd)} odd"
         start = "; the start holds" if finding.margins else ""
         console.print(f"OK: it follows its format{start}; {nothing}", style="bold green")
+
+
+def _print_verdict(console: Console, verdict: "Verdict", *, every_step: bool) -> None:
+    """Print it; `every_step` adds a line for each step."""
+    first = verdict.first_violation
+    if first is None:
+        console.print(f"OK: all {verdict.length} actions hold", style="bold green")
+    else:
+        console.print(
+            f"VIOLATED at step {first.step} of {verdict.length} ({_action(first)}): {first.reason}", style="bold red"
+        )
+    for note in verdict.notes:
+        console.print(f"note: {note}")
+    console.print(_summary(verdict))
+    if every_step:
+        console.print()
+        _print_steps(console, verdict)
+    elif first is not None:
+        console.print("the replay stopped there; --all goes on")
+    console.print()
+    _print_tightest(console, verdict)
+    if warnings := verdict.warnings():
+        console.print()
+        console.print("warnings, of checks that only report:")
+        for name, steps in warnings.items():
+            listed = ", ".join(map(str, steps[:8])) + (", ..." if len(steps) > 8 else "")
+            console.print(f"  {name}: {len(steps)} step{'s' if len(steps) > 1 else ''} ({listed})")
+    if agree := verdict.nearest_agree():
+        differs = [f"{row.step} ({row.hold}, not {row.nearest})" for row in verdict.per_step if _differs(row)]
+        where = f"; it differs at step {', '.join(differs)}" if differs else ""
+        console.print()
+        console.print(f"the rule 'nearest' takes the printed peg in {agree[0]} of {agree[1]} grabs{where}")
+
+
+def _differs(row: "StepVerdict") -> bool:
+    return row.nearest is not None and row.nearest != row.hold
+
+
+def _summary(verdict: "Verdict") -> str:
+    from ..units import DEGREE, INCH, OZ_IN
+
+    x, y, theta = verdict.pose
+    held = ", ".join(f"{limb} {hold or 'free'}" for limb, hold in verdict.holds.items())
+    loaded = any(check.name == "torque" for check in verdict.checks)
+    held = f"; holds: {held}" if held else ""
+    reached = "goal reached" if verdict.reached else "goal not reached"
+    torque = f"largest torque {verdict.max_torque / OZ_IN:.0f} oz-in, power {verdict.max_power:.1f} W, "
+    return (
+        f"{verdict.steps} of {verdict.length} actions of '{verdict.task}' hold; "
+        f"{reached} ({verdict.goals_met} of {verdict.goals})\n"
+        f"{f'{torque}energy {verdict.energy:.0f} J' + chr(10) if loaded else ''}"
+        f"end: x {x / INCH:.2f} in, y {y / INCH:.2f} in, theta {theta / DEGREE:.1f} deg{held}"
+    )
+
+
+def _print_tightest(console: Console, verdict: "Verdict") -> None:
+    table = plain_table("check", "", "smallest margin", "step", "action", right=("smallest margin", "step"))
+    tightest = verdict.tightest()
+    for check in verdict.checks:
+        if check.name in tightest:
+            margin, step = tightest[check.name]
+            kind = "hard" if check.name in verdict.hard else "reports"
+            table.add_row(
+                check.name, kind, _margin_text(check.unit, margin), str(step), _action(verdict.per_step[step - 1])
+            )
+    console.print(table)
+
+
+def _print_steps(console: Console, verdict: "Verdict") -> None:
+    from ..units import OZ_IN
+
+    names = [name for name in ("reach", "joint", "torque", "clearance") if name in verdict.tightest()]
+    checks = {check.name: check for check in verdict.checks}
+    table = plain_table("step", "action", "oz-in", *names, "violated", right=("step", "oz-in", *names))
+    for row in verdict.per_step:
+        margins = (row.margins[name] for name in names)
+        violated = (*((row.check.upper(),) if row.check else ()), *row.reported)
+        table.add_row(
+            str(row.step),
+            _action(row),
+            "-" if row.max_torque is None else f"{row.max_torque / OZ_IN:.0f}",
+            *("-" if m is None else _margin_text(checks[n].unit, m) for n, m in zip(names, margins, strict=True)),
+            " ".join(violated),
+            style="bold red" if not row.ok else None,
+        )
+    console.print(table)
+
+
+def _action(row: "StepVerdict") -> str:
+    text = str(row.asked)
+    return text if row.hold is None or text.endswith(f"{row.hold:02d}") else f"{text} -> {row.hold}"
+
+
+def _margin_text(unit: str, margin: float) -> str:
+    """A margin, given in an SI unit, with a unit that people read."""
+    from ..units import DEGREE
+
+    shown = {"m": (1000.0, "mm"), "rad": (1.0 / DEGREE, "deg"), "1": (1.0, "")}
+    factor, unit = shown.get(unit, (1.0, unit))
+    return f"{margin * factor:+.4g} {unit}".rstrip()

@@ -1,6 +1,7 @@
 """`clamber ditch`: the widest ditch that a walker crosses, and the slides that cross one."""
 
 import math
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -12,9 +13,20 @@ from .output import announce_compilation, check_writable, plain_table, print_jso
 if TYPE_CHECKING:
     from ..robots.walker.ditch import Footing
     from ..robots.walker.ditch_plan import Crossing
-    from ..types import Json
 
 MM = 1e3
+
+
+@dataclass(frozen=True, slots=True)
+class WidestDitch:
+    """The widest ditch that is crossed at one angle of the frames."""
+
+    theta_deg: float
+    widest_m: float
+    direction_deg: float
+    """In which."""
+    least_over_directions_m: float
+    """In the worst direction."""
 
 
 def ditch(
@@ -67,7 +79,7 @@ def ditch(
 
         draw_crossing(found, output)
     if as_json:
-        print_json(_plain(found))
+        print_json(found)
     elif found.status == "found":
         _tell_crossing(found)
     else:
@@ -94,12 +106,7 @@ def _tell_widest(footing: "Footing", aside: bool, as_json: bool, output: Output)
         draw_ditch_maps(thetas.tolist(), directions.tolist(), {title: widths * MM}, output)
     best = [int(row.argmax()) for row in widths]
     rows = [
-        {
-            "theta_deg": float(theta),
-            "widest_m": float(row[k]),
-            "direction_deg": float(directions[k]),
-            "least_over_directions_m": float(row.min()),
-        }
+        WidestDitch(float(theta), float(row[k]), float(directions[k]), float(row.min()))
         for theta, row, k in zip(thetas, widths, best, strict=True)
     ]
     if as_json:
@@ -111,8 +118,8 @@ def _tell_widest(footing: "Footing", aside: bool, as_json: bool, output: Output)
     )  # fmt: skip
     for row in rows:
         table.add_row(
-            f"{row['theta_deg']:g}", f"{row['widest_m'] * MM:.1f}", f"{row['direction_deg']:g}",
-            f"{row['least_over_directions_m'] * MM:.1f}",
+            f"{row.theta_deg:g}", f"{row.widest_m * MM:.1f}", f"{row.direction_deg:g}",
+            f"{row.least_over_directions_m * MM:.1f}",
         )  # fmt: skip
     stdout().print(table)
 
@@ -135,30 +142,3 @@ def _tell_crossing(found: "Crossing") -> None:
         )  # fmt: skip
     console.print(table)
     console.print("x across the ditch from its near edge; the last four columns are margins, the worst of each slide.")
-
-
-def _plain(found: "Crossing") -> "Json":
-    margins = found.replay() if found.status == "found" else ()
-    return {
-        "status": found.status,
-        "reason": found.reason,
-        "width_m": found.width,
-        "theta_rad": found.theta,
-        "direction_rad": found.direction,
-        "widest_m": found.widest,
-        "pivots": found.pivots,
-        "start": found.start.tolist(),
-        "slides": [
-            {
-                "frame": ("delta", "y")[slide.frame],
-                "way": slide.way.tolist(),
-                "margins": {
-                    "stroke_m": one.stroke,
-                    "singular": one.singular if math.isfinite(one.singular) else None,
-                    "balance_m": one.balance,
-                    "foothold_m": one.foothold,
-                },
-            }
-            for slide, one in zip(found.slides, margins, strict=True)
-        ],
-    }

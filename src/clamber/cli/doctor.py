@@ -9,51 +9,51 @@ from .options import AsJson
 from .output import plain_table, print_json, stdout
 
 if TYPE_CHECKING:
-    from ..types import Json
+    from .doctor_facts import Health
 
 
 def doctor(as_json: AsJson = False) -> None:
     """Tell what is installed, what the machine has, whether the kernels are compiled, and what is wrong."""
-    from .doctor_facts import facts, problems
+    from .doctor_facts import examine
 
-    found = facts()
-    wrong = problems(found)
+    found = examine()
     if as_json:
-        print_json(found | {"problems": wrong})
+        print_json(found)
     else:
-        print_facts(stdout(), found, wrong)
-    raise typer.Exit(1 if wrong else 0)
+        print_facts(stdout(), found)
+    raise typer.Exit(1 if found.problems else 0)
 
 
-def print_facts(console: Console, found: "Json", wrong: list[str]) -> None:
+def print_facts(console: Console, found: "Health") -> None:
     """The facts as people read them."""
     table = plain_table("", "")
     table.show_header = False
-    machine, kernels = found["machine"], found["kernels"]
-    table.add_row("Clamber", f"{found['clamber']['version']} in {found['clamber']['folder']}")
-    table.add_row("Python", f"{found['python']['version']}, {found['python']['executable']}")
-    table.add_row("system", machine["system"])
-    table.add_row("cores", str(machine["cores"]))
-    if machine["memory"] is not None:
-        table.add_row("memory", f"{_size(machine['memory'])}, {_size(machine['memory_free'] or 0)} free")
-    table.add_row("needed", _versions(found["required"]) or "not known: run from its sources")
-    for extra, packages in found["optional"].items():
+    machine, kernels = found.machine, found.kernels
+    table.add_row("Clamber", f"{found.clamber.version} in {found.clamber.folder}")
+    table.add_row("Python", f"{found.python.version}, {found.python.executable}")
+    table.add_row("system", machine.system)
+    table.add_row("cores", str(machine.cores))
+    if machine.memory is not None:
+        table.add_row("memory", f"{_size(machine.memory)}, {_size(machine.memory_free or 0)} free")
+    table.add_row("needed", _versions(found.required) or "not known: run from its sources")
+    for extra, packages in found.optional.items():
         table.add_row(f"[{extra}]", _versions(packages))
-    for each in found["extensions"]:
-        table.add_row("added", f"{each['kind']}: {each['name']}, of {each['package']}")
-    state = "compiled" if kernels["compiled"] else "not compiled yet: the first command does it, once"
-    if kernels["problem"] is not None:
-        state = f"compiled anew each time: the folder is {kernels['state']}"
-    checked = ", every index checked" if kernels["bounds_checked"] else ""
-    table.add_row("kernels", f"{state}; {kernels['functions']} functions, {_size(kernels['bytes'])}{checked}")
-    table.add_row("", kernels["folder"])
-    if kernels["older_folders"]:
-        words = f"{_size(kernels['older_bytes'])} in {kernels['older_folders']} folders beside it"
+    for each in found.extensions:
+        table.add_row("added", f"{each.kind}: {each.name}, of {each.package}")
+    state = "compiled" if kernels.compiled else "not compiled yet: the first command does it, once"
+    if kernels.problem is not None:
+        state = f"compiled anew each time: the folder is {kernels.state}"
+    checked = ", every index checked" if kernels.bounds_checked else ""
+    table.add_row("kernels", f"{state}; {kernels.functions} functions, {_size(kernels.bytes)}{checked}")
+    table.add_row("", kernels.folder)
+    if kernels.older_folders:
+        words = f"{_size(kernels.older_bytes)} in {kernels.older_folders} folders beside it"
         table.add_row("", f"{words}, of other versions: they can go")
-    table.add_row("GL", found["gl"] or "none; pictures and the viewer do without")
-    table.add_row("ffmpeg", found["ffmpeg"] or 'none; MP4 needs it: pip install "clamber[video]"')
-    table.add_row("browser", found["chromium"] or "no chromium; only tests need it")
+    table.add_row("GL", found.gl or "none; pictures and the viewer do without")
+    table.add_row("ffmpeg", found.ffmpeg or 'none; MP4 needs it: pip install "clamber[video]"')
+    table.add_row("browser", found.chromium or "no chromium; only tests need it")
     console.print(table)
+    wrong = found.problems
     for line in wrong:
         console.print(f"wrong: {line}", style="bold red")
     if not wrong:

@@ -8,14 +8,15 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Annotated, Any, Final, Literal
 
 from .. import __version__, kernel_cache, sources
 from ..extensions import GROUPS, ExtensionError, all_outside, load_outside, outside, package_of
 from ..jobs.cores import usable_cores
 from ..jobs.release import version_of
-from ..types import Json
+from ..json_form import Count, Key, in_json
 
 FIRST_KERNEL: Final = "replay"
 """Every command that judges a stance needs it."""
@@ -27,41 +28,121 @@ GL_WAYS: Final = ("egl", "osmesa", "glfw")
 _REQUIREMENT: Final = re.compile(r"([A-Za-z0-9._-]+)[^;]*(?:;\s*extra\s*==\s*['\"]([^'\"]+)['\"])?")
 
 
-def facts() -> Json:
-    """All of it as plain data; sizes in bytes."""
-    return {
-        "clamber": {"version": __version__, "folder": str(sources.PACKAGE)},
-        "python": {"version": platform.python_version(), "executable": sys.executable},
-        "machine": machine(),
-        "required": parts(None),
-        "optional": {extra: parts(extra) for extra in extras()},
-        "extensions": extensions(),
-        "kernels": kernels(),
-        "gl": gl(),
-        "ffmpeg": ffmpeg(),
-        "chromium": next((path for name in BROWSERS if (path := shutil.which(name))), None),
-    }
+@dataclass(frozen=True, slots=True)
+class Installed:
+    """Clamber itself."""
+
+    version: str
+    folder: str
 
 
-def problems(found: Json) -> list[str]:
-    """What keeps Clamber from working, in sentences; empty where nothing does."""
-    missing = [name for name, version in found["required"].items() if version is None]
-    wrong = [f"{name} is not installed: pip install {name}" for name in missing]
-    if found["kernels"]["problem"] is not None:
-        wrong.append(found["kernels"]["problem"])
-    for state, what in (("damaged", "is damaged"), ("foreign", "could have been written by others")):
-        names = found["kernels"][state]
-        more = "" if len(names) < 2 else f", and {len(names) - 1} more"
-        if names:
-            file = Path(found["kernels"]["folder"]) / names[0]
-            wrong.append(f"{file} {what}{more}: not loaded, and compiled anew when it is needed; you may remove it")
-    wrong += [f"{each['error']}" for each in found["extensions"] if each["error"] is not None]
-    return wrong
+@dataclass(frozen=True, slots=True)
+class Python:
+    """The interpreter."""
+
+    version: str
+    executable: str
 
 
-def extensions() -> list[Json]:
+@dataclass(frozen=True, slots=True)
+class Machine:
+    """The machine."""
+
+    system: str
+    cores: int | None
+    """That this process may use."""
+    memory: int | None
+    """[bytes]; None where the system does not tell."""
+    memory_free: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class Extension:
+    """What another package adds."""
+
+    kind: str
+    name: str
+    package: str
+    error: str | None
+    """Why it cannot be loaded."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Kernels:
+    """Compiled kernels."""
+
+    folder: str
+    state: Annotated[str, Key(kind=Literal["fine", "damaged", "foreign", "unwritable"])]
+    """foreign: others could have written it; what is not fine is not loaded."""
+    problem: str | None
+    """Why the folder is not used, so that every command compiles anew."""
+    damaged: list[str]
+    """Files of it."""
+    foreign: list[str]
+    """Files of it that others could have written."""
+    bounds_checked: bool
+    """Whether kernels check every index (CLAMBER_BOUNDSCHECK=1)."""
+    compiled: bool
+    functions: Count
+    bytes: Count
+    older_folders: Count
+    older_bytes: Count
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Health:
+    """What is installed and what is wrong; exit code 1 where something is."""
+
+    clamber: Installed
+    python: Python
+    machine: Machine
+    required: dict[str, str | None]
+    """Package to its version; None: missing."""
+    optional: dict[str, dict[str, str | None]]
+    """Optional part to its packages."""
+    extensions: list[Extension]
+    kernels: Kernels
+    gl: str | None
+    """How a picture can be rendered without a screen."""
+    ffmpeg: str | None
+    chromium: str | None
+
+    @property
+    @in_json()
+    def problems(self) -> list[str]:
+        """What keeps Clamber from working, in sentences; empty where nothing does."""
+        missing = [name for name, version in self.required.items() if version is None]
+        wrong = [f"{name} is not installed: pip install {name}" for name in missing]
+        kernels = self.kernels
+        if kernels.problem is not None:
+            wrong.append(kernels.problem)
+        for names, what in ((kernels.damaged, "is damaged"), (kernels.foreign, "could have been written by others")):
+            more = "" if len(names) < 2 else f", and {len(names) - 1} more"
+            if names:
+                file = Path(kernels.folder) / names[0]
+                wrong.append(f"{file} {what}{more}: not loaded, and compiled anew when it is needed; you may remove it")
+        return wrong + [each.error for each in self.extensions if each.error is not None]
+
+
+def examine() -> Health:
+    """All of it; sizes in bytes."""
+    return Health(
+        clamber=Installed(__version__, str(sources.PACKAGE)),
+        python=Python(platform.python_version(), sys.executable),
+        machine=machine(),
+        required=parts(None),
+        optional={extra: parts(extra) for extra in extras()},
+        extensions=extensions(),
+        kernels=kernels(),
+        gl=gl(),
+        ffmpeg=ffmpeg(),
+        chromium=next((path for name in BROWSERS if (path := shutil.which(name))), None),
+    )
+
+
+def extensions() -> list[Extension]:
     """What other packages add, each loaded, with the error where it cannot be."""
-    told: list[Json] = []
+    told: list[Extension] = []
     for kind in GROUPS:
         counts = outside(kind)
         for point in all_outside(kind):
@@ -73,18 +154,14 @@ def extensions() -> list[Json]:
                     load_outside(kind, point.name)
                 except ExtensionError as problem:
                     error = str(problem)
-            told.append({"kind": kind, "name": point.name, "package": package_of(point), "error": error})
+            told.append(Extension(kind, point.name, package_of(point), error))
     return told
 
 
-def machine() -> Json:
+def machine() -> Machine:
     """System, cores that this process may use, and memory."""
-    return {
-        "system": f"{platform.system()} {platform.release()} {platform.machine()}",
-        "cores": usable_cores(),
-        "memory": _memory("SC_PHYS_PAGES"),
-        "memory_free": _memory("SC_AVPHYS_PAGES"),
-    }
+    system = f"{platform.system()} {platform.release()} {platform.machine()}"
+    return Machine(system, usable_cores(), _memory("SC_PHYS_PAGES"), _memory("SC_AVPHYS_PAGES"))
 
 
 def _memory(pages: str) -> int | None:
@@ -114,25 +191,25 @@ def _requirements() -> list[tuple[str, str | None]]:
     return [(match[1], match[2]) for match in found if match is not None]
 
 
-def kernels() -> Json:
+def kernels() -> Kernels:
     """Where the compiled kernels lie, whether those of this version are there, and what older ones take up."""
     root, folder = kernel_cache.cache_root(), kernel_cache.cache_folder()
     older = [path for path in root.glob("kernels-*") if path != folder] if root.is_dir() else []
     problem = kernel_cache.cache_problem()
     states = {} if problem is not None else kernel_cache.cache_states(folder)
-    return {
-        "folder": str(folder),
-        "state": problem[0] if problem is not None else _worst(states),
-        "problem": None if problem is None else kernel_cache.advice(problem),
-        "damaged": states.get("damaged", []),
-        "foreign": states.get("foreign", []),
-        "bounds_checked": kernel_cache.bounds_checked(),
-        "compiled": problem is None and kernel_cache.is_compiled(FIRST_KERNEL),
-        "functions": sum(1 for _ in folder.glob("*.nbc")),
-        "bytes": _size(folder),
-        "older_folders": len(older),
-        "older_bytes": sum(_size(path) for path in older),
-    }
+    return Kernels(
+        folder=str(folder),
+        state=problem[0] if problem is not None else _worst(states),
+        problem=None if problem is None else kernel_cache.advice(problem),
+        damaged=states.get("damaged", []),
+        foreign=states.get("foreign", []),
+        bounds_checked=kernel_cache.bounds_checked(),
+        compiled=problem is None and kernel_cache.is_compiled(FIRST_KERNEL),
+        functions=sum(1 for _ in folder.glob("*.nbc")),
+        bytes=_size(folder),
+        older_folders=len(older),
+        older_bytes=sum(_size(path) for path in older),
+    )
 
 
 def _worst(states: Mapping[str, list[str]]) -> str:

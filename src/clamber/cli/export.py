@@ -40,15 +40,7 @@ def export(
         announce_compilation()
     written = write(thing, output, task, overrides or ())
     if as_json:
-        print_json(
-            {
-                "written": str(written.path),
-                "kind": written.kind,
-                "format": written.format,
-                "bytes": written.path.stat().st_size,
-                "notes": list(written.notes),
-            }
-        )
+        print_json(written)
         return
     console = stdout()
     console.print(f"{written.kind} as {written.format}: {written.path}", soft_wrap=True)

@@ -5,14 +5,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from rich.console import Console
 
 from ..errors import FileError, SpecError
 from .name_completion import names_of
 from .options import AsJson
-from .output import announce_compilation, check_writable, print_json, stdout
+from .output import announce_compilation, check_writable, plain_table, print_json, stdout
 
 if TYPE_CHECKING:
     from ..experiments.cooperative.follow import FollowRun
+    from ..experiments.cooperative.tool_path import ToolPath
     from ..robots.walker import WalkerRobot
 
 Outputs = Annotated[
@@ -53,7 +55,6 @@ def follow(
     from ..experiments.cooperative.follow import FollowOptions, follow_path
     from ..experiments.cooperative.tool_path import load_tool_path
     from ..units import parse_quantity
-    from .follow_text import print_follow
 
     if blind and not dynamics:
         raise typer.BadParameter("is for a robot in dynamics", param_hint="--blind")
@@ -74,12 +75,35 @@ def follow(
     announce_compilation(quiet=as_json)
     run = follow_path(chosen, tool_path, options)
     _write_files(run, files)
-    told = run.to_json()
     if as_json:
-        print_json(told)
+        print_json(run)
     else:
-        print_follow(stdout(), run, tool_path)
-    raise typer.Exit(0 if told["reached"] and not run.unreachable else 1)
+        _print_follow(stdout(), run, tool_path)
+    raise typer.Exit(0 if run.at_end() and not run.unreachable else 1)
+
+
+def _print_follow(console: Console, run: "FollowRun", path: "ToolPath") -> None:
+    """Print how the tool followed its path, how far it was off, and which limit it came nearest to."""
+    from ..control.cooperative.planted_feet import SUPPORT_WORDS
+
+    closest = run.closest_range()
+    unit = "" if closest.unit == "1" else f" {closest.unit}"
+    table = plain_table("", "", right=("",))
+    table.add_row("result", run.reason)
+    table.add_row("stands on", f"the {SUPPORT_WORDS[run.footing.support]}")
+    table.add_row("took", f"{run.seconds:.1f} s, {1e3 * path.length:.0f} mm of path")
+    table.add_row("off its place", f"{1e3 * run.rms_error:.3f} mm rms, {1e3 * run.largest_error:.3f} mm at most")
+    table.add_row("manipulability", f"{run.mean_manipulability:.4f} mean, {run.least_manipulability:.4f} least")
+    if run.options.gain > run.stable_gain:
+        table.add_row(
+            "gain", f"{run.options.gain:g} swings about summits of V; below {run.stable_gain:.3g} it does not"
+        )
+    table.add_row("closest limit", f"{closest.name}, {closest.margin:.3g}{unit} left at {closest.time:.1f} s")
+    if run.unreachable:
+        table.add_row("out of reach", f"{len(run.unreachable)} of the points looked at beforehand")
+    console.print(table)
+    for note in path.notes:
+        console.print(note)
 
 
 def _check_files(files: Sequence[Path]) -> None:

@@ -20,17 +20,17 @@ def inventory(
 
     announce_compilation(quiet=as_json)
     posed = pose_problem(load_task(task, overrides or ()))
-    report = posed.to_json(length)
+    report = posed.sized(length)
     if as_json:
         print_json(report)
         return
     console = stdout()
-    console.print(f"{task}: {report['modules']} modules of {report['full_size']}")
-    print_indented(console, ", ".join(report["names"]))
+    console.print(f"{task}: {report.modules} modules of {report.full_size}")
+    print_indented(console, ", ".join(report.names))
     table = plain_table("filter", "dropped", "why")
     for dropped in posed.dropped:
         table.add_row(dropped.filter, str(len(dropped.names)), dropped.reason)
     console.print(table)
     console.print(
-        f"plans of {length} actions: 10^{report['log10_before']:.1f} before, 10^{report['log10_after']:.1f} after the filters"
+        f"plans of {length} actions: 10^{report.log10_before:.1f} before, 10^{report.log10_after:.1f} after the filters"
     )

@@ -32,7 +32,7 @@ def learn(
     if output is not None:
         lesson.save(output)
     if as_json:
-        print_json(lesson.to_json())
+        print_json(lesson)
     else:
         print_lesson(stdout(), loaded, lesson, output)
     raise typer.Exit(0 if lesson.macros else 1)

@@ -35,7 +35,7 @@ def most(
     """Find the largest of N values with which a walk comes to its end in balance, by bisection; without noise unless asked for."""
     from ..errors import SpecError
     from ..experiments.plant_settings import split_settings
-    from ..experiments.walk.most import Tried, find_most
+    from ..experiments.walk.most import MostOfWalk, Tried, find_most
     from ..experiments.walk.noise import named_walk_noise, read_walk_noise
     from ..experiments.walk.run_walk import run_walk, walk_flaws
     from ..planning.axes import range_axis
@@ -62,11 +62,7 @@ def most(
     announce_compilation(quiet=quiet)
     found = find_most(axis.values, tried)
     if as_json:
-        told = {"borne": found.borne, "refused": found.refused}
-        print_json(
-            {"walk": walk, "key": axis.key, "tried": [each.to_json() for each in found.tried]}
-            | {name: None if each is None else each.value for name, each in told.items()}
-        )
+        print_json(MostOfWalk(walk, axis.key, found))
     else:
         _print_most(walk, axis.key, found)
     raise typer.Exit(1 if found.borne is None else 0)

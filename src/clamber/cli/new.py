@@ -1,20 +1,114 @@
 """`clamber new`: write files to start from."""
 
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Final, TypeAlias
 
 import typer
 
 from .name_completion import names_of
-from .new_board_words import LIKE, BoardWords, Force
-from .option_holder import takes_words
+from .option_holder import takes_options
 from .options import BOARD, ROBOT, AsJson
 from .output import announce_compilation, check_writable, print_json, stdout
 
 if TYPE_CHECKING:
     from ..types import Json
+    from .new_files import NewBoard
 
 new = typer.Typer(help="Write a file to start from: robot, board or task.", no_args_is_help=True)
+
+
+LIKE: Final = "Start from this one in place of a made-up one."
+Force: TypeAlias = Annotated[bool, typer.Option("--force", help="Write over a file that is there.")]
+
+
+@dataclass(frozen=True, slots=True)
+class BoardOptions:
+    """Options of `clamber new board`, as they came."""
+
+    random: Annotated[bool, typer.Option("--random", help="Holds scattered at random, the same for the same seed.")] = (
+        False
+    )
+    csv: Annotated[Path | None, typer.Option("--csv", metavar="FILE", help="Holds of a table: x, y per line.")] = None
+    unit: Annotated[str | None, typer.Option(help="Of that table, such as cm, where its header names none.")] = None
+    pixels: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Holds marked in a picture: x, y per line in pixels, y down.")
+    ] = None
+    scale: Annotated[str | None, typer.Option(help="Size of such a pixel on the wall, such as 3.2mm.")] = None
+    origin: Annotated[
+        str | None,
+        typer.Option(metavar="X,Y", help="Pixel of the board's origin; unless given, left of and below all holds."),
+    ] = None
+    radius: Annotated[str | None, typer.Option(help="Of holds of a table or a picture, such as 5mm.")] = None
+    like: Annotated[str | None, typer.Option(metavar="NAME|FILE", help=LIKE, autocompletion=names_of("boards"))] = None
+    holds: Annotated[int, typer.Option(help="How many random holds.")] = 100
+    density: Annotated[str, typer.Option(help="Holds per m^2, or with a unit, such as '2 holds/ft^2'.")] = "20"
+    width: Annotated[str | None, typer.Option(help="Of the wall, such as 3m; as wide as high unless given.")] = None
+    least_gap: Annotated[
+        str | None,
+        typer.Option(help="Least distance of two holds, such as 8cm; half of the mean distance unless given."),
+    ] = None
+    seed: Annotated[int, typer.Option(min=0, help="Same seed, same board, on any machine.")] = 0
+    listed: Annotated[
+        bool, typer.Option("--listed", help="List every hold, to edit them, and not how they were scattered.")
+    ] = False
+    task: Annotated[
+        bool, typer.Option("--task", help="Write a task to FILE, to the top of the board, and the board beside it.")
+    ] = False
+    overrides: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set", metavar="KEY=VALUE", help="Change one key of that task, such as robot=gecko4 or rules.max_hangs=0."
+        ),
+    ] = None
+    force: Force = False
+    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="File to write.")] = Path("wall.toml")
+    as_json: AsJson = False
+
+    def check(self) -> None:
+        """Make sure that they go together."""
+        sources = {"--random": self.random, "--csv": self.csv, "--pixels": self.pixels, "--like": self.like}
+        given = [name for name, value in sources.items() if value]
+        if len(given) > 1:
+            raise typer.BadParameter("are different ways to a board; take one", param_hint=", ".join(given))
+        for flag, value, way in (
+            ("--unit", self.unit, "--csv"),
+            ("--scale", self.scale, "--pixels"),
+            ("--origin", self.origin, "--pixels"),
+        ):
+            if value is not None and way not in given:
+                raise typer.BadParameter(f"is for {way}", param_hint=flag)
+        if self.pixels is not None and self.scale is None:
+            raise typer.BadParameter("needs the size of a pixel: --scale 3.2mm", param_hint="--pixels")
+        if self.radius is not None and not (self.csv or self.pixels):
+            raise typer.BadParameter("is for --csv and --pixels", param_hint="--radius")
+        if self.overrides and not self.task:
+            raise typer.BadParameter("changes the task; it needs --task", param_hint="--set")
+
+    @property
+    def board_file(self) -> Path:
+        """Where the board goes: beside its task, if there is one."""
+        return self.output.with_name(f"{self.output.stem}-board.toml") if self.task else self.output
+
+
+@dataclass(frozen=True, slots=True)
+class NewRobot:
+    """A robot that was written."""
+
+    written: dict[str, str]
+    """robot, to the file."""
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class NewTask:
+    """A task that was written."""
+
+    written: dict[str, str]
+    """task, to the file."""
+    name: str
+    start: dict[str, Any]
+    """The start that was found, as the file has it."""
 
 
 @new.callback()
@@ -40,12 +134,12 @@ def robot(
     made = robot_starter(output, limbs, like)
     write_atomically(output, made.text)
     told = f"robot '{made.data['name']}'"
-    _tell({"robot": str(output)}, {"name": made.data["name"]}, told, f"clamber check {output}", as_json)
+    _tell(NewRobot({"robot": str(output)}, made.data["name"]), told, f"clamber check {output}", as_json)
 
 
 @new.command("board")
-@takes_words
-def board(*, words: BoardWords) -> None:
+@takes_options
+def board(*, words: BoardOptions) -> None:
     """Write a board: made up, at random, from a table or a picture; with --task also a task on it that `clamber plan` takes."""
     words.check()
     board_file = words.board_file
@@ -72,22 +166,20 @@ def _write_board(
 ) -> None:
     from ..files import write_atomically
     from ..toml_text import toml_text
-    from .new_files import task_data, wall_facts
+    from .new_files import describe_board, task_data
 
-    facts: dict[str, Any] = wall_facts(data, board_file)
-    written = {"board": str(board_file)}
+    written = {"board": str(board_file)} | ({} if task_file is None else {"task": str(task_file)})
+    made = describe_board(data, written)
     following = f"clamber check {board_file}"
     if task_file is not None:
         announce_compilation()
         climb = task_data(data, str(board_file), task_file, overrides)
         comment = "From the lowest stance that the rules allow to the top of the board beside it."
         write_atomically(task_file, toml_text(climb, comment))
-        written["task"] = str(task_file)
         following = f"clamber show {task_file}; clamber plan {task_file} --planner auto"
     write_atomically(board_file, toml_text(data) if text is None else text)
-    apart = f", at least {facts['gap_m']:.4g} m apart" if facts["gap_m"] is not None else ""
-    told = "{holds} holds on {width_m:.4g} x {height_m:.4g} m".format(**facts) + apart
-    _tell(written, facts, told, following, as_json)
+    apart = "" if made.gap_m is None else f", at least {made.gap_m:.4g} m apart"
+    _tell(made, f"{made.holds} holds on {made.width_m:.4g} x {made.height_m:.4g} m{apart}", following, as_json)
 
 
 @new.command("task")
@@ -131,7 +223,7 @@ def task(
     write_atomically(output, made.text)
     told = f"task '{made.data['name']}' for robot '{made.data['robot']}'"
     following = f"clamber check {output}; clamber plan {output} --planner auto"
-    _tell({"task": str(output)}, {"name": made.data["name"], "start": made.data["start"]}, told, following, as_json)
+    _tell(NewTask({"task": str(output)}, made.data["name"], made.data["start"]), told, following, as_json)
 
 
 def _check_new(path: Path, force: bool) -> None:
@@ -148,12 +240,12 @@ def _check_new(path: Path, force: bool) -> None:
         raise FileError(str(path), "is there already", "name another file, or write over it with --force")
 
 
-def _tell(written: dict[str, str], facts: dict[str, Any], told: str, following: str, as_json: bool) -> None:
+def _tell(made: "NewBoard | NewRobot | NewTask", told: str, following: str, as_json: bool) -> None:
     if as_json:
-        print_json({"written": written, **facts})
+        print_json(made)
         return
     console = stdout()
     console.print(told)
-    for kind, path in written.items():
+    for kind, path in made.written.items():
         console.print(f"{kind} written to {path}", soft_wrap=True)
     console.print(f"next: {following}", soft_wrap=True)

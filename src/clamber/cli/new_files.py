@@ -3,11 +3,13 @@
 import math
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
 from ..errors import SpecError, UnitError
 from ..files import Document
+from ..json_form import Count
 from ..types import Json
 from ..units import parse_quantity
 from ..worlds.board import Board, build_board
@@ -106,15 +108,29 @@ def task_data(board: Json, label: str, path: Path, overrides: Sequence[str], rob
     return dict([*words[:4], ("board", Path(label).name), *words[4:]])
 
 
-def wall_facts(board: Json, path: Path) -> Json:
-    """What the command tells about a board; building it checks it."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NewBoard:
+    """A board that was written."""
+
+    written: dict[str, str]
+    """board, and with --task the task, to the file."""
+    name: str
+    holds: Count
+    width_m: float
+    height_m: float
+    gap_m: float | None
+    """Least distance of two holds."""
+
+
+def describe_board(board: Json, written: dict[str, str]) -> NewBoard:
+    """What the command prints about a board and the files of it; building it checks it."""
     built = _board(board)
     points = built.positions()
     width, height = (points.max(axis=0) - points.min(axis=0)).tolist()
     from scipy.spatial import cKDTree
 
     gap = float(cKDTree(points).query(points, k=2)[0][:, 1].min()) if len(points) > 1 else None
-    return {"name": built.name, "holds": len(points), "width_m": width, "height_m": height, "gap_m": gap}
+    return NewBoard(written=written, name=built.name, holds=len(points), width_m=width, height_m=height, gap_m=gap)
 
 
 def name_of(path: Path, kind: str = "wall") -> str:

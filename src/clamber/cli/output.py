@@ -38,8 +38,10 @@ def stderr() -> Console:
 
 
 def print_json(value: Any) -> None:
-    """One JSON value on stdout."""
-    sys.stdout.write(json.dumps(value, indent=2, allow_nan=False) + "\n")
+    """One JSON value on stdout, of plain values and dataclasses."""
+    from ..json_form import plain
+
+    sys.stdout.write(json.dumps(plain(value), indent=2, allow_nan=False) + "\n")
     sys.stdout.flush()  # so that a closed pipe shows here and not at exit
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Self
 import typer
 
 from .name_completion import names_of
-from .option_holder import takes_words
+from .option_holder import takes_options
 from .options import AsJson, NoiseTexts, Overrides, Quiet
 from .output import print_json, stderr
 
@@ -25,7 +25,7 @@ plant = typer.Typer(no_args_is_help=True, help="A robot in its own process, driv
 
 
 @dataclass(frozen=True, slots=True)
-class ServeWords:
+class ServeOptions:
     """Options of `clamber plant serve`, as they came."""
 
     port: Annotated[int, typer.Option(min=0, max=65535, help="On 127.0.0.1; 0: any that is free.")] = 0
@@ -73,15 +73,36 @@ class ServeWords:
                 stderr().print(told, soft_wrap=True)
 
 
+@dataclass(frozen=True, slots=True)
+class ServedPlant:
+    """Printed once the server listens."""
+
+    address: str
+    """For `clamber run --plant`."""
+    robot: str
+    board: str
+    real_time: bool
+
+
+@dataclass(frozen=True, slots=True)
+class PlantAnswer:
+    """Printed by who has stopped a served robot, or given it back."""
+
+    address: str
+    """Of its server."""
+    said: str
+    """What the server has done."""
+
+
 @plant.command()
-@takes_words
+@takes_options
 def serve(
     task: Annotated[
         str,
         typer.Argument(metavar="TASK", help="Whose robot is served, on whose board.", autocompletion=names_of("tasks")),
     ],
     *,
-    words: ServeWords,
+    words: ServeOptions,
 ) -> None:
     """Serve a task's simulated robot to one client at a time: volts in, counts out, 200 times a second (docs/hardware.md).
 
@@ -116,7 +137,7 @@ def serve(
 
 
 def _server_of(
-    chosen: "LimbedTask", for_plant: list[str], words: ServeWords
+    chosen: "LimbedTask", for_plant: list[str], words: ServeOptions
 ) -> "Callable[[socket.socket], PlantServer]":
     """What serves the task's robot at a listener, drawn before anyone can connect."""
     from ..experiments.climb.noise import NO_NOISE, check_noise, draw_for, read_noise
@@ -137,10 +158,10 @@ def _server_of(
     return serve_at
 
 
-def _announce(chosen: "LimbedTask", address: "Address", words: ServeWords) -> None:
+def _announce(chosen: "LimbedTask", address: "Address", words: ServeOptions) -> None:
     robot, board = chosen.robot.name, chosen.world.name
     if words.as_json:
-        print_json({"address": str(address), "robot": robot, "board": board, "real_time": words.real_time})
+        print_json(ServedPlant(str(address), robot, board, words.real_time))
     else:
         print(address, flush=True)
     words.say(f"'{robot}' on '{board}', {'in real time' if words.real_time else 'in lock-step'}; Ctrl-C ends")
@@ -198,6 +219,6 @@ def _ask_server(address: str, *, release: bool, as_json: bool) -> None:
 
     said = stop_plant(read_address(address), release=release)
     if as_json:
-        print_json({"address": address, "said": said})
+        print_json(PlantAnswer(address, said))
     else:
         print(said)

@@ -47,6 +47,6 @@ def polish(
     if output is not None:
         result.plan.save(output)
     if as_json:
-        print_json(result.to_json())
+        print_json(result)
     else:
         print_result(stdout(), result, output)

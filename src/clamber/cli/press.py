@@ -55,7 +55,7 @@ def press(
     if output is not None:
         draw_press(result, output)
     if as_json:
-        print_json(result.to_json())
+        print_json(result)
     else:
         table = plain_table("", "", right=("",))
         table.add_row("force wanted", f"{wanted:.3g} N")

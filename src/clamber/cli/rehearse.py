@@ -1,20 +1,58 @@
 """`clamber rehearse`: make a climber's plan surer."""
 
+from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
+from rich.console import Console
 
 from .crew import executor_of
-from .lessons_text import LessonsLine, print_lessons, to_json
+from .live_line import LiveLine
 from .name_completion import names_of
 from .options import AsJson, CarriedOutIn, NoiseTexts, Output, Overrides, Quiet, Ray, Workers
-from .output import announce_compilation, check_writable, print_json, stderr, stdout
+from .output import announce_compilation, check_writable, plain_table, print_json, stderr, stdout
 
 if TYPE_CHECKING:  # loads NumPy, which `--help` does without
     from ..experiments.climb.lessons import Lesson, Rehearsed
 
 FIRST_SEED: Final = 500_000
 """Of rehearsals, unless stated: far from those that trials begin with."""
+
+
+class LessonsLine(LiveLine):
+    """Follows rehearsals."""
+
+    def update(self, best: "Rehearsed", tried: "Sequence[Lesson]") -> None:
+        """Show how the best plan so far climbs, and how many changes were tried."""
+        self.show(f"{_climbed(best)}; {len(tried)} changes tried, {sum(lesson.taken for lesson in tried)} taken")
+
+
+def _print_lessons(
+    console: Console, first: "Rehearsed", best: "Rehearsed", tried: "Sequence[Lesson]", written: Path | None
+) -> None:
+    """Print climbs before and after, a row for each change, and what still fails."""
+    console.print(
+        f"{_climbed(first)} before, {best.climbed} after; {len(first.plan.actions)} actions, now {len(best.plan.actions)}",
+        style="bold",
+    )
+    if tried:
+        table = plain_table("grab", "change", "actions", "climbed", "", right=("grab", "actions", "climbed"))
+        for lesson in tried:
+            table.add_row(
+                str(lesson.step), lesson.what, str(lesson.length), f"{lesson.climbed} of {lesson.tried}",
+                "taken" if lesson.taken else "",
+            )  # fmt: skip
+        console.print(table)
+    for step, seeds in best.faults.items():
+        where = f"step {step}, {best.plan.actions[step - 1].title}" if step else "before the first grab"
+        console.print(f"still fails: {where}, {len(seeds)} of {len(best.trials)}")
+    if written is not None:
+        console.print(f"written: {written}")
+
+
+def _climbed(plan: "Rehearsed") -> str:
+    return f"{plan.climbed} of {len(plan.trials)} climbs"
 
 
 def rehearse(
@@ -43,7 +81,7 @@ def rehearse(
     from .compile_ahead import CLIMBING, compile_ahead
 
     compile_ahead(CLIMBING)
-    from ..experiments.climb.lessons import climbs_with, learn
+    from ..experiments.climb.lessons import LearnedPlan, climbs_with, learn
     from ..experiments.climb.noise import named_noise, read_noise
     from ..experiments.climb.run_plan import open_climb
     from ..experiments.climb.trial import TrialSetup
@@ -77,7 +115,7 @@ def rehearse(
         (first, _), (best, _) = told[0], told[-1]
         tried = [lesson for _, lesson in told if lesson is not None]
         if as_json:
-            print_json(to_json(first, best, tried))
+            print_json(LearnedPlan(first, best, tried))
         else:
-            print_lessons(stdout(), first, best, tried, output)
+            _print_lessons(stdout(), first, best, tried, output)
     raise typer.Exit(130 if interrupted else 0)

@@ -1,13 +1,27 @@
 """`clamber show`: a picture or an animation of a task or a plan."""
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from ..json_form import Count, Key
 from .name_completion import names_of
 from .options import AsJson, Output, Overrides
 from .output import announce_compilation, check_writable, print_json, stdout
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """A picture that was written."""
+
+    written: Annotated[Path, Key(kind=str)]
+    """The file."""
+    task: str
+    steps: Count
+    """Actions that it shows."""
+    bytes: Count
 
 
 def show(
@@ -60,6 +74,6 @@ def show(
     else:
         draw_stance(shown, replay, step or 0, path)
     if as_json:
-        print_json({"written": str(path), "task": shown.name, "steps": last, "bytes": path.stat().st_size})
+        print_json(Drawn(path, shown.name, last, path.stat().st_size))
         return
     stdout().print(f"written to {path}", soft_wrap=True)

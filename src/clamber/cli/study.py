@@ -1,17 +1,19 @@
 """`clamber study`: a paper's published results, ours beside the printed ones."""
 
 import time
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from rich.console import Console
 
 from .crew import EndsLine, executor_of
 from .name_completion import names_of
-from .option_holder import takes_words
+from .option_holder import takes_options
 from .options import AsJson, Quiet, Resume, Store, Workers
-from .output import announce_compilation, print_json, stderr, stdout
+from .output import announce_compilation, plain_table, print_indented, print_json, stderr, stdout
 
 if TYPE_CHECKING:
     from ..studies.result import StudyResult
@@ -28,7 +30,7 @@ def results_of(context: typer.Context, incomplete: str) -> list[str]:
 
 
 @dataclass(frozen=True, slots=True)
-class StudyWords:
+class StudyOptions:
     """Options of `clamber study`, as they came."""
 
     as_json: AsJson = False
@@ -61,7 +63,7 @@ class StudyWords:
             raise typer.BadParameter("needs --store or --report, what to go on with", param_hint="--resume")
 
 
-@takes_words
+@takes_options
 def study(
     paper: Annotated[
         str,
@@ -74,14 +76,13 @@ def study(
         str | None, typer.Argument(help="One of its results; all unless given.", autocompletion=results_of)
     ] = None,
     *,
-    words: StudyWords,
+    words: StudyOptions,
 ) -> None:
     """Repeat what a paper reports, and say for each result whether it holds.
 
     A report of all takes hours: it is whole after every result, and --resume leaves out what it has from the same Clamber.
     """
     from ..studies.library import STUDIES
-    from .study_text import print_results
 
     words.check(paper, result)
     site = _open_site(words.report)
@@ -105,15 +106,14 @@ def study(
 
         write_markdown(results, words.markdown)
     if words.as_json:
-        told = [one.to_json() for one in results]
-        print_json(told if result is None else told[0] if told else None)
+        print_json(results if result is None else results[0] if results else None)
         return
-    print_results(stdout(), results)
+    _print_results(stdout(), results)
     if site is not None:
         stdout().print(f"report: {site.index}", soft_wrap=True)
 
 
-def _repeat(paper: str, result: str, words: StudyWords, *, seeded: bool) -> "StudyResult":
+def _repeat(paper: str, result: str, words: StudyOptions, *, seeded: bool) -> "StudyResult":
     """One result; with `seeded`, one of trials with as many seeds as the options say."""
     from ..studies.library import SEEDED, STUDIES
 
@@ -132,3 +132,20 @@ def _open_site(report: Path | None) -> "StudySite | None":
     from ..studies.site import StudySite
 
     return StudySite(report)
+
+
+STYLES = {"holds": "bold green", "consistent": "bold cyan", "differs": "bold red", "open": "bold yellow"}
+"""Verdict -> colour."""
+
+
+def _print_results(console: Console, results: "Iterable[StudyResult]") -> None:
+    """Print each result: verdict, claim, numbers, deviations."""
+    for result in results:
+        console.print(f"{result.result}: {result.verdict}", style=STYLES[result.verdict])
+        print_indented(console, f"claim: {result.claim}")
+        table = plain_table("  number", "value", right=("value",))
+        for name, value in result.numbers.items():
+            table.add_row(f"  {name}", f"{value:.6g}" if isinstance(value, float) else str(value))
+        console.print(table)
+        for deviation in result.deviations:
+            print_indented(console, f"deviation: {deviation}")

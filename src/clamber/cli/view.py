@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..json_form import Count, Key
 from .name_completion import names_of
-from .option_holder import takes_words
+from .option_holder import takes_options
 from .options import AsJson, Overrides
 from .output import announce_compilation, check_writable, print_json, stderr, stdout
 
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class ViewWords:
+class ViewOptions:
     """Options of `clamber view`, as they came."""
 
     task: Annotated[
@@ -42,7 +43,24 @@ class ViewWords:
     as_json: AsJson = False
 
 
-@takes_words
+@dataclass(frozen=True, slots=True)
+class Opened:
+    """Printed once the viewer listens."""
+
+    url: str
+    title: str
+
+
+@dataclass(frozen=True, slots=True)
+class Saved:
+    """`--save`: a page that was written."""
+
+    written: Annotated[Path, Key(kind=str)]
+    title: str
+    bytes: Count
+
+
+@takes_options
 def view(
     things: Annotated[
         list[str],
@@ -53,7 +71,7 @@ def view(
         ),
     ],
     *,
-    words: ViewWords,
+    words: ViewOptions,
 ) -> None:
     """Look at a robot in the browser: play plans and runs, edit a board or a ground, plan, and run.
 
@@ -91,16 +109,16 @@ def _save(exhibit: "Exhibit", path: Path, *, as_json: bool) -> None:
 
     size = write_page(exhibit, path)
     if as_json:
-        print_json({"written": str(path), "title": exhibit.title, "bytes": size})
+        print_json(Saved(path, exhibit.title, size))
     else:
         stdout().print(f"written to {path}", soft_wrap=True)
 
 
-def _serve(app: "App", words: ViewWords) -> None:
+def _serve(app: "App", words: ViewOptions) -> None:
     """Tell where the page is, and wait for its end."""
     title = app.exhibit.title
     if words.as_json:
-        print_json({"url": app.url, "title": title})
+        print_json(Opened(app.url, title))
     else:
         stdout().print(f"{title}\n{app.url}  (Ctrl-C ends it)", soft_wrap=True)
     if words.browser:

@@ -6,6 +6,7 @@ from typing import Any, Final
 
 from ..errors import ClamberError, describe_choices
 from ..files import check_schema, read_toml, write_atomically
+from ..json_form import Jsonable
 from ..regular_files import is_there
 from ..toml_text import toml_text
 from ..types import Json
@@ -30,7 +31,7 @@ class RecommendationError(ClamberError):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Recommended:
+class Recommended(Jsonable):
     """Gains of one law for one limb, with where they come from."""
 
     robot: str
@@ -48,20 +49,6 @@ class Recommended:
     """Of the tip along x and y, at the start (0.22, 0) m or where the limb was put [N/m]."""
     plant: Json
     """Backlash [rad], encoder counts, delay [samples], control rate [Hz] that they were found with."""
-
-    def to_json(self) -> Json:
-        """Plain data, as it stands in the file."""
-        return {
-            "robot": self.robot,
-            "limb": self.limb,
-            "law": self.law,
-            "kp": self.kp,
-            "kd": self.kd,
-            "limit_kp": self.limit_kp,
-            "margin": self.margin,
-            "stiffness": list(self.stiffness),
-            "plant": dict(self.plant),
-        }
 
 
 def read_recommended(path: Path = SHIPPED) -> list[Recommended]:

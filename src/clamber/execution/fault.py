@@ -8,7 +8,8 @@ from typing import Final, Literal, TypeAlias
 import numpy as np
 
 from ..errors import ClamberError, describe_choices
-from ..types import Floats, Json
+from ..json_form import Count, Jsonable
+from ..types import Floats
 
 Target: TypeAlias = Literal["sensor", "motor", "link", "hold"]
 
@@ -61,7 +62,7 @@ class FaultChoiceError(ClamberError):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Fault:
+class Fault(Jsonable):
     """One fault."""
 
     kind: str
@@ -69,22 +70,19 @@ class Fault:
     start: float
     """From when on, since the reset [s]."""
     size: float
-    """How much, in the unit of its kind; of a hold [N], and spans counted [rad], [m], [N]."""
-    channel: int = 0
+    """How much, in the SI unit of its kind: of spikes and drift what the sensor is off, of packets the part or number of them; of a hold
+    [N], and spans counted [rad], [m], [N]."""
+    channel: Count = 0
     """Index of the sensor or motor; number of the hold."""
     where: str = ""
     """Its name; empty for the link."""
-    seed: int = 0
+    seed: Count = 0
     """Of what it leaves to chance."""
 
     @property
     def target(self) -> Target:
         """What fails."""
         return FAULTS[self.kind].target
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {name: getattr(self, name) for name in self.__slots__}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -2,11 +2,11 @@
 
 from dataclasses import dataclass
 
-from ..types import Json
+from ..json_form import Jsonable
 
 
 @dataclass(frozen=True, slots=True)
-class Finding:
+class Finding(Jsonable):
     """A fault as the robot has noticed it."""
 
     kind: str
@@ -16,10 +16,7 @@ class Finding:
     time: float
     """When it was noticed first [s]."""
     why: str
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {name: getattr(self, name) for name in self.__slots__}
+    """In words, with its numbers."""
 
     def __str__(self) -> str:
         at = f"{self.where}: " if self.where else ""

@@ -10,10 +10,10 @@ from ..control.identification.joint import Drivetrain, IdentifiedJoint, identify
 from ..control.identification.links import LinkLoad, link_loads
 from ..control.identification.motion import motion_of
 from ..errors import ClamberError, UnitError, UnknownNameError, describe_choices
+from ..json_form import Jsonable
 from ..robots.library import load_robot
 from ..robots.limbed import Joint, LimbedRobot
 from ..toml_text import toml_value
-from ..types import Json
 from ..units import parse_quantity
 from .log import Log, LogError
 from .log_roles import LimbSamples, samples_of
@@ -62,7 +62,7 @@ class Known:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Identification:
+class Identification(Jsonable):
     """What a log tells of the joints of a limb."""
 
     log: str
@@ -77,16 +77,6 @@ class Identification:
     def complete(self) -> bool:
         """Whether any joint's parameters were found at all."""
         return any(estimate.value is not None for joint in self.joints for estimate in joint.estimates)
-
-    def to_json(self) -> Json:
-        """As plain data."""
-        return {
-            "log": self.log,
-            "robot": self.robot,
-            "limb": self.limb,
-            "joints": [joint.to_json() for joint in self.joints],
-            "notes": list(self.notes),
-        }
 
     def toml(self) -> str:
         """Lines for a robot's file, a section a joint, each number with its unit and source; what is not known is left out."""

@@ -16,6 +16,7 @@ from threading import Thread
 from types import TracebackType
 from typing import IO, Any, Final
 
+from ..json_form import Jsonable
 from ..regular_files import check_target, open_growing
 from ..types import Floats, Json
 from .log_mcap import NOTES, TOPIC, open_channel, stamp_of
@@ -29,8 +30,8 @@ PART: Final = ".part"
 
 
 @dataclass(frozen=True, slots=True)
-class LogGap:
-    """What a log lacks that could not be written to its end."""
+class LogGap(Jsonable):
+    """What the log lacks that could not be written to its end."""
 
     since: float
     """Time of the first sample that may be missing [s]."""
@@ -41,10 +42,6 @@ class LogGap:
 
     def __str__(self) -> str:
         return f"{self.file}: cannot be written ({self.problem}): the log is missing from {self.since:.2f} s on"
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {"since": self.since, "file": self.file, "problem": self.problem}
 
 
 def warn(words: str) -> None:

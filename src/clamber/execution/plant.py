@@ -5,7 +5,8 @@ from typing import Protocol, TypeVar
 
 import numpy as np
 
-from ..types import Floats, Ints, Json
+from ..json_form import Jsonable
+from ..types import Floats, Ints
 from .run_ends import RunEndedError
 
 SensedT_co = TypeVar("SensedT_co", covariant=True)
@@ -91,7 +92,7 @@ class BodySensed:
 
 
 @dataclass(frozen=True, slots=True)
-class HoldBreak:
+class HoldBreak(Jsonable):
     """A hold that has given way, for good."""
 
     time: float
@@ -101,10 +102,7 @@ class HoldBreak:
     force: float
     """On it then [N]."""
     why: str
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {name: getattr(self, name) for name in self.__slots__}
+    """Above its strength, or pulled outside its direction."""
 
     def __str__(self) -> str:
         return f"hold {self.hold} broke at {self.time:.2f} s: {self.why}"

@@ -5,7 +5,7 @@ from typing import Annotated, Final, Literal, TypeAlias
 
 from pydantic import Field
 
-from ..types import Json
+from ..json_form import Jsonable
 from .findings import Finding
 
 Outcome: TypeAlias = Literal[
@@ -44,15 +44,15 @@ def ending_of(moved: float, late: float, *, holds: bool) -> Ending:
 
 
 @dataclass(slots=True, kw_only=True)
-class RunReport:
+class RunReport(Jsonable):
     """How a run went; a kind of robot adds what became of its actions."""
 
     done: bool = False
     """Whether every action was carried out and the robot came to its goal with that."""
-    seconds: float = 0.0
-    """Simulated, or on the robot's clock."""
     reason: str = ""
     """Why it ended, where it is not done."""
+    seconds: float = 0.0
+    """Simulated, or on the robot's clock."""
     pose: tuple[float, ...] = ()
     """Of the body at the end, as believed [m], [rad]; empty if it never stood."""
     true_pose: tuple[float, ...] | None = None
@@ -61,7 +61,3 @@ class RunReport:
     """Faults that the robot noticed in itself, whether they ended the run or were bridged."""
     ending: Ending = ""
     """What became of it where one of them ended the run."""
-
-    def faults_to_json(self) -> Json:
-        """What it noticed of faults, as plain data."""
-        return {"findings": [finding.to_json() for finding in self.findings], "ending": self.ending}

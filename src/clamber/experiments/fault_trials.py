@@ -4,22 +4,41 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
-from typing import Annotated, Final, Protocol
+from typing import Annotated, Final, Literal, Protocol, TypeAlias, get_args
 
 from pydantic import Field
 
 from ..execution.fault import Fault
+from ..execution.findings import Finding
 from ..execution.run_report import RunReport
 from ..jobs import read_result
+from ..json_form import INLINE, Count, Jsonable, in_json
 from ..types import Json
 from .intervals import wilson_interval
 
-ENDINGS: Final = ("recovered", "held", "stopped safely", "fell", "error")
+Ending: TypeAlias = Literal["recovered", "held", "stopped safely", "fell", "error"]
+ENDINGS: Final[tuple[Ending, ...]] = get_args(Ending)
 """How a trial with a fault may end: it came to its goal in spite of it; it noticed the fault and held its posture, or came to rest
 elsewhere, as one does that ends for another reason while it stands; it fell; it raised, or its workers died."""
 
 
-def ending_of_run(done: bool, report: RunReport) -> str:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TriedFault(Jsonable):
+    """The fault that a trial's robot had, and how that ended."""
+
+    fault: Annotated[Fault, INLINE]
+    noticed: float | None
+    """When the robot noticed it first [s]; None if it never did."""
+    noticed_as: str
+    """As what, such as "no answer"."""
+    at: str
+    """Where, as the robot has it."""
+    early: list[Finding]
+    """Faults that the robot noticed before there was one: false alarms."""
+    ending: Ending
+
+
+def ending_of_run(done: bool, report: RunReport) -> Ending:
     """One of `ENDINGS` for a run that has a report."""
     if done:
         return "recovered"
@@ -33,13 +52,14 @@ def told_fault(fault: Fault | None, done: bool, report: RunReport) -> Json | Non
     if fault is None:
         return None
     noticed = [finding for finding in report.findings if finding.time >= fault.start]
-    return fault.to_json() | {
-        "noticed": noticed[0].time if noticed else None,
-        "noticed_as": noticed[0].kind if noticed else "",
-        "at": noticed[0].where if noticed else "",
-        "early": [finding.to_json() for finding in report.findings if finding.time < fault.start],
-        "ending": ending_of_run(done, report),
-    }
+    return TriedFault(
+        fault=fault,
+        noticed=noticed[0].time if noticed else None,
+        noticed_as=noticed[0].kind if noticed else "",
+        at=noticed[0].where if noticed else "",
+        early=[finding for finding in report.findings if finding.time < fault.start],
+        ending=ending_of_run(done, report),
+    ).to_json()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,27 +93,27 @@ class Tried(Protocol):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class FaultRow:
+class FaultRow(Jsonable):
     """Trials with one kind of fault."""
 
     kind: str
     """Of the fault; "error" for trials that raised before one was told."""
-    n: int
-    noticed: int
+    n: Count
+    noticed: Count
     """In which the robot noticed a fault after it had begun."""
-    located: int
+    located: Count
     """In which it named the sensor, motor or hold that had failed."""
     delay: float | None
     """Median time from the beginning of the fault until it was noticed [s]; None if it never was."""
-    early: int
+    early: Count
     """In which it noticed a fault before there was one."""
-    endings: dict[str, int]
-    """How many came to each of `ENDINGS`."""
+    endings: dict[str, Count]
+    """How many came to each ending."""
 
-    def to_json(self) -> Json:
-        """Plain data; with the 95 % interval of each ending's share."""
-        told = {name: getattr(self, name) for name in self.__slots__}
-        return told | {"intervals": {name: list(wilson_interval(k, self.n)) for name, k in self.endings.items()}}
+    @in_json()
+    def intervals(self) -> dict[str, tuple[float, float]]:
+        """95 % interval of each ending's share."""
+        return {name: wilson_interval(k, self.n) for name, k in self.endings.items()}
 
 
 def fault_rows(trials: Iterable[Tried]) -> tuple[FaultRow, ...]:

@@ -48,17 +48,17 @@ def filter_rows(*, seeds: range = FILTER_SEEDS, say: Say = keep_quiet) -> list[R
         if not lengths:
             rows.append(Row(f"{name}: log10 of the sequences (no plan, so no length)", NOTHING, "log10"))
             continue
-        size = pose_problem(task).to_json(round(median(lengths)))
-        actions = f"plans of {size['length']} actions"
+        size = pose_problem(task).sized(round(median(lengths)))
+        actions = f"plans of {size.length} actions"
         rows += [
             Row(
-                f"{name}: sequences D = N^m before filters, {actions}, N = {size['full_size']}",
-                size["log10_before"],
+                f"{name}: sequences D = N^m before filters, {actions}, N = {size.full_size}",
+                size.log10_before,
                 "log10",
             ),
             Row(
-                f"{name}: sequences D = N^m after filters, {actions}, N = {size['modules']}",
-                size["log10_after"],
+                f"{name}: sequences D = N^m after filters, {actions}, N = {size.modules}",
+                size.log10_after,
                 "log10",
             ),
         ]

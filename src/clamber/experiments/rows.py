@@ -5,30 +5,22 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from statistics import median
 
-from ..types import Json
+from ..json_form import Jsonable, OrNull
 
 NOTHING = math.nan
 """The value of a row that could not be measured, or of a time until something that did not happen."""
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class Row(Jsonable):
     """One measurement."""
 
     name: str
-    value: float
+    value: OrNull
     """NaN where there is none."""
     unit: str
     aim: str | None = None
-
-    def to_json(self) -> Json:
-        """Plain data; a value that there is not is null."""
-        return {
-            "name": self.name,
-            "value": self.value if math.isfinite(self.value) else None,
-            "unit": self.unit,
-            "aim": self.aim,
-        }
+    """What it should be, in words."""
 
 
 Say = Callable[[str], None]

@@ -4,12 +4,13 @@ import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Final, Literal, TypeAlias
+from typing import Annotated, Any, Final, Literal, TypeAlias
 
 from ..actions.plan_source import OpenedPlan, is_plan, open_plan, plan_names
 from ..errors import ClamberError, SpecError, UnknownNameError, describe_choices
 from ..execution.log_files import SUFFIXES as LOGS
 from ..files import is_path, write_atomically
+from ..json_form import Count, Key, in_json
 from ..robots.library import Robot, load_robot, robot_names
 from .joint_trajectory import JointTrajectory
 from .plan_table import plan_table
@@ -48,12 +49,19 @@ class Content:
 
 @dataclass(frozen=True, slots=True)
 class Exported:
-    """A file that was written."""
+    """A file that was written for other programs."""
 
-    path: Path
+    path: Annotated[Path, Key("written", kind=str)]
     kind: Kind
     format: str
+    """In words."""
     notes: tuple[str, ...]
+    """What the reader should know, such as what the format cannot say."""
+
+    @in_json(after="format")
+    def bytes(self) -> Count:
+        """Size of the file."""
+        return self.path.stat().st_size
 
 
 def mjcf(robot: Robot) -> Content:

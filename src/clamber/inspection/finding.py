@@ -1,15 +1,15 @@
 """What an inspection answers."""
 
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Annotated, Literal
 
-from ..types import Json
+from ..json_form import HIDDEN, Jsonable, in_json
 
 Kind = Literal["robot", "board", "ground", "task", "walk", "plan"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Margin:
+class Margin(Jsonable):
     """One check of a start stance."""
 
     check: str
@@ -18,21 +18,18 @@ class Margin:
     """Signed, in `unit`: positive holds; None where nothing limits it."""
     hard: bool
     """Whether the task's rules forbid what violates it."""
-    meaning: str
+    meaning: Annotated[str, HIDDEN]
 
     @property
+    @in_json()
     def holds(self) -> bool:
         """Whether it does."""
         return self.margin is None or self.margin >= 0.0
 
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {"check": self.check, "unit": self.unit, "margin": self.margin, "hard": self.hard, "holds": self.holds}
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Finding:
-    """What a file is and what is to be said of it; a file that breaks a rule of its format is an error and has none."""
+class Finding(Jsonable):
+    """What a file is and what is to be said of it; a file that breaks a rule of its format is an error, exit code 2."""
 
     kind: Kind
     name: str
@@ -45,18 +42,7 @@ class Finding:
     """Of a task's start stance, in the order of its checks."""
 
     @property
+    @in_json(after="kind")
     def ok(self) -> bool:
         """Whether every hard check holds; files without a start are always."""
         return all(margin.holds for margin in self.margins if margin.hard)
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {
-            "kind": self.kind,
-            "ok": self.ok,
-            "name": self.name,
-            "title": self.title,
-            "facts": self.facts,
-            "odd": list(self.odd),
-            "margins": [margin.to_json() for margin in self.margins],
-        }

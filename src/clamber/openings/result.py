@@ -1,58 +1,46 @@
 """What would make an infeasible task feasible, as plain values."""
 
 from dataclasses import dataclass
+from typing import Annotated
 
-from ..types import Json
+from ..json_form import Count, Jsonable, Key, in_json
 
 Value = float | str | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Opening:
+class Opening(Jsonable):
     """One change of a task that makes it feasible."""
 
     key: str
     """What changes: a key as overrides have it, or words where several keys change together."""
-    before: Value
+    before: Annotated[Value, Key("from")]
     """The value that the task has, in `unit`; None where there is none."""
-    after: Value
-    shut_at: float | None = None
-    """The value one step before `after`, at which the task is proved infeasible, in `unit`; None where the values are names."""
+    after: Annotated[Value, Key("to")]
+    """As it would have to be, in `unit`."""
+    shut_at: Annotated[float | None, Key("infeasible_at")] = None
+    """The value one step before, at which the task is proved infeasible, in `unit`; None where the values are names."""
     unit: str
     """Empty where the values are names or have none."""
     overrides: tuple[str, ...]
     """The change as texts "key=value", for `--set`."""
-    length: int
+    length: Count
     """Actions of the plan that it opens."""
     shortest: bool
     """Whether that plan is proved to be the shortest."""
     least: bool
-    """Whether it is proved that no smaller change of this kind does; False where values before `shut_at` were not all tried, or where
-    time ran out, so that `shut_at` is farther away than a step."""
+    """Whether it is proved that no smaller change of this kind does; False where values in between were not all tried, or where
+    time ran out, so that `infeasible_at` is farther away than a step."""
 
     @property
+    @in_json()
     def text(self) -> str:
         """The change in words."""
         return f"{self.key}: {shown(self.before, self.unit)} -> {shown(self.after, self.unit)}"
 
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {
-            "key": self.key,
-            "from": self.before,
-            "to": self.after,
-            "infeasible_at": self.shut_at,
-            "unit": self.unit,
-            "overrides": list(self.overrides),
-            "length": self.length,
-            "shortest": self.shortest,
-            "least": self.least,
-            "text": self.text,
-        }
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Shut:
+class Shut(Jsonable):
     """One kind of change that was not found to open the task."""
 
     key: str
@@ -66,51 +54,38 @@ class Shut:
         """The change in words."""
         return f"{self.key} ({self.tried})"
 
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {"key": self.key, "tried": self.tried, "proved": self.proved}
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Places:
+class Places(Jsonable):
     """Where one hold more opens the task."""
 
+    spacing: Annotated[float, Key("spacing_m")]
+    """Of the lattice of places [m]."""
+    places: Count
+    """Places of the lattice that a limb could ever grab from where the robot can get to."""
+    tried: Count
+    """Of those, how many were settled by the exact planner: each opens the task or is proved not to."""
     openings: tuple[Opening, ...]
     """One for each place that does: those with the shortest plan first, of these the one with most others about it."""
-    spacing: float
-    """Of the lattice of places [m]."""
-    places: int
-    """Places of the lattice that a limb could ever grab from where the robot can get to."""
-    tried: int
-    """Of those, how many were settled by the exact planner: each opens the task or is proved not to."""
 
     @property
+    @in_json(after="tried")
     def complete(self) -> bool:
         """Whether all of them were settled."""
         return self.tried == self.places
 
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {
-            "spacing_m": self.spacing,
-            "places": self.places,
-            "tried": self.tried,
-            "complete": self.complete,
-            "openings": [opening.to_json() for opening in self.openings],
-        }
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Openings:
+class Openings(Jsonable):
     """Every single change that was tried on an infeasible task, and what came of it."""
 
     openings: tuple[Opening, ...]
     """The smallest change of each kind that makes it feasible."""
     shut: tuple[Shut, ...]
     """The kinds of which none was found."""
-    places: Places | None
+    places: Annotated[Places | None, Key("one_hold_more")]
     """One hold more; None where the family has no holds, or the places were not settled one by one."""
-    searches: int
+    searches: Count
     """Exact searches made."""
     seconds: float
     ended: str
@@ -120,17 +95,6 @@ class Openings:
     def found(self) -> bool:
         """Whether any change opens the task."""
         return bool(self.openings or (self.places is not None and self.places.openings))
-
-    def to_json(self) -> Json:
-        """Plain data: what `clamber plan --json` has under "openings"."""
-        return {
-            "openings": [opening.to_json() for opening in self.openings],
-            "shut": [shut.to_json() for shut in self.shut],
-            "one_hold_more": None if self.places is None else self.places.to_json(),
-            "searches": self.searches,
-            "seconds": self.seconds,
-            "ended": self.ended,
-        }
 
 
 def shown(value: Value, unit: str) -> str:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Final
 
 from ..errors import ClamberError
+from ..json_form import Jsonable
 from ..tasks.overrides import split_override
-from ..types import Json
 from ..units import split_quantity
 
 POINTS: Final = 8
@@ -29,26 +29,21 @@ class SweepError(ClamberError):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Axis:
+class Axis(Jsonable):
     """A key and its values, in order."""
 
     key: str
     """As in an override, such as "motor.torque_limit"."""
+    unit: str = ""
+    """As the user wrote it; empty for a count, a ratio or a name."""
     values: tuple[str, ...]
     """As in an override, such as "12 N m"; no two are the same."""
     numbers: tuple[float, ...] | None = None
     """The values in `unit`; None where they are names."""
-    unit: str = ""
-    """As the user wrote it; empty for a count, a ratio or a name."""
 
     def overrides(self) -> tuple[str, ...]:
         """One override per value."""
         return tuple(f"{self.key}={value}" for value in self.values)
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        numbers = None if self.numbers is None else list(self.numbers)
-        return {"key": self.key, "unit": self.unit, "values": list(self.values), "numbers": numbers}
 
 
 def range_axis(text: str) -> Axis:
@@ -128,7 +123,7 @@ def values_axis(text: str) -> Axis:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Mark:
+class Mark(Jsonable):
     """A reference on an axis, such as what a paper recommends: a value, or a range of them."""
 
     key: str
@@ -144,10 +139,6 @@ class Mark:
         """Whether a value of the axis is the mark, or lies in it, give or take rounding."""
         slack = 1e-9 * max(abs(self.low), abs(self.high))
         return self.low - slack <= number <= self.high + slack
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {"key": self.key, "low": self.low, "high": self.high, "text": self.text}
 
 
 def read_mark(text: str, axes: Sequence[Axis]) -> Mark:

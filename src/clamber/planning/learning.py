@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
@@ -11,9 +11,9 @@ from pydantic import StrictStr
 from ..actions.problems import code_limits, pose_problem
 from ..errors import FileError, SpecError
 from ..files import Document, check_schema, parse_json, read_text, write_atomically
+from ..json_form import Jsonable
 from ..specs import build_spec, spec
 from ..tasks import Task
-from ..types import Json
 from .genetic.learning import Count, Macro, learn
 from .genetic.planner import plan_genetic
 from .genetic.profile import Profile, load_profile
@@ -26,29 +26,19 @@ ENOUGH: Final = 0.8
 """Share of the way to the goal that a macro must lead by itself for the search to stop early."""
 
 
-@dataclass(frozen=True, slots=True)
-class Lesson:
-    """What was learned from a task."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Lesson(Jsonable):
+    """What was learned from a task; its file is the same. Exit code 1 where nothing repeats."""
 
+    schema: str = SCHEMA
     task: str
     robot: str
-    """Its name."""
-    macros: tuple[Macro, ...]
-    """By how far each leads alone from the task's start, in words that the family's inventory knows: packed codes."""
-    plans: int
+    """Its name; another robot's macros are refused."""
+    plans: Count
     """Plans looked at."""
-    evaluations: int
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {
-            "schema": SCHEMA,
-            "task": self.task,
-            "robot": self.robot,
-            "plans": self.plans,
-            "evaluations": self.evaluations,
-            "macros": [asdict(macro) for macro in self.macros],
-        }
+    evaluations: Count
+    macros: tuple[Macro, ...]
+    """By how far each leads alone from the task's start, in words that the family's inventory knows; empty if nothing repeats."""
 
     def save(self, path: Path) -> None:
         """Write it as JSON, whole or not at all."""
@@ -102,7 +92,13 @@ def learn_macros(
         if any(macro.from_start * macro.gain >= ENOUGH * goal for macro in macros.values()):
             break
     ranked = sorted(macros.values(), key=lambda macro: (-round(macro.from_start * macro.gain, 6), len(macro.codes)))
-    return Lesson(task.name, task.robot.name, tuple(ranked[:most]), plans, evaluations)
+    return Lesson(
+        task=task.name,
+        robot=task.robot.name,
+        plans=plans,
+        evaluations=evaluations,
+        macros=tuple(ranked[:most]),
+    )
 
 
 @spec

@@ -1,17 +1,20 @@
 """What a planner answers: a plan, or why there is none, and what the search cost."""
 
 from dataclasses import dataclass, field
-from typing import Literal
+from operator import attrgetter
+from typing import Annotated, Literal
 
 import numpy as np
 
 from ..actions.plan import Plan
 from ..actions.plan_costs import spent
 from ..actions.plan_families import plan_family
+from ..actions.planned import PlannedAction
 from ..actions.problem import CompiledProblem
 from ..actions.verdict import Verdict, check_plan
+from ..json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ..tasks import Task
-from ..types import Ints, Json
+from ..types import Ints
 from ..units import OZ_IN
 from .genetic.evolve import Generation
 from .genetic.learning import Macro
@@ -20,51 +23,73 @@ Status = Literal["optimal", "found", "infeasible", "bounded", "stopped"]
 
 
 @dataclass(frozen=True, slots=True)
-class Furthest:
+class PlacedBody:
+    """Where the body is, and on what."""
+
+    x_m: float
+    y_m: float
+    theta_rad: float
+    holds: dict[str, int]
+    """Limb to the number of its hold, 0 if it is free; empty for robots without holds."""
+
+
+@dataclass(frozen=True, slots=True)
+class LearnedModule:
+    """A learned module that the search had."""
+
+    name: str
+    length: Count
+    """Actions."""
+    gain_m: float
+    """Progress of the body in one go [m]."""
+    starts: Count
+    """Of the starts that it was tried from, in how many it worked."""
+
+
+@dataclass(frozen=True, slots=True)
+class Furthest(Jsonable):
     """How far a search without success came, and what stopped it there."""
 
-    actions: int
-    goals_met: int
-    goals: int
-    pose: Json
-    """Body and holds."""
+    actions: Count
+    goals_met: Count
+    goals: Count
+    pose: PlacedBody
     stopped_by: dict[str, int]
     """Check -> how many of the inventory's modules it forbids at the furthest stance."""
 
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {
-            "actions": self.actions,
-            "goals_met": self.goals_met,
-            "goals": self.goals,
-            "pose": self.pose,
-            "stopped_by": self.stopped_by,
-        }
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PlanResult:
+class PlanResult(Jsonable):
     """A planner's answer. It proves itself: `check` replays the plan without the planner."""
 
     status: Status
     """optimal: proved to be the best plan by what was `minimized`; found: a plan; infeasible: proved that there is none;
-    bounded: none has fewer than `lower_bound` actions, and the plan, if there is one (`has_plan`), is `gap` above that;
+    bounded: none has fewer than `lower_bound` actions, and the plan, if there is one, is `gap` above that;
     stopped: none yet, and nothing proved."""
-    plan: Plan
-    """The plan; without success, the actions that lead furthest."""
-    task: Task
+    task: Annotated[Task, Key(get=attrgetter("name"), kind=str)]
     reason: str
     """In a sentence."""
-    evaluations: int
+    plan: Annotated[
+        Plan,
+        Key("actions", get=attrgetter("actions"), kind=tuple[PlannedAction, ...]),
+        Key(
+            "codes",
+            get=Plan.numbers,
+            kind=list[int] | None,
+            meaning="The same in the thesis's numbers; null where an action has none.",
+        ),
+    ]
+    """The plan; without success, the actions that lead furthest."""
+    max_torque: Annotated[float, Key("max_torque_Nm"), Key("max_torque_oz_in", per=OZ_IN)]
+    """Largest joint torque of the plan; 0 for robots without joint torques."""
+    evaluations: Count
     """Whole plans evaluated."""
-    checks: int
+    checks: Count
     """Single actions judged."""
     seconds: float
+    """Wall-clock time."""
     seed: int
     planner: str
-    max_torque: float
-    """Largest joint torque of the plan [N m]."""
-    furthest: Furthest | None = None
     lower_bound: int | None = None
     """Proved: no plan has fewer actions."""
     minimized: tuple[str, ...] = ()
@@ -74,17 +99,20 @@ class PlanResult:
     stances: int | None = None
     """Different stances that an exact search saw."""
     model: str = ""
-    """The rules that a proof holds for."""
+    """The rules that a proof holds for; empty without one."""
     first_length: int | None = None
     """Actions of the first plan found, before it was polished."""
     first_evaluations: int | None = None
     first_checks: int | None = None
     """Actions judged up to the first plan."""
-    history: tuple[Generation, ...] = ()
-    macros: tuple[Macro, ...] = field(default=())
+    furthest: Furthest | None = None
+    """None where there is a plan."""
+    history: Annotated[tuple[Generation, ...], HIDDEN] = ()
+    macros: Annotated[tuple[Macro, ...], HIDDEN] = field(default=())
 
     @property
-    def length(self) -> int:
+    @in_json(after="codes")
+    def length(self) -> Count:
         """Actions of the plan."""
         return len(self.plan.actions)
 
@@ -94,9 +122,15 @@ class PlanResult:
         return self.status in ("optimal", "found") or (self.status == "bounded" and self.furthest is None)
 
     @property
+    @in_json(after="costs")
     def gap(self) -> int | None:
         """Actions that the plan may have too many, at most; None without a plan, or without a bound below it."""
         return self.length - self.lower_bound if self.has_plan and self.lower_bound is not None else None
+
+    @in_json(key="macros")
+    def learned_modules(self) -> tuple[LearnedModule, ...]:
+        """The learned modules that the search had."""
+        return tuple(LearnedModule(each.name, len(each.codes), each.gain, each.starts) for each in self.macros)
 
     def spent(self) -> dict[str, float]:
         """Every cost of the plan that its robot's family has, in SI units."""
@@ -107,38 +141,6 @@ class PlanResult:
     def check(self) -> Verdict:
         """Replay the plan and recompute every margin."""
         return check_plan(self.task, self.plan)
-
-    def to_json(self) -> Json:
-        """Plain data: what `clamber plan --json` prints."""
-        return {
-            "status": self.status,
-            "task": self.plan.task,
-            "reason": self.reason,
-            "actions": [action.to_json() for action in self.plan.actions],
-            "codes": self.plan.numbers(),
-            "length": self.length,
-            "max_torque_Nm": self.max_torque,
-            "max_torque_oz_in": self.max_torque / OZ_IN,
-            "evaluations": self.evaluations,
-            "checks": self.checks,
-            "seconds": self.seconds,
-            "seed": self.seed,
-            "planner": self.planner,
-            "lower_bound": self.lower_bound,
-            "minimized": list(self.minimized),
-            "costs": dict(self.costs),
-            "gap": self.gap,
-            "stances": self.stances,
-            "model": self.model,
-            "first_length": self.first_length,
-            "first_evaluations": self.first_evaluations,
-            "first_checks": self.first_checks,
-            "furthest": None if self.furthest is None else self.furthest.to_json(),
-            "macros": [
-                {"name": macro.name, "length": len(macro.codes), "gain_m": macro.gain, "starts": macro.starts}
-                for macro in self.macros
-            ],
-        }
 
 
 def furthest_of(task: Task, problem: CompiledProblem, codes: Ints) -> Furthest:
@@ -153,6 +155,6 @@ def furthest_of(task: Task, problem: CompiledProblem, codes: Ints) -> Furthest:
             name = problem.checks[int(tried.reasons[-1])]
             stopped[name] = stopped.get(name, 0) + 1
     x, y, angle = family.pose(last[0])
-    pose: Json = {"x_m": x, "y_m": y, "theta_rad": angle, "holds": family.holds(task, last[0])}
+    pose = PlacedBody(x, y, angle, family.holds(task, last[0]))
     ranked = dict(sorted(stopped.items(), key=lambda item: (-item[1], item[0])))
     return Furthest(len(codes), family.goals_met(last[0]), problem.goals, pose, ranked)

@@ -7,11 +7,12 @@ from contextlib import suppress
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
-from typing import Final
+from typing import Annotated, Final
 
 from ..errors import ClamberError, SpecError, StartError
 from ..files import write_atomically
 from ..jobs import Executor, Outcome, map_items, read_result
+from ..json_form import HIDDEN, INLINE, Count, Jsonable, Key, in_json
 from ..kernel_cache import is_compiled
 from ..tasks import Task, load_task, task_from_document
 from ..types import Json
@@ -30,51 +31,57 @@ _SMALLEST: Final = ("longest", "max_checks", "max_evaluations", "max_stances", "
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Point:
+class Point(Jsonable):
     """One point of a sweep."""
 
     values: tuple[str, ...]
     """One per axis, as in an override."""
     status: str
-    """A planner's status, `NO_START`, or `FAILED`."""
-    reason: str
-    """In a sentence."""
+    """A planner's status, "no start", or "failed"."""
     length: int | None = None
     """Actions of the plan; None without one."""
-    least_torque: float | None = None
+    least_torque: Annotated[float | None, Key("least_torque_Nm")] = None
     """The least that the largest joint torque of any plan can be, the start included: proved [N m]. None without a proof, or where
     joints are not modelled."""
-    largest_torque: float | None = None
+    largest_torque: Annotated[float | None, Key("max_torque_Nm")] = None
     """Largest joint torque of the plan [N m]; the exact planner takes the easiest of the shortest plans."""
     lower_bound: int | None = None
     """Proved: no plan has fewer actions."""
     seconds: float = 0.0
     """Time that planning took [s]."""
+    reason: str
+    """In a sentence."""
 
-    def to_json(self) -> Json:
-        """Plain data."""
-        torques = {"least": self.least_torque, "max": self.largest_torque}
-        return {
-            "values": list(self.values),
-            "status": self.status,
-            "length": self.length,
-            **{f"{name}_torque_Nm": torque for name, torque in torques.items()},
-            **{f"{name}_torque_oz_in": None if torque is None else torque / OZ_IN for name, torque in torques.items()},
-            "lower_bound": self.lower_bound,
-            "seconds": self.seconds,
-            "reason": self.reason,
-        }
+    @in_json(after="max_torque_Nm")
+    def least_torque_oz_in(self) -> float | None:
+        """The proved least of the largest joint torque in oz-in."""
+        return None if self.least_torque is None else self.least_torque / OZ_IN
+
+    @in_json(after="least_torque_oz_in")
+    def max_torque_oz_in(self) -> float | None:
+        """The plan's largest joint torque in oz-in."""
+        return None if self.largest_torque is None else self.largest_torque / OZ_IN
+
+
+@dataclass(frozen=True, slots=True)
+class MarkedPoint:
+    """One point of a sweep, and whether it was asked to be marked."""
+
+    point: Annotated[Point, INLINE]
+    marked: bool
+    """Whether it lies in the marks of every axis that has some."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Sweep:
+class Sweep(Jsonable):
     """All points of a sweep, the last axis fastest."""
 
     task: str
     planner: str
     axes: tuple[Axis, ...]
-    points: tuple[Point, ...]
     marks: tuple[Mark, ...] = ()
+    points: Annotated[tuple[Point, ...], HIDDEN]
+    """The last axis fastest."""
 
     def marked(self, index: int) -> bool:
         """Whether a point lies in the marks of every axis that has some."""
@@ -86,21 +93,16 @@ class Sweep:
                 return False
         return bool(self.marks)
 
+    @in_json(key="points")
+    def marked_points(self) -> tuple[MarkedPoint, ...]:
+        """The last axis fastest."""
+        return tuple(MarkedPoint(point, self.marked(k)) for k, point in enumerate(self.points))
+
     @property
-    def found(self) -> int:
+    @in_json(after="axes")
+    def found(self) -> Count:
         """Points with a plan."""
         return sum(point.status in SUCCESS for point in self.points)
-
-    def to_json(self) -> Json:
-        """Plain data: what `clamber sweep --json` prints."""
-        return {
-            "task": self.task,
-            "planner": self.planner,
-            "axes": [axis.to_json() for axis in self.axes],
-            "found": self.found,
-            "marks": [mark.to_json() for mark in self.marks],
-            "points": [point.to_json() | {"marked": self.marked(k)} for k, point in enumerate(self.points)],
-        }
 
     def save_table(self, path: Path) -> None:
         """Write the points as CSV, whole or not at all."""

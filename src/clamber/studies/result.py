@@ -3,9 +3,9 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
-from ..types import Json
+from ..json_form import HIDDEN, Jsonable, Key, in_json
 
 Verdict: TypeAlias = Literal["holds", "consistent", "differs", "open"]
 Value: TypeAlias = int | float | str | None
@@ -42,7 +42,7 @@ class Figure:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class StudyResult:
+class StudyResult(Jsonable):
     """A published result and ours."""
 
     paper: str
@@ -53,22 +53,24 @@ class StudyResult:
     verdict: Verdict
     """holds: we get it too; consistent: likewise, but numbers of ours were fitted to it; differs: we do not; open: what is printed, or
     what we did, does not decide it."""
-    compared: tuple[Compared, ...]
+    compared: Annotated[tuple[Compared, ...], HIDDEN]
     deviations: tuple[str, ...]
     """What we inferred, chose or left out, each in a sentence."""
-    table: Table | None = None
-    figures: tuple[Figure, ...] = ()
-    seeds: range = range(0)
+    table: Annotated[Table | None, HIDDEN] = None
+    figures: Annotated[tuple[Figure, ...], HIDDEN] = ()
+    seeds: Annotated[range, Key(kind=tuple[int, ...])] = range(0)
     """What it draws from; empty: nothing is drawn."""
-    options: str = ""
+    options: Annotated[str, HIDDEN] = ""
     """Of the command that repeats it, where they are not its usual ones."""
 
     @property
+    @in_json()
     def command(self) -> str:
         """What repeats it."""
         return f"clamber study {self.paper} {self.result} {self.options}".rstrip()
 
     @property
+    @in_json(after="verdict")
     def numbers(self) -> dict[str, Value]:
         """Name -> our value, each printed one under the same name with ", printed"."""
         out: dict[str, Value] = {}
@@ -77,16 +79,3 @@ class StudyResult:
             if row.printed is not None:
                 out[f"{row.name}, printed"] = row.printed
         return out
-
-    def to_json(self) -> Json:
-        """Plain data: what `clamber study PAPER RESULT --json` prints."""
-        return {
-            "paper": self.paper,
-            "result": self.result,
-            "claim": self.claim,
-            "verdict": self.verdict,
-            "numbers": self.numbers,
-            "deviations": list(self.deviations),
-            "seeds": list(self.seeds),
-            "command": self.command,
-        }

@@ -28,7 +28,7 @@ class BodyMatchChoice(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class BodyWords:
+class BodyOptions:
     """Options of every command of the body's bench, as they came."""
 
     controllers: Annotated[
@@ -125,10 +125,10 @@ class BodyWords:
         return make_entries(self.controllers or (), reference, stand, self.match.value, angle=angle)
 
 
-def run_bench(words: BodyWords, stand: "BodyStand", scenario: "BodyScenario", flaws: "LimbFlaws") -> None:
+def run_bench(words: BodyOptions, stand: "BodyStand", scenario: "BodyScenario", flaws: "LimbFlaws") -> None:
     """Run the controls one by one, write and print what came out, and leave with 0 if no hook came off, else 1."""
     from ...experiments.climb.body_bench import run_bodies
-    from ...experiments.climb.body_measures import measure_body
+    from ...experiments.climb.body_measures import BodyContest, measure_body
     from .text import print_bodies
 
     announce_compilation(quiet=words.quiet)
@@ -139,17 +139,7 @@ def run_bench(words: BodyWords, stand: "BodyStand", scenario: "BodyScenario", fl
 
         draw_bodies(runs, scenario, words.output)
     if words.as_json:
-        print_json({
-            "kind": scenario.kind,
-            "controls": [
-                {
-                    "control": run.entry.label, "kp": list(run.entry.gains.kp), "kd": list(run.entry.gains.kd),
-                    "limit": run.entry.gains.limit, "alpha": run.entry.gains.alpha,
-                }
-                | one.to_json()
-                for run, one in zip(runs, measured, strict=True)
-            ],
-        })  # fmt: skip
+        print_json(BodyContest.of(scenario.kind, runs, measured))
     else:
         print_bodies(stdout(), runs, measured, scenario)
         if words.output is not None:

@@ -1,13 +1,14 @@
 """`clamber plan`: find a plan for a task."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import typer
 
-from ..option_holder import takes_words
+from ..crew import EndsLine, executor_of
+from ..option_holder import takes_options
 from ..options import TaskName
 from ..output import announce_compilation, print_json, stderr, stdout
-from .words import PlanWords
+from .options import PlanOptions
 
 if TYPE_CHECKING:
     from ...planning.result import PlanResult
@@ -15,11 +16,11 @@ if TYPE_CHECKING:
     from .openings import Seeker
 
 
-@takes_words
+@takes_options
 def plan(
     task: TaskName,
     *,
-    words: PlanWords,
+    words: PlanOptions,
 ) -> None:
     """Find a sequence of grabs and body moves that every check allows, from the start to the goal."""
     words.check()
@@ -45,7 +46,7 @@ def plan(
 
         draw_history(result.history, words.history, goals=[goal.name for goal in problem.goals])
     if words.as_json:
-        print_json(result.to_json() | seeker.to_json(result))
+        print_json(seeker.with_openings(result))
     else:
         from .text import print_result
 
@@ -54,12 +55,10 @@ def plan(
     raise typer.Exit(0 if result.has_plan else 1)
 
 
-def _search(task: "Task", words: PlanWords, seeker: "Seeker") -> "PlanResult":
+def _search(task: "Task", words: PlanOptions, seeker: "Seeker") -> "PlanResult":
     """Search as was asked for: on islands, or by one planner, whose trouble with the start is told with what would allow it."""
     options = words.planner_options(task)
     if words.islands is not None:
-        from .islands import islands_result
-
         return islands_result(
             task, words.planner, options, words.islands, words.workers, words.ray, quiet=words.quiet
         )  # fmt: skip
@@ -68,3 +67,37 @@ def _search(task: "Task", words: PlanWords, seeker: "Seeker") -> "PlanResult":
 
     with seeker.told_of_start(), ProgressLine(stderr(), quiet=words.quiet) as line:
         return plan_task(task, words.planner, progress=line.update, **options)
+
+
+TAKEN = ("seed", "profile", "max_evaluations")
+"""Options of the genetic planner that islands take, too."""
+
+
+def islands_result(
+    task: "Task",
+    planner: str,
+    options: dict[str, Any],
+    islands: int,
+    workers: int | None,
+    ray: str | None,
+    *,
+    quiet: bool,
+) -> "PlanResult":
+    """Plan with islands; `options` are those of the genetic planner.
+
+    Raises:
+        BadParameter: If another planner or an option is asked for that islands don't take.
+    """
+    from ...planning.islands import plan_islands
+
+    if planner != "genetic":
+        raise typer.BadParameter("only the genetic planner has populations", param_hint="--islands")
+    other = [name for name, value in options.items() if name not in TAKEN and value is not None]
+    if other:
+        raise typer.BadParameter(f"islands don't take {', '.join(other)}", param_hint="--islands")
+    executor = executor_of(ray, workers)
+    if ray is not None:
+        executor.check()
+    line = EndsLine(stderr(), "islands", quiet=quiet)
+    given = {name: options[name] for name in TAKEN}
+    return plan_islands(task, islands=islands, executor=executor, progress=line.update, **given)

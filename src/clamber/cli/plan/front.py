@@ -10,11 +10,11 @@ from ...planning.exact.front import Front, plan_front
 from ...planning.exact.planner import MOST_STANCES
 from ...tasks import Task
 from ..output import plain_table, print_json, stderr, stdout
+from .options import PlanOptions
 from .text import ProgressLine
-from .words import PlanWords
 
 
-def front(task: Task, costs: str, words: PlanWords) -> int:
+def front(task: Task, costs: str, words: PlanOptions) -> int:
     """Find a front, print it, and draw it or write it to the output (png, svg, pdf; json); returns the exit status."""
     first, second = read_costs("--pareto", costs, least=2, most=2)
     output = words.output
@@ -39,7 +39,7 @@ def front(task: Task, costs: str, words: PlanWords) -> int:
     elif output is not None:
         found.save(output)
     if words.as_json:
-        print_json(found.to_json())
+        print_json(found)
     else:
         print_front(stdout(), found, output)
     return 0 if found.trades else 1

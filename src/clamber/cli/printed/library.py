@@ -1,78 +1,104 @@
 """What each command prints: its words, and the kinds of values that come out with `--json`."""
 
+from dataclasses import dataclass
 from functools import cache
 from typing import Any, Final
 
-from pydantic import TypeAdapter
+from pydantic import TypeAdapter, create_model
 
+from ...actions.problems import SizedInventory
+from ...actions.verdict import CheckedPlan
 from ...errors import UnknownNameError
+from ...execution.log_identify import Identification
+from ...experiments.climb.body_measures import BodyContest
+from ...experiments.climb.body_trials import PushTrial
+from ...experiments.climb.lessons import LearnedPlan
+from ...experiments.climb.press import Pressed
+from ...experiments.climb.run_plan import ClimbRun
+from ...experiments.cooperative.follow import FollowRun
+from ...experiments.rows import Row
+from ...experiments.walk.most import MostOfWalk
+from ...experiments.walk.run_walk import WalkRun
+from ...exports.library import Exported
+from ...inspection.finding import Finding
+from ...planning.exact.front import Front
+from ...planning.learning import Lesson
+from ...planning.reach.reach import Reach
+from ...planning.result import PlanResult
+from ...planning.sweep import Sweep
+from ...robots.walker.calibration import Rivals
+from ...robots.walker.ditch_plan import Crossing
+from ...studies.result import StudyResult
 from ...types import Json
-from .bodies import Bodies, PushTrial
-from .limb_logs import Identified, Recorded
-from .limbs import Contest, Forces, LimbSweep, OpenLoop, Portraits, Tuned
-from .plans import Front, Inventory, Learned, NoStart, Planned, Polished, Verdict
-from .runs import Climbed, Pressed, Rehearsed, Walked
-from .searches import BenchRow, Reach, Sweep
-from .things import (
-    Drawn,
-    Exported,
-    Finding,
-    Health,
-    Listed,
-    NewBoard,
-    NewRobot,
-    NewTask,
-    Opened,
-    PlantTold,
-    Saved,
-    Served,
-    StudyResult,
-)
-from .trials import ClimbTrials, Most, ReplayedTrial, WalkTrials
-from .walkers import Crossing, Family, Followed, WidestDitch
+from ..catalogue import ENTRIES
+from ..ditch import WidestDitch
+from ..doctor_facts import Health
+from ..new import NewRobot, NewTask
+from ..new_files import NewBoard
+from ..plan.openings import NoStart, Planned
+from ..plant import PlantAnswer, ServedPlant
+from ..show import Drawn
+from ..trials.climb import ClimbTrials, ReplayedTrial
+from ..trials.walk import PrintedWalkTrials
+from ..view import Opened, Saved
+from .limbs import Contest, Forces, LimbSweep, OpenLoop, Portraits, Recorded, Tuned
+from .schemas import STRICT, modelled
 
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A name, and what it stands for."""
+
+    name: str
+    title: str
+
+
+KINDS: Final[dict[str, Any]] = {kind: (modelled(list[Entry]), []) for kind in ENTRIES}
+LISTED: Final[Any] = create_model(
+    "Listed", __config__=STRICT, __doc__="Names by kind; of one kind alone only that is there.", **KINDS
+)
 PRINTED: Final[dict[str, Any]] = {
-    "list": Listed,
+    "list": LISTED,
     "plan": Planned | Front | NoStart,
-    "polish": Polished,
-    "rehearse": Rehearsed,
-    "learn": Learned,
-    "inventory": Inventory,
-    "check": Verdict | Finding,
-    "run": Climbed | Walked,
+    "polish": PlanResult,
+    "rehearse": LearnedPlan,
+    "learn": Lesson,
+    "inventory": SizedInventory,
+    "check": CheckedPlan | Finding,
+    "run": ClimbRun | WalkRun,
     "press": Pressed,
-    "follow": Followed,
-    "trials": ClimbTrials | WalkTrials | ReplayedTrial,
-    "most": Most,
+    "follow": FollowRun,
+    "trials": ClimbTrials | PrintedWalkTrials | ReplayedTrial,
+    "most": MostOfWalk,
     "show": Drawn,
     "view": Opened | Saved,
     "export": Exported,
-    "bench": list[BenchRow],
+    "bench": list[Row],
     "sweep": Sweep,
     "reach": Reach,
-    "calibrate": list[Family],
+    "calibrate": list[Rivals],
     "ditch": list[WidestDitch] | Crossing,
     "study": StudyResult | list[StudyResult],
     "doctor": Health,
     "new board": NewBoard,
     "new robot": NewRobot,
     "new task": NewTask,
-    "plant serve": Served,
-    "plant stop": PlantTold,
-    "plant release": PlantTold,
+    "plant serve": ServedPlant,
+    "plant stop": PlantAnswer,
+    "plant release": PlantAnswer,
     "limb step": Contest,
     "limb circle": Contest,
     "limb push": Contest,
     "limb open-loop": OpenLoop,
     "limb record": Recorded,
-    "limb identify": Identified,
+    "limb identify": Identification,
     "limb force": Forces,
     "limb portrait": Portraits,
     "limb sweep": LimbSweep,
     "limb tune": Tuned,
-    "body circle": Bodies,
-    "body push-up": Bodies,
-    "body push": Bodies | dict[str, list[PushTrial]],
+    "body circle": BodyContest,
+    "body push-up": BodyContest,
+    "body push": BodyContest | dict[str, list[PushTrial]],
 }
 """Words of a command after `clamber` -> what it prints."""
 DRAFT: Final = "https://json-schema.org/draft/2020-12/schema"
@@ -80,7 +106,7 @@ DRAFT: Final = "https://json-schema.org/draft/2020-12/schema"
 
 @cache
 def _schema(command: str) -> Json:
-    made = TypeAdapter(PRINTED[command]).json_schema(mode="validation", by_alias=True)
+    made = TypeAdapter(modelled(PRINTED[command])).json_schema(mode="validation", by_alias=True)
     return {"$schema": DRAFT, "title": f"clamber {command} --json"} | {k: v for k, v in made.items() if k != "title"}
 
 

@@ -321,3 +321,13 @@ class Tuned(Printed):
     threshold: float
     """Peak to peak below which a tip counts as steady [m]."""
     laws: list[TunedLaw]
+
+
+class Recorded(Printed):
+    """A log that was written."""
+
+    file: str
+    rows: Count
+    seconds: float
+    columns: list[str]
+    notes: dict[str, str]

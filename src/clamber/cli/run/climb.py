@@ -16,12 +16,12 @@ from ...tasks.limbed import LimbedTask
 from ...viewing.climb_run_view import check_run_suffix, write_run
 from ..compile_ahead import CLIMBING, compile_ahead
 from ..output import announce_compilation, print_json, stderr, stdout, tell_cuts
+from .options import RunOptions
 from .report import RunReport
 from .text import ClimbLine, print_run
-from .words import RunWords
 
 
-def run_climb(what: str, words: RunWords, telling: RunReport) -> None:
+def run_climb(what: str, words: RunOptions, telling: RunReport) -> None:
     """Carry a plan out and say how it went; leaves with 1 where there is no plan, or where it did not come to its end.
 
     Args:
@@ -68,13 +68,13 @@ def run_climb(what: str, words: RunWords, telling: RunReport) -> None:
             write_run(run, file)
     page = telling.of_climb(run)
     if words.as_json:
-        print_json(run.to_json())
+        print_json(run)
     else:
         print_run(stdout(), run, (*words.written(run.log_gap), *page))
     raise typer.Exit(130 if run.report.reason == "interrupted" else 0 if run.report.done else 1)
 
 
-def _plan(task: LimbedTask, flaws: LimbFlaws, words: RunWords, cut: Callable[[], None]) -> Plan | None:
+def _plan(task: LimbedTask, flaws: LimbFlaws, words: RunOptions, cut: Callable[[], None]) -> Plan | None:
     return plan_to_climb(
         task,
         words.planner,

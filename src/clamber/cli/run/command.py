@@ -1,20 +1,45 @@
 """`clamber run`: carry a plan or a walk out in contact dynamics."""
 
+import shlex
+from collections.abc import Container
 from typing import Annotated
 
 import typer
 
 from ..name_completion import names_of
-from ..option_holder import takes_words
-from .repeat import repeat_words
+from ..option_holder import takes_options
+from .options import RunOptions
 from .report import RunReport
-from .words import RunWords
 
 NOT_REPEATED = ("output", "save_plan", "report", "as_json", "quiet")
 """Options that change nothing of a run."""
 
 
-@takes_words
+def repeat_words(context: typer.Context, without: Container[str]) -> str:
+    """The command with its arguments and the options that are not as usual.
+
+    Args:
+        context: Of the command that runs.
+        without: Names of parameters that change nothing of what comes out, such as files to write.
+    """
+    words = context.command_path.split()
+    options: list[str] = []
+    for parameter in context.command.params:
+        name = parameter.name or ""
+        value = context.params.get(name)
+        if name in without or value is None or value == parameter.get_default(context):
+            continue
+        if parameter.param_type_name == "argument":
+            words.append(str(value))
+        elif isinstance(value, bool):
+            options.append(parameter.opts[0] if value else parameter.secondary_opts[0])
+        else:
+            for one in value if isinstance(value, list | tuple) else (value,):
+                options += [parameter.opts[0], str(one)]
+    return shlex.join([*words, *options])
+
+
+@takes_options
 def run(
     context: typer.Context,
     what: Annotated[
@@ -26,7 +51,7 @@ def run(
         ),
     ],
     *,
-    words: RunWords,
+    words: RunOptions,
 ) -> None:
     """Carry a plan or a walk out on a simulated robot: every action or step, what became of it, and where it ended.
 

@@ -8,16 +8,16 @@ from ...planning.planners import find_planner
 from ...tasks.walker import WalkerTask
 from ..for_climbs import refuse_for_walk
 from ..output import announce_compilation
+from .options import RunOptions
 from .report import RunReport
 from .walk import walk_and_tell
 from .walk_plan import plan_walk
-from .words import RunWords
 
 CLIMBS_ONLY: Final = ("peg_error", "replan", "plant", "force")
 """Options of `run` that a walker's task has no use for."""
 
 
-def run_planned_walk(what: str, task: WalkerTask, plan: Plan | None, words: RunWords, telling: RunReport) -> None:
+def run_planned_walk(what: str, task: WalkerTask, plan: Plan | None, words: RunOptions, telling: RunReport) -> None:
     """Carry a planned walk out and say how it went; leaves with 1 where there is no plan, or where it did not come to its end.
 
     Args:

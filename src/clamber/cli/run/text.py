@@ -43,9 +43,7 @@ def print_run(console: Console, run: ClimbRun, written: Sequence[Path] = ()) -> 
     console.print(f"body at x {x:.3f} m, y {y:.3f} m, {turn:.1f} deg; {1e3 * report.short:.0f} mm from the goal")
     _print_close(console, report.actions)
     for note in report.replans:
-        console.print(
-            f"planned again after action {note['after']}: {note['length']} actions, without {note['without']}"
-        )
+        console.print(f"planned again after action {note.after}: {note.length} actions, without {note.without}")
     for objection in report.forced:
         console.print(f"forced in spite of {objection}")
     if run.log_gap is not None:

@@ -19,8 +19,8 @@ from ...units import DEGREE
 from ..for_climbs import refuse_for_walk
 from ..live_line import LiveLine
 from ..output import announce_compilation, plain_table, print_json, stderr, stdout
+from .options import RunOptions
 from .report import RunReport
-from .words import RunWords
 
 
 class WalkLine(LiveLine):
@@ -35,7 +35,7 @@ CLIMBS_ONLY: Final = ("task", "planner", "seconds", "save_plan", "peg_error", "r
 """Options of `run` that a walk has no use for."""
 
 
-def run_walk_file(what: str, words: RunWords, telling: RunReport) -> None:
+def run_walk_file(what: str, words: RunOptions, telling: RunReport) -> None:
     """Carry a walk out and say how it went; leaves with 1 where it did not come to its end.
 
     Args:
@@ -51,7 +51,7 @@ def run_walk_file(what: str, words: RunWords, telling: RunReport) -> None:
 
 
 def walk_and_tell(
-    walk: Walk, words: RunWords, telling: RunReport, lay: Lay | None = None, plan: Plan | None = None
+    walk: Walk, words: RunOptions, telling: RunReport, lay: Lay | None = None, plan: Plan | None = None
 ) -> None:
     """Carry a walk out, along its own way or another course, write files and say how it went; leaves with 1 where it did not end well."""
     from ...experiments.walk.noise import named_walk_noise, read_walk_noise
@@ -70,7 +70,7 @@ def walk_and_tell(
             write_walk(run, file)
     page = telling.of_walk(run, plan)
     if words.as_json:
-        print_json(run.to_json())
+        print_json(run)
     else:
         print_walk(stdout(), run, (*words.written(run.log_gap), *page))
     raise typer.Exit(130 if run.report.reason == "interrupted" else 0 if run.done else 1)

@@ -1,25 +1,45 @@
 """`clamber trials` of a climber's task or plan: many seeds, or one of them again."""
 
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated
 
 import typer
 
 from ...execution.fault import FAULTS, check_faults
 from ...experiments.climb.noise import named_noise, read_noise
-from ...experiments.climb.run_plan import open_climb
-from ...experiments.climb.trial import TrialSetup, climb_once
-from ...experiments.climb.trial_summary import sum_up
+from ...experiments.climb.run_plan import ClimbRun, open_climb
+from ...experiments.climb.trial import ClimbTrial, TrialSetup, climb_once
+from ...experiments.climb.trial_summary import TrialSummary, sum_up
 from ...experiments.climb.trials import NoPlanError, run_trials, stored_trial, with_plan
+from ...json_form import INLINE
 from ...planning.planners import find_planner
 from ..compile_ahead import CLIMBING, compile_ahead
 from ..crew import CrewWords
 from ..output import announce_compilation, print_json, stderr, stdout, tell_cuts
-from .fault_text import any_error
-from .text import TrialsLine, print_trials
-from .words import TrialsWords
+from .options import TrialsOptions
+from .text import TrialsLine, any_error, print_trials
 
 
-def climb_trials_of(what: str, asked: TrialsWords, words: CrewWords) -> None:
+@dataclass(frozen=True, slots=True)
+class ClimbTrials:
+    """Many climbs of one plan."""
+
+    summary: Annotated[TrialSummary, INLINE]
+    held_out: bool
+    """Whether all seeds are held out: none that any tuning may use."""
+    trials: list[ClimbTrial]
+
+
+@dataclass(frozen=True, slots=True)
+class ReplayedTrial:
+    """`--replay SEED`: one climb of the trials again."""
+
+    run: Annotated[ClimbRun, INLINE]
+    trial: ClimbTrial
+
+
+def climb_trials_of(what: str, asked: TrialsOptions, words: CrewWords) -> None:
     """Climb with every seed and print what came of it; leaves with 1 where a climb failed, or fewer than asked for succeed for sure.
 
     With faults a climb may fail: then it leaves with 1 only where one raised.
@@ -47,9 +67,7 @@ def climb_trials_of(what: str, asked: TrialsWords, words: CrewWords) -> None:
 
         draw_trials(summary, words.output)
     if words.as_json:
-        print_json(
-            summary.to_json() | {"held_out": asked.held_out, "trials": [trial.to_json() for trial in told.ended]}
-        )
+        print_json(ClimbTrials(summary, asked.held_out, told.ended))
     else:
         print_trials(stdout(), summary, asked.seeds, words.output)
     if summary.n < summary.asked:
@@ -69,7 +87,7 @@ def _check_suffix(output: Path, replay: int | None) -> None:
         check_run_suffix(output)
 
 
-def _planned(what: str, asked: TrialsWords, words: CrewWords) -> TrialSetup:
+def _planned(what: str, asked: TrialsOptions, words: CrewWords) -> TrialSetup:
     """What every trial has in common, planned if it was not; leaves with 1 where there is no plan."""
     widths = read_noise(named_noise("usual"), asked.noise or ())
     announce_compilation(quiet=words.quiet)
@@ -108,7 +126,7 @@ def _replay(setup: TrialSetup, seed: int, words: CrewWords) -> int:
             f"the store's trial {seed} went otherwise: another machine or other code; it ended {known.outcome}"
         )
     if words.as_json:
-        print_json(run.to_json() | {"trial": trial.to_json()})
+        print_json(ReplayedTrial(run, trial))
     else:
         print_run(stdout(), run, () if words.output is None else (words.output,))
     return 130 if run.report.reason == "interrupted" else 0 if run.report.done else 1

@@ -6,11 +6,11 @@ import typer
 
 from ..crew import CrewWords
 from ..name_completion import names_of
-from ..option_holder import takes_words
-from .words import TrialsWords
+from ..option_holder import takes_options
+from .options import TrialsOptions
 
 
-@takes_words
+@takes_options
 def trials(
     what: Annotated[
         str,
@@ -21,7 +21,7 @@ def trials(
         ),
     ],
     *,
-    asked: TrialsWords,
+    asked: TrialsOptions,
     words: CrewWords,
 ) -> None:
     """Climb many times under noise: how often it succeeds, why it fails, how long it takes, what matters.

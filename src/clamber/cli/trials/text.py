@@ -5,15 +5,16 @@ from pathlib import Path
 
 from rich.console import Console
 
+from ...execution.fault import FAULTS
 from ...experiments.climb.noise import NOISE
 from ...experiments.climb.sensitivity import VERDICTS, Effect, Third
 from ...experiments.climb.trial_summary import Cause, Spread, TrialSummary
 from ...experiments.climb.trials import Trials
+from ...experiments.fault_trials import ENDINGS, FaultRow
 from ...experiments.held_out import seeds_in_words
 from ...experiments.intervals import wilson_interval
 from ..live_line import LiveLine
 from ..output import plain_table
-from .fault_text import print_faults
 
 MOST_NAMED = 6
 """Seeds and steps of a cause that are named; the rest is in the JSON."""
@@ -123,3 +124,20 @@ def some(numbers: Sequence[int]) -> str:
     """The first few numbers of many."""
     shown = ", ".join(map(str, numbers[:MOST_NAMED]))
     return f"{shown} ..." if len(numbers) > MOST_NAMED else shown
+
+
+def any_error(rows: Sequence[FaultRow]) -> bool:
+    """Whether a trial raised."""
+    return any(row.endings["error"] for row in rows)
+
+
+def print_faults(console: Console, rows: Sequence[FaultRow]) -> None:
+    """Print how trials with each kind of fault ended, how many noticed it, and how soon."""
+    table = plain_table("fault", "n", *ENDINGS, "noticed", "after [s]", right=("n", *ENDINGS, "noticed", "after [s]"))
+    for row in rows:
+        delay = "" if row.delay is None else f"{row.delay:.2f}"
+        table.add_row(row.kind, str(row.n), *(str(row.endings[name]) for name in ENDINGS), str(row.noticed), delay)
+    console.print(table)
+    for row in rows:
+        if row.kind in FAULTS:
+            console.print(f"{row.kind}: {FAULTS[row.kind].words}", soft_wrap=True)

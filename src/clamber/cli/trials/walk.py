@@ -1,8 +1,8 @@
 """`clamber trials` of a walk, or of a walker's task or plan: many seeds, and what they say together."""
 
 from collections.abc import Sequence
-from dataclasses import replace
-from typing import Final
+from dataclasses import dataclass, replace
+from typing import Annotated, Final
 
 import numpy as np
 import typer
@@ -19,6 +19,7 @@ from ...experiments.walk.noise import named_walk_noise, read_walk_noise
 from ...experiments.walk.planned import careful, lay_plan, walk_of
 from ...experiments.walk.run_walk import walk_flaws
 from ...experiments.walk.trials import LEVEL, WalkCause, WalkSetup, WalkTrials, run_walk_trials
+from ...json_form import INLINE
 from ...planning.planners import find_planner
 from ...tasks.walker import WalkerTask
 from ...tasks.walks import load_walk
@@ -28,9 +29,17 @@ from ..for_climbs import refuse_for_walk
 from ..live_line import LiveLine
 from ..output import announce_compilation, plain_table, print_json, stderr, stdout
 from ..run.walk_plan import plan_walk
-from .fault_text import any_error, print_faults
-from .text import share_range, some
-from .words import TrialsWords
+from .options import TrialsOptions
+from .text import any_error, print_faults, share_range, some
+
+
+@dataclass(frozen=True, slots=True)
+class PrintedWalkTrials:
+    """Many walks, of a walk or of a walker's plan."""
+
+    trials: Annotated[WalkTrials, INLINE]
+    held_out: bool
+    """Whether all seeds are held out: none that any tuning may use."""
 
 
 class WalkTrialsLine(LiveLine):
@@ -47,7 +56,7 @@ PLANS_ONLY: Final = ("task", "planner", "seconds")
 """Those that a walk has no use for, as it needs no plan."""
 
 
-def walk_trials_of(what: str, asked: TrialsWords, words: CrewWords) -> None:
+def walk_trials_of(what: str, asked: TrialsOptions, words: CrewWords) -> None:
     """Walk with every seed and print what came of it; leaves with 1 where a walk failed, or fewer than asked for succeed for sure.
 
     Args:
@@ -70,7 +79,7 @@ def walk_trials_of(what: str, asked: TrialsWords, words: CrewWords) -> None:
 
 
 def planned_walk_trials_of(
-    what: str, task: WalkerTask, plan: Plan | None, asked: TrialsWords, words: CrewWords
+    what: str, task: WalkerTask, plan: Plan | None, asked: TrialsOptions, words: CrewWords
 ) -> None:
     """The same with a walker's task: planned once, or as the store has it planned, then walked with every seed.
 
@@ -100,14 +109,14 @@ def planned_walk_trials_of(
     _try_and_tell(replace(setup, plan=plan), asked, words)
 
 
-def _try_and_tell(setup: WalkSetup, asked: TrialsWords, words: CrewWords) -> None:
+def _try_and_tell(setup: WalkSetup, asked: TrialsOptions, words: CrewWords) -> None:
     least = asked.least
     with WalkTrialsLine(stderr(), quiet=words.quiet) as line:
         trials = run_walk_trials(
             setup, asked.seeds, executor=words.executor, store=words.store, resume=words.resume, told=line.update
         )
     if words.as_json:
-        print_json(trials.to_json() | {"held_out": asked.held_out})
+        print_json(PrintedWalkTrials(trials, asked.held_out))
     else:
         print_walk_trials(stdout(), trials, asked.seeds)
     if len(trials.ended) < trials.asked:

@@ -5,10 +5,11 @@ At rest I qdd = tau - tau_f, at a steady speed tau = tau_f + d qd: two torques o
 """
 
 from dataclasses import dataclass
-from typing import Final
+from typing import Annotated, Final
 
 import numpy as np
 
+from ...json_form import Count, Key
 from ...types import Floats
 from .motion import Motion
 from .samples import JointSamples
@@ -43,7 +44,7 @@ class RoughEstimates:
     inertia: float | None
     damping: float | None
     friction: float | None
-    episodes: tuple[Episode, ...]
+    episodes: Annotated[tuple[Episode, ...], Key(get=len, kind=Count)]
 
 
 def rough_estimates(samples: JointSamples, motion: Motion, torque: Floats) -> RoughEstimates:

@@ -2,11 +2,13 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Final
+from operator import attrgetter
+from typing import Annotated, Final
 
 import numpy as np
 
-from ...types import Floats, Json
+from ...json_form import HIDDEN, Count, Jsonable, Key
+from ...types import Floats
 from .amplifier import amplifier_gain
 from .backlash import backlash
 from .constant_torque import RoughEstimates, rough_estimates
@@ -39,40 +41,35 @@ class Drivetrain:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class IdentifiedJoint:
+class IdentifiedJoint(Jsonable):
     """What a log tells of one joint."""
 
-    samples: JointSamples
+    samples: Annotated[
+        JointSamples,
+        Key("joint", get=attrgetter("name"), kind=str),
+        Key("rows", get=lambda samples: samples.time.size, kind=Count),
+        Key("seconds", get=lambda samples: samples.time[-1] - samples.time[0], kind=float),
+    ]
     """Evenly spaced."""
-    motion: Motion
-    torque: Floats | None
+    motion: Annotated[Motion, HIDDEN]
+    torque: Annotated[Floats | None, HIDDEN]
     """Of the motor at the joint, at every sample [N m]."""
-    links: LinkLoad | None
+    links: Annotated[LinkLoad | None, HIDDEN]
     """What the links ask of the joint, where a robot is named."""
     torque_from: str
-    fit: JointFit | None
-    rough: RoughEstimates
+    fit: Annotated[
+        JointFit | None,
+        Key("lag", get=attrgetter("lag"), kind=float, meaning="Of the torque behind the angles [s]."),
+        Key(
+            "residual_torque",
+            get=attrgetter("residual"),
+            kind=float,
+            meaning="Root mean square of what the fit leaves [N m].",
+        ),
+    ]
+    rough: Annotated[RoughEstimates, Key("constant_torque", after="estimates")]
     estimates: tuple[Estimate, ...]
     """Inertia, damping, friction, offset, amplifier gain, backlash."""
-
-    def to_json(self) -> Json:
-        """As plain data."""
-        time = self.samples.time
-        return {
-            "joint": self.samples.name,
-            "rows": int(time.size),
-            "seconds": float(time[-1] - time[0]),
-            "torque_from": self.torque_from,
-            "lag": None if self.fit is None else self.fit.lag,
-            "residual_torque": None if self.fit is None else self.fit.residual,
-            "estimates": [estimate.to_json() for estimate in self.estimates],
-            "constant_torque": {
-                "inertia": self.rough.inertia,
-                "damping": self.rough.damping,
-                "friction": self.rough.friction,
-                "episodes": len(self.rough.episodes),
-            },
-        }
 
 
 def identify_joint(

@@ -2,26 +2,32 @@
 
 import math
 from dataclasses import dataclass, field
-from typing import Annotated
+from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
+from ...json_form import Count, Jsonable, Key
 from ...tasks.limbed import LimbedTask
-from ...types import Floats, Json
+from ...types import Floats
 from ..plant import HoldBreak
 from ..run_report import Moment, Outcome, RunReport
 
+Pose: TypeAlias = tuple[float, float, float]
+ClimbOutcome: TypeAlias = Literal["ok", "stalled", "missed", "fell", "fault", "interrupted", "stopped", "not supported"]
+"""Those that an action of a climb may have."""
+
 
 @dataclass(frozen=True, slots=True)
-class ActionReport:
+class ActionReport(Jsonable):
     """What happened to an action, or to like moves of the body that were carried out in one go."""
 
     first: int
     """Step of the plan, from 1."""
     last: int
     kind: str
+    """none, move, release or grab."""
     title: str
-    outcome: Outcome
+    outcome: Annotated[Outcome, Key(kind=ClimbOutcome)]
     start: Moment
     """When it began [s]."""
     seconds: Moment
@@ -34,17 +40,13 @@ class ActionReport:
     tip_error: float | None
     """The same of the tip of the limb that acted [m]."""
     reason: str = ""
-    recovered: int = 0
+    recovered: Count = 0
     """Hooks that came off meanwhile and were brought back."""
 
     @property
     def steps(self) -> str:
         """Steps of the plan, in words."""
         return str(self.first) if self.first == self.last else f"{self.first} to {self.last}"
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {name: getattr(self, name) for name in self.__slots__}
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,37 +65,35 @@ class LoggedClimb:
     replans: list[LoggedReplan] = field(default_factory=list)
 
 
+@dataclass(frozen=True, slots=True)
+class NewPlan:
+    """Where a new plan was made on the way."""
+
+    after: Count
+    """Actions reported before."""
+    without: list[int]
+    """Numbers of the holds that could not be had."""
+    length: Count
+    """Actions of the new plan."""
+
+
 @dataclass(slots=True)
 class ClimbReport(RunReport):
     """How a plan was carried out."""
 
-    pose: tuple[float, ...] = field(default=(0.0, 0.0, 0.0), kw_only=True)
-    """Body at the end, as believed [m], [rad]."""
+    pose: Annotated[tuple[float, ...], Key(kind=Pose)] = field(default=(0.0, 0.0, 0.0), kw_only=True)
+    """Body at the end, as believed: x, y [m], angle [rad]."""
+    true_pose: Annotated[tuple[float, ...] | None, Key(kind=Pose)] = field(default=None, kw_only=True)
+    """As it truly was; None where nobody tells."""
     actions: list[ActionReport] = field(default_factory=list)
-    replans: list[Json] = field(default_factory=list)
-    """Where a new plan was made: after which of `actions`, its length, why."""
-    forced: list[str] = field(default_factory=list)
+    replans: Annotated[list[NewPlan], Key(after="forced")] = field(default_factory=list)
+    """Where a new plan was made."""
+    forced: Annotated[list[str], Key(after="short")] = field(default_factory=list)
     """Objections to the plan that were overridden."""
-    broken: list[HoldBreak] = field(default_factory=list)
+    broken: Annotated[list[HoldBreak], Key(after="replans")] = field(default_factory=list)
     """Holds that truly gave way, where that is told."""
-    short: float = 0.0
+    short: Annotated[float, Key(after="true_pose")] = 0.0
     """By how much the body, truly where that is told, misses the last goal's box [m]."""
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {
-            "done": self.done,
-            "reason": self.reason,
-            "seconds": self.seconds,
-            "pose": list(self.pose),
-            "true_pose": None if self.true_pose is None else list(self.true_pose),
-            "short": self.short,
-            "forced": self.forced,
-            "replans": self.replans,
-            "broken": [one.to_json() for one in self.broken],
-            **self.faults_to_json(),
-            "actions": [action.to_json() for action in self.actions],
-        }
 
 
 def beyond(task: LimbedTask, pose: Floats) -> float:

@@ -12,7 +12,7 @@ from ...types import Floats
 from ..run_report import BRACED, SETTLED, Ending, Outcome, ending_of
 from ..sequencer import Attempt, Performer
 from .actor import ARRIVED, Actor
-from .climb_report import ActionReport, ClimbReport, beyond
+from .climb_report import ActionReport, ClimbReport, NewPlan, beyond
 from .climb_trace import TracedClimber
 from .climber import FallenError, SlippedError
 from .course import Course, PlanRefusedError, lay_course, names_of
@@ -150,9 +150,7 @@ class Climbing(Performer[Group, ClimbReport, int, int, str, float]):
         course = lay_course(task, plan, "new plan")
         if course.objections:
             return False
-        self.report.replans.append(
-            {"after": len(self.report.actions), "without": sorted(self._actor.missed), "length": len(plan.actions)}
-        )
+        self.report.replans.append(NewPlan(len(self.report.actions), sorted(self._actor.missed), len(plan.actions)))
         self._actor.course, self._groups = course, iter(course.groups())
         return True
 

@@ -22,8 +22,9 @@ from ...control.cooperative.settings import Cooperation, own_speeds
 from ...control.cooperative.tool_chain import POSE
 from ...control.quintic import quintic_share
 from ...control.track import Track
+from ...json_form import Jsonable
 from ...robots.walker import WalkerRobot
-from ...types import Floats, Json
+from ...types import Floats
 from . import motions
 from .arm_swing import check_swing
 from .plate_room import ARRIVED
@@ -58,15 +59,15 @@ GAIN: Final = 0.5
 
 
 @dataclass(frozen=True, slots=True)
-class HeldPart:
+class HeldPart(Jsonable):
     """Where the tool was to be held, and what became of it as the robot believes."""
 
     points: tuple[tuple[float, float, float], ...]
     """Where the tool was to be, world, as believed [m]: a point, or what it was to go through."""
     first: float
-    """Way of the Delta-frame from which on the tool is held [m] ..."""
+    """Way of the Delta-frame from which on the tool is held [m]."""
     last: float
-    """... and until where."""
+    """Until where [m]."""
     reach: tuple[tuple[float, float], ...]
     """Parts of the way, of what was asked for, where the arm can reach the point [m]."""
     began: float | None
@@ -88,13 +89,6 @@ class HeldPart:
     def way(self) -> float:
         """Over which the tool was to be held [m]."""
         return self.last - self.first
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {name: getattr(self, name) for name in self.__slots__} | {
-            "points": [list(point) for point in self.points],
-            "reach": [list(part) for part in self.reach],
-        }
 
 
 class ToolHold:

@@ -1,41 +1,69 @@
 """What a run of the body's bench comes to, in SI units: NaN in a run that left the finite numbers."""
 
-from dataclasses import dataclass, fields
+from collections.abc import Sequence
+from dataclasses import dataclass
+from operator import attrgetter
+from typing import Annotated, Final
 
 import numpy as np
 
-from ...types import Json
+from ...json_form import INLINE, Jsonable, Key, OrNull
 from .body_bench import BodyRun
 from .body_scenario import BodyScenario
 
+ALPHA: Final = "Least acceleration of a hook along its grab direction, for the limits that know one [m/s^2]."
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class BodyMeasures:
+class BodyMeasures(Jsonable):
     """Of the measured part, by the truth."""
 
     radial_rms: float | None
-    """Of a circle: how far from it [m]."""
-    behind_rms: float
+    """Of a circle: how far from it [m]; None for others."""
+    behind_rms: OrNull
     """Distance from the aim [m]."""
-    x_max: float
+    x_max: OrNull
     """Largest way along x from the aim, less that at the beginning [m]."""
-    y_max: float
+    y_max: OrNull
     """[m]."""
-    turn_max: float
+    turn_max: OrNull
     """[rad]."""
-    rest: float
+    rest: OrNull
     """Distance from the aim at the end [m]."""
-    off_max: float
+    off_max: OrNull
     """Largest distance of a holding tip from its peg [m]."""
     unhooked_at: float | None
     """When a hook came off [s]; None: never."""
 
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {
-            field.name: None if (value := getattr(self, field.name)) is None or not np.isfinite(value) else value
-            for field in fields(self)
-        }
+
+@dataclass(frozen=True, slots=True)
+class BodyControl:
+    """One control of the body."""
+
+    run: Annotated[
+        BodyRun,
+        Key("control", get=attrgetter("entry.label"), kind=str),
+        Key(
+            "kp", get=attrgetter("entry.gains.kp"), kind=list[float], meaning="Along x, y [N/m] and turning [N m/rad]."
+        ),
+        Key("kd", get=attrgetter("entry.gains.kd"), kind=list[float]),
+        Key("limit", get=attrgetter("entry.gains.limit"), kind=str, meaning="Of the hooks' pulls."),
+        Key("alpha", get=attrgetter("entry.gains.alpha"), kind=float, meaning=ALPHA),
+    ]
+    measures: Annotated[BodyMeasures, INLINE]
+
+
+@dataclass(frozen=True, slots=True)
+class BodyContest:
+    """Controls compared on a body that limbs hold; exit code 1 where a hook came off."""
+
+    kind: str
+    controls: tuple[BodyControl, ...]
+
+    @classmethod
+    def of(cls, kind: str, runs: Sequence[BodyRun], measured: Sequence[BodyMeasures]) -> "BodyContest":
+        """Runs of a kind of scenario, with what was measured of each."""
+        return cls(kind, tuple(map(BodyControl, runs, measured)))
 
 
 def measure_body(run: BodyRun, scenario: BodyScenario) -> BodyMeasures:

@@ -2,11 +2,12 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Annotated
 
 import numpy as np
 
+from ...json_form import INLINE, Jsonable
 from ...sim.limb_flaws import LimbFlaws
-from ...types import Json
 from .body_bench import BodyEntry, run_body
 from .body_measures import BodyMeasures, measure_body
 from .body_scenario import push
@@ -23,17 +24,13 @@ STRENGTH = 0.1
 
 
 @dataclass(frozen=True, slots=True)
-class PushTrial:
+class PushTrial(Jsonable):
     """One push."""
 
     seed: int
     side: int
-    """+1: towards +x."""
-    measures: BodyMeasures
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {"seed": self.seed, "side": self.side} | self.measures.to_json()
+    """1 towards +x, -1 towards -x."""
+    measures: Annotated[BodyMeasures, INLINE]
 
 
 def push_trials(

@@ -2,13 +2,16 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Final, TypeAlias
+from operator import attrgetter
+from typing import Annotated, Final, TypeAlias
 
 import numpy as np
 
 from ...actions.plan import Plan
+from ...actions.planned import PlannedAction
 from ...execution.climb.course import lay_course
 from ...jobs import Executor
+from ...json_form import Count, Key, in_json
 from ...tasks.limbed import LimbedTask
 from ..held_out import check_training
 from .cautions import CAUTIONS, steady
@@ -74,13 +77,52 @@ class Lesson:
     """Of the grab that is to be made otherwise."""
     what: str
     """The change."""
-    length: int
+    length: Count
     """Actions of the changed plan."""
-    climbed: int
+    climbed: Count
     """Of its climbs, as many as it took to tell."""
-    tried: int
+    tried: Count
+    """Climbs by it."""
     taken: bool
     """Whether the plan goes on from there."""
+
+
+@dataclass(frozen=True, slots=True)
+class GrabAtFault:
+    """A grab with which climbs went wrong."""
+
+    step: int
+    """0 where no grab led to where they ended."""
+    seeds: list[int]
+    """Of those climbs."""
+
+
+@dataclass(frozen=True, slots=True)
+class LearnedPlan:
+    """What a plan learned in rehearsals."""
+
+    first: Annotated[
+        Rehearsed,
+        Key("climbs", get=lambda first: len(first.trials), kind=Count, meaning="Of each rehearsal."),
+        Key(
+            "climbed_before",
+            get=attrgetter("climbed"),
+            kind=Count,
+            meaning="Of them, carried out whole by the plan as it was.",
+        ),
+    ]
+    best: Annotated[
+        Rehearsed,
+        Key("climbed", get=attrgetter("climbed"), kind=Count, meaning="Likewise by the best plan found."),
+        Key("actions", get=attrgetter("plan.actions"), kind=list[PlannedAction], meaning="Of that plan."),
+    ]
+    lessons: Annotated[Sequence[Lesson], Key(after="faults")]
+    """Changes in the order in which they were tried."""
+
+    @in_json(after="actions")
+    def faults(self) -> tuple[GrabAtFault, ...]:
+        """Where it still fails, the most frequent first."""
+        return tuple(GrabAtFault(step, seeds) for step, seeds in self.best.faults.items())
 
 
 def learn(

@@ -1,17 +1,18 @@
 """A force that is held while the body moves (Bevly 1997, 5.2): two limbs carry, the third presses a wall, the body goes its way."""
 
 from dataclasses import dataclass
-from typing import Final
+from typing import Annotated, Final
 
 import numpy as np
 
 from ...control.play import RESTS
 from ...execution.climb.climber import Climber, FallenError
 from ...execution.climb.postures import postures
+from ...json_form import HIDDEN, Jsonable, Key, in_json
 from ...robots.limbed import LimbedRobot
 from ...sim.climber_plant import ClimberPlant
 from ...sim.limb_flaws import LimbFlaws, Wall
-from ...types import Floats, Json
+from ...types import Floats
 from ...worlds.board import Board
 
 POSE: Final = np.array((0.2286, 0.4422, 0.0))
@@ -48,30 +49,32 @@ MOVING: Final = 0.02
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Pressed:
-    """A force that was held, `rows` ticks long, from when it had risen and settled."""
+class Pressed(Jsonable):
+    """A force held on a wall while the body moved, `rows` ticks long, from when it had risen and settled."""
 
     wanted: float
     """[N]."""
-    time: Floats
+    time: Annotated[Floats, HIDDEN]
     """Shape (rows,) [s]."""
-    force: Floats
+    force: Annotated[Floats, HIDDEN]
     """True force on the wall, shape (rows,) [N]."""
-    body: Floats
+    body: Annotated[Floats, HIDDEN]
     """True body x, y [m], theta [rad], shape (rows, 3)."""
-    aim: Floats
+    aim: Annotated[Floats, HIDDEN]
     """Of the body, shape (rows, 3)."""
-    moves: tuple[float, float]
+    moves: Annotated[tuple[float, float], Key(after="way")]
     """When the body's way began and ended [s]."""
-    reason: str = ""
-    """Why it ended early: the robot fell."""
+    reason: Annotated[str, Key(after="moves")] = ""
+    """Why it ended early: the robot fell; empty if it did not."""
 
     @property
+    @in_json(after="wanted")
     def ripple(self) -> float:
         """Largest difference from the wanted force, over it [-]."""
         return float(np.abs(self.force - self.wanted).max() / self.wanted)
 
     @property
+    @in_json(after="ripple")
     def steady_ripple(self) -> float:
         """The same of the mean over 20 ms, in which single knocks of a joint's play against its end do not show [-]."""
         count = max(1, round(MEAN / float(self.time[1] - self.time[0])))
@@ -79,26 +82,22 @@ class Pressed:
         return float(np.abs(means - self.wanted).max() / self.wanted)
 
     @property
+    @in_json(after="steady_ripple")
     def spread(self) -> float:
         """Root mean square of that difference, over the wanted force [-]."""
         return float(np.sqrt(np.mean((self.force - self.wanted) ** 2)) / self.wanted)
 
     @property
+    @in_json(after="spread")
     def within(self) -> float:
         """Part of the time in which the force is within a tenth [-]."""
         return float(np.mean(np.abs(self.force - self.wanted) <= 0.1 * self.wanted))
 
     @property
-    def way(self) -> Floats:
+    @in_json(after="within")
+    def way(self) -> Annotated[Floats, Key(kind=tuple[float, float])]:
         """What the body truly went, x, y [m], shape (2,)."""
         return self.body[-1, :2] - self.body[0, :2]
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {
-            "wanted": self.wanted, "ripple": self.ripple, "steady_ripple": self.steady_ripple, "spread": self.spread, "within": self.within,
-            "way": self.way.tolist(), "moves": list(self.moves), "reason": self.reason,
-        }  # fmt: skip
 
 
 def run_press(

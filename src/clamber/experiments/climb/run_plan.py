@@ -3,7 +3,9 @@
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
 
@@ -19,11 +21,12 @@ from ...execution.fault import Fault
 from ...execution.log_stream import LogGap, WantedLog, growing_log
 from ...execution.plant import BodyPlant
 from ...execution.sequencer import Sequencer
+from ...json_form import HIDDEN, INLINE, Jsonable, Key
 from ...sim.flaw_texts import named_flaws, read_flaws
 from ...sim.limb_flaws import LimbFlaws
 from ...tasks import Task, load_task
 from ...tasks.limbed import LimbedTask
-from ...types import Floats, Json
+from ...types import Floats
 from ..plant_settings import split_settings
 from .faults import failing_body
 from .noise import NO_NOISE, Drawn, Noise, assumed_backlash, check_noise, draw_for, true_places
@@ -36,21 +39,21 @@ PHYSICS_RATE: float = 1000.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class ClimbRun:
-    """A plan that was carried out."""
+class ClimbRun(Jsonable):
+    """A climb that was carried out; exit code 1 where it is not done."""
 
-    task: LimbedTask
-    plan: Plan
-    report: ClimbReport
-    trace: ClimbTrace
-    drawn: Drawn
+    task: Annotated[LimbedTask, Key(get=attrgetter("name"), kind=str, after="actions")]
+    plan: Annotated[Plan, HIDDEN]
+    report: Annotated[ClimbReport, INLINE]
+    trace: Annotated[ClimbTrace, HIDDEN]
+    drawn: Annotated[Drawn, HIDDEN]
     """How far things truly were from what was believed."""
-    wall_seconds: float
+    wall_seconds: Annotated[float, Key(after="task")]
     """That it took, without compiling or loading kernels and without looking for new plans on the way."""
-    fault: Fault | None = None
+    fault: Annotated[Fault | None, HIDDEN] = None
     """That the robot had."""
-    log_gap: LogGap | None = None
-    """What its log lacks; None: nothing, or there is none."""
+    log_gap: Annotated[LogGap | None, Key(after="wall_seconds", may_be_missing=True)] = None
+    """What its log lacks, there only if it could not be written to its end; None: nothing, or there is no log."""
 
     @property
     def done(self) -> bool:
@@ -68,13 +71,6 @@ class ClimbRun:
         mapped, places = self.task.world.positions(), true_places(self.task, self.drawn)
         places[self.drawn.missing] = np.nan
         return None if np.array_equal(places, mapped) else places
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        told = {"task": self.task.name, "wall_seconds": self.wall_seconds}
-        if self.log_gap is not None:
-            told["log_gap"] = self.log_gap.to_json()
-        return self.report.to_json() | told
 
 
 def open_climb(what: str, task: str | None, settings: Sequence[str]) -> tuple[LimbedTask, Plan | None, tuple[str, ...]]:

@@ -3,11 +3,11 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Annotated, Final
 
 import numpy as np
 
-from ...types import Json
+from ...json_form import Count, Jsonable, Key, OrNull, in_json
 from ..intervals import wilson_interval
 from .noise import NOISE
 from .trial import ClimbTrial
@@ -26,45 +26,36 @@ VERDICTS: Final = {
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Third:
+class Third(Jsonable):
     """A third of the climbs, by what one key drew."""
 
     low: float
     """Least deviation in it, in SI."""
     high: float
     """Largest one."""
-    done: int
-    n: int
+    done: Count
+    n: Count
 
     @property
+    @in_json()
     def interval(self) -> tuple[float, float]:
         """Of its success, 95 %, Wilson's."""
         return wilson_interval(self.done, self.n)
 
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {"low": self.low, "high": self.high, "done": self.done, "n": self.n, "interval": list(self.interval)}
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Effect:
+class Effect(Jsonable):
     """What one key of the noise did to success."""
 
     key: str
     thirds: tuple[Third, ...]
     """From low to high deviations."""
-    share: float
+    share: OrNull
     """Chance that a failed climb drew more than one that was carried out, 0.5 if it makes no difference [-]; NaN without both."""
-    p: float
+    p: OrNull
     """Of the clearer of two rank tests (by deviation, and by its size), corrected for all tests of all keys [-]; NaN without both."""
-    verdict: str
+    verdict: Annotated[str, Key(get=VERDICTS.__getitem__, meaning="In words.")]
     """Key of `VERDICTS`."""
-
-    def to_json(self) -> Json:
-        """Plain data; what cannot be told is null."""
-        told = {name: value if math.isfinite(value) else None for name, value in (("share", self.share), ("p", self.p))}
-        thirds = [third.to_json() for third in self.thirds]
-        return {"key": self.key, "thirds": thirds} | told | {"verdict": VERDICTS[self.verdict]}
 
 
 def find_effects(trials: Sequence[ClimbTrial]) -> list[Effect]:

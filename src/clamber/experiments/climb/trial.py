@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Annotated, Final
 
 import numpy as np
 
@@ -11,10 +11,11 @@ from ...errors import MISSING, SpecError
 from ...execution.climb.climbing import Progress, Replan
 from ...execution.fault import draw_fault
 from ...jobs import read_result
+from ...json_form import Count, Jsonable, Key
 from ...tasks import task_from_document
 from ...tasks.limbed import LimbedTask
 from ...types import Json
-from ..fault_trials import check_told, told_fault
+from ..fault_trials import TriedFault, check_told, told_fault
 from .faults import BEGINS, failing_of
 from .noise import NOISE, Noise, noise_of
 from .planning import replanner
@@ -81,15 +82,15 @@ class TrialSetup:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ClimbTrial:
+class ClimbTrial(Jsonable):
     """How one climb ended."""
 
-    seed: int
+    seed: Count
     done: bool
     """Whether every action was carried out."""
     outcome: str
-    """Of the last action: "ok", or why the climb ended there, such as "fell" or "missed"; `ERROR` where it raised."""
-    step: int
+    """Of the last action: "ok", or why the climb ended there, such as "fell" or "missed"; "error" where it raised."""
+    step: Count
     """Number of the last action in its plan, from 1; 0: none began."""
     kind: str
     """Of that action, such as "grab"; empty if none began."""
@@ -101,23 +102,19 @@ class ClimbTrial:
     """Simulated."""
     short: float
     """By how much the body truly misses the goal's box at the end [m]."""
-    pushes: int
+    pushes: Count
     """Of all grabs."""
-    grabs: int
-    stalled: int
+    grabs: Count
+    stalled: Count
     """Moves of the body that did not arrive."""
-    replans: int
+    replans: Count
     """New plans that were taken."""
-    recovered: int
+    recovered: Count
     """Hooks that came off and were brought back."""
     drawn: dict[str, float]
     """Deviation of each key of the noise; of pegs, of those that the plan takes."""
-    fault: Json | None = None
+    fault: Annotated[Json | None, Key(kind=TriedFault)] = None
     """The fault that the robot had, when it was noticed, and how that ended; None in trials without."""
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {name: getattr(self, name) for name in self.__slots__}
 
 
 def trial_of(told: Json, store: Path | None = None) -> ClimbTrial:

@@ -2,12 +2,12 @@
 
 from dataclasses import dataclass
 from statistics import median
-from typing import Final
+from typing import Annotated, Final
 
 import numpy as np
 
 from ...execution.climb.course import Course, lay_course, names_of
-from ...types import Json
+from ...json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ...units import INCH
 from ..fault_trials import FaultRow, fault_rows
 from ..intervals import wilson_interval
@@ -21,7 +21,7 @@ SHORTEST_WAY: Final = 0.01
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Cause:
+class Cause(Jsonable):
     """Climbs that ended in the same way."""
 
     outcome: str
@@ -29,8 +29,8 @@ class Cause:
     """Of the action that ended them; empty before the first."""
     limb: str
     """That acted; empty for the body."""
-    n: int
-    of: int
+    n: Count
+    of: Annotated[int, HIDDEN]
     """All climbs."""
     steps: tuple[int, ...]
     """At which, each once."""
@@ -45,24 +45,14 @@ class Cause:
         return f"{self.outcome}: {acted}" if acted else self.outcome
 
     @property
+    @in_json(after="n")
     def interval(self) -> tuple[float, float]:
         """Of its share of all climbs, 95 %, Wilson's."""
         return wilson_interval(self.n, self.of)
 
-    def to_json(self) -> Json:
-        """Plain data."""
-        told = {
-            "outcome": self.outcome,
-            "kind": self.kind,
-            "limb": self.limb,
-            "n": self.n,
-            "interval": list(self.interval),
-        }
-        return told | {"steps": list(self.steps), "seeds": list(self.seeds), "reason": self.reason}
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Spread:
+class Spread(Jsonable):
     """The middle and the ends of some numbers."""
 
     median: float
@@ -71,43 +61,39 @@ class Spread:
     high: float
     """5 % are more."""
 
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {"median": self.median, "low": self.low, "high": self.high}
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class TrialSummary:
+class TrialSummary(Jsonable):
     """Many climbs of one plan."""
 
     task: str
     noise: str
     """In words."""
-    asked: int
-    n: int
+    asked: Count
+    n: Count
     """That ended."""
-    done: int
+    done: Count
     causes: tuple[Cause, ...]
     """The commonest first."""
     seconds: Spread | None
     """Simulated, of climbs that were carried out; None without one."""
-    per_rung: Spread | None
+    per_rung: Annotated[Spread | None, Key("seconds_per_6in")]
     """The same for each 6 in of the body's way in the plan; None where the body stays."""
     short: Spread | None
     """By how much their bodies truly missed the goal's box [m]."""
     speed: float | None
     """Simulated over wall-clock time of one worker."""
-    pushes: float | None
+    pushes: Annotated[float | None, Key("pushes_per_grab")]
     """For each grab."""
-    stalled: int
+    stalled: Count
     """Moves of the body that did not arrive, in all climbs."""
-    replanned: int
+    replanned: Count
     """Climbs that took a new plan."""
-    recovered: int
+    recovered: Count
     """Hooks that came off and were brought back, in all climbs."""
-    recovering: int
+    recovering: Count
     """Climbs with such a hook."""
-    saved: int
+    saved: Count
     """Those of them that succeeded."""
     forced: tuple[str, ...]
     """What speaks against the plan, which was carried out all the same."""
@@ -115,36 +101,16 @@ class TrialSummary:
     faults: tuple[FaultRow, ...] = ()
     """A row for each kind of fault, and one for all; none in trials without."""
 
+    @in_json(after="done")
+    def success(self) -> float | None:
+        """Share that was carried out."""
+        return self.done / self.n if self.n else None
+
     @property
+    @in_json(after="success")
     def interval(self) -> tuple[float, float]:
         """Of success, 95 %, Wilson's."""
         return wilson_interval(self.done, self.n)
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {
-            "task": self.task,
-            "noise": self.noise,
-            "asked": self.asked,
-            "n": self.n,
-            "done": self.done,
-            "success": self.done / self.n if self.n else None,
-            "interval": list(self.interval),
-            "causes": [cause.to_json() for cause in self.causes],
-            "seconds": None if self.seconds is None else self.seconds.to_json(),
-            "seconds_per_6in": None if self.per_rung is None else self.per_rung.to_json(),
-            "short": None if self.short is None else self.short.to_json(),
-            "speed": self.speed,
-            "pushes_per_grab": self.pushes,
-            "stalled": self.stalled,
-            "replanned": self.replanned,
-            "recovered": self.recovered,
-            "recovering": self.recovering,
-            "saved": self.saved,
-            "forced": list(self.forced),
-            "effects": [effect.to_json() for effect in self.effects],
-            "faults": [row.to_json() for row in self.faults],
-        }
 
 
 def sum_up(trials: Trials) -> TrialSummary:

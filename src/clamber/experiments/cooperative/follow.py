@@ -1,7 +1,8 @@
 """A walker that stands follows a tool path with arm and body: the run, and what it came to."""
 
 from dataclasses import dataclass
-from typing import Final
+from operator import attrgetter
+from typing import Annotated, Final
 
 import numpy as np
 
@@ -13,8 +14,9 @@ from ...control.cooperative.planted_feet import N_ROWS, ROW_UNITS, PlantedFeet
 from ...control.cooperative.settings import Cooperation, CooperationError, own_speeds
 from ...control.cooperative.stable_gain import stable_gain
 from ...execution.log import Log
+from ...json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ...robots.walker import WalkerRobot
-from ...types import Floats, Json
+from ...types import Floats
 from .simulated_body import SimulatedBody
 from .tool_path import TimedPath, ToolPath
 
@@ -60,42 +62,70 @@ class FollowOptions:
     """In dynamics: whether the law makes up for what the robot's own sensors say that the tool is off."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class FollowRun:
-    """What following a path came to; a row for each period."""
+@dataclass(frozen=True, slots=True)
+class ClosestLimit:
+    """The range of a joint, an actuator or a leg that came nearest to its end."""
 
-    robot: WalkerRobot
-    path: ToolPath
-    options: FollowOptions
-    freedoms: Freedoms
-    footing: PlantedFeet
-    time: Floats
+    name: str
+    margin: float
+    """In `unit`."""
+    unit: str
+    time: float
+    """When [s]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class UnreachablePoint:
+    """A point of the path that the tool could not reach."""
+
+    point: int
+    """Of the path, from 0."""
+    reach: Annotated[
+        Reach,
+        Key("distance_m", get=attrgetter("distance"), kind=float, meaning="Of the closest reachable point from it."),
+        Key("closest_m", get=attrgetter("place"), kind=list[float], meaning="The closest reachable point: x, y, z."),
+        Key("reason", get=attrgetter("reason"), kind=str, meaning="The limit that keeps it away."),
+    ]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FollowRun(Jsonable):
+    """A tool path followed by arm and body, a row for each period; exit code 1 where the tool does not come to its end."""
+
+    robot: Annotated[WalkerRobot, Key(get=attrgetter("name"), kind=str)]
+    path: Annotated[ToolPath, Key(get=attrgetter("label"), kind=str)]
+    options: Annotated[FollowOptions, Key("dof", get=attrgetter("dof"), kind=int)]
+    freedoms: Annotated[Freedoms, HIDDEN]
+    footing: Annotated[
+        PlantedFeet, Key("supports", get=attrgetter("support"), kind=str, meaning="On which feet the robot stands.")
+    ]
+    time: Annotated[Floats, HIDDEN]
     """[s], shape (rows,)."""
-    q: Floats
+    q: Annotated[Floats, HIDDEN]
     """Freedoms, shape (rows, m)."""
-    places: Floats
+    places: Annotated[Floats, HIDDEN]
     """Of the tool, world [m], shape (rows, 3); in dynamics where it truly is."""
-    wanted: Floats
+    wanted: Annotated[Floats, HIDDEN]
     """Where it was to be [m], shape (rows, 3)."""
-    on_path: Floats
+    on_path: Annotated[Floats, HIDDEN]
     """Whether the approach is over, shape (rows,), 0 or 1."""
-    measure: Floats
+    measure: Annotated[Floats, HIDDEN]
     """V of the normalised chain [-], shape (rows,)."""
-    values: Floats
+    values: Annotated[Floats, HIDDEN]
     """What is limited, in the order of `names`, shape (rows, ranges)."""
-    limits: tuple[Floats, Floats]
+    limits: Annotated[tuple[Floats, Floats], HIDDEN]
     """Least and largest of it, each of shape (ranges,)."""
-    names: tuple[str, ...]
+    names: Annotated[tuple[str, ...], HIDDEN]
     """Of ranges, then of speeds."""
-    held: dict[str, float]
+    held: Annotated[dict[str, float], Key("held_by", after="closest_limit")]
     """Limit -> part of the time on the path for which it held the motion back, the most first."""
-    unreachable: tuple[tuple[int, Reach], ...]
+    unreachable: Annotated[tuple[tuple[int, Reach], ...], HIDDEN]
     """Points of the path, counted from 0 along it, that the robot cannot reach standing so, of those looked at beforehand."""
-    end: Reach
+    end: Annotated[Reach, HIDDEN]
     """The reachable place nearest to the path's last point, from where the run ended."""
-    unsolved: int
+    unsolved: Annotated[Count, Key("unsolved_periods", after="unreachable_points")]
     """Periods in which the law found no motion and rested."""
-    stable_gain: float
+    stable_gain: Annotated[float, Key(kind=float | None, after="least_manipulability")]
     """k_p above which the motion would swing about a summit of V, by the run's last posture [-]."""
 
     @property
@@ -111,11 +141,13 @@ class FollowRun:
         return NEAR_IN_DYNAMICS if self.options.dynamics else NEAR
 
     @property
+    @in_json(key="end_error_m", after="largest_error_m")
     def off_end(self) -> float:
         """Distance of the tool from the path's last point at the end [m]."""
         return float(np.linalg.norm(self.places[-1] - self.path.points[-1]))
 
     @property
+    @in_json(after="supports")
     def reason(self) -> str:
         """Whether the path was followed to its end; else why not."""
         if self.off_end <= self.near:
@@ -127,8 +159,9 @@ class FollowRun:
             return f"its end is {self.end.reason}"
         return f"the tool ended {1e3 * self.off_end:.1f} mm off, though the end can be reached: the tool was stuck on the way"
 
-    def closest_range(self) -> tuple[str, float, float, str]:
-        """The limit that the run came nearest to, relative to its range: name, margin, time [s], and the margin's unit.
+    @in_json(key="closest_limit", after="stable_gain")
+    def closest_range(self) -> ClosestLimit:
+        """The limit that the run came nearest to, relative to its range.
 
         Limits on one side count relative to their largest margin in the run.
         """
@@ -144,33 +177,47 @@ class FollowRun:
         column = int(columns[place])
         joints = len(low) - N_ROWS
         unit = "rad" if column < joints else ROW_UNITS[column - joints]
-        return self.names[column], float(margins[row, column]), float(self.time[row]), unit
+        return ClosestLimit(self.names[column], float(margins[row, column]), unit, float(self.time[row]))
 
-    def to_json(self) -> Json:
-        """Plain data, as `clamber follow --json` prints it."""
-        name, margin, time, unit = self.closest_range()
-        return {
-            "robot": self.robot.name,
-            "path": self.path.label,
-            "dof": self.options.dof,
-            "supports": self.footing.support,
-            "reason": self.reason,
-            "reached": self.off_end <= self.near,
-            "seconds": float(self.time[-1]),
-            "rms_error_m": float(np.sqrt(np.mean(self.errors**2))),
-            "largest_error_m": float(self.errors.max()),
-            "end_error_m": self.off_end,
-            "mean_manipulability": float(self.measure[self.on_path > 0.0].mean()),
-            "least_manipulability": float(self.measure[self.on_path > 0.0].min()),
-            "stable_gain": self.stable_gain if np.isfinite(self.stable_gain) else None,
-            "closest_limit": {"name": name, "margin": margin, "unit": unit, "time": time},
-            "held_by": self.held,
-            "unreachable_points": [
-                {"point": k, "distance_m": reach.distance, "closest_m": reach.place.tolist(), "reason": reach.reason}
-                for k, reach in self.unreachable
-            ],
-            "unsolved_periods": self.unsolved,
-        }
+    @in_json(key="reached", after="reason")
+    def at_end(self) -> bool:
+        """Whether the tool came to the path's end."""
+        return self.off_end <= self.near
+
+    @property
+    @in_json(after="reached")
+    def seconds(self) -> float:
+        """That it took."""
+        return float(self.time[-1])
+
+    @property
+    @in_json(key="rms_error_m", after="seconds")
+    def rms_error(self) -> float:
+        """Root mean square of the tool's distance from where it was to be, on the path."""
+        return float(np.sqrt(np.mean(self.errors**2)))
+
+    @property
+    @in_json(key="largest_error_m", after="rms_error_m")
+    def largest_error(self) -> float:
+        """Largest such distance."""
+        return float(self.errors.max())
+
+    @property
+    @in_json(after="end_error_m")
+    def mean_manipulability(self) -> float:
+        """Mean of V on the path."""
+        return float(self.measure[self.on_path > 0.0].mean())
+
+    @property
+    @in_json(after="mean_manipulability")
+    def least_manipulability(self) -> float:
+        """Least V on the path."""
+        return float(self.measure[self.on_path > 0.0].min())
+
+    @in_json(after="held_by")
+    def unreachable_points(self) -> tuple[UnreachablePoint, ...]:
+        """Points of the path that the tool could not reach."""
+        return tuple(UnreachablePoint(k, reach) for k, reach in self.unreachable)
 
     def log(self) -> Log:
         """Every row, for a file."""

@@ -1,6 +1,7 @@
 """The point that a walk's tool is held at: laid out from where the robot stands, and how far the tool truly was from it."""
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 
@@ -8,37 +9,39 @@ from ...control.track import Track, compose, seen_from
 from ...execution.walk.tool_hold import HeldPart, ToolHold
 from ...execution.walk.true_walk import TrueWalk
 from ...execution.walk.walker import Walker
+from ...json_form import HIDDEN, INLINE, Jsonable, Key, in_json
 from ...tasks.walks.walk import Hold
-from ...types import Floats, Json
+from ...types import Floats
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class HeldPoint:
+class HeldPoint(Jsonable):
     """A point that the tool was to be held at, as it truly was."""
 
-    part: HeldPart
+    part: Annotated[HeldPart, INLINE]
     """Where on the way, and what the robot believes."""
-    point: Floats
-    """World, truly [m], shape (3,): where it was to be at first."""
-    time: Floats
+    point: Annotated[Floats, Key("true_point", kind=tuple[float, float, float])]
+    """Where it was to be at first, world, as it truly lies [m], shape (3,)."""
+    time: Annotated[Floats, HIDDEN]
     """Of the ticks at which it was held, shape (rows,) [s]."""
-    errors: Floats
+    errors: Annotated[Floats, HIDDEN]
     """Distance of the tool from where it was to be then, shape (rows,) [m]."""
 
+    @in_json()
+    def held_seconds(self) -> float:
+        """For which it was held."""
+        return float(self.time[-1] - self.time[0]) if len(self.time) else 0.0
+
     @property
+    @in_json(key="largest_error")
     def largest(self) -> float | None:
-        """Largest of the errors [m]; None where the robot did not come so far."""
+        """Largest true distance of the tool from where it was to be while it was held [m]; None where the robot did not come so far."""
         return float(self.errors.max()) if len(self.errors) else None
 
-    def to_json(self) -> Json:
-        """Plain data."""
-        held = len(self.errors) > 0
-        return self.part.to_json() | {
-            "true_point": self.point.tolist(),
-            "held_seconds": float(self.time[-1] - self.time[0]) if held else 0.0,
-            "largest_error": self.largest,
-            "mean_error": float(self.errors.mean()) if held else None,
-        }
+    @in_json()
+    def mean_error(self) -> float | None:
+        """Mean of that distance [m]."""
+        return float(self.errors.mean()) if len(self.errors) else None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -3,13 +3,16 @@
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
+from operator import attrgetter
+from typing import Annotated, Final
 
-from ...types import Json
+from ...json_form import Jsonable, Key
 from .run_walk import WalkRun
 
 
 @dataclass(frozen=True, slots=True)
-class Tried:
+class Tried(Jsonable):
     """What became of a walk with one value."""
 
     value: str
@@ -36,9 +39,13 @@ class Tried:
         """A value with which the walk cannot begin."""
         return cls(value, False, reason, None, 0.0)
 
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {name: getattr(self, name) for name in self.__slots__}
+
+def _value(name: str, most: "Most") -> str | None:
+    tried: Tried | None = getattr(most, name)
+    return None if tried is None else tried.value
+
+
+REFUSED: Final = "The next one, which is not; null where the largest asked for is borne."
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +58,20 @@ class Most:
     """The largest value found to be borne; None: not even the least."""
     refused: Tried | None
     """The next of the values that were asked for, which is not borne; None: the largest asked for is."""
+
+
+@dataclass(frozen=True, slots=True)
+class MostOfWalk:
+    """The most that a walk bears; exit code 1 where it does not bear even the least."""
+
+    walk: str
+    key: str
+    found: Annotated[
+        Most,
+        Key("tried", get=attrgetter("tried"), kind=list[Tried], meaning="In the order of their values."),
+        Key("borne", get=partial(_value, "borne"), kind=str | None, meaning="The largest value found to be borne."),
+        Key("refused", get=partial(_value, "refused"), kind=str | None, meaning=REFUSED),
+    ]
 
 
 def find_most(values: Sequence[str], walk: Callable[[str], Tried]) -> Most:

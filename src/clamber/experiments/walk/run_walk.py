@@ -4,8 +4,9 @@ import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 from pathlib import Path
-from typing import Any, Final
+from typing import Annotated, Any, Final
 
 import numpy as np
 
@@ -23,12 +24,13 @@ from ...execution.walk.true_walk import TracedPlant, TrueWalk
 from ...execution.walk.walk_report import WalkReport
 from ...execution.walk.walk_trace import TOPIC, TracedWalker, WalkTrace, walker_notes
 from ...execution.walk.walking import Lay, Progress, Walking
+from ...json_form import HIDDEN, INLINE, Jsonable, Key, OrNull, in_json
 from ...sim.plant_rules import PlantError
 from ...sim.walker_flaws import WalkerFlaws
 from ...sim.walker_plant import WalkerSim
 from ...tasks.walks import Walk
 from ...tasks.walks.standing import why_it_tips
-from ...types import Floats, Json
+from ...types import Floats
 from ...units import parse_quantity
 from .ditch_crossing import lay_crossing
 from .held_point import HeldPoint, LaidHold, lay_hold
@@ -43,32 +45,34 @@ WITHIN: Final = 0.005
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class WalkRun:
-    """A walk that was carried out."""
+class WalkRun(Jsonable):
+    """A walk that was carried out; exit code 1 where it is not done."""
 
-    walk: Walk
-    report: WalkReport
-    trace: WalkTrace
+    walk: Annotated[Walk, Key(get=attrgetter("name"), kind=str, after="steps")]
+    report: Annotated[WalkReport, INLINE]
+    trace: Annotated[WalkTrace, HIDDEN]
     """As the robot believed it."""
-    true: TrueWalk
+    true: Annotated[TrueWalk, HIDDEN]
     """As it was."""
-    wall_seconds: float
+    wall_seconds: Annotated[float, Key(after="margin")]
     """That it took."""
-    held: HeldPoint | None = None
-    """Where the walk has a point to hold, and the way was laid."""
-    fault: Fault | None = None
+    held: Annotated[HeldPoint | None, Key("hold", after="wall_seconds", may_be_missing=True)] = None
+    """There only if the walk has a point to hold, and the way was laid."""
+    fault: Annotated[Fault | None, HIDDEN] = None
     """That the robot had."""
-    log_gap: LogGap | None = None
-    """What its log lacks; None: nothing, or there is none."""
+    log_gap: Annotated[LogGap | None, Key(after="hold", may_be_missing=True)] = None
+    """What its log lacks, there only if it could not be written to its end; None: nothing, or there is no log."""
 
     @property
+    @in_json()
     def done(self) -> bool:
         """Whether it came to the end of its way, truly."""
         return not self.reason
 
     @property
+    @in_json()
     def reason(self) -> str:
-        """Why not; empty where it did."""
+        """Why it did not; empty where it did."""
         report = self.report
         if not report.done:
             return report.reason
@@ -82,30 +86,16 @@ class WalkRun:
         return slice(int(np.searchsorted(self.true.time, start)), None)
 
     @property
+    @in_json(after="walk")
     def tilt(self) -> float:
         """Largest angle of the plate from level while it walked [rad]."""
         return float(self.true.tilts[self.walking].max(initial=0.0))
 
     @property
-    def margin(self) -> float:
-        """Least margin of balance while it walked, with as many feet as touch the ground [m]."""
+    @in_json(after="tilt")
+    def margin(self) -> OrNull:
+        """Least margin of balance while it walked, with as many feet as touch the ground [m]; infinite with fewer than three."""
         return float(self.true.margins[self.walking].min(initial=np.inf))
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        told = {
-            "done": self.done,
-            "reason": self.reason,
-            "walk": self.walk.name,
-            "tilt": self.tilt,
-            "margin": self.margin if math.isfinite(self.margin) else None,
-            "wall_seconds": self.wall_seconds,
-        }
-        if self.held is not None:
-            told["hold"] = self.held.to_json()
-        if self.log_gap is not None:
-            told["log_gap"] = self.log_gap.to_json()
-        return self.report.to_json() | told
 
 
 def walk_flaws(walk: Walk, settings: Sequence[str]) -> WalkerFlaws:

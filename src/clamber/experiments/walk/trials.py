@@ -3,21 +3,23 @@
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from operator import attrgetter
 from pathlib import Path
-from typing import Final
+from typing import Annotated, Final
 
 import numpy as np
 
 from ...actions.plan import Plan
 from ...execution.fault import draw_fault
 from ...jobs import Executor, Outcome, look_into, map_items, read_result
+from ...json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ...tasks import task_from_document
 from ...tasks.walker import WalkerTask
 from ...tasks.walks import Walk
 from ...tasks.walks.library import walk_from_document
 from ...types import Floats, Json
 from ...units import DEGREE
-from ..fault_trials import check_told, fault_rows, told_fault
+from ..fault_trials import FaultRow, TriedFault, check_told, fault_rows, told_fault
 from ..intervals import wilson_interval
 from .faults import BEGINS, failing_of
 from .noise import WalkNoise
@@ -99,25 +101,25 @@ class WalkCause:
     n: int
     interval: tuple[float, float]
     """Of their share of all walks, 95 %, Wilson's."""
-    steps: tuple[int, ...]
+    steps: tuple[Count, ...]
     """At which, each once."""
-    seeds: tuple[int, ...]
+    seeds: tuple[Count, ...]
     reason: str
     """Of the first one."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class WalkTrial:
+class WalkTrial(Jsonable):
     """How one walk ended."""
 
-    seed: int
+    seed: Count
     done: bool
     """Whether both frames came to the end of the way."""
     reason: str
     """Why not; empty where it is done."""
     seconds: float
     """Simulated."""
-    steps: int
+    steps: Count
     tilt: float
     """Largest angle of the plate from level while it walked [rad]."""
     margin: float | None
@@ -126,50 +128,70 @@ class WalkTrial:
     """From where the way ends [m]; None where it was never laid."""
     turned: float | None
     """Heading from that at the end of the way [rad]."""
-    kicks: int
+    kicks: Count
     held_way: float | None = None
     """Way over which the tool was to be held at a point [m]; None where the walk has none, or ended before it was laid."""
     held_error: float | None = None
     """Largest distance of the tool from that point while it was held [m]; None where the robot did not come so far."""
-    fault: Json | None = None
+    fault: Annotated[Json | None, Key(kind=TriedFault)] = None
     """The fault that the robot had, when it was noticed, and how that ended; None in trials without."""
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {name: getattr(self, name) for name in self.__slots__}
 
 
 @dataclass(slots=True)
-class WalkTrials:
+class WalkTrials(Jsonable):
     """Walks that ended."""
 
-    setup: WalkSetup
-    asked: int
+    setup: Annotated[
+        WalkSetup,
+        Key("walk", get=attrgetter("name"), kind=str),
+        Key(
+            "noise",
+            get=lambda setup: setup.noise.to_json(),
+            kind=dict[str, float],
+            meaning="Key to its width, SI units.",
+        ),
+    ]
+    asked: Count
     """How many there are to be."""
-    ended: list[WalkTrial]
-    wall_seconds: float = 0.0
+    ended: Annotated[list[WalkTrial], Key("trials", after="faults")]
+    wall_seconds: Annotated[float, HIDDEN] = 0.0
     """All workers together, for the walks that ended."""
 
+    @in_json(after="asked")
+    def n(self) -> Count:
+        """Walks that ended."""
+        return len(self.ended)
+
     @property
+    @in_json(after="n")
     def done(self) -> int:
         """Walks that came to their end."""
         return sum(trial.done for trial in self.ended)
 
     @property
+    @in_json(after="done")
     def interval(self) -> tuple[float, float]:
         """Of the share that came to their end, 95 %, Wilson's."""
         return wilson_interval(self.done, len(self.ended))
 
     @property
-    def balanced(self) -> int:
+    @in_json(after="interval")
+    def balanced(self) -> Count:
         """Walks whose margin of balance was positive throughout, done or not."""
         return sum(trial.margin is not None and trial.margin > 0.0 for trial in self.ended)
 
     @property
-    def level(self) -> int:
-        """Walks that came to their end with the plate never farther from level than `LEVEL` since the first step."""
+    @in_json(after="balanced")
+    def level(self) -> Count:
+        """Walks that came to their end with the plate never more than 0.1 deg from level since the first step."""
         return sum(trial.done and trial.tilt <= LEVEL for trial in self.ended)
 
+    @in_json(after="level")
+    def balanced_interval(self) -> tuple[float, float]:
+        """Of the share of those that were balanced, 95 % (Wilson)."""
+        return wilson_interval(self.balanced, len(self.ended))
+
+    @in_json(after="balanced_interval")
     def causes(self) -> tuple[WalkCause, ...]:
         """Why walks ended early, the commonest first."""
         early = [trial for trial in self.ended if not trial.done]
@@ -184,28 +206,16 @@ class WalkTrials:
             for words, alike in sorted(found.items(), key=lambda pair: -len(pair[1]))
         )  # fmt: skip
 
+    @in_json(after="causes")
+    def faults(self) -> tuple[FaultRow, ...]:
+        """By kind; none in trials without."""
+        return fault_rows(self.ended) if self.setup.faults else ()
+
     def of(self, name: str) -> Floats:
         """A number of all walks that have it."""
         return np.array(
             [value for trial in self.ended if (value := getattr(trial, name)) is not None], dtype=np.float64
         )
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {
-            "walk": self.setup.name,
-            "noise": self.setup.noise.to_json(),
-            "asked": self.asked,
-            "n": len(self.ended),
-            "done": self.done,
-            "interval": list(self.interval),
-            "balanced": self.balanced,
-            "level": self.level,
-            "balanced_interval": list(wilson_interval(self.balanced, len(self.ended))),
-            "causes": [{name: getattr(cause, name) for name in WalkCause.__slots__} for cause in self.causes()],
-            "faults": [row.to_json() for row in fault_rows(self.ended)] if self.setup.faults else [],
-            "trials": [trial.to_json() for trial in self.ended],
-        }
 
 
 def cause_of(reason: str) -> str:

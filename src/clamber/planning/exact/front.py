@@ -3,14 +3,17 @@
 import json
 import time
 from dataclasses import dataclass
+from operator import attrgetter
 from pathlib import Path
+from typing import Annotated, Literal
 
 from ...actions.plan import Plan
 from ...actions.plan_costs import spent
 from ...actions.plan_families import plan_family
+from ...actions.planned import PlannedAction
 from ...files import write_atomically
+from ...json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ...tasks import Task
-from ...types import Json
 from ..progress import Exploring, Listener
 from .costs import COSTS, Aim, check_costs
 from .explore import Exploration, Way, inform
@@ -19,10 +22,14 @@ from .planner import MOST_STANCES, exact_problem
 
 
 @dataclass(frozen=True, slots=True)
-class Trade:
+class Trade(Jsonable):
     """One plan of a front."""
 
-    plan: Plan
+    plan: Annotated[
+        Plan,
+        Key("codes", get=Plan.numbers, kind=list[int] | None, after="costs"),
+        Key("actions", get=attrgetter("actions"), kind=tuple[PlannedAction, ...], after="codes"),
+    ]
     costs: dict[str, float]
     """Length [actions] and every cost of the family, in SI units."""
 
@@ -31,45 +38,31 @@ class Trade:
         """Actions of the plan."""
         return len(self.plan.actions)
 
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {
-            "costs": dict(self.costs),
-            "codes": self.plan.numbers(),
-            "actions": [action.to_json() for action in self.plan.actions],
-        }
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Front:
+class Front(Jsonable):
     """The plans that no other beats in both costs, from the least of the first to the least of the second."""
 
-    task: Task
+    task: Annotated[Task, Key(get=attrgetter("name"), kind=str)]
     costs: tuple[str, str]
+    """The two."""
     trades: tuple[Trade, ...]
-    complete: bool
+    """From the least of the first cost to the least of the second."""
+    complete: Annotated[bool, HIDDEN]
     """Proved: there are no others."""
-    infeasible: bool
+    infeasible: Annotated[bool, HIDDEN]
     """Proved: there is no plan at all."""
     reason: str
-    stances: int
-    checks: int
+    stances: Count
+    checks: Count
     seconds: float
     model: str
 
-    def to_json(self) -> Json:
-        """Plain data: what `clamber plan --pareto ... --json` prints."""
-        return {
-            "task": self.task.name,
-            "costs": list(self.costs),
-            "status": "infeasible" if self.infeasible else "optimal" if self.complete else "bounded",
-            "trades": [trade.to_json() for trade in self.trades],
-            "reason": self.reason,
-            "stances": self.stances,
-            "checks": self.checks,
-            "seconds": self.seconds,
-            "model": self.model,
-        }
+    @property
+    @in_json(after="costs")
+    def status(self) -> Literal["optimal", "infeasible", "bounded"]:
+        """optimal: proved that there are no others."""
+        return "infeasible" if self.infeasible else "optimal" if self.complete else "bounded"
 
     def save(self, path: Path) -> None:
         """Write the front with its plans as JSON, whole or not at all."""

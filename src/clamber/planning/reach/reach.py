@@ -3,16 +3,17 @@
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from operator import attrgetter
 from pathlib import Path
-from typing import Any, Final, Literal
+from typing import Annotated, Any, Final, Literal
 
 from ...actions.plan_families import plan_family
 from ...actions.problems import pose_problem, without_hangs
 from ...actions.yardsticks import yardsticks_of
 from ...errors import PlannerError
 from ...files import write_atomically
+from ...json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ...tasks import Task
-from ...types import Json
 from .flood import Flood, flood
 from .table import Rim, Table, place_table, pose_table, rim_of
 
@@ -28,98 +29,76 @@ _ENDS: Final = {
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class HoldUse:
+class HoldUse(Jsonable):
     """One hold, and who can ever use it."""
 
     number: int
     limbs: dict[str, int]
     """Limb -> actions of the shortest way to holding it; limbs that never hold it are left out."""
-    stances: int
+    stances: Count
     """Reachable stances with a limb on it."""
 
-    def to_json(self) -> Json:
-        """Plain data."""
-        first = min(self.limbs.values(), default=None)
-        return {"number": self.number, "first_step": first, "limbs": self.limbs, "stances": self.stances}
+    @in_json(after="number")
+    def first_step(self) -> int | None:
+        """Actions of the shortest way to a limb holding it; None: nobody ever does."""
+        return min(self.limbs.values(), default=None)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class GoalReach:
+class GoalReach(Jsonable):
     """One goal, and whether any reachable stance is where it asks for; goals before it and turns are not asked."""
 
     name: str
-    stances: int
+    stances: Count
+    """Reachable stances where it asks for."""
     first_step: int | None
     """Actions of the shortest way there; None: nobody gets there."""
 
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {"name": self.name, "stances": self.stances, "first_step": self.first_step}
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Reach:
+class Reach(Jsonable):
     """The reachable space of a task, as far as it was seen."""
 
-    task: Task
     status: Status
     """complete: every stance that can be reached was seen; incomplete: memory, time or Ctrl-C came first."""
+    task: Annotated[Task, Key(get=attrgetter("name"), kind=str)]
     reason: str
     """In a sentence."""
-    stances: int
-    """Different stances."""
-    steps: int
-    """Actions of the shortest way to the stance that is farthest in actions."""
-    poses: Table
-    places: Table
-    rim: Rim
-    """Places that could be tried and were not reached; while incomplete, not reached so far."""
-    holds: tuple[HoldUse, ...]
-    goals: tuple[GoalReach, ...]
-    """Sub-goals in order, then the goal."""
-    checks: int
-    """Actions judged."""
-    forbidden: dict[str, int]
-    """Check -> actions that it forbade."""
-    closed_by: dict[str, int]
-    """Check -> forbidden body moves to places that nobody reaches: what closes the edge of the map; empty while incomplete."""
-    seconds: float
     model: str
     """The rules that the answer holds for."""
     without_hangs: bool
     """Whether hangs were left out though the task allows them."""
+    stances: Count
+    """Different stances."""
+    poses: Annotated[Table, Key(get=len, kind=Count)]
+    steps: Count
+    """Actions of the shortest way to the stance that is farthest in actions."""
+    checks: Count
+    """Actions judged."""
+    seconds: float
+    goals: tuple[GoalReach, ...]
+    """Sub-goals in order, then the goal."""
+    holds: tuple[HoldUse, ...]
+    forbidden: dict[str, int]
+    """Check -> actions that it forbade."""
+    closed_by: dict[str, int]
+    """Check -> forbidden body moves to places that nobody reaches: what closes the edge of the map; empty while incomplete."""
+    places: Table
+    """Column to its values, a place of the body each: `x_m`, `y_m`, `stances`, `first_step` and so on; "inf" where nothing limits."""
+    rim: Annotated[Rim, HIDDEN]
+    """Places that could be tried and were not reached; while incomplete, not reached so far."""
 
     @property
+    @in_json(after="holds")
     def never_used(self) -> tuple[int, ...]:
         """Numbers of the holds that no limb can ever hold; none is known before everything was seen."""
         return tuple(hold.number for hold in self.holds if self.status == "complete" and not hold.limbs)
 
     @property
+    @in_json(after="seconds")
     def goal_reached(self) -> bool:
         """Whether some reachable stance is where the last goal asks for."""
         return self.goals[-1].stances > 0
-
-    def to_json(self) -> Json:
-        """Plain data: what `clamber reach --json` prints."""
-        return {
-            "status": self.status,
-            "task": self.task.name,
-            "reason": self.reason,
-            "model": self.model,
-            "without_hangs": self.without_hangs,
-            "stances": self.stances,
-            "poses": len(self.poses),
-            "steps": self.steps,
-            "checks": self.checks,
-            "seconds": self.seconds,
-            "goal_reached": self.goal_reached,
-            "goals": [goal.to_json() for goal in self.goals],
-            "holds": [hold.to_json() for hold in self.holds],
-            "never_used": list(self.never_used),
-            "forbidden": self.forbidden,
-            "closed_by": self.closed_by,
-            "places": self.places.to_json(),
-        }
 
     def save_table(self, path: Path) -> None:
         """Write the poses as CSV, whole or not at all.

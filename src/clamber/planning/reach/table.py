@@ -5,11 +5,12 @@ import io
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from ...types import Floats, Ints, Json
+from ...types import Floats, Ints
 from .flood import Flood
 
 Columns = dict[str, npt.NDArray[np.generic]]
@@ -33,7 +34,7 @@ class Table:
         """One column of numbers."""
         return self.columns[column].astype(np.float64)
 
-    def to_json(self) -> Json:
+    def to_json(self) -> dict[str, list[float | int | str | None]]:
         """Plain data: column -> list; null where there is no number, "inf" where nothing limits."""
         return {name: [_plain(value) for value in values.tolist()] for name, values in self.columns.items()}
 
@@ -47,7 +48,7 @@ class Table:
         return text.getvalue()
 
 
-def _plain(value: object) -> object:
+def _plain(value: Any) -> Any:
     if isinstance(value, float) and not math.isfinite(value):
         return None if math.isnan(value) else "inf" if value > 0 else "-inf"
     return value

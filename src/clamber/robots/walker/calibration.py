@@ -7,10 +7,12 @@ Best directions decide nothing but how the whole is turned (`first`): steps of a
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Final
+from operator import attrgetter
+from typing import Annotated, Final
 
 import numpy as np
 
+from ...json_form import HIDDEN, Count, Key
 from ...types import Floats
 from ...units import DEGREE
 from .geometry import TwoFrames
@@ -156,16 +158,22 @@ DRAWS: Final = 200
 class Fit:
     """The best sizes of a family from one start."""
 
-    family: Family
+    family: Annotated[Family, HIDDEN]
     seed: int
-    sizes: Sizes
-    least: float
-    """Angle that it gives [rad]."""
-    most: float
-    """Angle that it gives [rad]."""
-    step: float
+    sizes: Annotated[
+        Sizes,
+        Key("radius_delta_m", get=attrgetter("radius"), kind=float),
+        Key("radius_y_m", get=lambda sizes: sizes.radius * sizes.ratio, kind=float),
+        Key("offset_rad", get=attrgetter("offset"), kind=float),
+        Key("shortest_m", get=attrgetter("shortest"), kind=float),
+    ]
+    least: Annotated[float, Key("least_rad", after="first_rad")]
+    """Least angle of the Y-frame that it gives [rad]."""
+    most: Annotated[float, Key("most_rad", after="least_rad")]
+    """Largest angle that it gives [rad]."""
+    step: Annotated[float, Key("step_m", after="most_rad")]
     """Longest step that it gives [m]."""
-    first: float
+    first: Annotated[float, Key("first_rad", after="shortest_m")]
     """Direction of the Delta-frame's first attachment that puts the best directions where they are printed, up to 60 deg, in
     [-30, 30] deg [rad]."""
     misfit: float
@@ -228,12 +236,17 @@ def fit_family(family: Family, published: Published, seed: int) -> Fit:
 class Rivals:
     """What a family makes of the printed numbers, from several random starts."""
 
-    family: Family
-    fits: tuple[Fit, ...]
+    family: Annotated[
+        Family,
+        Key("free", get=attrgetter("free"), kind=tuple[str, ...]),
+        Key("family", get=attrgetter("name"), kind=str),
+        Key("step_is", get=attrgetter("reading"), kind=str, meaning="How the printed step is read."),
+    ]
+    fits: Annotated[tuple[Fit, ...], Key(after="seeds_that_fit")]
     """The best first, then those that also round to what is printed with other sizes (radius off by over 1 %)."""
-    good: int
+    good: Annotated[Count, Key("seeds_that_fit", after="seeds")]
     """Seeds whose fit rounds to what is printed."""
-    seeds: int
+    seeds: Annotated[Count, Key(after="step_is")]
     """Seeds in all."""
 
 

@@ -4,10 +4,11 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Final, Literal
+from typing import Annotated, Final, Literal
 
 import numpy as np
 
+from ...json_form import HIDDEN, INLINE, Count, Key, OrNull, in_json
 from ...types import Floats
 from .ditch import Footing, FootingError, ditch_map
 from .ditch_slides import fewest_slides
@@ -30,9 +31,9 @@ Status = Literal["found", "impossible"]
 class Slide:
     """One slide: the other frame stands, this one is lifted, moved and put down."""
 
-    frame: int
+    frame: Annotated[int, Key(get=("delta", "y").__getitem__, kind=Literal["delta", "y"])]
     """0: the Delta-frame, 1: the Y-frame."""
-    way: Floats
+    way: Annotated[Floats, Key(kind=list[tuple[float, float, float]])]
     """Poses of its origin on the ground, straight from one to the next: x, y [m], angle [rad], shape (n, 3); x across the ditch."""
 
 
@@ -40,13 +41,13 @@ class Slide:
 class SlideMargins:
     """How far the worst place of a slide is from each limit; positive holds."""
 
-    stroke: float
+    stroke: Annotated[float, Key("stroke_m")]
     """Actuators from the ends of their range [m]."""
-    singular: float
+    singular: OrNull
     """Guard less nearness [-]; infinite without a guard."""
-    balance: float
+    balance: Annotated[float, Key("balance_m")]
     """Centre of mass inside the standing feet, and inside both frames' when it has landed, less what is asked for [m]."""
-    foothold: float
+    foothold: Annotated[float, Key("foothold_m")]
     """Feet from the ditch once it has landed, pads taken off [m]."""
 
     @property
@@ -55,27 +56,40 @@ class SlideMargins:
         return min(self.stroke, self.singular, self.balance, self.foothold)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class JudgedSlide:
+    """One frame moved while the other stands."""
+
+    slide: Annotated[Slide, INLINE]
+    margins: SlideMargins
+
+
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Crossing:
     """A way over a ditch 0 < x < width, or why there is none."""
 
     status: Status
     reason: str
-    footing: Footing
-    width: float
+    footing: Annotated[Footing, HIDDEN]
+    width: Annotated[float, Key("width_m")]
     """Of the ditch [m]."""
-    theta: float
-    """Angle of the frames while crossing [rad]."""
-    direction: float
+    theta: Annotated[float, Key("theta_rad")]
+    """Angle of the Y-frame in the Delta-frame while crossing [rad]."""
+    direction: Annotated[float, Key("direction_rad")]
     """Of crossing, in the Delta-frame [rad]."""
-    widest: float
+    widest: Annotated[float, Key("widest_m")]
     """What could be crossed so [m]."""
-    start: Floats
-    """Poses of both frames on the ground, shape (2, 3)."""
-    slides: tuple[Slide, ...]
-    """Pivots first; none if there is no way."""
-    pivots: int
+    pivots: Count
     """How many of the slides turn a frame."""
+    start: Annotated[Floats, Key(kind=list[tuple[float, float, float]])]
+    """Poses of both frames on the ground, shape (2, 3)."""
+    slides: Annotated[tuple[Slide, ...], HIDDEN]
+    """Pivots first; none if there is no way."""
+
+    @in_json(key="slides")
+    def judged(self) -> tuple[JudgedSlide, ...]:
+        """Pivots first; none if there is no way."""
+        return tuple(map(JudgedSlide, self.slides, self.replay())) if self.status == "found" else ()
 
     def replay(self) -> tuple[SlideMargins, ...]:
         """Margins of every slide, from poses alone."""

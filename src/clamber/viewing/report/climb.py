@@ -49,7 +49,7 @@ def climb_page(run: ClimbRun, command: str) -> RunPage:
         first = verdict.first_violation
         planned.append(f"The plan violates a hard check at step {first.step}: {first.reason}.")
     planned += [
-        f"Planned again after action {note['after']}: {note['length']} actions, without {note['without']}."
+        f"Planned again after action {note.after}: {note.length} actions, without {note.without}."
         for note in report.replans
     ]
     planned += [f"Forced in spite of {objection}." for objection in report.forced]

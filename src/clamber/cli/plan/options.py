@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class PlanWords:
+class PlanOptions:
     """Options of `clamber plan`, as they came."""
 
     planner: PlannerName = "genetic"

@@ -9,7 +9,7 @@ from ..options import PLAN_SECONDS, CarriedOutIn, Faults, NoiseTexts, Overrides,
 
 
 @dataclass(frozen=True, slots=True)
-class TrialsWords:
+class TrialsOptions:
     """Options of `clamber trials`, as they came: what is carried out, and how often."""
 
     n: Annotated[int, typer.Option("-n", min=1, help="How many climbs.")] = 24

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class RunWords:
+class RunOptions:
     """Options of `clamber run`, as they came."""
 
     task: CarriedOutIn = None
