@@ -5,8 +5,8 @@ from dataclasses import fields
 from typing import TypeAlias
 
 import pytest
-from clamber.cli.run.words import RunWords
-from clamber.cli.trials.words import TrialsWords
+from clamber.cli.run.options import RunOptions
+from clamber.cli.trials.options import TrialsOptions
 
 from clamber.cli.crew import CrewWords
 from clamber.cli.run import planned_walk as run_planned_walk
@@ -20,8 +20,8 @@ OF_TRIALS = (("--no-replan",), ("--force",), ("--replay", "3"), ("--output", "tr
 
 
 def test_every_one_of_them_is_an_option() -> None:
-    of_run = {field.name for field in fields(RunWords)}
-    of_trials = {field.name for holder in (TrialsWords, CrewWords) for field in fields(holder)}
+    of_run = {field.name for field in fields(RunOptions)}
+    of_trials = {field.name for holder in (TrialsOptions, CrewWords) for field in fields(holder)}
     assert {*run_walk.CLIMBS_ONLY, *run_planned_walk.CLIMBS_ONLY} <= of_run
     assert {*trials_walk.CLIMBS_ONLY, *trials_walk.PLANS_ONLY} <= of_trials
 
