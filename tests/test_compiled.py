@@ -15,19 +15,19 @@ import numpy as np
 import pytest
 from numba.core.registry import CPUDispatcher
 
-from clamber.actions import codes
-from clamber.actions.codes import pack
-from clamber.actions.limbed_problem import LimbedProblem
-from clamber.actions.table import ActionTable
+from clamber.families.climber.planning.problem import LimbedProblem
 from clamber.kernel_cache import kernel_hash
+from clamber.planning.problem import codes
+from clamber.planning.problem.codes import pack
+from clamber.planning.problem.table import ActionTable
 from clamber.sources import PACKAGE, kernel_files, package_hash
 from clamber.tasks import load_task
 
 FAMILY = """
 import numpy as np
 
-from clamber.actions.family import SCALARS, family_kernels
-from clamber.actions.tiny_rule import grown
+from clamber.planning.problem.family_kernels import SCALARS, family_kernels
+from clamber.planning.problem.tiny_rule import grown
 from clamber.compiled import kernel
 
 PARAMS = np.dtype([("gain", "f8")], align=True)
@@ -57,8 +57,8 @@ def grown(x, gain):
 """
 RUN = """
 import numpy as np
-from clamber.actions.loops import replay
-from clamber.actions.tiny import PARAMS, STANCE
+from clamber.planning.problem.loops import replay
+from clamber.planning.problem.tiny import PARAMS, STANCE
 
 params, start, stances = np.zeros(1, PARAMS), np.zeros(1, STANCE), np.zeros(4, STANCE)
 params["gain"] = 3.0
@@ -117,7 +117,15 @@ def hash_of(package: Path) -> str:
     return kernel_hash(package)
 
 
-@pytest.mark.parametrize("name", ["actions/family.py", "actions/loops.py", "statics/programme.py", "compiled.py"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "planning/problem/family_kernels.py",
+        "planning/problem/loops.py",
+        "families/climber/statics/programme.py",
+        "compiled.py",
+    ],
+)
 def test_the_hash_follows_every_file_that_decides_what_is_compiled(tmp_path: Path, name: str) -> None:
     package = copied(tmp_path)
     before = hash_of(package)
@@ -198,7 +206,7 @@ def test_the_hash_follows_every_constant_that_a_kernel_reads_from_a_file_without
 
 
 FREEZING = """
-from clamber.actions.shape import PARTS, scale
+from clamber.planning.problem.shape import PARTS, scale
 from clamber.compiled import kernel
 from clamber.planning.exact.records import EXHAUSTED, FOUND
 
@@ -212,7 +220,7 @@ def verdict(found):
 SHAPE = """
 from typing import NamedTuple
 
-from clamber.actions.numbers import FACTOR
+from clamber.planning.problem.numbers import FACTOR
 
 
 class Parts(NamedTuple):
@@ -225,7 +233,7 @@ PARTS = Parts(100)
 def scale(x):
     return x * FACTOR
 """
-VERDICT = "from clamber.actions.freezing import verdict; print(verdict(True), sum(verdict.stats.cache_hits.values()))"
+VERDICT = "from clamber.planning.problem.freezing import verdict; print(verdict(True), sum(verdict.stats.cache_hits.values()))"
 
 
 def test_a_constant_of_a_file_without_kernels_answers_anew_though_the_cache_is_warm(tmp_path: Path) -> None:

@@ -9,18 +9,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from clamber.actions.plan import Plan
 from clamber.cli import main
 from clamber.extensions import GROUPS, ExtensionError, load_outside, outside
+from clamber.families.climber.family import CLIMBER
 from clamber.planning.planners import find_planner
-from clamber.robots import load_robot
-from clamber.robots.library import DATA
+from clamber.planning.problem.plan import Plan
 from clamber.tasks import load_task
+from clamber.tasks.robots import load_robot
 
 MODULE = '''
 from pathlib import Path
 
-from clamber.actions.outside_checks import OutsideCheck
+from clamber.planning.problem.outside_checks import OutsideCheck
 from clamber.planning.exact.planner import plan_exact
 from clamber.sim.ode_limb import OdeLimb
 
@@ -66,7 +66,7 @@ def install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
         info = site / f"{name}-1.2.dist-info"
         info.mkdir(parents=True)
         (site / f"{name}.py").write_text(module)
-        robot = (DATA / "gecko4.toml").read_text().replace('name = "gecko4"', 'name = "own-robot"')
+        robot = (CLIMBER.data / "robots" / "gecko4.toml").read_text().replace('name = "gecko4"', 'name = "own-robot"')
         (site / "own.toml").write_text(robot)
         (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name.replace('_', '-')}\nVersion: 1.2\n")
         lines = (f"[{group}]\n{line}\n" for group, line in (ENTRIES if entries is None else entries).items())
@@ -220,7 +220,7 @@ def test_a_plan_that_does_not_hold_is_refused(install: Any) -> None:
     broken = """
     from dataclasses import replace
     from numpy import repeat
-    from clamber.actions.plan import Plan
+    from clamber.planning.problem.plan import Plan
     result = plan_exact(task, threads=1)
     return replace(result, plan=Plan.of_codes(task, repeat(result.plan.codes(task)[:1], 40)))
 """
@@ -233,7 +233,7 @@ def test_our_own_names_are_not_taken(install: Any) -> None:
     install(entries={"clamber.planners": "exact = own_climber:plan_own", "clamber.checks": "reach = own_climber:LOW"})
     assert find_planner("exact").__module__.startswith("clamber.")
     plan = Plan.of_codes(load_task("ladder"), [])
-    from clamber.actions.verdict import check_plan
+    from clamber.planning.problem.verdict import check_plan
 
     assert any("one of Clamber's own checks" in note for note in check_plan(load_task("ladder"), plan).notes)
 

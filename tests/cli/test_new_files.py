@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from clamber.cli import main
-from clamber.worlds import load_board
+from clamber.families.climber.world.library import load_board
 
 Run = Callable[..., tuple[int, str, str]]
 

@@ -7,14 +7,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from clamber.actions.problems import pose_problem
 from clamber.cli import main
 from clamber.errors import PlannerError, SpecError, StartError
-from clamber.openings.climber import climber_relaxations
-from clamber.openings.find import PLACES, RELAXATIONS, find_openings
-from clamber.openings.relaxations import Dial
-from clamber.openings.result import Opening, Openings
+from clamber.families.climber.planning.relaxations import climber_relaxations
 from clamber.planning.exact.planner import plan_exact
+from clamber.planning.openings.find import PLACES, RELAXATIONS, find_openings
+from clamber.planning.openings.relaxations import Dial
+from clamber.planning.openings.result import Opening, Openings
+from clamber.planning.problem.problems import pose_problem
 from clamber.tasks import load_task
 from clamber.tasks.library import TASK_FAMILIES, change_task
 

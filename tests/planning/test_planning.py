@@ -7,11 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from clamber.actions.inventory import make_inventory
-from clamber.actions.limbed_problem import LimbedProblem
-from clamber.actions.problems import pose_problem
-from clamber.actions.table import ActionTable
 from clamber.errors import ClamberError, FileError, SpecError
+from clamber.families.climber.planning.inventory import make_inventory
+from clamber.families.climber.planning.problem import LimbedProblem
 from clamber.jobs import LocalProcesses
 from clamber.planning.genetic.learning import learn
 from clamber.planning.genetic.planner import plan_genetic
@@ -20,6 +18,8 @@ from clamber.planning.genetic.search import Budget, search
 from clamber.planning.islands import plan_islands
 from clamber.planning.learning import learn_macros, load_macros
 from clamber.planning.planners import PLANNERS
+from clamber.planning.problem.problems import pose_problem
+from clamber.planning.problem.table import ActionTable
 from clamber.planning.progress import Progress
 from clamber.planning.result import PlanResult
 from clamber.tasks import load_task, task_names

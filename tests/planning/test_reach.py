@@ -9,23 +9,23 @@ import numpy as np
 import pytest
 
 import clamber
-from clamber.actions.codes import pack
-from clamber.actions.family import key
-from clamber.actions.limbed_arrays import limbed_params
-from clamber.actions.loops import replay
-from clamber.actions.plan_families import plan_family
-from clamber.actions.plan_source import open_replay
-from clamber.actions.problem import CompiledProblem
-from clamber.actions.problems import BURDENS, PROBLEMS, WITHOUT_HANGS, pose_problem
-from clamber.actions.yardsticks import YARDSTICKS
 from clamber.cli import main
 from clamber.compiled import kernel
 from clamber.errors import PlannerError, UnknownNameError
+from clamber.families.climber.planning.arrays import limbed_params
+from clamber.families.climber.statics.checks import LIMBED_CHECKS
 from clamber.planning.exact.explore import explore
+from clamber.planning.problem.check import TICKS
+from clamber.planning.problem.codes import pack
+from clamber.planning.problem.family_kernels import key
+from clamber.planning.problem.loops import replay
+from clamber.planning.problem.plan_families import plan_family
+from clamber.planning.problem.plan_source import open_replay
+from clamber.planning.problem.problem import CompiledProblem
+from clamber.planning.problem.problems import BURDENS, PROBLEMS, WITHOUT_HANGS, pose_problem
+from clamber.planning.problem.yardsticks import YARDSTICKS
 from clamber.planning.reach.layers import LAYERS, LayerError, choose_layer, layers_of
 from clamber.planning.reach.reach import Reach, find_reach
-from clamber.statics.checks import LIMBED_CHECKS
-from clamber.statics.records import TICKS
 from clamber.tasks import Task, load_task
 from clamber.viewing.margins import all_limiting
 from clamber.viewing.reach_plot import WORLDS, draw_reach

@@ -8,14 +8,14 @@ import pytest
 from scipy.optimize import fsolve
 
 import clamber
-from clamber.actions.walker_problem import walker_params
 from clamber.errors import SpecError
+from clamber.families.walker.planning.problem import walker_params
+from clamber.families.walker.planning.task import WalkerTask
+from clamber.families.walker.robot import PoseError, TwoFrames, WalkerRobot
+from clamber.families.walker.robot.assemblies import are_similar, general_poses, similar_poses
 from clamber.files import Document
-from clamber.robots.library import load_robot
-from clamber.robots.walker import PoseError, TwoFrames, WalkerRobot
-from clamber.robots.walker.assemblies import are_similar, general_poses, similar_poses
 from clamber.tasks import load_task
-from clamber.tasks.walker import WalkerTask
+from clamber.tasks.robots import load_robot
 from tiers import first_fast
 
 MM = 1e-3
@@ -249,7 +249,7 @@ ATTACHMENTS = {
 
 
 def with_mechanism(changes: dict[str, object]) -> WalkerRobot:
-    from clamber.robots.library import build_robot, read_robot
+    from clamber.tasks.robots import build_robot, read_robot
 
     document = read_robot("hoshino")
     mechanism = {**document.data["mechanism"], **changes}

@@ -47,8 +47,8 @@ def _controllers() -> list[tuple[str, str]]:
 
 
 def _checks() -> list[tuple[str, str]]:
-    from ..statics.checks import LIMBED_CHECKS
-    from ..statics.walker_checks import WALKER_CHECKS
+    from ..families.climber.statics.checks import LIMBED_CHECKS
+    from ..families.walker.statics.checks import WALKER_CHECKS
 
     return [(check.name, f"[{check.unit}] {check.meaning}") for check in (*LIMBED_CHECKS, *WALKER_CHECKS)]
 

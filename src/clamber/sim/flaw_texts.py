@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any, Final
 
 from ..errors import UnitError, UnknownNameError, describe_choices
-from ..robots.limbed import LimbedRobot
+from ..families.climber.robot.robot import LimbedRobot
 from ..units import parse_quantity
 from .limb_flaws import ForceSensor, LimbFlaws
 from .plant_rules import PlantError
