@@ -5,13 +5,13 @@ from dataclasses import fields
 from typing import TypeAlias
 
 import pytest
-from clamber.cli.run.options import RunOptions
-from clamber.cli.trials.options import TrialsOptions
 
 from clamber.cli.crew import CrewWords
 from clamber.cli.run import planned_walk as run_planned_walk
 from clamber.cli.run import walk as run_walk
+from clamber.cli.run.options import RunOptions
 from clamber.cli.trials import walk as trials_walk
+from clamber.cli.trials.options import TrialsOptions
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 OF_PLANS = (("--task", "ladder"), ("--planner", "exact"), ("--seconds", "3"))
