@@ -31,8 +31,18 @@ sys.path.insert(0, str(HERE.parent))
 from here import Here  # noqa: E402
 
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
-VOLATILE = {"release", "version", "memory", "made_by", "sha256", "threads", "workers", "times_real_time"}
-"""Keys of what differs from run to run or from tree to tree: memory, hashes of the source, the machine."""
+VOLATILE = {
+    "release",
+    "version",
+    "memory",
+    "made_by",
+    "sha256",
+    "threads",
+    "workers",
+    "times_real_time",
+    "wall_seconds",
+}
+"""Keys of what differs from run to run or from tree to tree: memory, hashes of the source, the machine, times of the clock."""
 CLOCKS = {command: {"seconds"} for command in ("plan", "polish", "learn", "sweep", "reach")} | {"limb": {"tick"}}
 """Command -> its keys that hold times of the clock; elsewhere "seconds" are those of a simulation."""
 
