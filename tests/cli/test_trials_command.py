@@ -64,20 +64,20 @@ def test_a_run_with_the_noise_and_seed_of_a_trial_is_that_trial(clamber: Any, tm
 @pytest.mark.usefixtures("in_this_process")
 def test_failed_climbs_are_told_with_their_cause_and_leave_with_1(clamber: Any, tmp_path: Path) -> None:
     plan = plan_file(tmp_path, 300, *([4] * 8))
-    words = ("trials", plan, "-n", "2", "--workers", "1", "-q")
+    words = ("trials", plan, "-n", "1", "--workers", "1", "-q")
     code, out, err = clamber(*words)
     assert (code, out) == (2, "")
     assert "step" in err and "--force" in err
     code, out, _ = clamber(*words, "--force")
     assert code == 1
     assert "forced in spite of step" in out
-    assert "0 of 2 climbs" in out and "fell: move" in out and "seed 0: fell: " in out
+    assert "0 of 1 climbs" in out and "fell: move" in out and "seed 0: fell: " in out
     assert max(map(len, out.splitlines())) <= 80
 
 
 @pytest.mark.usefixtures("in_this_process")
 def test_a_success_that_is_asked_for_decides_how_it_leaves(clamber: Any, tmp_path: Path) -> None:
-    words = ("trials", plan_file(tmp_path, 300), "-n", "2", "--workers", "1", "-q", "--json")
+    words = ("trials", plan_file(tmp_path, 300), "-n", "1", "--workers", "1", "-q", "--json")
     assert clamber(*words, "--at-least", "34%")[0] == 0  # Wilson's bound of 2 in 2 is 34.2 %
     assert clamber(*words, "--at-least", "35%")[0] == 1
 
