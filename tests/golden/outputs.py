@@ -41,6 +41,7 @@ VOLATILE = {
     "workers",
     "times_real_time",
     "wall_seconds",
+    "speed",
 }
 """Keys of what differs from run to run or from tree to tree: memory, hashes of the source, the machine, times of the clock."""
 CLOCKS = {command: {"seconds"} for command in ("plan", "polish", "learn", "sweep", "reach")} | {"limb": {"tick"}}
