@@ -77,7 +77,7 @@ def test_failed_climbs_are_told_with_their_cause_and_leave_with_1(clamber: Any, 
 
 @pytest.mark.usefixtures("in_this_process")
 def test_a_success_that_is_asked_for_decides_how_it_leaves(clamber: Any, tmp_path: Path) -> None:
-    words = ("trials", plan_file(tmp_path, 300), "-n", "1", "--workers", "1", "-q", "--json")
+    words = ("trials", plan_file(tmp_path, 300), "-n", "2", "--workers", "1", "-q", "--json")
     assert clamber(*words, "--at-least", "34%")[0] == 0  # Wilson's bound of 2 in 2 is 34.2 %
     assert clamber(*words, "--at-least", "35%")[0] == 1
 
