@@ -39,9 +39,6 @@ def takes_options(command: Callable[..., None]) -> Callable[..., None]:
     return run
 
 
-takes_words = takes_options  # as the commands of the limb bench still call it
-
-
 def _options_of(holder: type[Any]) -> list[inspect.Parameter]:
     hints = get_type_hints(holder, include_extras=True)
     assert all(field.default is not MISSING for field in fields(holder)), holder

@@ -10,7 +10,7 @@ import typer
 from rich.console import Console
 
 from ..crew import EndsLine
-from ..option_holder import takes_words
+from ..option_holder import takes_options
 from ..output import announce_compilation, stderr
 from . import options as opt
 
@@ -79,7 +79,7 @@ class BenchWords(opt.LimbWords):
         return self.workers or max(1, min(os.cpu_count() or 1, self.trials // LEAST_TRIALS))
 
 
-@takes_words
+@takes_options
 def step(
     by: Annotated[str, typer.Option(metavar="DX,DY", help="The step, such as 0,-2cm.")] = "0,-2cm",
     seconds: Annotated[float, typer.Option(help="Length of the run [s].")] = 6.0,
@@ -100,7 +100,7 @@ def step(
     _compare(laws, words, files, command)
 
 
-@takes_words
+@takes_options
 def circle(
     centre: Annotated[str, typer.Option(metavar="X,Y", help="Of the circle, port frame.")] = "22cm,0",
     radius: Annotated[str, typer.Option(help="Such as 5cm.")] = "5cm",
@@ -124,7 +124,7 @@ def circle(
     _compare(laws, words, files, command, (middle[0] + size, middle[1]))
 
 
-@takes_words
+@takes_options
 def push(
     force: Annotated[str, typer.Option(metavar="FX,FY", help="On the tip, such as 10N,0.")] = "10N,0",
     begin: Annotated[float, typer.Option("--from", help="When the push begins [s].")] = 0.5,

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.console import Console
 
-from ..option_holder import takes_words
+from ..option_holder import takes_options
 from ..output import announce_compilation
 from . import options as opt
 
@@ -56,7 +56,7 @@ class WallWords:
         return ForceTask(friction=self.wall_friction, **numbers)
 
 
-@takes_words
+@takes_options
 def force(
     controllers: Annotated[
         list[str] | None,

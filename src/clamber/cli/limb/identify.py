@@ -10,7 +10,7 @@ from rich.console import Console
 
 from ...units import DEGREE
 from ..name_completion import names_of
-from ..option_holder import takes_words
+from ..option_holder import takes_options
 from ..options import AsJson
 from ..output import announce_compilation, print_json, stdout
 from . import options as opt
@@ -84,7 +84,7 @@ class IdentifyWords:
         return read_mapping(self.columns or (), chosen)
 
 
-@takes_words
+@takes_options
 def identify(
     log: Annotated[Path, typer.Argument(help="A log with named columns (.csv, .mcap).")],
     *,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.console import Console
 
-from ..option_holder import takes_words
+from ..option_holder import takes_options
 from ..output import announce_compilation
 from . import options as opt
 
@@ -31,7 +31,7 @@ class PullWords:
     ] = False
 
 
-@takes_words
+@takes_options
 def open_loop(
     *,
     pull: PullWords,

@@ -10,7 +10,7 @@ import typer
 from rich.console import Console
 
 from ..name_completion import names_of
-from ..option_holder import takes_words
+from ..option_holder import takes_options
 from ..options import ROBOT, AsJson, Quiet
 from ..output import announce_compilation, print_json, stdout
 from . import options as opt
@@ -43,7 +43,7 @@ class PortraitWords:
     seed: Annotated[int, typer.Option(min=0, help="Draws play and encoder phase of the nominal limb.")] = 1
 
 
-@takes_words
+@takes_options
 def portrait(
     laws: Annotated[
         list[str],

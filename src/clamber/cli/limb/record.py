@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from ..option_holder import takes_words
+from ..option_holder import takes_options
 from ..options import ROBOT, AsJson, Quiet
 from ..output import announce_compilation, check_writable, print_json, stdout
 from . import options as opt
@@ -27,7 +27,7 @@ class SensorWords:
     seed: Annotated[int, typer.Option(min=0, help="Of the noise.")] = 0
 
 
-@takes_words
+@takes_options
 def record(
     limb: Annotated[str | None, typer.Argument(help="The limb, by name or from 1.")] = None,
     output: Annotated[

@@ -8,7 +8,7 @@ import typer
 from rich.console import Console
 
 from ..crew import CrewWords
-from ..option_holder import takes_words
+from ..option_holder import takes_options
 from ..output import announce_compilation
 from . import options as opt
 
@@ -48,7 +48,7 @@ class CommandWords:
     force: Annotated[str, typer.Option(metavar="FX,FY", help="The push.")] = "10N,0"
 
 
-@takes_words
+@takes_options
 def sweep(
     vary: Annotated[
         list[str],

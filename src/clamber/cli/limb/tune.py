@@ -9,7 +9,7 @@ from rich.console import Console
 
 from ..crew import CrewWords
 from ..name_completion import names_of
-from ..option_holder import takes_words
+from ..option_holder import takes_options
 from ..output import announce_compilation, check_writable
 from . import options as opt
 
@@ -22,7 +22,7 @@ HEADS = {
 }  # fmt: skip
 
 
-@takes_words
+@takes_options
 def tune(
     controllers: Annotated[
         list[str] | None,

@@ -26,7 +26,8 @@ WANDERED: Final = 0.018
 """Two tips on their holds that have moved so far against each other since they came there are there no more, or a sensor drifts [m]: the
 play of the joints and the slots makes less than half of it."""
 SILENT: Final = 0.009
-"""The same, where a joint of the two stays the same to the count whatever its motor does [m]: more than their play makes."""
+"""Two tips have moved so far against each other on their holds that a joint of theirs which answers no torque is at fault [m]: more than
+the play of joints and slots makes (seen in climbs of LIBRA)."""
 LOOKED_AT: Final = 0.05
 """Time between two looks at that [s]."""
 WANDERING: Final = 1.0
