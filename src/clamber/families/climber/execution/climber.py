@@ -38,11 +38,11 @@ STRAINED: Final = 0.03
 
 
 class SlippedError(FallenError):
-    """A limb's hook has come off its hold: a fall, unless others catch it."""
+    """A limb's hook has come off its hold: a fall, unless others catch it. Not `surely`, what the limb feels is looked at once more."""
 
-    def __init__(self, limb: int, reason: str) -> None:
+    def __init__(self, limb: int, reason: str, *, surely: bool = False) -> None:
         super().__init__(limb, reason)
-        self.limb, self.reason = limb, reason
+        self.limb, self.reason, self.surely = limb, reason, surely
 
     def __str__(self) -> str:
         return self.reason
@@ -198,7 +198,10 @@ class Climber:
         if off > ASTRAY or turned > TURNED:
             raise FallenError(f"the body is {1e3 * off:.0f} mm off its aim and turned by {np.degrees(turned):.0f} deg")
         if self.watched:
-            self.watch.see(self.fall.forces, self.monitor.values.item(-1))
+            beside = self.watch.see(self.fall.forces, self.monitor.values.item(-1))
+            if beside is not None:
+                name, hold = self.robot.limbs[beside].name, self.body.tasks[beside].hold
+                raise SlippedError(beside, f"the hook of '{name}' is beside hold {hold}, and dragged along", surely=True)
 
     def _believe(self, sensed: BodySensed) -> None:
         """Let the body see what is to be believed of a tick's readings.

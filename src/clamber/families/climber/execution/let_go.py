@@ -33,7 +33,11 @@ NEAR: Final = 0.002
 OFF: Final = 0.022
 """Way off a hold against the grab direction, after which a hook is out of its slot and its flare [m]."""
 BACK: Final = 0.05
-"""Way back towards the limb's own shoulder after it, where the limb does not reach to where its hook is clear of its hold all round [m]."""
+"""Way back towards the limb's own shoulder after it, always where the limb does not reach to where its hook is clear of its hold all round
+[m]."""
+ASIDE: Final = 0.25
+"""It goes that way as well where its hook is clear, if this part of it leads away from the hold [-]: a body that swings would strike the
+hold with it, and be driven on by every blow."""
 CAUGHT: Final = 0.015
 """A tip that is nearer to its hold after that has not come off [m]."""
 BRISK: Final = (0.055, 0.06)
@@ -89,11 +93,12 @@ def lift_off(climber: Climber, i: int) -> bool:
     far = _bent(limb, pose, place - clear * g, float(body.q[i, 1])) is not None
     off = clear if far else OFF
     points = [place - part * off * g for part in (0.25, 0.5, 0.75, 1.0)]
-    if not far:
-        c, s = math.cos(pose[2]), math.sin(pose[2])
-        port = pose[:2] + np.array((c * limb.port_x - s * limb.port_y, s * limb.port_x + c * limb.port_y))
-        back = (port - points[-1]) / float(np.hypot(*(port - points[-1])))
-        points += [points[-1] + part * BACK * back for part in (0.5, 1.0)]
+    c, s = math.cos(pose[2]), math.sin(pose[2])
+    port = pose[:2] + np.array((c * limb.port_x - s * limb.port_y, s * limb.port_x + c * limb.port_y))
+    back = (port - points[-1]) / float(np.hypot(*(port - points[-1])))
+    withdrawn = [points[-1] + part * BACK * back for part in (0.5, 1.0)]
+    if not far or math.dist(withdrawn[-1], place) > off + ASIDE * BACK:
+        points += withdrawn
     way = [body.q[i] - body.play[i]]
     for point in points:
         fit = [one for one in postures(limb, pose, point) if one.inside and one.angles[1] * way[0][1] > 0.0]

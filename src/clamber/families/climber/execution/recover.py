@@ -76,17 +76,22 @@ def recover(
     """
     for _ in range(MOST_SLIPS):
         try:
-            hang = catch(climber, slip.limb)
+            hang = catch(climber, slip.limb, surely=slip.surely)
             return _restore(climber, hang, wanted, pose, elbows)
         except SlippedError as another:
             slip = another
     raise slip
 
 
-def catch(climber: Climber, lost: int) -> Hang | None:
+def catch(climber: Climber, lost: int, *, surely: bool = False) -> Hang | None:
     """Let the limbs that are on their holds carry, at once and where the body is; from one alone it hangs until it swings no more.
 
     A hook that comes to a hold as the body swings catches it.
+
+    Args:
+        climber: The robot.
+        lost: Limb whose hook seems to have come off.
+        surely: It has: what it feels is no load but what it is dragged against.
 
     Returns:
         That hang; None where two carry.
@@ -101,7 +106,7 @@ def catch(climber: Climber, lost: int) -> Hang | None:
         if task.doing == "tip" and task.hold and math.dist(body.tip(i), task.place) < IN_SLOT:
             task.doing = "cling"
     others = sum(i != lost and (task.doing in ONWARDS or task.pushes) for i, task in enumerate(body.tasks))
-    lose = others < 2 or not _bears(climber, lost)  # a body that hangs on one hook swings at once
+    lose = surely or others < 2 or not _bears(climber, lost)  # a body that hangs on one hook swings at once
     for i, task in enumerate(body.tasks):
         off = task.doing not in ONWARDS and not (lose and task.pushes and _hook_on(climber, i, AT_HOLD))
         if off or (i == lost and lose):

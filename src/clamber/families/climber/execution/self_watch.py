@@ -17,21 +17,28 @@ from .whole_body import WholeBody
 UNBALANCED: Final = 1.5
 """Sum of the forces of all tips and the weight, over the weight, beyond which something else pushes, or a motor does not give what it is
 told [-]. Climbs without a fault come to 0.7 while joints cross their play, and to 3 where a link is caught at a peg."""
+UNSURE: Final = 0.1
+"""Part of a joint's torque limit by which its torque is not known while its limb moves freely: accelerations come a tick late and smoothed
+[-]. Of a limb that is nearly straight that is a force along it of more than the weight."""
 EXPLAINED: Final = 0.5
 """What is left of that sum, over the weight, without a part of one joint's torque: less than this, and that joint's motor is the one [-].
 A link that is caught leaves more, by its place; over eight climbs in which one was, it left less for 0.04 s at most."""
 FOR: Final = 0.1
 """Time for which one and the same joint has to explain it [s]."""
-WANDERED: Final = 0.018
-"""Two tips on their holds that have moved so far against each other since they came there are there no more, or a sensor drifts [m]: the
-play of the joints and the slots makes less than half of it."""
-SILENT: Final = 0.009
-"""Two tips have moved so far against each other on their holds that a joint of theirs which answers no torque is at fault [m]: more than
-the play of joints and slots makes (seen in climbs of LIBRA)."""
+WANDERED: Final = 0.06
+"""Two tips on their holds that have moved by this part of the longest limb against each other since they came there are there no more, or a
+sensor drifts [-]: the play of the joints and the slots makes less than half of it."""
+SILENT: Final = 0.03
+"""Two tips have moved by this part of the longest limb against each other on their holds, so that a joint of theirs which answers no torque
+is at fault [-]: more than the play of joints and slots makes, which is an angle times the limb's length (half a degree a joint in climbs of
+LIBRA)."""
 LOOKED_AT: Final = 0.05
 """Time between two looks at that [s]."""
 WANDERING: Final = 1.0
 """A hook that slides off is told as a slip, and caught, within half of this; what lasts longer is a fault [s]."""
+DRAGGED: Final = 0.25
+"""After so long a limb that carries nothing and has wandered from all others has its hook beside its hold [s]: once, for a limb that
+takes its hold again and wanders again has a sensor that drifts."""
 
 TURNED: Final = 1.0 * DEGREE
 """A body that has turned by more than this by the tips that hold it, while its encoder has not changed by a count, has an encoder that is
@@ -62,6 +69,8 @@ class SelfWatch:
         self._body, self._monitor = body, monitor
         self._most = UNBALANCED * body.robot.weight
         self._patience, self._every = round(FOR / body.period), max(1, round(LOOKED_AT / body.period))
+        longest = max(limb.length for limb in body.robot.limbs)
+        self._silent, self._wandered_off = SILENT * longest, WANDERED * longest
         joints = monitor.channels[: 2 * body.n]
         self._limits = np.array([joint.limit for joint in joints])
         self._no_load = np.array([joint.fastest for joint in joints])
@@ -74,14 +83,16 @@ class SelfWatch:
         self._explained = np.zeros(2 * self._body.n, int)
         """Joint -> ticks on end in which it alone has explained what is felt too much."""
         self._wandered = 0
+        self._dragged: set[int] = set()
+        """Limbs told to have their hooks beside their holds."""
         self._came: dict[tuple[int, int], tuple[tuple[int, int], Floats]] = {}
         """Pair -> its holds, and how its tips lay to each other when both had come there, by the encoders and with the play counted [m]."""
         self._turning, self._angle = 0, math.nan
         self._lines: dict[tuple[int, int], tuple[tuple[int, int], tuple[float, float]]] = {}
         """Pair -> its holds, and how its line lay, likewise, when the body's encoder changed last or the pair began to hold [rad]."""
 
-    def see(self, forces: Floats, angle: float) -> None:
-        """Take in a tick.
+    def see(self, forces: Floats, angle: float) -> int | None:
+        """Take in a tick; index of the limb whose hook is beside its hold, and dragged along.
 
         Args:
             forces: What the tips feel, world frame, shape (limbs, 2) [N]; infinite where they cannot tell.
@@ -96,7 +107,7 @@ class SelfWatch:
             y += fy
         off = math.hypot(x, y + self._body.robot.weight)
         sure = self._monitor.clear > self._patience  # accelerations that were bridged are no forces
-        if sure and self._most < off < math.inf and self._gives_what_is_asked():
+        if sure and self._most < off < math.inf and self._most < off - self._unsure() and self._gives_what_is_asked():
             left = self._without_one(np.array((x, y + self._body.robot.weight)))
             self._explained = np.where(left < EXPLAINED * self._body.robot.weight, self._explained + 1, 0)
             if self._explained.max() > self._patience:
@@ -109,7 +120,20 @@ class SelfWatch:
         self._ticks += 1
         if self._ticks % self._every == 0:
             self._look_at_body()
-            self._look_at_tips(angle)
+            return self._look_at_tips(angle)
+        return None
+
+    def _unsure(self) -> float:
+        """How far the forces of all tips together may be off by torques of limbs that move freely [N]; infinite where one is straight."""
+        force = 0.0
+        for i, task in enumerate(self._body.tasks):
+            if task.free:
+                matrix = self._body.turned_by_joints(i)
+                if abs(np.linalg.det(matrix)) < 1e-6:
+                    return math.inf
+                pushes = np.linalg.inv(matrix).T * self._limits[2 * i : 2 * i + 2]
+                force += UNSURE * float(np.hypot(pushes[0], pushes[1]).max())
+        return force
 
     def _gives_what_is_asked(self) -> bool:
         """Whether no motor is so fast that it gives less than it is told, by its torque-speed line."""
@@ -164,8 +188,9 @@ class SelfWatch:
             why = f"sensor stuck: its reading has not changed by a count, and {told}"
             self._monitor.fail("no answer", self._monitor.channels[sensor].name, why)
 
-    def _look_at_tips(self, angle: float) -> None:
-        body, wandered = self._body, False
+    def _look_at_tips(self, angle: float) -> int | None:
+        """Whether tips have moved against each other that are on their holds; the one that clings beside its hold."""
+        body, wandered = self._body, []
         for pair in self._pairs:
             a, b = pair
             one, other = body.tasks[a], body.tasks[b]
@@ -185,15 +210,33 @@ class SelfWatch:
                 continue
             moved = between - known[1]
             size = min(math.hypot(*moved[:2]), math.hypot(*moved[2:]))
-            if size > SILENT:
+            if size > self._silent:
                 for c in (2 * a, 2 * a + 1, 2 * b, 2 * b + 1):
                     if self._monitor.silent[c]:
                         self._monitor.tell_silent(c)
-            if size > WANDERED:
-                wandered = True
-                if self._wandered * LOOKED_AT > WANDERING:
-                    self._tell_sensor(pair, moved[:2], size)
+            if size > self._wandered_off:
+                wandered.append((pair, moved[:2], size))
         self._wandered = self._wandered + 1 if wandered else 0
+        if self._wandered * LOOKED_AT > DRAGGED:
+            beside = self._dragged_limb([pair for pair, _, _ in wandered])
+            if beside is not None:
+                self._dragged.add(beside)
+                self._wandered = 0
+                return beside
+        if self._wandered * LOOKED_AT > WANDERING:
+            self._tell_sensor(*wandered[0])
+        return None
+
+    def _dragged_limb(self, pairs: Sequence[tuple[int, int]]) -> int | None:
+        """The limb that carries nothing and has moved against all that hold, which have not moved against each other."""
+        tasks = self._body.tasks
+        holders = [i for i, task in enumerate(tasks) if task.doing == "hold"]
+        for i, task in enumerate(tasks):
+            alone = all(i in pair for pair in pairs)
+            from_all = all((min(i, k), max(i, k)) in pairs for k in holders)
+            if task.doing == "cling" and len(holders) > 1 and alone and from_all and i not in self._dragged:
+                return i
+        return None
 
     def _tell_sensor(self, pair: Sequence[int], moved: Floats, size: float) -> None:
         """Which sensor alone would explain the most of it: of the joints of both limbs, and of the body."""
