@@ -14,8 +14,8 @@ from .options import AsJson, Output, Ray, Resume, Store, Workers
 from .output import announce_compilation, check_writable, plain_table, print_json, stderr, stdout
 
 if TYPE_CHECKING:
+    from ..benchmarks.planner_trials import Crew
     from ..benchmarks.rows import Row
-    from ..trials.trials import Crew
 
 
 def bench(
@@ -33,7 +33,7 @@ def bench(
     """
     check_resume(resume, store)
     from ..benchmarks.benches import BATCHED, BENCHES, run_bench
-    from ..trials.trials import Crew
+    from ..benchmarks.planner_trials import Crew
 
     chosen = tuple(names or BENCHES)
     only = chosen[0] if len(chosen) == 1 else None
@@ -115,7 +115,7 @@ def bench_boards(crew: "Crew", *, output: Path | None, as_json: bool) -> None:
 
     contest = run_contest(crew=crew)
     if output is not None and output.suffix.lower() not in TABLES:
-        from ..viewing.boards_plot import draw_boards
+        from ..benchmarks.pictures.boards_plot import draw_boards
 
         draw_boards(contest, output)
     elif output is not None:

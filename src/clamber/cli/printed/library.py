@@ -8,8 +8,8 @@ from pydantic import TypeAdapter, create_model
 
 from ...benchmarks.rows import Row
 from ...errors import UnknownNameError
-from ...execution.log_identify import Identification
 from ...exports.library import Exported
+from ...families.climber.execution.log_identify import Identification
 from ...families.climber.trials.body_measures import BodyContest
 from ...families.climber.trials.body_trials import PushTrial
 from ...families.climber.trials.lessons import LearnedPlan
@@ -23,7 +23,7 @@ from ...families.walker.trials.run_walk import WalkRun
 from ...inspection.finding import Finding
 from ...planning.exact.front import Front
 from ...planning.learning import Lesson
-from ...planning.problem.problems import SizedInventory
+from ...planning.problem.posed import SizedInventory
 from ...planning.problem.verdict import CheckedPlan
 from ...planning.reach.reach import Reach
 from ...planning.result import PlanResult

@@ -201,7 +201,9 @@ class Climber:
             beside = self.watch.see(self.fall.forces, self.monitor.values.item(-1))
             if beside is not None:
                 name, hold = self.robot.limbs[beside].name, self.body.tasks[beside].hold
-                raise SlippedError(beside, f"the hook of '{name}' is beside hold {hold}, and dragged along", surely=True)
+                raise SlippedError(
+                    beside, f"the hook of '{name}' is beside hold {hold}, and dragged along", surely=True
+                )
 
     def _believe(self, sensed: BodySensed) -> None:
         """Let the body see what is to be believed of a tick's readings.

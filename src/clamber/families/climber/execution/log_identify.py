@@ -5,18 +5,19 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Final
 
-from ..control.chain import Chain, chain_of_limb
-from ..control.identification.joint import Drivetrain, IdentifiedJoint, identify_joint
-from ..control.identification.links import LinkLoad, link_loads
-from ..control.identification.motion import motion_of
-from ..errors import ClamberError, UnitError, UnknownNameError, describe_choices
-from ..families.climber.robot.robot import Joint, LimbedRobot
-from ..json_form import Jsonable
-from ..robots.library import load_robot
-from ..toml_text import toml_value
-from ..units import parse_quantity
-from .log import Log, LogError
-from .log_roles import LimbSamples, samples_of
+from ....control.chain import Chain
+from ....control.identification.joint import Drivetrain, IdentifiedJoint, identify_joint
+from ....control.identification.links import LinkLoad, link_loads
+from ....control.identification.motion import motion_of
+from ....errors import ClamberError, UnitError, UnknownNameError, describe_choices
+from ....execution.log import Log, LogError
+from ....execution.log_roles import LimbSamples, samples_of
+from ....json_form import Jsonable
+from ....tasks.robots import load_robot
+from ....toml_text import toml_value
+from ....units import parse_quantity
+from ..control.limb_chain import chain_of_limb
+from ..robot.robot import Joint, LimbedRobot
 
 CLEAR: Final = 5.0
 """An offset of so many standard errors"""
