@@ -5,11 +5,11 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any, Final
 
-from ..errors import UnitError, UnknownNameError, describe_choices
-from ..families.climber.robot.robot import LimbedRobot
-from ..units import parse_quantity
-from .limb_flaws import ForceSensor, LimbFlaws
-from .plant_rules import PlantError
+from ....errors import UnitError, UnknownNameError, describe_choices
+from ....sim.limb_flaws import ForceSensor, LimbFlaws
+from ....sim.plant_rules import PlantError
+from ....units import parse_quantity
+from ..robot.robot import LimbedRobot
 
 DIMENSIONS: Final[dict[str, str]] = {
     "backlash": "angle",
