@@ -184,7 +184,7 @@ def case(number: int, folder: Path) -> tuple[str, ...]:
 
 def _shipped(rng: random.Random, kind: str, schema: str) -> dict[str, Any]:
     """Data of a shipped file of a kind."""
-    files = sorted((PACKAGE / kind / "data").glob("*.toml"))
+    files = sorted(PACKAGE.glob(f"families/*/data/{kind}/*.toml"))
     while (data := tomllib.loads(rng.choice(files).read_text()))["schema"] != schema:
         pass
     return data

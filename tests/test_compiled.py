@@ -72,8 +72,8 @@ def copied(folder: Path) -> Path:
     """The package without its data, and a family of a few lines in it whose step calls a kernel of another file."""
     package = folder / "clamber"
     shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__", "data"))
-    (package / "actions" / "tiny.py").write_text(FAMILY)
-    (package / "actions" / "tiny_rule.py").write_text(RULE)
+    (package / "planning" / "problem" / "tiny.py").write_text(FAMILY)
+    (package / "planning" / "problem" / "tiny_rule.py").write_text(RULE)
     return package
 
 
@@ -101,12 +101,12 @@ def test_an_edited_kernel_answers_anew_though_the_cache_is_warm(tmp_path: Path) 
     package, cache = copied(tmp_path), tmp_path / "cache"
     assert answer(package, cache) == (11.0, 0)
     assert answer(package, cache) == (11.0, 1)
-    edit(package / "actions" / "tiny_rule.py", "x * gain", "x * gain + 1.0")  # a helper in another file
+    edit(package / "planning" / "problem" / "tiny_rule.py", "x * gain", "x * gain + 1.0")  # a helper in another file
     assert answer(package, cache) == (24.0, 0)
-    edit(package / "actions" / "tiny.py", "+ code", "- code")  # the step itself
+    edit(package / "planning" / "problem" / "tiny.py", "+ code", "- code")  # the step itself
     assert answer(package, cache) == (2.0, 0)
-    edit(package / "actions" / "tiny.py", "- code", "+ code")
-    edit(package / "actions" / "tiny_rule.py", "x * gain + 1.0", "x * gain")
+    edit(package / "planning" / "problem" / "tiny.py", "- code", "+ code")
+    edit(package / "planning" / "problem" / "tiny_rule.py", "x * gain + 1.0", "x * gain")
     assert answer(package, cache) == (11.0, 1)  # the old sources find their old machine code
 
 
@@ -142,7 +142,7 @@ def test_the_hash_leaves_out_files_that_no_kernel_reads_from(tmp_path: Path) -> 
     edit(records, "What an exact search reads", "All that it reads")  # nor what it says beside its constants
     assert hash_of(package) == before
     assert package / "units.py" not in kernel_files(package)
-    assert package / "actions" / "family.py" in kernel_files(package)
+    assert package / "planning" / "problem" / "family_kernels.py" in kernel_files(package)
 
 
 def kernel_modules() -> list[ModuleType]:
@@ -238,16 +238,16 @@ VERDICT = "from clamber.planning.problem.freezing import verdict; print(verdict(
 
 def test_a_constant_of_a_file_without_kernels_answers_anew_though_the_cache_is_warm(tmp_path: Path) -> None:
     package, cache = copied(tmp_path), tmp_path / "cache"
-    (package / "actions" / "freezing.py").write_text(FREEZING)
-    (package / "actions" / "shape.py").write_text(SHAPE)
-    (package / "actions" / "numbers.py").write_text("FACTOR = 10\n")
+    (package / "planning" / "problem" / "freezing.py").write_text(FREEZING)
+    (package / "planning" / "problem" / "shape.py").write_text(SHAPE)
+    (package / "planning" / "problem" / "numbers.py").write_text("FACTOR = 10\n")
     assert answer(package, cache, VERDICT) == (121.0, 0)
     assert answer(package, cache, VERDICT) == (121.0, 1)
     edit(package / "planning" / "exact" / "records.py", "FOUND, EXHAUSTED,", "EXHAUSTED, FOUND,")
     assert answer(package, cache, VERDICT) == (122.0, 0)
-    edit(package / "actions" / "numbers.py", "10", "20")  # by way of a function, at import
+    edit(package / "planning" / "problem" / "numbers.py", "10", "20")  # by way of a function, at import
     assert answer(package, cache, VERDICT) == (142.0, 0)
-    edit(package / "actions" / "shape.py", "Parts(100)", "Parts(200)")
+    edit(package / "planning" / "problem" / "shape.py", "Parts(100)", "Parts(200)")
     assert answer(package, cache, VERDICT) == (242.0, 0)
 
 

@@ -20,11 +20,19 @@ from clamber.tasks.robots import load_robot
 MODULE = '''
 from pathlib import Path
 
+from clamber.families.climber.family import Climber
 from clamber.planning.problem.outside_checks import OutsideCheck
 from clamber.planning.exact.planner import plan_exact
 from clamber.sim.ode_limb import OdeLimb
 
 ROBOT = Path(__file__).parent / "own.toml"
+
+class OwnFamily(Climber):
+    """Climbers by another name, without files of its own."""
+
+    name, title, data = "own-family", "own climber", None
+
+FAMILY = OwnFamily()
 
 def plan_own(task, seed=0):
     return plan_exact(task, threads=1)
@@ -49,6 +57,7 @@ def make_plant(chain, flaws, *, gears=None, batch=1, threads=0):
     return OdeLimb(chain, flaws, gears=gears, batch=batch)
 '''
 ENTRIES = {
+    "clamber.families": "own-family = own_climber:FAMILY",
     "clamber.robots": "own-robot = own_climber:ROBOT",
     "clamber.checks": "own-check = own_climber:LOW",
     "clamber.planners": "own-planner = own_climber:plan_own",
@@ -188,7 +197,7 @@ def test_its_law_and_plant_are_taken_by_the_command(install: Any, run: Run) -> N
     [
         ("return plan_exact(task, threads=1)", "return 1 / 0", ("plan", "ladder", "--planner", "own-planner"),
          "'own-planner' of the package own-climber 1.2 (clamber.planners): ZeroDivisionError: division by zero "
-         "(own_climber.py, line 11)"),
+         "(own_climber.py, line 19)"),
         ("return plan_exact(task, threads=1)", "return {}", ("plan", "ladder", "--planner", "own-planner"),
          "answered a dict; a planner answers a PlanResult"),
         ("return jacobian.T @ force", "return force", ("limb", "step", "-c", "own-law"), "they must be finite, of shape (2,)"),

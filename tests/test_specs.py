@@ -23,6 +23,7 @@ from clamber.errors import (
 from clamber.families.climber.family import CLIMBER
 from clamber.families.climber.statics.checks import DEFAULT_HARD, LIMBED_CHECKS
 from clamber.families.climber.world.library import board_names, load_board
+from clamber.family import family_named
 from clamber.files import content_hash, write_atomically
 from clamber.tasks import load_task, task_from_document, task_names
 from clamber.tasks.robots import load_robot, read_robot, robot_names
@@ -146,7 +147,8 @@ def test_every_number_of_a_shipped_robot_has_a_source(name: str) -> None:
     assert numbers_without_source(read_robot(name).data) == []
     assert robot.sources
     assert all(found.source for found in robot.sources.values())
-    assert (CLIMBER.data / "robots" / f"{name}.toml").is_file()
+    data = family_named(robot.family).data
+    assert data is not None and (data / "robots" / f"{name}.toml").is_file()
 
 
 def test_libra_has_the_numbers_of_the_thesis() -> None:

@@ -6,13 +6,14 @@ No other folder imports a family: whoever needs one asks here.
 
 from __future__ import annotations
 
+from contextlib import suppress
 from functools import cache
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 from .errors import ClamberError, describe_choices
-from .extensions import blamed, load_outside, outside
+from .extensions import ExtensionError, blamed, load_outside, outside
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -127,8 +128,16 @@ def family_named(name: str) -> Family:
 
 
 def families() -> tuple[Family, ...]:
-    """All families, those that come with Clamber first."""
-    return tuple(family_named(name) for name in (*BUILT_IN, *(n for n in family_names() if n not in BUILT_IN)))
+    """All families, those that come with Clamber first.
+
+    One of another package that cannot be loaded is left out, so that it takes no other family with it; who names it is told why.
+    """
+    found = [family_named(name) for name in BUILT_IN]
+    for name in family_names():
+        if name not in BUILT_IN:
+            with suppress(ExtensionError):
+                found.append(family_named(name))
+    return tuple(found)
 
 
 def family_of(task: Any) -> Family:

@@ -20,7 +20,7 @@ from clamber.tasks import Task, load_task
 from clamber.tasks.library import task_names
 from clamber.units import OZ_IN
 
-PRINTED = Path(clamber.__file__).parent / "actions" / "data"
+PRINTED = Path(clamber.__file__).parent / "families" / "climber" / "data" / "plans"
 H_GA = PRINTED / "h-ga.toml"
 LADDER = PRINTED / "ladder-hand.toml"
 UP = PlannedAction(kind="move", delta=(0.0, 0.0762, 0.0))

@@ -14,7 +14,7 @@ import clamber
 from clamber.cli import main
 from clamber.jobs.store import Store
 
-PRINTED = Path(clamber.__file__).parent / "actions" / "data"
+PRINTED = Path(clamber.__file__).parent / "families" / "climber" / "data" / "plans"
 H_GA = str(PRINTED / "h-ga.toml")
 LADDER = str(PRINTED / "ladder-hand.toml")
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from clamber.families.climber.inspection import inspect_board, inspect_climber, reach_of
 from clamber.families.climber.robot.robot import LimbedRobot
 from clamber.families.climber.world.board import Board, Hold
-from clamber.families.walker.inspection import inspect_ground
+from clamber.families.walker.inspection import inspect_ground, inspect_walker
 from clamber.families.walker.robot import WalkerRobot
 from clamber.families.walker.world.library import load_ground
 from clamber.inspection.open_file import inspect_file
@@ -103,7 +103,7 @@ def test_frames_that_cannot_stand_over_each_other_are_odd() -> None:
     robot = load_robot("hoshino")
     assert isinstance(robot, WalkerRobot)
     long = replace(robot, mechanism=replace(robot.mechanism, shortest=2.0))
-    assert any("can't stand over each other" in line for line in inspect_climber(long).odd)
+    assert any("can't stand over each other" in line for line in inspect_walker(long).odd)
 
 
 def board(points: list[tuple[float, float]], keep_out: tuple = ()) -> Board:

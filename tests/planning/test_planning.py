@@ -1,6 +1,7 @@
 """The genetic planner: plans that replay, the same plan on any number of threads, resumed runs, learned macros, both families."""
 
 import json
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -243,8 +244,8 @@ def test_search_needs_nothing_of_a_family_but_arrays() -> None:
 def test_no_planner_mentions_a_family() -> None:
     folder = Path(__file__).parents[2] / "src" / "clamber" / "planning"
     for path in folder.rglob("*.py"):
-        text = path.read_text().lower()
-        assert "walker" not in text and "limbed" not in text and "libra" not in text, path
+        words = set(re.findall(r"[a-z]+", path.read_text().lower()))
+        assert not words & {"walker", "limbed", "libra"}, path
 
 
 @pytest.mark.slow

@@ -31,7 +31,7 @@ from clamber.tasks import Task, load_task
 from clamber.viewing.margins import all_limiting
 from clamber.viewing.reach_plot import draw_reach
 
-PRINTED = Path(clamber.__file__).parent / "actions" / "data"
+PRINTED = Path(clamber.__file__).parent / "families" / "climber" / "data" / "plans"
 NO_HANGS = "rules.max_hangs=0"
 NONE = np.array([pack(0)], np.int32)
 SMALL = {

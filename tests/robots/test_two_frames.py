@@ -280,7 +280,9 @@ def test_attachments_are_stated_in_one_way_and_whole(changes: dict[str, object],
 
 
 def test_walks_are_planned_for_attachments_on_circles_only(tmp_path: Path) -> None:
-    text = (Path(clamber.__file__).parent / "robots" / "data" / "hoshino.toml").read_text(encoding="utf-8")
+    text = (Path(clamber.__file__).parent / "families" / "walker" / "data" / "robots" / "hoshino.toml").read_text(
+        encoding="utf-8"
+    )
     rows = [row for row in text.splitlines() if not row.startswith(("radius_delta", "radius_y"))]
     points = "\n".join(f"points_{frame} = {ATTACHMENTS[f'points_{frame}']!r}" for frame in ("delta", "y"))
     made = "\n".join(rows).replace("[mechanism]", f"[mechanism]\n{points}")

@@ -1,6 +1,6 @@
 """Actions as numbers: what a gene, a macro and a stored plan are made of.
 
-A code packs kind, limb and argument into 31 bits. The thesis's numbers (106, 391, 3) are LIBRA's way of printing it.
+A code packs kind, limb and argument into 31 bits. The numbers of the thesis (106, 391, 3) are its way of printing it.
 """
 
 from dataclasses import dataclass

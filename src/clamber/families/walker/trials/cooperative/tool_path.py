@@ -16,7 +16,7 @@ from .....regular_files import user_path
 from .....types import Floats
 from .....units import UNITS, convert, si_unit
 
-DATA: Final = Path(__file__).parent / "data"
+DATA: Final = Path(__file__).parents[2] / "data" / "paths"
 PLACES: Final = ("x", "y", "z")
 TIME: Final = "t"
 LARGEST: Final = 1e3
