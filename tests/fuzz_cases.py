@@ -113,12 +113,12 @@ def prepare(folder: Path, run: Callable[..., int]) -> None:
         folder: Where; the working folder.
         run: Runs a command.
     """
-    from clamber.actions.limbed_plans import thesis_code
-    from clamber.actions.plan import Plan
-    from clamber.execution.climb.course import climbable
     from clamber.execution.log_files import read_log, write_log
+    from clamber.families.climber.execution.course import climbable
+    from clamber.families.climber.planning.plans import thesis_code
+    from clamber.planning.problem.plan import Plan
     from clamber.tasks import load_task
-    from clamber.viewing.browser.app import check_viser
+    from clamber.viewer.app import check_viser
 
     task: Any = climbable(load_task("ladder"))  # type: ignore[arg-type]
     codes = [thesis_code(task, number) for number in (300, 3)]
@@ -167,7 +167,7 @@ def prepare(folder: Path, run: Callable[..., int]) -> None:
 def _stood() -> Any:
     """The trace of a walker that stands for two seconds."""
     from clamber.execution.sample_log import width
-    from clamber.execution.walk.walk_trace import WalkTrace, walk_titles
+    from clamber.families.walker.execution.walk_trace import WalkTrace, walk_titles
 
     table = np.zeros((20, width(walk_titles(true=True))))
     table[:, 0] = 0.1 * np.arange(20)
@@ -184,7 +184,7 @@ def case(number: int, folder: Path) -> tuple[str, ...]:
 
 def _shipped(rng: random.Random, kind: str, schema: str) -> dict[str, Any]:
     """Data of a shipped file of a kind."""
-    files = sorted((PACKAGE / kind / "data").glob("*.toml"))
+    files = sorted(PACKAGE.glob(f"families/*/data/{kind}/*.toml"))
     while (data := tomllib.loads(rng.choice(files).read_text()))["schema"] != schema:
         pass
     return data
@@ -228,7 +228,7 @@ def _task(rng: random.Random, folder: Path) -> list[str]:
 
 
 def _walk(rng: random.Random, folder: Path) -> list[str]:
-    files = sorted((PACKAGE / "tasks/walks/data").glob("*.toml"))
+    files = sorted((PACKAGE / "families/walker/data/walks").glob("*.toml"))
     _toml(rng, folder, tomllib.loads(rng.choice(files).read_text()), "walk.toml")
     return ["check", "walk.toml"]
 
@@ -243,7 +243,7 @@ def _plan(rng: random.Random, folder: Path) -> list[str]:
 
 
 def _printed_plan(rng: random.Random, folder: Path) -> list[str]:
-    files = sorted((PACKAGE / "actions/data").glob("*.toml"))
+    files = sorted((PACKAGE / "families/climber/data/plans").glob("*.toml"))
     _toml(rng, folder, tomllib.loads(rng.choice(files).read_text()), "printed.toml")
     return ["check", "printed.toml", *rng.choice(([], ["--all"], ["--json"]))]
 

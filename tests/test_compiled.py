@@ -15,19 +15,19 @@ import numpy as np
 import pytest
 from numba.core.registry import CPUDispatcher
 
-from clamber.actions import codes
-from clamber.actions.codes import pack
-from clamber.actions.limbed_problem import LimbedProblem
-from clamber.actions.table import ActionTable
+from clamber.families.climber.planning.problem import LimbedProblem
 from clamber.kernel_cache import kernel_hash
+from clamber.planning.problem import codes
+from clamber.planning.problem.codes import pack
+from clamber.planning.problem.table import ActionTable
 from clamber.sources import PACKAGE, kernel_files, package_hash
 from clamber.tasks import load_task
 
 FAMILY = """
 import numpy as np
 
-from clamber.actions.family import SCALARS, family_kernels
-from clamber.actions.tiny_rule import grown
+from clamber.planning.problem.family_kernels import SCALARS, family_kernels
+from clamber.planning.problem.tiny_rule import grown
 from clamber.compiled import kernel
 
 PARAMS = np.dtype([("gain", "f8")], align=True)
@@ -57,8 +57,8 @@ def grown(x, gain):
 """
 RUN = """
 import numpy as np
-from clamber.actions.loops import replay
-from clamber.actions.tiny import PARAMS, STANCE
+from clamber.planning.problem.loops import replay
+from clamber.planning.problem.tiny import PARAMS, STANCE
 
 params, start, stances = np.zeros(1, PARAMS), np.zeros(1, STANCE), np.zeros(4, STANCE)
 params["gain"] = 3.0
@@ -72,8 +72,8 @@ def copied(folder: Path) -> Path:
     """The package without its data, and a family of a few lines in it whose step calls a kernel of another file."""
     package = folder / "clamber"
     shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__", "data"))
-    (package / "actions" / "tiny.py").write_text(FAMILY)
-    (package / "actions" / "tiny_rule.py").write_text(RULE)
+    (package / "planning" / "problem" / "tiny.py").write_text(FAMILY)
+    (package / "planning" / "problem" / "tiny_rule.py").write_text(RULE)
     return package
 
 
@@ -101,12 +101,12 @@ def test_an_edited_kernel_answers_anew_though_the_cache_is_warm(tmp_path: Path) 
     package, cache = copied(tmp_path), tmp_path / "cache"
     assert answer(package, cache) == (11.0, 0)
     assert answer(package, cache) == (11.0, 1)
-    edit(package / "actions" / "tiny_rule.py", "x * gain", "x * gain + 1.0")  # a helper in another file
+    edit(package / "planning" / "problem" / "tiny_rule.py", "x * gain", "x * gain + 1.0")  # a helper in another file
     assert answer(package, cache) == (24.0, 0)
-    edit(package / "actions" / "tiny.py", "+ code", "- code")  # the step itself
+    edit(package / "planning" / "problem" / "tiny.py", "+ code", "- code")  # the step itself
     assert answer(package, cache) == (2.0, 0)
-    edit(package / "actions" / "tiny.py", "- code", "+ code")
-    edit(package / "actions" / "tiny_rule.py", "x * gain + 1.0", "x * gain")
+    edit(package / "planning" / "problem" / "tiny.py", "- code", "+ code")
+    edit(package / "planning" / "problem" / "tiny_rule.py", "x * gain + 1.0", "x * gain")
     assert answer(package, cache) == (11.0, 1)  # the old sources find their old machine code
 
 
@@ -117,7 +117,15 @@ def hash_of(package: Path) -> str:
     return kernel_hash(package)
 
 
-@pytest.mark.parametrize("name", ["actions/family.py", "actions/loops.py", "statics/programme.py", "compiled.py"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "planning/problem/family_kernels.py",
+        "planning/problem/loops.py",
+        "families/climber/statics/programme.py",
+        "compiled.py",
+    ],
+)
 def test_the_hash_follows_every_file_that_decides_what_is_compiled(tmp_path: Path, name: str) -> None:
     package = copied(tmp_path)
     before = hash_of(package)
@@ -134,7 +142,7 @@ def test_the_hash_leaves_out_files_that_no_kernel_reads_from(tmp_path: Path) -> 
     edit(records, "What an exact search reads", "All that it reads")  # nor what it says beside its constants
     assert hash_of(package) == before
     assert package / "units.py" not in kernel_files(package)
-    assert package / "actions" / "family.py" in kernel_files(package)
+    assert package / "planning" / "problem" / "family_kernels.py" in kernel_files(package)
 
 
 def kernel_modules() -> list[ModuleType]:
@@ -198,7 +206,7 @@ def test_the_hash_follows_every_constant_that_a_kernel_reads_from_a_file_without
 
 
 FREEZING = """
-from clamber.actions.shape import PARTS, scale
+from clamber.planning.problem.shape import PARTS, scale
 from clamber.compiled import kernel
 from clamber.planning.exact.records import EXHAUSTED, FOUND
 
@@ -212,7 +220,7 @@ def verdict(found):
 SHAPE = """
 from typing import NamedTuple
 
-from clamber.actions.numbers import FACTOR
+from clamber.planning.problem.numbers import FACTOR
 
 
 class Parts(NamedTuple):
@@ -225,21 +233,21 @@ PARTS = Parts(100)
 def scale(x):
     return x * FACTOR
 """
-VERDICT = "from clamber.actions.freezing import verdict; print(verdict(True), sum(verdict.stats.cache_hits.values()))"
+VERDICT = "from clamber.planning.problem.freezing import verdict; print(verdict(True), sum(verdict.stats.cache_hits.values()))"
 
 
 def test_a_constant_of_a_file_without_kernels_answers_anew_though_the_cache_is_warm(tmp_path: Path) -> None:
     package, cache = copied(tmp_path), tmp_path / "cache"
-    (package / "actions" / "freezing.py").write_text(FREEZING)
-    (package / "actions" / "shape.py").write_text(SHAPE)
-    (package / "actions" / "numbers.py").write_text("FACTOR = 10\n")
+    (package / "planning" / "problem" / "freezing.py").write_text(FREEZING)
+    (package / "planning" / "problem" / "shape.py").write_text(SHAPE)
+    (package / "planning" / "problem" / "numbers.py").write_text("FACTOR = 10\n")
     assert answer(package, cache, VERDICT) == (121.0, 0)
     assert answer(package, cache, VERDICT) == (121.0, 1)
     edit(package / "planning" / "exact" / "records.py", "FOUND, EXHAUSTED,", "EXHAUSTED, FOUND,")
     assert answer(package, cache, VERDICT) == (122.0, 0)
-    edit(package / "actions" / "numbers.py", "10", "20")  # by way of a function, at import
+    edit(package / "planning" / "problem" / "numbers.py", "10", "20")  # by way of a function, at import
     assert answer(package, cache, VERDICT) == (142.0, 0)
-    edit(package / "actions" / "shape.py", "Parts(100)", "Parts(200)")
+    edit(package / "planning" / "problem" / "shape.py", "Parts(100)", "Parts(200)")
     assert answer(package, cache, VERDICT) == (242.0, 0)
 
 

@@ -9,22 +9,30 @@ from typing import Any
 import numpy as np
 import pytest
 
-from clamber.actions.plan import Plan
 from clamber.cli import main
 from clamber.extensions import GROUPS, ExtensionError, load_outside, outside
+from clamber.families.climber.family import CLIMBER
 from clamber.planning.planners import find_planner
-from clamber.robots import load_robot
-from clamber.robots.library import DATA
+from clamber.planning.problem.plan import Plan
 from clamber.tasks import load_task
+from clamber.tasks.robots import load_robot
 
 MODULE = '''
 from pathlib import Path
 
-from clamber.actions.outside_checks import OutsideCheck
+from clamber.families.climber.family import Climber
+from clamber.planning.problem.outside_checks import OutsideCheck
 from clamber.planning.exact.planner import plan_exact
 from clamber.sim.ode_limb import OdeLimb
 
 ROBOT = Path(__file__).parent / "own.toml"
+
+class OwnFamily(Climber):
+    """Climbers by another name, without files of its own."""
+
+    name, title, data = "own-family", "own climber", None
+
+FAMILY = OwnFamily()
 
 def plan_own(task, seed=0):
     return plan_exact(task, threads=1)
@@ -49,6 +57,7 @@ def make_plant(chain, flaws, *, gears=None, batch=1, threads=0):
     return OdeLimb(chain, flaws, gears=gears, batch=batch)
 '''
 ENTRIES = {
+    "clamber.families": "own-family = own_climber:FAMILY",
     "clamber.robots": "own-robot = own_climber:ROBOT",
     "clamber.checks": "own-check = own_climber:LOW",
     "clamber.planners": "own-planner = own_climber:plan_own",
@@ -66,7 +75,7 @@ def install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
         info = site / f"{name}-1.2.dist-info"
         info.mkdir(parents=True)
         (site / f"{name}.py").write_text(module)
-        robot = (DATA / "gecko4.toml").read_text().replace('name = "gecko4"', 'name = "own-robot"')
+        robot = (CLIMBER.data / "robots" / "gecko4.toml").read_text().replace('name = "gecko4"', 'name = "own-robot"')
         (site / "own.toml").write_text(robot)
         (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name.replace('_', '-')}\nVersion: 1.2\n")
         lines = (f"[{group}]\n{line}\n" for group, line in (ENTRIES if entries is None else entries).items())
@@ -188,7 +197,7 @@ def test_its_law_and_plant_are_taken_by_the_command(install: Any, run: Run) -> N
     [
         ("return plan_exact(task, threads=1)", "return 1 / 0", ("plan", "ladder", "--planner", "own-planner"),
          "'own-planner' of the package own-climber 1.2 (clamber.planners): ZeroDivisionError: division by zero "
-         "(own_climber.py, line 11)"),
+         "(own_climber.py, line 19)"),
         ("return plan_exact(task, threads=1)", "return {}", ("plan", "ladder", "--planner", "own-planner"),
          "answered a dict; a planner answers a PlanResult"),
         ("return jacobian.T @ force", "return force", ("limb", "step", "-c", "own-law"), "they must be finite, of shape (2,)"),
@@ -220,7 +229,7 @@ def test_a_plan_that_does_not_hold_is_refused(install: Any) -> None:
     broken = """
     from dataclasses import replace
     from numpy import repeat
-    from clamber.actions.plan import Plan
+    from clamber.planning.problem.plan import Plan
     result = plan_exact(task, threads=1)
     return replace(result, plan=Plan.of_codes(task, repeat(result.plan.codes(task)[:1], 40)))
 """
@@ -233,7 +242,7 @@ def test_our_own_names_are_not_taken(install: Any) -> None:
     install(entries={"clamber.planners": "exact = own_climber:plan_own", "clamber.checks": "reach = own_climber:LOW"})
     assert find_planner("exact").__module__.startswith("clamber.")
     plan = Plan.of_codes(load_task("ladder"), [])
-    from clamber.actions.verdict import check_plan
+    from clamber.planning.problem.verdict import check_plan
 
     assert any("one of Clamber's own checks" in note for note in check_plan(load_task("ladder"), plan).notes)
 

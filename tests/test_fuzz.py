@@ -15,18 +15,16 @@ import numpy as np
 import pytest
 
 import clamber
-from clamber.actions.codes import MOVE, NEAREST, pack
-from clamber.actions.limbed_problem import LimbedProblem
-from clamber.actions.plan import Plan, load_plan
-from clamber.actions.table import ActionTable
 from clamber.errors import ClamberError, FileError, SpecError
-from clamber.robots import load_robot
-from clamber.robots.library import DATA as ROBOTS
+from clamber.families.climber.family import CLIMBER
+from clamber.families.climber.planning.problem import LimbedProblem
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.climber.world.library import load_board
+from clamber.planning.problem.codes import MOVE, NEAREST, pack
+from clamber.planning.problem.plan import Plan, load_plan
+from clamber.planning.problem.table import ActionTable
 from clamber.tasks import load_task
-from clamber.tasks.library import DATA as TASKS
-from clamber.tasks.limbed import LimbedTask
-from clamber.worlds import load_board
-from clamber.worlds.library import DATA as BOARDS
+from clamber.tasks.robots import load_robot
 from spoiling import spoilt, toml_file
 
 PER_KIND = 500
@@ -36,7 +34,7 @@ NAMES = {
     "board": ("ladder", "circle", "gecko-wall", "h"),
     "task": ("ladder", "circle", "across", "gecko-climb"),
 }
-FOLDERS = {"robot": ROBOTS, "board": BOARDS, "task": TASKS}
+FOLDERS = {"robot": CLIMBER.data / "robots", "board": CLIMBER.data / "worlds", "task": CLIMBER.data / "tasks"}
 STAY = ActionTable.build([("stay", [pack(0)], True)])
 CASES = 10_000
 """Of commands and their files; `python tests/fuzz_server.py NUMBER` shows one."""

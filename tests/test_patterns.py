@@ -13,11 +13,11 @@ import pytest
 import clamber
 from clamber.errors import ClamberError
 from clamber.execution.log_csv import parse_csv
+from clamber.families.climber.world.csv_board import read_points
+from clamber.families.walker.planning.path_file import read_path
 from clamber.files import parse_toml
 from clamber.planning.axes import range_axis, values_axis
-from clamber.tasks.walks.path_file import read_path
 from clamber.units import split_quantity, split_title
-from clamber.worlds.csv_board import read_points
 
 SOURCES = Path(clamber.__file__).parent
 LONG = 30_000

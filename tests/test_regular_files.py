@@ -163,7 +163,9 @@ def test_commands_neither_hang_nor_fill_memory(clamber: Clamber, odd: dict[str, 
 def test_a_robot_that_a_file_names_is_a_regular_file(clamber: Clamber, odd: dict[str, Path], tmp_path: Path) -> None:
     for kind, path in odd.items():
         task = tmp_path / f"task-{kind}.toml"
-        task.write_text((SOURCES / "tasks/data/ladder.toml").read_text().replace('"libra"', f'"{path}"'))
+        task.write_text(
+            (SOURCES / "families/climber/data/tasks/ladder.toml").read_text().replace('"libra"', f'"{path}"')
+        )
         code, _, err = clamber("check", str(task))
         assert code == 2 and str(path) in err and WORDS.get(kind, "cannot be read") in err
 
@@ -206,7 +208,7 @@ OTHER_WAYS = {
     "viewing/report/pages.py": "reads the package itself",
     "cli/commands.py": "reads the package itself",
     "cli/printed/meanings.py": "reads the package itself",
-    "experiments/performance_page.py": "asks the system for its processor",
+    "benchmarks/performance_page.py": "asks the system for its processor",
     "jobs/store.py": "locks a file whose name was checked",
     "jobs/cluster.py": "opens the null device",
     "execution/link/token.py": "keeps a secret in a folder that only its user can reach",

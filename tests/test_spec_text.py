@@ -10,18 +10,17 @@ import pytest
 
 from clamber.cli.starters import EXAMPLES, board_starter, robot_starter, task_starter
 from clamber.errors import ClamberError
-from clamber.robots import load_robot
-from clamber.robots.library import read_robot
-from clamber.robots.limbed import LimbedRobot
-from clamber.robots.walker import WalkerRobot
+from clamber.families.climber.planning.task import Goal, TaskSpec
+from clamber.families.climber.robot.robot import LimbedRobot
+from clamber.families.climber.world.board import BoardSpec
+from clamber.families.climber.world.library import load_board
+from clamber.families.walker.planning.task import WalkerTaskSpec
+from clamber.families.walker.robot import WalkerRobot
+from clamber.families.walker.world.ground import Ground
+from clamber.families.walker.world.library import read_ground
 from clamber.spec_text import LEFT_OUT, allowed, keys_of, spec_text
 from clamber.tasks import load_task
-from clamber.tasks.limbed import Goal, TaskSpec
-from clamber.tasks.walker import WalkerTaskSpec
-from clamber.worlds import load_board
-from clamber.worlds.board import BoardSpec
-from clamber.worlds.ground import Ground
-from clamber.worlds.library import read_ground
+from clamber.tasks.robots import load_robot, read_robot
 
 LINE = re.compile(r"^(#?)([A-Za-z_][A-Za-z0-9_]*) = ")
 HEADING = re.compile(r"^(#?)\[\[?([A-Za-z_.]+)\]\]?$")

@@ -20,14 +20,14 @@ from clamber.errors import (
     UnknownHoldError,
     UnknownNameError,
 )
+from clamber.families.climber.family import CLIMBER
+from clamber.families.climber.statics.checks import DEFAULT_HARD, LIMBED_CHECKS
+from clamber.families.climber.world.library import board_names, load_board
+from clamber.family import family_named
 from clamber.files import content_hash, write_atomically
-from clamber.robots import load_robot, robot_names
-from clamber.robots.library import DATA as ROBOT_DATA
-from clamber.robots.library import read_robot
-from clamber.statics.checks import DEFAULT_HARD, LIMBED_CHECKS
 from clamber.tasks import load_task, task_from_document, task_names
+from clamber.tasks.robots import load_robot, read_robot, robot_names
 from clamber.units import INCH, OZ_IN, UNITS, convert, parse_quantity, read_quantity
-from clamber.worlds import board_names, load_board
 
 LIBRA_TASKS = ("ladder", "modified-ladder", "h", "across", "circle")
 
@@ -147,7 +147,8 @@ def test_every_number_of_a_shipped_robot_has_a_source(name: str) -> None:
     assert numbers_without_source(read_robot(name).data) == []
     assert robot.sources
     assert all(found.source for found in robot.sources.values())
-    assert (ROBOT_DATA / f"{name}.toml").is_file()
+    data = family_named(robot.family).data
+    assert data is not None and (data / "robots" / f"{name}.toml").is_file()
 
 
 def test_libra_has_the_numbers_of_the_thesis() -> None:
@@ -415,7 +416,7 @@ def test_a_bad_override_is_refused_with_what_is_allowed(override: str, said: str
 def test_an_error_names_the_override_or_the_file() -> None:
     with pytest.raises(SpecError, match=r"^--set start\.y=6\.2: start\.y"):
         load_task("ladder", ("start.y=6.2",))
-    with pytest.raises(SpecError, match=r"^tasks/data/ladder\.toml with --set goal\.y_min=300in: goal"):
+    with pytest.raises(SpecError, match=r"^tasks/ladder\.toml with --set goal\.y_min=300in: goal"):
         load_task("ladder", ("goal.y_min=300in",))
 
 
@@ -485,7 +486,7 @@ def test_a_file_must_state_its_schema(tmp_path: Path) -> None:
 
 def test_files_of_the_user_are_found_beside_the_task(tmp_path: Path) -> None:
     for kind, data in (("robots", "libra"), ("worlds", "ladder"), ("tasks", "ladder")):
-        text = (ROBOT_DATA.parent.parent / kind / "data" / f"{data}.toml").read_text()
+        text = (CLIMBER.data / kind / f"{data}.toml").read_text()
         text = text.replace('robot = "libra"', 'robot = "robots.toml"').replace(
             'board = "ladder"', 'board = "worlds.toml"'
         )

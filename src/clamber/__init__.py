@@ -10,10 +10,6 @@ from typing import TYPE_CHECKING, Any
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
-    from .actions.outside_checks import OutsideCheck as OutsideCheck
-    from .actions.plan import Plan as Plan
-    from .actions.problems import pose_problem as pose_problem
-    from .actions.verdict import Verdict as Verdict
     from .api.comparing import compare as compare
     from .api.drawing import draw as draw
     from .api.planning import answer as answer
@@ -24,20 +20,24 @@ if TYPE_CHECKING:
     from .api.planning import plan as plan
     from .api.running import run as run
     from .errors import ClamberError as ClamberError
+    from .families.climber.world.library import load_board as load_board
+    from .families.walker.planning.walks import load_walk as load_walk
+    from .families.walker.world.library import load_ground as load_ground
+    from .planning.problem.outside_checks import OutsideCheck as OutsideCheck
+    from .planning.problem.plan import Plan as Plan
+    from .planning.problem.problems import pose_problem as pose_problem
+    from .planning.problem.verdict import Verdict as Verdict
     from .planning.result import PlanResult as PlanResult
-    from .robots.library import load_robot as load_robot
     from .tasks.library import change_task as change_task
     from .tasks.library import load_task as load_task
-    from .tasks.walks.library import load_walk as load_walk
-    from .worlds.library import load_board as load_board
-    from .worlds.library import load_ground as load_ground
+    from .tasks.robots import load_robot as load_robot
 
 _PLACES = {
     "ClamberError": "errors",
-    "OutsideCheck": "actions.outside_checks",
-    "Plan": "actions.plan",
+    "OutsideCheck": "planning.problem.outside_checks",
+    "Plan": "planning.problem.plan",
     "PlanResult": "planning.result",
-    "Verdict": "actions.verdict",
+    "Verdict": "planning.problem.verdict",
     "answer": "api.planning",
     "change_task": "tasks.library",
     "check": "api.planning",
@@ -45,14 +45,14 @@ _PLACES = {
     "draw": "api.drawing",
     "find_openings": "api.planning",
     "inspect": "api.planning",
-    "load_board": "worlds.library",
-    "load_ground": "worlds.library",
+    "load_board": "families.climber.world.library",
+    "load_ground": "families.walker.world.library",
     "load_plan": "api.planning",
-    "load_robot": "robots.library",
+    "load_robot": "tasks.robots",
     "load_task": "tasks.library",
-    "load_walk": "tasks.walks.library",
+    "load_walk": "families.walker.planning.walks",
     "plan": "api.planning",
-    "pose_problem": "actions.problems",
+    "pose_problem": "planning.problem.problems",
     "run": "api.running",
 }
 

@@ -16,6 +16,7 @@ from typing import Any, Final
 from .errors import ClamberError, UnknownNameError
 
 GROUPS: Final[dict[str, str]] = {
+    "families": "clamber.families",
     "robots": "clamber.robots",
     "checks": "clamber.checks",
     "planners": "clamber.planners",

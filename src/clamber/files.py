@@ -11,7 +11,7 @@ import math
 import os
 import re
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
@@ -211,8 +211,14 @@ def is_path(name_or_path: str) -> bool:
     return "/" in name_or_path or os.sep in name_or_path or Path(name_or_path).suffix in {".toml", ".csv"}
 
 
-def find_data(kind: str, name_or_path: str, data: Path, folder: Path | None = None) -> tuple[Path, str]:
+def find_data(kind: str, name_or_path: str, folders: Sequence[Path], folder: Path | None = None) -> tuple[Path, str]:
     """Path and label of shipped data by name, or of a user's file by path (relative to `folder`).
+
+    Args:
+        kind: Of data, for errors, such as "robot".
+        name_or_path: A name, or what `is_path` takes for a path.
+        folders: Where shipped data of this kind lies.
+        folder: Where the user's relative paths start; None: where the user stands.
 
     Raises:
         UnknownNameError: If it looks like a name and nothing shipped has it.
@@ -220,7 +226,7 @@ def find_data(kind: str, name_or_path: str, data: Path, folder: Path | None = No
     if is_path(name_or_path):
         path = user_path(name_or_path)
         return (path if path.is_absolute() or folder is None else folder / path), name_or_path
-    names = data_names(data)
-    if name_or_path not in names:
-        raise UnknownNameError(kind, name_or_path, names)
-    return data / f"{name_or_path}.toml", f"{data.parent.name}/data/{name_or_path}.toml"
+    for data in folders:
+        if name_or_path in data_names(data):
+            return data / f"{name_or_path}.toml", f"{data.name}/{name_or_path}.toml"
+    raise UnknownNameError(kind, name_or_path, tuple(sorted(name for data in folders for name in data_names(data))))

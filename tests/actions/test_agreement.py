@@ -13,14 +13,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from clamber.actions import codes
-from clamber.actions.codes import Code, pack
-from clamber.actions.limbed_problem import LimbedProblem
-from clamber.actions.loops import replay
-from clamber.actions.table import ActionTable
 from clamber.errors import StartError
-from clamber.statics.elbows import has_assignment
-from clamber.tasks.limbed import LimbedTask
+from clamber.families.climber.planning.problem import LimbedProblem
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.climber.statics.elbows import has_assignment
+from clamber.planning.problem import codes
+from clamber.planning.problem.codes import Code, pack
+from clamber.planning.problem.loops import replay
+from clamber.planning.problem.table import ActionTable
 from plain.evaluator import CHECKS, Action, PlainEvaluator, PlainResult, PlainStance
 from plain.variants import random_task
 from tiers import first_fast

@@ -13,23 +13,23 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
-from clamber.actions.crowding import most_covered
-from clamber.actions.limbed import find_hold
-from clamber.actions.limbed_problem import LimbedProblem
-from clamber.actions.problems import pose_problem
-from clamber.actions.random_task import random_task
-from clamber.actions.ways import way_fields
+from clamber.benchmarks.rows import Row
+from clamber.benchmarks.walls import sampled_stances, wall_rows
 from clamber.cli.app import main
 from clamber.errors import PlannerError, SpecError
-from clamber.experiments.rows import Row
-from clamber.experiments.walls import sampled_stances, wall_rows
+from clamber.families.climber.planning.crowding import most_covered
+from clamber.families.climber.planning.place_costs import way_fields
+from clamber.families.climber.planning.problem import LimbedProblem
+from clamber.families.climber.planning.random_task import random_task
+from clamber.families.climber.planning.step import find_hold
+from clamber.families.climber.statics.records import STANCE
+from clamber.families.climber.world.board import RandomSpec
+from clamber.families.climber.world.random_board import random_board
+from clamber.families.climber.world.scatter import MOST_PACKED
+from clamber.planning.problem.problems import pose_problem
 from clamber.planning.route.planner import plan_route
-from clamber.statics.records import STANCE
 from clamber.tasks import load_task
 from clamber.toml_text import toml_text
-from clamber.worlds.board import RandomSpec
-from clamber.worlds.random_board import random_board
-from clamber.worlds.scatter import MOST_PACKED
 
 SEEDS = st.integers(0, 2**63 - 1)
 

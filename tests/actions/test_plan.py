@@ -9,18 +9,18 @@ import numpy as np
 import pytest
 
 import clamber
-from clamber.actions.codes import MOVE, NEAREST, RANDOM, RELEASE, Code, pack
-from clamber.actions.plan import Plan, load_plan
-from clamber.actions.plan_source import is_plan, open_plan, plan_names
-from clamber.actions.planned import PlannedAction
-from clamber.actions.thesis_plan import load_thesis_plan
-from clamber.actions.verdict import Verdict, check_plan
 from clamber.errors import ClamberError, FileError, SpecError, UnknownNameError
+from clamber.families.climber.planning.thesis_plan import load_thesis_plan
+from clamber.planning.problem.codes import MOVE, NEAREST, RANDOM, RELEASE, Code, pack
+from clamber.planning.problem.plan import Plan, load_plan
+from clamber.planning.problem.plan_source import is_plan, open_plan, plan_names
+from clamber.planning.problem.planned import PlannedAction
+from clamber.planning.problem.verdict import Verdict, check_plan
 from clamber.tasks import Task, load_task
 from clamber.tasks.library import task_names
 from clamber.units import OZ_IN
 
-PRINTED = Path(clamber.__file__).parent / "actions" / "data"
+PRINTED = Path(clamber.__file__).parent / "families" / "climber" / "data" / "plans"
 H_GA = PRINTED / "h-ga.toml"
 LADDER = PRINTED / "ladder-hand.toml"
 UP = PlannedAction(kind="move", delta=(0.0, 0.0762, 0.0))

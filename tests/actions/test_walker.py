@@ -9,22 +9,22 @@ from typing import Any
 import numpy as np
 import pytest
 
-from clamber.actions import codes
-from clamber.actions.codes import MOVE, NONE, RELEASE, pack
-from clamber.actions.family import bound, key
-from clamber.actions.limbed_problem import LimbedProblem
-from clamber.actions.plan import Plan
-from clamber.actions.table import ActionTable
-from clamber.actions.verdict import check_plan
-from clamber.actions.walker_problem import FEATURE_NAMES, MOVES, WalkerProblem, outline, walker_table
 from clamber.compiled import kernel
 from clamber.errors import SpecError
+from clamber.families.climber.planning.problem import LimbedProblem
+from clamber.families.walker.planning.problem import FEATURE_NAMES, MOVES, WalkerProblem, outline, walker_table
+from clamber.families.walker.planning.task import WalkerTask
+from clamber.families.walker.statics.stance import BALANCE, FOOTHOLD, LEGS, SINGULAR, STROKE
+from clamber.families.walker.world.ground import Block, Ground
 from clamber.planning.planners import plan_task
-from clamber.robots import load_robot
-from clamber.statics.walker import BALANCE, FOOTHOLD, LEGS, SINGULAR, STROKE
+from clamber.planning.problem import codes
+from clamber.planning.problem.codes import MOVE, NONE, RELEASE, pack
+from clamber.planning.problem.family_kernels import bound, key
+from clamber.planning.problem.plan import Plan
+from clamber.planning.problem.table import ActionTable
+from clamber.planning.problem.verdict import check_plan
 from clamber.tasks import load_task, task_from_document
-from clamber.tasks.walker import WalkerTask
-from clamber.worlds.ground import Block, Ground
+from clamber.tasks.robots import load_robot
 from plain_walker import CHECKS, PlainStance, PlainWalker
 from tiers import first_fast
 

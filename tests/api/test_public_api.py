@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import clamber
-from clamber.actions.codes import MOVE, pack
+from clamber.planning.problem.codes import MOVE, pack
 
 
 def test_importing_it_loads_nothing() -> None:

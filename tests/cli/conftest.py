@@ -4,11 +4,11 @@ from pathlib import Path
 
 import pytest
 
-from clamber.actions.limbed_plans import thesis_code
-from clamber.actions.plan import Plan
-from clamber.execution.climb.course import climbable
+from clamber.families.climber.execution.course import climbable
+from clamber.families.climber.planning.plans import thesis_code
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.planning.problem.plan import Plan
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
 
 
 @pytest.fixture(scope="module")

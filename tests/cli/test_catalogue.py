@@ -6,18 +6,19 @@ import sys
 from pathlib import Path
 
 import clamber
-from clamber.actions.plan_source import plan_names
 from clamber.cli.catalogue import entries
+from clamber.families.climber.world.library import board_names
+from clamber.families.walker.planning.walks import walk_names
+from clamber.families.walker.world.library import ground_names
 from clamber.planning.planner_titles import PLANNER_TITLES
 from clamber.planning.planners import PLANNERS
-from clamber.robots import robot_names
+from clamber.planning.problem.plan_source import plan_names
 from clamber.sim.plant_titles import PLANT_TITLES
 from clamber.sim.plants import PLANTS
 from clamber.studies.library import STUDIES
 from clamber.studies.titles import RESULTS
 from clamber.tasks import task_names
-from clamber.tasks.walks.library import walk_names
-from clamber.worlds import board_names, ground_names
+from clamber.tasks.robots import robot_names
 
 
 def first_line(thing: object) -> str:

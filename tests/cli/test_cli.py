@@ -14,7 +14,7 @@ import clamber
 from clamber.cli import main
 from clamber.jobs.store import Store
 
-PRINTED = Path(clamber.__file__).parent / "actions" / "data"
+PRINTED = Path(clamber.__file__).parent / "families" / "climber" / "data" / "plans"
 H_GA = str(PRINTED / "h-ga.toml")
 LADDER = str(PRINTED / "ladder-hand.toml")
 
@@ -235,7 +235,7 @@ def test_an_interrupt_leaves_with_130_without_a_traceback(run: Any, monkeypatch:
     def interrupt(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("clamber.actions.plan_source.open_plan", interrupt)
+    monkeypatch.setattr("clamber.planning.problem.plan_source.open_plan", interrupt)
     answer = run("check", LADDER)
     assert answer.code == 130 and "Traceback" not in answer.err
 

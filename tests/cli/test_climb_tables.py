@@ -7,9 +7,9 @@ import pytest
 from clamber.cli.output import stdout
 from clamber.cli.run.text import print_run
 from clamber.cli.trials.text import print_trials
-from clamber.execution.climb.climb_report import ActionReport, ClimbReport
-from clamber.experiments.climb.run_plan import ClimbRun
-from clamber.experiments.climb.trial_summary import TrialSummary
+from clamber.families.climber.execution.climb_report import ActionReport, ClimbReport
+from clamber.families.climber.trials.run_plan import ClimbRun
+from clamber.families.climber.trials.trial_summary import TrialSummary
 from clamber.tasks import load_task
 
 

@@ -14,8 +14,8 @@ import clamber
 from clamber.cli.app import application
 from clamber.cli.catalogue import ENTRIES, entries
 from clamber.cli.help_text import command_of, commands_below
-from clamber.experiments.climb.body_entries import CONTROLS
-from clamber.experiments.cooperative.tool_path import DATA as PATHS
+from clamber.families.climber.trials.body_entries import CONTROLS
+from clamber.families.walker.trials.cooperative.tool_path import DATA as PATHS
 
 SLOW = ("numba", "scipy", "mujoco", "matplotlib", "viser")
 ASK = f"""

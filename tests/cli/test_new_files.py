@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from clamber.cli import main
-from clamber.worlds import load_board
+from clamber.families.climber.world.library import load_board
 
 Run = Callable[..., tuple[int, str, str]]
 
@@ -166,7 +166,7 @@ def test_a_start_that_does_not_hold_is_told_with_every_margin(run: Run) -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ('schema = "clamber-robot-2"\n', "schema = 'clamber-robot-2': must be one of clamber-robot-1, clamber-board-1"),
+        ('schema = "clamber-robot-2"\n', "schema = 'clamber-robot-2': must be one of clamber-robot-1, clamber-task-1"),
         ("weight = 3\n", "thing.toml: schema: must be one of"),
         ("x = = 3\n", "is not valid TOML"),
         ('schema = "clamber-robot-1"\nfamily = "flying"\n', "family = 'flying': must be one of limbed, walker"),

@@ -15,15 +15,15 @@ import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 
-from clamber.actions.limbed_plans import thesis_code
-from clamber.actions.plan import Plan
+from clamber.benchmarks.plant_bench import SERVE, served
 from clamber.cli.printed.library import schema_of
-from clamber.execution.climb.climb_trace import ClimbTrace
-from clamber.execution.climb.course import climbable
 from clamber.execution.log_files import read_log
-from clamber.experiments.climb.plant_bench import SERVE, served
+from clamber.families.climber.execution.climb_trace import ClimbTrace
+from clamber.families.climber.execution.course import climbable
+from clamber.families.climber.planning.plans import thesis_code
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.planning.problem.plan import Plan
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
 
 PEGS = ("--noise", "peg_error=3mm", "--seed", "5")
 PATIENCE = 120.0  # a busy machine may compile first [s]

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from clamber.actions.plan import load_plan
+from clamber.planning.problem.plan import load_plan
 
 
 def test_a_plan_that_never_fails_comes_out_as_it_went_in(clamber: Any, example_folder: Path, tmp_path: Path) -> None:

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import pytest
 
-from clamber.experiments.climb.cautions import CAUTIONS, STEADY
+from clamber.families.climber.trials.cautions import CAUTIONS, STEADY
 
 
 @pytest.mark.parametrize("command", ["run", "trials"])

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from clamber.execution.log_files import read_log
-from clamber.execution.walk.walk_trace import WalkTrace
+from clamber.families.walker.execution.walk_trace import WalkTrace
 
 TINY = ("--set", "way.0.distance=3cm")
 SHORT = ("--set", "way.0.distance=5cm")

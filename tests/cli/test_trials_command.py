@@ -7,13 +7,13 @@ from typing import Any
 
 import pytest
 
-from clamber.actions.limbed_plans import thesis_code
-from clamber.actions.plan import Plan
-from clamber.execution.climb.climb_trace import ClimbTrace
-from clamber.execution.climb.course import climbable
 from clamber.execution.log_files import read_log
+from clamber.families.climber.execution.climb_trace import ClimbTrace
+from clamber.families.climber.execution.course import climbable
+from clamber.families.climber.planning.plans import thesis_code
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.planning.problem.plan import Plan
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
 
 
 def plan_file(folder: Path, *numbers: int) -> str:

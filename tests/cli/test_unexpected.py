@@ -9,7 +9,7 @@ import clamber as package
 from clamber.errors import printable
 
 Clamber = Callable[..., tuple[int, str, str]]
-LADDER = Path(package.__file__).parent / "tasks/data/ladder.toml"
+LADDER = Path(package.__file__).parent / "families/climber/data/tasks/ladder.toml"
 
 
 @pytest.mark.parametrize(
@@ -21,7 +21,7 @@ def test_an_unexpected_error_leaves_with_70_and_says_what_to_send(
     def fail(*_: object, **__: object) -> None:
         raise error
 
-    monkeypatch.setattr("clamber.actions.plan_source.open_plan", fail)
+    monkeypatch.setattr("clamber.planning.problem.plan_source.open_plan", fail)
     code, out, err = clamber("check", "ladder-hand", "--set", "title=a b")
     assert (code, out) == (70, "")
     first, above, line, *below = err.strip().splitlines()
@@ -36,7 +36,7 @@ def test_what_needs_more_memory_than_there_is_is_told(clamber: Clamber, monkeypa
     def fail(*_: object, **__: object) -> None:
         raise MemoryError
 
-    monkeypatch.setattr("clamber.actions.plan_source.open_plan", fail)
+    monkeypatch.setattr("clamber.planning.problem.plan_source.open_plan", fail)
     assert clamber("check", "ladder-hand") == (2, "", "clamber: needs more memory than there is; ask for less\n")
 
 

@@ -8,10 +8,11 @@ import numpy as np
 import pinocchio
 from scipy.spatial.transform import Rotation
 
-from clamber.control.chain import Chain, chain_of_limb, empty_chain
+from clamber.control.chain import Chain, empty_chain
 from clamber.control.controller import Controller, still_aim
 from clamber.control.law_settings import LawSettings
-from clamber.robots import load_robot
+from clamber.families.climber.control.limb_chain import chain_of_limb
+from clamber.tasks.robots import load_robot
 from clamber.types import Floats
 
 PERIOD = 0.005

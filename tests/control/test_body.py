@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from clamber.control.body import (
+from clamber.families.climber.control.body import (
     KINEMATIC,
     LIMIT_COUNTED,
     LIMIT_NONE,
@@ -18,13 +18,13 @@ from clamber.control.body import (
     command_tips,
     share_wrench,
 )
-from clamber.control.body_estimate import ENCODER, LINE, SECOND_TIP, estimate_body
-from clamber.control.chain import chain_of_limb
-from clamber.control.hook_forces import MOST_CUTS
-from clamber.execution.climb.postures import postures
-from clamber.execution.climb.whole_body import WholeBody
-from clamber.robots.library import load_robot
-from clamber.robots.limbed import LimbedRobot
+from clamber.families.climber.control.body_estimate import ENCODER, LINE, SECOND_TIP, estimate_body
+from clamber.families.climber.control.hook_forces import MOST_CUTS
+from clamber.families.climber.control.limb_chain import chain_of_limb
+from clamber.families.climber.execution.postures import postures
+from clamber.families.climber.execution.whole_body import WholeBody
+from clamber.families.climber.robot.robot import LimbedRobot
+from clamber.tasks.robots import load_robot
 from clamber.types import Floats
 
 ROBOT = load_robot("libra")

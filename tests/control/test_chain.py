@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from random_chains import libra, limb, planar_chain
 from scipy.spatial.transform import Rotation
 
-from clamber.control.chain import Chain, ChainError, chain_of_limb, closed_branches, empty_chain, rotation
+from clamber.control.chain import Chain, ChainError, empty_chain, rotation
+from clamber.families.climber.control.limb_chain import chain_of_limb, closed_branches
 
 
 @pytest.mark.parametrize(

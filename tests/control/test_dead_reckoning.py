@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from clamber.control.dead_reckoning import leg_places, orient, reckon, soles_in_world
-from clamber.robots.library import load_robot
-from clamber.robots.walker import WalkerRobot
+from clamber.families.walker.control.dead_reckoning import leg_places, orient, reckon, soles_in_world
+from clamber.families.walker.robot import WalkerRobot
+from clamber.tasks.robots import load_robot
 from clamber.types import Floats
 
 SEEDS = range(20)

@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from clamber.control.felt_force import FLAT, feel_forces
-from clamber.execution.climb.fall import FallWatch
-from clamber.execution.climb.whole_body import WholeBody
-from clamber.robots.library import load_robot
-from clamber.robots.limbed import LimbedRobot
+from clamber.families.climber.control.felt_force import FLAT, feel_forces
+from clamber.families.climber.execution.fall import FallWatch
+from clamber.families.climber.execution.whole_body import WholeBody
+from clamber.families.climber.robot.robot import LimbedRobot
+from clamber.tasks.robots import load_robot
 from clamber.types import Floats
 
 PERIOD = 0.005

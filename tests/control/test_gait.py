@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from clamber.control.gait import (
+from clamber.control.support import support_margin
+from clamber.families.walker.control.gait import (
     DELTA,
     Limits,
     PhaseTimes,
@@ -21,8 +22,7 @@ from clamber.control.gait import (
     slide_seconds,
     speed_of_gait,
 )
-from clamber.control.support import support_margin
-from clamber.control.track import (
+from clamber.families.walker.control.track import (
     Track,
     along_twist,
     by_twist,
@@ -33,10 +33,10 @@ from clamber.control.track import (
     toward,
     turn_about,
 )
-from clamber.control.walker_balance import mass_centre, mass_moment
-from clamber.robots.library import load_robot
-from clamber.robots.walker import TwoFrames, WalkerRobot
-from clamber.robots.walker.weight import arm_places, weight_of
+from clamber.families.walker.control.walker_balance import mass_centre, mass_moment
+from clamber.families.walker.robot import TwoFrames, WalkerRobot
+from clamber.families.walker.robot.weight import arm_places, weight_of
+from clamber.tasks.robots import load_robot
 from clamber.types import Floats
 
 found = load_robot("hoshino")

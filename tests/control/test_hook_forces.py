@@ -7,11 +7,18 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.optimize import linprog
 
-from clamber.control.hook_forces import FAR, MOST_CUTS, WISHED_CONE, WISHED_PULL, best_within, pair_forces
-from clamber.execution.climb.legs import legs_of
-from clamber.execution.climb.postures import postures
-from clamber.robots.library import load_robot
-from clamber.robots.limbed import LimbedRobot
+from clamber.families.climber.control.hook_forces import (
+    FAR,
+    MOST_CUTS,
+    WISHED_CONE,
+    WISHED_PULL,
+    best_within,
+    pair_forces,
+)
+from clamber.families.climber.execution.legs import legs_of
+from clamber.families.climber.execution.postures import postures
+from clamber.families.climber.robot.robot import LimbedRobot
+from clamber.tasks.robots import load_robot
 from clamber.types import Floats
 
 ROBOT = load_robot("libra")

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from clamber.control.inclination import Inclination, InclinometerTrust
-from clamber.control.posture import inclines_of_tilt, tilt_of_inclines
+from clamber.families.walker.control.inclination import Inclination, InclinometerTrust
+from clamber.families.walker.control.posture import inclines_of_tilt, tilt_of_inclines
 from clamber.types import Floats
 
 PERIOD = 0.02

@@ -20,10 +20,11 @@ from random_chains import (
 )
 from scipy.spatial.transform import Rotation
 
-from clamber.control.chain import Chain, closed_branches
+from clamber.control.chain import Chain
 from clamber.control.controller import Controller, still_aim
 from clamber.control.law_settings import AXIS_NAMES, LAWS, LawSettings
 from clamber.control.law_titles import LAW_TITLES
+from clamber.families.climber.control.limb_chain import closed_branches
 from clamber.types import Floats
 
 CHAINS = {

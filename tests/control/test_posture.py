@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.optimize import fsolve
 from scipy.spatial.transform import Rotation
 
-from clamber.control.posture import (
+from clamber.families.walker.control.posture import (
     inclines_of_tilt,
     leg_lengths,
     level_heights,

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from clamber.control.chain import chain_of_limb
-from clamber.control.play import follow_play, pull_torques
-from clamber.execution.climb.whole_body import WholeBody
-from clamber.robots.library import load_robot
-from clamber.robots.limbed import LimbedRobot
+from clamber.families.climber.control.limb_chain import chain_of_limb
+from clamber.families.climber.control.play import follow_play, pull_torques
+from clamber.families.climber.execution.whole_body import WholeBody
+from clamber.families.climber.robot.robot import LimbedRobot
+from clamber.tasks.robots import load_robot
 from clamber.types import Floats
 from clamber.units import GRAVITY
 

@@ -6,11 +6,11 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from clamber.control.gait import Limits, speed_of_gait
-from clamber.control.quickest import Gait, quickest_way, walk_seconds
-from clamber.control.track import Track, straight
-from clamber.robots.library import load_robot
-from clamber.robots.walker import WalkerRobot
+from clamber.families.walker.control.gait import Limits, speed_of_gait
+from clamber.families.walker.control.quickest import Gait, quickest_way, walk_seconds
+from clamber.families.walker.control.track import Track, straight
+from clamber.families.walker.robot import WalkerRobot
+from clamber.tasks.robots import load_robot
 
 found = load_robot("hoshino")
 assert isinstance(found, WalkerRobot)

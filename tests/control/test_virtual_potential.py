@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from clamber.execution.climb.body_gains import BodyGains
-from clamber.execution.climb.whole_body import MOST_REPELLED, WholeBody
-from clamber.robots.library import load_robot
-from clamber.robots.limbed import LimbedRobot
+from clamber.families.climber.execution.body_gains import BodyGains
+from clamber.families.climber.execution.whole_body import MOST_REPELLED, WholeBody
+from clamber.families.climber.robot.robot import LimbedRobot
+from clamber.tasks.robots import load_robot
 from clamber.types import Floats
 
 STRENGTH, RANGE = 0.1, 0.2

@@ -13,10 +13,10 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from clamber.robots.library import load_robot
-from clamber.robots.limbed import LimbedRobot
+from clamber.families.climber.robot.robot import LimbedRobot
 from clamber.studies.bevly_1997.replayed import limbed_task, replay_printed
 from clamber.studies.titles import RESULTS
+from clamber.tasks.robots import load_robot
 from clamber.units import INCH
 
 PAGE = Path(__file__).parents[2] / "docs" / "papers.md"

@@ -7,17 +7,18 @@ from typing import Any
 
 import numpy as np
 
-from clamber.execution.climb.climb_trace import TracedClimber
-from clamber.execution.climb.climbing import Climbing
-from clamber.execution.climb.course import lay_course
+from clamber.benchmarks.plant_bench import gait_of
 from clamber.execution.hardware import WiredClimber
 from clamber.execution.link.channel import read_address
 from clamber.execution.link.client import RemoteHardware
 from clamber.execution.link.messages import STOPS, Kind
-from clamber.execution.wiring import Wiring, wiring_of
-from clamber.experiments.climb.plant_bench import gait_of
-from clamber.experiments.climb.run_plan import climbing_flaws, climbing_task
-from clamber.sim.climber_plant import ClimberPlant
+from clamber.execution.wiring import Wiring
+from clamber.families.climber.execution.climb_trace import TracedClimber
+from clamber.families.climber.execution.climbing import Climbing
+from clamber.families.climber.execution.course import lay_course
+from clamber.families.climber.execution.wiring import wiring_of
+from clamber.families.climber.sim.climber_plant import ClimberPlant
+from clamber.families.climber.trials.run_plan import climbing_flaws, climbing_task
 from clamber.sim.wires import ClimberWires
 from clamber.tasks import load_task
 

@@ -4,15 +4,15 @@ import math
 
 import numpy as np
 
-from clamber.control import body_tick as at
-from clamber.control.body import command_tips, drag_tips
-from clamber.control.body_estimate import ENCODER, estimate_body
 from clamber.control.controller import still_aim
-from clamber.control.hook_forces import MOST_CUTS
-from clamber.control.play import follow_play, pull_torques, weight_loads, weight_moment
-from clamber.execution.climb.body_gains import LIMITS, MAPPINGS
-from clamber.execution.climb.limb_task import LimbTask
-from clamber.execution.climb.whole_body import LOAD_TIME, WholeBody
+from clamber.families.climber.control import body_tick as at
+from clamber.families.climber.control.body import command_tips, drag_tips
+from clamber.families.climber.control.body_estimate import ENCODER, estimate_body
+from clamber.families.climber.control.hook_forces import MOST_CUTS
+from clamber.families.climber.control.play import follow_play, pull_torques, weight_loads, weight_moment
+from clamber.families.climber.execution.body_gains import LIMITS, MAPPINGS
+from clamber.families.climber.execution.limb_task import LimbTask
+from clamber.families.climber.execution.whole_body import LOAD_TIME, WholeBody
 from clamber.types import Floats
 
 

@@ -12,7 +12,7 @@ from collections import Counter
 import numpy as np
 from test_slip import Knocked
 
-from clamber.execution.climb.climb_trace import TracedClimber
+from clamber.families.climber.execution.climb_trace import TracedClimber
 
 LAST = 3600
 """Ticks of two rungs in which two limbs carry and the third is free, about."""

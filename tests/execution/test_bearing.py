@@ -5,15 +5,15 @@ import math
 import numpy as np
 import pytest
 
-from clamber.actions.limbed_plans import thesis_code
-from clamber.actions.plan import Plan
-from clamber.execution.climb.bearing import borne
-from clamber.execution.climb.climber import Climber
-from clamber.execution.climb.course import Course, climbable, lay_course
-from clamber.sim.climber_plant import ClimberPlant
+from clamber.families.climber.execution.bearing import borne
+from clamber.families.climber.execution.climber import Climber
+from clamber.families.climber.execution.course import Course, climbable, lay_course
+from clamber.families.climber.planning.plans import thesis_code
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.climber.sim.climber_plant import ClimberPlant
+from clamber.planning.problem.plan import Plan
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
 
 RUNG = (106, 301, 205, 300, 3, 3)
 """A rung by the gait of the thesis."""

@@ -9,15 +9,15 @@ from numba import njit
 from numba.core.runtime import _nrt_python, rtsys
 from plain_body import PlainBody
 
-from clamber.control.body_estimate import ENCODER
-from clamber.control.body_tick import command_tick, see_tick
 from clamber.control.controller import MeasurementError
 from clamber.control.law_settings import LAWS
-from clamber.execution.climb.body_gains import LIMITS, MAPPINGS, BodyGains
-from clamber.execution.climb.limb_task import Doing, LimbTask
-from clamber.execution.climb.whole_body import BENT, STOP, WholeBody
-from clamber.robots.library import load_robot
-from clamber.robots.limbed import LimbedRobot
+from clamber.families.climber.control.body_estimate import ENCODER
+from clamber.families.climber.control.body_tick import command_tick, see_tick
+from clamber.families.climber.execution.body_gains import LIMITS, MAPPINGS, BodyGains
+from clamber.families.climber.execution.limb_task import Doing, LimbTask
+from clamber.families.climber.execution.whole_body import BENT, STOP, WholeBody
+from clamber.families.climber.robot.robot import LimbedRobot
+from clamber.tasks.robots import load_robot
 
 PERIOD = 0.005
 

@@ -9,15 +9,14 @@ from typing import cast
 import numpy as np
 import pytest
 
-from clamber.actions.plan_source import open_plan
-from clamber.execution.climb import actor, hook, hook_back, hook_seat
-from clamber.execution.climb.approach import Approach
-from clamber.execution.climb.climber import Climber, FallenError, Grabbed
-from clamber.execution.climb.course import lay_course
-from clamber.execution.climb.ends import grab, press_on, release
-from clamber.execution.climb.hook_push import push_on
-from clamber.execution.climb.limb_task import LimbTask
-from clamber.execution.climb.motions import (
+from clamber.families.climber.execution import actor, hook, hook_back, hook_seat
+from clamber.families.climber.execution.approach import Approach
+from clamber.families.climber.execution.climber import Climber, FallenError, Grabbed
+from clamber.families.climber.execution.course import lay_course
+from clamber.families.climber.execution.ends import grab, press_on, release
+from clamber.families.climber.execution.hook_push import push_on
+from clamber.families.climber.execution.limb_task import LimbTask
+from clamber.families.climber.execution.motions import (
     JOINT_AGILITY,
     JOINT_SPEED,
     LAG,
@@ -31,16 +30,17 @@ from clamber.execution.climb.motions import (
     move_body,
     move_tip,
 )
-from clamber.execution.climb.postures import postures
-from clamber.execution.climb.pushed_body import PushedBody
-from clamber.execution.climb.slip import SlipWatch
-from clamber.experiments.climb.run_plan import climbing_task
-from clamber.robots.library import load_robot
-from clamber.robots.limbed import LimbedRobot
-from clamber.sim.climber_plant import BodySensed, ClimberPlant
+from clamber.families.climber.execution.postures import postures
+from clamber.families.climber.execution.pushed_body import PushedBody
+from clamber.families.climber.execution.slip import SlipWatch
+from clamber.families.climber.robot.robot import LimbedRobot
+from clamber.families.climber.sim.climber_plant import BodySensed, ClimberPlant
+from clamber.families.climber.trials.run_plan import climbing_task
+from clamber.families.climber.world.library import load_board
+from clamber.planning.problem.plan_source import open_plan
 from clamber.sim.limb_flaws import LimbFlaws
+from clamber.tasks.robots import load_robot
 from clamber.types import Floats
-from clamber.worlds.library import load_board
 
 NOMINAL = LimbFlaws(backlash=np.radians(2.0), physics_rate=1000.0, encoder_counts=400, delay=1)
 ELBOWS = {"right": -1, "left": 1}

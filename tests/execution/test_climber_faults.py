@@ -7,24 +7,23 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from clamber.actions.plan import Plan
-from clamber.execution.climb.climb_trace import TracedClimber
-from clamber.execution.climb.climbing import Climbing
-from clamber.execution.climb.course import lay_course
+from clamber.benchmarks.climb_work import two_rungs
 from clamber.execution.fault import ANY, FAULTS, Fault, FaultChoiceError, draw_fault
 from clamber.execution.faulty_plants import FaultyHardware
 from clamber.execution.hardware import WiredClimber
-from clamber.execution.posture_guard import guard_of
 from clamber.execution.sequencer import Sequencer
-from clamber.execution.wiring import wiring_of
-from clamber.experiments.climb.climb_work import two_rungs
-from clamber.experiments.climb.faults import failing_of
-from clamber.experiments.climb.noise import named_noise
-from clamber.experiments.climb.plants import truth_of
-from clamber.experiments.climb.run_plan import ClimbRun, climbing_flaws, run_plan
-from clamber.experiments.fault_trials import ENDINGS, ending_of_run
-from clamber.sim.climber_plant import ClimberPlant
+from clamber.families.climber.execution.climb_trace import TracedClimber
+from clamber.families.climber.execution.climbing import Climbing
+from clamber.families.climber.execution.course import lay_course
+from clamber.families.climber.execution.wiring import guard_of, wiring_of
+from clamber.families.climber.sim.climber_plant import ClimberPlant
+from clamber.families.climber.trials.faults import failing_of
+from clamber.families.climber.trials.noise import named_noise
+from clamber.families.climber.trials.plants import truth_of
+from clamber.families.climber.trials.run_plan import ClimbRun, climbing_flaws, run_plan
+from clamber.planning.problem.plan import Plan
 from clamber.sim.wires import ClimberWires
+from clamber.trials.fault_trials import ENDINGS, ending_of_run
 from tiers import first_fast
 
 FIRST = 8.0

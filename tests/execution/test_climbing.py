@@ -8,19 +8,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from clamber.actions.limbed_plans import thesis_code
-from clamber.actions.plan import Plan
-from clamber.execution.climb.climb_trace import ClimbTrace, TracedClimber
-from clamber.execution.climb.climbing import Climbing, Replan
-from clamber.execution.climb.course import PlanRefusedError, climbable, lay_course
-from clamber.execution.climb.motions import move_body
 from clamber.execution.log_files import read_log, write_log
 from clamber.execution.sequencer import Sequencer
-from clamber.sim.climber_plant import ClimberPlant
+from clamber.families.climber.execution.climb_trace import ClimbTrace, TracedClimber
+from clamber.families.climber.execution.climbing import Climbing, Replan
+from clamber.families.climber.execution.course import PlanRefusedError, climbable, lay_course
+from clamber.families.climber.execution.motions import move_body
+from clamber.families.climber.planning.plans import thesis_code
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.climber.sim.climber_plant import ClimberPlant
+from clamber.families.climber.statics.elbows import has_assignment
+from clamber.planning.problem.plan import Plan
 from clamber.sim.limb_flaws import LimbFlaws
-from clamber.statics.elbows import has_assignment
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
 from clamber.types import Floats
 
 NOMINAL = LimbFlaws(backlash=np.radians(2.0), physics_rate=1000.0, encoder_counts=400, delay=1)

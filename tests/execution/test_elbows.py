@@ -6,11 +6,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from clamber.actions.plan_source import open_plan
-from clamber.execution.climb.bearing import borne
-from clamber.execution.climb.course import Course, lay_course
-from clamber.execution.climb.postures import postures
-from clamber.experiments.climb.run_plan import climbing_task
+from clamber.families.climber.execution.bearing import borne
+from clamber.families.climber.execution.course import Course, lay_course
+from clamber.families.climber.execution.postures import postures
+from clamber.families.climber.trials.run_plan import climbing_task
+from clamber.planning.problem.plan_source import open_plan
 
 CIRCLE = Path(__file__).parents[2] / "examples" / "circle" / "plan.json"
 TWINS = {21: 24, 24: 21, 23: 25, 25: 23}

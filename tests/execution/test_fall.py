@@ -5,16 +5,16 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from clamber.execution.climb import fall
-from clamber.execution.climb.climb_trace import TracedClimber
-from clamber.execution.climb.climber import ASTRAY, TURNED, FallenError
-from clamber.execution.climb.ends import grab
-from clamber.robots.library import load_robot
-from clamber.robots.limbed import LimbedRobot
-from clamber.sim.climber_model import HookShape
-from clamber.sim.climber_plant import ClimberPlant
+from clamber.families.climber.execution import fall
+from clamber.families.climber.execution.climb_trace import TracedClimber
+from clamber.families.climber.execution.climber import ASTRAY, TURNED, FallenError
+from clamber.families.climber.execution.ends import grab
+from clamber.families.climber.robot.robot import LimbedRobot
+from clamber.families.climber.sim.climber_model import HookShape
+from clamber.families.climber.sim.climber_plant import ClimberPlant
+from clamber.families.climber.world.library import load_board
 from clamber.sim.limb_flaws import LimbFlaws
-from clamber.worlds.library import load_board
+from clamber.tasks.robots import load_robot
 
 NOMINAL = LimbFlaws(backlash=np.radians(2.0), physics_rate=1000.0, encoder_counts=400, delay=1)
 START = np.array((0.2286, 0.1374, 0.0))

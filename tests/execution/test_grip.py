@@ -3,19 +3,19 @@
 import numpy as np
 import pytest
 
-from clamber.execution.climb.climber import Climber, FallenError
-from clamber.execution.climb.ends import grab, release
-from clamber.execution.climb.motions import move_body
-from clamber.experiments.climb.planning import plan_to_climb
-from clamber.experiments.climb.run_plan import climbing_flaws, climbing_task, run_plan
+from clamber.families.climber.execution.climber import Climber, FallenError
+from clamber.families.climber.execution.ends import grab, release
+from clamber.families.climber.execution.motions import move_body
+from clamber.families.climber.robot.robot import LimbedRobot
+from clamber.families.climber.sim.climber_plant import ClimberPlant
+from clamber.families.climber.trials.planning import plan_to_climb
+from clamber.families.climber.trials.run_plan import climbing_flaws, climbing_task, run_plan
+from clamber.families.climber.world.library import load_board
 from clamber.planning.planners import PLANNERS
-from clamber.robots.library import load_robot
-from clamber.robots.limbed import LimbedRobot
-from clamber.sim.climber_plant import ClimberPlant
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.tasks import load_task
+from clamber.tasks.robots import load_robot
 from clamber.types import Floats
-from clamber.worlds.library import load_board
 
 NOMINAL = LimbFlaws(backlash=np.radians(2.0), physics_rate=1000.0, encoder_counts=400, delay=1)
 RIGHT, LEFT, BOTTOM = 0, 1, 2

@@ -9,25 +9,25 @@ import mujoco
 import numpy as np
 import pytest
 
-from clamber.actions.limbed_plans import thesis_code
-from clamber.actions.plan import Plan
-from clamber.execution.climb.climb_trace import TracedClimber
-from clamber.execution.climb.climber import FallenError
-from clamber.execution.climb.climbing import Climbing
-from clamber.execution.climb.course import alone, climbable, lay_course
-from clamber.execution.climb.hang import LAG
-from clamber.execution.climb.pendulum import Pendulum
 from clamber.execution.sequencer import Sequencer
-from clamber.experiments.climb.hanging import hang_up, one_peg, push_while_hanging
-from clamber.experiments.climb.planning import plan_to_climb
+from clamber.families.climber.execution.climb_trace import TracedClimber
+from clamber.families.climber.execution.climber import FallenError
+from clamber.families.climber.execution.climbing import Climbing
+from clamber.families.climber.execution.course import alone, climbable, lay_course
+from clamber.families.climber.execution.hang import LAG
+from clamber.families.climber.execution.pendulum import Pendulum
+from clamber.families.climber.planning.plans import thesis_code
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.climber.robot.robot import LimbedRobot
+from clamber.families.climber.sim.climber_model import HookShape, climber_spec
+from clamber.families.climber.sim.climber_plant import ClimberPlant
+from clamber.families.climber.trials.hanging import hang_up, one_peg, push_while_hanging
+from clamber.families.climber.trials.planning import plan_to_climb
 from clamber.planning.planners import PLANNERS
-from clamber.robots.library import load_robot
-from clamber.robots.limbed import LimbedRobot
-from clamber.sim.climber_model import HookShape, climber_spec
-from clamber.sim.climber_plant import ClimberPlant
+from clamber.planning.problem.plan import Plan
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
+from clamber.tasks.robots import load_robot
 from clamber.types import Floats
 from clamber.units import GRAVITY
 from tiers import first_fast

@@ -10,18 +10,18 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from clamber.actions.plan import Plan, load_plan
-from clamber.execution.climb import actor as actor_module
-from clamber.execution.climb import hook, hook_back, hook_seat
-from clamber.execution.climb.actor import Actor
-from clamber.execution.climb.approach import Approach
-from clamber.execution.climb.climb_trace import TracedClimber
-from clamber.execution.climb.climber import Climber
-from clamber.execution.climb.course import Course, lay_course
-from clamber.execution.climb.here import task_from_here
-from clamber.execution.climb.hold_map import HoldMap
-from clamber.experiments.climb.rehearsal import REHEARSED
-from clamber.experiments.climb.run_plan import ClimbRun, climbing_flaws, climbing_task, run_plan
+from clamber.families.climber.execution import actor as actor_module
+from clamber.families.climber.execution import hook, hook_back, hook_seat
+from clamber.families.climber.execution.actor import Actor
+from clamber.families.climber.execution.approach import Approach
+from clamber.families.climber.execution.climb_trace import TracedClimber
+from clamber.families.climber.execution.climber import Climber
+from clamber.families.climber.execution.course import Course, lay_course
+from clamber.families.climber.execution.here import task_from_here
+from clamber.families.climber.execution.hold_map import HoldMap
+from clamber.families.climber.trials.rehearsal import REHEARSED
+from clamber.families.climber.trials.run_plan import ClimbRun, climbing_flaws, climbing_task, run_plan
+from clamber.planning.problem.plan import Plan, load_plan
 from clamber.tasks import load_task, task_from_document
 from clamber.types import Floats
 

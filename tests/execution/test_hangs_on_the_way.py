@@ -5,16 +5,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from clamber.actions.plan import Plan, load_plan
-from clamber.actions.problems import pose_problem
-from clamber.execution.climb.course import Course, lay_course, swings
-from clamber.experiments.climb.cautions import HANGING, STEADY, cautious, steady
-from clamber.experiments.climb.noise import named_noise
-from clamber.experiments.climb.run_plan import climbing_flaws, climbing_task, run_plan
-from clamber.experiments.climb.trial import TrialSetup, climb_once
+from clamber.families.climber.execution.course import Course, lay_course, swings
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.climber.trials.cautions import HANGING, STEADY, cautious, steady
+from clamber.families.climber.trials.noise import named_noise
+from clamber.families.climber.trials.run_plan import climbing_flaws, climbing_task, run_plan
+from clamber.families.climber.trials.trial import TrialSetup, climb_once
 from clamber.planning.beam.planner import plan_beam
+from clamber.planning.problem.plan import Plan, load_plan
+from clamber.planning.problem.problems import pose_problem
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
 
 ROOT = Path(__file__).parents[2]
 

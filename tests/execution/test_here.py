@@ -4,13 +4,13 @@ from pathlib import Path
 
 import pytest
 
-from clamber.actions.plan import load_plan
-from clamber.actions.plan_families import plan_family
-from clamber.execution.climb.course import Course, lay_course
-from clamber.execution.climb.here import task_from_here
-from clamber.experiments.climb.run_plan import climbing_task
+from clamber.families.climber.execution.course import Course, lay_course
+from clamber.families.climber.execution.here import task_from_here
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.climber.trials.run_plan import climbing_task
+from clamber.planning.problem.plan import load_plan
+from clamber.planning.problem.plan_families import plan_family
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SAVED = EXAMPLES / "across" / "plan.json"

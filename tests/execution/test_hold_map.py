@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from clamber.execution.climb.hold_map import TIP_ERROR, HoldMap, TipDifference
+from clamber.families.climber.execution.hold_map import TIP_ERROR, HoldMap, TipDifference
 from clamber.types import Floats
 
 ERROR = 0.00635

@@ -19,20 +19,20 @@ from mcap.exceptions import EndOfFile
 from mcap.records import Message
 from mcap.stream_reader import StreamReader
 
-from clamber.actions.limbed_plans import thesis_code
-from clamber.actions.plan import Plan
 from clamber.cli import main
 from clamber.cli.run.text import ClimbLine
 from clamber.errors import FileError
-from clamber.execution.climb.climb_trace import ClimbTrace
-from clamber.execution.climb.course import climbable
 from clamber.execution.log import LogError
 from clamber.execution.log_files import read_log
 from clamber.execution.log_mcap import parse_mcap
 from clamber.execution.log_roles import samples_of
 from clamber.execution.log_stream import LogStream, part_of
+from clamber.families.climber.execution.climb_trace import ClimbTrace
+from clamber.families.climber.execution.course import climbable
+from clamber.families.climber.planning.plans import thesis_code
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.planning.problem.plan import Plan
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
 from clamber.types import Floats
 
 TITLES = ("time [s]", "elbow angle [rad]")

@@ -9,24 +9,24 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from clamber.control.track import straight
-from clamber.execution.climb.climb_trace import TracedClimber
-from clamber.execution.climb.climbing import Climbing
-from clamber.execution.climb.course import lay_course
+from clamber.benchmarks.climb_work import two_rungs
 from clamber.execution.plant import PlantStoppedError
 from clamber.execution.run_ends import FallenError, FaultError, RefusedError, StuckError
 from clamber.execution.run_report import Ending, Outcome, RunReport
 from clamber.execution.sequencer import MOST_RECOVERIES, MOST_REPLANS, Attempt, Performer, Sequencer
-from clamber.execution.walk.course import TrackCourse
-from clamber.execution.walk.true_walk import TracedPlant
-from clamber.execution.walk.walk_trace import TracedWalker
-from clamber.execution.walk.walking import Walking
-from clamber.experiments.climb.climb_work import two_rungs
-from clamber.sim.climber_plant import ClimberPlant
+from clamber.families.climber.execution.climb_trace import TracedClimber
+from clamber.families.climber.execution.climbing import Climbing
+from clamber.families.climber.execution.course import lay_course
+from clamber.families.climber.sim.climber_plant import ClimberPlant
+from clamber.families.walker.control.track import straight
+from clamber.families.walker.execution.course import TrackCourse
+from clamber.families.walker.execution.true_walk import TracedPlant
+from clamber.families.walker.execution.walk_trace import TracedWalker
+from clamber.families.walker.execution.walking import Walking
+from clamber.families.walker.planning import load_walk
+from clamber.families.walker.sim.walker_flaws import WalkerFlaws
+from clamber.families.walker.sim.walker_plant import WalkerSim
 from clamber.sim.limb_flaws import LimbFlaws
-from clamber.sim.walker_flaws import WalkerFlaws
-from clamber.sim.walker_plant import WalkerSim
-from clamber.tasks.walks import load_walk
 
 WORDS = ("ok", "stalled", "missed", "refused", "slipped", "fell", "fault", "stopped", "stuck", "interrupted")
 """What may become of a toy's try."""

@@ -7,18 +7,18 @@ import mujoco
 import numpy as np
 import pytest
 
-from clamber.execution.climb.climb_report import ClimbReport
-from clamber.execution.climb.climb_trace import TracedClimber
-from clamber.execution.climb.climber import FallenError, SlippedError
-from clamber.execution.climb.climbing import Climbing
-from clamber.execution.climb.course import lay_course
-from clamber.execution.climb.slip import MOVED
+from clamber.benchmarks.climb_work import two_rungs
 from clamber.execution.sequencer import Sequencer
-from clamber.experiments.climb.climb_work import two_rungs
-from clamber.experiments.climb.noise import draw_for, named_noise
-from clamber.experiments.climb.plants import drawn_plant
-from clamber.experiments.climb.run_plan import believing_climber, climbing_flaws
-from clamber.sim.climber_plant import ClimberPlant
+from clamber.families.climber.execution.climb_report import ClimbReport
+from clamber.families.climber.execution.climb_trace import TracedClimber
+from clamber.families.climber.execution.climber import FallenError, SlippedError
+from clamber.families.climber.execution.climbing import Climbing
+from clamber.families.climber.execution.course import lay_course
+from clamber.families.climber.execution.slip import MOVED
+from clamber.families.climber.sim.climber_plant import ClimberPlant
+from clamber.families.climber.trials.noise import draw_for, named_noise
+from clamber.families.climber.trials.plants import drawn_plant
+from clamber.families.climber.trials.run_plan import believing_climber, climbing_flaws
 from clamber.types import Floats
 from tiers import first_fast
 

@@ -6,17 +6,25 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from clamber.control.swing_path import BESIDE, find_way
-from clamber.execution.climb.approach import CELLS, HOOK, LEAST_CLEARANCE, MOST_POINTS, Approaches, discs_near, wall_of
-from clamber.execution.climb.legs import legs_of
-from clamber.execution.climb.limb_task import LimbTask
-from clamber.execution.climb.parking import SPARE, TIGHT, park, passes, poses_between
-from clamber.execution.climb.postures import postures
-from clamber.execution.climb.whole_body import WholeBody
-from clamber.robots.library import load_robot
-from clamber.robots.limbed import LimbedRobot
+from clamber.families.climber.control.swing_path import BESIDE, find_way
+from clamber.families.climber.execution.approach import (
+    CELLS,
+    HOOK,
+    LEAST_CLEARANCE,
+    MOST_POINTS,
+    Approaches,
+    discs_near,
+    wall_of,
+)
+from clamber.families.climber.execution.legs import legs_of
+from clamber.families.climber.execution.limb_task import LimbTask
+from clamber.families.climber.execution.parking import SPARE, TIGHT, park, passes, poses_between
+from clamber.families.climber.execution.postures import postures
+from clamber.families.climber.execution.whole_body import WholeBody
+from clamber.families.climber.robot.robot import LimbedRobot
+from clamber.families.climber.world.library import load_board
+from clamber.tasks.robots import load_robot
 from clamber.types import Floats
-from clamber.worlds.library import load_board
 
 PEG = 0.006
 RIGHT, LEFT, BOTTOM = 0, 1, 2

@@ -6,16 +6,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from clamber.actions.plan import Plan
-from clamber.actions.plan_source import open_plan
-from clamber.execution.climb.course import Course, lay_course
-from clamber.execution.climb.ways_on_paper import grabs_without_way
-from clamber.experiments.climb.cautions import CAUTIONS, cautious
-from clamber.experiments.climb.noise import named_noise
-from clamber.experiments.climb.run_plan import climbing_flaws, climbing_task, run_plan
+from clamber.families.climber.execution.course import Course, lay_course
+from clamber.families.climber.execution.ways_on_paper import grabs_without_way
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.climber.trials.cautions import CAUTIONS, cautious
+from clamber.families.climber.trials.noise import named_noise
+from clamber.families.climber.trials.run_plan import climbing_flaws, climbing_task, run_plan
 from clamber.planning.planners import PLANNERS
+from clamber.planning.problem.plan import Plan
+from clamber.planning.problem.plan_source import open_plan
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 ERROR = 0.00635

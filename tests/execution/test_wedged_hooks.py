@@ -7,13 +7,13 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from clamber.actions.plan_source import open_plan
-from clamber.execution.climb import actor as actor_module
-from clamber.execution.climb.actor import Actor
-from clamber.execution.climb.climber import Climber
-from clamber.execution.climb.course import Course, lay_course
-from clamber.execution.climb.hold_map import HoldMap
-from clamber.experiments.climb.run_plan import climbing_task
+from clamber.families.climber.execution import actor as actor_module
+from clamber.families.climber.execution.actor import Actor
+from clamber.families.climber.execution.climber import Climber
+from clamber.families.climber.execution.course import Course, lay_course
+from clamber.families.climber.execution.hold_map import HoldMap
+from clamber.families.climber.trials.run_plan import climbing_task
+from clamber.planning.problem.plan_source import open_plan
 
 CIRCLE = Path(__file__).parents[2] / "examples" / "circle" / "plan.json"
 

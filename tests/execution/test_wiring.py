@@ -10,18 +10,19 @@ from hypothesis import strategies as st
 from clamber.errors import SpecError
 from clamber.execution.hardware import Decoder, Reading, WiredClimber, WiredLimb
 from clamber.execution.plant import BodyPlant, BodySensed, LimbPlant
-from clamber.execution.wiring import COMMAND_LIMIT, Wiring, wiring_of, wiring_of_limb
+from clamber.execution.wiring import COMMAND_LIMIT, Wiring
+from clamber.families.climber.execution.wiring import wiring_of, wiring_of_limb
+from clamber.families.climber.robot.robot import LimbedRobot
+from clamber.families.climber.sim.climber_plant import ClimberPlant
+from clamber.families.climber.world.library import load_board
 from clamber.limb_bench.bench_limb import bench_limb
-from clamber.robots.library import load_robot
-from clamber.robots.limbed import LimbedRobot
-from clamber.sim.climber_plant import ClimberPlant
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.sim.plant_rules import PlantError
 from clamber.sim.plants import PLANTS
 from clamber.sim.wires import Amplifiers, ClimberWires, LimbWires
+from clamber.tasks.robots import load_robot
 from clamber.types import Floats, Ints
 from clamber.units import OZ_IN
-from clamber.worlds.library import load_board
 
 FLAWS = LimbFlaws(backlash=np.radians(2.0), physics_rate=1000.0, encoder_counts=400, delay=1)
 START = np.array((0.2286, 0.1374, 0.0))

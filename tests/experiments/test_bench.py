@@ -12,21 +12,21 @@ from typing import Any
 import numpy as np
 import pytest
 
-from clamber.actions.problem import CompiledProblem
-from clamber.actions.problems import pose_problem
+from clamber.benchmarks import batches, benches, peers, races, rows, speed, starts, workload
+from clamber.benchmarks.ablation import TASKS, VARIANTS, bench_ablation, varied
+from clamber.benchmarks.performance_page import performance_page
+from clamber.benchmarks.plain_problem import PlainProblem, plain_module
+from clamber.benchmarks.planner_trials import Crew, run_cases, run_trials
+from clamber.benchmarks.rows import NOTHING, Row, median_or_nothing
+from clamber.benchmarks.scaling import ScalingLaw
 from clamber.execution.plant import PlantStoppedError
-from clamber.experiments import batches, benches, peers, races, rows, speed, starts, workload
-from clamber.experiments.ablation import TASKS, VARIANTS, bench_ablation, varied
-from clamber.experiments.performance_page import performance_page
-from clamber.experiments.plain_problem import PlainProblem, plain_module
-from clamber.experiments.rows import NOTHING, Row, median_or_nothing
-from clamber.experiments.scaling import ScalingLaw
-from clamber.experiments.trials import Crew, run_cases, run_trials
 from clamber.jobs import LocalProcesses
 from clamber.jobs.executor import End
 from clamber.planning.genetic.evolve import weights_for
 from clamber.planning.genetic.planner import plan_genetic
 from clamber.planning.genetic.profile import load_profile
+from clamber.planning.problem.problem import CompiledProblem
+from clamber.planning.problem.problems import pose_problem
 from clamber.tasks import load_task
 
 NEAR = ("goal.y_min=12in",)

@@ -9,24 +9,24 @@ import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 
-from clamber.actions.problems import pose_problem
-from clamber.actions.random_task import random_task
+from clamber.benchmarks import cases as cases_module
+from clamber.benchmarks.cases import DENSITIES, PATTERN, SIZES, THESIS, all_cases, random_case, thesis_case
+from clamber.benchmarks.contest import Contest, Trial, Truth, run_contest
+from clamber.benchmarks.pictures.boards_plot import draw_boards
+from clamber.benchmarks.planner_trials import Crew
+from clamber.benchmarks.standing import contradictions, groups, ranking, standing, within
+from clamber.benchmarks.tables import rows_of, save_markdown, save_trials, tables
+from clamber.benchmarks.trial import REFUSED, run_trial
 from clamber.cli import main
 from clamber.cli.printed.library import schema_of
 from clamber.errors import SpecError
-from clamber.experiments.boards import cases as cases_module
-from clamber.experiments.boards.cases import DENSITIES, PATTERN, SIZES, THESIS, all_cases, random_case, thesis_case
-from clamber.experiments.boards.contest import Contest, Trial, Truth, run_contest
-from clamber.experiments.boards.standing import contradictions, groups, ranking, standing, within
-from clamber.experiments.boards.tables import rows_of, save_markdown, save_trials, tables
-from clamber.experiments.boards.trial import REFUSED, run_trial
-from clamber.experiments.trials import Crew
+from clamber.families.climber.planning.random_task import random_task
 from clamber.jobs import LocalProcesses, StoreError
 from clamber.planning.budgets import Allowance, Contender, accepts, contenders
 from clamber.planning.exact.explore import explore
 from clamber.planning.planners import PLANNERS
+from clamber.planning.problem.problems import pose_problem
 from clamber.tasks import load_task, task_from_document
-from clamber.viewing.boards_plot import draw_boards
 from here import Here
 from plain.search import breadth_first
 
@@ -199,9 +199,9 @@ def test_the_command_prints_tables_and_writes_the_picture(
     monkeypatch.setattr(cases_module, "SIZES", (10,))
     monkeypatch.setattr(cases_module, "PATTERN", (0, 3))
     monkeypatch.setattr(cases_module, "THESIS", ())
-    monkeypatch.setattr("clamber.experiments.boards.contest.ALLOWANCE", FEW)
+    monkeypatch.setattr("clamber.benchmarks.contest.ALLOWANCE", FEW)
     few = [contender for contender in contenders() if contender.name in ("greedy", "exact", "random")]
-    monkeypatch.setattr("clamber.experiments.boards.contest.contenders", lambda: tuple(few))
+    monkeypatch.setattr("clamber.benchmarks.contest.contenders", lambda: tuple(few))
     picture, store = tmp_path / "boards.svg", tmp_path / "boards.sqlite"
     main_quietly(["bench", "boards", "--workers", "1", "--store", str(store), "-o", str(picture)])
     said = capsys.readouterr().out

@@ -2,14 +2,14 @@
 
 import pytest
 
-from clamber.execution.climb.climbing import Climbing
-from clamber.execution.climb.course import lay_course
+from clamber.benchmarks import climb_speed as speed
+from clamber.benchmarks.benches import BENCHES
+from clamber.benchmarks.climb_work import timed_trial, two_rungs
 from clamber.execution.sequencer import Sequencer
-from clamber.experiments.benches import BENCHES
-from clamber.experiments.climb import speed
-from clamber.experiments.climb.climb_work import timed_trial, two_rungs
-from clamber.experiments.climb.run_plan import climbing_flaws
-from clamber.sim.raw_climb import TapedClimberPlant
+from clamber.families.climber.execution.climbing import Climbing
+from clamber.families.climber.execution.course import lay_course
+from clamber.families.climber.sim.raw_climb import TapedClimberPlant
+from clamber.families.climber.trials.run_plan import climbing_flaws
 
 
 def test_the_benchmark_is_found_by_its_name() -> None:

@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from clamber.benchmarks import control_speed, ik_peers
+from clamber.benchmarks.benches import BENCHES
 from clamber.control.controller import Controller
 from clamber.control.law_settings import LAWS
 from clamber.execution.closed_loop import close_loop
-from clamber.experiments import control_speed, ik_peers
-from clamber.experiments.benches import BENCHES
 from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
 from clamber.limb_bench.scenario import step_scenario
 from clamber.sim.limb_flaws import LimbFlaws

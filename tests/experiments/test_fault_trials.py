@@ -6,10 +6,10 @@ from typing import Any
 
 import pytest
 
-from clamber.experiments.climb.climb_work import two_rungs
-from clamber.experiments.climb.noise import named_noise
-from clamber.experiments.climb.trial import TrialSetup, error_trial, run_trial, trial_of
-from clamber.experiments.fault_trials import ENDINGS, fault_rows
+from clamber.benchmarks.climb_work import two_rungs
+from clamber.families.climber.trials.noise import named_noise
+from clamber.families.climber.trials.trial import TrialSetup, error_trial, run_trial, trial_of
+from clamber.trials.fault_trials import ENDINGS, fault_rows
 from clamber.types import Json
 
 

@@ -6,14 +6,14 @@ from typing import Any
 
 import pytest
 
-from clamber.actions.plan import Plan
 from clamber.cli.rehearse import FIRST_SEED
-from clamber.experiments.climb.lessons import learn
-from clamber.experiments.climb.rehearsal import SEEDS
-from clamber.experiments.climb.trial import ClimbTrial
-from clamber.experiments.held_out import FIRST_HELD_OUT, HeldOutError, are_held_out, check_training
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.climber.trials.lessons import learn
+from clamber.families.climber.trials.rehearsal import SEEDS
+from clamber.families.climber.trials.trial import ClimbTrial
+from clamber.planning.problem.plan import Plan
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
+from clamber.trials.held_out import FIRST_HELD_OUT, HeldOutError, are_held_out, check_training
 
 
 def test_seeds_are_held_out_from_a_billion_on() -> None:

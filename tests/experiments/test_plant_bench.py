@@ -2,8 +2,8 @@
 
 import pytest
 
-from clamber.experiments.climb.plant_bench import StoppingHardware, stopped_at
-from clamber.experiments.climb.run_plan import climbing_flaws, climbing_task
+from clamber.benchmarks.plant_bench import StoppingHardware, stopped_at
+from clamber.families.climber.trials.run_plan import climbing_flaws, climbing_task
 from clamber.tasks import load_task
 
 # on its way to a peg, pushing at one, tugging, between grabs, releasing, moving its body

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from clamber.experiments.climb.press import Pressed, run_press
-from clamber.robots.library import load_robot
-from clamber.robots.limbed import LimbedRobot
+from clamber.families.climber.robot.robot import LimbedRobot
+from clamber.families.climber.trials.press import Pressed, run_press
+from clamber.families.climber.world.library import load_board
 from clamber.sim.limb_flaws import LimbFlaws
-from clamber.worlds.library import load_board
+from clamber.tasks.robots import load_robot
 
 IDEAL = LimbFlaws(physics_rate=1000.0)
 NOMINAL = IDEAL.with_changes(backlash=np.radians(2.0), encoder_counts=400, delay=1)

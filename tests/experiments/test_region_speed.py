@@ -2,9 +2,9 @@
 
 import math
 
-from clamber.experiments.region_speed import region_rows
-from clamber.robots.library import load_robot
-from clamber.robots.walker import WalkerRobot
+from clamber.benchmarks.region_speed import region_rows
+from clamber.families.walker.robot import WalkerRobot
+from clamber.tasks.robots import load_robot
 
 
 def test_every_row_has_a_time() -> None:

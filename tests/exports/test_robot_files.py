@@ -9,10 +9,12 @@ import mujoco
 import numpy as np
 import pytest
 
-from clamber.robots import LimbedRobot, WalkerRobot, load_robot, robot_names
+from clamber.families.climber.robot.robot import LimbedRobot
+from clamber.families.walker.robot import WalkerRobot
 from clamber.sim.lone_robot import LoneRobot, lone_robot
 from clamber.sim.mjcf_file import mjcf_text, plain_name
 from clamber.sim.urdf_file import GRAIN, roll_pitch_yaw, urdf_of
+from clamber.tasks.robots import load_robot, robot_names
 from clamber.types import Floats
 
 NAMES = robot_names()

@@ -11,19 +11,19 @@ from typing import Any
 import numpy as np
 import pytest
 
-from clamber.actions.plan_source import open_plan
 from clamber.errors import SpecError
-from clamber.execution.climb.climb_trace import ClimbTrace, climb_titles
 from clamber.execution.log_files import write_log
-from clamber.execution.walk.walk_trace import WalkTrace, walk_titles
 from clamber.exports.joint_trajectory import JointTrajectory, moved
 from clamber.exports.plan_trajectories import plan_trajectory
 from clamber.exports.run_trajectories import run_trajectory
+from clamber.families.climber.execution.climb_trace import ClimbTrace, climb_titles
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.walker.execution.walk_trace import WalkTrace, walk_titles
+from clamber.families.walker.planning.task import WalkerTask
+from clamber.families.walker.robot import WalkerRobot
 from clamber.planning.planners import plan_task
-from clamber.robots.walker import WalkerRobot
+from clamber.planning.problem.plan_source import open_plan
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
-from clamber.tasks.walker import WalkerTask
 
 
 def swing(rows: int = 201) -> JointTrajectory:

@@ -9,13 +9,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from clamber.inspection.robots import inspect_robot, reach_of
+from clamber.families.climber.inspection import inspect_board, inspect_climber, reach_of
+from clamber.families.climber.robot.robot import LimbedRobot
+from clamber.families.climber.world.board import Board, Hold
+from clamber.families.walker.inspection import inspect_ground, inspect_walker
+from clamber.families.walker.robot import WalkerRobot
+from clamber.families.walker.world.library import load_ground
+from clamber.inspection.open_file import inspect_file
 from clamber.inspection.tasks import inspect_task
-from clamber.inspection.worlds import inspect_board, inspect_ground
-from clamber.robots import LimbedRobot, WalkerRobot, load_robot
 from clamber.tasks import load_task
+from clamber.tasks.robots import load_robot
 from clamber.units import DEGREE, GRAVITY
-from clamber.worlds import Board, Hold, load_ground
 
 
 def climber() -> LimbedRobot:
@@ -50,18 +54,18 @@ def test_reach_is_that_of_every_angle_within_the_limits(
 
 @pytest.mark.parametrize("name", ["gecko4", "libra", "libra-grippers", "hoshino"])
 def test_nothing_is_odd_about_the_robots_that_come_with_it(name: str) -> None:
-    assert inspect_robot(load_robot(name)).odd == ()
+    assert inspect_file(name, "robot").odd == ()
 
 
 def test_an_elbow_that_cannot_be_straight_is_odd() -> None:
     limb = climber().limbs[0]
-    odd = inspect_robot(changed(elbow=replace(limb.elbow, lower=60 * DEGREE))).odd
+    odd = inspect_climber(changed(elbow=replace(limb.elbow, lower=60 * DEGREE))).odd
     reach = abs(limb.l1 + limb.second_link * cmath.exp(1j * 60 * DEGREE))
     assert len(odd) == 1 and f"leave it {reach:.3g} m of {limb.length:.3g} m" in odd[0]
 
 
 def test_a_limb_too_short_for_its_neighbour_is_odd() -> None:
-    odd = inspect_robot(changed(l1=0.05, l2=0.05)).odd
+    odd = inspect_climber(changed(l1=0.05, l2=0.05)).odd
     assert (
         len(odd) == 1
         and "is short: it reaches 0.12 m, and the port of 'upper-left', the nearest, is 0.16 m away" in odd[0]
@@ -72,15 +76,15 @@ def test_a_weak_limb_is_odd_from_the_torque_of_half_the_weight_on() -> None:
     robot = climber()
     needed = 0.25 * robot.weight * robot.limbs[0].length
     joint = robot.limbs[0].shoulder
-    assert not inspect_robot(changed(shoulder=replace(joint, torque_limit=needed * 1.001))).odd
-    odd = inspect_robot(changed(shoulder=replace(joint, torque_limit=needed * 0.999))).odd
+    assert not inspect_climber(changed(shoulder=replace(joint, torque_limit=needed * 1.001))).odd
+    odd = inspect_climber(changed(shoulder=replace(joint, torque_limit=needed * 0.999))).odd
     assert len(odd) == 1 and "is weak" in odd[0]
 
 
 def test_links_that_are_most_of_the_weight_are_odd() -> None:
     robot = climber()
     mass = 0.51 * robot.weight / GRAVITY - 3 * 0.2
-    odd = inspect_robot(changed(link_masses=(mass / 2, mass / 2))).odd
+    odd = inspect_climber(changed(link_masses=(mass / 2, mass / 2))).odd
     assert odd == ("the links are 51 % of the weight, but statics takes all of it at the body's origin",)
 
 
@@ -88,10 +92,10 @@ def test_narrow_joints_and_missing_inertia_are_odd() -> None:
     joint = climber().limbs[0].shoulder
     assert any(
         "10 deg only" in line
-        for line in inspect_robot(changed(shoulder=replace(joint, lower=-5 * DEGREE, upper=5 * DEGREE))).odd
+        for line in inspect_climber(changed(shoulder=replace(joint, lower=-5 * DEGREE, upper=5 * DEGREE))).odd
     )
-    assert any("has no inertia" in line for line in inspect_robot(changed(shoulder=replace(joint, inertia=0.0))).odd)
-    aside = inspect_robot(changed(shoulder=replace(joint, lower=20 * DEGREE))).odd
+    assert any("has no inertia" in line for line in inspect_climber(changed(shoulder=replace(joint, inertia=0.0))).odd)
+    aside = inspect_climber(changed(shoulder=replace(joint, lower=20 * DEGREE))).odd
     assert len(aside) == 1 and "can't point straight out" in aside[0]
 
 
@@ -99,7 +103,7 @@ def test_frames_that_cannot_stand_over_each_other_are_odd() -> None:
     robot = load_robot("hoshino")
     assert isinstance(robot, WalkerRobot)
     long = replace(robot, mechanism=replace(robot.mechanism, shortest=2.0))
-    assert any("can't stand over each other" in line for line in inspect_robot(long).odd)
+    assert any("can't stand over each other" in line for line in inspect_walker(long).odd)
 
 
 def board(points: list[tuple[float, float]], keep_out: tuple = ()) -> Board:

@@ -199,7 +199,7 @@ def test_results_of_other_code_are_refused_by_name(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["cli/list.py", "robots/data/libra.toml", "viewing/report/templates/base.html", "units.py"]
+    "name", ["cli/list.py", "families/climber/data/robots/libra.toml", "viewing/report/templates/base.html", "units.py"]
 )
 def test_a_release_knows_every_file_of_the_package(tmp_path: Path, name: str) -> None:
     copy = tmp_path / "clamber"

@@ -9,6 +9,9 @@ import pytest
 from clamber.control.law_settings import LAWS, LawError, LawSettings
 from clamber.control.law_titles import LAW_TITLES
 from clamber.errors import ClamberError, UnknownNameError
+from clamber.families.climber.sim.flaw_texts import DIMENSIONS as FLAW_DIMENSIONS
+from clamber.families.climber.sim.flaw_texts import SWITCHES as FLAW_SWITCHES
+from clamber.families.climber.sim.flaw_texts import WHOLE, named_flaws, read_flaws
 from clamber.limb_bench.bench_limb import bench_limb, limbed_robot, read_elbow
 from clamber.limb_bench.entries import (
     DIMENSIONS,
@@ -23,9 +26,6 @@ from clamber.limb_bench.entries import (
 )
 from clamber.limb_bench.matching import MATCHES, Match, tip_stiffness
 from clamber.limb_bench.scenario import circle_scenario, step_scenario
-from clamber.sim.flaw_texts import DIMENSIONS as FLAW_DIMENSIONS
-from clamber.sim.flaw_texts import SWITCHES as FLAW_SWITCHES
-from clamber.sim.flaw_texts import WHOLE, named_flaws, read_flaws
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.sim.plant_rules import PlantError
 from clamber.units import PointError, read_point

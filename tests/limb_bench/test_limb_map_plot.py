@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from clamber.families.climber.sim.flaw_texts import named_flaws
 from clamber.limb_bench.bench_limb import bench_limb
 from clamber.limb_bench.pictures.draw import draw_result
 from clamber.limb_bench.pictures.sweep import rims
@@ -13,7 +14,6 @@ from clamber.limb_bench.sweep import BenchTexts, Boundary, LimbSweep, make_bench
 from clamber.limb_bench.sweep_point import Cell
 from clamber.limb_bench.tune import Edge, Tuned, Tuning
 from clamber.planning.axes import range_axis
-from clamber.sim.flaw_texts import named_flaws
 from clamber.viewing.output import SuffixError
 
 

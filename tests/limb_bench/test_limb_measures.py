@@ -6,10 +6,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from clamber.control.chain import closed_branches
 from clamber.control.law_settings import LawSettings
 from clamber.control.records import REPORT
 from clamber.execution.trace import LimbTrace
+from clamber.families.climber.control.limb_chain import closed_branches
 from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
 from clamber.limb_bench.measures import NEVER, Entry, Measures, Run, instability, measure
 from clamber.limb_bench.runner import run_contest

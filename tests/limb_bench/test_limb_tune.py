@@ -21,6 +21,7 @@ from clamber.control.recommended import (
     save_recommended,
 )
 from clamber.errors import SpecError, UnknownNameError
+from clamber.families.climber.sim.flaw_texts import named_flaws
 from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
 from clamber.limb_bench.entries import read_law, with_recommended_gains
 from clamber.limb_bench.matching import tip_stiffness
@@ -37,7 +38,6 @@ from clamber.limb_bench.tune import (
     rounded_down,
     tune,
 )
-from clamber.sim.flaw_texts import named_flaws
 from clamber.sim.limb_flaws import LimbFlaws
 from tiers import first_fast
 

@@ -7,16 +7,17 @@ from typing import Any
 import numpy as np
 import pytest
 
-from clamber.actions.problems import pose_problem
 from clamber.cli import main
 from clamber.errors import PlannerError, SpecError, StartError
-from clamber.openings.climber import climber_relaxations
-from clamber.openings.find import PLACES, RELAXATIONS, find_openings
-from clamber.openings.relaxations import Dial
-from clamber.openings.result import Opening, Openings
+from clamber.families.climber.planning.relaxations import climber_relaxations
+from clamber.family import Family, families, family_of
 from clamber.planning.exact.planner import plan_exact
+from clamber.planning.openings.find import find_openings
+from clamber.planning.openings.relaxations import Dial
+from clamber.planning.openings.result import Opening, Openings
+from clamber.planning.problem.problems import pose_problem
 from clamber.tasks import load_task
-from clamber.tasks.library import TASK_FAMILIES, change_task
+from clamber.tasks.library import change_task
 
 NO_HANGS = "rules.max_hangs=0"
 STEEP = ("modified-ladder", (NO_HANGS, "step.length=3in", 'rules.allowed=["+y","-y","grab","release"]'))
@@ -98,7 +99,9 @@ def test_the_least_torque_limit_is_that_of_the_plan_of_least_torque() -> None:
 @pytest.mark.parametrize("case", [STEEP, RING])
 def test_openings_are_overrides_as_a_user_writes_them(case: Case) -> None:
     task = load_task(*case)
-    for relaxation in RELAXATIONS[task.document["robot"]["family"]](task):
+    relaxations = family_of(task).relaxations
+    assert relaxations is not None
+    for relaxation in relaxations(task):
         overrides = relaxation.overrides(relaxation.most) if isinstance(relaxation, Dial) else relaxation.overrides  # type: ignore[attr-defined]
         changed = change_task(task, overrides)
         assert changed.document == load_task(case[0], (*case[1], *overrides)).document
@@ -143,8 +146,9 @@ def test_a_walker_learns_which_patch_shuts_it_in() -> None:
     assert {shut.key for shut in found.shut if shut.proved} >= {"rules.clearance", "rules.balance"}
 
 
-def test_every_family_says_what_can_be_relaxed() -> None:
-    assert set(RELAXATIONS) == set(TASK_FAMILIES) and set(PLACES) <= set(TASK_FAMILIES)
+@pytest.mark.parametrize("family", families(), ids=lambda family: str(family.name))
+def test_every_family_says_what_can_be_relaxed(family: Family) -> None:
+    assert family.relaxations is not None
 
 
 def test_without_time_nothing_is_claimed() -> None:

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from clamber.actions.family import bound, key, restore
-from clamber.actions.problem import CompiledProblem
 from clamber.compiled import kernel
+from clamber.planning.problem.family_kernels import bound, key, restore
+from clamber.planning.problem.problem import CompiledProblem
 
 NO_HANGS = "rules.max_hangs=0"
 UNCLIMBABLE = (NO_HANGS, "step.length=3in", 'rules.allowed=["+y","-y","grab","release"]', "goal.y_min=60in")

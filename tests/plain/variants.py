@@ -6,10 +6,10 @@ import random
 from dataclasses import replace
 from typing import Any
 
-from clamber.statics.checks import DEFAULT_HARD, LIMBED_CHECKS
+from clamber.families.climber.planning.task import Goal, Keep, LimbedTask
+from clamber.families.climber.statics.checks import DEFAULT_HARD, LIMBED_CHECKS
+from clamber.families.climber.world.board import Hold
 from clamber.tasks import load_task
-from clamber.tasks.limbed import Goal, Keep, LimbedTask
-from clamber.worlds.board import Hold
 
 NAMES = ("ladder", "modified-ladder", "h", "across", "circle", "gecko-climb")
 ALL_CHECKS = tuple(check.name for check in LIMBED_CHECKS)

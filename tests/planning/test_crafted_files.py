@@ -11,9 +11,9 @@ from typing import Any
 
 import pytest
 
-from clamber.actions.codes import HOLD, MOVE, NEAREST, RELEASE, pack
 from clamber.errors import ClamberError
 from clamber.planning.genetic.profile import load_profile
+from clamber.planning.problem.codes import HOLD, MOVE, NEAREST, RELEASE, pack
 
 BY_HAND = Path(__file__).with_name("any_codes_by_hand.py")
 FOUND = 542239545

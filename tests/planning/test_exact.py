@@ -5,13 +5,13 @@ from collections import deque
 import numpy as np
 import pytest
 
-from clamber.actions.problems import pose_problem
+from clamber.benchmarks.cases import random_case
 from clamber.errors import PlannerError
-from clamber.experiments.boards.cases import random_case
 from clamber.planning.budgets import accepts
 from clamber.planning.exact.explore import explore
 from clamber.planning.exact.planner import plan_exact
 from clamber.planning.planners import PLANNERS
+from clamber.planning.problem.problems import pose_problem
 from clamber.tasks import load_task, task_from_document
 from plain.search import NO_HANGS, SMALL, UNCLIMBABLE, breadth_first, keys_of, restored
 

@@ -11,17 +11,17 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from clamber.actions.family import reflect
-from clamber.actions.problem import CompiledProblem
-from clamber.actions.problems import pose_problem
+from clamber.benchmarks.breadth import breadth_first
 from clamber.cli.app import application
 from clamber.compiled import kernel
-from clamber.experiments.breadth import breadth_first
 from clamber.planning.exact.costs import Aim, CostError, read_costs
 from clamber.planning.exact.explore import Exploration, explore
 from clamber.planning.exact.front import plan_front
 from clamber.planning.exact.minimize import Minimizer
 from clamber.planning.exact.planner import plan_exact
+from clamber.planning.problem.family_kernels import reflect
+from clamber.planning.problem.problem import CompiledProblem
+from clamber.planning.problem.problems import pose_problem
 from clamber.tasks import load_task
 from plain.search import NO_HANGS, SMALL, keys_of, restored
 

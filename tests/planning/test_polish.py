@@ -7,8 +7,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from clamber.actions.family import toward
-from clamber.actions.problems import pose_problem
 from clamber.compiled import kernel
 from clamber.errors import SpecError
 from clamber.planning.auto.planner import plan_auto
@@ -19,6 +17,8 @@ from clamber.planning.exact.windows import is_plan, shorten_by_windows
 from clamber.planning.genetic.planner import plan_genetic
 from clamber.planning.hybrid.planner import plan_hybrid
 from clamber.planning.polishing import polish_plan
+from clamber.planning.problem.family_kernels import toward
+from clamber.planning.problem.problems import pose_problem
 from clamber.planning.shorten import shorten
 from clamber.tasks import load_task
 

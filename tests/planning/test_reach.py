@@ -9,28 +9,29 @@ import numpy as np
 import pytest
 
 import clamber
-from clamber.actions.codes import pack
-from clamber.actions.family import key
-from clamber.actions.limbed_arrays import limbed_params
-from clamber.actions.loops import replay
-from clamber.actions.plan_families import plan_family
-from clamber.actions.plan_source import open_replay
-from clamber.actions.problem import CompiledProblem
-from clamber.actions.problems import BURDENS, PROBLEMS, WITHOUT_HANGS, pose_problem
-from clamber.actions.yardsticks import YARDSTICKS
 from clamber.cli import main
 from clamber.compiled import kernel
 from clamber.errors import PlannerError, UnknownNameError
+from clamber.families.climber.planning.arrays import limbed_params
+from clamber.families.climber.statics.checks import LIMBED_CHECKS
+from clamber.family import Family, families
 from clamber.planning.exact.explore import explore
+from clamber.planning.problem.check import TICKS
+from clamber.planning.problem.codes import pack
+from clamber.planning.problem.family_kernels import key
+from clamber.planning.problem.loops import replay
+from clamber.planning.problem.plan_families import plan_family
+from clamber.planning.problem.plan_source import open_replay
+from clamber.planning.problem.problem import CompiledProblem
+from clamber.planning.problem.problems import pose_problem
+from clamber.planning.problem.yardsticks import yardsticks_of
 from clamber.planning.reach.layers import LAYERS, LayerError, choose_layer, layers_of
 from clamber.planning.reach.reach import Reach, find_reach
-from clamber.statics.checks import LIMBED_CHECKS
-from clamber.statics.records import TICKS
 from clamber.tasks import Task, load_task
 from clamber.viewing.margins import all_limiting
-from clamber.viewing.reach_plot import WORLDS, draw_reach
+from clamber.viewing.reach_plot import draw_reach
 
-PRINTED = Path(clamber.__file__).parent / "actions" / "data"
+PRINTED = Path(clamber.__file__).parent / "families" / "climber" / "data" / "plans"
 NO_HANGS = "rules.max_hangs=0"
 NONE = np.array([pack(0)], np.int32)
 SMALL = {
@@ -211,7 +212,7 @@ def test_margins_are_shares_of_the_same_yardsticks_as_in_pictures() -> None:
     task = load_task(*SMALL["three rungs"])
     stances, _ = plain_flood(task)
     reach, problem = find_reach(task), pose_problem(task, threads=1).problem
-    yardsticks = YARDSTICKS["limbed"](task)
+    yardsticks = yardsticks_of(task)
     best: dict[tuple[int, int], float] = {}
     for stance in stances:
         (limiting,) = all_limiting(yardsticks, problem.rebind(problem.actions, np.array([stance])).replay(NONE))
@@ -266,8 +267,12 @@ def test_a_walker_has_a_map_of_margins_and_steps_alone() -> None:
         choose_layer(task, "force")
 
 
-def test_every_family_has_layers_a_world_and_a_way_without_hangs() -> None:
-    assert set(PROBLEMS) == set(BURDENS) == set(WORLDS) == set(WITHOUT_HANGS) == set(YARDSTICKS)
+@pytest.mark.parametrize("family", families(), ids=lambda family: str(family.name))
+def test_every_family_has_burdens_and_a_world_to_draw(family: Family) -> None:
+    assert family.plans.burdens is not None and family.pictures is not None
+
+
+def test_a_map_has_the_layers_that_its_family_has_burdens_for() -> None:
     assert layers_of(load_task("ladder")) == tuple(LAYERS) and layers_of(load_task("patch-walk")) == ("margin", "steps")
     with pytest.raises(UnknownNameError, match=r"no layer is called 'forc'.*did you mean 'force'"):
         choose_layer(load_task("ladder"), "forc")

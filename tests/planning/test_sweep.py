@@ -6,11 +6,11 @@ from typing import Any
 
 import pytest
 
-from clamber.actions.problems import pose_problem
 from clamber.cli import main
 from clamber.errors import SpecError, UnknownNameError
 from clamber.jobs import StoreError
 from clamber.planning.axes import Axis, SweepError, check_axes, range_axis, read_mark, values_axis
+from clamber.planning.problem.problems import pose_problem
 from clamber.planning.sweep import Sweep, run_sweep
 from clamber.tasks import load_task
 from clamber.units import INCH

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from clamber.robots.walker.calibration import (
+from clamber.families.walker.robot.calibration import (
     FAMILIES,
     HOSHINO_1995,
     OURS,

@@ -7,13 +7,13 @@ import pytest
 from scipy.ndimage import label
 from scipy.signal import fftconvolve
 
-from clamber.robots.library import load_robot
-from clamber.robots.walker import WalkerRobot
-from clamber.robots.walker.ditch import Footing, FootingError, ditch_map, widest_ditch
-from clamber.robots.walker.ditch_plan import cross_ditch
-from clamber.robots.walker.ditch_slides import fewest_slides
-from clamber.robots.walker.intervals import meet, union
-from clamber.robots.walker.weight import Weight, weight_of
+from clamber.families.walker.robot import WalkerRobot
+from clamber.families.walker.robot.ditch import Footing, FootingError, ditch_map, widest_ditch
+from clamber.families.walker.robot.ditch_plan import cross_ditch
+from clamber.families.walker.robot.ditch_slides import fewest_slides
+from clamber.families.walker.robot.intervals import meet, union
+from clamber.families.walker.robot.weight import Weight, weight_of
+from clamber.tasks.robots import load_robot
 from tiers import first_fast
 
 DEG = math.pi / 180.0

@@ -8,14 +8,14 @@ import pytest
 from scipy.optimize import fsolve
 
 import clamber
-from clamber.actions.walker_problem import walker_params
 from clamber.errors import SpecError
+from clamber.families.walker.planning.problem import walker_params
+from clamber.families.walker.planning.task import WalkerTask
+from clamber.families.walker.robot import PoseError, TwoFrames, WalkerRobot
+from clamber.families.walker.robot.assemblies import are_similar, general_poses, similar_poses
 from clamber.files import Document
-from clamber.robots.library import load_robot
-from clamber.robots.walker import PoseError, TwoFrames, WalkerRobot
-from clamber.robots.walker.assemblies import are_similar, general_poses, similar_poses
 from clamber.tasks import load_task
-from clamber.tasks.walker import WalkerTask
+from clamber.tasks.robots import load_robot
 from tiers import first_fast
 
 MM = 1e-3
@@ -249,7 +249,7 @@ ATTACHMENTS = {
 
 
 def with_mechanism(changes: dict[str, object]) -> WalkerRobot:
-    from clamber.robots.library import build_robot, read_robot
+    from clamber.tasks.robots import build_robot, read_robot
 
     document = read_robot("hoshino")
     mechanism = {**document.data["mechanism"], **changes}
@@ -280,7 +280,9 @@ def test_attachments_are_stated_in_one_way_and_whole(changes: dict[str, object],
 
 
 def test_walks_are_planned_for_attachments_on_circles_only(tmp_path: Path) -> None:
-    text = (Path(clamber.__file__).parent / "robots" / "data" / "hoshino.toml").read_text(encoding="utf-8")
+    text = (Path(clamber.__file__).parent / "families" / "walker" / "data" / "robots" / "hoshino.toml").read_text(
+        encoding="utf-8"
+    )
     rows = [row for row in text.splitlines() if not row.startswith(("radius_delta", "radius_y"))]
     points = "\n".join(f"points_{frame} = {ATTACHMENTS[f'points_{frame}']!r}" for frame in ("delta", "y"))
     made = "\n".join(rows).replace("[mechanism]", f"[mechanism]\n{points}")

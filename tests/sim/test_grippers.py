@@ -4,14 +4,14 @@ import mujoco
 import numpy as np
 import pytest
 
-from clamber.execution.climb.postures import postures
-from clamber.robots.library import load_robot
-from clamber.robots.limbed import LimbedRobot
-from clamber.sim.climber_plant import ClimberPlant
-from clamber.sim.gripper_model import capture_radius
+from clamber.families.climber.execution.postures import postures
+from clamber.families.climber.robot.robot import LimbedRobot
+from clamber.families.climber.sim.climber_plant import ClimberPlant
+from clamber.families.climber.sim.gripper_model import capture_radius
+from clamber.families.climber.world.library import load_board
 from clamber.sim.limb_flaws import LimbFlaws
+from clamber.tasks.robots import load_robot
 from clamber.types import Floats
-from clamber.worlds.library import load_board
 
 IDEAL = LimbFlaws(physics_rate=1000.0)
 POSE = np.array((0.2286, 0.1374, 0.0))

@@ -6,14 +6,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from clamber.execution.climb.postures import postures
-from clamber.experiments.climb.noise import named_noise
-from clamber.experiments.climb.run_plan import climbing_flaws, open_climb, run_plan
-from clamber.robots.library import load_robot
-from clamber.robots.limbed import LimbedRobot
-from clamber.sim.climber_plant import ClimberPlant
+from clamber.families.climber.execution.postures import postures
+from clamber.families.climber.robot.robot import LimbedRobot
+from clamber.families.climber.sim.climber_plant import ClimberPlant
+from clamber.families.climber.trials.noise import named_noise
+from clamber.families.climber.trials.run_plan import climbing_flaws, open_climb, run_plan
+from clamber.families.climber.world.board import Board, Hold
 from clamber.sim.limb_flaws import LimbFlaws
-from clamber.worlds.board import Board, Hold
+from clamber.tasks.robots import load_robot
 
 FLAWS = LimbFlaws(physics_rate=1000.0)
 RIGHT = 0

@@ -6,12 +6,13 @@ import mujoco
 import numpy as np
 import pytest
 
-from clamber.control.chain import Chain, chain_of_limb, empty_chain
+from clamber.control.chain import Chain, empty_chain
 from clamber.control.controller import Controller, still_aim
 from clamber.control.law_settings import LawSettings
-from clamber.robots import load_robot
+from clamber.families.climber.control.limb_chain import chain_of_limb
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.sim.limb_model import SMALL_MASS, limb_spec
+from clamber.tasks.robots import load_robot
 
 
 def spatial_arm() -> Chain:

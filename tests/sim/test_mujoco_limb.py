@@ -8,17 +8,18 @@ import mujoco
 import numpy as np
 import pytest
 
-from clamber.control.chain import Chain, chain_of_limb, closed_branches
+from clamber.control.chain import Chain
 from clamber.control.controller import Controller, MeasurementError, still_aim
 from clamber.control.law_settings import LawSettings
 from clamber.execution.closed_loop import close_loop
+from clamber.families.climber.control.limb_chain import chain_of_limb, closed_branches
+from clamber.families.climber.robot.robot import LimbedRobot
 from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
 from clamber.limb_bench.scenario import step_scenario
-from clamber.robots.library import load_robot, robot_names
-from clamber.robots.limbed import LimbedRobot
 from clamber.sim.limb_flaws import LimbFlaws, Push
 from clamber.sim.mujoco_limb import MujocoLimb
 from clamber.sim.plant_rules import PlantError
+from clamber.tasks.robots import load_robot, robot_names
 from clamber.types import Floats
 
 FREE = LimbFlaws(motor_limits=False)

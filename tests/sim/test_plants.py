@@ -3,18 +3,18 @@
 import numpy as np
 import pytest
 
-from clamber.control.chain import chain_of_limb
 from clamber.control.law_settings import LawSettings
 from clamber.errors import UnknownNameError
+from clamber.families.climber.control.limb_chain import chain_of_limb
+from clamber.families.climber.robot.robot import LimbedRobot
 from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
 from clamber.limb_bench.measures import Entry
 from clamber.limb_bench.runner import run_contest
 from clamber.limb_bench.scenario import step_scenario
-from clamber.robots.library import load_robot, robot_names
-from clamber.robots.limbed import LimbedRobot
 from clamber.sim.limb_flaws import LimbFlaws, Push
 from clamber.sim.plant_rules import PlantError
 from clamber.sim.plants import PLANTS
+from clamber.tasks.robots import load_robot, robot_names
 
 
 @pytest.fixture(scope="module")

@@ -8,11 +8,11 @@ import pytest
 from scipy.optimize import minimize
 from walker_by_hand import LEVEL, hoshino, legs_with, lengths, let_pass, standing
 
-from clamber.sim.walker_build import WalkerBuild
-from clamber.sim.walker_flaws import WalkerFlaws
-from clamber.sim.walker_model import walker_spec
+from clamber.families.walker.sim.walker_build import WalkerBuild
+from clamber.families.walker.sim.walker_flaws import WalkerFlaws
+from clamber.families.walker.sim.walker_model import walker_spec
+from clamber.families.walker.world.ground import Ground
 from clamber.units import GRAVITY
-from clamber.worlds import Ground
 
 
 def link_places(arm: tuple[float, ...]) -> tuple[np.ndarray, np.ndarray]:

@@ -9,14 +9,13 @@ import pytest
 from walker_by_hand import POSE, hoshino, legs_with, lengths, let_pass, standing
 
 from clamber.execution.plant import PlantStoppedError
-from clamber.execution.walk.plant import WalkerPlant
-from clamber.robots.walker import WalkerRobot
+from clamber.families.walker.execution.plant import WalkerPlant
+from clamber.families.walker.robot import WalkerRobot
+from clamber.families.walker.sim.walker_flaws import Inclinometers, WalkerFlaws
+from clamber.families.walker.sim.walker_plant import WalkerSim, plate_angles, plate_axes, plate_quaternion
+from clamber.families.walker.world.ground import Block, Ground
 from clamber.sim.plant_rules import PlantError
-from clamber.sim.walker_flaws import Inclinometers, WalkerFlaws
-from clamber.sim.walker_plant import WalkerSim, plate_angles, plate_axes, plate_quaternion
 from clamber.units import GRAVITY
-from clamber.worlds import Ground
-from clamber.worlds.ground import Block
 
 
 def test_it_is_a_walker_plant() -> None:

@@ -11,13 +11,13 @@ from clamber.execution.closed_loop import close_loop
 from clamber.execution.hardware import WiredLimb
 from clamber.execution.link.channel import Address, listen
 from clamber.execution.link.client import RemoteHardware
-from clamber.execution.link.envelope import envelope_of
 from clamber.execution.link.messages import About
 from clamber.execution.link.server import PlantServer
 from clamber.execution.plant import LimbPlant
 from clamber.execution.posture_guard import PostureGuard
 from clamber.execution.trace import LimbTrace
-from clamber.execution.wiring import Wiring, wiring_of_limb
+from clamber.execution.wiring import Wiring
+from clamber.families.climber.execution.wiring import envelope_of, wiring_of_limb
 from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
 from clamber.sim.limb_flaws import LimbFlaws, Push
 from clamber.sim.plants import PLANTS

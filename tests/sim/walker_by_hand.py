@@ -5,11 +5,11 @@ from typing import Any
 
 import numpy as np
 
-from clamber.robots.library import load_robot
-from clamber.robots.walker import WalkerRobot
-from clamber.sim.walker_flaws import WalkerFlaws
-from clamber.sim.walker_plant import WalkerSim
-from clamber.worlds import Ground
+from clamber.families.walker.robot import WalkerRobot
+from clamber.families.walker.sim.walker_flaws import WalkerFlaws
+from clamber.families.walker.sim.walker_plant import WalkerSim
+from clamber.families.walker.world.ground import Ground
+from clamber.tasks.robots import load_robot
 
 LEVEL = Ground(name="level")
 POSE = np.array((0.0, 0.0, 0.35, 0.0, 0.0, 0.0))

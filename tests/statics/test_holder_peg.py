@@ -5,15 +5,15 @@ import math
 import numpy as np
 import pytest
 
-from clamber.actions.codes import pack
-from clamber.actions.limbed_problem import LimbedProblem
-from clamber.actions.table import ActionTable
-from clamber.robots.hooks import HOOK_AHEAD, HOOK_WIDTH
-from clamber.sim.climber_model import HookShape
-from clamber.statics.checks import LIMBED_CHECKS
-from clamber.statics.interference import hook_gap
+from clamber.families.climber.planning.problem import LimbedProblem
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.climber.robot.hooks import HOOK_AHEAD, HOOK_WIDTH
+from clamber.families.climber.sim.climber_model import HookShape
+from clamber.families.climber.statics.checks import LIMBED_CHECKS
+from clamber.families.climber.statics.interference import hook_gap
+from clamber.planning.problem.codes import pack
+from clamber.planning.problem.table import ActionTable
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
 from clamber.types import Floats
 
 HOLDER_PEG = [check.name for check in LIMBED_CHECKS].index("holder_peg")

@@ -6,11 +6,18 @@ from itertools import product
 import numpy as np
 import pytest
 
-from clamber.actions.codes import Code
-from clamber.actions.limbed_problem import LimbedProblem
-from clamber.actions.problems import pose_problem
-from clamber.statics.elbows import EVERY, WORDS, free_elbow, has_assignment, open_branches, reflect_elbows
-from clamber.statics.limbed import HOOK
+from clamber.families.climber.planning.problem import LimbedProblem
+from clamber.families.climber.statics.elbows import (
+    EVERY,
+    WORDS,
+    free_elbow,
+    has_assignment,
+    open_branches,
+    reflect_elbows,
+)
+from clamber.families.climber.statics.stance import HOOK
+from clamber.planning.problem.codes import Code
+from clamber.planning.problem.problems import pose_problem
 from clamber.studies.bevly_1997.replayed import limbed_task
 from clamber.studies.boards_exact.hook_cones import hooked
 from plain.evaluator import PlainEvaluator

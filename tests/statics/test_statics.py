@@ -9,21 +9,21 @@ import numpy as np
 import pytest
 from scipy.optimize import linprog
 
-from clamber.actions import codes
-from clamber.actions.codes import pack
-from clamber.actions.limbed import find_hold
-from clamber.actions.limbed_arrays import CHECKS, FORCE_RULES
-from clamber.actions.limbed_problem import LimbedProblem
-from clamber.actions.loops import replay
-from clamber.actions.table import ActionTable
 from clamber.errors import StartError
-from clamber.statics.distances import inside, point_segment, polygon_polygon, segment_polygon, segment_segment
-from clamber.statics.near import nearest_hold
-from clamber.statics.programme import BOX, maximise
-from clamber.statics.records import TICKS
+from clamber.families.climber.planning.arrays import CHECKS, FORCE_RULES
+from clamber.families.climber.planning.problem import LimbedProblem
+from clamber.families.climber.planning.step import find_hold
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.climber.statics.near import nearest_hold
+from clamber.families.climber.statics.programme import BOX, maximise
+from clamber.families.climber.world.board import Board, Hold
+from clamber.plane import inside, point_segment, polygon_polygon, segment_polygon, segment_segment
+from clamber.planning.problem import codes
+from clamber.planning.problem.check import TICKS
+from clamber.planning.problem.codes import pack
+from clamber.planning.problem.loops import replay
+from clamber.planning.problem.table import ActionTable
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
-from clamber.worlds.board import Board, Hold
 from plain.variants import random_task
 
 STAY = ActionTable.build([("stay", [pack(codes.NONE)], True)])

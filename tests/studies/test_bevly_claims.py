@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from clamber.actions.codes import MOVE, pack
-from clamber.actions.problems import pose_problem
-from clamber.experiments.trials import Trials
+from clamber.benchmarks.planner_trials import Trials
 from clamber.planning.genetic.learning import Macro
+from clamber.planning.problem.codes import MOVE, pack
+from clamber.planning.problem.problems import pose_problem
 from clamber.studies.bevly_1997.learned_module import climbs, judge_learning, judge_modules_alone
 from clamber.studies.bevly_1997.limb_claims import damping_ratios, judge_damping, judge_identity
 from clamber.studies.bevly_1997.limb_entries import leg_1, scct
@@ -58,7 +58,7 @@ def test_the_rules_on_modules_can_say_each_verdict() -> None:
 
 def test_modules_climb_the_ladder_only_if_some_sequence_of_them_does() -> None:
     """The nominal gait of figure 2.14 with the step of a rung climbs; a body move alone ends where limbs end."""
-    from clamber.actions.limbed_plans import thesis_code
+    from clamber.families.climber.planning.plans import thesis_code
     from clamber.studies.bevly_1997.nominal_gait import GAIT
 
     task = limbed_task("ladder", ("step.length=6in", "rules.support=atomic"))

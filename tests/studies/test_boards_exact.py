@@ -6,8 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from clamber.actions.problems import pose_problem
+from clamber.families.climber.pictures.cone_plot import draw_cones
 from clamber.planning.beam.layers import Beam
+from clamber.planning.problem.problems import pose_problem
 from clamber.studies.bevly_1997.replayed import limbed_task
 from clamber.studies.boards_exact import STUDY
 from clamber.studies.boards_exact.boards import BOARDS, MODEL
@@ -20,7 +21,6 @@ from clamber.studies.boards_exact.proofs import prove
 from clamber.studies.boards_exact.torque_front import limit, trade_length_for_torque
 from clamber.studies.library import STUDIES
 from clamber.units import OZ_IN
-from clamber.viewing.cone_plot import draw_cones
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,7 @@
 
 import pytest
 
-from clamber.experiments.walk.most import Tried
+from clamber.families.walker.trials.most import Tried
 from clamber.studies.hoshino_1995.passing_steps import judge_steps
 from clamber.studies.hoshino_1995.plane_walks import Strayed, judge_strayed, turn_anywhere, walk_everywhere
 from clamber.studies.hoshino_1995.tool_experiment import judge_following

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from clamber.errors import ClamberError, SpecError
-from clamber.sim.walker_flaws import WalkerFlaws
-from clamber.sim.walker_plant import WalkerSim
-from clamber.tasks.walks import is_walk, load_walk, walk_names
-from clamber.tasks.walks.library import walk_from_document
-from clamber.tasks.walks.piece import BodyTwist, Piece
+from clamber.families.walker.planning import is_walk, load_walk, walk_names
+from clamber.families.walker.planning.piece import BodyTwist, Piece
+from clamber.families.walker.planning.walks import walk_from_document
+from clamber.families.walker.sim.walker_flaws import WalkerFlaws
+from clamber.families.walker.sim.walker_plant import WalkerSim
 
 FILE = """
 schema = "clamber-walk-1"
@@ -123,9 +123,9 @@ def test_what_cannot_be_walked_is_named(changes: list[str], words: str) -> None:
 
 
 def test_a_payload_needs_an_arm(tmp_path: Path) -> None:
-    from clamber.robots.library import DATA
+    from clamber.families.walker.family import WALKER
 
-    text = (DATA / "hoshino.toml").read_text(encoding="utf-8")
+    text = (WALKER.data / "robots" / "hoshino.toml").read_text(encoding="utf-8")
     (tmp_path / "armless.toml").write_text(text[: text.index("[arm]")], encoding="utf-8")
     path = tmp_path / "mine.toml"
     path.write_text(FILE.replace('"hoshino"', '"armless.toml"'), encoding="utf-8")

@@ -5,15 +5,15 @@ from pathlib import Path
 
 import numpy as np
 
-from clamber.actions.limbed_plans import thesis_code
-from clamber.actions.plan import Plan
-from clamber.execution.climb.course import climbable
-from clamber.experiments.climb.noise import NO_NOISE, Noise, read_noise
-from clamber.experiments.climb.run_plan import ClimbRun, climbing_flaws, run_plan
+from clamber.families.climber.execution.course import climbable
+from clamber.families.climber.pictures.climb_run_view import OUTCOMES, ClimbRunView, write_run
+from clamber.families.climber.planning.plans import thesis_code
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.climber.trials.noise import NO_NOISE, Noise, read_noise
+from clamber.families.climber.trials.run_plan import ClimbRun, climbing_flaws, run_plan
+from clamber.planning.problem.plan import Plan
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
 from clamber.viewing import style
-from clamber.viewing.climb_run_view import OUTCOMES, ClimbRunView, write_run
 from clamber.viewing.frames import make_frames
 from clamber.viewing.player import player_data
 

@@ -6,10 +6,10 @@ from typing import Any
 
 import pytest
 
-from clamber.experiments.climb.trial_summary import sum_up
-from clamber.experiments.climb.trials import Trials
+from clamber.families.climber.pictures.trials_plot import _figure, draw_trials
+from clamber.families.climber.trials.trial_summary import sum_up
+from clamber.families.climber.trials.trials import Trials
 from clamber.viewing.output import SuffixError
-from clamber.viewing.trials_plot import _figure, draw_trials
 from tiers import first_fast
 
 

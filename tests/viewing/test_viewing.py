@@ -12,33 +12,33 @@ import pytest
 from matplotlib.figure import Figure
 from PIL import Image
 
-from clamber.actions.codes import pack
-from clamber.actions.limbed_problem import LimbedProblem
-from clamber.actions.problem import Replay
-from clamber.actions.table import ActionTable
-from clamber.actions.walker_problem import WalkerProblem, outline, walker_table
-from clamber.actions.yardsticks import climber_yardsticks, walker_yardsticks
 from clamber.errors import ClamberError, FileError
-from clamber.robots.limbed import Limb
+from clamber.families.climber.pictures.charts import draw_history, draw_torques
+from clamber.families.climber.pictures.climb_view import ClimbView
+from clamber.families.climber.pictures.climber import arrow_ends
+from clamber.families.climber.pictures.geometry import body_outline, joint_angles, limb_chain, postures, stance_posture
+from clamber.families.climber.pictures.motion import Transition, swung_foot
+from clamber.families.climber.pictures.words import describe_action
+from clamber.families.climber.planning.problem import LimbedProblem
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.climber.robot.robot import Limb
+from clamber.families.walker.pictures.walker_motion import hull, settled_moment, walker_motion
+from clamber.families.walker.pictures.walker_view import WalkerView, describe_walk
+from clamber.families.walker.planning.problem import WalkerProblem, outline, walker_table
+from clamber.families.walker.planning.task import WalkerTask
+from clamber.planning.problem.codes import pack
+from clamber.planning.problem.problem import Replay
+from clamber.planning.problem.table import ActionTable
+from clamber.planning.problem.yardsticks import yardsticks_of
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
-from clamber.tasks.walker import WalkerTask
-from clamber.viewing.charts import draw_history, draw_torques
-from clamber.viewing.climb_view import ClimbView
-from clamber.viewing.climber import arrow_ends
 from clamber.viewing.frames import make_frames
-from clamber.viewing.geometry import body_outline, joint_angles, limb_chain, postures, stance_posture
 from clamber.viewing.gif import write_gif
 from clamber.viewing.margins import all_limiting, grade
-from clamber.viewing.motion import Transition, swung_foot
 from clamber.viewing.output import MissingExtraError, StepError, SuffixError
 from clamber.viewing.pictures import animate, draw_route, draw_stance
 from clamber.viewing.player import write_html
 from clamber.viewing.style import styled
 from clamber.viewing.video import write_mp4
-from clamber.viewing.walker_motion import hull, settled_moment, walker_motion
-from clamber.viewing.walker_view import WalkerView, describe_walk
-from clamber.viewing.words import describe_action
 
 RIGHT, LEFT, BOTTOM = 0, 1, 2
 UP = pack(1, 0, 2)
@@ -243,7 +243,7 @@ def test_actions_are_told_from_what_they_change(ladder: Climb) -> None:
 def test_the_limiting_check_of_a_violated_step_is_its_reason() -> None:
     task, replay = climb("ladder", [UP, UP, UP, UP, UP])
     assert not replay.ok
-    limits = all_limiting(climber_yardsticks(task), replay)
+    limits = all_limiting(yardsticks_of(task), replay)
     for limit, reason in zip(limits, replay.reasons, strict=True):
         assert (grade(limit) == 0) == (reason >= 0)
 
@@ -428,7 +428,7 @@ def test_a_walkers_actions_are_told_from_what_they_change(walk: Walk) -> None:
 
 def test_a_walkers_limiting_check_has_the_smallest_share(walk: Walk) -> None:
     task, replay = walk
-    yardsticks = walker_yardsticks(task)
+    yardsticks = yardsticks_of(task)
     for limit, row in zip(all_limiting(yardsticks, replay), replay.margins, strict=True):
         shares = [margin / yardsticks.sizes[check.name] for check, margin in zip(yardsticks.checks, row, strict=True)]
         assert limit is not None

@@ -8,15 +8,16 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from clamber.execution.walk.true_walk import TracedPlant, TrueWalk
-from clamber.robots.library import load_robot
-from clamber.robots.walker import WalkerRobot
-from clamber.sim.walker_flaws import WalkerFlaws
-from clamber.sim.walker_plant import WalkerSim
+from clamber.families.walker.execution.true_walk import TracedPlant, TrueWalk
+from clamber.families.walker.pictures.walk_run_view import WalkRunView, draw_walk, footprints
+from clamber.families.walker.pictures.walk_shapes import plate_axes, shapes_at
+from clamber.families.walker.robot import WalkerRobot
+from clamber.families.walker.sim.walker_flaws import WalkerFlaws
+from clamber.families.walker.sim.walker_plant import WalkerSim
+from clamber.families.walker.world.ground import Ground
+from clamber.families.walker.world.library import load_ground
+from clamber.tasks.robots import load_robot
 from clamber.viewing.output import SuffixError
-from clamber.viewing.walk_run_view import WalkRunView, draw_walk, footprints
-from clamber.viewing.walk_shapes import plate_axes, shapes_at
-from clamber.worlds import Ground, load_ground
 
 
 @pytest.fixture(scope="module")

@@ -10,10 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from clamber.errors import SpecError
+from clamber.families.walker.sim.ground_model import add_ground
+from clamber.families.walker.world.ground import Block, Ground, Rough, build_ground
+from clamber.families.walker.world.library import ground_names, load_ground
 from clamber.files import Document
-from clamber.sim.ground_model import add_ground
-from clamber.worlds import Ground, ground_names, load_ground
-from clamber.worlds.ground import Block, Rough, build_ground
 
 RECTANGLES = st.lists(
     st.tuples(st.integers(-12, 11), st.integers(1, 8), st.integers(-12, 11), st.integers(1, 8), st.integers(-3, 3)),

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from clamber.errors import FileError, SpecError
+from clamber.families.climber.world.board import MOST_HOLDS, Board, build_board
+from clamber.families.climber.world.csv_board import read_points
+from clamber.families.walker.planning.path_file import read_path
 from clamber.files import Document
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.sim.plant_rules import PlantError
-from clamber.tasks.walks.path_file import read_path
-from clamber.worlds.board import MOST_HOLDS, Board, build_board
-from clamber.worlds.csv_board import read_points
 
 MOST = 10.0
 """Of processor time [s]: ten times and more of what it takes; what grows with the square of the holds took a minute and more."""

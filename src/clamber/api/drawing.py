@@ -5,20 +5,20 @@ from typing import Any
 
 import numpy as np
 
-from ..actions.plan import Plan
-from ..actions.plan_families import plan_family
 from ..errors import ClamberError
-from ..experiments.climb.run_plan import ClimbRun
-from ..experiments.walk.run_walk import WalkRun
+from ..families.climber.pictures.climb_run_view import write_run
+from ..families.climber.planning.task import LimbedTask
+from ..families.climber.trials.run_plan import ClimbRun
+from ..families.walker.pictures.walk_run_view import write_walk
+from ..families.walker.planning.task import WalkerTask
+from ..families.walker.trials.run_walk import WalkRun
 from ..limb_bench.pictures.comparison import draw_comparison
 from ..limb_bench.result import LimbResult
+from ..planning.problem.plan import Plan
+from ..planning.problem.plan_families import plan_family
 from ..planning.result import PlanResult
-from ..tasks.limbed import LimbedTask
-from ..tasks.walker import WalkerTask
-from ..viewing.climb_run_view import write_run
 from ..viewing.output import CANVASES
 from ..viewing.pictures import animate, draw_route, draw_stance
-from ..viewing.walk_run_view import write_walk
 
 
 class NotDrawnError(ClamberError):

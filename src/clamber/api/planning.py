@@ -6,18 +6,18 @@ from typing import Any
 
 import numpy as np
 
-from ..actions.plan import Plan
-from ..actions.plan_families import plan_family
-from ..actions.plan_source import open_plan
-from ..actions.verdict import Verdict, check_plan
 from ..errors import PlannerError, SpecError
 from ..inspection.finding import Finding
 from ..inspection.open_file import inspect_file
-from ..openings.find import find_openings as _find_openings
-from ..openings.result import Openings
 from ..planning.budgets import accepts
 from ..planning.exact.costs import read_costs
+from ..planning.openings.find import find_openings as _find_openings
+from ..planning.openings.result import Openings
 from ..planning.planners import find_planner
+from ..planning.problem.plan import Plan
+from ..planning.problem.plan_families import plan_family
+from ..planning.problem.plan_source import open_plan
+from ..planning.problem.verdict import Verdict, check_plan
 from ..planning.result import PlanResult, Status, furthest_of
 from ..tasks import Task, load_task
 from ..types import Ints

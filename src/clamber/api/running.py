@@ -4,20 +4,20 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from ..actions.plan import Plan
 from ..errors import PlannerError
-from ..experiments.climb.noise import NO_NOISE, read_noise
-from ..experiments.climb.planning import plan_to_climb, replanner
-from ..experiments.climb.rehearsal import rehearse
-from ..experiments.climb.run_plan import ClimbRun, climbing_flaws, climbing_task, run_plan
-from ..experiments.walk.noise import named_walk_noise, read_walk_noise
-from ..experiments.walk.planned import careful, lay_plan, walk_of
-from ..experiments.walk.run_walk import WalkRun, run_walk, walk_flaws
+from ..families.climber.trials.noise import NO_NOISE, read_noise
+from ..families.climber.trials.planning import plan_to_climb, replanner
+from ..families.climber.trials.rehearsal import rehearse
+from ..families.climber.trials.run_plan import ClimbRun, climbing_flaws, climbing_task, run_plan
+from ..families.walker.planning import Walk, is_walk, load_walk
+from ..families.walker.planning.task import WalkerTask
+from ..families.walker.trials.noise import named_walk_noise, read_walk_noise
+from ..families.walker.trials.planned import careful, lay_plan, walk_of
+from ..families.walker.trials.run_walk import WalkRun, run_walk, walk_flaws
 from ..planning.planners import plan_task
+from ..planning.problem.plan import Plan
 from ..planning.result import PlanResult
 from ..tasks import Task, load_task
-from ..tasks.walker import WalkerTask
-from ..tasks.walks import Walk, is_walk, load_walk
 
 PLAN_SECONDS = 600.0
 """Most time of each search for a plan [s]."""

@@ -14,8 +14,8 @@ from .options import AsJson, Output, Ray, Resume, Store, Workers
 from .output import announce_compilation, check_writable, plain_table, print_json, stderr, stdout
 
 if TYPE_CHECKING:
-    from ..experiments.rows import Row
-    from ..experiments.trials import Crew
+    from ..benchmarks.planner_trials import Crew
+    from ..benchmarks.rows import Row
 
 
 def bench(
@@ -32,8 +32,8 @@ def bench(
     Leaves with 1 where a plant in real time stopped because the machine was too busy: that benchmark is left out.
     """
     check_resume(resume, store)
-    from ..experiments.benches import BATCHED, BENCHES, run_bench
-    from ..experiments.trials import Crew
+    from ..benchmarks.benches import BATCHED, BENCHES, run_bench
+    from ..benchmarks.planner_trials import Crew
 
     chosen = tuple(names or BENCHES)
     only = chosen[0] if len(chosen) == 1 else None
@@ -58,7 +58,7 @@ def bench(
             stderr().print(f"{name} is left out: {stop}; is the machine too busy for a plant in real time?")
     rows = [row for each in measured.values() for row in each]
     if output is not None:
-        from ..experiments.performance_page import performance_page
+        from ..benchmarks.performance_page import performance_page
         from ..files import write_atomically
 
         write_atomically(
@@ -74,8 +74,8 @@ def bench(
 def _check_asked(
     chosen: tuple[str, ...], only: str | None, *, batch: bool, own_crew: bool, output: Path | None
 ) -> None:
+    from ..benchmarks.benches import BATCHED, BENCHES
     from ..errors import UnknownNameError
-    from ..experiments.benches import BATCHED, BENCHES
 
     for name in chosen:
         if name not in BENCHES:
@@ -110,12 +110,12 @@ def bench_boards(crew: "Crew", *, output: Path | None, as_json: bool) -> None:
         from ..viewing.output import CANVASES, check_suffix
 
         check_suffix(output, (*CANVASES, *TABLES))
-    from ..experiments.boards.contest import run_contest
-    from ..experiments.boards.tables import rows_of, save_markdown, save_trials
+    from ..benchmarks.contest import run_contest
+    from ..benchmarks.tables import rows_of, save_markdown, save_trials
 
     contest = run_contest(crew=crew)
     if output is not None and output.suffix.lower() not in TABLES:
-        from ..viewing.boards_plot import draw_boards
+        from ..benchmarks.pictures.boards_plot import draw_boards
 
         draw_boards(contest, output)
     elif output is not None:
@@ -128,8 +128,8 @@ def bench_boards(crew: "Crew", *, output: Path | None, as_json: bool) -> None:
 
 def print_contest(console: Console, contest: Any, output: Path | None) -> None:
     """Print the tables, what the columns mean, and whatever contradicts a proof."""
-    from ..experiments.boards.standing import contradictions
-    from ..experiments.boards.tables import tables
+    from ..benchmarks.standing import contradictions
+    from ..benchmarks.tables import tables
 
     for told in tables(contest):
         console.print(told.title, style="bold")

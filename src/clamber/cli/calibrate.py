@@ -8,7 +8,7 @@ from .options import AsJson
 from .output import announce_compilation, plain_table, print_json, stdout
 
 if TYPE_CHECKING:
-    from ..robots.walker.calibration import Fit
+    from ..families.walker.robot.calibration import Fit
 
 
 def calibrate(
@@ -26,7 +26,7 @@ def calibrate(
 
     The numbers are those of Hoshino and others unless given, their angles mirrored to grow with the region.
     """
-    from ..robots.walker.calibration import HOSHINO_1995, Published, fit_families
+    from ..families.walker.robot.calibration import HOSHINO_1995, Published, fit_families
     from ..units import parse_quantity
 
     published = Published(

@@ -1,37 +1,37 @@
 """Names and titles of what `clamber list` shows."""
 
-from collections.abc import Callable, Iterable
-from pathlib import Path
-from typing import Final
+from collections.abc import Callable
+from typing import Any, Final
 
 from ..extensions import outside_titles
+from ..family import BUILT_IN, family_named
 from ..files import data_names, read_toml
+from ..tasks.robots import shipped
 
-PACKAGE: Final = Path(__file__).parents[1]
+BOARD_SCHEMA: Final = "clamber-board-1"
 GROUND_SCHEMA: Final = "clamber-ground-1"
 
 
-def _shipped(folder: str) -> list[tuple[str, str]]:
-    """Name and title of the data files of a folder of the package."""
-    data = PACKAGE / folder / "data"
-    return _titled(data, data_names(data))
+def _documents(kind: str) -> dict[str, dict[str, Any]]:
+    """Name -> document of the files of a kind that come with the families."""
+    files = {name: data / f"{name}.toml" for data in shipped(kind) for name in data_names(data)}
+    return {name: read_toml(files[name]).data for name in sorted(files)}
 
 
-def _worlds(kind: str) -> list[tuple[str, str]]:
-    """Those of one kind: boards, or grounds."""
-    data = PACKAGE / "worlds" / "data"
-    grounds = {name for name in data_names(data) if read_toml(data / f"{name}.toml").data["schema"] == GROUND_SCHEMA}
-    return _titled(data, (name for name in data_names(data) if (name in grounds) == (kind == "grounds")))
-
-
-def _titled(data: Path, names: Iterable[str]) -> list[tuple[str, str]]:
-    return [(name, str(read_toml(data / f"{name}.toml").data.get("title", ""))) for name in names]
+def _shipped(kind: str, schema: str | None = None) -> list[tuple[str, str]]:
+    """Name and title of the files of a kind, and of one schema if it is named."""
+    return [
+        (name, str(said.get("title", "")))
+        for name, said in _documents(kind).items()
+        if schema in (None, said["schema"])
+    ]
 
 
 def _plans() -> list[tuple[str, str]]:
-    data = PACKAGE / "actions" / "data"
-    plans = {name: read_toml(data / f"{name}.toml").data for name in data_names(data)}
-    return [(name, f"{said['n_steps']} actions for {said['task']}: {said['source']}") for name, said in plans.items()]
+    return [
+        (name, f"{said['n_steps']} actions for {said['task']}: {said['source']}")
+        for name, said in _documents("plans").items()
+    ]
 
 
 def _planners() -> list[tuple[str, str]]:
@@ -47,8 +47,8 @@ def _controllers() -> list[tuple[str, str]]:
 
 
 def _checks() -> list[tuple[str, str]]:
-    from ..statics.checks import LIMBED_CHECKS
-    from ..statics.walker_checks import WALKER_CHECKS
+    from ..families.climber.statics.checks import LIMBED_CHECKS
+    from ..families.walker.statics.checks import WALKER_CHECKS
 
     return [(check.name, f"[{check.unit}] {check.meaning}") for check in (*LIMBED_CHECKS, *WALKER_CHECKS)]
 
@@ -65,12 +65,17 @@ def _studies() -> list[tuple[str, str]]:
     return [(paper, ", ".join(results)) for paper, results in RESULTS.items()]
 
 
+def _families() -> list[tuple[str, str]]:
+    return [(name, family_named(name).title) for name in BUILT_IN]
+
+
 ENTRIES: Final[dict[str, Callable[[], list[tuple[str, str]]]]] = {
+    "families": lambda: [*_families(), *outside_titles("families")],
     "robots": lambda: [*_shipped("robots"), *outside_titles("robots")],
-    "boards": lambda: _worlds("boards"),
-    "grounds": lambda: _worlds("grounds"),
+    "boards": lambda: _shipped("worlds", BOARD_SCHEMA),
+    "grounds": lambda: _shipped("worlds", GROUND_SCHEMA),
     "tasks": lambda: _shipped("tasks"),
-    "walks": lambda: _shipped("tasks/walks"),
+    "walks": lambda: _shipped("walks"),
     "plans": _plans,
     "planners": lambda: [*_planners(), *outside_titles("planners")],
     "checks": lambda: [*_checks(), *outside_titles("checks")],

@@ -10,9 +10,9 @@ from .options import AsJson, Overrides
 from .output import announce_compilation, plain_table, print_json, stdout
 
 if TYPE_CHECKING:
-    from ..actions.step_verdict import StepVerdict
-    from ..actions.verdict import Verdict
     from ..inspection.finding import Finding
+    from ..planning.problem.step_verdict import StepVerdict
+    from ..planning.problem.verdict import Verdict
 
 
 def check(
@@ -57,8 +57,8 @@ def check(
 
 def _check_plan(what: str, task: str | None, overrides: list[str], everything: bool, as_json: bool) -> None:
     announce_compilation()
-    from ..actions.plan_source import open_plan
-    from ..actions.verdict import CheckedPlan
+    from ..planning.problem.plan_source import open_plan
+    from ..planning.problem.verdict import CheckedPlan
 
     verdict = open_plan(what, task, overrides).check(go_on=everything)
     if as_json:

@@ -18,7 +18,7 @@ class Use:
     """The one of them that takes longest."""
 
 
-CLIMBING: Final = Use("clamber.experiments.climb.warm_up:warm_up_beside_planning", "command_tick")
+CLIMBING: Final = Use("clamber.families.climber.trials.warm_up:warm_up_beside_planning", "command_tick")
 
 
 def compile_ahead(*uses: Use) -> None:

@@ -11,8 +11,8 @@ from .options import AsJson, Output
 from .output import announce_compilation, check_writable, plain_table, print_json, stdout
 
 if TYPE_CHECKING:
-    from ..robots.walker.ditch import Footing
-    from ..robots.walker.ditch_plan import Crossing
+    from ..families.walker.robot.ditch import Footing
+    from ..families.walker.robot.ditch_plan import Crossing
 
 MM = 1e3
 
@@ -54,10 +54,10 @@ def ditch(
 ) -> None:
     """Tell how wide a ditch a walker crosses, by the angle of its frames; with --width, plan a crossing, pivots first."""
     from ..errors import SpecError
-    from ..robots.library import load_robot
-    from ..robots.walker import WalkerRobot
-    from ..robots.walker.ditch import Footing
-    from ..robots.walker.ditch_plan import cross_ditch
+    from ..families.walker.robot import WalkerRobot
+    from ..families.walker.robot.ditch import Footing
+    from ..families.walker.robot.ditch_plan import cross_ditch
+    from ..tasks.robots import load_robot
     from ..units import parse_quantity
 
     check_writable(output)
@@ -75,7 +75,7 @@ def ditch(
         reserve=parse_quantity(reserve, "length"), aside=not straight,
     )  # fmt: skip
     if output is not None and found.status == "found":
-        from ..viewing.walker_ditch_plot import draw_crossing
+        from ..families.walker.pictures.walker_ditch_plot import draw_crossing
 
         draw_crossing(found, output)
     if as_json:
@@ -91,8 +91,8 @@ def ditch(
 def _tell_widest(footing: "Footing", aside: bool, as_json: bool, output: Output) -> None:
     import numpy as np
 
-    from ..robots.walker.ditch import ditch_map
-    from ..robots.walker.turning import turning_range
+    from ..families.walker.robot.ditch import ditch_map
+    from ..families.walker.robot.turning import turning_range
     from ..units import DEGREE
 
     turn = turning_range(footing.frames, (0.0, 0.0, 0.0), guard=footing.guard or None)
@@ -100,7 +100,7 @@ def _tell_widest(footing: "Footing", aside: bool, as_json: bool, output: Output)
     directions = np.arange(0.0, 361.0)
     widths = ditch_map(footing, thetas * DEGREE, directions * DEGREE, aside=aside)
     if output is not None:
-        from ..viewing.walker_ditch_plot import draw_ditch_maps
+        from ..families.walker.pictures.walker_ditch_plot import draw_ditch_maps
 
         title = "with sidesteps" if aside else "straight"
         draw_ditch_maps(thetas.tolist(), directions.tolist(), {title: widths * MM}, output)

@@ -13,9 +13,9 @@ from .options import AsJson
 from .output import announce_compilation, check_writable, plain_table, print_json, stdout
 
 if TYPE_CHECKING:
-    from ..experiments.cooperative.follow import FollowRun
-    from ..experiments.cooperative.tool_path import ToolPath
-    from ..robots.walker import WalkerRobot
+    from ..families.walker.robot import WalkerRobot
+    from ..families.walker.trials.cooperative.follow import FollowRun
+    from ..families.walker.trials.cooperative.tool_path import ToolPath
 
 Outputs = Annotated[
     list[Path] | None,
@@ -52,8 +52,8 @@ def follow(
 
     Exit code 1 if the tool does not come to the path's end or cannot reach points of it.
     """
-    from ..experiments.cooperative.follow import FollowOptions, follow_path
-    from ..experiments.cooperative.tool_path import load_tool_path
+    from ..families.walker.trials.cooperative.follow import FollowOptions, follow_path
+    from ..families.walker.trials.cooperative.tool_path import load_tool_path
     from ..units import parse_quantity
 
     if blind and not dynamics:
@@ -84,7 +84,7 @@ def follow(
 
 def _print_follow(console: Console, run: "FollowRun", path: "ToolPath") -> None:
     """Print how the tool followed its path, how far it was off, and which limit it came nearest to."""
-    from ..control.cooperative.planted_feet import SUPPORT_WORDS
+    from ..families.walker.control.cooperative.planted_feet import SUPPORT_WORDS
 
     closest = run.closest_range()
     unit = "" if closest.unit == "1" else f" {closest.unit}"
@@ -118,8 +118,8 @@ def _check_files(files: Sequence[Path]) -> None:
 
 
 def _load_robot_with_arm(name: str) -> "WalkerRobot":
-    from ..robots.library import load_robot
-    from ..robots.walker import WalkerRobot
+    from ..families.walker.robot import WalkerRobot
+    from ..tasks.robots import load_robot
 
     chosen = load_robot(name)
     if not isinstance(chosen, WalkerRobot) or chosen.arm is None:
@@ -134,6 +134,6 @@ def _write_files(run: "FollowRun", files: Sequence[Path]) -> None:
         if file.suffix.lower() in SUFFIXES:
             write_log(run.log(), file, "follow")
         else:
-            from ..viewing.follow_plot import draw_follow
+            from ..families.walker.pictures.follow_plot import draw_follow
 
             draw_follow(run, file)

@@ -15,7 +15,7 @@ def inventory(
     as_json: AsJson = False,
 ) -> None:
     """List the modules that a plan can be made of, and by how much the filters shrink the search, D = N^m."""
-    from ..actions.problems import pose_problem
+    from ..planning.problem.problems import pose_problem
     from ..tasks import load_task
 
     announce_compilation(quiet=as_json)

@@ -12,6 +12,7 @@ from .output import plain_table, print_json, stdout
 class Listed(StrEnum):
     """What can be listed."""
 
+    families = "families"
     robots = "robots"
     boards = "boards"
     grounds = "grounds"
@@ -29,7 +30,7 @@ def list_names(
     what: Annotated[Listed | None, typer.Argument(help="One kind; all kinds unless given.")] = None,
     as_json: AsJson = False,
 ) -> None:
-    """List robots, boards, grounds, tasks, walks, plans, planners, checks, controllers, plants and studies by name."""
+    """List families, robots, boards, grounds, tasks, walks, plans, planners, checks, controllers, plants and studies by name."""
     from .catalogue import entries
 
     if as_json:

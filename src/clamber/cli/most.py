@@ -9,9 +9,9 @@ from .options import AsJson, NoiseTexts, Overrides, Quiet
 from .output import announce_compilation, plain_table, print_json, stderr, stdout
 
 if TYPE_CHECKING:
-    from ..experiments.walk.most import Most
-    from ..sim.walker_flaws import WalkerFlaws
-    from ..tasks.walks import Walk
+    from ..families.walker.planning import Walk
+    from ..families.walker.sim.walker_flaws import WalkerFlaws
+    from ..families.walker.trials.most import Most
 
 
 def most(
@@ -34,12 +34,12 @@ def most(
 ) -> None:
     """Find the largest of N values with which a walk comes to its end in balance, by bisection; without noise unless asked for."""
     from ..errors import SpecError
-    from ..experiments.plant_settings import split_settings
-    from ..experiments.walk.most import MostOfWalk, Tried, find_most
-    from ..experiments.walk.noise import named_walk_noise, read_walk_noise
-    from ..experiments.walk.run_walk import run_walk, walk_flaws
+    from ..families.walker.planning import load_walk
+    from ..families.walker.trials.most import MostOfWalk, Tried, find_most
+    from ..families.walker.trials.noise import named_walk_noise, read_walk_noise
+    from ..families.walker.trials.run_walk import run_walk, walk_flaws
     from ..planning.axes import range_axis
-    from ..tasks.walks import load_walk
+    from ..trials.plant_settings import split_settings
 
     axis = range_axis(vary)
     sizes = read_walk_noise(named_walk_noise("none"), noise or ())

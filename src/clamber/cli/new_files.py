@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import Any, Final
 
 from ..errors import SpecError, UnitError
+from ..families.climber.world.board import Board, build_board
+from ..families.climber.world.csv_board import DEFAULT_RADIUS, build_points_board, read_csv_board, read_pixel_board
+from ..families.climber.world.random_board import random_board_data
 from ..files import Document
 from ..json_form import Count
 from ..types import Json
 from ..units import parse_quantity
-from ..worlds.board import Board, build_board
-from ..worlds.csv_board import DEFAULT_RADIUS, build_points_board, read_csv_board, read_pixel_board
-from ..worlds.random_board import random_board_data
 from .options import ROBOT
 
 COMMAND: Final = "clamber new board"
@@ -101,7 +101,7 @@ def task_data(board: Json, label: str, path: Path, overrides: Sequence[str], rob
     Raises:
         SpecError: If the board has no stance that the rules allow.
     """
-    from ..actions.random_task import climb_data
+    from ..families.climber.planning.random_task import climb_data
 
     data, _ = climb_data(board, label, name=name_of(path), robot=robot, overrides=overrides)
     words = list(data.items())

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from ..execution.link.channel import Address
     from ..execution.link.server import PlantServer
-    from ..tasks.limbed import LimbedTask
+    from ..families.climber.planning.task import LimbedTask
 
 plant = typer.Typer(no_args_is_help=True, help="A robot in its own process, driven over a local socket.")
 
@@ -110,9 +110,9 @@ def serve(
     --json one value. Ctrl-C, SIGTERM and SIGHUP stop the robot safely and hold it for 2 s first (exit codes 130, 143, 129).
     """
     from ..execution.link.channel import listen, unlink
-    from ..experiments.climb.run_plan import climbing_task
-    from ..experiments.plant_settings import split_settings
+    from ..families.climber.trials.run_plan import climbing_task
     from ..tasks import load_task
+    from ..trials.plant_settings import split_settings
 
     words.check()
     for_task, for_plant = split_settings(words.overrides or ())
@@ -140,9 +140,9 @@ def _server_of(
     chosen: "LimbedTask", for_plant: list[str], words: ServeOptions
 ) -> "Callable[[socket.socket], PlantServer]":
     """What serves the task's robot at a listener, drawn before anyone can connect."""
-    from ..experiments.climb.noise import NO_NOISE, check_noise, draw_for, read_noise
-    from ..experiments.climb.plants import climb_server, drawn_plant
-    from ..experiments.climb.run_plan import climbing_flaws
+    from ..families.climber.trials.noise import NO_NOISE, check_noise, draw_for, read_noise
+    from ..families.climber.trials.plants import climb_server, drawn_plant
+    from ..families.climber.trials.run_plan import climbing_flaws
 
     flaws = climbing_flaws(chosen, for_plant)
     deviations = read_noise(NO_NOISE, words.noise or ())

@@ -31,8 +31,8 @@ def polish(
     """Make a plan that reaches its goal shorter, by search about it; every check of the task still holds."""
     check_writable(output)
     announce_compilation(quiet=quiet)
-    from ..actions.plan_source import open_plan
     from ..planning.polishing import polish_plan
+    from ..planning.problem.plan_source import open_plan
     from .plan.text import ProgressLine, print_result
 
     opened = open_plan(plan, task, overrides or ())
@@ -41,7 +41,7 @@ def polish(
             opened.task, opened.plan, width=width, effort=effort, seconds=seconds, progress=line.update, label=str(plan)
         )
     if steady is not None:
-        from ..experiments.climb.steadying import steadied_result
+        from ..families.climber.trials.steadying import steadied_result
 
         result = steadied_result(result, steady, str(plan))
     if output is not None:

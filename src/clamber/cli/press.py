@@ -29,15 +29,15 @@ def press(
     The file of `-o` is a picture of force and body over time (.png, .svg, .pdf).
     """
     check_writable(output)
-    from ..experiments.climb.press import run_press
-    from ..experiments.climb.run_plan import PHYSICS_RATE
-    from ..robots.library import load_robot
-    from ..robots.limbed import LimbedRobot
-    from ..sim.flaw_texts import named_flaws, read_flaws
+    from ..families.climber.pictures.press_plot import draw_press
+    from ..families.climber.robot.robot import LimbedRobot
+    from ..families.climber.sim.flaw_texts import named_flaws, read_flaws
+    from ..families.climber.trials.press import run_press
+    from ..families.climber.trials.run_plan import PHYSICS_RATE
+    from ..families.climber.world.library import load_board
+    from ..tasks.robots import load_robot
     from ..units import parse_quantity, read_point
     from ..viewing.output import CANVASES, check_suffix
-    from ..viewing.press_plot import draw_press
-    from ..worlds.library import load_board
 
     if output is not None:
         check_suffix(output, CANVASES)

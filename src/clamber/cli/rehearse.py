@@ -14,7 +14,7 @@ from .options import AsJson, CarriedOutIn, NoiseTexts, Output, Overrides, Quiet,
 from .output import announce_compilation, check_writable, plain_table, print_json, stderr, stdout
 
 if TYPE_CHECKING:  # loads NumPy, which `--help` does without
-    from ..experiments.climb.lessons import Lesson, Rehearsed
+    from ..families.climber.trials.lessons import Lesson, Rehearsed
 
 FIRST_SEED: Final = 500_000
 """Of rehearsals, unless stated: far from those that trials begin with."""
@@ -81,11 +81,11 @@ def rehearse(
     from .compile_ahead import CLIMBING, compile_ahead
 
     compile_ahead(CLIMBING)
-    from ..experiments.climb.lessons import LearnedPlan, climbs_with, learn
-    from ..experiments.climb.noise import named_noise, read_noise
-    from ..experiments.climb.run_plan import open_climb
-    from ..experiments.climb.trial import TrialSetup
-    from ..experiments.climb.trials import with_plan
+    from ..families.climber.trials.lessons import LearnedPlan, climbs_with, learn
+    from ..families.climber.trials.noise import named_noise, read_noise
+    from ..families.climber.trials.run_plan import open_climb
+    from ..families.climber.trials.trial import TrialSetup
+    from ..families.climber.trials.trials import with_plan
 
     widths = read_noise(named_noise("usual"), noise or ())
     opened, asked, plant = open_climb(plan, task, overrides or ())

@@ -47,8 +47,8 @@ def show(
     path = output or Path(f"{Path(thing).stem}.png")
     check_writable(path)
     announce_compilation()
-    from ..actions.plan_source import check_name, open_replay
-    from ..tasks.limbed import LimbedTask
+    from ..families.climber.planning.task import LimbedTask
+    from ..planning.problem.plan_source import check_name, open_replay
 
     check_name(thing)
     shown, replay = open_replay(thing, task, overrides or ())
@@ -61,7 +61,7 @@ def show(
         raise typer.BadParameter(f"needs the plan of a limbed robot; {words}", param_hint="--torques")
     if torques and last == 0:
         raise typer.BadParameter(f"needs the plan of a limbed robot; '{thing}' has no steps", param_hint="--torques")
-    from ..viewing.charts import draw_torques
+    from ..families.climber.pictures.charts import draw_torques
     from ..viewing.output import CANVASES
     from ..viewing.pictures import animate, draw_route, draw_stance
 

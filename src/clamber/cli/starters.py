@@ -5,26 +5,22 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
+from ..families.climber.family import CLIMBER
+from ..families.climber.robot.robot import SCHEMA as ROBOT
+from ..families.climber.robot.starter import starter_robot
+from ..families.climber.world.board import SCHEMA as BOARD
+from ..families.climber.world.board import BoardSpec
+from ..families.climber.world.library import load_board, read_board
+from ..families.climber.world.starter import starter_board
+from ..family import Family, families
 from ..files import Document, check_schema, find_data, is_path, read_toml
 from ..regular_files import user_path
-from ..robots.library import family_of, load_robot, read_robot
-from ..robots.limbed import SCHEMA as ROBOT
-from ..robots.limbed import LimbedRobot
-from ..robots.starter import starter_robot
-from ..robots.walker import WalkerRobot
 from ..spec_text import spec_text
-from ..tasks.library import DATA, TASK_FAMILIES, load_task
-from ..tasks.limbed import TaskSpec
-from ..tasks.walker import WalkerTaskSpec
+from ..tasks.library import load_task
+from ..tasks.robots import family_in, load_robot, read_robot, shipped
 from ..types import Json
-from ..worlds.board import SCHEMA as BOARD
-from ..worlds.board import BoardSpec
-from ..worlds.library import load_board, read_board
-from ..worlds.starter import starter_board
 from .new_files import name_of, task_data
 
-ROBOTS: Final[dict[str, type[Any]]] = {"limbed": LimbedRobot, "walker": WalkerRobot}
-TASKS: Final[dict[str, type[Any]]] = {"limbed": TaskSpec, "walker": WalkerTaskSpec}
 HOW: Final = (
     'A quantity is a text such as "15 cm", or { value = 15, unit = "cm", source = "datasheet" }.\n'
     'A line that begins with "#" and no blank is a key that is not stated: take the "#" away to state it.'
@@ -52,13 +48,13 @@ def robot_starter(path: Path, limbs: int | None, like: str | None) -> Starter:
     else:
         load_robot(like)
         data = _data(read_robot(like), ROBOT) | {"name": name}
-    family = family_of(Document(like or name, data))
+    family = family_in(Document(like or name, data))
     lead = (
         ("schema", data["schema"], "The format of this file."),
-        ("family", family, "limbed: a climber of limbs in a plane; walker: two frames of three legs."),
+        ("family", family.name, "; ".join(f"{one.name}: {one.title}" for one in families()) + "."),
     )
-    title = f"A robot ({family}); `clamber check {path.name}` says what is wrong or odd with it.\n{HOW}"
-    return Starter(data, spec_text(ROBOTS[family], data, header=title, lead=lead, examples=EXAMPLES))
+    title = f"A robot ({family.name}); `clamber check {path.name}` says what is wrong or odd with it.\n{HOW}"
+    return Starter(data, spec_text(family.files.robot_spec, data, header=title, lead=lead, examples=EXAMPLES))
 
 
 def board_starter(path: Path, like: str | None) -> Starter:
@@ -99,18 +95,18 @@ def task_starter(path: Path, robot: str, board: str, like: str | None, overrides
     if like is None:
         data = task_data(read_board(board).data, board, path, overrides, robot) | {"name": name}
         data |= {"robot": _from(path, robot), "board": _from(path, board)}
-        family = "limbed"
+        family: Family = CLIMBER
     else:
         data, family = _task_like(like)
         data |= {"name": name}
-    world = TASK_FAMILIES[family].world_key
+    world = family.files.world_key
     lead = (
         ("schema", data["schema"], "The format of this file."),
         ("robot", data["robot"], "Name (`clamber list robots`) or path of the robot's file, from here."),
         (world, data[world], f"Name (`clamber list {world}s`) or path of the {world}'s file, from here."),
     )
     title = f"A task; `clamber check {path.name}` says whether its start holds, and by how much.\n{HOW}"
-    return Starter(data, spec_text(TASKS[family], data, header=title, lead=lead, examples=EXAMPLES))
+    return Starter(data, spec_text(family.files.task_spec, data, header=title, lead=lead, examples=EXAMPLES))
 
 
 def _data(document: Document, schema: str) -> Json:
@@ -119,16 +115,16 @@ def _data(document: Document, schema: str) -> Json:
     return document.data
 
 
-def _task_like(like: str) -> tuple[Json, str]:
+def _task_like(like: str) -> tuple[Json, Family]:
     load_task(like)  # what is wrong with it is told, and not copied
-    path, label = find_data("task", like, DATA)
+    path, label = find_data("task", like, shipped("tasks"))
     document = read_toml(path, label)
     robot = document.data.get("robot")
     if not isinstance(robot, str):
         raise document.problem("robot", "must name a robot, or give the path of its file, in quotes")
-    family = family_of(read_robot(robot, document.folder))
+    family = family_in(read_robot(robot, document.folder))
     data = dict(document.data)
-    for key in ("robot", TASK_FAMILIES[family].world_key):
+    for key in ("robot", family.files.world_key):
         said = data.get(key)
         if isinstance(said, str) and said.endswith((".toml", ".csv")):
             data[key] = str((path.parent / said).resolve())

@@ -14,8 +14,8 @@ from .options import AsJson, Overrides
 from .output import announce_compilation, check_writable, print_json, stderr, stdout
 
 if TYPE_CHECKING:
-    from ..viewing.browser.app import App
-    from ..viewing.browser.exhibit import Exhibit
+    from ..viewer.app import App
+    from ..viewer.exhibit import Exhibit
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,11 +78,11 @@ def view(
     The page is served from this machine to this machine alone, unless --expose says otherwise.
     """
     check_writable(words.save)
-    from ..viewing.browser.app import LOOPBACK, App, check_viser
+    from ..viewer.app import LOOPBACK, App, check_viser
 
     check_viser()
     announce_compilation()
-    from ..viewing.browser.exhibit import open_exhibit
+    from ..viewer.exhibit import open_exhibit
 
     exhibit = open_exhibit(things, words.task, words.overrides or ())
     if words.save is not None:
@@ -105,7 +105,7 @@ def view(
 
 
 def _save(exhibit: "Exhibit", path: Path, *, as_json: bool) -> None:
-    from ..viewing.browser.page import write_page
+    from ..viewer.page import write_page
 
     size = write_page(exhibit, path)
     if as_json:

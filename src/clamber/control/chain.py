@@ -7,9 +7,7 @@ from typing import Any, Final, Literal, TypeAlias
 import numpy as np
 
 from ..errors import ClamberError
-from ..robots.limbed import Joint, Limb, LimbedRobot
 from ..types import Floats, Records
-from ..units import GRAVITY
 from .kinematics import FRAME, accelerate, fill_inertia, fill_jacobian, place_chain, place_tips
 from .records import AXES, JOINT, ROOT
 
@@ -193,45 +191,6 @@ def empty_chain(n: int) -> tuple[Records, Records]:
     return joints, root
 
 
-def chain_of_limb(robot: LimbedRobot, name: str, *, basis: ShareBasis = "inertia", upright: bool = False) -> Chain:
-    """One limb of a climber as a chain in its port frame: x along the stretched limb, y to its left, z out of the wall.
-
-    Links are thin rods with their mass spread evenly, as the robot file states no more; the hook's offset belongs to the second.
-
-    Args:
-        robot: The climber.
-        name: Of the limb.
-        basis: What K' is made of.
-        upright: Whether weight acts, down the wall with the body level; else the limb lies in a horizontal plane (Bevly 1997, 3.4.1).
-    """
-    limb = robot.limbs[robot.limb_index(name)]
-    joints, root = empty_chain(2)
-    joints["place"][1] = (limb.l1, 0.0, 0.0)
-    for j, (joint, length, mass) in enumerate(
-        zip((limb.shoulder, limb.elbow), (limb.l1, limb.l2), limb.link_masses, strict=True)
-    ):
-        _fill_joint(joints[j : j + 1], joint, robot)
-        joints["mass"][j] = mass
-        joints["centre"][j] = (length / 2, 0.0, 0.0)
-        across = mass * length**2 / 12
-        joints["inertia"][j] = np.diag((0.0, across, across))
-    root["tip"][0] = (limb.second_link.real, limb.second_link.imag, 0.0)
-    root["tip_turn"][0] = rotation((0.0, 0.0, limb.end.angle))
-    if upright:
-        root["gravity"][0] = rotation((0.0, 0.0, -limb.port_angle)) @ (0.0, -GRAVITY, 0.0)
-    chain = Chain(f"{robot.name}'s {name} limb", (f"{name} shoulder", f"{name} elbow"), joints, root, plane=True)
-    return chain.with_shares(basis)
-
-
-def _fill_joint(record: Records, joint: Joint, robot: LimbedRobot) -> None:
-    record["rotor"], record["damping"], record["friction"] = joint.inertia, joint.damping, joint.friction
-    record["limit"] = robot.torque_limit_of(joint)
-    record["speed"] = robot.no_load_speed_of(joint)
-    record["back_emf"] = (joint.gear * robot.motor.torque_constant) ** 2 / robot.motor.resistance
-    record["lower"], record["upper"] = joint.lower, joint.upper
-    record["rest"] = (joint.lower + joint.upper) / 2
-
-
 def rotation(vector: Sequence[float] | Floats) -> Floats:
     """Matrix of a rotation vector [rad], shape (3, 3) (Rodrigues)."""
     x, y, z = vector
@@ -245,21 +204,6 @@ def rotation(vector: Sequence[float] | Floats) -> Floats:
 def _check_turn(chain: str, key: str, turn: Floats) -> None:
     if not np.allclose(turn @ turn.T, np.eye(3), atol=1e-9) or np.linalg.det(turn) < 0.0:
         raise ChainError(chain, key, turn.tolist(), "must be a rotation: orthonormal and right-handed")
-
-
-def closed_branches(limb: Limb, x: float, y: float) -> tuple[tuple[float, float], ...]:
-    """Joint angles that put a limb's tip at (x, y) of its port frame [m], elbow angle positive first; none out of reach [rad]."""
-    l1, l2, beta = limb.l1, limb.l2_effective, limb.hook_beta
-    cosine = (x * x + y * y - l1 * l1 - l2 * l2) / (2 * l1 * l2)
-    if not abs(cosine) <= 1.0:
-        return ()
-    bend = float(np.arccos(cosine))
-    out = []
-    for inner in (bend, -bend):
-        theta2 = inner - beta
-        theta1 = np.arctan2(y, x) - np.arctan2(l2 * np.sin(inner), l1 + l2 * np.cos(inner))
-        out.append((float(_wrapped(theta1)), float(_wrapped(theta2))))
-    return tuple(out)
 
 
 def _wrapped(angle: float) -> float:

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from ..robots.limbed import LimbedRobot
 from ..types import Floats
 from .hardware import Decoder, Reading
 from .joint_hold import JointHold
@@ -42,8 +41,3 @@ class PostureGuard:
     def moved(self, reading: Reading) -> float:
         """How far the joint that has moved most is off the posture [rad]."""
         return float(np.abs(self._wiring.angles(reading.counts)[: self._n] - self._posture).max())
-
-
-def guard_of(robot: LimbedRobot, wiring: Wiring, period: float) -> PostureGuard:
-    """The guard of a whole climber."""
-    return PostureGuard(wiring, np.array([joint.inertia for joint in robot.joints]), period)

@@ -5,8 +5,6 @@ from typing import Final
 
 import numpy as np
 
-from ..errors import SpecError
-from ..robots.limbed import LimbedRobot
 from ..types import Floats, Ints
 
 BODY_COUNTS: Final = 4000
@@ -74,45 +72,3 @@ class Wiring:
 def within(values: Floats, most: Floats | float) -> Floats:
     """Values cut at a limit either way; twice as fast as `numpy.clip` on the few joints of a robot."""
     return np.minimum(np.maximum(values, -most), most)
-
-
-def encoder_resolution(robot: LimbedRobot, counts: int) -> Floats:
-    """Counts per radian of every joint, on the motor's side of its gear, then of the body's angle, shape (2 limbs + 1,).
-
-    Args:
-        robot: The climber.
-        counts: Per motor turn; 0 for perfect encoders, whose resolution is told as 0.
-    """
-    gears = np.array([joint.gear for joint in robot.joints])
-    return np.append(counts * gears, BODY_COUNTS if counts else 0) / (2 * np.pi)
-
-
-def wiring_of(robot: LimbedRobot, counts: int | None = None) -> Wiring:
-    """Wires of a climber: six joints and the body's angle make LIBRA's seven encoders.
-
-    Args:
-        robot: The climber.
-        counts: Per motor turn; None: as the robot's file says.
-
-    Raises:
-        SpecError: If its motors have no amplifiers, or its encoders no counts.
-    """
-    motor = robot.motor
-    counts = motor.encoder_counts if counts is None else counts
-    if motor.amplifier_gain is None:
-        raise SpecError(f"robot '{robot.name}'", "motor.amplifier_gain", None, "must be stated: commands are volts")
-    if not counts:
-        raise SpecError(
-            f"robot '{robot.name}'", "motor.encoder_counts", counts, "must be 1 or more: sensors are counted"
-        )
-    per_volt = motor.amplifier_gain * motor.torque_constant * np.array([joint.gear for joint in robot.joints])
-    limits = np.array([robot.torque_limit_of(joint) for joint in robot.joints])
-    grippers = tuple(i for i, limb in enumerate(robot.limbs) if limb.end.kind == "gripper")
-    return Wiring(encoder_resolution(robot, counts), per_volt, np.minimum(limits / per_volt, COMMAND_LIMIT), grippers)
-
-
-def wiring_of_limb(robot: LimbedRobot, name: str, counts: int | None = None) -> Wiring:
-    """Wires of one limb alone: two encoders, two amplifiers. See `wiring_of`."""
-    whole, first = wiring_of(robot, counts), 2 * robot.limb_index(name)
-    two = slice(first, first + 2)
-    return Wiring(whole.resolution[two], whole.torque_per_volt[two], whole.most_volts[two])

@@ -2,12 +2,15 @@
 
 import csv
 import io
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
 from ..errors import SpecError
+from ..execution.log import Log
+from ..planning.problem.problem import Replay
 from ..types import Floats, Json
 
 NANO: Final = 1_000_000_000
@@ -100,3 +103,23 @@ def moved(
     return JointTrajectory(
         names, sliding, time - time[0], positions, velocities, np.gradient(velocities, time, axis=0), effort
     )
+
+
+def resting(
+    names: tuple[str, ...], sliding: tuple[bool, ...], time: Floats, positions: Floats, effort: Floats | None
+) -> JointTrajectory:
+    """A trajectory that is at rest in all of its points; arguments as `moved` takes them."""
+    still = np.zeros_like(positions)
+    return JointTrajectory(names, sliding, time, positions, still, still, effort)
+
+
+@dataclass(frozen=True, slots=True)
+class Trajectories:
+    """What makes joint trajectories of a family's plans and runs."""
+
+    plan: Callable[[Any, Replay], JointTrajectory]
+    """Of a task and a plan's replay."""
+    note: str
+    """That only logs of its runs have."""
+    run: Callable[[Log], JointTrajectory]
+    """Of a log."""

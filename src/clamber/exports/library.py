@@ -6,12 +6,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal, TypeAlias
 
-from ..actions.plan_source import OpenedPlan, is_plan, open_plan, plan_names
 from ..errors import ClamberError, SpecError, UnknownNameError, describe_choices
 from ..execution.log_files import SUFFIXES as LOGS
 from ..files import is_path, write_atomically
 from ..json_form import Count, Key, in_json
-from ..robots.library import Robot, load_robot, robot_names
+from ..planning.problem.plan_source import OpenedPlan, is_plan, open_plan, plan_names
+from ..tasks.robots import Robot, load_robot, robot_names
 from .joint_trajectory import JointTrajectory
 from .plan_table import plan_table
 from .plan_trajectories import plan_trajectory

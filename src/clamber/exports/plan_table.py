@@ -1,9 +1,9 @@
 """A plan as a table in Markdown: each action, where it leads, and what limits it."""
 
-from ..actions.plan_source import OpenedPlan
-from ..actions.step_verdict import StepVerdict
-from ..actions.verdict import Verdict
-from ..actions.yardsticks import yardsticks_of
+from ..planning.problem.plan_source import OpenedPlan
+from ..planning.problem.step_verdict import StepVerdict
+from ..planning.problem.verdict import Verdict
+from ..planning.problem.yardsticks import yardsticks_of
 from ..units import DEGREE
 from ..viewing.margins import named_limits
 

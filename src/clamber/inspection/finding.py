@@ -1,11 +1,13 @@
 """What an inspection answers."""
 
+from collections.abc import Callable, Iterator, Mapping, Set
 from dataclasses import dataclass, field
-from typing import Annotated, Literal
+from typing import Annotated, Any, TypeAlias
 
 from ..json_form import HIDDEN, Jsonable, in_json
 
-Kind = Literal["robot", "board", "ground", "task", "walk", "plan"]
+Kind: TypeAlias = str
+"""What a file is: "robot", "task", "plan", or one of the kinds of a family, such as "board"."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -46,3 +48,33 @@ class Finding(Jsonable):
     def ok(self) -> bool:
         """Whether every hard check holds; files without a start are always."""
         return all(margin.holds for margin in self.margins if margin.hard)
+
+
+@dataclass(frozen=True, slots=True)
+class FileKind:
+    """A kind of file that only one family has."""
+
+    schema: str
+    """As the file says it."""
+    names: Callable[[], tuple[str, ...]]
+    """Of those that come with Clamber."""
+    load: Callable[[str], Any]
+    """By name or path, with all checks."""
+    inspect: Callable[[Any], Finding]
+    suffixes: tuple[str, ...] = ()
+    """Of files that say no schema."""
+
+
+def _nothing(task: Any, hard: Set[str]) -> Iterator[str]:
+    return iter(())
+
+
+@dataclass(frozen=True, slots=True)
+class Inspection:
+    """What is told of a family's files, and what is odd about them."""
+
+    robot: Callable[[Any], Finding]
+    kinds: Mapping[str, FileKind]
+    """Kind -> how its files are read and inspected."""
+    odd_task: Callable[[Any, Set[str]], Iterator[str]] = _nothing
+    """What is odd about a task with these hard checks, beside what is odd about any."""

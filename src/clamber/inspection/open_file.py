@@ -1,47 +1,39 @@
 """What kind of thing a file or a name means, and the inspection of it."""
 
-from collections.abc import Callable, Sequence
-from typing import Any, Final
+from collections.abc import Sequence
+from typing import Final
 
-from ..actions.plan_source import is_plan, plan_names
 from ..errors import SpecError, UnknownNameError, describe_choices
-from ..files import is_path, read_toml
+from ..family import NotOfFamilyError, families
+from ..files import Document, is_path, read_toml
+from ..planning.problem.plan_source import is_plan, plan_names
 from ..regular_files import user_path
-from ..robots import load_robot
-from ..robots.library import robot_names
 from ..tasks import load_task, task_names
-from ..tasks.walks import load_walk
-from ..tasks.walks.library import walk_names
-from ..worlds import board_names, ground_names, load_board, load_ground
-from .finding import Finding, Kind
-from .robots import inspect_robot
-from .tasks import inspect_task, inspect_walk
-from .worlds import inspect_board, inspect_ground
+from ..tasks.robots import family_in, read_robot, robot_names
+from .finding import FileKind, Finding, Kind
+from .tasks import inspect_task
 
-SCHEMAS: Final[dict[str, Kind]] = {
-    "clamber-robot-1": "robot",
-    "clamber-board-1": "board",
-    "clamber-ground-1": "ground",
-    "clamber-task-1": "task",
-    "clamber-walk-1": "walk",
-    "clamber-plan-1": "plan",
-}
-NAMES: Final[dict[Kind, Callable[[], tuple[str, ...]]]] = {
-    "plan": plan_names,
-    "task": task_names,
-    "walk": walk_names,
-    "robot": robot_names,
-    "board": board_names,
-    "ground": ground_names,
-}
-"""Kind -> names that come with Clamber; where two kinds have one, the first counts."""
-LOADERS: Final[dict[Kind, tuple[Callable[[str], Any], Callable[[Any], Finding]]]] = {
-    "robot": (load_robot, inspect_robot),
-    "board": (load_board, inspect_board),
-    "ground": (load_ground, inspect_ground),
-    "task": (load_task, inspect_task),
-    "walk": (load_walk, inspect_walk),
-}
+SCHEMAS: Final[dict[str, Kind]] = {"clamber-robot-1": "robot", "clamber-task-1": "task", "clamber-plan-1": "plan"}
+"""What a file says that it is -> its kind; families have others."""
+
+
+def file_kinds() -> dict[Kind, FileKind]:
+    """The kinds of files that only one family has."""
+    inspections = (family.inspection for family in families())
+    return {name: kind for one in inspections if one is not None for name, kind in one.kinds.items()}
+
+
+def _names() -> dict[Kind, tuple[str, ...]]:
+    """Kind -> names that come with Clamber; where two kinds have one, the first counts."""
+    theirs = {name: kind.names() for name, kind in file_kinds().items()}
+    return {"plan": plan_names(), "task": task_names(), "walk": theirs.pop("walk"), "robot": robot_names(), **theirs}
+
+
+def _inspect_robot(document: Document) -> Finding:
+    family = family_in(document)
+    if family.inspection is None:
+        raise NotOfFamilyError(family.title, "facts to tell of a robot")
+    return family.inspection.robot(family.files.build_robot(document))
 
 
 def kind_of(name_or_path: str) -> Kind:
@@ -55,19 +47,23 @@ def kind_of(name_or_path: str) -> Kind:
     if is_plan(name_or_path):
         return "plan"
     if not is_path(name_or_path):
-        for kind, names in NAMES.items():
-            if name_or_path in names():
+        shipped = _names()
+        for kind, names in shipped.items():
+            if name_or_path in names:
                 return kind
-        known = dict.fromkeys(name for names in NAMES.values() for name in names())
+        known = dict.fromkeys(name for names in shipped.values() for name in names)
         raise UnknownNameError("thing", name_or_path, tuple(known))
     path = user_path(name_or_path)
-    if path.suffix == ".csv":
-        return "board"
+    kinds = file_kinds()
+    for kind, files in kinds.items():
+        if path.suffix in files.suffixes:
+            return kind
     document = read_toml(path)
     schema = document.data.get("schema")
-    if not isinstance(schema, str) or schema not in SCHEMAS:
-        raise document.problem("schema", f"must be one of {describe_choices(str(schema), SCHEMAS)}")
-    return SCHEMAS[schema]
+    schemas = SCHEMAS | {files.schema: kind for kind, files in kinds.items()}
+    if not isinstance(schema, str) or schema not in schemas:
+        raise document.problem("schema", f"must be one of {describe_choices(str(schema), schemas)}")
+    return schemas[schema]
 
 
 def inspect_file(name_or_path: str, kind: Kind | None = None, overrides: Sequence[str] = ()) -> Finding:
@@ -81,10 +77,13 @@ def inspect_file(name_or_path: str, kind: Kind | None = None, overrides: Sequenc
     Raises:
         ClamberError: If it breaks a rule of its format; the error names file and key.
     """
-    found = kind or kind_of(name_or_path)
-    if found not in LOADERS:
-        raise SpecError(name_or_path, "schema", found, f"must be one of {', '.join(LOADERS)}; a plan is replayed")
+    found, kinds = kind or kind_of(name_or_path), file_kinds()
     if found == "task":
         return inspect_task(load_task(name_or_path, overrides))
-    load, inspect = LOADERS[found]
-    return inspect(load(name_or_path))
+    if found == "robot":
+        return _inspect_robot(read_robot(name_or_path))
+    if found in kinds:
+        return kinds[found].inspect(kinds[found].load(name_or_path))
+    raise SpecError(
+        name_or_path, "schema", found, f"must be one of {', '.join(('robot', 'task', *kinds))}; a plan is replayed"
+    )

@@ -5,13 +5,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..actions.codes import pack
-from ..actions.plan_families import plan_family
-from ..statics.records import UNLIMITED
+from ..family import family_of
+from ..planning.problem.check import UNLIMITED
+from ..planning.problem.codes import pack
+from ..planning.problem.plan_families import plan_family
 from ..tasks import Task
 from ..tasks.library import change_task
-from ..tasks.limbed import LimbedTask
-from ..tasks.walks import Walk
 from .finding import Finding, Margin
 
 
@@ -56,30 +55,11 @@ def _odd(task: Task, margins: tuple[Margin, ...]) -> Iterator[str]:
     starts_done = all(margin.holds for margin in margins if margin.hard) and _is_done(task)
     if starts_done:
         yield "the start meets the goal: the shortest plan has no actions"
-    if isinstance(task, LimbedTask):
-        if task.world.keep_out and "keep_out" not in hard:
-            yield "the board has regions to keep out of, but 'keep_out' only reports"
-        limited = any(hold.direction is not None or hold.strength is not None for hold in task.world.holds)
-        if limited and "hook" not in hard:
-            yield "holds have directions or strengths, but 'hook', the check that knows them, only reports"
+    inspection = family_of(task).inspection
+    if inspection is not None:
+        yield from inspection.odd_task(task, hard)
 
 
 def _is_done(task: Task) -> bool:
     problem = plan_family(task).problem(task)
     return bool(problem.is_done(problem.start))
-
-
-def inspect_walk(walk: Walk) -> Finding:
-    """Facts of a walk."""
-    straight = sum(piece.distance or 0.0 for piece in walk.way)
-    turned = sum(abs(piece.turn or 0.0) for piece in walk.way)
-    places = sum(piece.to is not None for piece in walk.way)
-    legs = walk.start_legs()
-    facts = {
-        "robot": walk.robot.name,
-        "ground": walk.ground.name,
-        "way": f"{len(walk.way)} pieces: {straight:.4g} m straight, {math.degrees(turned):.4g} deg turned, {places} to a place",
-        "plate": "kept level" if walk.level else "as it stands at the start",
-        "legs at the start": f"{1e3 * legs.min():.0f} to {1e3 * legs.max():.0f} mm",
-    }
-    return Finding(kind="walk", name=walk.name, title=walk.title, facts=facts)

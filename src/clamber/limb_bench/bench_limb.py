@@ -4,10 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..control.chain import Chain, chain_of_limb, closed_branches
+from ..control.chain import Chain
 from ..errors import ClamberError
-from ..robots.library import load_robot
-from ..robots.limbed import Limb, LimbedRobot
+from ..families.climber.control.limb_chain import chain_of_limb, closed_branches
+from ..families.climber.robot.robot import Limb, LimbedRobot
+from ..tasks.robots import load_robot
 from ..types import Floats
 from ..units import PointError
 

@@ -8,11 +8,11 @@ from typing import Any, Final
 
 import numpy as np
 
-from ..control.chain import closed_branches
 from ..control.law_settings import LAWS, WEIGHTED, LawError, LawSettings, law_names
 from ..control.recommended import SHIPPED, RecommendationError, read_recommended
 from ..errors import UnitError, UnknownNameError, describe_choices
-from ..sim.flaw_texts import YES_NO
+from ..families.climber.control.limb_chain import closed_branches
+from ..families.climber.sim.flaw_texts import YES_NO
 from ..types import Floats
 from ..units import parse_quantity, si_unit
 from .bench_limb import LEAST_SIGMA, BenchLimb

@@ -10,7 +10,7 @@ import numpy as np
 from ..control.law_settings import LawSettings
 from ..errors import UnknownNameError
 from ..execution.trace import LimbTrace
-from ..sim.flaw_texts import plant_words
+from ..families.climber.sim.flaw_texts import plant_words
 from ..sim.limb_flaws import LimbFlaws
 from ..types import Json
 from .bench_limb import BenchLimb

@@ -16,7 +16,7 @@ from ..control.chain import Chain
 from ..control.controller import still_aim
 from ..errors import UnknownNameError
 from ..execution.trace import LimbTrace, empty_trace
-from ..sim.flaw_texts import plant_words
+from ..families.climber.sim.flaw_texts import plant_words
 from ..sim.limb_flaws import LimbFlaws
 from ..sim.plants import plant_maker
 from ..types import Floats, Json

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..control.law_settings import LAWS, LawSettings
 from ..errors import UnknownNameError
-from ..sim.flaw_texts import SET, named_flaws
+from ..families.climber.sim.flaw_texts import SET, named_flaws
 from ..sim.limb_flaws import LimbFlaws
 from ..types import Floats, Json
 from .bench_limb import BenchLimb, bench_limb

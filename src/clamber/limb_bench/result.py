@@ -16,8 +16,8 @@ from ..control.law_settings import LawSettings
 from ..execution.log import Log
 from ..execution.log_trace import trace_log
 from ..execution.trace import LimbTrace
+from ..families.climber.sim.flaw_texts import plant_words
 from ..files import write_atomically
-from ..sim.flaw_texts import plant_words
 from ..sim.limb_flaws import LimbFlaws
 from ..types import Floats, Json
 from .bench_limb import BenchLimb

@@ -13,11 +13,11 @@ from typing import Final, Literal, TypeAlias
 
 import numpy as np
 
-from ..control.chain import closed_branches
 from ..control.controller import Controller, still_aim
 from ..control.law_settings import LawSettings
 from ..execution.closed_loop import close_loop
 from ..execution.trace import LimbTrace
+from ..families.climber.control.limb_chain import closed_branches
 from ..sim.limb_flaws import LimbFlaws, Push
 from ..sim.mujoco_limb import MujocoLimb
 from ..types import Floats, Records

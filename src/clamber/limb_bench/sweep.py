@@ -7,9 +7,9 @@ from typing import Any, Final
 
 from ..control.law_settings import LAWS, LawError, LawSettings
 from ..errors import UnknownNameError
+from ..families.climber.sim.flaw_texts import WHOLE, named_flaws, plant_words, read_flaws
 from ..jobs import Outcome, read_result
 from ..planning.axes import Axis, check_axes
-from ..sim.flaw_texts import WHOLE, named_flaws, plant_words, read_flaws
 from ..sim.limb_flaws import LimbFlaws
 from ..types import Json
 from ..units import read_number, read_point

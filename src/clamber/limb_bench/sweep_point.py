@@ -10,8 +10,8 @@ from typing import Any, Final
 import numpy as np
 
 from ..errors import ClamberError, UnknownNameError
-from ..sim.flaw_texts import DIMENSIONS as FLAWS
-from ..sim.flaw_texts import WHOLE, read_flaw
+from ..families.climber.sim.flaw_texts import DIMENSIONS as FLAWS
+from ..families.climber.sim.flaw_texts import WHOLE, read_flaw
 from ..sim.limb_flaws import LimbFlaws
 from ..types import Json
 from ..units import read_number

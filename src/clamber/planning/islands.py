@@ -5,8 +5,6 @@ from collections.abc import Callable
 from dataclasses import asdict, replace
 from typing import Any, Final
 
-from ..actions.plan import Plan
-from ..actions.problems import pose_problem
 from ..errors import PlannerError
 from ..files import Document
 from ..jobs import Executor, Outcome, map_items
@@ -16,6 +14,8 @@ from ..tasks import Task, task_from_document
 from ..types import Json
 from .genetic.planner import plan_genetic
 from .genetic.profile import Profile, load_profile
+from .problem.plan import Plan
+from .problem.problems import pose_problem
 from .result import PlanResult
 
 ROUNDS: Final = 2

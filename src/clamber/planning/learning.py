@@ -8,7 +8,6 @@ from typing import Final
 
 from pydantic import StrictStr
 
-from ..actions.problems import code_limits, pose_problem
 from ..errors import FileError, SpecError
 from ..files import Document, check_schema, parse_json, read_text, write_atomically
 from ..json_form import Jsonable
@@ -17,6 +16,7 @@ from ..tasks import Task
 from .genetic.learning import Count, Macro, learn
 from .genetic.planner import plan_genetic
 from .genetic.profile import Profile, load_profile
+from .problem.problems import code_limits, pose_problem
 from .progress import Listener
 
 SCHEMA: Final = "clamber-macros-2"

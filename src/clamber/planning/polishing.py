@@ -3,12 +3,12 @@
 import time
 from dataclasses import replace
 
-from ..actions.plan import Plan
-from ..actions.plan_families import plan_family
-from ..actions.problems import pose_problem
 from ..errors import SpecError
 from ..tasks import Task
 from .exact.windows import is_plan
+from .problem.plan import Plan
+from .problem.plan_families import plan_family
+from .problem.problems import pose_problem
 from .progress import Listener, Shortening
 from .result import PlanResult
 from .shorten import EFFORT, WIDTH, shorten

@@ -6,18 +6,18 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from ..actions.plan import Plan
-from ..actions.plan_costs import spent
-from ..actions.plan_families import plan_family
-from ..actions.planned import PlannedAction
-from ..actions.problem import CompiledProblem
-from ..actions.verdict import Verdict, check_plan
 from ..json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ..tasks import Task
 from ..types import Ints
 from ..units import OZ_IN
 from .genetic.evolve import Generation
 from .genetic.learning import Macro
+from .problem.plan import Plan
+from .problem.plan_costs import spent
+from .problem.plan_families import plan_family
+from .problem.planned import PlannedAction
+from .problem.problem import CompiledProblem
+from .problem.verdict import Verdict, check_plan
 
 Status = Literal["optimal", "found", "infeasible", "bounded", "stopped"]
 

@@ -5,10 +5,10 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Final
 
-from ..actions.problem import CompiledProblem
 from .beam.near import shorten_by_beam
 from .exact.corridor import shorten_in_corridor
 from .exact.windows import Codes, Shortened, shorten_by_windows
+from .problem.problem import CompiledProblem
 
 WIDTH: Final = 300
 """Stances kept of each layer of the beam."""

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ..actions.randoms import scramble
 from ..compiled import inlined, kernel
+from .problem.randoms import scramble
 
 
 @inlined

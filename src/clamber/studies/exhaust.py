@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 
-from ..actions.problems import pose_problem
+from ..families.climber.planning.task import LimbedTask
 from ..planning.exact.explore import explore
-from ..tasks.limbed import LimbedTask
+from ..planning.problem.problems import pose_problem
 from ..types import Ints
 
 MOST_STANCES = 2_000_000

@@ -3,10 +3,9 @@
 from typing import Final
 
 from ..files import Document
-from ..robots.library import family_of, read_robot, robot_names
 from ..toml_text import toml_text
 from ..types import Json
-from .library import TASK_FAMILIES
+from .robots import family_in, read_robot, robot_names
 
 PARTS: Final = ("schema", "name", "title")
 """Keys that a task's file begins with."""
@@ -22,7 +21,7 @@ def task_files(document: Json, name: str) -> dict[str, str]:
         name: Of the task, and of what its files are called: letters, digits, "-" and "_".
     """
     robot = document["robot"]
-    world_key = TASK_FAMILIES[family_of(Document(name, robot))].world_key
+    world_key = family_in(Document(name, robot)).files.world_key
     world_file = f"{name}-{world_key}.toml"
     files = {world_file: toml_text(document[world_key] | {"name": f"{name}-{world_key}"})}
     robot_name = robot["name"]

@@ -5,9 +5,9 @@ from typing import Final
 
 from matplotlib.ticker import MaxNLocator
 
-from ..actions.plan_costs import PlanCost
-from ..actions.plan_families import plan_family
 from ..planning.exact.front import Front
+from ..planning.problem.plan_costs import PlanCost
+from ..planning.problem.plan_families import plan_family
 from . import style
 from .output import drawing
 from .style import bare

@@ -4,9 +4,9 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ..actions.problem import Replay
-from ..actions.yardsticks import NOTHING_LIMITS, Yardsticks
-from ..statics.checks import Check
+from ..planning.problem.check import Check
+from ..planning.problem.problem import Replay
+from ..planning.problem.yardsticks import NOTHING_LIMITS, Yardsticks
 from ..types import Floats
 from ..units import DEGREE
 

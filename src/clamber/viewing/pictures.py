@@ -3,25 +3,22 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..actions.plan import Plan
-from ..actions.plan_families import plan_family
-from ..actions.problem import Replay
-from ..errors import UnknownNameError
+from ..family import NotOfFamilyError, family_of
+from ..planning.problem.plan import Plan
+from ..planning.problem.problem import Replay
 from ..tasks import Task
+from ..types import Floats
 from .animation import WRITERS
-from .climb_route import climb_route
-from .climb_view import ClimbView, draw_climb
 from .output import CANVASES, StepError, check_suffix, save_figure
+from .scene import Bounds
 from .style import styled
 from .view import View
-from .walker_route import walker_route
-from .walker_view import WalkerView, draw_walk
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,26 +31,30 @@ class Pictures:
     """One stance record on given axes."""
     route: Callable[[Any, Replay], Figure]
     """A whole plan."""
+    points: Callable[[Any], Floats]
+    """What of a task's world must be seen under a map, world frame [m], shape (n, 2)."""
+    world: Callable[[Axes, Any, Bounds], None]
+    """A task's world on given axes."""
+    torque_limits: Callable[[Any], Floats] | None = None
+    """Of all joints that carry weight [N m]; None: the model has no joint torques."""
 
 
-FAMILIES: Final[dict[str, Pictures]] = {
-    "limbed": Pictures(ClimbView, draw_climb, climb_route),
-    "walker": Pictures(WalkerView, draw_walk, walker_route),
-}
-"""Family of the robot -> how its plans are drawn."""
+def pictures_of(task: Task) -> Pictures:
+    """How a task's family is drawn.
 
-
-def _family(task: Task) -> Pictures:
-    name = task.document["robot"]["family"]
-    if name not in FAMILIES:
-        raise UnknownNameError("robot family with pictures", name, tuple(FAMILIES))
-    return FAMILIES[name]
+    Raises:
+        NotOfFamilyError: If it is not.
+    """
+    family = family_of(task)
+    if family.pictures is None:
+        raise NotOfFamilyError(family.title, "pictures")
+    return family.pictures
 
 
 def _carried_out(task: Task, plan: Replay | Plan) -> Replay:
     if isinstance(plan, Replay):
         return plan
-    return plan_family(task).problem(task).replay(plan.codes(task), go_on=True)
+    return family_of(task).plans.problem(task).replay(plan.codes(task), go_on=True)
 
 
 def draw_stance(task: Task, plan: Replay | Plan, step: int, target: str | Path | Axes) -> None:
@@ -71,7 +72,7 @@ def draw_stance(task: Task, plan: Replay | Plan, step: int, target: str | Path |
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    family, replay = _family(task), _carried_out(task, plan)
+    family, replay = pictures_of(task), _carried_out(task, plan)
     if not 0 <= step < len(replay.stances):
         raise StepError(step, len(replay.stances) - 1)
     if isinstance(target, Axes):
@@ -93,7 +94,7 @@ def draw_route(task: Task, plan: Replay | Plan, path: str | Path) -> None:
     """
     check_suffix(path, CANVASES)
     with styled():
-        save_figure(_family(task).route(task, _carried_out(task, plan)), path)
+        save_figure(pictures_of(task).route(task, _carried_out(task, plan)), path)
 
 
 def animate(task: Task, plan: Replay | Plan, path: str | Path) -> None:
@@ -106,4 +107,4 @@ def animate(task: Task, plan: Replay | Plan, path: str | Path) -> None:
     """
     suffix = check_suffix(path, WRITERS)
     with styled():
-        WRITERS[suffix](_family(task).view(task, _carried_out(task, plan)), Path(path))
+        WRITERS[suffix](pictures_of(task).view(task, _carried_out(task, plan)), Path(path))

@@ -1,8 +1,6 @@
 """The reachable space as a picture: each place of the body in the colour of a layer, holds, goals, and what closes the edge."""
 
 import textwrap
-from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
@@ -18,17 +16,13 @@ from matplotlib.ticker import MaxNLocator
 
 from ..planning.reach.layers import LAYERS
 from ..planning.reach.reach import Reach
-from ..tasks.limbed import LimbedTask
-from ..tasks.walker import WalkerTask
 from ..types import Floats
 from ..units import OZ_IN
 from . import style
 from .output import CANVASES, check_suffix, save_figure
-from .scene import Bounds, fit_bounds, halo
+from .pictures import pictures_of
+from .scene import fit_bounds, halo
 from .style import styled
-from .torques import torque_limits
-from .walker_artists import draw_ground
-from .wall import draw_scene
 from .words import length_unit
 
 WIDEST, HIGHEST, NARROWEST = 7.4, 6.4, 4.9
@@ -39,27 +33,6 @@ TAIL: Final = 98.0
 """Where the largest value is over twice this percentile, all beyond it share a colour: a stretched limb carries almost anything [%]."""
 CLOSERS: Final = ("#D55E00", "#CC79A7", "#8C564B", "#6B6B6B", "#C1272D", "#E69F00", "#56B4E9", "#B5A900")
 """Colours of the edge by the check that closes it, in the order of the family's checks, over and over."""
-
-
-@dataclass(frozen=True, slots=True)
-class World:
-    """How the world of one family is drawn under a map."""
-
-    points: Callable[[Any], Floats]
-    """What must be seen of it, world frame [m], shape (n, 2)."""
-    draw: Callable[[Axes, Any, Bounds], None]
-
-
-def _holds(task: LimbedTask) -> Floats:
-    return np.vstack([task.world.positions(), *(np.array(polygon) for polygon in task.world.keep_out)])
-
-
-def _start(task: WalkerTask) -> Floats:
-    return np.array([[task.start.x, task.start.y]])
-
-
-WORLDS: Final[dict[str, World]] = {"limbed": World(_holds, draw_scene), "walker": World(_start, draw_ground)}
-"""Family of the robot -> its world."""
 
 
 def draw_reach(reach: Reach, layer: str, path: str | Path) -> None:
@@ -82,7 +55,7 @@ def draw_reach(reach: Reach, layer: str, path: str | Path) -> None:
 def reach_figure(reach: Reach, layer: str) -> Figure:
     """The picture as a figure."""
     task: Any = reach.task
-    world = WORLDS[task.document["robot"]["family"]]
+    world = pictures_of(task)
     cell = task.step.length
     spots = np.stack([reach.places.floats("x_m"), reach.places.floats("y_m")], axis=1)
     bounds = fit_bounds(np.vstack([world.points(task), spots - cell, spots + cell]), task.goals)
@@ -97,7 +70,7 @@ def reach_figure(reach: Reach, layer: str) -> Figure:
         return x / size[0], y / size[1], w / size[0], h / size[1]
 
     axes = figure.add_axes(place(LEFT, FOOT, wide, high))
-    world.draw(axes, task, bounds)
+    world.world(axes, task, bounds)
     shown = _field(axes, reach, layer)
     handles = [*_edge(axes, reach), *_marks(axes, reach)]
     _colour_bar(figure, figure.add_axes(place(LEFT + wide + 0.16, FOOT, 0.16, high)), shown, reach, layer)
@@ -235,7 +208,8 @@ def _colour_bar(figure: Figure, axes: Axes, shown: AxesImage, reach: Reach, laye
     bar.set_label(words, fontsize=8)
     bar.locator = MaxNLocator(nbins=8, integer=layer == "steps")
     bar.update_ticks()
-    if layer == "force" and isinstance(reach.task, LimbedTask):
+    torque_limits = pictures_of(reach.task).torque_limits
+    if layer == "force" and torque_limits is not None:
         limits = torque_limits(reach.task)
         if np.ptp(limits) == 0.0:
             limit = float(limits.flat[0]) / (OZ_IN if unit == "oz-in" else 1.0)

@@ -7,8 +7,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 
-from ..actions.problem import Replay
-from ..actions.yardsticks import Yardsticks
+from ..planning.problem.problem import Replay
+from ..planning.problem.yardsticks import Yardsticks
 from ..types import Floats
 from . import style
 from .margins import all_limiting, grade

@@ -11,8 +11,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FuncFormatter, MultipleLocator
 
 from ..tasks import Task
-from ..tasks.limbed import Goal as ClimberGoal
-from ..tasks.walker import Goal as WalkerGoal
+from ..tasks.regions import GoalBox
 from ..types import Floats
 from ..units import DEGREE
 from . import style
@@ -27,11 +26,7 @@ Bounds = tuple[float, float, float, float]
 """x from, x to, y from, y to, world frame [m]."""
 
 
-BoxGoal = ClimberGoal | WalkerGoal
-"""Goals of every family have a name, a box for the body with open sides, and a range of angles."""
-
-
-def fit_bounds(points: Floats, goals: Iterable[BoxGoal]) -> Bounds:
+def fit_bounds(points: Floats, goals: Iterable[GoalBox]) -> Bounds:
     """The part of the world that holds some points, shape (n, 2), with room around them, and every edge of a goal."""
     low, high = points.min(axis=0), points.max(axis=0)
     pad = max(PAD, 0.03 * float((high - low).max()))
@@ -50,7 +45,7 @@ def fit_bounds(points: Floats, goals: Iterable[BoxGoal]) -> Bounds:
     return x0, x1, y0, y1
 
 
-def goal_box(goal: BoxGoal, bounds: Bounds) -> Floats | None:
+def goal_box(goal: GoalBox, bounds: Bounds) -> Floats | None:
     """Corners of a goal's box, open sides cut off at the picture's edge, shape (4, 2); None where all are open."""
     sides = [
         None if side is None or not math.isfinite(side) else side
@@ -62,7 +57,7 @@ def goal_box(goal: BoxGoal, bounds: Bounds) -> Floats | None:
     return np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
 
 
-def name_goal(goals: Sequence[BoxGoal], index: int, extra: Sequence[str] = ()) -> str:
+def name_goal(goals: Sequence[GoalBox], index: int, extra: Sequence[str] = ()) -> str:
     """What a goal is called in pictures, with what it asks for beside a place."""
     goal = goals[index]
     word = "Goal" if index == len(goals) - 1 else f"{index + 1}"

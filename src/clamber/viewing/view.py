@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
-from ..actions.problem import Replay
-from ..actions.yardsticks import Yardsticks
+from ..planning.problem.problem import Replay
+from ..planning.problem.yardsticks import Yardsticks
 from ..types import Floats, Json
 from . import style
 from .margins import Limiting, all_limiting, grade

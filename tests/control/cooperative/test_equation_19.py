@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from walkers import ROBOTS, hoshino, random_q
 
-from clamber.control.cooperative.cooperator import Cooperator
-from clamber.control.cooperative.freedoms import BODY, FreedomsError, freedoms_of, switch, weights_of
-from clamber.control.cooperative.limits import chain_of
-from clamber.control.cooperative.planted_feet import PlantedFeet
-from clamber.control.cooperative.scratch import make_scratch, see_measure, see_tool
-from clamber.control.cooperative.settings import Cooperation, CooperationError, own_speeds
-from clamber.robots import WalkerRobot
+from clamber.families.walker.control.cooperative.cooperator import Cooperator
+from clamber.families.walker.control.cooperative.freedoms import BODY, FreedomsError, freedoms_of, switch, weights_of
+from clamber.families.walker.control.cooperative.limits import chain_of
+from clamber.families.walker.control.cooperative.planted_feet import PlantedFeet
+from clamber.families.walker.control.cooperative.scratch import make_scratch, see_measure, see_tool
+from clamber.families.walker.control.cooperative.settings import Cooperation, CooperationError, own_speeds
+from clamber.families.walker.robot import WalkerRobot
 from clamber.types import Floats
 
 SPEEDS = np.array([0.05, 0.05, 0.02, 0.15, 0.10, 0.10, 0.35, 0.35, 0.35, 0.35])

@@ -5,9 +5,9 @@ import pytest
 from test_planted import SEEDS, footing, near, turn_of
 from walkers import hoshino
 
-from clamber.control.cooperative.cooperator import Cooperator
-from clamber.control.cooperative.felt_body import FeltBody
-from clamber.control.cooperative.settings import Cooperation, own_speeds
+from clamber.families.walker.control.cooperative.cooperator import Cooperator
+from clamber.families.walker.control.cooperative.felt_body import FeltBody
+from clamber.families.walker.control.cooperative.settings import Cooperation, own_speeds
 
 
 @pytest.mark.parametrize("seed", SEEDS)

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from walkers import hoshino
 
-from clamber.control.cooperative.cooperator import Cooperator
-from clamber.control.cooperative.freedoms import weights_of
-from clamber.control.cooperative.holding import ToolHolder, reachable_part
-from clamber.control.cooperative.planted_feet import PlantedFeet
-from clamber.control.cooperative.settings import Cooperation, own_speeds
+from clamber.families.walker.control.cooperative.cooperator import Cooperator
+from clamber.families.walker.control.cooperative.freedoms import weights_of
+from clamber.families.walker.control.cooperative.holding import ToolHolder, reachable_part
+from clamber.families.walker.control.cooperative.planted_feet import PlantedFeet
+from clamber.families.walker.control.cooperative.settings import Cooperation, own_speeds
 from clamber.types import Floats
 
 POINT = np.array([0.0, 0.30, 0.45])

@@ -7,13 +7,13 @@ import pytest
 from test_limits import START, Judge
 from walkers import hoshino
 
-from clamber.control.cooperative.cooperator import Cooperator
-from clamber.control.cooperative.freedoms import weights_of
-from clamber.control.cooperative.holding import ToolHolder
-from clamber.control.cooperative.lent_plate import HEIGHT, LentPlate
-from clamber.control.cooperative.planted_feet import PlantedFeet, Support
-from clamber.control.cooperative.settings import Cooperation, own_speeds
-from clamber.execution.walk.plate_room import open_share
+from clamber.families.walker.control.cooperative.cooperator import Cooperator
+from clamber.families.walker.control.cooperative.freedoms import weights_of
+from clamber.families.walker.control.cooperative.holding import ToolHolder
+from clamber.families.walker.control.cooperative.lent_plate import HEIGHT, LentPlate
+from clamber.families.walker.control.cooperative.planted_feet import PlantedFeet, Support
+from clamber.families.walker.control.cooperative.settings import Cooperation, own_speeds
+from clamber.families.walker.execution.plate_room import open_share
 from clamber.types import Floats
 
 PERIOD, RISE = 0.02, 0.002

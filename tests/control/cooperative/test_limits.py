@@ -9,13 +9,13 @@ from scipy.optimize import minimize
 from test_planted import plain_values
 from walkers import hoshino
 
-from clamber.control.cooperative.closest import Reach, ReachSearch
-from clamber.control.cooperative.cooperator import Cooperator
-from clamber.control.cooperative.freedoms import SUPPORT, Freedoms, weights_of
-from clamber.control.cooperative.planted import stand
-from clamber.control.cooperative.planted_feet import LimitError, PlantedFeet
-from clamber.control.cooperative.settings import Cooperation, own_speeds
-from clamber.robots import WalkerRobot
+from clamber.families.walker.control.cooperative.closest import Reach, ReachSearch
+from clamber.families.walker.control.cooperative.cooperator import Cooperator
+from clamber.families.walker.control.cooperative.freedoms import SUPPORT, Freedoms, weights_of
+from clamber.families.walker.control.cooperative.planted import stand
+from clamber.families.walker.control.cooperative.planted_feet import LimitError, PlantedFeet
+from clamber.families.walker.control.cooperative.settings import Cooperation, own_speeds
+from clamber.families.walker.robot import WalkerRobot
 from clamber.types import Floats
 from tiers import first_fast
 

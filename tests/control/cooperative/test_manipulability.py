@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from walkers import ROBOTS, differences, random_q, with_links
 
-from clamber.control.cooperative.limits import chain_of
-from clamber.control.cooperative.scratch import Scratch, make_scratch, see_measure, see_tool
-from clamber.robots import WalkerRobot
+from clamber.families.walker.control.cooperative.limits import chain_of
+from clamber.families.walker.control.cooperative.scratch import Scratch, make_scratch, see_measure, see_tool
+from clamber.families.walker.robot import WalkerRobot
 from clamber.types import Floats
 
 ANSWERS = json.loads(Path(__file__).with_name("roboticstoolbox.json").read_text(encoding="utf-8"))

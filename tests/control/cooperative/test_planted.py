@@ -8,15 +8,15 @@ from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
 from walkers import ROBOTS, differences, hoshino, random_q
 
-from clamber.control.cooperative.limits import chain_of
-from clamber.control.cooperative.planted import follow_feet, heading_of, stand
-from clamber.control.cooperative.planted_feet import N_ROWS, LimitError, PlantedFeet
-from clamber.control.cooperative.plate_bounds import bound_gradients, bound_values
-from clamber.control.cooperative.scratch import Scratch, make_scratch, see_bounds, see_measure, see_tool
-from clamber.control.cooperative.singular_guard import guard_room
-from clamber.robots import WalkerRobot
-from clamber.robots.walker.geometry import TwoFrames
-from clamber.robots.walker.two_frames import singular_measure
+from clamber.families.walker.control.cooperative.limits import chain_of
+from clamber.families.walker.control.cooperative.planted import follow_feet, heading_of, stand
+from clamber.families.walker.control.cooperative.planted_feet import N_ROWS, LimitError, PlantedFeet
+from clamber.families.walker.control.cooperative.plate_bounds import bound_gradients, bound_values
+from clamber.families.walker.control.cooperative.scratch import Scratch, make_scratch, see_bounds, see_measure, see_tool
+from clamber.families.walker.control.cooperative.singular_guard import guard_room
+from clamber.families.walker.robot import WalkerRobot
+from clamber.families.walker.robot.geometry import TwoFrames
+from clamber.families.walker.robot.two_frames import singular_measure
 from clamber.types import Floats
 
 SEEDS = range(6)

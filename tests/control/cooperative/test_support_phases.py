@@ -6,11 +6,11 @@ from test_equation_19 import law
 from test_limits import START, Judge
 from walkers import hoshino
 
-from clamber.control.cooperative.cooperator import Cooperator
-from clamber.control.cooperative.freedoms import Freedoms, switch, weights_of
-from clamber.control.cooperative.planted_feet import PlantedFeet, Support
-from clamber.control.cooperative.settings import Cooperation, own_speeds
-from clamber.control.cooperative.stable_gain import stable_gain
+from clamber.families.walker.control.cooperative.cooperator import Cooperator
+from clamber.families.walker.control.cooperative.freedoms import Freedoms, switch, weights_of
+from clamber.families.walker.control.cooperative.planted_feet import PlantedFeet, Support
+from clamber.families.walker.control.cooperative.settings import Cooperation, own_speeds
+from clamber.families.walker.control.cooperative.stable_gain import stable_gain
 
 PHASES: tuple[tuple[Support, Freedoms], ...] = (
     ("y", "all"),

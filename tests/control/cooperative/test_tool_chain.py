@@ -5,10 +5,10 @@ import pinocchio
 import pytest
 from walkers import ROBOTS, differences, hoshino, random_q
 
-from clamber.control.cooperative.arm_moment import arm_moment
-from clamber.control.cooperative.limits import chain_of
-from clamber.control.cooperative.scratch import Scratch, make_scratch, see_tool
-from clamber.robots import WalkerRobot
+from clamber.families.walker.control.cooperative.arm_moment import arm_moment
+from clamber.families.walker.control.cooperative.limits import chain_of
+from clamber.families.walker.control.cooperative.scratch import Scratch, make_scratch, see_tool
+from clamber.families.walker.robot import WalkerRobot
 from clamber.types import Floats
 
 SEEDS = range(8)

@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from clamber.robots import WalkerRobot, load_robot
+from clamber.families.walker.robot import WalkerRobot
+from clamber.tasks.robots import load_robot
 from clamber.types import Floats
 
 

@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 from springs_walker import Ground, SpringsWalker, flat
 
-from clamber.control.posture import tilt_of
-from clamber.execution.walk.settings import WalkSettings
-from clamber.execution.walk.walk_trace import TracedWalker
-from clamber.robots.library import load_robot
-from clamber.robots.walker import WalkerRobot
+from clamber.families.walker.control.posture import tilt_of
+from clamber.families.walker.execution.settings import WalkSettings
+from clamber.families.walker.execution.walk_trace import TracedWalker
+from clamber.families.walker.robot import WalkerRobot
+from clamber.tasks.robots import load_robot
 
 found = load_robot("hoshino")
 assert isinstance(found, WalkerRobot)

@@ -10,8 +10,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from clamber.execution.walk.plant import WalkerSensed, WalkerTruth
-from clamber.robots.walker import WalkerRobot
+from clamber.families.walker.execution.plant import WalkerSensed, WalkerTruth
+from clamber.families.walker.robot import WalkerRobot
 from clamber.types import Floats
 
 STIFFNESS = 5e5

@@ -7,9 +7,9 @@ import pytest
 from spring_walks import stood
 from springs_walker import slope
 
-from clamber.control.gait import DELTA
-from clamber.execution.walk import motions
-from clamber.execution.walk.calibrate import calibrate, feel_give, offsets_from, shift_load
+from clamber.families.walker.control.gait import DELTA
+from clamber.families.walker.execution import motions
+from clamber.families.walker.execution.calibrate import calibrate, feel_give, offsets_from, shift_load
 
 
 def test_offsets_and_slope_are_told_apart_by_two_headings() -> None:

@@ -8,17 +8,17 @@ import pytest
 from spring_walks import ROBOT, stood
 from springs_walker import flat
 
-from clamber.actions.codes import MOVE, NONE, RELEASE, pack
-from clamber.actions.walker_problem import WalkerProblem, walker_table
-from clamber.control.gait import Limits
-from clamber.control.track import compose, seen_from, straight
 from clamber.execution.sequencer import Sequencer
-from clamber.execution.walk.course import PlannedCourse, PlannedStep, TrackCourse
-from clamber.execution.walk.planned_steps import plan_start, planned_steps
-from clamber.execution.walk.settings import WalkSettings
-from clamber.execution.walk.walking import Walking
+from clamber.families.walker.control.gait import Limits
+from clamber.families.walker.control.track import compose, seen_from, straight
+from clamber.families.walker.execution.course import PlannedCourse, PlannedStep, TrackCourse
+from clamber.families.walker.execution.planned_steps import plan_start, planned_steps
+from clamber.families.walker.execution.settings import WalkSettings
+from clamber.families.walker.execution.walking import Walking
+from clamber.families.walker.planning.problem import WalkerProblem, walker_table
+from clamber.families.walker.planning.task import WalkerTask
+from clamber.planning.problem.codes import MOVE, NONE, RELEASE, pack
 from clamber.tasks import load_task
-from clamber.tasks.walker import WalkerTask
 
 FORTH, BACK, LEFT, TURN = (pack(MOVE, 0, axis) for axis in (0, 1, 2, 4))
 SWAP = pack(RELEASE)

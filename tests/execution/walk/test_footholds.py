@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 from spring_walks import BEST, ROBOT, stood
 
-from clamber.control.gait import DELTA, Y
 from clamber.control.loads import strain_of
-from clamber.execution.walk import motions
-from clamber.execution.walk.footholds import KEPT, proof_strain, prove
-from clamber.execution.walk.settings import WalkSettings
-from clamber.execution.walk.true_walk import TracedPlant
-from clamber.execution.walk.walker import RefusedError, Walker
-from clamber.sim.walker_build import WalkerBuild
-from clamber.sim.walker_flaws import WalkerFlaws
-from clamber.sim.walker_plant import WalkerSim
-from clamber.worlds.ground import Block, Ground
+from clamber.families.walker.control.gait import DELTA, Y
+from clamber.families.walker.execution import motions
+from clamber.families.walker.execution.footholds import KEPT, proof_strain, prove
+from clamber.families.walker.execution.settings import WalkSettings
+from clamber.families.walker.execution.true_walk import TracedPlant
+from clamber.families.walker.execution.walker import RefusedError, Walker
+from clamber.families.walker.sim.walker_build import WalkerBuild
+from clamber.families.walker.sim.walker_flaws import WalkerFlaws
+from clamber.families.walker.sim.walker_plant import WalkerSim
+from clamber.families.walker.world.ground import Block, Ground
 
 SETTINGS = WalkSettings(probe=1e-3, clear=None)
 BALL = WalkerBuild().foot_radius

@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from spring_walks import ROBOT
 
-from clamber.control.gait import Limits, room_at
-from clamber.execution.walk.plate_room import FADE, PlateRoom, open_share
+from clamber.families.walker.control.gait import Limits, room_at
+from clamber.families.walker.execution.plate_room import FADE, PlateRoom, open_share
 
 PERIOD = 0.02
 

@@ -8,17 +8,17 @@ import pytest
 from spring_walks import BEST, RADIUS, ROBOT, stood
 from springs_walker import SpringsWalker, flat, slope
 
-from clamber.control.track import straight
-from clamber.control.walker_balance import mass_centre
 from clamber.execution.sequencer import Sequencer
-from clamber.execution.walk.course import TrackCourse
-from clamber.execution.walk.motions import ROOM
-from clamber.execution.walk.rehearsed_heights import rehearse
-from clamber.execution.walk.settings import WalkSettings
-from clamber.execution.walk.tool_hold import CHANGE, ToolHold
-from clamber.execution.walk.walk_trace import PHASES, TracedWalker
-from clamber.execution.walk.walker import RefusedError, Walker
-from clamber.execution.walk.walking import Walking
+from clamber.families.walker.control.track import straight
+from clamber.families.walker.control.walker_balance import mass_centre
+from clamber.families.walker.execution.course import TrackCourse
+from clamber.families.walker.execution.motions import ROOM
+from clamber.families.walker.execution.rehearsed_heights import rehearse
+from clamber.families.walker.execution.settings import WalkSettings
+from clamber.families.walker.execution.tool_hold import CHANGE, ToolHold
+from clamber.families.walker.execution.walk_trace import PHASES, TracedWalker
+from clamber.families.walker.execution.walker import RefusedError, Walker
+from clamber.families.walker.execution.walking import Walking
 from clamber.types import Floats
 from tiers import first_fast
 

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from clamber.execution.walk.touched_ground import FREE, KEPT, TouchedGround
+from clamber.families.walker.execution.touched_ground import FREE, KEPT, TouchedGround
 
 SLOPES = st.floats(-0.3, 0.3)
 

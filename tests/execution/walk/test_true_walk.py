@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
-from clamber.execution.walk.plant import WalkerPlant, WalkerSensed, WalkerTruth
-from clamber.execution.walk.true_walk import ROWS, TracedPlant, hull_margins
+from clamber.families.walker.execution.plant import WalkerPlant, WalkerSensed, WalkerTruth
+from clamber.families.walker.execution.true_walk import ROWS, TracedPlant, hull_margins
 
 
 class Counted:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from clamber.execution.walk.falls import FallWatch
+from clamber.families.walker.execution.falls import FallWatch
 from clamber.types import Floats
 
 PERIOD = 0.02

@@ -3,11 +3,11 @@
 import pytest
 
 from clamber.execution.fault import FAULTS, Fault, draw_fault
-from clamber.experiments.fault_trials import ENDINGS, ending_of_run
-from clamber.experiments.walk.faults import failing_of
-from clamber.experiments.walk.noise import named_walk_noise
-from clamber.experiments.walk.run_walk import WalkRun, run_walk, walk_flaws
-from clamber.tasks.walks import load_walk
+from clamber.families.walker.planning import load_walk
+from clamber.families.walker.trials.faults import failing_of
+from clamber.families.walker.trials.noise import named_walk_noise
+from clamber.families.walker.trials.run_walk import WalkRun, run_walk, walk_flaws
+from clamber.trials.fault_trials import ENDINGS, ending_of_run
 from tiers import first_fast
 
 START = 6.0

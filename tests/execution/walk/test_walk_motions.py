@@ -7,10 +7,10 @@ import pytest
 from spring_walks import BEST, RADIUS, ROBOT, stood
 from springs_walker import flat, slope, tiles
 
-from clamber.control.gait import DELTA, Y
-from clamber.execution.walk import motions
-from clamber.execution.walk.settings import WalkSettings
-from clamber.execution.walk.walker import FallenError, RefusedError
+from clamber.families.walker.control.gait import DELTA, Y
+from clamber.families.walker.execution import motions
+from clamber.families.walker.execution.settings import WalkSettings
+from clamber.families.walker.execution.walker import FallenError, RefusedError
 from clamber.types import Floats
 
 

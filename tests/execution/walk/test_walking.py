@@ -8,13 +8,13 @@ import pytest
 from spring_walks import BEST, NOISE, RADIUS, stood
 from springs_walker import Ground, flat, slope
 
-from clamber.control.track import straight, through, turn_about
 from clamber.execution.sequencer import Sequencer
-from clamber.execution.walk.course import TrackCourse
-from clamber.execution.walk.settings import WalkSettings
-from clamber.execution.walk.walk_report import WalkReport
-from clamber.execution.walk.walk_trace import PHASES, WalkTrace
-from clamber.execution.walk.walking import Walking
+from clamber.families.walker.control.track import straight, through, turn_about
+from clamber.families.walker.execution.course import TrackCourse
+from clamber.families.walker.execution.settings import WalkSettings
+from clamber.families.walker.execution.walk_report import WalkReport
+from clamber.families.walker.execution.walk_trace import PHASES, WalkTrace
+from clamber.families.walker.execution.walking import Walking
 from clamber.types import Floats
 
 TEN = math.radians(10.0)

@@ -4,13 +4,13 @@ from typing import Any
 
 import numpy as np
 
-from clamber.actions.limbed_plans import thesis_code
-from clamber.actions.plan import Plan
-from clamber.execution.climb.course import climbable
-from clamber.experiments.climb.noise import NOISE, Noise, named_noise
-from clamber.experiments.climb.trial import ClimbTrial, TrialSetup
+from clamber.families.climber.execution.course import climbable
+from clamber.families.climber.planning.plans import thesis_code
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.climber.trials.noise import NOISE, Noise, named_noise
+from clamber.families.climber.trials.trial import ClimbTrial, TrialSetup
+from clamber.planning.problem.plan import Plan
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
 
 
 def ladder() -> LimbedTask:

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from clamber.experiments.climb.climb_work import two_rungs
-from clamber.experiments.climb.noise import NO_NOISE, draw_for, read_noise
-from clamber.experiments.climb.plants import drawn_plant
-from clamber.experiments.climb.run_plan import believing_climber, climbing_flaws
+from clamber.benchmarks.climb_work import two_rungs
+from clamber.families.climber.trials.noise import NO_NOISE, draw_for, read_noise
+from clamber.families.climber.trials.plants import drawn_plant
+from clamber.families.climber.trials.run_plan import believing_climber, climbing_flaws
 
 
 @pytest.mark.parametrize("text", ["0mm", "3mm", "6.35mm"])

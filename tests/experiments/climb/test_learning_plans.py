@@ -8,18 +8,18 @@ from typing import Final
 import numpy as np
 import pytest
 
-from clamber.actions.plan import Plan
-from clamber.actions.plan_source import open_plan
 from clamber.errors import SpecError
-from clamber.execution.climb.climb_report import ActionReport, ClimbReport
-from clamber.execution.climb.course import lay_course
-from clamber.experiments.climb.cautions import STEADY, cautious
-from clamber.experiments.climb.planning import plan_to_climb
-from clamber.experiments.climb.rehearsal import Rehearsal, grab_at_fault
-from clamber.experiments.climb.run_plan import climbing_task
+from clamber.families.climber.execution.climb_report import ActionReport, ClimbReport
+from clamber.families.climber.execution.course import lay_course
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.climber.trials.cautions import STEADY, cautious
+from clamber.families.climber.trials.planning import plan_to_climb
+from clamber.families.climber.trials.rehearsal import Rehearsal, grab_at_fault
+from clamber.families.climber.trials.run_plan import climbing_task
 from clamber.planning.planners import PLANNERS
+from clamber.planning.problem.plan import Plan
+from clamber.planning.problem.plan_source import open_plan
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
 
 EXAMPLES: Final = Path(__file__).parents[3] / "examples"
 

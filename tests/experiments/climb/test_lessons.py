@@ -5,15 +5,15 @@ from collections.abc import Callable, Sequence
 import numpy as np
 import pytest
 
-from clamber.actions.plan import Plan
-from clamber.execution.climb.course import lay_course
-from clamber.experiments.climb.cautions import CAUTIONS, cautious
-from clamber.experiments.climb.lessons import Climbs, Lesson, Rehearsed, learn
-from clamber.experiments.climb.run_plan import climbing_task
-from clamber.experiments.climb.trial import ClimbTrial
+from clamber.families.climber.execution.course import lay_course
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.climber.trials.cautions import CAUTIONS, cautious
+from clamber.families.climber.trials.lessons import Climbs, Lesson, Rehearsed, learn
+from clamber.families.climber.trials.run_plan import climbing_task
+from clamber.families.climber.trials.trial import ClimbTrial
 from clamber.planning.planners import PLANNERS
+from clamber.planning.problem.plan import Plan
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
 
 SEEDS = range(40, 48)
 

@@ -4,11 +4,13 @@ import mujoco
 import numpy as np
 import pytest
 
-from clamber.execution.climb.climber import Climber
-from clamber.experiments.climb.noise import (
+from clamber.families.climber.execution.climber import Climber
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.climber.robot.robot import LimbedRobot
+from clamber.families.climber.sim.climber_plant import ClimberPlant
+from clamber.families.climber.trials.noise import (
     NO_NOISE,
     NOISE,
-    NoiseError,
     assumed_backlash,
     check_noise,
     draw,
@@ -21,14 +23,12 @@ from clamber.experiments.climb.noise import (
     noise_of,
     read_noise,
 )
-from clamber.robots.library import load_robot
-from clamber.robots.limbed import LimbedRobot
-from clamber.sim.climber_plant import ClimberPlant
+from clamber.families.climber.world.library import load_board
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
+from clamber.tasks.robots import load_robot
+from clamber.trials.noise import NoiseError
 from clamber.units import DEGREE, GRAVITY
-from clamber.worlds.library import load_board
 
 FLAWS = LimbFlaws(backlash=2.0 * DEGREE, physics_rate=1000.0)
 BOARD = load_board("ladder")

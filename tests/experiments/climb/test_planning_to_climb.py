@@ -6,13 +6,13 @@ from typing import Any
 
 import pytest
 
-from clamber.execution.climb.course import climbable
-from clamber.experiments.climb.cautions import CAUTIONS, STEADY
-from clamber.experiments.climb.planning import plan_to_climb, replanner
+from clamber.families.climber.execution.course import climbable
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.climber.trials.cautions import CAUTIONS, STEADY
+from clamber.families.climber.trials.planning import plan_to_climb, replanner
 from clamber.planning.planners import PLANNERS
 from clamber.planning.result import PlanResult
 from clamber.tasks import Task, load_task
-from clamber.tasks.limbed import LimbedTask
 
 
 def climb_of(name: str) -> LimbedTask:

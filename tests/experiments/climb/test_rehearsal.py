@@ -2,13 +2,13 @@
 
 import math
 
-from clamber.actions.plan import Plan
-from clamber.actions.plan_source import open_plan
-from clamber.experiments.climb.noise import NO_NOISE, read_noise
-from clamber.experiments.climb.planning import plan_to_climb
-from clamber.experiments.climb.rehearsal import SEEDS, Rehearsal, rehearse
-from clamber.experiments.climb.run_plan import climbing_flaws, climbing_task
-from clamber.tasks.limbed import LimbedTask
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.climber.trials.noise import NO_NOISE, read_noise
+from clamber.families.climber.trials.planning import plan_to_climb
+from clamber.families.climber.trials.rehearsal import SEEDS, Rehearsal, rehearse
+from clamber.families.climber.trials.run_plan import climbing_flaws, climbing_task
+from clamber.planning.problem.plan import Plan
+from clamber.planning.problem.plan_source import open_plan
 
 
 def test_a_plan_is_climbed_by_as_often_as_it_is_carried_out() -> None:

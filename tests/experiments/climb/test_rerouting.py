@@ -3,15 +3,23 @@
 import numpy as np
 import pytest
 
-from clamber.actions.plan import Plan
-from clamber.actions.plan_families import plan_family
-from clamber.execution.climb.course import lay_course
-from clamber.experiments.climb.cautions import CAUTIONS, cautious
-from clamber.experiments.climb.rerouting import LACK, cut_before, doubtful_grabs, grabs_of, mended, other_end, without
-from clamber.experiments.climb.run_plan import climbing_task
+from clamber.families.climber.execution.course import lay_course
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.climber.trials.cautions import CAUTIONS, cautious
+from clamber.families.climber.trials.rerouting import (
+    LACK,
+    cut_before,
+    doubtful_grabs,
+    grabs_of,
+    mended,
+    other_end,
+    without,
+)
+from clamber.families.climber.trials.run_plan import climbing_task
 from clamber.planning.planners import PLANNERS
+from clamber.planning.problem.plan import Plan
+from clamber.planning.problem.plan_families import plan_family
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
 
 
 def found(name: str, planner: str = "beam") -> tuple[LimbedTask, Plan]:
@@ -69,7 +77,7 @@ def test_a_plan_without_doubts_is_not_mended() -> None:
 def test_hooks_that_lack_what_is_wished_put_the_grab_in_doubt(monkeypatch: pytest.MonkeyPatch) -> None:
     """With a wish that no stance meets, every grab is in doubt."""
     task, plan = found("ladder")
-    monkeypatch.setattr("clamber.experiments.climb.rerouting.LACK", -1e9)
+    monkeypatch.setattr("clamber.families.climber.trials.rerouting.LACK", -1e9)
     course = lay_course(task, plan)
     assert LACK > 0.0
     assert doubtful_grabs(course) == steps_of_grabs(plan)

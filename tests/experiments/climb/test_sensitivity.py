@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from climbs_by_hand import climb
 
-from clamber.experiments.climb.noise import NOISE
-from clamber.experiments.climb.sensitivity import LEVEL, Effect, find_effects
-from clamber.experiments.climb.trial import ClimbTrial, error_trial
+from clamber.families.climber.trials.noise import NOISE
+from clamber.families.climber.trials.sensitivity import LEVEL, Effect, find_effects
+from clamber.families.climber.trials.trial import ClimbTrial, error_trial
 
 
 def effects(trials: list[ClimbTrial]) -> dict[str, Effect]:

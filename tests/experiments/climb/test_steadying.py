@@ -6,25 +6,25 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from clamber.actions.codes import HOLD
-from clamber.actions.plan import Plan
-from clamber.actions.plan_families import plan_family
-from clamber.actions.plan_source import open_plan
-from clamber.actions.yardsticks import climber_yardsticks
 from clamber.errors import SpecError
-from clamber.execution.climb.course import lay_course
-from clamber.experiments.climb.run_plan import climbing_task
-from clamber.experiments.climb.steadying import BENT, SHIFT, WORTH, steadied, steadied_result
+from clamber.families.climber.execution.course import lay_course
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.climber.trials.run_plan import climbing_task
+from clamber.families.climber.trials.steadying import BENT, SHIFT, WORTH, steadied, steadied_result
 from clamber.planning.planners import PLANNERS
 from clamber.planning.polishing import polish_plan
+from clamber.planning.problem.codes import HOLD
+from clamber.planning.problem.plan import Plan
+from clamber.planning.problem.plan_families import plan_family
+from clamber.planning.problem.plan_source import open_plan
+from clamber.planning.problem.yardsticks import yardsticks_of
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
 from clamber.types import Floats, Ints
 
 
 def room(task: LimbedTask, codes: Ints) -> Floats:
     """What limbs leave of reach and joint ranges after every action, as shares of these."""
-    sticks = climber_yardsticks(task)
+    sticks = yardsticks_of(task)
     replay = plan_family(task).problem(task).replay(codes)
     assert replay.ok
     shares = [

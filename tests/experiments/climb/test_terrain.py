@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from clamber.execution.climb.hold_map import HoldMap, TipDifference
-from clamber.experiments.climb.noise import NO_NOISE, draw_for, read_noise, true_places
-from clamber.experiments.climb.terrain import centre_of, terrain_covariance
+from clamber.families.climber.execution.hold_map import HoldMap, TipDifference
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.climber.trials.noise import NO_NOISE, draw_for, read_noise, true_places
+from clamber.families.climber.trials.terrain import centre_of, terrain_covariance
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
 from clamber.types import Floats
 
 

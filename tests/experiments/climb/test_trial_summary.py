@@ -5,9 +5,9 @@ import json
 import pytest
 from climbs_by_hand import climb, setup_of
 
-from clamber.experiments.climb.trial import error_trial
-from clamber.experiments.climb.trial_summary import sum_up
-from clamber.experiments.climb.trials import Trials
+from clamber.families.climber.trials.trial import error_trial
+from clamber.families.climber.trials.trial_summary import sum_up
+from clamber.families.climber.trials.trials import Trials
 
 UP = (300, 3, 3)
 """The bottom limb lets go, and the body goes up by 3 in twice: one rung."""

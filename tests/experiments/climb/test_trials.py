@@ -16,18 +16,19 @@ import pytest
 from climbs_by_hand import setup_of
 
 import clamber
-from clamber.actions.limbed_plans import thesis_code
-from clamber.actions.plan import Plan
 from clamber.errors import SpecError
-from clamber.execution.climb.climb_trace import TracedClimber
-from clamber.execution.climb.course import PlanRefusedError
-from clamber.experiments.climb import run_plan as runs
-from clamber.experiments.climb import trial as one
-from clamber.experiments.climb import trials as module
-from clamber.experiments.climb.noise import NO_NOISE, NOISE, NoiseError, named_noise, read_noise
-from clamber.experiments.climb.trial import climb_once, error_trial, trial_of
-from clamber.experiments.climb.trials import NoPlanError, run_trials, stored_trial, with_plan
+from clamber.families.climber.execution.climb_trace import TracedClimber
+from clamber.families.climber.execution.course import PlanRefusedError
+from clamber.families.climber.planning.plans import thesis_code
+from clamber.families.climber.trials import run_plan as runs
+from clamber.families.climber.trials import trial as one
+from clamber.families.climber.trials import trials as module
+from clamber.families.climber.trials.noise import NO_NOISE, NOISE, named_noise, read_noise
+from clamber.families.climber.trials.trial import climb_once, error_trial, trial_of
+from clamber.families.climber.trials.trials import NoPlanError, run_trials, stored_trial, with_plan
 from clamber.jobs import LocalProcesses, StoreError
+from clamber.planning.problem.plan import Plan
+from clamber.trials.noise import NoiseError
 from clamber.types import Json
 
 LETS_GO = (300, 3)

@@ -5,22 +5,22 @@ import sys
 
 import pytest
 
-from clamber.actions.plan import Plan
-from clamber.execution.climb.climb_report import ClimbReport
-from clamber.execution.climb.climbing import Climbing, Group
+from clamber.benchmarks.climb_work import two_rungs
 from clamber.execution.sequencer import Sequencer
-from clamber.experiments.climb import run_plan as running
-from clamber.experiments.climb.climb_work import two_rungs
-from clamber.experiments.climb.run_plan import climbing_flaws, run_plan
-from clamber.tasks.limbed import LimbedTask
+from clamber.families.climber.execution.climb_report import ClimbReport
+from clamber.families.climber.execution.climbing import Climbing, Group
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.climber.trials import run_plan as running
+from clamber.families.climber.trials.run_plan import climbing_flaws, run_plan
+from clamber.planning.problem.plan import Plan
 
 CLIMB = """
 import gc
 from numba.core.registry import CPUDispatcher
-from clamber.experiments.climb.climb_work import two_rungs
-from clamber.experiments.climb.noise import named_noise
-from clamber.experiments.climb.run_plan import climbing_flaws, run_plan
-from clamber.experiments.climb.warm_up import warm_up
+from clamber.benchmarks.climb_work import two_rungs
+from clamber.families.climber.trials.noise import named_noise
+from clamber.families.climber.trials.run_plan import climbing_flaws, run_plan
+from clamber.families.climber.trials.warm_up import warm_up
 
 def loaded():
     return {(one.__module__, one.__name__) for one in gc.get_objects() if isinstance(one, CPUDispatcher) and one.overloads}
@@ -37,7 +37,7 @@ print(sorted(loaded() - before))
 ALONE = """
 import gc
 from numba.core.registry import CPUDispatcher
-from clamber.experiments.climb import warm_up
+from clamber.families.climber.trials import warm_up
 
 warm_up.warm_up = lambda: None
 warm_up.warm_up_beside_planning()
@@ -50,7 +50,11 @@ def test_beside_planning_what_climbs_alone_need_comes_first() -> None:
     told = subprocess.run([sys.executable, "-c", ALONE], capture_output=True, text=True, timeout=600)
     words = told.stdout.split()
     assert "command_tick" in words, told.stderr
-    assert not [word for word in words if word.startswith(("clamber.actions", "clamber.planning", "clamber.statics"))]
+    assert not [
+        word
+        for word in words
+        if word.startswith(("clamber.planning.problem", "clamber.planning", "clamber.families.climber.statics"))
+    ]
 
 
 def test_after_warming_up_a_climb_loads_no_further_kernel() -> None:

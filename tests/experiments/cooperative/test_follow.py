@@ -3,12 +3,13 @@
 import numpy as np
 import pytest
 
-from clamber.control.cooperative.planted_feet import LimitError
-from clamber.control.cooperative.settings import CooperationError
 from clamber.execution.log_csv import csv_text, parse_csv
-from clamber.experiments.cooperative.follow import FollowOptions, FollowRun, follow_path
-from clamber.experiments.cooperative.tool_path import load_tool_path, path_of
-from clamber.robots import WalkerRobot, load_robot
+from clamber.families.walker.control.cooperative.planted_feet import LimitError
+from clamber.families.walker.control.cooperative.settings import CooperationError
+from clamber.families.walker.robot import WalkerRobot
+from clamber.families.walker.trials.cooperative.follow import FollowOptions, FollowRun, follow_path
+from clamber.families.walker.trials.cooperative.tool_path import load_tool_path, path_of
+from clamber.tasks.robots import load_robot
 
 DOFS = (4, 5, 7, 10)
 

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from clamber.control.cooperative.limits import chain_of
-from clamber.control.cooperative.scratch import make_scratch, see_tool
-from clamber.control.cooperative.settings import own_speeds
-from clamber.experiments.benches import BENCHES
-from clamber.experiments.cooperative.chain_peers import CHAIN_PEERS, PERIOD
-from clamber.experiments.hexapod_speed import hexapod_rows, peer_rows, reach_rows, step_rows, walker
-from clamber.experiments.ik_peers import installed
+from clamber.benchmarks.benches import BENCHES
+from clamber.benchmarks.hexapod_speed import hexapod_rows, peer_rows, reach_rows, step_rows, walker
+from clamber.benchmarks.ik_peers import installed
+from clamber.families.walker.control.cooperative.limits import chain_of
+from clamber.families.walker.control.cooperative.scratch import make_scratch, see_tool
+from clamber.families.walker.control.cooperative.settings import own_speeds
+from clamber.families.walker.trials.cooperative.chain_peers import CHAIN_PEERS, PERIOD
 
 POSTURES = np.array(
     [

@@ -3,12 +3,13 @@
 import numpy as np
 import pytest
 
-from clamber.control.cooperative.cooperator import Cooperator
-from clamber.control.cooperative.freedoms import weights_of
-from clamber.control.cooperative.holding import ToolHolder
-from clamber.control.cooperative.settings import Cooperation, own_speeds
-from clamber.experiments.cooperative.simulated_body import SimulatedBody
-from clamber.robots import WalkerRobot, load_robot
+from clamber.families.walker.control.cooperative.cooperator import Cooperator
+from clamber.families.walker.control.cooperative.freedoms import weights_of
+from clamber.families.walker.control.cooperative.holding import ToolHolder
+from clamber.families.walker.control.cooperative.settings import Cooperation, own_speeds
+from clamber.families.walker.robot import WalkerRobot
+from clamber.families.walker.trials.cooperative.simulated_body import SimulatedBody
+from clamber.tasks.robots import load_robot
 from clamber.types import Floats
 
 PERIOD = 0.02

@@ -8,7 +8,7 @@ import pytest
 from clamber.errors import FileError, UnknownNameError
 from clamber.execution.log import LogError
 from clamber.execution.log_csv import parse_csv
-from clamber.experiments.cooperative.tool_path import load_tool_path, path_names, path_of
+from clamber.families.walker.trials.cooperative.tool_path import load_tool_path, path_names, path_of
 
 
 def path(text: str) -> object:

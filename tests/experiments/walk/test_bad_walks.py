@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from clamber.errors import SpecError
-from clamber.execution.walk.true_walk import hull_margins
-from clamber.experiments.walk.run_walk import WalkRun, run_walk, walk_flaws
-from clamber.sim.walker_plant import WalkerSim
-from clamber.tasks.walks import load_walk
-from clamber.tasks.walks.standing import start_margin
+from clamber.families.walker.execution.true_walk import hull_margins
+from clamber.families.walker.planning import load_walk
+from clamber.families.walker.planning.standing import start_margin
+from clamber.families.walker.sim.walker_plant import WalkerSim
+from clamber.families.walker.trials.run_walk import WalkRun, run_walk, walk_flaws
 
 
 def walked(*changes: str) -> WalkRun:

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from clamber.experiments.walk.run_walk import run_walk, walk_flaws
-from clamber.tasks.walks import load_walk
+from clamber.families.walker.planning import load_walk
+from clamber.families.walker.trials.run_walk import run_walk, walk_flaws
 
 HOLD = "hold={ x = '15 cm', y = '0.3 m', z = '0.6 m', within = '%s' }"
 

@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from clamber.experiments.walk.most import Tried, find_most
-from clamber.experiments.walk.run_walk import run_walk, walk_flaws
-from clamber.tasks.walks import load_walk
+from clamber.families.walker.planning import load_walk
+from clamber.families.walker.trials.most import Tried, find_most
+from clamber.families.walker.trials.run_walk import run_walk, walk_flaws
 
 
 def judged(value: str, borne: bool) -> Tried:

@@ -5,14 +5,14 @@ import math
 import numpy as np
 import pytest
 
-from clamber.actions.codes import MOVE, pack
-from clamber.actions.plan import Plan
 from clamber.errors import SpecError
-from clamber.experiments.walk.planned import careful, lay_plan, open_planned_walk, walk_of
-from clamber.experiments.walk.run_walk import run_walk, walk_flaws
+from clamber.families.walker.planning.task import WalkerTask
+from clamber.families.walker.trials.planned import careful, lay_plan, open_planned_walk, walk_of
+from clamber.families.walker.trials.run_walk import run_walk, walk_flaws
 from clamber.planning.planners import plan_task
+from clamber.planning.problem.codes import MOVE, pack
+from clamber.planning.problem.plan import Plan
 from clamber.tasks import load_task
-from clamber.tasks.walker import WalkerTask
 
 
 def load(*changes: str) -> WalkerTask:

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 from clamber.execution.plant import PlantStoppedError
-from clamber.experiments.climb.noise import NoiseError
-from clamber.experiments.plant_settings import split_settings
-from clamber.experiments.walk.noise import WALK_NOISE, named_walk_noise, read_walk_noise
-from clamber.experiments.walk.run_walk import WalkRun, run_walk, walk_flaws
+from clamber.families.walker.planning import load_walk
+from clamber.families.walker.sim.walker_flaws import WalkerFlaws
+from clamber.families.walker.sim.walker_plant import WalkerSim
+from clamber.families.walker.trials.noise import WALK_NOISE, named_walk_noise, read_walk_noise
+from clamber.families.walker.trials.run_walk import WalkRun, run_walk, walk_flaws
 from clamber.sim.plant_rules import PlantError
-from clamber.sim.walker_flaws import WalkerFlaws
-from clamber.sim.walker_plant import WalkerSim
-from clamber.tasks.walks import load_walk
+from clamber.trials.noise import NoiseError
+from clamber.trials.plant_settings import split_settings
 from tiers import first_fast
 
 SHORT = "way.0.distance=15cm"

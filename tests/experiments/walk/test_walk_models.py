@@ -4,16 +4,16 @@ import numpy as np
 import pytest
 
 from clamber.execution.sequencer import Sequencer
-from clamber.execution.walk.settings import WalkSettings
-from clamber.execution.walk.true_walk import TracedPlant, TrueWalk
-from clamber.execution.walk.walk_trace import TracedWalker
-from clamber.execution.walk.walker import Walker
-from clamber.execution.walk.walking import Walking
-from clamber.experiments.walk.run_walk import own_way
-from clamber.sim import ground_model
-from clamber.sim.walker_flaws import WalkerFlaws
-from clamber.sim.walker_plant import WalkerSim
-from clamber.tasks.walks import Walk, load_walk
+from clamber.families.walker.execution.settings import WalkSettings
+from clamber.families.walker.execution.true_walk import TracedPlant, TrueWalk
+from clamber.families.walker.execution.walk_trace import TracedWalker
+from clamber.families.walker.execution.walker import Walker
+from clamber.families.walker.execution.walking import Walking
+from clamber.families.walker.planning import Walk, load_walk
+from clamber.families.walker.sim import ground_model
+from clamber.families.walker.sim.walker_flaws import WalkerFlaws
+from clamber.families.walker.sim.walker_plant import WalkerSim
+from clamber.families.walker.trials.run_walk import own_way
 
 
 def true_walk(walk: Walk, *, rate: float = 500.0, struts: bool = False) -> TrueWalk:

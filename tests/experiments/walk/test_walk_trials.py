@@ -8,15 +8,15 @@ from typing import Any
 
 import pytest
 
-from clamber.experiments.intervals import wilson_interval
-from clamber.experiments.walk.noise import WalkNoise, named_walk_noise
-from clamber.experiments.walk.planned import careful
-from clamber.experiments.walk.trials import WalkSetup, WalkTrial, WalkTrials, run_walk_trial, run_walk_trials
+from clamber.families.walker.planning import load_walk
+from clamber.families.walker.planning.task import WalkerTask
+from clamber.families.walker.trials.noise import WalkNoise, named_walk_noise
+from clamber.families.walker.trials.planned import careful
+from clamber.families.walker.trials.trials import WalkSetup, WalkTrial, WalkTrials, run_walk_trial, run_walk_trials
 from clamber.jobs import LocalProcesses, StoreError
 from clamber.planning.planners import plan_task
 from clamber.tasks import load_task
-from clamber.tasks.walker import WalkerTask
-from clamber.tasks.walks import load_walk
+from clamber.trials.intervals import wilson_interval
 
 SHORT = "way.0.distance=3cm"
 

@@ -8,9 +8,9 @@ import pytest
 from page_visits import Visit
 
 from clamber.tasks import load_task
-from clamber.viewing.browser.app import LOOPBACK, App
-from clamber.viewing.browser.exhibit import Exhibit
-from clamber.viewing.browser.undertakings import carry_out, make_plan
+from clamber.viewer.app import LOOPBACK, App
+from clamber.viewer.exhibit import Exhibit
+from clamber.viewer.undertakings import carry_out, make_plan
 
 
 @pytest.fixture(scope="session")

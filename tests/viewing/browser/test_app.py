@@ -9,20 +9,20 @@ from typing import Any
 import numpy as np
 import pytest
 
-from clamber.actions.plan import load_plan
-from clamber.actions.plan_source import open_plan
-from clamber.actions.verdict import check_plan
 from clamber.errors import ClamberError, StartError
+from clamber.families.climber.pictures.run_film import ClimbFilm
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.walker.planning import Walk
+from clamber.families.walker.planning.task import WalkerTask
+from clamber.planning.problem.plan import load_plan
+from clamber.planning.problem.plan_source import open_plan
+from clamber.planning.problem.verdict import check_plan
 from clamber.tasks import Task, load_task
-from clamber.tasks.limbed import LimbedTask
-from clamber.tasks.walker import WalkerTask
-from clamber.tasks.walks import Walk
-from clamber.viewing.browser import work_panel
-from clamber.viewing.browser.app import App, PortError, check_port
-from clamber.viewing.browser.exhibit import open_exhibit
+from clamber.viewer import work_panel
+from clamber.viewer.app import App, PortError, check_port
+from clamber.viewer.exhibit import open_exhibit
+from clamber.viewer.undertakings import Planned
 from clamber.viewing.browser.film import Film
-from clamber.viewing.browser.run_film import ClimbFilm
-from clamber.viewing.browser.undertakings import Planned
 
 Serve = Callable[..., App]
 
@@ -184,7 +184,7 @@ def test_ports_are_checked() -> None:
 
 def test_a_port_that_is_taken_between_the_check_and_the_start_is_told_of(monkeypatch: pytest.MonkeyPatch) -> None:
     """viser listens on the next one in silence, where the viewer's address does not lead."""
-    monkeypatch.setattr("clamber.viewing.browser.app.check_port", lambda host, port: None)
+    monkeypatch.setattr("clamber.viewer.app.check_port", lambda host, port: None)
     with socket.create_server(("127.0.0.1", 0)) as other:
         port = other.getsockname()[1]
         with pytest.raises(PortError, match=f"port {port}: another program has just taken it"):

@@ -3,9 +3,10 @@
 import pytest
 
 from clamber.errors import ClamberError, SpecError
+from clamber.families.climber.pictures.board_draft import BoardDraft
+from clamber.families.climber.planning.task import LimbedTask
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
-from clamber.viewing.browser.board_draft import BoardDraft, about
+from clamber.viewing.browser.inputs import about
 
 
 @pytest.fixture

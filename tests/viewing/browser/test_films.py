@@ -10,23 +10,23 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from clamber.actions.limbed_plans import thesis_code
-from clamber.actions.plan import Plan
 from clamber.errors import ClamberError, SpecError
-from clamber.execution.climb.climb_trace import TOPIC
-from clamber.execution.climb.course import climbable
-from clamber.execution.climb.legs import legs_of
 from clamber.execution.log import LogError
 from clamber.execution.log_files import write_log
-from clamber.experiments.climb.run_plan import ClimbRun, climbing_flaws, run_plan
+from clamber.families.climber.execution.climb_trace import TOPIC
+from clamber.families.climber.execution.course import climbable
+from clamber.families.climber.execution.legs import legs_of
+from clamber.families.climber.pictures.climb_scenery import join
+from clamber.families.climber.pictures.run_film import ClimbFilm
+from clamber.families.climber.planning.plans import thesis_code
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.climber.trials.run_plan import ClimbRun, climbing_flaws, run_plan
+from clamber.families.walker.pictures.walk_film import PlannedWalkFilm, loads_at_rest
 from clamber.planning.planners import plan_task
+from clamber.planning.problem.plan import Plan
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
-from clamber.viewing.browser.climb_scenery import join
-from clamber.viewing.browser.exhibit import Exhibit, open_exhibit, planned_exhibit, run_film
+from clamber.viewer.exhibit import Exhibit, open_exhibit, planned_exhibit, run_film
 from clamber.viewing.browser.film import PlanFilm
-from clamber.viewing.browser.run_film import ClimbFilm
-from clamber.viewing.browser.walk_film import PlannedWalkFilm, loads_at_rest
 
 
 @pytest.fixture(scope="module")

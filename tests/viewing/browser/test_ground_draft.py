@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 
 from clamber.errors import ClamberError, SpecError
+from clamber.families.walker.pictures.ground_draft import DITCH, PATCH, STEP, GroundDraft
+from clamber.families.walker.pictures.standing_film import standing
+from clamber.families.walker.pictures.way import way_poses
+from clamber.families.walker.planning import Walk, load_walk, walk_names
+from clamber.families.walker.planning.task import WalkerTask
 from clamber.tasks import Task, load_task
 from clamber.tasks.task_files import task_files
-from clamber.tasks.walker import WalkerTask
-from clamber.tasks.walks import Walk, load_walk, walk_names
-from clamber.viewing.browser.board_draft import about
-from clamber.viewing.browser.exhibit import planned_exhibit, walk_exhibit
-from clamber.viewing.browser.ground_draft import DITCH, PATCH, STEP, GroundDraft
-from clamber.viewing.browser.standing_film import standing
-from clamber.viewing.browser.way import way_poses
+from clamber.viewer.exhibit import planned_exhibit, walk_exhibit
+from clamber.viewing.browser.inputs import about
 
 
 def terrace() -> GroundDraft:

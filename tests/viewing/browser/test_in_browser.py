@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 from page_visits import Visit, pixel, wait_for
 
-from clamber.actions.plan import load_plan
-from clamber.actions.verdict import check_plan
+from clamber.families.climber.pictures.wall_scene import WallScene
+from clamber.families.walker.planning import load_walk
+from clamber.planning.problem.plan import load_plan
+from clamber.planning.problem.verdict import check_plan
 from clamber.tasks import load_task
-from clamber.tasks.walks import load_walk
-from clamber.viewing.browser.app import App
-from clamber.viewing.browser.exhibit import open_exhibit
-from clamber.viewing.browser.page import write_page
-from clamber.viewing.browser.wall_scene import WallScene
+from clamber.viewer.app import App
+from clamber.viewer.exhibit import open_exhibit
+from clamber.viewer.page import write_page
 
 Open = Callable[[str], Visit]
 Serve = Callable[..., App]

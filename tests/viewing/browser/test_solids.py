@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from clamber.families.climber.pictures.wall_space import TURN, in_space, on_wall, turned
 from clamber.types import Floats
 from clamber.viewing.browser.solids import SIDES, Mesh, along_z, ball, prism, rod
-from clamber.viewing.browser.wall_space import TURN, in_space, on_wall, turned
 
 NGON = 0.5 * SIDES * math.sin(math.tau / SIDES)  # area of the polygon that stands for a circle of radius 1
 

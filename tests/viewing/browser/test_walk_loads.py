@@ -10,13 +10,13 @@ from clamber.control.support import support_margin
 from clamber.errors import SpecError
 from clamber.execution.log import Log, LogError
 from clamber.execution.log_files import read_log, write_log
-from clamber.execution.walk.walk_trace import LEG_NAMES, PHASES
-from clamber.experiments.walk.run_walk import WalkRun, run_walk, walk_flaws
-from clamber.tasks.walks import load_walk
+from clamber.families.walker.execution.walk_trace import LEG_NAMES, PHASES
+from clamber.families.walker.pictures.walk_film import WalkFilm
+from clamber.families.walker.pictures.walker_loads import grip_in_use
+from clamber.families.walker.planning import load_walk
+from clamber.families.walker.trials.run_walk import WalkRun, run_walk, walk_flaws
 from clamber.units import GRAVITY
-from clamber.viewing.browser.exhibit import open_exhibit
-from clamber.viewing.browser.walk_film import WalkFilm
-from clamber.viewing.walker_loads import grip_in_use
+from clamber.viewer.exhibit import open_exhibit
 
 WEIGHT = 80.0 * GRAVITY
 AXES = "xyz"

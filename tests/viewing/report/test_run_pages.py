@@ -8,14 +8,14 @@ from typing import Any
 
 import pytest
 
-from clamber.actions.limbed_plans import thesis_code
-from clamber.actions.plan import Plan, load_plan
 from clamber.cli import main
-from clamber.execution.climb.course import climbable
+from clamber.families.climber.execution.course import climbable
+from clamber.families.climber.planning.plans import thesis_code
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.walker.pictures.report import piece_in_words
+from clamber.families.walker.planning.piece import BodyTwist, Piece, Stop
+from clamber.planning.problem.plan import Plan, load_plan
 from clamber.tasks import load_task
-from clamber.tasks.limbed import LimbedTask
-from clamber.tasks.walks.piece import BodyTwist, Piece, Stop
-from clamber.viewing.report.walk import piece_in_words
 
 
 def ran(*words: str) -> int:

@@ -23,7 +23,7 @@ def circle(
 ) -> None:
     """Let the body's aim run round a circle, the tips fixed to their pegs unless --hooked (thesis, Fig. 4.17)."""
     words.check()
-    from ...experiments.climb.body_scenario import circle as round_circle
+    from ...families.climber.trials.body_scenario import circle as round_circle
     from ...units import read_number
 
     flaws = words.build_plant()
@@ -42,7 +42,7 @@ def push_up(
 ) -> None:
     """Push the body up on its hooks (thesis, Fig. 4.18)."""
     words.check()
-    from ...experiments.climb.body_scenario import push_up as up
+    from ...families.climber.trials.body_scenario import push_up as up
     from ...units import read_number
 
     flaws = words.build_plant()
@@ -66,8 +66,8 @@ def push(
 ) -> None:
     """Push the body and let it go: how far it yields, and whether the hooks stay on (thesis, Fig. 4.19)."""
     words.check()
-    from ...experiments.climb.body_scenario import push as pushed
-    from ...experiments.climb.body_trials import push_trials
+    from ...families.climber.trials.body_scenario import push as pushed
+    from ...families.climber.trials.body_trials import push_trials
     from ...units import read_point
     from .text import print_trials
 

@@ -12,9 +12,9 @@ from ..options import AsJson, Output, Quiet
 from ..output import announce_compilation, check_writable, print_json, stdout
 
 if TYPE_CHECKING:
-    from ...experiments.climb.body_bench import BodyEntry
-    from ...experiments.climb.body_scenario import BodyScenario
-    from ...experiments.climb.body_stand import BodyStand
+    from ...families.climber.trials.body_bench import BodyEntry
+    from ...families.climber.trials.body_scenario import BodyScenario
+    from ...families.climber.trials.body_stand import BodyStand
     from ...sim.limb_flaws import LimbFlaws
 
 
@@ -89,7 +89,7 @@ class BodyOptions:
 
     def build_stand(self, *, fixed: bool = False, below: str = "15mm", hanging: bool = False) -> "BodyStand":
         """The robot as it is held; the arguments are what counts where nothing is said."""
-        from ...experiments.climb.body_stand import ladder_stand
+        from ...families.climber.trials.body_stand import ladder_stand
         from ...units import read_number
 
         height = read_number("below", self.below or below, "length")
@@ -97,16 +97,16 @@ class BodyOptions:
 
     def build_plant(self) -> "LimbFlaws":
         """The plant's properties."""
-        from ...experiments.climb.body_stand import bench_flaws
+        from ...families.climber.trials.body_stand import bench_flaws
 
         return bench_flaws(self.flaws.value, self.settings or ())
 
     def build_entries(self, stand: "BodyStand") -> "list[BodyEntry]":
         """The controls to be compared."""
         from ...errors import UnknownNameError
-        from ...execution.climb.body_gains import LIMITS, BodyGains, usual_alpha
-        from ...experiments.climb.body_bench import ANGLES
-        from ...experiments.climb.body_entries import make_entries, read_triple
+        from ...families.climber.execution.body_gains import LIMITS, BodyGains, usual_alpha
+        from ...families.climber.trials.body_bench import ANGLES
+        from ...families.climber.trials.body_entries import make_entries, read_triple
 
         kp = read_triple("kp", self.kp)
         kd = (kp[0] / 10, kp[1] / 10, kp[2] / 10) if self.kd is None else read_triple("kd", self.kd)
@@ -127,15 +127,15 @@ class BodyOptions:
 
 def run_bench(words: BodyOptions, stand: "BodyStand", scenario: "BodyScenario", flaws: "LimbFlaws") -> None:
     """Run the controls one by one, write and print what came out, and leave with 0 if no hook came off, else 1."""
-    from ...experiments.climb.body_bench import run_bodies
-    from ...experiments.climb.body_measures import BodyContest, measure_body
+    from ...families.climber.trials.body_bench import run_bodies
+    from ...families.climber.trials.body_measures import BodyContest, measure_body
     from .text import print_bodies
 
     announce_compilation(quiet=words.quiet)
     runs = run_bodies(stand, scenario, words.build_entries(stand), flaws)
     measured = [measure_body(run, scenario) for run in runs]
     if words.output is not None:
-        from ...viewing.body_plot import draw_bodies
+        from ...families.climber.pictures.body_plot import draw_bodies
 
         draw_bodies(runs, scenario, words.output)
     if words.as_json:

@@ -6,10 +6,10 @@ from typing import Final
 
 from rich.console import Console
 
-from ...experiments.climb.body_bench import BodyRun
-from ...experiments.climb.body_measures import BodyMeasures
-from ...experiments.climb.body_scenario import BodyScenario
-from ...experiments.climb.body_trials import PushTrial
+from ...families.climber.trials.body_bench import BodyRun
+from ...families.climber.trials.body_measures import BodyMeasures
+from ...families.climber.trials.body_scenario import BodyScenario
+from ...families.climber.trials.body_trials import PushTrial
 from ..output import plain_table
 
 COLUMNS: Final = {

@@ -18,7 +18,7 @@ from . import options as opt
 if TYPE_CHECKING:
     from ...control.identification.estimate import Estimate
     from ...control.identification.joint import IdentifiedJoint
-    from ...execution.log_identify import Identification
+    from ...families.climber.execution.log_identify import Identification
 
 WIDTH = 80
 Column: TypeAlias = str | None
@@ -93,7 +93,7 @@ def identify(
     """Find each joint's inertia, damping, friction, amplifier gain and backlash from a log, with standard errors."""
     opt.check_output(words.output, ".toml")
     from ...execution.log_files import read_log
-    from ...execution.log_identify import Known, identify_log
+    from ...families.climber.execution.log_identify import Known, identify_log
 
     mapping = words.mapping()
     known = Known.read(words.torque_constant, words.gear, words.gain)

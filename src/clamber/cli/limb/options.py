@@ -95,8 +95,8 @@ class LimbWords:
 
     def build_plant(self, seed: int | None = None, *, drawn: bool = False) -> "LimbFlaws":
         """The plant's properties; checked before anything else is looked at."""
+        from ...families.climber.sim.flaw_texts import named_flaws, read_flaws
         from ...limb_bench.bench_limb import limbed_robot
-        from ...sim.flaw_texts import named_flaws, read_flaws
 
         base = named_flaws(self.flaws.value, limbed_robot(self.robot))
         return read_flaws(base, self.settings or (), seed, drawn=drawn)

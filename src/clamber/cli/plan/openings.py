@@ -9,8 +9,8 @@ from rich.console import Console
 
 from ...errors import SpecError, StartError
 from ...json_form import INLINE
-from ...openings.find import find_openings
-from ...openings.result import Openings, Places, shown
+from ...planning.openings.find import find_openings
+from ...planning.openings.result import Openings, Places, shown
 from ...planning.result import PlanResult
 from ...tasks import Task
 from ..output import plain_table, print_json, stderr, stdout

@@ -5,10 +5,10 @@ from pathlib import Path
 
 from rich.console import Console
 
-from ...actions.plan import Plan
-from ...actions.plan_families import plan_family
 from ...planning.genetic.learning import Macro
 from ...planning.learning import Lesson
+from ...planning.problem.plan import Plan
+from ...planning.problem.plan_families import plan_family
 from ...planning.progress import Moment, progress_text
 from ...planning.result import Furthest, PlanResult
 from ...tasks import Task

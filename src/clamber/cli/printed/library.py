@@ -6,28 +6,28 @@ from typing import Any, Final
 
 from pydantic import TypeAdapter, create_model
 
-from ...actions.problems import SizedInventory
-from ...actions.verdict import CheckedPlan
+from ...benchmarks.rows import Row
 from ...errors import UnknownNameError
-from ...execution.log_identify import Identification
-from ...experiments.climb.body_measures import BodyContest
-from ...experiments.climb.body_trials import PushTrial
-from ...experiments.climb.lessons import LearnedPlan
-from ...experiments.climb.press import Pressed
-from ...experiments.climb.run_plan import ClimbRun
-from ...experiments.cooperative.follow import FollowRun
-from ...experiments.rows import Row
-from ...experiments.walk.most import MostOfWalk
-from ...experiments.walk.run_walk import WalkRun
 from ...exports.library import Exported
+from ...families.climber.execution.log_identify import Identification
+from ...families.climber.trials.body_measures import BodyContest
+from ...families.climber.trials.body_trials import PushTrial
+from ...families.climber.trials.lessons import LearnedPlan
+from ...families.climber.trials.press import Pressed
+from ...families.climber.trials.run_plan import ClimbRun
+from ...families.walker.robot.calibration import Rivals
+from ...families.walker.robot.ditch_plan import Crossing
+from ...families.walker.trials.cooperative.follow import FollowRun
+from ...families.walker.trials.most import MostOfWalk
+from ...families.walker.trials.run_walk import WalkRun
 from ...inspection.finding import Finding
 from ...planning.exact.front import Front
 from ...planning.learning import Lesson
+from ...planning.problem.posed import SizedInventory
+from ...planning.problem.verdict import CheckedPlan
 from ...planning.reach.reach import Reach
 from ...planning.result import PlanResult
 from ...planning.sweep import Sweep
-from ...robots.walker.calibration import Rivals
-from ...robots.walker.ditch_plan import Crossing
 from ...studies.result import StudyResult
 from ...types import Json
 from ..catalogue import ENTRIES

@@ -4,16 +4,16 @@ from collections.abc import Callable
 
 import typer
 
-from ...actions.plan import Plan
-from ...experiments.climb.noise import NO_NOISE, check_noise, read_noise
-from ...experiments.climb.planning import plan_to_climb, replanner
-from ...experiments.climb.plants import check_plant, is_remote
-from ...experiments.climb.rehearsal import rehearse
-from ...experiments.climb.run_plan import climbing_flaws, open_climb, run_plan
+from ...families.climber.pictures.climb_run_view import check_run_suffix, write_run
+from ...families.climber.planning.task import LimbedTask
+from ...families.climber.trials.noise import NO_NOISE, check_noise, read_noise
+from ...families.climber.trials.planning import plan_to_climb, replanner
+from ...families.climber.trials.plants import check_plant, is_remote
+from ...families.climber.trials.rehearsal import rehearse
+from ...families.climber.trials.run_plan import climbing_flaws, open_climb, run_plan
 from ...planning.planners import find_planner
+from ...planning.problem.plan import Plan
 from ...sim.limb_flaws import LimbFlaws
-from ...tasks.limbed import LimbedTask
-from ...viewing.climb_run_view import check_run_suffix, write_run
 from ..compile_ahead import CLIMBING, compile_ahead
 from ..output import announce_compilation, print_json, stderr, stdout, tell_cuts
 from .options import RunOptions

@@ -60,8 +60,8 @@ def run(
     """
     telling = RunReport(words.report, repeat_words(context, NOT_REPEATED))
     words.check()
-    from ...actions.plan_source import check_name
-    from ...tasks.walks import is_walk, walk_names
+    from ...families.walker.planning import is_walk, walk_names
+    from ...planning.problem.plan_source import check_name
 
     check_name(what, walk_names())
     if is_walk(what):
@@ -69,8 +69,8 @@ def run(
 
         run_walk_file(what, words, telling)
         return
-    from ...experiments.plant_settings import split_settings
-    from ...experiments.walk.planned import open_planned_walk
+    from ...families.walker.trials.planned import open_planned_walk
+    from ...trials.plant_settings import split_settings
 
     planned = open_planned_walk(what, words.task, split_settings(words.overrides or ())[0])
     if planned is not None:

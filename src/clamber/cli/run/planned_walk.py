@@ -2,10 +2,10 @@
 
 from typing import Final
 
-from ...actions.plan import Plan
-from ...experiments.walk.planned import careful, lay_plan, walk_of
+from ...families.walker.planning.task import WalkerTask
+from ...families.walker.trials.planned import careful, lay_plan, walk_of
 from ...planning.planners import find_planner
-from ...tasks.walker import WalkerTask
+from ...planning.problem.plan import Plan
 from ..for_climbs import refuse_for_walk
 from ..output import announce_compilation
 from .options import RunOptions

@@ -5,9 +5,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ...actions.plan import Plan
-    from ...experiments.climb.run_plan import ClimbRun
-    from ...experiments.walk.run_walk import WalkRun
+    from ...families.climber.trials.run_plan import ClimbRun
+    from ...families.walker.trials.run_walk import WalkRun
+    from ...planning.problem.plan import Plan
     from ...viewing.report.folder import Kind
 
 
@@ -34,7 +34,7 @@ class RunReport:
         """Write that of a climb; its page, if there is to be one."""
         if self.folder is None:
             return ()
-        from ...viewing.report.climb import write_climb_report
+        from ...families.climber.pictures.report import write_climb_report
 
         return (write_climb_report(run, self.command, self.folder),)
 
@@ -42,6 +42,6 @@ class RunReport:
         """Write that of a walk, which may have followed a plan; its page, if there is to be one."""
         if self.folder is None:
             return ()
-        from ...viewing.report.walk import write_walk_report
+        from ...families.walker.pictures.report import write_walk_report
 
         return (write_walk_report(run, plan, self.command, self.folder),)

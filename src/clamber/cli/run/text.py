@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 from rich.console import Console
 
-from ...execution.climb.climb_report import ActionReport
-from ...experiments.climb.run_plan import ClimbRun
+from ...families.climber.execution.climb_report import ActionReport
+from ...families.climber.trials.run_plan import ClimbRun
 from ..live_line import LiveLine
 from ..output import plain_table
 

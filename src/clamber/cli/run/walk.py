@@ -8,13 +8,13 @@ import numpy as np
 import typer
 from rich.console import Console
 
-from ...actions.plan import Plan
-from ...execution.walk.walk_report import WalkReport
-from ...execution.walk.walking import Lay
-from ...experiments.plant_settings import split_settings
-from ...experiments.walk.held_point import HeldPoint
-from ...experiments.walk.run_walk import WalkRun, run_walk, walk_flaws
-from ...tasks.walks import Walk
+from ...families.walker.execution.walk_report import WalkReport
+from ...families.walker.execution.walking import Lay
+from ...families.walker.planning import Walk
+from ...families.walker.trials.held_point import HeldPoint
+from ...families.walker.trials.run_walk import WalkRun, run_walk, walk_flaws
+from ...planning.problem.plan import Plan
+from ...trials.plant_settings import split_settings
 from ...units import DEGREE
 from ..for_climbs import refuse_for_walk
 from ..live_line import LiveLine
@@ -43,7 +43,7 @@ def run_walk_file(what: str, words: RunOptions, telling: RunReport) -> None:
         words: How.
         telling: Its report, if one is asked for.
     """
-    from ...tasks.walks import load_walk
+    from ...families.walker.planning import load_walk
 
     refuse_for_walk(what, words, CLIMBS_ONLY)
     announce_compilation(quiet=words.quiet)
@@ -54,8 +54,8 @@ def walk_and_tell(
     walk: Walk, words: RunOptions, telling: RunReport, lay: Lay | None = None, plan: Plan | None = None
 ) -> None:
     """Carry a walk out, along its own way or another course, write files and say how it went; leaves with 1 where it did not end well."""
-    from ...experiments.walk.noise import named_walk_noise, read_walk_noise
-    from ...viewing.walk_run_view import check_walk_suffix, write_walk
+    from ...families.walker.pictures.walk_run_view import check_walk_suffix, write_walk
+    from ...families.walker.trials.noise import named_walk_noise, read_walk_noise
 
     for file in words.outputs:
         check_walk_suffix(file)

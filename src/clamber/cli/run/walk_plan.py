@@ -2,9 +2,9 @@
 
 import typer
 
-from ...actions.plan import Plan
+from ...families.walker.planning.task import WalkerTask
 from ...planning.planners import plan_task
-from ...tasks.walker import WalkerTask
+from ...planning.problem.plan import Plan
 from ..output import stderr
 from ..plan.text import ProgressLine
 

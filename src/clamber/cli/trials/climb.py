@@ -7,11 +7,11 @@ from typing import Annotated
 import typer
 
 from ...execution.fault import FAULTS, check_faults
-from ...experiments.climb.noise import named_noise, read_noise
-from ...experiments.climb.run_plan import ClimbRun, open_climb
-from ...experiments.climb.trial import ClimbTrial, TrialSetup, climb_once
-from ...experiments.climb.trial_summary import TrialSummary, sum_up
-from ...experiments.climb.trials import NoPlanError, run_trials, stored_trial, with_plan
+from ...families.climber.trials.noise import named_noise, read_noise
+from ...families.climber.trials.run_plan import ClimbRun, open_climb
+from ...families.climber.trials.trial import ClimbTrial, TrialSetup, climb_once
+from ...families.climber.trials.trial_summary import TrialSummary, sum_up
+from ...families.climber.trials.trials import NoPlanError, run_trials, stored_trial, with_plan
 from ...json_form import INLINE
 from ...planning.planners import find_planner
 from ..compile_ahead import CLIMBING, compile_ahead
@@ -63,7 +63,7 @@ def climb_trials_of(what: str, asked: TrialsOptions, words: CrewWords) -> None:
         )  # fmt: skip
     summary = sum_up(told)
     if words.output is not None:
-        from ...viewing.trials_plot import draw_trials
+        from ...families.climber.pictures.trials_plot import draw_trials
 
         draw_trials(summary, words.output)
     if words.as_json:
@@ -78,7 +78,7 @@ def climb_trials_of(what: str, asked: TrialsOptions, words: CrewWords) -> None:
 
 
 def _check_suffix(output: Path, replay: int | None) -> None:
-    from ...viewing.climb_run_view import check_run_suffix
+    from ...families.climber.pictures.climb_run_view import check_run_suffix
     from ...viewing.output import CANVASES, check_suffix
 
     if replay is None:
@@ -113,7 +113,7 @@ def _planned(what: str, asked: TrialsOptions, words: CrewWords) -> TrialSetup:
 
 def _replay(setup: TrialSetup, seed: int, words: CrewWords) -> int:
     """One trial again; the exit code."""
-    from ...viewing.climb_run_view import write_run
+    from ...families.climber.pictures.climb_run_view import write_run
     from ..run.text import ClimbLine, print_run
 
     known, plans = stored_trial(setup, seed, words.store)

@@ -30,8 +30,8 @@ def trials(
     --noise friction=30%` leaves one of them. `-o` writes a picture (.png, .svg, .pdf), or with `--replay` what `clamber run` writes.
     """
     words.check()
-    from ...actions.plan_source import check_name
-    from ...tasks.walks import is_walk, walk_names
+    from ...families.walker.planning import is_walk, walk_names
+    from ...planning.problem.plan_source import check_name
 
     check_name(what, walk_names())
     if is_walk(what):
@@ -39,8 +39,8 @@ def trials(
 
         walk_trials_of(what, asked, words)
         return
-    from ...experiments.plant_settings import split_settings
-    from ...experiments.walk.planned import open_planned_walk
+    from ...families.walker.trials.planned import open_planned_walk
+    from ...trials.plant_settings import split_settings
 
     planned = open_planned_walk(what, asked.task, split_settings(asked.overrides or ())[0])
     if planned is not None:

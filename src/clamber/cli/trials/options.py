@@ -46,7 +46,7 @@ class TrialsOptions:
         Raises:
             HeldOutError: If that is true of some only.
         """
-        from ...experiments.held_out import are_held_out
+        from ...trials.held_out import are_held_out
 
         return are_held_out(self.seeds)
 
@@ -68,7 +68,7 @@ class TrialsOptions:
         """
         if self.at_least is not None:
             _share(self.at_least)
-        from ...experiments.held_out import are_held_out
+        from ...trials.held_out import are_held_out
 
         are_held_out(self.seeds)
 

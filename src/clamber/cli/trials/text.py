@@ -6,13 +6,13 @@ from pathlib import Path
 from rich.console import Console
 
 from ...execution.fault import FAULTS
-from ...experiments.climb.noise import NOISE
-from ...experiments.climb.sensitivity import VERDICTS, Effect, Third
-from ...experiments.climb.trial_summary import Cause, Spread, TrialSummary
-from ...experiments.climb.trials import Trials
-from ...experiments.fault_trials import ENDINGS, FaultRow
-from ...experiments.held_out import seeds_in_words
-from ...experiments.intervals import wilson_interval
+from ...families.climber.trials.noise import NOISE
+from ...families.climber.trials.sensitivity import VERDICTS, Effect, Third
+from ...families.climber.trials.trial_summary import Cause, Spread, TrialSummary
+from ...families.climber.trials.trials import Trials
+from ...trials.fault_trials import ENDINGS, FaultRow
+from ...trials.held_out import seeds_in_words
+from ...trials.intervals import wilson_interval
 from ..live_line import LiveLine
 from ..output import plain_table
 

@@ -8,21 +8,21 @@ import numpy as np
 import typer
 from rich.console import Console
 
-from ...actions.plan import Plan
 from ...execution.fault import check_faults
-from ...experiments.fault_trials import fault_rows
-from ...experiments.held_out import seeds_in_words
-from ...experiments.intervals import wilson_interval
-from ...experiments.plant_settings import split_settings
-from ...experiments.walk.faults import failing_of
-from ...experiments.walk.noise import named_walk_noise, read_walk_noise
-from ...experiments.walk.planned import careful, lay_plan, walk_of
-from ...experiments.walk.run_walk import walk_flaws
-from ...experiments.walk.trials import LEVEL, WalkCause, WalkSetup, WalkTrials, run_walk_trials
+from ...families.walker.planning import load_walk
+from ...families.walker.planning.task import WalkerTask
+from ...families.walker.trials.faults import failing_of
+from ...families.walker.trials.noise import named_walk_noise, read_walk_noise
+from ...families.walker.trials.planned import careful, lay_plan, walk_of
+from ...families.walker.trials.run_walk import walk_flaws
+from ...families.walker.trials.trials import LEVEL, WalkCause, WalkSetup, WalkTrials, run_walk_trials
 from ...json_form import INLINE
 from ...planning.planners import find_planner
-from ...tasks.walker import WalkerTask
-from ...tasks.walks import load_walk
+from ...planning.problem.plan import Plan
+from ...trials.fault_trials import fault_rows
+from ...trials.held_out import seeds_in_words
+from ...trials.intervals import wilson_interval
+from ...trials.plant_settings import split_settings
 from ...units import DEGREE
 from ..crew import CrewWords
 from ..for_climbs import refuse_for_walk

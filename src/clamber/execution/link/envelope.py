@@ -1,12 +1,10 @@
 """Limits of a robot that its server keeps by itself, whatever a client commands: voltage, joint range, speed, heat of the motors."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
-from ...robots.limbed import LimbedRobot
 from ...types import Floats
 from ..hardware import Decoder, Reading
 from ..wiring import Wiring
@@ -109,20 +107,3 @@ class Envelope:
         if self.heat[hottest] >= 1.0:
             return f"the motor of {limits.names[hottest]} is as hot as its continuous torque may make it"
         return None
-
-
-def envelope_of(robot: LimbedRobot, wiring: Wiring, period: float, limbs: Sequence[str] | None = None) -> Envelope:
-    """The envelope of a climber's joints, or of those of some limbs, as its file states them."""
-    chosen = [limb for limb in robot.limbs if limbs is None or limb.name in limbs]
-    joints = [joint for limb in chosen for joint in (limb.shoulder, limb.elbow)]
-    motor = robot.motor
-    none = motor.continuous_torque is None or motor.thermal_time is None
-    limits = JointLimits(
-        names=tuple(f"{limb.name} {which}" for limb in chosen for which in ("shoulder", "elbow")),
-        lower=np.array([joint.lower for joint in joints]),
-        upper=np.array([joint.upper for joint in joints]),
-        speeds=np.array([robot.no_load_speed_of(joint) for joint in joints]),
-        continuous=np.full(len(joints), np.inf if none else motor.continuous_torque),
-        thermal_time=motor.thermal_time or np.inf,
-    )
-    return Envelope(wiring, limits, period)

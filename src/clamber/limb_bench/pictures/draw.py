@@ -4,7 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Final
 
-from ...execution.log_identify import Identification
+from ...families.climber.execution.log_identify import Identification
 from ..force import ForceResult
 from ..open_loop import OpenLoopResult
 from ..portrait import Portrait

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...control.identification.joint import IdentifiedJoint
 from ...control.identification.replay import model_speed
-from ...execution.log_identify import Identification
+from ...families.climber.execution.log_identify import Identification
 from ...types import Floats
 from ...viewing import style
 from ...viewing.output import drawing

@@ -6,12 +6,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Final
 
-from ...actions.problem import CompiledProblem
-from ...actions.problems import pose_problem
 from ...tasks import Task
 from ..beam.planner import plan_beam
 from ..exact.planner import plan_exact
 from ..genetic.planner import plan_genetic
+from ..problem.problem import CompiledProblem
+from ..problem.problems import pose_problem
 from ..progress import Listener
 from ..result import PlanResult
 from ..route.planner import plan_route

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ...actions.randoms import scramble
 from ...compiled import kernel
+from ..problem.randoms import scramble
 from ..stance_table import slot_of
 
 

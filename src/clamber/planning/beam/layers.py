@@ -8,8 +8,8 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from ...actions.problem import CompiledProblem, Records
 from ..exact.windows import table_size
+from ..problem.problem import CompiledProblem, Records
 from ..stance_table import rehash
 from .kernels import choose
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ...actions.problem import CompiledProblem
 from ..exact.windows import Codes, Shortened, is_plan
+from ..problem.problem import CompiledProblem
 from .layers import Beam, Corridor, search_layers
 
 

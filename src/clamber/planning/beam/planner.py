@@ -4,12 +4,12 @@ import time
 from dataclasses import replace
 from typing import Final
 
-from ...actions.plan import Plan
-from ...actions.plan_families import plan_family
-from ...actions.problems import pose_problem
 from ...errors import PlannerError
 from ...tasks import Task
 from ..exact.windows import Shortened
+from ..problem.plan import Plan
+from ..problem.plan_families import plan_family
+from ..problem.problems import pose_problem
 from ..progress import Layers, Listener
 from ..result import PlanResult, furthest_of
 from ..shorten import shorten

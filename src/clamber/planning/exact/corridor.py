@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from ...actions.problem import CompiledProblem
+from ..problem.problem import CompiledProblem
 from .corridor_kernels import collect, shortest
 from .windows import Codes, Shortened, is_plan, table_size, trace
 

@@ -2,8 +2,8 @@
 
 import math
 
-from ...actions.family import bound, candidates, done, key, restore, step, toward
 from ...compiled import kernel
+from ..problem.family_kernels import bound, candidates, done, key, restore, step, toward
 from ..stance_table import slot_of
 from .records import NONE
 

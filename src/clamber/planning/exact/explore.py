@@ -8,8 +8,8 @@ from typing import Final
 
 import numpy as np
 
-from ...actions.problem import CompiledProblem
 from ...types import Ints
+from ..problem.problem import CompiledProblem
 from .costs import COSTS, Aim
 from .kernels import explore_some, furthest, plant
 from .memory import BUCKETS, Memory

@@ -7,13 +7,13 @@ from operator import attrgetter
 from pathlib import Path
 from typing import Annotated, Literal
 
-from ...actions.plan import Plan
-from ...actions.plan_costs import spent
-from ...actions.plan_families import plan_family
-from ...actions.planned import PlannedAction
 from ...files import write_atomically
 from ...json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ...tasks import Task
+from ..problem.plan import Plan
+from ..problem.plan_costs import spent
+from ..problem.plan_families import plan_family
+from ..problem.planned import PlannedAction
 from ..progress import Exploring, Listener
 from .costs import COSTS, Aim, check_costs
 from .explore import Exploration, Way, inform

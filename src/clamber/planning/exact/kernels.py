@@ -2,9 +2,9 @@
 
 import math
 
-from ...actions.family import bound, candidates, done, freer, key, measure, reflect, restore, step
-from ...actions.loops import LARGEST
 from ...compiled import inlined, kernel
+from ..problem.family_kernels import bound, candidates, done, freer, key, measure, reflect, restore, step
+from ..problem.loops import LARGEST
 from ..stance_table import slot_of
 from .open_list import add_label, take_label
 from .records import EQUAL, EXHAUSTED, FOUND, FULL, NONE, RUNNING

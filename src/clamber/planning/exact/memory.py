@@ -4,8 +4,8 @@ from typing import Any, Final
 
 import numpy as np
 
-from ...actions.problem import CompiledProblem
 from ...types import Ints
+from ..problem.problem import CompiledProblem
 from ..stance_table import rehash
 from .records import LABEL, NODE, STATE
 

@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from ...actions.problem import CompiledProblem
+from ..problem.problem import CompiledProblem
 from .costs import COSTS, Aim
 from .explore import Exploration, explore
 

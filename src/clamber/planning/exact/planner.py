@@ -3,13 +3,13 @@
 import time
 from collections.abc import Sequence
 
-from ...actions.plan import Plan
-from ...actions.plan_costs import spent
-from ...actions.plan_families import plan_family
-from ...actions.problem import CompiledProblem
-from ...actions.problems import pose_problem
 from ...errors import PlannerError
 from ...tasks import Task
+from ..problem.plan import Plan
+from ..problem.plan_costs import spent
+from ..problem.plan_families import plan_family
+from ..problem.problem import CompiledProblem
+from ..problem.problems import pose_problem
 from ..progress import Exploring, Listener
 from ..result import PlanResult, Status, furthest_of
 from .costs import COSTS, check_costs, describe_order

@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from ...actions.problem import CompiledProblem
+from ..problem.problem import CompiledProblem
 from ..stance_table import rehash
 from .window_kernels import search_window, stance_keys
 

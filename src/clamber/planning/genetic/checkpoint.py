@@ -9,12 +9,12 @@ from typing import Annotated, Any, Final
 import numpy as np
 from pydantic import Field, StrictBool
 
-from ...actions.problem import MAX_FEATURES, ROLLOUT, CompiledProblem
 from ...errors import FileError, SpecError
 from ...files import Document, parse_json, read_text, write_atomically
 from ...jobs.release import difference, release
 from ...regular_files import is_there
 from ...specs import build_spec, spec
+from ..problem.problem import MAX_FEATURES, ROLLOUT, CompiledProblem
 from .evolve import Evolution, Generation, Genes, Population
 from .learning import Macro
 from .polish import explicit_problem

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
-from ...actions.problem import CompiledProblem, Records
+from ..problem.problem import CompiledProblem, Records
 from ..progress import Listener, Progress
 from .operators import breed, random_genes
 from .profile import Profile, Search

@@ -6,9 +6,9 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field, StrictInt
 
-from ...actions.problem import CompiledProblem, Records
-from ...actions.table import ActionTable
 from ...specs import spec
+from ..problem.problem import CompiledProblem, Records
+from ..problem.table import ActionTable
 from .evolve import Evolution, Genes
 
 Count = Annotated[int, Field(strict=True, ge=0, lt=2**62)]

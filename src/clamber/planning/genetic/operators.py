@@ -2,8 +2,8 @@
 
 import math
 
-from ...actions.randoms import below, draw, unit
 from ...compiled import inlined, kernel
+from ..problem.randoms import below, draw, unit
 
 ROULETTE, RANK = 0, 1
 TAIL, ONE_POINT, TWO_POINT = 0, 1, 2

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
-from ...actions.plan import Plan
-from ...actions.plan_families import plan_family
-from ...actions.problems import last_goal_only, pose_problem
 from ...tasks import Task
 from ..exact.windows import Shortened
+from ..problem.plan import Plan
+from ..problem.plan_families import plan_family
+from ..problem.problems import last_goal_only, pose_problem
 from ..progress import Listener
 from ..result import PlanResult, furthest_of
 from ..shorten import shorten

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ...actions.problem import CompiledProblem
-from ...actions.table import ActionTable
+from ..problem.problem import CompiledProblem
+from ..problem.table import ActionTable
 from .evolve import Evolution, Genes
 from .operators import vary
 from .profile import Profile

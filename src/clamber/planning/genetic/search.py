@@ -9,7 +9,7 @@ from typing import Final
 
 import numpy as np
 
-from ...actions.problem import CompiledProblem
+from ..problem.problem import CompiledProblem
 from ..progress import Listener
 from .checkpoint import Keeper, Run, with_macros
 from .evolve import (

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...actions.table import ActionTable
+from ..problem.table import ActionTable
 from .evolve import Genes
 
 

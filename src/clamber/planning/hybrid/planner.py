@@ -6,16 +6,16 @@ from typing import Any, Final
 
 import numpy as np
 
-from ...actions.plan import Plan
-from ...actions.plan_families import plan_family
-from ...actions.problem import CompiledProblem
-from ...actions.problems import first_goal_only, pose_problem
 from ...errors import PlannerError
 from ...tasks import Task
 from ..exact.costs import Aim
 from ..exact.explore import Exploration, explore, inform
 from ..genetic.planner import plan_genetic
 from ..genetic.profile import Profile
+from ..problem.plan import Plan
+from ..problem.plan_families import plan_family
+from ..problem.problem import CompiledProblem
+from ..problem.problems import first_goal_only, pose_problem
 from ..progress import Exploring, Listener
 from ..result import PlanResult, furthest_of
 

@@ -9,8 +9,8 @@ from typing import Final
 
 import numpy as np
 
-from ...actions.problem import CompiledProblem, Records
-from ...actions.yardsticks import Yardsticks
+from ..problem.problem import CompiledProblem, Records
+from ..problem.yardsticks import Yardsticks
 from .kernels import POSES, WEIGHED, plant
 from .sea import Long, Piece, Sea
 

@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 
-from ...actions.codes import MOVE, NONE, pack_code, unpack
-from ...actions.family import aims, burden, candidates, key, restore, spot, step
-from ...actions.yardsticks import NOTHING_LIMITS
 from ...compiled import inlined, kernel
-from ...statics.records import TICKS
+from ..problem.check import TICKS
+from ..problem.codes import MOVE, NONE, pack_code, unpack
+from ..problem.family_kernels import aims, burden, candidates, key, restore, spot, step
+from ..problem.yardsticks import NOTHING_LIMITS
 from ..stance_table import slot_of
 
 STANCES, WEIGHED, POSES = 0, 1, 2

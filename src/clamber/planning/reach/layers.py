@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from typing import Final
 
-from ...actions.problems import BURDENS
 from ...errors import ClamberError, UnknownNameError, describe_choices
+from ...family import family_of
 from ...tasks import Task
 
 
@@ -48,7 +48,7 @@ COMMON: Final = ("margin", "first_step")
 
 def layers_of(task: Task) -> tuple[str, ...]:
     """Names of the layers that a task's map has; the first is shown unless another is asked for."""
-    burdens = BURDENS[task.document["robot"]["family"]]
+    burdens = family_of(task).plans.burdens
     return tuple(
         name for name, layer in LAYERS.items() if layer.column in COMMON or layer.column.partition("_")[2] in burdens
     )

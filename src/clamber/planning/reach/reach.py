@@ -7,13 +7,13 @@ from operator import attrgetter
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal
 
-from ...actions.plan_families import plan_family
-from ...actions.problems import pose_problem, without_hangs
-from ...actions.yardsticks import yardsticks_of
 from ...errors import PlannerError
 from ...files import write_atomically
 from ...json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ...tasks import Task
+from ..problem.plan_families import plan_family
+from ..problem.problems import pose_problem, without_hangs
+from ..problem.yardsticks import yardsticks_of
 from .flood import Flood, flood
 from .table import Rim, Table, place_table, pose_table, rim_of
 

@@ -5,8 +5,8 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from ...actions.problem import CompiledProblem
-from ...actions.yardsticks import Yardsticks
+from ..problem.problem import CompiledProblem
+from ..problem.yardsticks import Yardsticks
 from ..stance_table import rehash
 from .kernels import POSE, POSES, STANCES, absorb, note, note_tries, spread, weigh
 

@@ -6,13 +6,13 @@ from typing import Final
 
 import numpy as np
 
-from ...actions.plan import Plan
-from ...actions.plan_families import plan_family
-from ...actions.problem import CompiledProblem
-from ...actions.problems import pose_problem
 from ...errors import PlannerError
 from ...tasks import Task
 from ...types import Ints
+from ..problem.plan import Plan
+from ..problem.plan_families import plan_family
+from ..problem.problem import CompiledProblem
+from ..problem.problems import pose_problem
 from ..progress import Listener, Trying
 from ..result import PlanResult, Status, furthest_of
 

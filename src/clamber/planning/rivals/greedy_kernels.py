@@ -1,7 +1,7 @@
 """Greedy best-first search as one kernel: keys in a hash table, open stances in a heap, the one that is worth most first."""
 
-from ...actions.family import candidates, done, key, restore, step
 from ...compiled import kernel
+from ..problem.family_kernels import candidates, done, key, restore, step
 from ..stance_table import slot_of
 from .heap import pop, push
 from .walks import worth

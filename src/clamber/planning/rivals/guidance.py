@@ -4,8 +4,8 @@ from typing import Final
 
 import numpy as np
 
-from ...actions.problem import CompiledProblem
 from ...types import Floats
+from ..problem.problem import CompiledProblem
 
 WEIGHTS: Final = {"body": 1.0, "limbs": 0.1, "stages": 0.5}
 """Feature -> weight, as in the genetic planner's profile `default`: per metre, per metre, per goal."""

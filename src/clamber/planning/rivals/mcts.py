@@ -5,8 +5,8 @@ from typing import Final
 
 import numpy as np
 
-from ...actions.problem import Records
 from ...tasks import Task
+from ..problem.problem import Records
 from ..progress import Listener
 from ..result import PlanResult
 from .answer import LONGEST, MAX_CHECKS, Hunt

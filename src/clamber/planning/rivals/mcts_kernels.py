@@ -2,9 +2,9 @@
 
 import math
 
-from ...actions.family import candidates, key, restore, step
-from ...actions.randoms import below, draw
 from ...compiled import inlined, kernel
+from ..problem.family_kernels import candidates, key, restore, step
+from ..problem.randoms import below, draw
 from ..stance_table import slot_of
 from .walks import wander
 

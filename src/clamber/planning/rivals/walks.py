@@ -1,8 +1,8 @@
 """Random walks as a kernel: what the random planner is made of, and how Monte-Carlo tree search looks ahead."""
 
-from ...actions.family import candidates, done, measure, step
-from ...actions.randoms import below, draw, unit
 from ...compiled import inlined, kernel
+from ..problem.family_kernels import candidates, done, measure, step
+from ..problem.randoms import below, draw, unit
 
 
 @inlined

@@ -8,8 +8,8 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from ...actions.problem import CompiledProblem
-from ...actions.ways import WayFields
+from ..problem.problem import CompiledProblem
+from ..problem.ways import WayFields
 from .kernels import BEST, EXHAUSTED, FOUND, FULL, GOAL, JUDGED, LOWEST, NODES, RUNNING, plant, rehash_rough, search
 
 QUOTA: Final = 5000

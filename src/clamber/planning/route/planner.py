@@ -5,11 +5,11 @@ from typing import Final
 
 import numpy as np
 
-from ...actions.plan import Plan
-from ...actions.plan_families import plan_family
-from ...actions.problems import pose_problem
 from ...errors import PlannerError
 from ...tasks import Task
+from ..problem.plan import Plan
+from ..problem.plan_families import plan_family
+from ..problem.problems import pose_problem
 from ..progress import Listener, Routing
 from ..result import PlanResult, furthest_of
 from .climb import Climb, climb

@@ -8,9 +8,9 @@ from typing import Final
 
 import numpy as np
 
-from ...control.body_estimate import LINE, SECOND_TIP, estimate_body
-from ...execution.climb.legs import legs_of
-from ...execution.climb.postures import postures
+from ...families.climber.control.body_estimate import LINE, SECOND_TIP, estimate_body
+from ...families.climber.execution.legs import legs_of
+from ...families.climber.execution.postures import postures
 from ...types import Floats
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict

@@ -4,11 +4,11 @@ import math
 from pathlib import Path
 from typing import Final
 
-from ...execution.climb.body_gains import BodyGains
-from ...experiments.climb.body_bench import BodyEntry, BodyRun, run_bodies
-from ...experiments.climb.body_measures import measure_body
-from ...experiments.climb.body_scenario import BodyScenario, circle
-from ...experiments.climb.body_stand import bench_flaws, ladder_stand
+from ...families.climber.execution.body_gains import BodyGains
+from ...families.climber.trials.body_bench import BodyEntry, BodyRun, run_bodies
+from ...families.climber.trials.body_measures import measure_body
+from ...families.climber.trials.body_scenario import BodyScenario, circle
+from ...families.climber.trials.body_stand import bench_flaws, ladder_stand
 from ..result import Compared, Figure, StudyResult, Table, Value
 from . import MILLI, PAPER
 from .body_entries import MATCHED, OURS, OWN, PLANT, SCCT, judged, rivals, scct_and_transposes, transpose
@@ -53,7 +53,7 @@ def lead_body() -> StudyResult:
     ratios = {(m, lap): rms["ideal", lap, transpose(m)] / rms["ideal", lap, SCCT] for m in MATCHED for lap in LAPS}
 
     def paths(path: Path) -> None:
-        from ...viewing.body_plot import draw_body_circles
+        from ...families.climber.pictures.body_plot import draw_body_circles
 
         draw_body_circles(kept, path)
 

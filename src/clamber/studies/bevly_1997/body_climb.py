@@ -8,14 +8,14 @@ from typing import Final
 
 import numpy as np
 
-from ...actions.limbed_plans import thesis_code
-from ...actions.plan import Plan
-from ...execution.climb.body_gains import BodyGains
-from ...execution.climb.course import climbable
-from ...experiments.climb.body_bench import SLOT
-from ...experiments.climb.body_stand import bench_flaws
-from ...experiments.climb.run_plan import ClimbRun, run_plan
-from ...tasks.limbed import LimbedTask
+from ...families.climber.execution.body_gains import BodyGains
+from ...families.climber.execution.course import climbable
+from ...families.climber.planning.plans import thesis_code
+from ...families.climber.planning.task import LimbedTask
+from ...families.climber.trials.body_bench import SLOT
+from ...families.climber.trials.body_stand import bench_flaws
+from ...families.climber.trials.run_plan import ClimbRun, run_plan
+from ...planning.problem.plan import Plan
 from ...types import Floats
 from ...units import INCH
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
@@ -261,7 +261,7 @@ def _gait_numbers(run: ClimbRun, facts: GaitFacts) -> dict[str, Value]:
 
 def _stages(label: str, run: ClimbRun) -> Figure:
     def stages(path: Path) -> None:
-        from ...viewing.climb_stages import draw_stages
+        from ...families.climber.pictures.climb_stages import draw_stages
 
         draw_stages(run, path)
 
@@ -331,7 +331,7 @@ def _step_numbers(run: ClimbRun, facts: GaitFacts) -> dict[str, tuple[Value, ...
 
 def _times(label: str, run: ClimbRun) -> Figure:
     def times(path: Path) -> None:
-        from ...viewing.climb_stages import draw_body_over_time
+        from ...families.climber.pictures.climb_stages import draw_body_over_time
 
         draw_body_over_time(run, path)
 

@@ -7,11 +7,11 @@ from typing import Final
 
 import numpy as np
 
-from ...execution.climb.body_gains import BodyGains
-from ...experiments.climb.body_bench import SLOT, BodyEntry, BodyRun, run_body
-from ...experiments.climb.body_entries import COORDINATED, read_gains
-from ...experiments.climb.body_scenario import push
-from ...experiments.climb.body_stand import BodyStand, bench_flaws, ladder_stand
+from ...families.climber.execution.body_gains import BodyGains
+from ...families.climber.trials.body_bench import SLOT, BodyEntry, BodyRun, run_body
+from ...families.climber.trials.body_entries import COORDINATED, read_gains
+from ...families.climber.trials.body_scenario import push
+from ...families.climber.trials.body_stand import BodyStand, bench_flaws, ladder_stand
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import MILLI, PAPER

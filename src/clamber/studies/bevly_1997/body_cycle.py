@@ -7,11 +7,11 @@ from typing import Final
 
 import numpy as np
 
-from ...execution.climb.body_gains import BodyGains
-from ...experiments.climb.body_bench import BodyEntry, run_body
-from ...experiments.climb.body_scenario import push
-from ...experiments.climb.body_stand import BodyStand, bench_flaws, ladder_stand
-from ...sim.climber_model import HookShape
+from ...families.climber.execution.body_gains import BodyGains
+from ...families.climber.sim.climber_model import HookShape
+from ...families.climber.trials.body_bench import BodyEntry, run_body
+from ...families.climber.trials.body_scenario import push
+from ...families.climber.trials.body_stand import BodyStand, bench_flaws, ladder_stand
 from ...sim.limb_flaws import LimbFlaws
 from ..result import Compared, Figure, StudyResult, Table, Value
 from . import MILLI, PAPER
@@ -111,7 +111,7 @@ def sweep_stiffness() -> StudyResult:
     ]
 
     def picture(path: Path) -> None:
-        from ...viewing.body_cycle_plot import draw_onsets
+        from ...families.climber.pictures.body_cycle_plot import draw_onsets
 
         draw_onsets(
             GAINS, {case: found for case, found in swings.items() if case[0] == "on hooks"}, CYCLE * MILLI, path

@@ -4,11 +4,11 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Final
 
-from ...execution.climb.body_gains import BodyGains
-from ...experiments.climb.body_bench import BodyEntry
-from ...experiments.climb.body_entries import COORDINATED, read_gains
-from ...experiments.climb.body_stand import BodyStand
-from ...experiments.climb.body_stiffness import BodyMatch
+from ...families.climber.execution.body_gains import BodyGains
+from ...families.climber.trials.body_bench import BodyEntry
+from ...families.climber.trials.body_entries import COORDINATED, read_gains
+from ...families.climber.trials.body_stand import BodyStand
+from ...families.climber.trials.body_stiffness import BodyMatch
 from ..result import Verdict
 
 SCCT: Final = "SCCT"

@@ -9,11 +9,11 @@ from typing import Final
 
 import numpy as np
 
-from ...execution.climb.body_gains import BodyGains
-from ...execution.climb.climb_trace import ClimbTrace
-from ...experiments.climb.body_rung import FRICTION, PEG_ERROR, WEIGHT, RungTrial, climb_rungs, watch_rung
-from ...experiments.held_out import FIRST_HELD_OUT
+from ...families.climber.execution.body_gains import BodyGains
+from ...families.climber.execution.climb_trace import ClimbTrace
+from ...families.climber.trials.body_rung import FRICTION, PEG_ERROR, WEIGHT, RungTrial, climb_rungs, watch_rung
 from ...jobs import LocalProcesses
+from ...trials.held_out import FIRST_HELD_OUT
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import MILLI, PAPER
 from .body_entries import OURS, OWN, PLANT, TABLE_4_1
@@ -52,7 +52,7 @@ def limit_pulls() -> StudyResult:
     noisy = climb_rungs(CONTROLS, SEEDS, executor=LocalProcesses(os.cpu_count() or 1))
 
     def heights(path: Path) -> None:
-        from ...viewing.climb_stages import draw_heights
+        from ...families.climber.pictures.climb_stages import draw_heights
 
         draw_heights({label: alone[label, "ideal"][1] for label in CONTROLS}, path)
 

@@ -7,13 +7,13 @@ from typing import Final
 
 import numpy as np
 
-from ...execution.climb import hook_push
-from ...execution.climb.body_gains import BodyGains
-from ...execution.climb.hook import NEAR
-from ...experiments.climb.body_rung import climb_rung
-from ...experiments.climb.body_stand import BodyStand, bench_flaws, ladder_stand
-from ...robots.limbed import LimbedRobot
-from ...statics.distances import segment_polygon
+from ...families.climber.execution import hook_push
+from ...families.climber.execution.body_gains import BodyGains
+from ...families.climber.execution.hook import NEAR
+from ...families.climber.robot.robot import LimbedRobot
+from ...families.climber.trials.body_rung import climb_rung
+from ...families.climber.trials.body_stand import BodyStand, bench_flaws, ladder_stand
+from ...plane import segment_polygon
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Verdict
 from . import MILLI, PAPER

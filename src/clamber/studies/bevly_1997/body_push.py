@@ -6,13 +6,13 @@ from typing import Final
 
 import numpy as np
 
-from ...execution.climb.body_gains import BodyGains, usual_alpha
-from ...experiments.climb.body_bench import BodyEntry, BodyRun, run_bodies, run_body
-from ...experiments.climb.body_measures import measure_body
-from ...experiments.climb.body_scenario import push
-from ...experiments.climb.body_stand import BodyStand, bench_flaws, ladder_stand
-from ...experiments.climb.body_stiffness import body_stiffness
-from ...experiments.climb.body_trials import PushTrial, push_trials
+from ...families.climber.execution.body_gains import BodyGains, usual_alpha
+from ...families.climber.trials.body_bench import BodyEntry, BodyRun, run_bodies, run_body
+from ...families.climber.trials.body_measures import measure_body
+from ...families.climber.trials.body_scenario import push
+from ...families.climber.trials.body_stand import BodyStand, bench_flaws, ladder_stand
+from ...families.climber.trials.body_stiffness import body_stiffness
+from ...families.climber.trials.body_trials import PushTrial, push_trials
 from ...sim.limb_flaws import LimbFlaws
 from ..result import Compared, Figure, StudyResult, Table, Value
 from . import MILLI, PAPER
@@ -150,7 +150,7 @@ def _table(trials: dict[str, list[PushTrial]]) -> Table:
 
 def _figure(runs: list[BodyRun]) -> Figure:
     def times(path: Path) -> None:
-        from ...viewing.body_plot import draw_body_times
+        from ...families.climber.pictures.body_plot import draw_body_times
 
         draw_body_times({"": runs}, f"{HARD:g} N on the body for {SHORT:g} s (grey)", path)
 

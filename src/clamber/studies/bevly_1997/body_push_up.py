@@ -4,10 +4,10 @@ import math
 from pathlib import Path
 from typing import Final
 
-from ...experiments.climb.body_bench import BodyEntry, BodyRun, run_bodies
-from ...experiments.climb.body_measures import BodyMeasures, measure_body
-from ...experiments.climb.body_scenario import push_up
-from ...experiments.climb.body_stand import bench_flaws, ladder_stand
+from ...families.climber.trials.body_bench import BodyEntry, BodyRun, run_bodies
+from ...families.climber.trials.body_measures import BodyMeasures, measure_body
+from ...families.climber.trials.body_scenario import push_up
+from ...families.climber.trials.body_stand import bench_flaws, ladder_stand
 from ..result import Compared, Figure, StudyResult, Table, Value
 from . import MILLI, PAPER
 from .body_entries import (
@@ -60,7 +60,7 @@ def push_body_up() -> StudyResult:
         return ours.x_max < theirs.x_max and ours.behind_rms < theirs.behind_rms
 
     def times(path: Path) -> None:
-        from ...viewing.body_plot import draw_body_times
+        from ...families.climber.pictures.body_plot import draw_body_times
 
         shown = {f"{plant} plant": [run for run in runs if run.entry.label != BIASED] for plant, runs in kept.items()}
         draw_body_times(shown, "7.5 cm up in 0.5 s, hooks on pegs", path)

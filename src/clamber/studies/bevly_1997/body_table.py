@@ -8,10 +8,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Final, TypeAlias
 
-from ...execution.climb.body_gains import BodyGains
-from ...experiments.climb.body_entries import COORDINATED, read_gains
-from ...experiments.climb.body_rung import FRICTION, PEG_ERROR, WEIGHT, RungTrial, climb_rungs
-from ...experiments.climb.body_stand import ladder_stand
+from ...families.climber.execution.body_gains import BodyGains
+from ...families.climber.trials.body_entries import COORDINATED, read_gains
+from ...families.climber.trials.body_rung import FRICTION, PEG_ERROR, WEIGHT, RungTrial, climb_rungs
+from ...families.climber.trials.body_stand import ladder_stand
 from ...jobs import Executor, LocalProcesses
 from ..result import Compared, StudyResult, Table, Value, Verdict
 from . import PAPER

@@ -8,11 +8,11 @@ from typing import Final
 
 import numpy as np
 
+from ...families.climber.planning.task import LimbedTask
 from ...planning.genetic.evolve import Generation
 from ...planning.genetic.planner import plan_genetic
 from ...planning.genetic.profile import load_profile
 from ...planning.result import PlanResult
-from ...tasks.limbed import LimbedTask
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import PAPER
@@ -200,7 +200,7 @@ def _figure(climbs: list[PlanResult], task: LimbedTask, number: str) -> Figure:
     shown = next((climb for climb in climbs if climb.status == "found"), climbs[0])
 
     def curve(path: Path) -> None:
-        from ...viewing.charts import draw_history
+        from ...families.climber.pictures.charts import draw_history
 
         draw_history(shown.history, path, goals=[goal.name for goal in task.goals])
 

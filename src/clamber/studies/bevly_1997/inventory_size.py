@@ -2,8 +2,8 @@
 
 import math
 
-from ...actions.codes import Code
-from ...actions.inventory import full_inventory, make_inventory
+from ...families.climber.planning.inventory import full_inventory, make_inventory
+from ...planning.problem.codes import Code
 from ..result import Compared, StudyResult
 from . import PAPER
 from .replayed import limbed_task

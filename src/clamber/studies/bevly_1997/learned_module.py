@@ -5,15 +5,15 @@ from typing import Final
 
 import numpy as np
 
-from ...actions.problem import CompiledProblem, Records
-from ...actions.problems import pose_problem
-from ...experiments.ablation import varied
-from ...experiments.reductions import TALL
-from ...experiments.trials import run_trials
+from ...benchmarks.ablation import varied
+from ...benchmarks.planner_trials import run_trials
+from ...benchmarks.reductions import TALL
+from ...families.climber.planning.task import LimbedTask
 from ...planning.genetic.learning import Macro
 from ...planning.genetic.profile import load_profile
 from ...planning.learning import learn_macros
-from ...tasks.limbed import LimbedTask
+from ...planning.problem.problem import CompiledProblem, Records
+from ...planning.problem.problems import pose_problem
 from ...types import Ints
 from ...units import INCH
 from ..exhaust import exhaust

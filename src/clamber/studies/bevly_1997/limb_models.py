@@ -8,11 +8,12 @@ from typing import Final
 
 import numpy as np
 
-from ...control.chain import Chain, chain_of_limb
-from ...robots.library import load_robot
-from ...robots.limbed import LimbedRobot
+from ...control.chain import Chain
+from ...families.climber.control.limb_chain import chain_of_limb
+from ...families.climber.robot.robot import LimbedRobot
 from ...sim.limb_flaws import LimbFlaws
 from ...sim.plants import plant_maker
+from ...tasks.robots import load_robot
 from ...types import Floats
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value

@@ -4,8 +4,8 @@ from itertools import product
 from pathlib import Path
 from typing import Final
 
-from ...actions.plan_families import plan_family
 from ...planning.genetic.planner import plan_genetic
+from ...planning.problem.plan_families import plan_family
 from ...types import Ints
 from ...units import INCH
 from ..exhaust import exhaust

@@ -5,10 +5,10 @@ from typing import Final
 
 import numpy as np
 
-from ...actions.limbed_plans import thesis_code
-from ...actions.plan_families import plan_family
-from ...actions.problem import Replay
-from ...tasks.limbed import LimbedTask
+from ...families.climber.planning.plans import thesis_code
+from ...families.climber.planning.task import LimbedTask
+from ...planning.problem.plan_families import plan_family
+from ...planning.problem.problem import Replay
 from ...units import INCH, OZ_IN
 from ..result import Compared, Figure, StudyResult, Table, Value
 from . import PAPER

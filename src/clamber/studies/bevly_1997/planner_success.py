@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from statistics import median
 from typing import Final
 
-from ...experiments.trials import run_trials
+from ...benchmarks.planner_trials import run_trials
 from ...planning.genetic.profile import load_profile
 from ..result import Compared, StudyResult, Table, Value, Verdict
 from . import PAPER

@@ -4,13 +4,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from ...actions.plan_families import plan_family
-from ...actions.plan_source import OpenedPlan, open_plan
-from ...actions.problem import Replay
-from ...actions.verdict import Verdict
 from ...errors import SpecError
+from ...families.climber.planning.task import LimbedTask
+from ...planning.problem.plan_families import plan_family
+from ...planning.problem.plan_source import OpenedPlan, open_plan
+from ...planning.problem.problem import Replay
+from ...planning.problem.verdict import Verdict
 from ...tasks import load_task
-from ...tasks.limbed import LimbedTask
 
 H_START: Final = ("start.y=6.2in",)
 """The start that the printed pegs of Table 2.4 fit best."""

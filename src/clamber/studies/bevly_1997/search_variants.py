@@ -6,9 +6,9 @@ from typing import Final
 
 from scipy.stats import binomtest, fisher_exact
 
-from ...experiments.ablation import varied
-from ...experiments.rows import median_or_nothing
-from ...experiments.trials import Trials, run_trials
+from ...benchmarks.ablation import varied
+from ...benchmarks.planner_trials import Trials, run_trials
+from ...benchmarks.rows import median_or_nothing
 from ...planning.genetic.profile import load_profile
 from ..result import Compared, StudyResult, Table, Value, Verdict
 from . import PAPER

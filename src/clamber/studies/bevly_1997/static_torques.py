@@ -7,9 +7,9 @@ from typing import Final
 import numpy as np
 
 from ...control.quintic import quintic_share
-from ...robots.limbed import LimbedRobot
+from ...families.climber.pictures.geometry import joint_angles, limb_chain
+from ...families.climber.robot.robot import LimbedRobot
 from ...types import Floats
-from ...viewing.geometry import joint_angles, limb_chain
 from ..result import Compared, StudyResult, Table, Value, Verdict
 from . import PAPER
 from .replayed import INFERRED, replay_printed

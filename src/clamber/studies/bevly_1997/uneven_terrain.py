@@ -8,19 +8,19 @@ from typing import Final
 
 import numpy as np
 
-from ...actions.plan import Plan
 from ...errors import ClamberError
-from ...execution.climb.climbing import Climbing
-from ...execution.climb.course import climbable, lay_course
 from ...execution.sequencer import Sequencer
-from ...experiments.climb.noise import NO_NOISE, draw_for, read_noise, true_places
-from ...experiments.climb.plants import drawn_plant
-from ...experiments.climb.run_plan import believing_climber, climbing_flaws
-from ...experiments.climb.trial import ERROR, ClimbTrial, TrialSetup
-from ...experiments.climb.trials import run_trials
-from ...experiments.climb.warm_up import warm_up
+from ...families.climber.execution.climbing import Climbing
+from ...families.climber.execution.course import climbable, lay_course
+from ...families.climber.planning.task import LimbedTask
+from ...families.climber.trials.noise import NO_NOISE, draw_for, read_noise, true_places
+from ...families.climber.trials.plants import drawn_plant
+from ...families.climber.trials.run_plan import believing_climber, climbing_flaws
+from ...families.climber.trials.trial import ERROR, ClimbTrial, TrialSetup
+from ...families.climber.trials.trials import run_trials
+from ...families.climber.trials.warm_up import warm_up
 from ...jobs import LocalProcesses
-from ...tasks.limbed import LimbedTask
+from ...planning.problem.plan import Plan
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import MILLI, PAPER

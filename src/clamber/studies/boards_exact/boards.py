@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from ...statics.checks import DEFAULT_HARD
+from ...families.climber.statics.checks import DEFAULT_HARD
 
 BOARDS: Final = ("ladder", "modified-ladder", "h", "across", "circle")
 MODEL: Final = (

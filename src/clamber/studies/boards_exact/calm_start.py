@@ -6,8 +6,8 @@ from typing import Final, TypeAlias
 
 import numpy as np
 
-from ...actions.problems import pose_problem
 from ...errors import StartError
+from ...planning.problem.problems import pose_problem
 from ...types import Json
 from ..bevly_1997.replayed import limbed_task
 from .boards import MODEL

@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from ...actions.problems import pose_problem
+from ...planning.problem.problems import pose_problem
 from ...types import Json
 from ..bevly_1997.replayed import limbed_task
 from ..result import Compared, Figure, StudyResult, Table, Value
@@ -110,7 +110,7 @@ def narrow_cones() -> StudyResult:
     proved = ordered and all(row[4] == "valid" for row in rows)
 
     def curve(path: Path) -> None:
-        from ...viewing.cone_plot import draw_cones
+        from ...families.climber.pictures.cone_plot import draw_cones
 
         draw_cones({board: {at: proof.length for at, proof in proofs.items()} for board, proofs in tried.items()}, path)
 

@@ -1,6 +1,6 @@
 """How weak the motors may be: what a board needs from its start, and what the climb needs from the best start on the same holds."""
 
-from ...actions.problems import pose_problem
+from ...planning.problem.problems import pose_problem
 from ...types import Json
 from ...units import DEGREE, INCH, OZ_IN
 from ..result import Compared, StudyResult, Table, Value

@@ -6,11 +6,11 @@ from typing import Final
 
 import numpy as np
 
-from ...actions.plan import load_plan
-from ...actions.problems import pose_problem
-from ...actions.verdict import check_plan
 from ...planning.beam.layers import Beam, search_layers
 from ...planning.genetic.planner import plan_genetic
+from ...planning.problem.plan import load_plan
+from ...planning.problem.problems import pose_problem
+from ...planning.problem.verdict import check_plan
 from ...units import INCH
 from ..bevly_1997.modified_ladder import HELD_OFFSET, OWN_HALVES
 from ..bevly_1997.no_rotation import WITHOUT_TURNS

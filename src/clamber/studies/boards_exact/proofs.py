@@ -7,12 +7,12 @@ from typing import Any, Final
 
 import numpy as np
 
-from ...actions.problem import Replay
-from ...actions.problems import pose_problem
 from ...errors import StartError
+from ...families.climber.planning.task import LimbedTask
 from ...jobs import Outcome, map_items
 from ...planning.exact.planner import plan_exact
-from ...tasks.limbed import LimbedTask
+from ...planning.problem.problem import Replay
+from ...planning.problem.problems import pose_problem
 from ...types import Json
 from ..bevly_1997.replayed import limbed_task
 from .boards import MODEL

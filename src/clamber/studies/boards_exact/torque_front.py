@@ -3,9 +3,9 @@
 from pathlib import Path
 from typing import Final
 
-from ...actions.verdict import check_plan
+from ...families.climber.planning.task import LimbedTask
 from ...planning.exact.front import plan_front
-from ...tasks.limbed import LimbedTask
+from ...planning.problem.verdict import check_plan
 from ...units import OZ_IN
 from ..bevly_1997.replayed import limbed_task
 from ..result import Compared, Figure, StudyResult, Table, Value

@@ -4,10 +4,10 @@ from typing import Final
 
 import numpy as np
 
-from ...control.cooperative.cooperator import Cooperator
-from ...control.cooperative.freedoms import freedoms_of, weights_of
-from ...control.cooperative.planted_feet import PlantedFeet
-from ...control.cooperative.settings import Cooperation, Form, own_speeds
+from ...families.walker.control.cooperative.cooperator import Cooperator
+from ...families.walker.control.cooperative.freedoms import freedoms_of, weights_of
+from ...families.walker.control.cooperative.planted_feet import PlantedFeet
+from ...families.walker.control.cooperative.settings import Cooperation, Form, own_speeds
 from ...types import Floats
 from ..result import Compared, StudyResult, Table, Value
 from . import PAPER

@@ -6,8 +6,8 @@ from typing import Final
 
 import numpy as np
 
-from ...control.cooperative.limits import freedom_names
-from ...control.cooperative.tool_chain import POSE
+from ...families.walker.control.cooperative.limits import freedom_names
+from ...families.walker.control.cooperative.tool_chain import POSE
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import PAPER
@@ -136,7 +136,7 @@ def _table(motions: Motions) -> Table:
 
 def _figure(motions: Motions) -> Figure:
     def draw(path: Path) -> None:
-        from ...viewing.tool_runs_plot import Motion, draw_motions
+        from ...families.walker.pictures.tool_runs_plot import Motion, draw_motions
 
         shown = [(motions.free[dof], motions.free[dof].title) for dof in SHOWN]
         shown.insert(2, (motions.faster[DRAWN_SPEED], f"5 dof, $T_q$ of z {DRAWN_SPEED:g} m/s"))

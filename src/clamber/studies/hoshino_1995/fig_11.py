@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...control.cooperative.settings import Form
+from ...families.walker.control.cooperative.settings import Form
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Value
 from . import PAPER
@@ -23,7 +23,7 @@ def vary_gain() -> StudyResult:
     ]
 
     def courses(path: Path) -> None:
-        from ...viewing.tool_runs_plot import draw_gains
+        from ...families.walker.pictures.tool_runs_plot import draw_gains
 
         draw_gains(usual[0.0].time, {gain: run.measure for gain, run in usual.items()}, means, path)
 

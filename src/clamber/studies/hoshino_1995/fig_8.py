@@ -5,9 +5,9 @@ from typing import Final
 
 import numpy as np
 
-from ...execution.walk.walk_trace import PHASES
-from ...experiments.walk.noise import WalkNoise, named_walk_noise
-from ...experiments.walk.run_walk import WalkRun
+from ...families.walker.execution.walk_trace import PHASES
+from ...families.walker.trials.noise import WalkNoise, named_walk_noise
+from ...families.walker.trials.run_walk import WalkRun
 from ...types import Floats
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value
@@ -38,7 +38,7 @@ def walk_level() -> StudyResult:
     ]
 
     def courses(path: Path) -> None:
-        from ...viewing.levelling_plot import draw_levelling
+        from ...families.walker.pictures.levelling_plot import draw_levelling
 
         draw_levelling(level, tilted, within=LEVEL, path=path)
 

@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from ...control.posture import slope_of, tilt_of
+from ...families.walker.control.posture import slope_of, tilt_of
 from ...types import Floats
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value
@@ -38,7 +38,7 @@ def compare_directions() -> StudyResult:
     share = float((downhill > 0.5 * math.pi).mean())
 
     def directions(path: Path) -> None:
-        from ...viewing.inclination_plot import draw_directions
+        from ...families.walker.pictures.inclination_plot import draw_directions
 
         draw_directions(tilts, ours[..., 1] / DEGREE, ours[..., 0], printed, path)
 

@@ -5,13 +5,13 @@ from typing import Final, Literal
 
 import numpy as np
 
-from ...control.gait import Y
-from ...control.posture import inclines_of_tilt, tilt_of
-from ...execution.walk import motions
-from ...execution.walk.walk_trace import TracedWalker, WalkTrace
-from ...sim.walker_flaws import Inclinometers, WalkerFlaws
-from ...sim.walker_plant import WalkerSim
-from ...tasks.walks import load_walk
+from ...families.walker.control.gait import Y
+from ...families.walker.control.posture import inclines_of_tilt, tilt_of
+from ...families.walker.execution import motions
+from ...families.walker.execution.walk_trace import TracedWalker, WalkTrace
+from ...families.walker.planning import load_walk
+from ...families.walker.sim.walker_flaws import Inclinometers, WalkerFlaws
+from ...families.walker.sim.walker_plant import WalkerSim
 from ...types import Floats
 from ...units import DEGREE
 

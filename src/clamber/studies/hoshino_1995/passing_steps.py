@@ -6,8 +6,8 @@ from typing import Final
 
 import numpy as np
 
-from ...experiments.walk.most import Most, Tried, find_most
-from ...experiments.walk.run_walk import WalkRun
+from ...families.walker.trials.most import Most, Tried, find_most
+from ...families.walker.trials.run_walk import WalkRun
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import PAPER, SIMULATED
@@ -44,7 +44,7 @@ def pass_steps() -> StudyResult:
     shown = runs[SEEDS[0]]
 
     def course(path: Path) -> None:
-        from ...viewing.walk_run_view import write_walk
+        from ...families.walker.pictures.walk_run_view import write_walk
 
         write_walk(shown, path)
 

@@ -7,10 +7,10 @@ from typing import Final
 
 import numpy as np
 
-from ...robots.walker import TwoFrames
-from ...robots.walker.slide_time import slide_seconds
-from ...robots.walker.turning import turning_range
-from ...robots.walker.workspace import best_directions, stride
+from ...families.walker.robot import TwoFrames
+from ...families.walker.robot.slide_time import slide_seconds
+from ...families.walker.robot.turning import turning_range
+from ...families.walker.robot.workspace import best_directions, stride
 from ...units import DEGREE
 from ..result import Compared, StudyResult, Table, Value, Verdict
 from . import CALIBRATED, PAPER, SIGNS

@@ -5,9 +5,9 @@ from typing import Final
 
 import numpy as np
 
-from ...robots.walker import TwoFrames
-from ...robots.walker.turning import turning_range
-from ...robots.walker.workspace import best_directions, workspace
+from ...families.walker.robot import TwoFrames
+from ...families.walker.robot.turning import turning_range
+from ...families.walker.robot.workspace import best_directions, workspace
 from ...types import Floats
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value
@@ -93,12 +93,12 @@ def _table(frames: TwoFrames) -> Table:
 
 def _figures(frames: TwoFrames, curve: Floats) -> tuple[Figure, ...]:
     def picture(path: Path) -> None:
-        from ...viewing.walker_regions_plot import draw_regions
+        from ...families.walker.pictures.walker_regions_plot import draw_regions
 
         draw_regions(frames, SHOWN, path)
 
     def growth(path: Path) -> None:
-        from ...viewing.walker_regions_plot import draw_areas
+        from ...families.walker.pictures.walker_regions_plot import draw_areas
 
         names = ("strokes alone", "part around the centre", "short of a singular pose", _guard(frames))
         draw_areas(ANGLES, dict(zip(names, curve.T, strict=True)), path)

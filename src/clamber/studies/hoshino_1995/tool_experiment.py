@@ -6,11 +6,11 @@ from typing import Final
 
 import numpy as np
 
-from ...control.cooperative.cooperator import Cooperator
-from ...control.cooperative.planted_feet import PlantedFeet
-from ...control.cooperative.settings import Cooperation
-from ...experiments.cooperative.follow import FollowOptions, FollowRun, follow_path
-from ...experiments.cooperative.tool_path import ToolPath
+from ...families.walker.control.cooperative.cooperator import Cooperator
+from ...families.walker.control.cooperative.planted_feet import PlantedFeet
+from ...families.walker.control.cooperative.settings import Cooperation
+from ...families.walker.trials.cooperative.follow import FollowOptions, FollowRun, follow_path
+from ...families.walker.trials.cooperative.tool_path import ToolPath
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import PAPER, SIMULATED
 from .tool_runs import BALANCED, START, TOOL_SPEEDS, WAY
@@ -49,7 +49,7 @@ def follow_in_dynamics() -> StudyResult:
     )
 
     def course(path: Path) -> None:
-        from ...viewing.follow_plot import draw_follow
+        from ...families.walker.pictures.follow_plot import draw_follow
 
         draw_follow(real[10], path)
 

@@ -5,11 +5,11 @@ from typing import Final
 
 import numpy as np
 
-from ...control.cooperative.cooperator import Cooperator
-from ...control.cooperative.freedoms import SUPPORT, freedoms_of, weights_of
-from ...control.cooperative.planted_feet import SUPPORT_WORDS, PlantedFeet
-from ...control.cooperative.settings import Cooperation, Form, own_speeds
 from ...control.quintic import quintic_share
+from ...families.walker.control.cooperative.cooperator import Cooperator
+from ...families.walker.control.cooperative.freedoms import SUPPORT, freedoms_of, weights_of
+from ...families.walker.control.cooperative.planted_feet import SUPPORT_WORDS, PlantedFeet
+from ...families.walker.control.cooperative.settings import Cooperation, Form, own_speeds
 from ...types import Floats
 from .walker import hoshino
 

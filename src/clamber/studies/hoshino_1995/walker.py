@@ -2,11 +2,11 @@
 
 from collections.abc import Sequence
 
-from ...experiments.walk.noise import WalkNoise, named_walk_noise, read_walk_noise
-from ...experiments.walk.run_walk import WalkRun, run_walk, walk_flaws
-from ...robots.library import load_robot
-from ...robots.walker import WalkerRobot
-from ...tasks.walks import load_walk
+from ...families.walker.planning import load_walk
+from ...families.walker.robot import WalkerRobot
+from ...families.walker.trials.noise import WalkNoise, named_walk_noise, read_walk_noise
+from ...families.walker.trials.run_walk import WalkRun, run_walk, walk_flaws
+from ...tasks.robots import load_robot
 
 MM = 1e3
 CM2 = 1e4

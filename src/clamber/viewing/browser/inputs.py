@@ -4,6 +4,8 @@ from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
 from typing import Any
 
+from ...errors import SpecError, StartError
+
 
 def set_input(handle: Any, value: Any) -> None:
     """Set what an input shows; nothing that listens to whoever looks at the page hears of it."""
@@ -19,3 +21,11 @@ def by_hand(act: Callable[[Any], None], lock: AbstractContextManager[Any] | None
                 act(event)
 
     return heard
+
+
+def about(error: Exception) -> str:
+    """What an error is about: "start", "goal", or "world", the board or the ground."""
+    if isinstance(error, StartError):
+        return "start"
+    key = str(error.key).split(".")[0] if isinstance(error, SpecError) else ""
+    return "start" if key == "start" else "goal" if key in ("goal", "subgoals", "way") else "world"

@@ -1,7 +1,8 @@
 """What a family of robots brings to the viewer: its world in space, its figure, and where to look from."""
 
+import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from ...types import Floats
 from ..scene import Bounds
@@ -65,3 +66,10 @@ class Scenery(Protocol):
     def camera(self) -> Camera:
         """Where to look from at first."""
         ...
+
+
+FOV: Final = math.radians(40.0)
+"""Of the camera, from the bottom to the top of the picture [rad]."""
+
+NARROW: Final = 0.9
+"""Least width of a picture over its height that everything fits into [-]."""

@@ -154,3 +154,7 @@ class Balls:
         if colours is not None and not np.array_equal(colours, self._colours):
             self._colours = colours
             self.node.batched_colors = colours
+
+
+DISC: Final = np.stack((np.cos(np.arange(24) * np.pi / 12.0), np.sin(np.arange(24) * np.pi / 12.0)), axis=-1)
+"""Corners of a round mark of radius 1."""

@@ -1,0 +1,145 @@
+"""Every planner on every board: the trials, over worker processes, and what is true of each board."""
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+from ..jobs import LocalProcesses, Outcome, map_items, read_result
+from ..planning.budgets import Allowance, Contender, contenders
+from ..types import Json
+from .cases import Case, all_cases
+from .planner_trials import Crew
+from .trial import load_machine_code, run_trial
+
+ALLOWANCE: Final = Allowance(checks=2_000_000, seconds=2.0, patience=120.0)
+"""Of a trial. A core judges a million actions in half a second to a second."""
+SEEDS: Final = (0, 1, 2)
+"""Of planners that draw at random."""
+REFERENCE: Final = "exact"
+"""Whose proofs the others are measured by."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Trial:
+    """How one trial ended."""
+
+    case: str
+    contender: str
+    seed: int
+    status: str
+    """A planner's status, "refused", or "failed"."""
+    reason: str
+    length: int | None = None
+    """Actions of the plan, checked; None without one."""
+    first_length: int | None = None
+    """Actions of the first plan found."""
+    cost: int = 0
+    """Actions judged up to the first plan; in all, where there is none or the planner doesn't tell."""
+    checks: int = 0
+    """Actions judged in all."""
+    seconds: float = 0.0
+    lower_bound: int | None = None
+    """Proved: no plan has fewer actions."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Truth:
+    """What is proved of a board."""
+
+    feasible: bool | None
+    """None: nobody knows."""
+    shortest: int | None
+    """The optimum, or the best bound below it; None if there is no plan."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Contest:
+    """All trials."""
+
+    cases: tuple[Case, ...]
+    contenders: tuple[Contender, ...]
+    allowance: Allowance
+    trials: tuple[Trial, ...]
+
+    def of(self, contender: str) -> list[Trial]:
+        """One planner's trials."""
+        return [trial for trial in self.trials if trial.contender == contender]
+
+    def truths(self) -> dict[str, Truth]:
+        """What the exact planner proved of each board, and that a board with a checked plan has one."""
+        told: dict[str, Truth] = {}
+        for case in self.cases:
+            here = [trial for trial in self.trials if trial.case == case.name]
+            proof = next((trial for trial in here if trial.contender == REFERENCE), None)
+            solved = any(trial.length is not None for trial in here)
+            if proof is not None and proof.status == "infeasible":
+                told[case.name] = Truth(feasible=False, shortest=None)
+            else:
+                bound = None if proof is None else proof.length if proof.status == "optimal" else proof.lower_bound
+                told[case.name] = Truth(feasible=True if solved else None, shortest=bound)
+        return told
+
+
+def run_contest(
+    *,
+    cases: Sequence[Case] | None = None,
+    entrants: Sequence[Contender] | None = None,
+    seeds: Sequence[int] = SEEDS,
+    allowance: Allowance = ALLOWANCE,
+    crew: Crew | None = None,
+) -> Contest:
+    """Let every planner try every board, each trial on one thread.
+
+    Args:
+        cases: The boards; None takes the whole set.
+        entrants: The planners; None takes all.
+        seeds: For planners that draw at random; the others run once.
+        allowance: What a trial may spend.
+        crew: Who runs the trials, and where they are kept; None: local processes, one a core. Only the seconds depend on it.
+
+    Raises:
+        StoreError: If the crew's file can't be the store of this contest.
+        ClusterError: If there is no cluster to run on, or it is lost.
+    """
+    boards = tuple(all_cases() if cases is None else cases)
+    field = tuple(contenders() if entrants is None else entrants)
+    plays = [
+        (case, contender, seed)
+        for case in boards
+        for contender in field
+        for seed in (seeds if contender.draws else seeds[:1])
+    ]
+    items: list[Json] = [
+        {
+            "document": case.document,
+            "planner": contender.planner,
+            "options": {"seed": seed, **contender.options, **contender.limits(allowance)},
+        }
+        for case, contender, seed in plays
+    ]
+    crew = crew or Crew(executor=LocalProcesses(os.cpu_count() or 1))
+    if crew.executor.here:
+        for planner in {contender.planner for contender in field}:
+            load_machine_code(planner)  # compiles here, once, and not in every worker at the same time
+    outcomes = map_items(
+        run_trial,
+        items,
+        executor=crew.executor,
+        store=crew.store,
+        about={"items": items},
+        title="the benchmark 'boards'",
+        resume=crew.resume,
+        progress=crew.progress,
+    )
+    trials = tuple(
+        _trial(case.name, contender.name, seed, outcome, crew.store)
+        for (case, contender, seed), outcome in zip(plays, outcomes, strict=True)
+    )
+    return Contest(cases=boards, contenders=field, allowance=allowance, trials=trials)
+
+
+def _trial(case: str, contender: str, seed: int, outcome: Outcome, store: Path | None) -> Trial:
+    told: dict[str, Any] = outcome.result or {"status": "failed", "reason": outcome.error or ""}
+    return read_result(Trial, told | {"case": case, "contender": contender, "seed": seed}, store)

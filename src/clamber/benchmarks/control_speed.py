@@ -1,0 +1,234 @@
+"""How long a tick of control takes, beside mink and pink, and what a closed loop costs over the physics in it."""
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from statistics import median
+from typing import Any, Final, TypeAlias
+
+import numpy as np
+
+from ..control.chain import Chain
+from ..control.controller import Controller, still_aim
+from ..control.law_settings import LAWS, LawSettings
+from ..execution.closed_loop import close_loop
+from ..families.climber.control.limb_chain import chain_of_limb, closed_branches
+from ..families.climber.robot.robot import LimbedRobot
+from ..sim.limb_flaws import LimbFlaws, Push
+from ..sim.mujoco_limb import MujocoLimb
+from ..sim.ode_limb import OdeLimb
+from ..sim.raw_steps import RawSteps
+from ..tasks.robots import load_robot
+from ..types import Floats, Records
+from .ik_peers import IK_PEERS, Tick, installed
+from .rows import NOTHING, Row, Say, keep_quiet
+
+Clock: TypeAlias = Callable[[], float]
+ROUNDS: Final = 15
+"""How often each piece of work is timed; the median counts, of a ratio that of the ratios of each round."""
+STATES: Final = 64
+"""Poses and speeds that a controller is timed on, one after the other."""
+TICKS: Final = 2000
+"""Of a controller in one timing."""
+PEER_TICKS: Final = 100
+BATCH: Final = 1000
+LIMBS: Final = 256
+"""Limbs of a batch in closed loop."""
+SECONDS: Final = 1.0
+"""Of closed loop in one timing."""
+START: Final = (0.22, 0.0)
+"""Of the tip, port frame [m]."""
+STEP: Final = 0.02
+"""[m]."""
+FORCED: Final = frozenset({"hybrid", "implicit-force"})
+"""Laws that are timed with a force along x."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TimedLimb:
+    """The limb that controllers are timed on."""
+
+    chain: Chain
+    gears: Floats
+    """Motor turns per joint turn, shape (n,)."""
+    q0: Floats
+    """Joint angles at the start, shape (n,) [rad]."""
+
+
+def timed_limb() -> TimedLimb:
+    """LIBRA's first limb with its tip at `START`."""
+    robot = load_robot("libra")
+    assert isinstance(robot, LimbedRobot)
+    spec = robot.limbs[0]
+    gears = np.array((spec.shoulder.gear, spec.elbow.gear))
+    return TimedLimb(chain_of_limb(robot, robot.limb_names[0]), gears, np.array(closed_branches(spec, *START)[0]))
+
+
+def step_aims(rate: float, seconds: float) -> Records:
+    """The reference of a 2 cm step downwards, tick by tick; `rate` is the control's [Hz]."""
+    return np.stack([still_aim((START[0], START[1] - STEP))] * round(seconds * rate))
+
+
+def law_named(law: str) -> LawSettings:
+    """The law as it is timed."""
+    return LawSettings(law=law, kp=100.0, forced=("x",) if law in FORCED else ())
+
+
+def laws_timed() -> dict[str, LawSettings]:
+    """Label -> settings of every law, and of one with every feed-forward."""
+    whole = law_named("scct").with_changes(feed_acceleration=True, feed_bias=True, feed_friction=1.0)
+    return {**{law: law_named(law) for law in LAWS}, "scct with every feed-forward": whole}
+
+
+def round_times(works: Sequence[Callable[[], Any]], rounds: int, clock: Clock = time.thread_time) -> Floats:
+    """Time of each piece of work in each round [s], shape (rounds, works); they take turns, so that a busy machine hits all alike.
+
+    The clock is this thread's share of a core, which does not run while others have the core; work on many threads needs another.
+    """
+    times = np.empty((rounds, len(works)))
+    for work in works:
+        work()
+    for row in times:
+        for i, work in enumerate(works):
+            start = clock()
+            work()
+            row[i] = clock() - start
+    return times
+
+
+def random_states(limb: TimedLimb, shape: tuple[int, ...]) -> Floats:
+    """Joint angles and speeds about the limb's start, shape (*shape, 2, n)."""
+    rng = np.random.default_rng(0)
+    out = rng.uniform(-0.3, 0.3, (*shape, 2, limb.chain.n))
+    out[..., 0, :] += limb.q0
+    return out
+
+
+def _tick_often(controller: Controller, aims: Records, states: Floats, wrenches: Floats, ticks: int) -> None:
+    command, many = controller.command, len(states)
+    for k in range(ticks):
+        command(aims, states[k % many], wrenches)
+
+
+def tick_rows(*, rounds: int = ROUNDS, ticks: int = TICKS, batch: int = BATCH, say: Say = keep_quiet) -> list[Row]:
+    """One tick of every law, called from Python: on one limb, and per limb of a batch, on one core."""
+    say("one tick of every law")
+    limb, laws = timed_limb(), laws_timed()
+    aims = still_aim((0.22, -0.02))
+    rows = []
+    for size, aim, label in (
+        (1, "< 5", "one limb"),
+        (batch, "< 1", f"per limb of {batch}"),
+    ):
+        states, felt = random_states(limb, (STATES, size)), np.ones((size, 6))
+        count = max(1, ticks // size)
+        works = [
+            partial(_tick_often, Controller(limb.chain, law, period=0.005, batch=size), aims, states, felt, count)
+            for law in laws.values()
+        ]
+        times = np.median(round_times(works, rounds), axis=0) / (count * size)
+        rows += [Row(f"tick of {name}, {label}", 1e6 * t, "us", aim) for name, t in zip(laws, times, strict=True)]
+    return rows
+
+
+def _solve_often(tick: Tick, states: Floats, place: Floats, ticks: int) -> None:
+    for k in range(ticks):
+        tick(states[k % len(states), 0, 0], place)
+
+
+def peer_rows(*, rounds: int = ROUNDS, ticks: int = PEER_TICKS, say: Say = keep_quiet) -> list[Row]:
+    """The motion of one tick by mink and by pink over our tick of resolved rate control, which has torques besides."""
+    limb = timed_limb()
+    states, place = random_states(limb, (STATES, 1)), np.array((0.22, -0.02, 0.0))
+    rows = []
+    for name, make in IK_PEERS.items():
+        if not installed(name):
+            rows.append(Row(f"{name} (not installed: pip install 'clamber[bench]')", NOTHING, "ratio"))
+            continue
+        say(f"{name} on the same arm")
+        controller = Controller(limb.chain, law_named("resolved-rate"), period=0.005)
+        ours = partial(_tick_often, controller, still_aim(place), states, np.zeros((1, 6)), 20 * ticks)
+        whole, alone = (partial(_solve_often, tick, states, place, ticks) for tick in make(limb.chain))
+        own, with_update, solve = round_times((ours, whole, alone), rounds).T / ticks
+        own /= 20
+        rows += [
+            Row(f"{name}: update and solve_ik, no limits, daqp", 1e6 * median(with_update), "us"),
+            Row(f"{name}: the same over our tick of resolved-rate", median(with_update / own), "ratio"),
+            Row(f"{name}: solve_ik alone over our tick", median(solve / own), "ratio"),
+        ]
+    return rows
+
+
+@dataclass(frozen=True, slots=True)
+class Loop:
+    """A closed loop to be timed."""
+
+    label: str
+    flaws: LimbFlaws
+    batch: int = 1
+
+
+def loops_timed(limbs: int = LIMBS) -> tuple[Loop, ...]:
+    """By physics rate, with flaws (backlash, encoders, a sample of delay), pushed; one by one, and many limbs on all cores."""
+    flawed = LimbFlaws(backlash=np.radians(2.0), encoder_counts=400, delay=1)
+    words = "with flaws"
+    push = Push(x=10.0, y=0.0, start=0.1, end=0.8)
+    return (
+        Loop("2 kHz", LimbFlaws()),
+        Loop("1 kHz", LimbFlaws(physics_rate=1000.0)),
+        Loop(f"2 kHz, {words}", flawed),
+        Loop(f"1 kHz, {words}", flawed.with_changes(physics_rate=1000.0)),
+        Loop("2 kHz, pushed", LimbFlaws(push=push)),
+        Loop(f"2 kHz, {limbs} limbs", LimbFlaws(), limbs),
+        Loop(f"2 kHz, {limbs} limbs, {words}", flawed, limbs),
+    )
+
+
+def loop_rows(
+    *,
+    loops: Sequence[Loop] | None = None,
+    rounds: int = ROUNDS,
+    seconds: float = SECONDS,
+    say: Say = keep_quiet,
+) -> list[Row]:
+    """Closed-loop simulation, trace and all, over `mj_step` of the same model with the same torques; the 2 cm step, 200 Hz."""
+    limb = timed_limb()
+    rows = []
+    for loop in loops_timed() if loops is None else loops:
+        say(f"closed loop, {loop.label}")
+        flaws = loop.flaws
+        aims = step_aims(flaws.control_rate, seconds if loop.batch == 1 else seconds / 4)
+        controller = Controller(limb.chain, law_named("scct"), period=flaws.period, batch=loop.batch)
+        plant = MujocoLimb(limb.chain, flaws, gears=limb.gears, batch=loop.batch)
+
+        def closed(plant: MujocoLimb = plant, controller: Controller = controller, aims: Records = aims) -> Any:
+            plant.reset(limb.q0)
+            return close_loop(plant, controller, aims)
+
+        raw = RawSteps(plant.model, flaws.steps, closed().applied, limb.q0)
+        clock = time.thread_time if loop.batch == 1 else time.perf_counter
+        whole, bare = round_times((closed, raw.run), rounds, clock).T
+        steps = len(aims) * flaws.steps * loop.batch
+        rows.append(Row(f"loop over raw mj_step: {loop.label}", median(whole / bare), "ratio", "<= 1.5"))
+        rows.append(Row(f"raw mj_step, a step: {loop.label}", 1e6 * median(bare) / steps, "us"))
+    return [*rows, ode_row(rounds=rounds, seconds=seconds)]
+
+
+def ode_row(*, rounds: int = ROUNDS, seconds: float = SECONDS) -> Row:
+    """What a closed loop on the ODE takes of real time."""
+    limb, flaws = timed_limb(), LimbFlaws()
+    aims = step_aims(flaws.control_rate, seconds)
+    controller, plant = Controller(limb.chain, law_named("scct"), period=flaws.period), OdeLimb(limb.chain, flaws)
+
+    def closed() -> None:
+        plant.reset(limb.q0)
+        close_loop(plant, controller, aims)
+
+    per_tick = median(round_times((closed,), rounds)[:, 0]) / len(aims)
+    return Row("loop on the ODE plant, 2 kHz, per tick", 1e6 * per_tick, "us")
+
+
+def control_rows(*, say: Say = keep_quiet) -> list[Row]:
+    """All of it."""
+    return [*tick_rows(say=say), *peer_rows(say=say), *loop_rows(say=say)]

@@ -1,0 +1,113 @@
+"""Where the body is, by the limbs that hold (Bevly 1997, 4.4.3). Kernel."""
+
+import math
+
+from ....compiled import inlined, kernel
+from .leg import move_tips, place_tips
+
+LINE, ENCODER, SECOND_TIP = range(3)
+"""Sources of the body's angle: the line between two tips, the body's own encoder, the height of the second tip (as printed in 4.4.3)."""
+UPRIGHT = 1e-3
+"""Of two tips less far apart along x the second tip's height tells no angular speed [m]."""
+
+
+@kernel
+def estimate_body(legs, q, qd, weights, holds, angle, angle_speed, angle_from, tips, speeds, pose, twist):
+    """Body pose and speed from the holding limbs.
+
+    The angle is that of the seventh encoder, or that of the line between the tips of the first two holding limbs against the line of their
+    holds (exact for any pair that is apart), or the one at which the second of them is as high above the first as its hold (the rule of
+    4.4.3: two angles do that, and the nearer to the angle before is taken; where none does, the one that comes nearest). The place is the
+    mean over the holding limbs of hold less tip, by weight: a limb that takes over from another comes in little by little, and the pose
+    does not jump; with the rule of 4.4.3 it is that of the first limb alone.
+
+    Args:
+        legs: Records of `LEG`, shape (n,).
+        q, qd: Joint angles and speeds, shape (n, 2).
+        weights: Of the limbs that hold, 0 for others, shape (n,).
+        holds: Believed places of their holds, shape (n, 2) [m].
+        angle, angle_speed: Of the body by its own encoder [rad], [rad/s].
+        angle_from: ENCODER uses those; LINE or SECOND_TIP the tips.
+        tips, speeds: Filled with the tips in the body frame and their speeds, shape (n, 2).
+        pose, twist: Filled, shape (3,) [m], [rad].
+
+    Returns:
+        Number of holding limbs. With none, or one and no encoder, the pose cannot be told and is left as it was.
+    """
+    place_tips(legs, q, tips)
+    move_tips(legs, q, qd, speeds)
+    count = 0
+    total = 0.0
+    a = -1
+    b = -1
+    for i in range(legs.size):
+        if weights[i] > 0.0:
+            count += 1
+            total += weights[i]
+            if a < 0:
+                a = i
+            elif b < 0:
+                b = i
+    if count == 0 or (count == 1 and angle_from != ENCODER):
+        return count
+    if angle_from == ENCODER:
+        theta = angle
+        omega = angle_speed
+    elif angle_from == SECOND_TIP:
+        dx = tips[b, 0] - tips[a, 0]
+        dy = tips[b, 1] - tips[a, 1]
+        theta = _level_second_tip(dx, dy, holds[b, 1] - holds[a, 1], pose[2])
+        wide = math.cos(theta) * dx - math.sin(theta) * dy
+        wx = speeds[b, 0] - speeds[a, 0]
+        wy = speeds[b, 1] - speeds[a, 1]
+        omega = -(math.sin(theta) * wx + math.cos(theta) * wy) / wide if abs(wide) > UPRIGHT else 0.0
+    else:
+        dx = tips[b, 0] - tips[a, 0]
+        dy = tips[b, 1] - tips[a, 1]
+        ux = holds[b, 0] - holds[a, 0]
+        uy = holds[b, 1] - holds[a, 1]
+        theta = math.atan2(uy * dx - ux * dy, ux * dx + uy * dy)
+        # nearest to the angle before, so that a turning body keeps count
+        theta += 2.0 * math.pi * math.floor((pose[2] - theta) / (2.0 * math.pi) + 0.5)
+        wx = speeds[b, 0] - speeds[a, 0]
+        wy = speeds[b, 1] - speeds[a, 1]
+        omega = -(dx * wy - dy * wx) / (dx * dx + dy * dy)
+    c = math.cos(theta)
+    s = math.sin(theta)
+    x = 0.0
+    y = 0.0
+    vx = 0.0
+    vy = 0.0
+    for i in range(legs.size):
+        if weights[i] > 0.0 and (angle_from != SECOND_TIP or i == a):
+            part = weights[i] / total if angle_from != SECOND_TIP else 1.0
+            rx = c * tips[i, 0] - s * tips[i, 1]
+            ry = s * tips[i, 0] + c * tips[i, 1]
+            x += part * (holds[i, 0] - rx)
+            y += part * (holds[i, 1] - ry)
+            vx -= part * (c * speeds[i, 0] - s * speeds[i, 1] - omega * ry)
+            vy -= part * (s * speeds[i, 0] + c * speeds[i, 1] + omega * rx)
+    pose[0] = x
+    pose[1] = y
+    pose[2] = theta
+    twist[0] = vx
+    twist[1] = vy
+    twist[2] = omega
+    return count
+
+
+@inlined
+def _level_second_tip(dx, dy, height, before):
+    """Angle at which a tip (dx, dy) from the first in the body frame is `height` above it, of two the nearer to `before` [rad]."""
+    far = math.hypot(dx, dy)
+    rise = math.asin(min(max(height / far, -1.0), 1.0)) if far > 0.0 else 0.0
+    line = math.atan2(dy, dx)
+    one = _nearest_turn(rise - line, before)
+    other = _nearest_turn(math.pi - rise - line, before)
+    return one if abs(one - before) <= abs(other - before) else other
+
+
+@inlined
+def _nearest_turn(angle, before):
+    """The angle, by whole turns as near to another as can be [rad]."""
+    return angle + 2.0 * math.pi * math.floor((before - angle) / (2.0 * math.pi) + 0.5)

@@ -1,0 +1,255 @@
+"""A way for a free two-joint limb between two postures, past holds and body: Dijkstra on a grid of its joint angles. Kernels."""
+
+import math
+
+import numpy as np
+
+from ....compiled import inlined, kernel
+
+FAR = 1e9
+PREFERRED = 0.03
+"""Clearance beyond which a way costs no more than its length [m]."""
+BESIDE = 0.35
+"""So near an end of the way, in either joint, the clearance may be less than elsewhere: at the end as little as there [rad]."""
+TIGHTER = 0.002
+"""And that much less [m]."""
+DEAR = 8.0
+"""How many times longer a step counts where there is no clearance left [-]."""
+
+
+@inlined
+def segment_point(ax, ay, bx, by, px, py):
+    """Distance of a point from a segment."""
+    dx = bx - ax
+    dy = by - ay
+    square = dx * dx + dy * dy
+    t = 0.0
+    if square > 0.0:
+        t = min(1.0, max(0.0, ((px - ax) * dx + (py - ay) * dy) / square))
+    return math.hypot(ax + t * dx - px, ay + t * dy - py)
+
+
+@inlined
+def _crosses(ax, ay, bx, by, cx, cy, dx, dy):
+    d1 = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+    d2 = (bx - ax) * (dy - ay) - (by - ay) * (dx - ax)
+    d3 = (dx - cx) * (ay - cy) - (dy - cy) * (ax - cx)
+    d4 = (dx - cx) * (by - cy) - (dy - cy) * (bx - cx)
+    return d1 * d2 < 0.0 and d3 * d4 < 0.0
+
+
+@inlined
+def segment_segment(ax, ay, bx, by, cx, cy, dx, dy):
+    """Distance of two segments; 0 where they cross."""
+    if _crosses(ax, ay, bx, by, cx, cy, dx, dy):
+        return 0.0
+    return min(
+        min(segment_point(ax, ay, bx, by, cx, cy), segment_point(ax, ay, bx, by, dx, dy)),
+        min(segment_point(cx, cy, dx, dy, ax, ay), segment_point(cx, cy, dx, dy, bx, by)),
+    )
+
+
+@kernel
+def clearance(leg, t1, t2, discs, walls, link_radius, hook):
+    """Smallest distance of a limb's links and tip from all obstacles, less their radii [m].
+
+    Args:
+        leg: A record of `leg.LEG`.
+        t1, t2: Its joint angles [rad].
+        discs: Obstacles x, y, radius in the body frame, shape (n, 3) [m].
+        walls: Segments x, y, x, y, radius in the body frame, shape (m, 5) [m]; the first link may touch them (it starts at the body).
+        link_radius, hook: Of the limb [m].
+    """
+    first = leg.port_angle + t1
+    second = first + t2
+    ex = leg.port_x + leg.l1 * math.cos(first)
+    ey = leg.port_y + leg.l1 * math.sin(first)
+    tx = ex + leg.l2 * math.cos(second + leg.beta)
+    ty = ey + leg.l2 * math.sin(second + leg.beta)
+    grab = second + leg.hook_angle
+    hx = tx + hook[1] * math.cos(grab)
+    hy = ty + hook[1] * math.sin(grab)
+    least = FAR
+    for k in range(discs.shape[0]):
+        x = discs[k, 0]
+        y = discs[k, 1]
+        r = discs[k, 2]
+        least = min(least, segment_point(leg.port_x, leg.port_y, ex, ey, x, y) - link_radius - r)
+        least = min(least, segment_point(ex, ey, tx, ty, x, y) - link_radius - r)
+        least = min(least, math.hypot(hx - x, hy - y) - hook[0] - r)
+    for k in range(walls.shape[0]):
+        least = min(
+            least,
+            segment_segment(ex, ey, tx, ty, walls[k, 0], walls[k, 1], walls[k, 2], walls[k, 3])
+            - link_radius
+            - walls[k, 4],
+        )
+    return least
+
+
+@kernel
+def find_way(leg, lower, upper, cells, start, goal, discs, walls, link_radius, hook, least, path):
+    """Cheapest way over the grid of joint angles, length made dearer near obstacles.
+
+    Args:
+        leg: A record of `leg.LEG`.
+        lower, upper: Joint limits, shape (2,) [rad].
+        cells: Grid points along each joint.
+        start, goal: Joint angles, shape (2,) [rad].
+        discs, walls, link_radius, hook: See `clearance`.
+        least: Clearance that a way must keep, but next to a start or goal that has less: where it can be, it rises from there on [m].
+        path: Filled with joint angles from start to goal, shape (most, 2).
+
+    Returns:
+        Number of points, 0 where there is no way.
+    """
+    args = (leg, lower, upper, cells, start, goal, discs, walls, link_radius, hook, least)
+    count = _search(*args, True, path)
+    return count if count else _search(*args, False, path)
+
+
+@kernel
+def _search(leg, lower, upper, cells, start, goal, discs, walls, link_radius, hook, least, rises, path):
+    """`find_way`, with a clearance that rises away from a tight end, or only is not less than there."""
+    size = cells * cells
+    room = np.full(size, math.nan)  # looked at where the search comes by: that is what takes the time
+    pitch1 = (upper[0] - lower[0]) / (cells - 1)
+    pitch2 = (upper[1] - lower[1]) / (cells - 1)
+    origin = _nearest(start, lower, pitch1, pitch2, cells)
+    target = _nearest(goal, lower, pitch1, pitch2, cells)
+    # where an end itself is tight, the way next to it may be as tight
+    at_start = min(least, clearance(leg, start[0], start[1], discs, walls, link_radius, hook) - TIGHTER)
+    at_goal = min(least, clearance(leg, goal[0], goal[1], discs, walls, link_radius, hook) - TIGHTER)
+    cost = np.full(size, FAR)
+    came = np.full(size, -1, np.int64)
+    heap_cost = np.empty(8 * size)
+    heap_node = np.empty(8 * size, np.int64)
+    count = 1
+    heap_cost[0] = 0.0
+    heap_node[0] = origin
+    cost[origin] = 0.0
+    while count:
+        here_cost = heap_cost[0]
+        here = heap_node[0]
+        count -= 1
+        heap_cost[0] = heap_cost[count]
+        heap_node[0] = heap_node[count]
+        _sink(heap_cost, heap_node, count)
+        if here_cost > cost[here]:
+            continue
+        if here == target:
+            break
+        i = here // cells
+        j = here % cells
+        for di in range(-1, 2):
+            for dj in range(-1, 2):
+                if (di == 0 and dj == 0) or not (0 <= i + di < cells and 0 <= j + dj < cells):
+                    continue
+                there = (i + di) * cells + j + dj
+                a = lower[0] + (i + di) * pitch1
+                b = lower[1] + (j + dj) * pitch2
+                if math.isnan(room[there]):
+                    room[there] = clearance(leg, a, b, discs, walls, link_radius, hook)
+                tight = room[there] < _floor(a, b, start, goal, at_start, at_goal, least, rises)
+                if tight and there != target and there != origin:
+                    continue
+                lack = max(0.0, PREFERRED - room[there]) / PREFERRED
+                step = math.hypot(di * pitch1, dj * pitch2) * (1.0 + DEAR * lack * lack)
+                if here_cost + step < cost[there]:
+                    cost[there] = here_cost + step
+                    came[there] = here
+                    heap_cost[count] = here_cost + step
+                    heap_node[count] = there
+                    count += 1
+                    _rise(heap_cost, heap_node, count - 1)
+    if came[target] < 0 and target != origin:
+        return 0
+    length = 0
+    node = target
+    while node >= 0 and length < path.shape[0] - 2:
+        length += 1
+        node = came[node] if node != origin else -1
+    node = target
+    for k in range(length, 0, -1):
+        path[k, 0] = lower[0] + (node // cells) * pitch1
+        path[k, 1] = lower[1] + (node % cells) * pitch2
+        node = came[node]
+    path[0] = start
+    path[length + 1] = goal
+    return _straighten(leg, path, length + 2, at_start, at_goal, least, rises, discs, walls, link_radius, hook)
+
+
+@inlined
+def _floor(a, b, start, goal, at_start, at_goal, least, rises):
+    """Clearance that joint angles must keep: less next to an end that has less itself, the more so the nearer where it `rises`."""
+    from_start = max(abs(a - start[0]), abs(b - start[1])) / BESIDE
+    if from_start < 1.0:
+        return at_start + (from_start * (least - at_start) if rises else 0.0)
+    to_goal = max(abs(a - goal[0]), abs(b - goal[1])) / BESIDE
+    if to_goal < 1.0:
+        return at_goal + (to_goal * (least - at_goal) if rises else 0.0)
+    return least
+
+
+@inlined
+def _nearest(angles, lower, pitch1, pitch2, cells):
+    i = min(max(int(round((angles[0] - lower[0]) / pitch1)), 0), cells - 1)
+    j = min(max(int(round((angles[1] - lower[1]) / pitch2)), 0), cells - 1)
+    return i * cells + j
+
+
+@inlined
+def _sink(costs, nodes, count):
+    at = 0
+    while True:
+        child = 2 * at + 1
+        if child >= count:
+            return
+        if child + 1 < count and costs[child + 1] < costs[child]:
+            child += 1
+        if costs[at] <= costs[child]:
+            return
+        costs[at], costs[child] = costs[child], costs[at]
+        nodes[at], nodes[child] = nodes[child], nodes[at]
+        at = child
+
+
+@inlined
+def _rise(costs, nodes, at):
+    while at:
+        above = (at - 1) // 2
+        if costs[above] <= costs[at]:
+            return
+        costs[at], costs[above] = costs[above], costs[at]
+        nodes[at], nodes[above] = nodes[above], nodes[at]
+        at = above
+
+
+@kernel
+def _straighten(leg, path, length, at_start, at_goal, least, rises, discs, walls, link_radius, hook):
+    """Leave out points between which the straight way keeps the preferred clearance, or that of the points themselves."""
+    kept = 1
+    at = 0
+    while at < length - 1:
+        best = at + 1
+        for to in range(length - 1, at + 1, -1):
+            tight = PREFERRED
+            for k in range(at, to + 1):
+                tight = min(tight, clearance(leg, path[k, 0], path[k, 1], discs, walls, link_radius, hook))
+            tight = max(min(tight, 0.6 * PREFERRED), min(at_start, at_goal))
+            free = True
+            for k in range(1, 40):
+                part = k / 40.0
+                a = path[at, 0] + part * (path[to, 0] - path[at, 0])
+                b = path[at, 1] + part * (path[to, 1] - path[at, 1])
+                floor = _floor(a, b, path[0], path[length - 1], at_start, at_goal, least, rises)
+                if clearance(leg, a, b, discs, walls, link_radius, hook) < max(tight, floor) - 1e-6:
+                    free = False
+                    break
+            if free:
+                best = to
+                break
+        path[kept] = path[best]
+        kept += 1
+        at = best
+    return kept

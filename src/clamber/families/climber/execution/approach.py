@@ -1,0 +1,234 @@
+"""How a free limb comes to a hold: the posture to hold with, a place to stand off, the way there, and where the body should be."""
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from itertools import product
+from typing import Final
+
+import numpy as np
+
+from ....types import Floats, Records
+from ..control.swing_path import clearance, find_way
+from ..robot.robot import Limb, LimbedRobot
+from .postures import Posture, postures
+
+CELLS: Final = 81
+"""Grid points along each joint: 2.75 deg for LIBRA."""
+MOST_POINTS: Final = 400
+HOOK: Final = np.array((0.0185, 0.005))
+"""Radius of the disc that stands for a hook with its flare, and how far its centre is before the tip, along the grab direction [m]."""
+LEAST_CLEARANCE: Final = 0.004
+"""That a way must keep [m]."""
+STAND_OFFS: Final = (1.0, 0.85)
+"""Parts of the wished stand-off that are tried in turn."""
+SLANTS: Final = ((0, 15, -15), (30, -30), (45, -45))
+"""Angles between the way in and the grab direction, in groups: a straight way with a moved body comes before a slanted one [deg]."""
+HEADINGS: Final = ((0, 1), (-1, 1), (-1, 0), (1, 1), (1, 0), (0, -1), (-1, -1), (1, -1))
+"""Of the body as it makes room, x towards the hold's side, y up. Up and away come first: there the hooks that hold stay steeper."""
+SHIFTS: Final = (
+    (0.0, 0.0),
+    *(
+        (size * x / math.hypot(x, y), size * y / math.hypot(x, y))
+        for size in (0.02, 0.035, 0.05, 0.07)
+        for x, y in HEADINGS
+    ),
+)
+"""Moves of the body that make room, the least first [m]."""
+BENT: Final = math.radians(20.0)
+"""An elbow nearer to straight than this brings its tip no farther, and nowhere on a straight way [rad]."""
+NEARBY: Final = 0.6
+"""Holds farther from the body are in no limb's way [m]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Approach:
+    """A way to a hold."""
+
+    shift: Floats
+    """Move of the body before it, world frame, shape (2,) [m]."""
+    way: Floats
+    """Joint angles from where the limb is to the stand-off, shape (n, 2) [rad]."""
+    grab: Floats
+    """Direction in which the hook will pull, world frame."""
+    stand_off: float
+    """Distance of the stand-off from the hold [m]."""
+
+
+def wall_of(robot: LimbedRobot) -> Floats:
+    """The body's outline as segments x, y, x, y, radius in the body frame, shape (limbs, 5) [m]."""
+    ports = [(limb.port_x, limb.port_y) for limb in robot.limbs]
+    return np.array([(*a, *b, robot.body_margin) for a, b in zip(ports, ports[1:] + ports[:1], strict=True)])
+
+
+def free_distance(peg_radius: float, doubt: float) -> float:
+    """Distance from a hold at which a hook with its flare is clear of it, wherever within its doubt it is [m]."""
+    return float(HOOK.sum()) + LEAST_CLEARANCE + peg_radius + doubt
+
+
+def discs_near(holds: Mapping[int, Floats], pose: Floats, radius: Callable[[int], float]) -> Floats:
+    """Holds near the body as discs x, y, radius in the body frame, shape (n, 3) [m]; `radius` of a hold by its number."""
+    c, s = np.cos(pose[2]), np.sin(pose[2])
+    out = []
+    for number, place in holds.items():
+        dx, dy = place - pose[:2]
+        if np.hypot(dx, dy) < NEARBY:
+            out.append((c * dx + s * dy, -s * dx + c * dy, radius(number)))
+    return np.array(out).reshape(-1, 3)
+
+
+def rank(found: Iterable[Posture], elbow: int) -> list[Posture]:
+    """Postures within the joints' limits with the elbow on the wanted side (+1, -1), or the hook on top (0); most on top first."""
+    fit = [one for one in found if one.inside and (elbow * one.angles[1] > 0.0 if elbow else one.on_top > 0.0)]
+    return sorted(fit, key=lambda one: -one.on_top)
+
+
+class Approaches:
+    """Finds ways to holds for the limbs of one robot.
+
+    Args:
+        robot: The climber.
+        legs: Records of `control.leg.LEG`, one per limb.
+        peg_radius: Of a hold by its number, its place's doubt included [m].
+    """
+
+    def __init__(self, robot: LimbedRobot, legs: Records, peg_radius: Callable[[int], float]) -> None:
+        self.robot, self.legs, self.peg_radius = robot, legs, peg_radius
+        self.wall = wall_of(robot)
+        self.path = np.zeros((MOST_POINTS, 2))
+
+    def find(
+        self,
+        i: int,
+        angles: Floats,
+        pose: Floats,
+        hold: Floats,
+        holds: Mapping[int, Floats],
+        *,
+        elbow: int = 0,
+        stand_off: float = 0.028,
+        near: float = 0.016,
+        stands: Callable[[Floats], bool] = lambda pose: True,
+        straight: bool = True,
+    ) -> Approach | None:
+        """A way for limb `i` from joint angles `angles` to a stand-off before `hold`; None where there is none.
+
+        Args:
+            i: Index of the limb.
+            angles: Where it is, shape (2,) [rad].
+            pose: Body pose, shape (3,).
+            hold: Place of the hold, world frame [m].
+            holds: All holds by number, as obstacles.
+            elbow: Side of the elbow to hold with: +1, -1, or 0 for whichever has the hook more on top.
+            stand_off: Wished distance from the hold before the way in [m].
+            near: Distance straight before the hold, against the grab direction, that the limb must also reach, its elbow well bent
+                where that can be: a straight limb is pushed nowhere from there [m].
+            stands: Whether the other limbs can hold the body at another pose.
+            straight: Whether an elbow that is not well bent there will do.
+        """
+        side = float(np.sign(hold[0] - pose[0]))
+        for bent, slants, (x, y) in product((BENT, 0.0) if straight else (BENT,), SLANTS, SHIFTS):
+            shift = np.array((x * side, y))
+            moved = pose + np.array((*shift, 0.0))
+            if shift.any() and not stands(moved):
+                continue
+            found = self._stand_off(i, angles, moved, hold, holds, elbow, (stand_off, near), bent, slants)
+            if found is not None:
+                grab, way, distance = found
+                return Approach(shift, way, grab, distance)
+        return None
+
+    def leave(
+        self,
+        i: int,
+        side: float,
+        pose: Floats,
+        tip: Floats,
+        back: Floats,
+        holds: Mapping[int, Floats],
+        *,
+        stands: Callable[[Floats], bool] = lambda pose: True,
+    ) -> Floats | None:
+        """The least move of the body after which a limb can draw its hook straight back off its hold, shape (2,) [m]; None if none does.
+
+        Args:
+            i: Index of the limb.
+            side: Of its elbow, +1 or -1.
+            pose: Body pose, shape (3,).
+            tip: Of the limb, on its hold, world frame [m].
+            back: How far it draws back, world frame, shape (2,) [m].
+            holds: All holds by number, as obstacles.
+            stands: Whether the other limbs can hold the body at another pose.
+        """
+        inwards = float(np.sign(tip[0] - pose[0]))
+        for x, y in SHIFTS:
+            shift = np.array((x * inwards, y))
+            moved = pose + np.array((*shift, 0.0))
+            if shift.any() and not stands(moved):
+                continue
+            discs = discs_near(holds, moved, self.peg_radius)
+            if all(_bent(self.robot.limbs[i], moved, tip + part * back, side) for part in (0.0, 0.5)) and any(
+                self._room(i, one.angles, discs) >= 0.0 for one in _bent(self.robot.limbs[i], moved, tip + back, side)
+            ):
+                return shift
+        return None
+
+    def bends(self, i: int, side: float, pose: Floats, tip: Floats, back: Floats, shift: Floats) -> bool:
+        """Whether a limb that draws its hook back while the body moves, both in step, keeps its elbow well bent and its joints in limits.
+
+        Args:
+            i: Index of the limb.
+            side: Of its elbow, +1 or -1.
+            pose: Body pose, shape (3,).
+            tip: Of the limb, on its hold, world frame [m].
+            back: How far it draws back, world frame, shape (2,) [m].
+            shift: Move of the body, shape (2,) [m].
+        """
+        limb, move = self.robot.limbs[i], np.array((*shift, 0.0))
+        return all(_bent(limb, pose + part * move, tip + part * back, side) for part in np.linspace(0.0, 1.0, 9))
+
+    def _room(self, i: int, angles: Floats, discs: Floats) -> float:
+        return float(clearance(self.legs[i], angles[0], angles[1], discs, self.wall, self.robot.link_radius, HOOK))
+
+    def _stand_off(
+        self,
+        i: int,
+        angles: Floats,
+        pose: Floats,
+        hold: Floats,
+        holds: Mapping[int, Floats],
+        elbow: int,
+        distances: tuple[float, float],
+        bent: float,
+        slants: tuple[int, ...],
+    ) -> tuple[Floats, Floats, float] | None:
+        limb, (stand_off, near) = self.robot.limbs[i], distances
+        discs = discs_near(holds, pose, self.peg_radius)
+        lower = np.array((limb.shoulder.lower, limb.elbow.lower))
+        upper = np.array((limb.shoulder.upper, limb.elbow.upper))
+        # the posture that is best on the hold; the other one would pull sideways, and the robot fall when it has to carry
+        for final in rank(postures(limb, pose, hold), elbow)[:1]:
+            if not _bent(limb, pose, hold - near * final.grab, math.copysign(1.0, final.angles[1]), bent):
+                continue
+            for part in STAND_OFFS:
+                for slant in np.radians(slants):
+                    c, s = np.cos(slant), np.sin(slant)
+                    x, y = final.grab
+                    place = hold - part * stand_off * np.array((c * x - s * y, s * x + c * y))
+                    for posture in postures(limb, pose, place):
+                        if not posture.inside or posture.angles[1] * final.angles[1] < 0.0:
+                            continue
+                        if self._room(i, posture.angles, discs) < 0.0:
+                            continue
+                        count = find_way(
+                            self.legs[i], lower, upper, CELLS, angles, posture.angles, discs, self.wall,
+                            self.robot.link_radius, HOOK, LEAST_CLEARANCE, self.path,
+                        )  # fmt: skip
+                        if count:
+                            return final.grab, self.path[:count].copy(), part * stand_off
+        return None
+
+
+def _bent(limb: Limb, pose: Floats, place: Floats, side: float, bent: float = BENT) -> list[Posture]:
+    """The posture with the tip at a place and the elbow well on a side, within the joints' limits; none where there is none."""
+    return [one for one in postures(limb, pose, place) if one.inside and side * one.angles[1] > bent]

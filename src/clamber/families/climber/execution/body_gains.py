@@ -1,0 +1,96 @@
+"""How stiffly a climber holds its body and moves its limbs, and by which map and hook limit."""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ....types import Records
+from ..control.body import (
+    KINEMATIC,
+    LIMIT_COUNTED,
+    LIMIT_FEASIBLE,
+    LIMIT_NONE,
+    LIMIT_SHARED,
+    LIMIT_THESIS,
+    THESIS,
+    WRENCH,
+)
+from ..control.body_tick import BODY
+from ..robot.robot import LimbedRobot
+
+MAPPINGS: Final = {"thesis": THESIS, "kinematic": KINEMATIC, "wrench": WRENCH}
+LIMITS: Final = {
+    "none": LIMIT_NONE,
+    "thesis": LIMIT_THESIS,
+    "counted": LIMIT_COUNTED,
+    "shared": LIMIT_SHARED,
+    "feasible": LIMIT_FEASIBLE,
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BodyGains:
+    """Gains of body and limbs."""
+
+    kp: tuple[float, float, float] = (100.0, 50.0, 10.0)
+    """Of the maps "thesis" and "kinematic"; those of the thesis's Table 4.1."""
+    kd: tuple[float, float, float] = (10.0, 5.0, 1.0)
+    """Twice the table's: with delay and backlash its own let the body swing (ours)."""
+    stiffness: tuple[float, float, float] = (3000.0, 3000.0, 200.0)
+    """Of the map "wrench" [N/m], [N m/rad]; ours."""
+    damping: float = 20.0
+    """Of the map "wrench": each tip's acceleration for its speed [1/s]; at half of it a body on grippers cycles through its play."""
+    limb_kp: float = 500.0
+    limb_kd: float = 25.0
+    joint_kp: float = 400.0
+    joint_kd: float = 20.0
+    cling: float = 3.0
+    """Pull with which a limb that carries nothing keeps to its hold [N]."""
+    gentle: float = 3.0
+    """Most torque of a limb near a hold, so that what it meets is not thrown off; a tip on its way gets its weight besides [N m]."""
+    firm: float = 8.0
+    """Likewise of a limb that tugs at its hold: enough to carry half the weight at arm's length [N m]."""
+    alpha: float = 0.3
+    """Least acceleration of a hook along its grab direction, 4.4.2 of the thesis, for the limits "thesis", "counted" and "shared"
+    [m/s^2]. The thesis takes 0 or more. 0.3 is ours, for the limits that count the weight; with "thesis", which does not, it sets soft
+    bodies swaying (`usual_alpha`).
+    """
+    weight_fed: float = 0.95
+    """Part of the weight that is fed forward."""
+    mapping: str = "wrench"
+    limit: str = "feasible"
+    law: str = "scct"
+    scheme: str = "body"
+    """How the holding limbs carry the body: "body" as in the thesis's 4.4, or one of `SCHEMES`."""
+    leg_kp: float = 200.0
+    """Of a holding limb in those schemes, in the units of its law; "coordinated": of the pressing tip [N/m]."""
+    leg_kd: float = 10.0
+    inside: float = 8.0
+    """"coordinated": with how much the pressing tip is to pull at its hold [N]."""
+    hold_stiffness: float = 20_000.0
+    """"coordinated": that the holds are believed to have [N/m]."""
+    potential: float = 0.0
+    """Strength of the virtual potential about the body that repels free limbs (Bevly 1997, 4.4.6): F_0 of
+    `control.virtual_potential` over the robot's weight [-]; 0: none."""
+    potential_range: float = 0.2
+    """Gap from which on it repels, rho_0 over the length of the longest limb [-]."""
+
+
+USUAL: Final = BodyGains()
+"""Those of a climb."""
+
+
+def usual_alpha(limit: str) -> float:
+    """Least acceleration of a hook where nothing is said [m/s^2]: 0 for the printed limit, which does not count the weight; else ours."""
+    return 0.0 if limit == "thesis" else USUAL.alpha
+
+
+def records_of(gains: BodyGains, robot: LimbedRobot) -> Records:
+    """The gains as the kernels read them, records of `BODY`, shape (1,)."""
+    out = np.zeros(1, BODY)
+    out["mapping"], out["limit"] = MAPPINGS[gains.mapping], LIMITS[gains.limit]
+    for name in ("kp", "kd", "stiffness", "damping", "joint_kp", "joint_kd", "cling", "gentle", "firm", "weight_fed"):
+        out[name] = getattr(gains, name)
+    out["weight"] = robot.weight
+    return out

@@ -1,0 +1,71 @@
+"""A fall told before the body is seen to leave: motors and encoders say when nothing carries the robot any more."""
+
+from typing import Final
+
+import numpy as np
+
+from ..control.felt_force import feel_forces
+from .whole_body import WholeBody
+
+BORNE: Final = 0.45
+"""Tips that press on the world with less than this part of the weight, all together, do not carry it."""
+LOOSE: Final = 0.08
+"""They do so for that long when nothing holds the robot; a hook that settles bounces for less [s]."""
+MOVES: Final = 0.1
+"""Meanwhile a joint of a limb that holds turns faster than this, as nothing loads it any more: a robot that stands still leans on something
+[rad/s]."""
+WEIGHTLESS: Final = (0.2, 0.05)
+"""One that hangs keeps its joints where they are while it drops. It falls where its tips feel less than this part of the weight [-], and
+these joints have turned faster than this since they began to feel little: what bore the weight has bent them back [rad/s]."""
+SMOOTHED: Final = 0.03
+"""Time constant of the felt forces [s]."""
+
+
+class FallWatch:
+    """Adds up what the tips of a climber feel, tick by tick.
+
+    What holds is taken for granted by the estimate of the body: with every hook off its hold the estimate stays where it was, while the
+    robot drops. The sum of the forces that the tips feel drops at once. A limb that is stretched or folded feels nothing along itself;
+    while one that holds is, nothing is told. Nor is it while all stand still: a link that lies on a hold carries, too.
+
+    Args:
+        body: What knows the limbs and their tasks.
+    """
+
+    def __init__(self, body: WholeBody) -> None:
+        self._body = body
+        self._least = BORNE * body.robot.weight
+        self._rate = min(1.0, body.period / SMOOTHED)
+        self._before, self._felt = np.zeros((body.n, 2)), np.zeros((body.n, 2))
+        self.forces = np.zeros((body.n, 2))
+        """Of the tips on what they touch, world frame, shape (limbs, 2) [N]; infinite where they cannot be told."""
+        self.carried = 0.0
+        """Sum of their sizes [N]; infinite where a limb that holds cannot tell; others that cannot count as none."""
+        self.loose = 0.0
+        """How long the tips have been carrying too little [s]."""
+        self._fastest = 0.0
+        """That a joint of a limb that holds has turned meanwhile [rad/s]."""
+
+    def reset(self) -> None:
+        """Begin anew, as if all were well."""
+        self._before[:] = self._felt[:] = 0.0
+        self._fastest = 0.0
+        self.loose = -LOOSE  # what the tips feel has to settle first
+
+    def see(self) -> bool:
+        """Take in the tick whose measurements the body has just seen; whether nothing carries the robot."""
+        body = self._body
+        self.carried = feel_forces(
+            body.legs, body.held, body.q, body.qd, self._before, body.torques,
+            body.pose.item(2), body.period, self._rate, self._felt, self.forces,
+        )  # fmt: skip
+        little = self.carried < self._least
+        # a torque that jumps for a tick looks like a force, so one tick that says otherwise does not start the time anew
+        self.loose = self.loose + body.period if little else max(self.loose - 2.0 * body.period, 0.0)
+        rate = float(np.abs(body.qd[body.held > 0]).max(initial=0.0))
+        self._fastest = max(self._fastest, rate) if self.loose > 0.0 else 0.0
+        if self.loose <= LOOSE:
+            return False
+        hangs = any(task.doing == "hang" for task in body.tasks)
+        drops = hangs and self.carried < WEIGHTLESS[0] * body.robot.weight and self._fastest > WEIGHTLESS[1]
+        return drops or rate > MOVES

@@ -1,0 +1,102 @@
+"""Where a free limb waits while the body moves: clear of every hold along the body's way, as near as can be to where it is."""
+
+from collections.abc import Mapping, Sequence
+from itertools import product
+from typing import Final
+
+import numpy as np
+
+from ....types import Floats
+from ..control.swing_path import clearance, find_way
+from .approach import CELLS, HOOK, LEAST_CLEARANCE, Approaches, discs_near
+
+SPARE: Final = 0.012
+"""Clearance along the body's way at which a limb is left where it is [m]: the body sways by about as much."""
+OUT: Final = 0.04
+"""Clearance of a free limb that is not between two holds of a row: from there it comes to any [m]."""
+TIGHT: Final = (LEAST_CLEARANCE, 0.0, -0.002)
+"""Clearances of the way there, tried in turn where the body moves whatever comes of it: holds count with their doubt [m]."""
+LOOKS: Final = 0.02
+"""Between two poses of the way that are looked at [m], or [rad] at 0.2 m."""
+PITCH: Final = 21
+"""Postures along each joint that are tried."""
+
+
+def poses_between(start: Floats, end: Floats) -> list[Floats]:
+    """Poses of a straight way of the body, both ends with it."""
+    change = end - start
+    length = float(np.hypot(change[0], change[1])) + 0.2 * abs(float(change[2]))
+    return [start + u * change for u in np.linspace(0.0, 1.0, 2 + int(length / LOOKS))]
+
+
+def room_along(
+    approaches: Approaches, i: int, angles: Floats, poses: Sequence[Floats], holds: Mapping[int, Floats]
+) -> float:
+    """Clearance of a limb, joints at angles, shape (2,) [rad], from all holds as the body goes along poses; negative: it meets one [m]."""
+    leg, robot = approaches.legs[i], approaches.robot
+    every = np.concatenate([discs_near(holds, pose, approaches.peg_radius) for pose in poses])
+    return float(clearance(leg, angles[0], angles[1], every, approaches.wall, robot.link_radius, HOOK))
+
+
+def passes(
+    approaches: Approaches, i: int, angles: Floats, poses: Sequence[Floats], holds: Mapping[int, Floats]
+) -> bool:
+    """Whether the body may go along poses with a free limb: it meets no hold, or can first go to where it meets none.
+
+    Args: As `park`.
+    """
+    if room_along(approaches, i, angles, poses, holds) >= 0.0:
+        return True
+    way = park(approaches, i, angles, poses, holds)
+    return way is not None and room_along(approaches, i, way[-1], poses, holds) >= 0.0
+
+
+def park(
+    approaches: Approaches,
+    i: int,
+    angles: Floats,
+    poses: Sequence[Floats],
+    holds: Mapping[int, Floats],
+    spare: float = SPARE,
+    clearances: Sequence[float] = (LEAST_CLEARANCE,),
+) -> Floats | None:
+    """A way of a free limb's joints to where it may wait, shape (n, 2) [rad]; None where it is well placed, or there is none better.
+
+    Args:
+        approaches: Of the robot.
+        i: Index of the limb.
+        angles: Where it is, shape (2,) [rad].
+        poses: Of the body along its way, the present one first.
+        holds: All holds by number.
+        spare: Clearance with which it is well placed [m].
+        clearances: That the way keeps but where it begins with less, the first with which there is one [m].
+    """
+    limb, leg, robot = approaches.robot.limbs[i], approaches.legs[i], approaches.robot
+    seen = [discs_near(holds, pose, approaches.peg_radius) for pose in poses]
+    every = np.concatenate(seen)
+
+    def room(q: Floats) -> float:
+        return float(clearance(leg, q[0], q[1], every, approaches.wall, robot.link_radius, HOOK))
+
+    here = room(angles)
+    if here >= spare:
+        return None
+    lower = np.array((limb.shoulder.lower, limb.elbow.lower))
+    upper = np.array((limb.shoulder.upper, limb.elbow.upper))
+    grid = [
+        np.array((a, b)) for a in np.linspace(lower[0], upper[0], PITCH) for b in np.linspace(lower[1], upper[1], PITCH)
+    ]
+    rooms = [room(q) for q in grid]
+    enough = min(spare, max(rooms))
+    if enough <= here:
+        return None
+    fit = [q for q, free in zip(grid, rooms, strict=True) if free >= enough - 1e-9]
+    path = approaches.path
+    near = sorted(fit, key=lambda q: float(np.abs(q - angles).max()))[:8]
+    for least, goal in product(clearances, near):
+        count = find_way(
+            leg, lower, upper, CELLS, angles, goal, seen[0], approaches.wall, robot.link_radius, HOOK, least, path
+        )  # fmt: skip
+        if count:
+            return path[:count].copy()
+    return None

@@ -1,0 +1,51 @@
+"""Postures of a two-joint limb: the joint angles that put its tip at a place of the world, and where its hook then pulls."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ....types import Floats
+from ..control.limb_chain import closed_branches
+from ..robot.robot import Limb
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Posture:
+    """Joint angles of a limb, and the direction in which its hook pulls."""
+
+    angles: Floats
+    """Shoulder and elbow [rad], shape (2,)."""
+    grab: Floats
+    """Unit vector, world frame, shape (2,)."""
+    inside: bool
+    """Whether both joints are within their limits."""
+
+    @property
+    def on_top(self) -> float:
+        """1 for a hook that pulls straight down, -1 for one that pulls up [-]."""
+        return -float(self.grab[1])
+
+
+def postures(limb: Limb, pose: Floats, place: Floats) -> list[Posture]:
+    """Both postures with the tip at a place, elbow angle positive first; none out of reach.
+
+    Args:
+        limb: Of the robot.
+        pose: Body x, y [m], theta [rad].
+        place: Of the tip, world frame [m].
+    """
+    c, s = math.cos(pose[2]), math.sin(pose[2])
+    dx = place[0] - pose[0] - (c * limb.port_x - s * limb.port_y)
+    dy = place[1] - pose[1] - (s * limb.port_x + c * limb.port_y)
+    turn = limb.port_angle + pose[2]
+    ct, st = math.cos(turn), math.sin(turn)
+    out = []
+    for angles in closed_branches(limb, ct * dx + st * dy, ct * dy - st * dx):
+        inside = all(
+            joint.lower - 1e-9 <= angle <= joint.upper + 1e-9
+            for joint, angle in zip((limb.shoulder, limb.elbow), angles, strict=True)
+        )
+        grab = turn + sum(angles) + limb.end.angle
+        out.append(Posture(np.array(angles), np.array((math.cos(grab), math.sin(grab))), inside))
+    return out

@@ -1,0 +1,308 @@
+"""The climber's controller: what each limb is doing, where the body is to be, and the torques of one tick."""
+
+import math
+from collections.abc import Collection, Sequence
+from typing import Final
+
+import numpy as np
+
+from ....control.controller import Controller, still_aim
+from ....control.law_settings import LawSettings
+from ....control.records import AXES
+from ....types import Floats
+from ..control import body_tick as at
+from ..control.body_estimate import ENCODER
+from ..control.body_tick import JOB, TABLE, command_tick, see_tick
+from ..control.hook_forces import MOST_CUTS, pair_forces
+from ..control.limb_chain import chain_of_limb
+from ..control.play import weight_moment
+from ..control.virtual_potential import repel_limbs
+from ..robot.robot import LimbedRobot
+from .body_gains import USUAL, BodyGains, records_of
+from .body_schemes import SCHEMES
+from .legs import legs_of
+from .limb_task import DOING, LimbTask
+from .postures import postures
+
+PLAY_TIME: Final = 0.2
+"""Time in which the believed side of the play follows the load [s]."""
+LOAD_TIME: Final = 0.15
+"""Time over which the load of a limb that pulls is evened out: a dither's own load moves no joint through its play [s]."""
+STRETCHED: Final = math.radians(15.0)
+"""An elbow nearer to straight than this is soft and may pass to the other side [rad]."""
+HANDING_OVER: Final = 0.4
+"""Time in which the load passes from the limbs that carried to those that will [s]."""
+
+REPELLED: Final = ("tip", "joints")
+"""What free limbs do that a virtual potential keeps off the body; one that pushes at a hold is steered by what it feels there."""
+MOST_REPELLED: Final = 3.0
+"""Largest force of the potential over the robot's weight [-] (chosen): it stops a limb that comes at full speed, whose rotors are most
+of its inertia; with the weight itself one got through."""
+BENT: Final = math.radians(12.0)
+"""Where the soft stop of an elbow begins, before it is straight [rad]."""
+STOP: Final = 6.0
+"""Its torque on a straight elbow, as much as a push of a hook makes there [N m]."""
+
+
+class WholeBody:
+    """Torques of all limbs from the sensors, the body's aim and each limb's task.
+
+    Args:
+        robot: The climber.
+        period: Of the control [s].
+        gains: Of body and limbs.
+        backlash: Whole play of a joint that is reckoned with [rad]; None: that of the robot's file.
+    """
+
+    def __init__(
+        self,
+        robot: LimbedRobot,
+        *,
+        period: float,
+        gains: BodyGains = USUAL,
+        backlash: float | None = None,
+    ) -> None:
+        self.robot, self.gains, self.period = robot, gains, period
+        self.backlash = robot.motor.backlash if backlash is None else backlash
+        n = len(robot.limbs)
+        self.n = n
+        self.chains = [chain_of_limb(robot, limb.name) for limb in robot.limbs]
+        self.legs = legs_of(robot)
+        unit = LawSettings(law=gains.law, kp=1.0, kd=0.0, joint_kd=1.0, feed_gravity=False)
+        free = LawSettings(law=gains.law, kp=gains.limb_kp, kd=gains.limb_kd, feed_gravity=False)
+        self._pullers = [Controller(chain, unit, period=period) for chain in self.chains]
+        self._reachers = [Controller(chain, free, period=period) for chain in self.chains]
+        self._aim = still_aim((0.0, 0.0))
+        self._states = np.zeros((1, 2, 2))
+        self.tasks = [LimbTask("joints") for _ in range(n)]
+        self.pose, self.twist = np.zeros(3), np.zeros(3)
+        """Estimated body pose and speed, world frame."""
+        self.aim, self.aim_speed = np.zeros(3), np.zeros(3)
+        """Of the body."""
+        self.tips, self.tip_speeds = np.zeros((n, 2)), np.zeros((n, 2))
+        """In the body frame, by the encoders."""
+        self.q, self.qd = np.zeros((n, 2)), np.zeros((n, 2))
+        self.torques = np.zeros((n, 2))
+        self.play = np.zeros((n, 2))
+        """How far each joint's output is believed to lag its encoder, the side of the play it rests on [rad]."""
+        self.sure = np.zeros((n, 2))
+        """How sure that side is, by what loads the joint: 0, it may be anywhere in its play, to 1 [-]."""
+        self.settled_tips = np.zeros((n, 2))
+        """Tips in the body frame with the play counted."""
+        self.settled = np.zeros(3)
+        """The pose with the play counted: for maps and aims, never for the fast loop, which it would set swinging."""
+        self.held = np.zeros(n, np.int64)
+        """1 for limbs that hold, as of the last measurement."""
+        self._carriers = np.zeros((2, n), np.int64)
+        """1 for those that carry: who did until now, and who will once the load has been handed over."""
+        self._weights = np.zeros(n)
+        self._handed = 1.0
+        self._holds, self._cuts = np.zeros((n, 2)), np.zeros((MOST_CUTS, 2))
+        self._lag = np.array((period / PLAY_TIME, self.backlash / 2, period / LOAD_TIME))
+        self._jobs = np.zeros(n, JOB)
+        self._job = {name: self._jobs[name] for name in JOB.names or ()}
+        drives = np.array([[law.desk for law in laws] for laws in (self._pullers, self._reachers)])
+        self._arrays = {
+            at.LEGS: self.legs, at.SETTINGS: records_of(gains, robot), at.JOBS: self._jobs, at.DRIVES: drives,
+            at.Q: self.q, at.QD: self.qd, at.LAGGED: np.zeros((n, 2)), at.HELD: self.held,
+            at.WEIGHTS: self._weights, at.HOLDS: self._holds, at.ARMS: np.zeros((n, 2)),
+            at.TIPS: self.tips, at.TIP_SPEEDS: self.tip_speeds, at.POSE: self.pose, at.TWIST: self.twist,
+            at.AIMED: self.aim, at.AIM_SPEED: self.aim_speed, at.PLAY: self.play,
+            at.SETTLED_TIPS: self.settled_tips, at.SETTLED: self.settled,
+            at.SPARE_SPEEDS: np.zeros((n, 2)), at.SPARE_TWIST: np.zeros(3), at.CARRIERS: self._carriers,
+            at.PULLS: np.zeros((n, 2)), at.FORCES: np.zeros((n, 2)),
+            at.OLD_PULLS: np.zeros((n, 2)), at.OLD_FORCES: np.zeros((n, 2)),
+            at.CUTS: self._cuts, at.DRAGS: np.zeros((n, 2)), at.LEAST: np.full(n, gains.alpha),
+            at.PRESSED: np.zeros(n, np.int64), at.LOADS: np.zeros((n, 2)), at.LAG: self._lag, at.LOADS_NOW: np.zeros(2),
+            at.WANTED: np.zeros(3), at.FED: np.zeros(3), at.LIMB_AIM: self._aim, at.STATES: self._states,
+            at.FELT: np.zeros((1, AXES)), at.TORQUES: self.torques, at.SURE: self.sure,
+        }  # fmt: skip
+        self._table = np.zeros(TABLE, np.int64)
+        for place, array in self._arrays.items():
+            assert array.flags.c_contiguous
+            self._table[place] = array.ctypes.data
+        self._table[at.LIMBS] = n
+        longest = max(limb.length for limb in robot.limbs)
+        self._field = np.array(
+            (gains.potential_range * longest, gains.potential * robot.weight, MOST_REPELLED * robot.weight)
+        )
+        self._outline, self._skin = robot.outline(), robot.body_margin + robot.link_radius
+        self._free = np.zeros(n, np.int64)
+        self.gaps = np.full(n, np.inf)
+        """Gap of each free limb's second link to the body, with a virtual potential; infinity for others [m]."""
+        self._scheme = None if gains.scheme == "body" else SCHEMES[gains.scheme](self)
+
+    def see(self, q: Floats, qd: Floats, angle: float, angle_speed: float, *, angle_from: int = ENCODER) -> None:
+        """Take in a tick's measurements and estimate where the body is.
+
+        Args:
+            q, qd: Joint angles and speeds, shape (limbs, 2).
+            angle, angle_speed: Of the body by its own encoder [rad], [rad/s].
+            angle_from: One of `control.body_estimate`: ENCODER, LINE, SECOND_TIP.
+        """
+        self.q[:], self.qd[:] = q, qd
+        for i, task in enumerate(self.tasks):
+            self.held[i] = task.holds
+            if task.holds:
+                self._holds[i] = task.place
+        self._pass_load()
+        see_tick(self._table, angle, angle_speed, angle_from)
+
+    def reckon_with(self, backlash: float) -> None:
+        """Believe in another backlash of every joint from now on [rad]."""
+        self.backlash = backlash
+        self._lag[1] = backlash / 2
+
+    def hand_over(self, carriers: Collection[int]) -> None:
+        """Let the load pass to these limbs, each of them on a hold; it does while `handing_over`, then the others cling.
+
+        A hand-over that is still going on is over: all its limbs carry when this one begins.
+        """
+        self._handed = 1.0
+        now = [i for i in range(self.n) if self.tasks[i].doing == "hold"]
+        for i in carriers:
+            self.tasks[i].doing = "hold"
+        if not now or set(now) == set(carriers):
+            return
+        for row, limbs in zip(self._carriers, (now, carriers), strict=True):
+            row[:] = [i in limbs for i in range(self.n)]
+        self._handed = 0.0
+
+    def carry_at_once(self, carriers: Collection[int]) -> None:
+        """Let the load jump to these limbs: for where another has lost it already."""
+        for i in carriers:
+            self.tasks[i].doing = "hold"
+        self._handed = 1.0
+
+    def stands(self, pose: Floats, carriers: Sequence[int] | None = None) -> float:
+        """How well limbs would hold at a pose of the body, in newtons of the worst wish; -inf out of reach.
+
+        Args:
+            pose: Shape (3,).
+            carriers: Limbs on holds; None: those that carry now.
+        """
+        if carriers is None:
+            carriers = [i for i, task in enumerate(self.tasks) if task.doing == "hold"]
+        q, arms, forces = self.q.copy(), np.zeros((self.n, 2)), np.zeros((self.n, 2))
+        for i in carriers:
+            side = self.q[i, 1] - self.play[i, 1]
+            found = [
+                one
+                for one in postures(self.robot.limbs[i], pose, self.tasks[i].place)
+                if one.inside and one.angles[1] * side > 0.0 and abs(one.angles[1]) > STRETCHED
+            ]
+            if not found:
+                return -math.inf
+            q[i], arms[i] = found[0].angles, self.tasks[i].place - pose[:2]
+        if len(carriers) != 2:
+            return 0.0
+        wrench = np.array((0.0, self.robot.weight, weight_moment(self.legs, q, pose[2])))
+        margin, _ = pair_forces(
+            self.legs, q, carriers[0], carriers[1], pose, arms, wrench, np.zeros(3), self._cuts, forces
+        )
+        return float(margin)
+
+    @property
+    def handing_over(self) -> bool:
+        """Whether the load is passing from limbs to others."""
+        return self._handed < 1.0
+
+    def _pass_load(self) -> None:
+        """One tick of a hand-over; how much each limb that holds says about where the body is."""
+        if self.handing_over:
+            step = self.period / HANDING_OVER
+            # sums of steps miss 1 by rounding: a tick more, with all of the load passed, would be no hand-over to the compiled tick
+            self._handed = self._handed + step if self._handed + 1.5 * step < 1.0 else 1.0
+            if self._handed == 1.0:
+                for i, task in enumerate(self.tasks):
+                    if self.held[i] and not self._carriers[1, i]:
+                        task.doing, self.held[i] = "cling", 0
+        if self.handing_over:
+            part = self._part()
+            before, after = self._carriers
+            np.add((1.0 - part) / before.sum() * before, part / after.sum() * after, out=self._weights)
+        else:
+            self._weights[:] = self.held
+
+    def _part(self) -> float:
+        """Of the load that has passed, smooth at both ends [-]."""
+        u = self._handed
+        return u * u * (3.0 - 2.0 * u)
+
+    def tip(self, i: int) -> Floats:
+        """A limb's tip in the world by encoders and estimate, the play counted [m]."""
+        c, s = math.cos(self.settled[2]), math.sin(self.settled[2])
+        x, y = self.settled_tips[i]
+        return np.array((self.settled[0] + c * x - s * y, self.settled[1] + s * x + c * y))
+
+    def felt_tip(self, i: int) -> Floats:
+        """The same by the encoders alone: rougher, but it moves only when a motor does [m]."""
+        c, s = math.cos(self.pose[2]), math.sin(self.pose[2])
+        x, y = self.tips[i]
+        return np.array((self.pose[0] + c * x - s * y, self.pose[1] + s * x + c * y))
+
+    def tip_speed(self, i: int) -> Floats:
+        """Its speed in the world [m/s]."""
+        c, s = math.cos(self.pose[2]), math.sin(self.pose[2])
+        x, y = self.tips[i]
+        vx, vy = self.tip_speeds[i]
+        w = self.twist[2]
+        ax, ay = vx - w * y, vy + w * x
+        return np.array((self.twist[0] + c * ax - s * ay, self.twist[1] + s * ax + c * ay))
+
+    def turned_by_joints(self, i: int) -> Floats:
+        """How a limb's tip moves with its joints, world frame, one column a joint, shape (2, 2) [m/rad]."""
+        limb, angle = self.robot.limbs[i], float(self.settled[2])
+        first = angle + limb.port_angle + self.q[i, 0] - self.play[i, 0]
+        second = first + self.q[i, 1] - self.play[i, 1] + limb.hook_beta
+        x, y = -limb.l2_effective * math.sin(second), limb.l2_effective * math.cos(second)
+        return np.array(((x - limb.l1 * math.sin(first), x), (y + limb.l1 * math.cos(first), y)))
+
+    def strain(self, i: int, j: int) -> float:
+        """How far the distance of two holding tips is from that of their holds [m]."""
+        apart = math.dist(self.tips[i].tolist(), self.tips[j].tolist())
+        return abs(apart - math.dist(self.tasks[i].place.tolist(), self.tasks[j].place.tolist()))
+
+    def grab_direction(self, i: int) -> Floats:
+        """Where a limb's hook pulls, world frame, unit vector."""
+        limb = self.robot.limbs[i]
+        angle = self.pose[2] + limb.port_angle + self.q[i, 0] + self.q[i, 1] + limb.end.angle
+        return np.array((math.cos(angle), math.sin(angle)))
+
+    def command(self) -> Floats:
+        """Torques of this tick, shape (limbs, 2) [N m].
+
+        Raises:
+            MeasurementError: If a measurement is not finite.
+            AimError: Likewise of an aim.
+        """
+        job = self._job
+        for i, task in enumerate(self.tasks):
+            doing = task.doing
+            job["doing"][i], job["pressed"][i] = DOING[doing], task.pressed
+            if doing in ("tip", "cling"):
+                job["place"][i], job["speed"][i] = task.place, task.speed
+            elif doing == "pull":
+                job["force"][i], job["tug"][i], job["damping"][i] = task.force, task.tug, task.damping
+            elif doing in ("joints", "hang"):
+                job["angles"][i], job["rates"][i] = task.angles, task.rates
+                job["accelerations"][i], job["loads"][i] = task.accelerations, task.loads
+        bad = command_tick(self._table, self._part() if self.handing_over else 1.0)
+        if bad >= 0:
+            self._complain(bad)
+        for i, task in enumerate(self.tasks):
+            if task.side:
+                self.torques[i, 1] += task.side * STOP * max(0.0, 1.0 - task.side * self.q.item(i, 1) / BENT)
+        if self.gains.potential > 0.0:
+            self._free[:] = [task.doing in REPELLED for task in self.tasks]
+            repel_limbs(self.legs, self.q, self._free, self._outline, self._skin, self._field, self.torques, self.gaps)
+        if self._scheme is not None:
+            self._scheme.hold(self, [i for i, task in enumerate(self.tasks) if task.doing == "hold"])
+        return self.torques
+
+    def _complain(self, bad: int) -> None:
+        """Let a limb's controller say what is not finite: a measurement of any limb, else the aim of limb `bad`."""
+        own = self._aim.copy()
+        for i, aim in [*((i, still_aim((0.0, 0.0))) for i in range(self.n)), (bad, own)]:
+            self._states[0] = self.q[i], self.qd[i]
+            (self._pullers if self.tasks[i].doing == "hold" else self._reachers)[i].command(aim, self._states)

@@ -1,0 +1,221 @@
+"""The part of the panel that edits a board: pegs are dragged on the wall, or moved by their numbers; so are start and goal."""
+
+import threading
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from ....errors import ClamberError
+from ....types import Floats
+from ....viewing.browser.inputs import about, by_hand, set_input
+from ....viewing.browser.panel_html import message_html
+from ....viewing.browser.pose_part import FINE
+from ....viewing.words import length_unit
+from ..planning.task import LimbedTask
+from .board_draft import BoardDraft
+from .start_panel import StartPanel
+from .wall_scene import WallScene
+from .wall_space import in_space, on_wall
+
+if TYPE_CHECKING:
+    import viser
+
+NOTHING, ADDS, REMOVES, STARTS, GOES = "picks a peg", "adds a peg", "removes a peg", "sets the start", "sets the goal"
+CLICKS: Final = (NOTHING, ADDS, REMOVES, STARTS, GOES)
+"""What a click on the wall does."""
+NO_PEG: Final = "none"
+
+
+class BoardPanel:
+    """Controls for the pegs of a board, the start and the goal.
+
+    Args:
+        server: Whose panel they are in; they are made where its context is.
+        task: As it was.
+        scene: Gives the wall as it is drawn.
+        changed: Takes a task that the edited board makes, and may refuse it by an error.
+    """
+
+    def __init__(
+        self,
+        server: "viser.ViserServer",
+        task: LimbedTask,
+        scene: Callable[[], WallScene],
+        changed: Callable[[LimbedTask], None],
+    ) -> None:
+        self.draft = BoardDraft(task)
+        self._server, self._scene, self._changed = server, scene, changed
+        self._unit, self._size = length_unit(task)
+        gui = server.gui
+        with gui.add_folder("Board"):
+            self._editing = gui.add_checkbox(
+                "edit on the wall", False, hint="Drag the picked peg and the body by their handles, and click"
+            )
+            self._click = gui.add_dropdown("a click on the wall", CLICKS, initial_value=NOTHING)
+            self._peg = gui.add_dropdown("peg", self._names(), initial_value=self._names()[0])
+            self._place = gui.add_vector2(f"its place [{self._unit}]", (0.0, 0.0), step=0.25)
+            self._buttons = gui.add_button_group("", ("add", "remove", "as it was"))
+            self._peg_words = gui.add_html("")
+        lock = threading.RLock()  # the page's events come from many threads
+        self.start = StartPanel(server, self.draft, lambda: self._scene().depth, lock, self.apply)
+        with gui.add_folder("Goal"):
+            self._goal = gui.add_vector2(f"goal [{self._unit}]", self._shown(*self._goal_place()), step=0.25)
+            self._goal_words = gui.add_html("")
+        self._gizmo = server.scene.add_transform_controls(
+            "/peg handle", scale=0.09, active_axes=(True, False, True), disable_rotations=True, depth_test=False, visible=False,
+            line_width=3.0,
+        )  # fmt: skip
+        self._editing.on_update(by_hand(lambda _: self.pick(self._picked()), lock))
+        self._peg.on_update(by_hand(lambda _: self.pick(self._picked()), lock))
+        self._place.on_update(by_hand(lambda _: self._typed_place(), lock))
+        self._goal.on_update(by_hand(lambda _: self._typed_goal(), lock))
+        self._buttons.on_click(by_hand(lambda event: self._pressed(event.target.value), lock))
+        self._gizmo.on_update(by_hand(self._dragged, lock))
+        server.scene.on_click()(by_hand(self._clicked, lock))
+        self.pick(self._picked())
+
+    def pick(self, number: int | None) -> None:
+        """Take a peg into hand; None: none."""
+        names = self._names()
+        if tuple(self._peg.options) != names:
+            self._peg.options = names
+        if number is not None and number not in self.draft.pegs:
+            number = None
+        name = NO_PEG if number is None else str(number)
+        if self._peg.value != name:
+            set_input(self._peg, name)
+        self._gizmo.visible = number is not None and self._editing.value
+        self.start.body.handle.visible = self._editing.value
+        if number is not None:
+            peg = self.draft.pegs[number]
+            set_input(self._place, self._shown(peg.x, peg.y))
+            self._gizmo.position = tuple(in_space(np.array((peg.x, peg.y)), self._scene().depth))
+
+    def apply(self) -> None:
+        """Draw the board as it is now, and make a task of it; what is wrong with it is said beside what it is about."""
+        scene = self._scene()
+        scene.draw_pegs(tuple(self.draft.pegs.values()))
+        self.start.refresh()
+        wrong: dict[str, str] = {}
+        try:
+            self._changed(self.draft.build())
+        except ClamberError as error:
+            wrong[about(error)] = str(error)
+        self._peg_words.content = message_html(wrong.get("world", ""), bad=True)
+        self.start.body.say(wrong.get("start", ""))
+        self._goal_words.content = message_html(wrong.get("goal", ""), bad=True)
+
+    def task(self) -> LimbedTask:
+        """The task as it is now.
+
+        Raises:
+            ClamberError: If pegs and goal make none.
+        """
+        return self.draft.build()
+
+    def _names(self) -> tuple[str, ...]:
+        return tuple(str(number) for number in sorted(self.draft.pegs)) or (NO_PEG,)
+
+    def _picked(self) -> int | None:
+        return int(self._peg.value) if self._peg.value != NO_PEG else None
+
+    def _shown(self, x: float, y: float) -> tuple[float, float]:
+        return round(x / self._size, 3), round(y / self._size, 3)
+
+    def _goal_place(self) -> tuple[float, float]:
+        """A place in the goal's box, for a start."""
+        x_min, x_max, y_min, y_max = self.draft.task.goals[-1].box
+        places = self.draft.task.world.positions()
+        middle = places.mean(axis=0)
+        found = []
+        for low, high, usual in ((x_min, x_max, middle[0]), (y_min, y_max, middle[1])):
+            if np.isfinite(low) and np.isfinite(high):
+                found.append(0.5 * (low + high))
+            else:
+                found.append(low if np.isfinite(low) else high if np.isfinite(high) else usual)
+        return float(found[0]), float(found[1])
+
+    def _typed_place(self) -> None:
+        number = self._picked()
+        if number is not None:
+            x, y = self._place.value
+            self.draft.move(number, x * self._size, y * self._size)
+            self.pick(number)
+            self.apply()
+
+    def _typed_goal(self) -> None:
+        x, y = self._goal.value
+        self.draft.set_goal(x * self._size, y * self._size)
+        self.apply()
+
+    def _pressed(self, word: str) -> None:
+        number = self._picked()
+        if word == "add":
+            number = self.draft.add(*self.draft.room_beside(number))
+        elif word == "remove" and number is not None:
+            self.draft.remove(number)
+            number = min(self.draft.pegs, default=None)
+        elif word == "as it was":
+            self.draft.undo()
+            set_input(self._goal, self._shown(*self._goal_place()))
+        self.pick(number)
+        self.apply()
+
+    def _dragged(self, event: "viser.TransformControlsEvent") -> None:
+        number = self._picked()
+        if number is None:
+            return
+        x, y = (round(part / FINE) * FINE for part in on_wall(event.target.position))
+        self.draft.move(number, x, y)
+        set_input(self._place, self._shown(x, y))
+        self._scene().draw_pegs(tuple(self.draft.pegs.values()))
+        if event.phase == "end":
+            self.apply()
+
+    def _clicked(self, event: "viser.SceneClickEvent") -> None:
+        if not self._editing.value:
+            return
+        origin, way = np.array(event.ray_origin), np.array(event.ray_direction)
+        if abs(way[1]) < 1e-6 or -origin[1] / way[1] <= 0.0:
+            return
+        tips, wall = (
+            np.array(on_wall(origin + (-depth - origin[1]) / way[1] * way)) for depth in (self._scene().depth, 0.0)
+        )
+        x, y = (round(part / FINE) * FINE for part in wall.tolist())
+        if self._click.value == ADDS:
+            self.pick(self.draft.add(x, y))
+        elif self._click.value == STARTS:
+            self.draft.set_start(x, y, self.draft.start.theta)
+        elif self._click.value == GOES:
+            self.draft.set_goal(x, y)
+            set_input(self._goal, self._shown(x, y))
+        else:
+            number = self._nearest(tips, wall)
+            if number is None:
+                return
+            if self._click.value == NOTHING:
+                self.pick(number)
+                return
+            self.draft.remove(number)
+            self.pick(None if not self.draft.pegs else min(self.draft.pegs))
+        self.apply()
+
+    def _nearest(self, tips: Floats, wall: Floats) -> int | None:
+        """The peg that is seen nearest to a line of sight, if it is close.
+
+        Args:
+            tips: Where the line goes through the plane of the pegs' ends, shape (2,) [m].
+            wall: Where it meets the wall, shape (2,) [m].
+        """
+        pegs = self.draft.pegs
+        away = {number: _distance(np.array((peg.x, peg.y)), tips, wall) for number, peg in pegs.items()}
+        number = min(away, key=lambda number: away[number], default=None)
+        return number if number is not None and away[number] < 0.03 + pegs[number].radius else None
+
+
+def _distance(point: Floats, start: Floats, end: Floats) -> float:
+    """From a point to a stretch of a line, shape (2,) each [m]."""
+    along = end - start
+    share = float(np.clip((point - start) @ along / max(float(along @ along), 1e-18), 0.0, 1.0))
+    return float(np.linalg.norm(point - start - share * along))

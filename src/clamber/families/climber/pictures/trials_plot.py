@@ -1,0 +1,107 @@
+"""Many climbs as a picture: success by thirds of each key of the noise, and what ended the climbs that failed; 95 % intervals."""
+
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator, PercentFormatter
+
+from ....viewing import style
+from ....viewing.output import CANVASES, check_suffix, save_figure
+from ....viewing.style import styled
+from ..trials.noise import NOISE
+from ..trials.sensitivity import VERDICTS, Effect
+from ..trials.trial_summary import TrialSummary
+
+ACROSS: Final = 3
+"""Keys of the noise beside each other."""
+MOST_CAUSES: Final = 8
+"""Bars; rarer causes are left to the table."""
+HEIGHT: Final = 1.8
+"""Of a row of panels [in]."""
+
+
+def draw_trials(summary: TrialSummary, path: str | Path) -> None:
+    """Draw how often climbs succeed, by each key of the noise, and why they fail.
+
+    Args:
+        summary: Of one climb or more.
+        path: A file (.png, .svg, .pdf).
+
+    Raises:
+        SuffixError: If the file's suffix names no format for still pictures.
+        FileError: If the file cannot be written.
+    """
+    check_suffix(path, CANVASES)
+    with styled():
+        save_figure(_figure(summary), path)
+
+
+def _figure(summary: TrialSummary) -> Figure:
+    rows = -(-len(summary.effects) // ACROSS)
+    causes = summary.causes[:MOST_CAUSES]
+    low = 0.8 + 0.24 * max(1, len(causes))
+    figure = Figure(figsize=(7.6, 0.8 + HEIGHT * rows + low), layout="constrained")
+    upper, lower = np.ravel(np.array(figure.subfigures(2, 1, height_ratios=(max(HEIGHT * rows, 0.01), low))))
+    if summary.n:
+        share = (100.0 * part for part in (summary.done / summary.n, *summary.interval))
+        words = "{:.1f} % ({:.1f} to {:.1f} %, 95 %)".format(*share)
+        title = f"'{summary.task}': {summary.done} of {summary.n} climbs succeeded, {words}"
+    else:
+        title = f"'{summary.task}': no climb ended"
+    figure.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
+    panels: list[Axes] = list(np.ravel(upper.subplots(rows, ACROSS, sharey=True, squeeze=False))) if rows else []
+    for k, panel in enumerate(panels):
+        if k < len(summary.effects):
+            _draw_effect(panel, summary.effects[k], summary, first=k % ACROSS == 0)
+        else:
+            panel.set_visible(False)
+    _draw_causes(lower.subplots(), summary)
+    return figure
+
+
+def _draw_effect(axes: Axes, effect: Effect, summary: TrialSummary, *, first: bool) -> None:
+    """Success of each third at the middle of what it drew, over the band of all climbs."""
+    kind = NOISE[effect.key]
+    axes.axhspan(*summary.interval, color=style.FAINT, lw=0.0)
+    if summary.n:
+        axes.axhline(summary.done / summary.n, color=style.QUIET, lw=0.8)
+    told = effect.verdict not in ("too few", "none")
+    colour = style.ALERT if told else style.PARTS[0]
+    at = [(third.low + third.high) / 2.0 / kind.scale for third in effect.thirds]
+    for x, third in zip(at, effect.thirds, strict=True):
+        low, high = third.interval
+        axes.plot([third.low / kind.scale, third.high / kind.scale], [third.done / third.n] * 2, color=colour, lw=2.2)
+        axes.plot([x, x], [low, high], color=colour, lw=1.0)
+    axes.plot(at, [third.done / third.n for third in effect.thirds], color=colour, ls="none", marker="o", ms=4.0)
+    axes.set_ylim(-0.02, 1.02)
+    axes.yaxis.set_major_formatter(PercentFormatter(1.0, decimals=0))
+    axes.xaxis.set_major_locator(MaxNLocator(nbins=5))
+    which = ", largest" if kind.many else ""
+    axes.set_title(f"{effect.key.replace('_', ' ')}{which} [{kind.unit}]", fontsize=9)
+    axes.set_xlabel(VERDICTS[effect.verdict], fontsize=7, color=colour if told else style.QUIET)
+    if first:
+        axes.set_ylabel("success")
+    style.bare(axes)
+
+
+def _draw_causes(axes: Axes, summary: TrialSummary) -> None:
+    """A bar for each way in which climbs ended early."""
+    causes = summary.causes[:MOST_CAUSES]
+    axes.set_title("What ended the climbs that failed, of all climbs", fontsize=9)
+    if not causes:
+        axes.text(0.0, 0.5, "none failed", transform=axes.transAxes, color=style.QUIET)
+        axes.set_axis_off()
+        return
+    at = np.arange(len(causes))[::-1]
+    for y, cause in zip(at, causes, strict=True):
+        axes.barh(y, cause.n / cause.of, height=0.6, color=style.PARTS[1])
+        axes.plot(cause.interval, [y, y], color=style.INK, lw=1.0)
+        axes.text(cause.interval[1], y, f"  {cause.n}", va="center", fontsize=8)
+    axes.set_yticks(at, [cause.words for cause in causes])
+    axes.set_ylim(-0.6, len(causes) - 0.4)
+    axes.set_xlim(left=0.0)
+    axes.xaxis.set_major_formatter(PercentFormatter(1.0, decimals=0))
+    style.bare(axes)

@@ -1,0 +1,241 @@
+"""Backward breadth-first search through the relaxed problem: all angles of a state at once, as the bits of a word."""
+
+import numpy as np
+
+from ....compiled import inlined, kernel
+from .keys import GRABS, RELEASES
+from .relaxed_places import (
+    ALL_ANGLES,
+    UNREACHED,
+    all_states,
+    bit_of,
+    grip_at,
+    grip_holds,
+    grip_of,
+    grips,
+    on_one_hold,
+    open_state,
+    pair_state,
+    triple_state,
+)
+
+
+@inlined
+def push(state, mask, reached, pending, queue, n):
+    """Add angles to a state of the next layer; returns the queue's length."""
+    new = mask & ~reached[state]
+    if new:
+        if not pending[state]:
+            queue[n] = state
+            n += 1
+        pending[state] |= new
+    return n
+
+
+@inlined
+def spin(p, mask):
+    """The angles from which one turn, either way if both are allowed, leads to those of a bit set."""
+    out = np.uint64(0)
+    last = np.uint64(p.angles - 1)
+    one = np.uint64(1)
+    within = ALL_ANGLES >> (np.uint64(63) - last)
+    if p.allowed & (1 << 4):  # +theta leads here from the angle before
+        out |= (mask >> one) | ((mask & one) << last)
+    if p.allowed & (1 << 5):
+        out |= ((mask << one) & within) | (mask >> last)
+    return out
+
+
+@inlined
+def place_before(p, where, axis):
+    """The place from which a body step along an axis leads to a place; -1 outside the box."""
+    sign = 1 - 2 * (axis & 1)
+    x = where % p.places_nx - (sign if axis < 2 else 0)
+    y = where // p.places_nx - (0 if axis < 2 else sign)
+    if x < 0 or y < 0 or x >= p.places_nx or y >= p.places_ny:
+        return -1
+    return y * p.places_nx + x
+
+
+@kernel
+def find_beside(p, beside):
+    """For each grip and body step that leads here: its number at the place before, or -1; shape (grips, 4)."""
+    for where in range(p.places_nx * p.places_ny):
+        for i in range(p.n_limbs):
+            for u in range(grips(p, where, i)):
+                grip = grip_at(p, where, i, u)
+                for axis in range(4):
+                    other = place_before(p, where, axis)
+                    beside[grip, axis] = -1 if other < 0 else grip_of(p, other, i, grip_holds(p)[grip])
+
+
+@kernel
+def push_moves(p, where, lap, members, count, mask, masks, beside, cross, reached, pending, queue, n):
+    """The places from which a body step leads to a state; returns the queue's length."""
+    states = all_states(p)
+    for axis in range(4):
+        if not p.allowed & (1 << axis):
+            continue
+        other = place_before(p, where, axis)
+        if other < 0:
+            continue
+        a = beside[grip_at(p, where, members[0, 0], members[0, 1]), axis]
+        b = beside[grip_at(p, where, members[1, 0], members[1, 1]), axis]
+        if a < 0 or b < 0:
+            continue
+        here = mask & masks[grip_at(p, other, members[0, 0], a)] & masks[grip_at(p, other, members[1, 0], b)]
+        if count == 3:
+            c = beside[grip_at(p, where, members[2, 0], members[2, 1]), axis]
+            if c < 0:
+                continue
+            here &= masks[grip_at(p, other, members[2, 0], c)]
+            state = triple_state(p, other, a, b, c)
+        else:
+            state = pair_state(p, other, members[0, 0], a, members[1, 0], b)
+        if not here:
+            continue
+        # a step over the branch cut changes the lap; at either end of the laps kept, all laps beyond count as one
+        over = cross[other, axis]
+        before = lap - over
+        if 0 <= before < p.laps_most:
+            n = push(before * states + state, here, reached, pending, queue, n)
+        if over and ((lap == 0 and over < 0) or (lap == p.laps_most - 1 and over > 0)):
+            n = push(lap * states + state, here, reached, pending, queue, n)
+    return n
+
+
+@kernel
+def push_limbs(p, where, lap, members, count, mask, masks, grabs, reached, pending, queue, n):
+    """The states from which a release or a grab leads to a state; returns the queue's length."""
+    layer = lap * all_states(p)
+    i = members[0, 0]
+    u = members[0, 1]
+    j = members[1, 0]
+    v = members[1, 1]
+    if count == 3:
+        if not p.allowed & GRABS:
+            return n
+        for k in range(3):  # limb k was the one that grabbed: it was free, or held something else
+            i = members[(k + 1) % 3, 0]
+            j = members[(k + 2) % 3, 0]
+            u = members[i, 1]
+            v = members[j, 1]
+            was = members[k, 1]
+            here = mask & grabs[grip_at(p, where, k, was)]
+            if not here:
+                continue
+            n = push(layer + pair_state(p, where, i, u, j, v), here, reached, pending, queue, n)
+            for c in range(grips(p, where, k)):
+                if c != was and not on_one_hold(p, where, i, u, k, c) and not on_one_hold(p, where, j, v, k, c):
+                    members[k, 1] = c
+                    state = triple_state(p, where, members[0, 1], members[1, 1], members[2, 1])
+                    n = push(layer + state, here & masks[grip_at(p, where, k, c)], reached, pending, queue, n)
+            members[k, 1] = was
+        return n
+    for k in range(p.n_limbs):
+        if k in (i, j):
+            continue
+        for c in range(grips(p, where, k)):
+            here = mask & masks[grip_at(p, where, k, c)]
+            if not here or on_one_hold(p, where, i, u, k, c) or on_one_hold(p, where, j, v, k, c):
+                continue
+            if p.n_limbs == 3:
+                if p.allowed & RELEASES:
+                    members[2, 1] = c  # limb k let go
+                    w0 = u if i == 0 else c
+                    w1 = u if i == 1 else (v if j == 1 else c)
+                    w2 = v if j == 2 else c
+                    n = push(layer + triple_state(p, where, w0, w1, w2), here, reached, pending, queue, n)
+            elif p.allowed & GRABS:
+                by_i = here & grabs[grip_at(p, where, i, u)]
+                n = push(layer + pair_state(p, where, j, v, k, c), by_i, reached, pending, queue, n)
+                by_j = here & grabs[grip_at(p, where, j, v)]
+                n = push(layer + pair_state(p, where, i, u, k, c), by_j, reached, pending, queue, n)
+    if p.atomic and p.allowed & GRABS:  # one of two holders may change its hold in one action
+        for side in range(2):
+            k = i if side == 0 else j
+            was = u if side == 0 else v
+            here = mask & grabs[grip_at(p, where, k, was)]
+            for c in range(grips(p, where, k)):
+                if here and c != was and not on_one_hold(p, where, j if side == 0 else i, v if side == 0 else u, k, c):
+                    state = pair_state(p, where, i, c if side == 0 else u, j, v if side == 0 else c)
+                    n = push(layer + state, here & masks[grip_at(p, where, k, c)], reached, pending, queue, n)
+    return n
+
+
+@kernel
+def sweep_back(
+    p, masks, grabs, beside, cross, place_of, values, first_of, order, reached, pending, queues, carried, members, at_layer
+):  # fmt: skip
+    """One layer of the search that fills `values` with the fewest relaxed actions from every state to the goal states marked in it.
+
+    Args:
+        p: Parameters.
+        masks, grabs: Angles at which each grip holds and can be grabbed.
+        beside: Numbers of the grips at the places beside (`find_beside`).
+        cross: Change of the lap of a body step from each place along +x, -x, +y, -y, shape (places, 4).
+        place_of: Place of each state.
+        values: In: as `mark_goals` left it. Out, after the last layer: fewest actions, UNREACHED where there is no way.
+        first_of, order: The marked entries by value (`sort_sources`).
+        reached, pending: Scratch, zeros, a word per lap and state.
+        queues: Scratch, shape (2, laps times states).
+        carried: Scratch, what the present layer reaches, shape (laps times states,).
+        members: Scratch, shape (3, 2).
+        at_layer: Where the search is, updated: the layer that comes next, whose entries are final after it; entries of its queue; which of
+            the two queues it is. Zeros at first.
+
+    Returns:
+        Whether there are more layers.
+    """
+    states = place_of.shape[0]
+    free = p.angles_kept == 1
+    layer = at_layer[0]
+    n = at_layer[1]
+    now = at_layer[2]
+    if n or layer + 1 < first_of.shape[0]:
+        if layer + 1 < first_of.shape[0]:
+            for at in range(first_of[layer], first_of[layer + 1]):
+                entry = order[at]
+                bit = ALL_ANGLES if free else np.uint64(1) << np.uint64(entry % p.angles_kept)
+                n = push(entry // p.angles_kept, bit, reached, pending, queues[now], n)
+        if layer + 1 >= UNREACHED:
+            return False
+        m = 0
+        for at in range(n):
+            state = queues[now, at]
+            where = place_of[state % states]
+            count = open_state(p, where, state % states, members)
+            mask = pending[state] & ~reached[state]
+            if free:
+                mask = ALL_ANGLES
+            for k in range(count):
+                mask &= masks[grip_at(p, where, members[k, 0], members[k, 1])]
+            pending[state] = 0
+            carried[at] = mask
+            reached[state] |= ALL_ANGLES if free else mask
+            if free:
+                values[state] = layer
+            else:
+                for angle in range(p.angles):
+                    if mask & bit_of(p, angle):
+                        values[state * p.angles_kept + angle] = layer
+        for at in range(n):
+            state = queues[now, at]
+            where = place_of[state % states]
+            lap = state // states
+            count = open_state(p, where, state % states, members)
+            mask = carried[at]
+            if not free:
+                near = spin(p, mask)
+                for k in range(count):
+                    near &= masks[grip_at(p, where, members[k, 0], members[k, 1])]
+                m = push(state, near, reached, pending, queues[1 - now], m)
+            m = push_moves(
+                p, where, lap, members, count, mask, masks, beside, cross, reached, pending, queues[1 - now], m
+            )
+            m = push_limbs(p, where, lap, members, count, mask, masks, grabs, reached, pending, queues[1 - now], m)
+        at_layer[0] = layer + 1
+        at_layer[1] = m
+        at_layer[2] = 1 - now
+        return True
+    return False

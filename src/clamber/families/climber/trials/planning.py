@@ -1,0 +1,177 @@
+"""Plans that are to be carried out: searched for with something kept back, rehearsed, and searched for anew without what failed there."""
+
+import math
+from collections.abc import Callable
+from typing import Final, TypeAlias
+
+import numpy as np
+
+from ....errors import StartError
+from ....planning.budgets import accepts
+from ....planning.planners import PLANNERS, PROVERS
+from ....planning.problem.plan import Plan
+from ....planning.result import PlanResult
+from ..execution.climbing import Replan
+from ..execution.course import lay_course
+from ..planning.task import LimbedTask
+from .cautions import CAUTIONS, Caution, cautious, steady
+from .rehearsal import Rehearsal
+from .rerouting import mended, without
+from .steadying import steadied
+
+Rehearse: TypeAlias = Callable[[LimbedTask, Plan], Rehearsal]
+"""Climbs by a plan before anything moves."""
+HARD: Final = 10.0
+"""What counts against a plan that is hard, all its stances together."""
+INCAUTIOUS: Final = 10.0
+"""What being less cautious counts in one that is not."""
+EASY: Final = 3.5
+"""What may count against a stance that is easy to hold: no link on a hold, no hook or motor much beyond what is wished."""
+QUICK: Final = "beam"
+"""Planner in place of one that proves: what fails in rehearsal changes the task time and again."""
+LESSONS: Final = 10
+"""Most plans of one caution that are rehearsed, each without what failed in those before."""
+
+
+def plan_to_climb(
+    task: LimbedTask,
+    planner: str,
+    *,
+    seconds: float,
+    seed: int,
+    threads: int | None = None,
+    cut: Callable[[], None] = lambda: None,
+    rehearse: Rehearse | None = None,
+) -> Plan | None:
+    """The most cautious plan that is easy to carry out and climbs, or one that has learned from its rehearsals, or the one that did best.
+
+    What a search may see is limited by the planner, so the plan is the same on any number of cores, busy or not, unless a search takes
+    longer than it may.
+
+    Args:
+        task: Under the rules that can be carried out.
+        planner: Its name.
+        seconds: Most time for each search.
+        seed: Of the planner.
+        threads: Threads; None for one a core.
+        cut: Told of each search that its seconds ended: another machine may find another plan.
+        rehearse: Climbs by a plan in simulation; None: ease alone decides.
+    """
+    stated = {"seconds": seconds, "seed": seed, "threads": threads}
+
+    def search(task: LimbedTask, planner: str) -> PlanResult | None:
+        options = {name: value for name, value in stated.items() if accepts(planner, name)}
+        try:
+            result = PLANNERS[planner](task, **options)
+        except StartError:  # it stands where no such plan may begin
+            return None
+        if result.seconds >= seconds:
+            cut()
+        return result if result.has_plan else None
+
+    def found_with(caution: Caution, planner: str) -> Plan | None:
+        result = search(cautious(task, caution), planner)
+        if result is None:
+            return None
+        # the same actions, for the robot and the board as they are
+        plan = Plan.of_codes(task, result.plan.codes(task), seed=seed, planner=result.plan.planner)
+        return None if lay_course(task, plan).objections else plan
+
+    def mended_with(caution: Caution, planner: str) -> Plan | None:
+        plan = found_with(caution, planner)
+        return None if plan is None else mended(task, plan, caution, seconds) or plan
+
+    easy, hard = _by_ease(task, lambda caution: found_with(caution, planner))
+    quick = QUICK if planner in PROVERS else planner
+    if rehearse is None:  # the robot waits
+        steadier = (found_with(caution, quick) for caution in steady(task))
+        first = next((plan for plans in (easy, steadier, hard) for plan in plans if plan is not None), None)
+    else:
+        first = _rehearsed(task, easy, hard, lambda caution: mended_with(caution, quick), rehearse)
+    if first is not None:
+        return first
+    result = search(task, planner)
+    return None if result is None else result.plan
+
+
+def _by_ease(task: LimbedTask, find: Callable[[Caution], Plan | None]) -> tuple[list[Plan], list[Plan]]:
+    """Plans of falling caution until one is easy in every stance, the easiest first: where one is nearly so, and where all are hard."""
+    found: list[tuple[float, Plan]] = []
+    seen: set[bytes] = set()
+    least = math.inf
+    for rank, caution in enumerate(CAUTIONS):
+        plan = find(caution)
+        if plan is None:
+            continue
+        codes = plan.codes(task).tobytes()
+        course = lay_course(task, plan)
+        if codes in seen:
+            continue
+        seen.add(codes)
+        own = float(np.maximum(course.against - EASY, 0.0).sum())
+        least = min(least, own)
+        found.append((own + (INCAUTIOUS * rank if own > 0.0 else 0.0), plan))
+        if own == 0.0:
+            break
+    plans = [plan for _, plan in sorted(found, key=lambda each: each[0])]
+    return (plans, []) if least <= HARD else ([], plans)
+
+
+def _rehearsed(
+    task: LimbedTask, easy: list[Plan], hard: list[Plan], find: Callable[[Caution], Plan | None], rehearse: Rehearse
+) -> Plan | None:
+    """The first plan whose rehearsal is flawless, or the one that did best, the first of equals."""
+    best: tuple[Rehearsal, Plan] | None = None
+
+    def tried(plan: Plan) -> Rehearsal:
+        nonlocal best
+        done = rehearse(task, plan)
+        if best is None or done > best[0]:
+            best = done, plan
+        return done
+
+    for plan in easy:
+        if tried(plan).flawless:
+            return plan
+    for caution in steady(task):
+        taught = _taught(task, caution, find, tried)
+        if taught is not None:
+            return taught
+    for plan in hard:
+        if tried(plan).flawless:
+            return plan
+    return None if best is None else best[1]
+
+
+def _taught(
+    task: LimbedTask, caution: Caution, find: Callable[[Caution], Plan | None], tried: Callable[[Plan], Rehearsal]
+) -> Plan | None:
+    """A plan whose rehearsal is flawless: the grab that failed in the rehearsal before is made where it is steadier, or done without."""
+    plan = find(caution)
+    for _ in range(LESSONS):
+        if plan is None:
+            return None
+        done = tried(plan)
+        if done.flawless:
+            return plan
+        if done.failed is None:
+            return None
+        codes = plan.codes(task)
+        made = steadied(cautious(task, caution), codes, done.failed)
+        if not np.array_equal(made, codes):
+            plan = Plan.of_codes(task, made, seed=plan.seed, planner=plan.planner)
+            continue
+        caution = without(caution, plan, done.failed)
+        plan = find(caution)
+    return None
+
+
+def replanner(
+    planner: str, *, seconds: float, seed: int, threads: int | None = None, cut: Callable[[], None] = lambda: None
+) -> Replan:
+    """What a sequencer asks for another plan; see `plan_to_climb`."""
+
+    def replan(task: LimbedTask) -> Plan | None:
+        return plan_to_climb(task, planner, seconds=seconds, seed=seed, threads=threads, cut=cut)
+
+    return replan

@@ -1,0 +1,204 @@
+"""One plan carried out in contact dynamics: the plant with its flaws, pegs that are not where the map says, and what came out."""
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from operator import attrgetter
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+
+from ....errors import SpecError
+from ....execution.fault import Fault
+from ....execution.log_stream import LogGap, WantedLog, growing_log
+from ....execution.plant import BodyPlant
+from ....execution.sequencer import Sequencer
+from ....json_form import HIDDEN, INLINE, Jsonable, Key
+from ....planning.problem.plan import Plan
+from ....planning.problem.plan_source import is_plan, open_plan
+from ....sim.limb_flaws import LimbFlaws
+from ....tasks import Task, load_task
+from ....trials.plant_settings import split_settings
+from ....types import Floats
+from ..execution.body_gains import USUAL, BodyGains
+from ..execution.climb_report import ClimbReport
+from ..execution.climb_trace import TOPIC, ClimbTrace, TracedClimber, limb_notes
+from ..execution.climbing import Climbing, Progress, Replan
+from ..execution.course import climbable, lay_course
+from ..planning.task import LimbedTask
+from ..sim.flaw_texts import named_flaws, read_flaws
+from .faults import failing_body
+from .noise import NO_NOISE, Drawn, Noise, assumed_backlash, check_noise, draw_for, true_places
+from .plants import climbing_plant, drawn_plant, truth_of
+from .terrain import terrain_covariance
+from .warm_up import warm_up
+
+PHYSICS_RATE: float = 1000.0
+"""Of the contact dynamics [Hz]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ClimbRun(Jsonable):
+    """A climb that was carried out; exit code 1 where it is not done."""
+
+    task: Annotated[LimbedTask, Key(get=attrgetter("name"), kind=str, after="actions")]
+    plan: Annotated[Plan, HIDDEN]
+    report: Annotated[ClimbReport, INLINE]
+    trace: Annotated[ClimbTrace, HIDDEN]
+    drawn: Annotated[Drawn, HIDDEN]
+    """How far things truly were from what was believed."""
+    wall_seconds: Annotated[float, Key(after="task")]
+    """That it took, without compiling or loading kernels and without looking for new plans on the way."""
+    fault: Annotated[Fault | None, HIDDEN] = None
+    """That the robot had."""
+    log_gap: Annotated[LogGap | None, Key(after="wall_seconds", may_be_missing=True)] = None
+    """What its log lacks, there only if it could not be written to its end; None: nothing, or there is no log."""
+
+    @property
+    def done(self) -> bool:
+        """Whether every action was carried out, and the body came to the goal with it."""
+        return self.report.done
+
+    @property
+    def reason(self) -> str:
+        """Why not; empty where it did."""
+        return self.report.reason
+
+    @property
+    def true_pegs(self) -> Floats | None:
+        """Where the holds truly are, shape (n_holds, 2) [m], NaN for those that are missing; None: all where they are mapped."""
+        mapped, places = self.task.world.positions(), true_places(self.task, self.drawn)
+        places[self.drawn.missing] = np.nan
+        return None if np.array_equal(places, mapped) else places
+
+
+def open_climb(what: str, task: str | None, settings: Sequence[str]) -> tuple[LimbedTask, Plan | None, tuple[str, ...]]:
+    """A task, or a plan and its task, that can be carried out, and settings of its plant.
+
+    Args:
+        what: A task's name or file, or a plan's.
+        task: A task in place of the one that the plan names.
+        settings: Texts "key=value" for task and plant.
+
+    Returns:
+        The task under the rules that can be carried out, the plan if `what` is one, and settings of the plant such as "backlash=1deg".
+
+    Raises:
+        SpecError: If the task is none of a limbed climber, or a plan's task is given beside a task.
+        ClamberError: As `open_plan` and `load_task`.
+    """
+    for_task, for_plant = split_settings(settings)
+    if is_plan(what):
+        opened = open_plan(what, task, for_task)
+        return climbing_task(opened.task), opened.plan, tuple(for_plant)
+    if task is not None:
+        raise SpecError(what, "--task", task, "is for a plan; this is a task itself")
+    return climbing_task(load_task(what, for_task)), None, tuple(for_plant)
+
+
+def climbing_task(task: Task) -> LimbedTask:
+    """The task under the rules that can be carried out.
+
+    Raises:
+        SpecError: If it is none of a limbed climber.
+    """
+    if not isinstance(task, LimbedTask):
+        raise SpecError(f"task '{task.name}'", "robot.family", "walker", "must be 'limbed': only climbers can be run")
+    return climbable(task)
+
+
+def climbing_flaws(task: LimbedTask, settings: Sequence[str], seed: int | None = None) -> LimbFlaws:
+    """The nominal plant of a task's robot with settings such as "backlash=1deg".
+
+    Raises:
+        PlantError: If one of them cannot be.
+    """
+    nominal = named_flaws("nominal", task.robot).with_changes(physics_rate=PHYSICS_RATE)
+    return read_flaws(nominal, settings, seed)
+
+
+def run_plan(
+    task: LimbedTask,
+    plan: Plan,
+    flaws: LimbFlaws,
+    *,
+    noise: Noise = NO_NOISE,
+    seed: int = 0,
+    force: bool = False,
+    replan: Replan | None = None,
+    progress: Progress | None = None,
+    label: str = "plan",
+    log: Path | WantedLog | None = None,
+    plant: str = "torques",
+    gains: BodyGains = USUAL,
+    fault: Fault | None = None,
+) -> ClimbRun:
+    """Carry a plan out.
+
+    Args:
+        task: Robot, board and start.
+        plan: The plan.
+        flaws: Of the plant, as the controller believes them.
+        noise: By how much the plant may differ from that.
+        seed: Of how much it does.
+        force: Whether to carry out a plan that something speaks against.
+        replan: What plans again where a hold cannot be had.
+        progress: Told before each action.
+        label: What errors call the plan.
+        log: An .mcap file that grows as the robot climbs (`execution.log_stream`).
+        plant: By name or address, see `climbing_plant`.
+        gains: How body and limbs are controlled.
+        fault: That the robot has; None: none.
+
+    Raises:
+        FileError: If the log cannot be made; one that cannot be written to its end does not end the run.
+        PlanRefusedError: If something speaks against the plan and it is not forced.
+        SpecError: If an action is none that the task's robot and board have.
+        StartError: If the start violates a hard check.
+        NoiseError: If a width is more than what there is of it.
+    """
+    warm_up()
+    began, planning = time.perf_counter(), 0.0
+
+    def timed_replan(task: LimbedTask) -> Plan | None:
+        nonlocal planning
+        assert replan is not None
+        asked = time.perf_counter()
+        found = replan(task)
+        planning += time.perf_counter() - asked
+        return found
+
+    course = lay_course(task, plan, label)
+    check_noise(noise, task.robot, flaws)
+    drawn = draw_for(task, noise, seed)
+    with climbing_plant(plant, task, lambda: drawn_plant(task, flaws, drawn)) as moved:
+        body = moved if fault is None else failing_body(task.robot, moved, fault)
+        climber = believing_climber(task, body, noise, drawn, gains)
+        again = None if replan is None else timed_replan
+        sequencer = Sequencer(Climbing(climber, course, replan=again, force=force), progress=progress)
+        with growing_log(log, climber.samples, climber.titles, limb_notes(climber.limbs), TOPIC) as finish:
+            report = sequencer.run()
+            notes = report.to_json() | {"task": task.name, "noise": noise.to_json(), "seed": seed}
+            if fault is not None:
+                notes |= {"fault": fault.to_json()}
+            gap = finish(notes)
+    taken = time.perf_counter() - began - planning
+    return ClimbRun(task, plan, report, climber.trace(notes), drawn, taken, fault, gap)
+
+
+def believing_climber(
+    task: LimbedTask, plant: BodyPlant, noise: Noise, drawn: Drawn, gains: BodyGains = USUAL
+) -> TracedClimber:
+    """The controller of a plant as it was drawn: it knows the nominal robot, and how far off its map may be."""
+    return TracedClimber(
+        task.robot,
+        task.world,
+        plant,
+        gains=gains,
+        map_error=noise.widths["peg_error"],
+        terrain=terrain_covariance(task, noise.widths["terrain"], noise.widths["tilt"]),
+        backlash=assumed_backlash(task.robot, drawn),
+        truth=truth_of(plant),
+        watched=True,
+    )

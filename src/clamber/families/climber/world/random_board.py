@@ -1,0 +1,64 @@
+"""Random boards as files and values: the document that `clamber new board --random` writes, and the board that it describes."""
+
+from typing import Final
+
+from ....files import Document
+from ....types import Json
+from .board import SCHEMA, Board, build_board
+
+RADIUS: Final = "5 mm"
+"""Of every hold of a random board, unless told otherwise."""
+
+
+def random_board_data(
+    holds: int,
+    density: float,
+    seed: int = 0,
+    *,
+    width: float | None = None,
+    least_gap: float | None = None,
+    name: str = "random-wall",
+    radius: str = RADIUS,
+) -> Json:
+    """What the file of a random board says; it lists no hold, it says how to scatter them.
+
+    Args:
+        holds: How many.
+        density: Holds per area [1/m^2].
+        seed: Same seed, same board.
+        width: Of the wall [m]; None: as wide as high.
+        least_gap: Least distance of two holds [m]; None: half of the mean distance.
+        name: What the board is called.
+        radius: Of every hold, with its unit.
+    """
+    scattered: Json = {"holds": holds, "density": f"{density!r} holds/m^2"}
+    if width is not None:
+        scattered["width"] = f"{width!r} m"
+    if least_gap is not None:
+        scattered["least_gap"] = f"{least_gap!r} m"
+    return {
+        "schema": SCHEMA,
+        "name": name,
+        "title": f"Random wall: {holds} holds, {density:g} per m^2, seed {seed}",
+        "source": "random",
+        "hold_radius": radius,
+        "random": {**scattered, "seed": seed},
+    }
+
+
+def random_board(
+    holds: int,
+    density: float,
+    seed: int = 0,
+    *,
+    width: float | None = None,
+    least_gap: float | None = None,
+    name: str = "random-wall",
+) -> Board:
+    """A random board; arguments as those of `random_board_data`.
+
+    Raises:
+        SpecError: If there are no holds, or they don't find room at that density and gap.
+    """
+    data = random_board_data(holds, density, seed, width=width, least_gap=least_gap, name=name)
+    return build_board(Document("random board", data))

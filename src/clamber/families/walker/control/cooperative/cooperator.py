@@ -1,0 +1,215 @@
+"""The law of cooperative motion around its kernels: checks what comes in, solves the programme, looks one step ahead."""
+
+from dataclasses import dataclass, replace
+from typing import Any, Final
+
+import numpy as np
+
+from .....types import Floats
+from ...robot import WalkerRobot
+from .limits import Kept, chain_of, limit_names
+from .one_step import finish, move_freely, prepare, see
+from .planted_feet import BALANCE, N_ROWS, ROW_UNITS, LimitError, PlantedFeet, Support
+from .programme import calm, let_rest, make_programme
+from .scratch import make_scratch, see_bounds, see_tool
+from .settings import Cooperation, CooperationError, stretch, swerve
+from .tool_chain import POSE
+
+SOLVED: Final = 1
+"""DAQP's word for an optimum."""
+CONTRADICTED: Final = -1
+"""DAQP's word for rows that contradict each other."""
+ATTEMPTS: Final = 4
+TIGHT: Final = 1e-7
+"""A multiplier of the programme above this marks a limit that holds the motion back [-]."""
+
+
+@dataclass(slots=True, eq=False)
+class Step:
+    """What one step came to."""
+
+    q: Floats
+    """Freedoms after it, shape (m,)."""
+    place: Floats
+    """Of the tool before it, world [m], shape (3,)."""
+    measure: float
+    """V before it [-]."""
+    share: float
+    """Of the programme's motion that was carried out [-]; less than 1 where a curved limit was nearer than its tangent."""
+    tight: tuple[int, ...]
+    """Limits that held the motion back, ranges and speeds, as places in `limit_names`."""
+    solved: bool = True
+    """Whether the programme was solved; if not, the robot rests for this step."""
+
+
+class Cooperator:
+    """Moves the freedoms of one walker for a tool, one step at a time."""
+
+    def __init__(self, robot: WalkerRobot, settings: Cooperation, footing: PlantedFeet, kept: Kept = "all") -> None:
+        """Raises `CooperationError` if the robot has no arm or the settings are for another number of freedoms.
+
+        Args:
+            robot: With an arm.
+            settings: Of the law.
+            footing: What it stands on.
+            kept: Which limits are kept, where the settings ask for limits.
+        """
+        if robot.arm is None:
+            raise CooperationError("robot", repr(robot.name), "must have an arm")
+        m = POSE + robot.arm.n_joints
+        if np.shape(settings.speeds) != (m,):
+            raise CooperationError("speeds", settings.speeds, f"must be {m} numbers, one for each freedom")
+        self.robot, self.settings, self._kept = robot, settings, kept
+        self.names = limit_names(robot)
+        self._m = m
+        self._w = make_scratch(robot.arm.n_joints)
+        self._programme = make_programme(m)
+        self._speeds, self._velocity = np.zeros(m), np.zeros(3)
+        self._tight = np.zeros(len(self.names))
+        self._fastest, self._tool_speeds = np.array(settings.speeds), np.array(settings.tool_speeds)
+        s = settings
+        plate, arm = 0.0 if s.lent else swerve(s, robot), stretch(s, robot)
+        self._law = np.array([s.approach, s.inside, s.softness, plate, s.damping * plate, arm, s.damping * arm])
+        self.stand(footing)
+
+    def stand(self, footing: PlantedFeet) -> None:
+        """Stand anew, with other feet or from another pose."""
+        self.footing = footing
+        self._record: Any = footing.record()[0]
+        self.chain = chain_of(self.robot, balance=self.settings.balance, footing=footing, kept=self._kept)
+
+    def check_weights(self, weights: Floats) -> None:
+        """Raises `CooperationError` if a freedom takes part that the standing feet hold."""
+        if np.shape(weights) != (self._m,) or not ((weights >= 0.0) & (weights <= 1.0)).all():
+            raise CooperationError("weights", weights, f"must be {self._m} numbers from 0 to 1")
+        if self.settings.limited and self.footing.support != "y" and weights[[0, 1, 3]].any():
+            raise CooperationError("weights", weights, "x, y and alpha must be 0 unless the Y-frame alone stands")
+
+    @property
+    def n_ranges(self) -> int:
+        """How many of `names` are ranges; the rest are speeds."""
+        return self._m - POSE + N_ROWS
+
+    def check_start(self, q: Floats) -> None:
+        """Make sure that a configuration is within every limit.
+
+        Raises:
+            LimitError: With the limit that it breaks, and by how much.
+        """
+        if np.shape(q) != (self._m,) or not np.isfinite(q).all():
+            raise CooperationError("q", q, f"must be {self._m} finite numbers")
+        low, high = self.limits()
+        values = self.limited_values(q)
+        units = ("rad",) * (self._m - POSE) + ROW_UNITS
+        for name, value, least, most, unit in zip(self.names, values, low, high, units, strict=False):
+            if not least <= value <= most:
+                allowed = f"{least:.6g} to {most:.6g} {unit}" if np.isfinite(most) else f"{least:.6g} {unit} and more"
+                raise LimitError(f"{name} [{unit}]", float(value), f"allowed is {allowed}")
+
+    def limits(self) -> tuple[Floats, Floats]:
+        """Least and largest values in the order of `names`."""
+        c = self.chain
+        return np.concatenate([c.lowest, c.row_lowest]), np.concatenate([c.highest, c.row_highest])
+
+    def limited_values(self, q: Floats) -> Floats:
+        """What is limited, at a configuration, in the order of `names`; rows that the stance has not are in the middle of nothing: 1e9."""
+        see_tool(self.chain, q, self._w)
+        see_bounds(self.chain, self._record, q, self._w)
+        values = np.concatenate([q[POSE:], self._w.values])
+        values[self._m - POSE + BALANCE + self._record["n_edges"] :] = 1e9
+        return values
+
+    def place(self, q: Floats) -> Floats:
+        """Of the tool, world [m], shape (3,)."""
+        see_tool(self.chain, q, self._w)
+        return self._w.place.copy()
+
+    def measure(self, q: Floats, weights: Floats) -> float:
+        """V of the normalised chain with some of its freedoms [-]."""
+        limited, w = self.settings.limited, self._w
+        return float(
+            see(self.chain, self._record, q, weights, self._fastest, self._tool_speeds, limited, self._speeds, w)
+        )
+
+    def gradient(self, q: Floats, weights: Floats) -> Floats:
+        """dV/dq^ of the normalised chain [-], shape (m,)."""
+        self.measure(q, weights)
+        return self._w.gradient.copy()
+
+    def scaled_jacobian(self, q: Floats, weights: Floats) -> Floats:
+        """J^ [-], shape (3, m)."""
+        self.measure(q, weights)
+        return self._w.scaled.copy()
+
+    def y_in_delta(self, q: Floats) -> tuple[tuple[float, float], float]:
+        """Offset [m] and twist [rad] of the Y-frame in the Delta-frame at a configuration."""
+        self.limited_values(q)
+        x, y, twist = self._w.y_place.tolist()
+        return (x, y), twist
+
+    def stand_on(self, support: Support, q: Floats, heights: Floats | None = None) -> None:
+        """Change the feet that stand, with the robot as it is at `q`.
+
+        Args:
+            support: The frame that stands from now on, or both.
+            q: Freedoms, shape (m,).
+            heights: Of the ground under each foot, Delta-frame first [m], shape (2, 3); None: as before.
+        """
+        offset, twist = self.y_in_delta(q)
+        under = self.footing.heights if heights is None else heights
+        self.stand(
+            replace(self.footing, support=support, pose=q[:POSE].copy(), offset=offset, twist=twist, heights=under)
+        )
+
+    def step(
+        self, q: Floats, target: Floats, velocity: Floats, weights: Floats, *, feedback: float | None = None
+    ) -> Step:
+        """The configuration one period later.
+
+        Args:
+            q: Freedoms now, within every limit, shape (m,).
+            target: Where the tool is to be now, world [m], shape (3,).
+            velocity: How that place moves [m/s], shape (3,).
+            weights: 1 for each freedom that takes part, 0 for the others, anything between while switching, shape (m,).
+            feedback: In place of the setting's [1/s].
+        """
+        s, w = self.settings, self._w
+        back = s.feedback if feedback is None else feedback
+        if not s.limited:
+            measure = move_freely(
+                self.chain, self._record, q, weights, self._fastest, self._tool_speeds, back, target, velocity, s.gain,
+                s.form == "as printed", 0.0, s.period, self._speeds, self._velocity, w,
+            )  # fmt: skip
+            return Step(w.after.copy(), w.place.copy(), measure, 1.0, ())
+        p = self._programme
+        measure, count = prepare(
+            self.chain, self._record, q, weights, self._fastest, self._tool_speeds, back, target, velocity, s.gain,
+            s.lent, self._law, self._speeds, self._velocity, w, p.f, p.rows, p.lower, p.upper, p.which,
+        )  # fmt: skip
+        x, multipliers, solved = self._solve(count)
+        if calm(x, count, p.f, p.rows, p.lower, p.upper, self._speeds, self._law):
+            x, multipliers, solved = self._solve(count)
+        place = w.place.copy()
+        share = finish(
+            self.chain, self._record, q, x, multipliers, count, self._speeds, p.lower, p.upper, p.which, s.period,
+            self._tight, w,
+        )  # fmt: skip
+        tight = tuple(np.flatnonzero(self._tight > TIGHT).tolist())
+        return Step(w.after.copy(), place, measure, share, tight, solved)
+
+    def _solve(self, count: int) -> tuple[Floats, Floats, bool]:
+        """Solution, multipliers, and whether there is one; else rest, which every limit allows."""
+        import daqp
+
+        p, m = self._programme, self._m
+        for _ in range(ATTEMPTS):
+            x, _, flag, info = daqp.solve(
+                p.weights, p.f, p.rows[:count], p.upper[: m + count], p.lower[: m + count], p.sense[: m + count].copy()
+            )
+            if flag == SOLVED:
+                return x, info["lam"], True
+            if flag == CONTRADICTED:
+                let_rest(count, m, p.lower, p.upper)
+            else:  # the method cycles where a tool's motion that cannot be had outweighs the rest by too many digits
+                p.rows[:3, m:] *= 10.0
+        return np.zeros(m + 3), np.zeros(m + count), False

@@ -1,0 +1,64 @@
+"""Which freedoms take part: named sets, and their switching on and off, smooth in time."""
+
+from typing import Final, Literal
+
+import numpy as np
+
+from .....control.quintic import quintic_share
+from .....errors import ClamberError
+from .....types import Floats
+from .planted_feet import Support
+from .tool_chain import POSE
+
+Freedoms = Literal["arm", "height", "levelling", "all"]
+BODY: Final[dict[Freedoms, tuple[int, ...]]] = {
+    "arm": (),
+    "height": (2,),
+    "levelling": (2, 4, 5),
+    "all": (0, 1, 2, 3, 4, 5),
+}
+"""Set -> freedoms of the plate that it has beside the arm's: none; z; z, beta, gamma, all that moves while the Delta-frame stands; all."""
+SUPPORT: Final[dict[Freedoms, Support]] = {"arm": "delta", "height": "delta", "levelling": "delta", "all": "y"}
+"""Set -> the frame that has to stand for it: the plate slides and turns only while the Y-frame does."""
+
+
+class FreedomsError(ClamberError):
+    """No set has so many degrees of freedom."""
+
+    def __init__(self, dof: int, allowed: tuple[int, ...]) -> None:
+        super().__init__(dof, allowed)
+        self.dof, self.allowed = dof, allowed
+
+    def __str__(self) -> str:
+        return f"no set has {self.dof} degrees of freedom; with this arm there are {', '.join(map(str, self.allowed))}"
+
+
+def freedoms_of(dof: int, n_joints: int) -> Freedoms:
+    """The set of so many degrees of freedom.
+
+    Raises:
+        FreedomsError: If there is none.
+    """
+    for name, body in BODY.items():
+        if n_joints + len(body) == dof:
+            return name
+    raise FreedomsError(dof, tuple(n_joints + len(body) for body in BODY.values()))
+
+
+def weights_of(freedoms: Freedoms, n_joints: int) -> Floats:
+    """1 for each freedom that takes part, 0 for the others, shape (6 + joints,)."""
+    out = np.zeros(POSE + n_joints)
+    out[list(BODY[freedoms])] = 1.0
+    out[POSE:] = 1.0
+    return out
+
+
+def switch(before: Floats, after: Floats, part: float) -> Floats:
+    """Weights on the way from one set to another: speeds and accelerations of the switching are 0 at both ends.
+
+    Args:
+        before, after: Weights, shape (m,).
+        part: Of the switching's time that has passed, [0, 1].
+    """
+    out: Floats = before + quintic_share(part) * (after - before)
+    return out

@@ -1,0 +1,131 @@
+"""What bounds the plate's pose: actuators' and legs' lengths, the mechanism's singularity, balance; values and gradients, as kernels."""
+
+import math
+
+from .....compiled import inlined, kernel
+from ...robot.two_frames import actuator_lengths, length_jacobian
+from .planted import ALPHA, BETA, GAMMA, Z, heading_change
+from .planted_feet import ACTUATOR, BALANCE, GUARD, LEG
+from .singular_guard import guard_room
+
+DELTA_STANDS, Y_STANDS, BOTH_STAND = 0, 1, 2
+
+
+@inlined
+def y_in_delta(footing, q, turn, place):
+    """Offset and twist of the Y-frame in the Delta-frame into place[0:3] [m, m, rad]."""
+    if footing.support != Y_STANDS:
+        place[0] = footing.offset[0]
+        place[1] = footing.offset[1]
+        place[2] = footing.twist
+        return
+    for i in range(2):
+        total = 0.0
+        for j in range(3):
+            total += turn[j, i] * (footing.anchor[j] - q[j])
+        place[i] = total
+    place[2] = footing.heading - q[ALPHA] + heading_change(q[BETA], q[GAMMA])
+
+
+@kernel
+def bound_values(footing, q, turn, s, place, slope, values):
+    """Every bounded quantity at a configuration.
+
+    Args:
+        footing: Record of `PLANTED_FEET`.
+        q: Freedoms, shape (m,).
+        turn: R from `plate_turn`.
+        s: First moment of the arm, plate frame [kg m], shape (3,).
+        place: Scratch, left with the Y-frame's offset and twist in the Delta-frame, shape (3,).
+        slope: Scratch, shape (3,).
+        values: Filled, shape (N_ROWS,): lengths [m]; room to the singularity's guard [-]; distances inside the support's edges [m].
+    """
+    y_in_delta(footing, q, turn, place)
+    px, py = place[0], place[1]
+    c, sine = math.cos(place[2]), math.sin(place[2])
+    actuator_lengths(footing.attachments[0], footing.attachments[1], px, py, place[2], values)
+    values[GUARD] = guard_room(footing.attachments[0], footing.attachments[1], place, footing.guard, slope)
+    cb, sb, cg, sg = math.cos(q[BETA]), math.sin(q[BETA]), math.cos(q[GAMMA]), math.sin(q[GAMMA])
+    for frame in range(2):
+        for i in range(3):
+            x, y = footing.feet[frame, i, 0], footing.feet[frame, i, 1]
+            if frame == 1:
+                x, y = px + c * x - sine * y, py + sine * x + c * y
+            values[LEG + 3 * frame + i] = (q[Z] - footing.heights[frame, i] - sb * x + cb * sg * y) / (cb * cg)
+    total = footing.mass_frames + footing.mass_arm
+    mx = (s[0] + footing.mass_frames * footing.share_y * px) / total
+    my = (s[1] + footing.mass_frames * footing.share_y * py) / total
+    mz = (s[2] + footing.mass_frames * footing.mass_height) / total
+    gx = q[0] + turn[0, 0] * mx + turn[0, 1] * my + turn[0, 2] * mz
+    gy = q[1] + turn[1, 0] * mx + turn[1, 1] * my + turn[1, 2] * mz
+    for k in range(footing.n_edges):
+        values[BALANCE + k] = footing.edges[k, 0] * gx + footing.edges[k, 1] * gy - footing.edges[k, 2]
+
+
+@kernel
+def bound_gradients(footing, q, turn, turn_1, s, ds, place, moved, slope, lengths, by_place, gradients):
+    """Derivatives of `bound_values` by the freedoms of a plate that moves freely (`along_feet` makes those of a planted one).
+
+    Args:
+        footing, q, turn, s: As there.
+        turn_1: From `plate_turn`.
+        ds: Derivatives of s by the arm's joints, shape (joints, 3).
+        place: As `bound_values` left it, shape (3,).
+        moved: Scratch for the derivatives of `place`, shape (3, 6).
+        slope, lengths, by_place: Scratch, shapes (3,), (3,), (3, 3).
+        gradients: Filled, shape (N_ROWS, m).
+    """
+    m = q.size
+    gradients[:] = 0.0
+    moved[:] = 0.0
+    cb, sb, cg, sg = math.cos(q[BETA]), math.sin(q[BETA]), math.cos(q[GAMMA]), math.sin(q[GAMMA])
+    if footing.support == Y_STANDS:
+        for i in range(2):
+            for j in range(3):
+                moved[i, j] = -turn[j, i]
+                for k in range(3):
+                    moved[i, 3 + k] += turn_1[k, j, i] * (footing.anchor[j] - q[j])
+        moved[2, ALPHA] = -1.0
+        moved[2, BETA] = sg / (1.0 + cb * cg)
+        moved[2, GAMMA] = sb / (1.0 + cb * cg)
+    px, py = place[0], place[1]
+    c, sine = math.cos(place[2]), math.sin(place[2])
+    delta, y_points = footing.attachments[0], footing.attachments[1]
+    length_jacobian(delta, y_points, px, py, place[2], lengths, by_place)
+    guard_room(delta, y_points, place, footing.guard, slope)
+    for k in range(6):
+        for i in range(3):
+            for j in range(3):
+                gradients[ACTUATOR + i, k] += by_place[i, j] * moved[j, k]
+            gradients[GUARD, k] += slope[i] * moved[i, k]
+    for frame in range(2):
+        for i in range(3):
+            row = LEG + 3 * frame + i
+            x, y = footing.feet[frame, i, 0], footing.feet[frame, i, 1]
+            if frame == 1:
+                tx, ty = c * x - sine * y, sine * x + c * y
+                x, y = px + tx, py + ty
+                for k in range(6):
+                    dx, dy = moved[0, k] - ty * moved[2, k], moved[1, k] + tx * moved[2, k]
+                    gradients[row, k] = (-sb * dx + cb * sg * dy) / (cb * cg)
+            length = (q[Z] - footing.heights[frame, i] - sb * x + cb * sg * y) / (cb * cg)
+            gradients[row, Z] += 1.0 / (cb * cg)
+            gradients[row, BETA] += (-cb * x - sb * sg * y) / (cb * cg) + length * sb / cb
+            gradients[row, GAMMA] += y + length * sg / cg
+    total = footing.mass_frames + footing.mass_arm
+    share = footing.mass_frames * footing.share_y
+    mx, my = s[0] + share * px, s[1] + share * py
+    mz = s[2] + footing.mass_frames * footing.mass_height
+    for edge in range(footing.n_edges):
+        row = BALANCE + edge
+        for i in range(2):
+            normal = footing.edges[edge, i]
+            gradients[row, i] += normal
+            for k in range(3):
+                over = turn_1[k, i, 0] * mx + turn_1[k, i, 1] * my + turn_1[k, i, 2] * mz
+                gradients[row, 3 + k] += normal * over / total
+            for k in range(6):
+                gradients[row, k] += normal * share * (turn[i, 0] * moved[0, k] + turn[i, 1] * moved[1, k]) / total
+            for k in range(m - 6):
+                over = turn[i, 0] * ds[k, 0] + turn[i, 1] * ds[k, 1] + turn[i, 2] * ds[k, 2]
+                gradients[row, 6 + k] += normal * over / total

@@ -1,0 +1,232 @@
+"""What a law of cooperative motion works out at a configuration, in arrays made once, and the kernel that fills them."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from .....compiled import kernel
+from .....types import Floats
+from .arm_vector import arm_vector
+from .manipulability import manipulability, manipulability_gradient, normalise
+from .planted import along_feet, curve_along_feet, follow_feet, stand
+from .planted_feet import BALANCE, N_ROWS
+from .plate_bounds import Y_STANDS, bound_gradients, bound_values
+from .plate_turn import plate_turn
+from .tool_chain import POSE, tool_curvature, tool_jacobian, tool_place
+
+
+class Chain(NamedTuple):
+    """The arm, and which limits its joints have."""
+
+    links: Floats
+    """[m], shape (n,)."""
+    shape: Floats
+    """Out and up [m], shape (2,)."""
+    moment_links: Floats
+    """Of the first moment [kg m], shape (n,)."""
+    lowest: Floats
+    """Of the joints [rad], shape (n + 1,)."""
+    highest: Floats
+    """[rad], shape (n + 1,)."""
+    row_lowest: Floats
+    """Of the bounded quantities, shape (N_ROWS,)."""
+    row_highest: Floats
+    """Shape (N_ROWS,)."""
+    row_speed: Floats
+    """Fastest change of a bounded quantity [m/s], shape (N_ROWS,); infinite where none is stated."""
+
+
+class Scratch(NamedTuple):
+    """Scratch of one law; m freedoms, n + 1 joints."""
+
+    turn: Floats
+    turn_1: Floats
+    turn_2: Floats
+    a: Floats
+    da: Floats
+    dda: Floats
+    s: Floats
+    ds: Floats
+    dds: Floats
+    place: Floats
+    """Tool point, world [m], shape (3,)."""
+    jacobian: Floats
+    """Of the tool, along planted feet where there are some, shape (3, m)."""
+    curvature: Floats
+    """Its derivatives, shape (m, 3, m)."""
+    scaled: Floats
+    """J^, shape (3, m)."""
+    grams: Floats
+    gradient: Floats
+    """dV/dq^, shape (m,)."""
+    follow: Floats
+    follow_1: Floats
+    y_place: Floats
+    moved: Floats
+    slope: Floats
+    lengths: Floats
+    by_place: Floats
+    values: Floats
+    """Of `plate_bounds`, shape (N_ROWS,)."""
+    gradients: Floats
+    """Shape (N_ROWS, m)."""
+    ahead: Floats
+    """Values after a step, shape (N_ROWS,)."""
+    rates: Floats
+    """Shape (m,)."""
+    after: Floats
+    """Configuration after a step, shape (m,)."""
+    square: Floats
+    right: Floats
+    ones: Floats
+    """Speeds of 1, of the plain chain, shape (m,)."""
+
+
+def make_scratch(n_joints: int) -> Scratch:
+    """Arrays for an arm of so many joints."""
+    m = POSE + n_joints
+    return Scratch(
+        turn=np.zeros((3, 3)),
+        turn_1=np.zeros((3, 3, 3)),
+        turn_2=np.zeros((3, 3, 3, 3)),
+        a=np.zeros(3),
+        da=np.zeros((n_joints, 3)),
+        dda=np.zeros((n_joints, n_joints, 3)),
+        s=np.zeros(3),
+        ds=np.zeros((n_joints, 3)),
+        dds=np.zeros((n_joints, n_joints, 3)),
+        place=np.zeros(3),
+        jacobian=np.zeros((3, m)),
+        curvature=np.zeros((m, 3, m)),
+        scaled=np.zeros((3, m)),
+        grams=np.zeros((2, 3, 3)),
+        gradient=np.zeros(m),
+        follow=np.zeros((3, 3)),
+        follow_1=np.zeros((3, 3, 3)),
+        y_place=np.zeros(3),
+        moved=np.zeros((3, POSE)),
+        slope=np.zeros(3),
+        lengths=np.zeros(3),
+        by_place=np.zeros((3, 3)),
+        values=np.zeros(N_ROWS),
+        gradients=np.zeros((N_ROWS, m)),
+        ahead=np.zeros(N_ROWS),
+        rates=np.zeros(m),
+        after=np.zeros(m),
+        square=np.zeros((3, 3)),
+        right=np.zeros(3),
+        ones=np.ones(m),
+    )
+
+
+@kernel
+def see_tool(chain, q, w):
+    """Fill turn, arm vector, place, Jacobian and curvature of the free chain.
+
+    Args:
+        chain: A `Chain`.
+        q: Freedoms, shape (m,).
+        w: A `Scratch`.
+    """
+    plate_turn(q[3:POSE], w.turn, w.turn_1, w.turn_2)
+    arm_vector(chain.links, chain.shape[0], chain.shape[1], q[POSE:], w.a, w.da, w.dda)
+    tool_place(q, w.turn, w.a, w.place)
+    tool_jacobian(w.turn, w.turn_1, w.a, w.da, w.jacobian)
+    tool_curvature(w.turn, w.turn_1, w.turn_2, w.a, w.da, w.dda, w.curvature)
+
+
+@kernel
+def see_bounds(chain, footing, q, w):
+    """Fill values and gradients of the plate's bounds, and lead everything along planted feet; after `see_tool`.
+
+    Args:
+        chain: A `Chain`.
+        footing: Record of `PLANTED_FEET`.
+        q: Freedoms, shape (m,).
+        w: A `Scratch`.
+    """
+    arm_vector(chain.moment_links, footing.moment_out, footing.moment_up, q[POSE:], w.s, w.ds, w.dds)
+    bound_values(footing, q, w.turn, w.s, w.y_place, w.slope, w.values)
+    bound_gradients(
+        footing, q, w.turn, w.turn_1, w.s, w.ds, w.y_place, w.moved, w.slope, w.lengths, w.by_place, w.gradients
+    )
+    if footing.support != Y_STANDS:
+        follow_feet(q, footing.anchor, w.follow, w.follow_1)
+        curve_along_feet(w.jacobian, w.follow, w.follow_1, w.curvature)
+        along_feet(w.jacobian, w.follow)
+        along_feet(w.gradients, w.follow)
+
+
+@kernel
+def see_measure(speeds, tool_speeds, w):
+    """V of the normalised chain, its gradient left in the scratch; after `see_tool` (and `see_bounds`).
+
+    Args:
+        speeds: Largest speeds of the freedoms [m/s, rad/s], shape (m,); 0 switches one off.
+        tool_speeds: Of the tool [m/s], shape (3,).
+        w: A `Scratch`.
+    """
+    normalise(w.jacobian, speeds, tool_speeds, w.scaled)
+    measure = manipulability(w.scaled, w.grams)
+    manipulability_gradient(measure, w.scaled, w.grams, w.curvature, speeds, tool_speeds, w.gradient)
+    return measure
+
+
+@kernel
+def step_to(footing, q, rates, time, share, after):
+    """The configuration after a share of a step: x, y and alpha by the planted feet if there are some.
+
+    Args:
+        footing: Record of `PLANTED_FEET`.
+        q: Freedoms, shape (m,).
+        rates: Shape (m,).
+        time: Of the whole step [s].
+        share: How much of it [-].
+        after: Filled, shape (m,).
+    """
+    for k in range(q.size):
+        after[k] = q[k] + share * time * rates[k]
+    if footing.support != Y_STANDS:
+        stand(after, footing.anchor, footing.heading)
+
+
+@kernel
+def share_within(chain, footing, q, rates, time, w):
+    """The largest share of a step [-] after which every bound holds and no actuator or leg was too fast, to a thousandth.
+
+    The arm's joints are bounded one by one, which the rates keep exactly; the plate's bounds are curved, so they are looked at.
+
+    Args:
+        chain: A `Chain`.
+        footing: Record of `PLANTED_FEET`.
+        q: Freedoms, within the bounds, shape (m,).
+        rates: Shape (m,).
+        time: Of the step [s].
+        w: A `Scratch` after `see_bounds`; `after` is left with the configuration that is reached.
+    """
+    low, high = 0.0, 1.0
+    share = 1.0
+    for _ in range(11):
+        step_to(footing, q, rates, time, share, w.after)
+        if _holds(chain, footing, time, w):
+            low = share
+            if share == 1.0:
+                return share
+        else:
+            high = share
+        share = 0.5 * (low + high)
+    step_to(footing, q, rates, time, low, w.after)
+    return low
+
+
+@kernel
+def _holds(chain, footing, time, w):
+    plate_turn(w.after[3:POSE], w.turn, w.turn_1, w.turn_2)
+    arm_vector(chain.moment_links, footing.moment_out, footing.moment_up, w.after[POSE:], w.s, w.ds, w.dds)
+    bound_values(footing, w.after, w.turn, w.s, w.y_place, w.slope, w.ahead)
+    for row in range(BALANCE + footing.n_edges):
+        if not chain.row_lowest[row] <= w.ahead[row] <= chain.row_highest[row]:
+            return False
+        if abs(w.ahead[row] - w.values[row]) > chain.row_speed[row] * time:
+            return False
+    return True

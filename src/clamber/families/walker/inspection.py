@@ -1,0 +1,108 @@
+"""What is told of walkers, grounds and walks, and what is odd about them."""
+
+import math
+from collections.abc import Iterator
+from typing import Final
+
+import numpy as np
+
+from ...inspection.finding import FileKind, Finding, Inspection
+from .planning import Walk, load_walk, walk_names
+from .planning.walk import SCHEMA as WALK_SCHEMA
+from .robot import WalkerRobot
+from .world.ground import SCHEMA as GROUND_SCHEMA
+from .world.ground import Ground
+from .world.library import ground_names, load_ground
+
+TWISTS: Final = np.linspace(-math.pi / 3, math.pi / 3, 241)
+"""A walker's frames repeat after a third of a turn [rad]."""
+
+
+def _walker_facts(robot: WalkerRobot) -> dict[str, str]:
+    mechanism, legs = robot.mechanism, robot.legs
+    return {
+        "family": "two-frame walker",
+        "actuators": f"{mechanism.shortest:.4g} to {mechanism.longest:.4g} m",
+        "legs": f"{legs.shortest:.4g} to {legs.longest:.4g} m",
+        "feet": f"circles of {legs.radius_delta:.4g} and {legs.radius_y:.4g} m",
+        "arm": "none" if robot.arm is None else f"{robot.arm.n_joints} joints",
+    }
+
+
+def _odd_frames(robot: WalkerRobot) -> Iterator[str]:
+    delta, y = robot.attachments()
+    c, s = np.cos(TWISTS), np.sin(TWISTS)
+    turned = np.stack(
+        (c[:, None] * y[:, 0] - s[:, None] * y[:, 1], s[:, None] * y[:, 0] + c[:, None] * y[:, 1]), axis=-1
+    )
+    lengths = np.linalg.norm(turned - delta, axis=-1)
+    mechanism = robot.mechanism
+    inside = ((lengths >= mechanism.shortest) & (lengths <= mechanism.longest)).all(axis=1)
+    if not inside.any():
+        low, high = float(lengths.min()), float(lengths.max())
+        yield (
+            f"the frames can't stand over each other at any angle: that takes actuators of {low:.3g} to {high:.3g} m, "
+            f"and they have {mechanism.shortest:.3g} to {mechanism.longest:.3g} m"
+        )
+
+
+def inspect_ground(ground: Ground) -> Finding:
+    """Facts of a ground, and what is odd about it."""
+    facts = {
+        "slope": f"{np.degrees(ground.slope):.4g} deg, rising towards {np.degrees(ground.uphill):.4g} deg",
+        "size": f"{ground.x_max - ground.x_min:.4g} x {ground.y_max - ground.y_min:.4g} m",
+        "friction": f"{ground.friction:.3g}",
+        "blocks": str(len(ground.blocks)),
+        "rough parts": str(len(ground.rough)),
+        "forbidden patches": str(len(ground.patches)),
+    }
+    return Finding(kind="ground", name=ground.name, title=ground.title, facts=facts, odd=tuple(_odd_ground(ground)))
+
+
+def _odd_ground(ground: Ground) -> Iterator[str]:
+    if np.tan(ground.slope) > ground.friction:
+        yield (
+            f"the slope is steeper than friction holds: feet slide on it above {np.degrees(np.arctan(ground.friction)):.3g} deg"
+        )
+    for key, corners in (
+        *((f"blocks.{i}", block.corners()) for i, block in enumerate(ground.blocks)),
+        *((f"rough.{i}", rough.corners()) for i, rough in enumerate(ground.rough)),
+        *((f"patches.{i}", patch) for i, patch in enumerate(ground.forbidden())),
+    ):
+        xs, ys = np.array(corners).T
+        beyond = (
+            xs.max() <= ground.x_min or xs.min() >= ground.x_max or ys.max() <= ground.y_min or ys.min() >= ground.y_max
+        )
+        if beyond:
+            yield f"{key} lies beyond the ends of the ground, where there is nothing"
+
+
+def inspect_walk(walk: Walk) -> Finding:
+    """Facts of a walk."""
+    straight = sum(piece.distance or 0.0 for piece in walk.way)
+    turned = sum(abs(piece.turn or 0.0) for piece in walk.way)
+    places = sum(piece.to is not None for piece in walk.way)
+    legs = walk.start_legs()
+    facts = {
+        "robot": walk.robot.name,
+        "ground": walk.ground.name,
+        "way": f"{len(walk.way)} pieces: {straight:.4g} m straight, {math.degrees(turned):.4g} deg turned, {places} to a place",
+        "plate": "kept level" if walk.level else "as it stands at the start",
+        "legs at the start": f"{1e3 * legs.min():.0f} to {1e3 * legs.max():.0f} mm",
+    }
+    return Finding(kind="walk", name=walk.name, title=walk.title, facts=facts)
+
+
+def inspect_walker(robot: WalkerRobot) -> Finding:
+    """Facts of a walker, and what is odd about it."""
+    odd = tuple(_odd_frames(robot))
+    return Finding(kind="robot", name=robot.name, title=robot.title, facts=_walker_facts(robot), odd=odd)
+
+
+INSPECTION: Final = Inspection(
+    robot=inspect_walker,
+    kinds={
+        "ground": FileKind(GROUND_SCHEMA, ground_names, load_ground, inspect_ground),
+        "walk": FileKind(WALK_SCHEMA, walk_names, load_walk, inspect_walk),
+    },
+)

@@ -1,0 +1,149 @@
+"""A ground in space: its bricks, the patches where no foot may stand, and the goals."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from ....types import Floats
+from ....viewing import style
+from ....viewing.browser.solids import DISC, Mesh, colour, prism
+from ....viewing.scene import Bounds, goal_box, name_goal
+from ..planning.task import Goal
+from ..world.ground import Ground, Surface
+
+if TYPE_CHECKING:
+    import viser
+
+LEVEL: Final = "#ECE9E1"
+HIGHER: Final = "#E0C9A0"
+LOWER: Final = "#9FB0C0"
+SHADES: Final = ((-1e-6, LOWER), (1e-6, LEVEL), (np.inf, HIGHER))
+"""Colour of a brick up to a height of its top above the slope [m]."""
+ABOVE: Final = 0.004
+"""A way is drawn so far above the ground [m] ..."""
+DIP: Final = 0.1
+"""... and into ditches by no more than this [m]."""
+END: Final = 0.06
+"""Radius of the disc at its end [m]."""
+GRID: Final = "#A8A294"
+CRUST: Final = 0.12
+"""How much of the ground is shown below its lowest part [m]."""
+LINES: Final = 0.25
+"""Between the lines on the ground [m]."""
+
+
+class GroundScene:
+    """A ground and goals on it, as they stand.
+
+    Args:
+        server: The scene's.
+        ground: As it truly is.
+        goals: Of a task.
+        bounds: The part that is shown, world frame.
+        way: Places of a walk's way, shape (n, 2) [m]; None: none is drawn.
+    """
+
+    def __init__(
+        self,
+        server: "viser.ViserServer",
+        ground: Ground,
+        goals: Sequence[Goal],
+        bounds: Bounds,
+        way: Floats | None = None,
+    ) -> None:
+        self._server, self.ground = server, ground
+        self.root = server.scene.add_frame("/ground", show_axes=False)
+        self._axes, self._surface = ground.axes(), Surface(ground)
+        tiles = ground.tiles()
+        x0, x1, y0, y1 = bounds
+        low, high = np.maximum(tiles[:, [0, 2]], (x0, y0)), np.minimum(tiles[:, [1, 3]], (x1, y1))
+        seen = (low < high).all(axis=1)
+        bottom = float(tiles[:, 4].min(initial=0.0, where=tiles[:, 4] > -ground.depth)) - CRUST
+        groups: dict[str, list[Floats]] = {}
+        for (xa, ya), (xb, yb), top in zip(low[seen], high[seen], tiles[seen, 4], strict=True):
+            shade = next(shade for most, shade in SHADES if top <= most)
+            groups.setdefault(shade, []).append(np.array((xa, xb, ya, yb, top)))
+        for k, (shade, bricks) in enumerate(groups.items()):
+            server.scene.add_mesh_simple(
+                f"/ground/bricks {k + 1}", *self._placed(_bricks(np.array(bricks), bottom)), color=colour(shade),
+                flat_shading=True,
+            )  # fmt: skip
+        for k, patch in enumerate(ground.forbidden()):
+            server.scene.add_mesh_simple(
+                f"/ground/forbidden {k + 1}", *self._placed(prism(np.array(patch), 0.0, 0.003)), color=colour(style.ALERT),
+                opacity=0.45, flat_shading=True, cast_shadow=False,
+            )  # fmt: skip
+        self._draw_lines(bounds)
+        for k, goal in enumerate(goals):
+            self._draw_goal(goals, k, goal_box(goal, bounds))
+        if way is not None:
+            self._draw_way(way)
+
+    def _placed(self, mesh: Mesh) -> Mesh:
+        return mesh[0] @ self._axes.T, mesh[1]
+
+    def _draw_lines(self, bounds: Bounds) -> None:
+        x0, x1, y0, y1 = bounds
+        fine = 0.02
+        lines = []
+        for at in np.arange(np.ceil(x0 / LINES) * LINES, x1, LINES):
+            lines.append(np.column_stack((np.full_like(np.arange(y0, y1, fine), at), np.arange(y0, y1, fine))))
+        for at in np.arange(np.ceil(y0 / LINES) * LINES, y1, LINES):
+            lines.append(np.column_stack((np.arange(x0, x1, fine), np.full_like(np.arange(x0, x1, fine), at))))
+        pieces = []
+        for line in lines:
+            heights = self._surface.heights(line)
+            points = np.column_stack((line, heights + 0.0015))
+            joined = np.stack((points[:-1], points[1:]), axis=1)
+            good = np.isfinite(joined).all(axis=(1, 2)) & (np.abs(np.diff(joined[:, :, 2], axis=1)[:, 0]) < 0.5 * fine)
+            pieces.append(joined[good])
+        every = np.concatenate(pieces)
+        there = every @ self._axes  # in the ground's frame, whose bricks end at the bounds
+        every = every[((there[..., :2] >= (x0, y0)) & (there[..., :2] <= (x1, y1))).all(axis=(1, 2))]
+        if len(every):
+            self._server.scene.add_line_segments("/ground/lines", every, colour(GRID), thickness=0.002)
+
+    def _draw_goal(self, goals: Sequence[Goal], k: int, corners: Floats | None) -> None:
+        if corners is None:
+            return
+        last = k == len(goals) - 1
+        lifted = prism(corners, 0.0, 0.002)
+        heights = self._surface.heights(corners)
+        base = float(heights[np.isfinite(heights)].max(initial=0.0))
+        self._server.scene.add_mesh_simple(
+            f"/ground/goals/{k + 1}", lifted[0] + (0.0, 0.0, base), lifted[1], color=colour(style.GOAL),
+            opacity=0.4 if last else 0.2, flat_shading=True, cast_shadow=False,
+        )  # fmt: skip
+        self._server.scene.add_label(
+            f"/ground/goals/{k + 1}/name", name_goal(goals, k), anchor="bottom-center",
+            position=(float(corners[:, 0].mean()), float(corners[:, 1].mean()), base + 0.01),
+        )  # fmt: skip
+
+    def _draw_way(self, way: Floats) -> None:
+        """A line over the ground along the robot's way, and a disc at its end."""
+        heights = self._surface.heights(way)
+        heights = np.where(np.isfinite(heights), np.maximum(heights, np.median(heights) - DIP), 0.0)
+        points = np.column_stack((way, heights + ABOVE))
+        self._server.scene.add_line_segments(
+            "/ground/way", np.stack((points[:-1], points[1:]), axis=1), colour(style.GOAL), thickness=0.006
+        )
+        disc = prism(DISC * END + way[-1], 0.0, 0.002)
+        self._server.scene.add_mesh_simple(
+            "/ground/way/end", disc[0] + (0.0, 0.0, heights[-1] + ABOVE), disc[1], color=colour(style.GOAL), opacity=0.5,
+            flat_shading=True, cast_shadow=False,
+        )  # fmt: skip
+
+    def remove(self) -> None:
+        """Take all of it away."""
+        self.root.remove()
+
+
+def _bricks(bricks: Floats, bottom: float) -> Mesh:
+    """Bricks x_min, x_max, y_min, y_max, top, shape (n, 5), as one mesh that reaches down to `bottom`."""
+    square = prism(np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]), 0.0, 1.0)
+    low = np.column_stack((bricks[:, 0], bricks[:, 2], np.full(len(bricks), bottom)))
+    high = np.column_stack((bricks[:, 1], bricks[:, 3], np.maximum(bricks[:, 4], bottom + 1e-3)))
+    vertices = low[:, None] + square[0] * (high - low)[:, None]
+    faces = square[1] + 8 * np.arange(len(bricks))[:, None, None]
+    return vertices.reshape(-1, 3), faces.reshape(-1, 3)

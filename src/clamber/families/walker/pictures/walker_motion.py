@@ -1,0 +1,105 @@
+"""A walker at one moment, and what happens between two stances: a frame slides or turns, or feet are put down and lifted.
+
+A replay keeps the stances after each action only. In between a lifted frame moves evenly, and in a swap the lifted feet
+come down, all six stand for a while, and the others are lifted; how high says nothing, for the model has no heights.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ....types import Floats
+from ....viewing.view import Part
+from ..planning.problem import WalkerOutline, carried_weight, outline
+from ..planning.task import WalkerTask
+
+
+@dataclass(frozen=True, slots=True)
+class WalkerMoment:
+    """A walker, settled or on its way."""
+
+    outline: WalkerOutline
+    poses: Floats
+    """x, y [m] and angle [rad] of both frames, world frame, shape (2, 3)."""
+    lifts: tuple[float, float]
+    """How far each frame's feet are lifted: 0 on the ground, 1 as high as they go [-]."""
+
+    @property
+    def lengths(self) -> Floats:
+        """Lengths of the actuators [m], shape (3,)."""
+        ends = self.outline.actuators
+        lengths: Floats = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+        return lengths
+
+    @property
+    def support(self) -> Floats:
+        """Corners of the hull of the feet on the ground, anticlockwise, shape (3 or 6, 2)."""
+        feet = np.vstack([self.outline.feet[f] for f in (0, 1) if self.lifts[f] == 0.0])
+        return feet if len(feet) == 3 else hull(feet)
+
+
+def hull(points: Floats) -> Floats:
+    """Corners of the convex hull of points, anticlockwise, shape (m, 2)."""
+    ordered = sorted(map(tuple, points.tolist()))
+    sides = []
+    for row in (ordered, ordered[::-1]):
+        side: list[tuple[float, ...]] = []
+        for x, y in row:
+            while len(side) > 1 and _turn(side[-2], side[-1], (x, y)) <= 0.0:
+                side.pop()
+            side.append((x, y))
+        sides += side[:-1]
+    return np.array(sides)
+
+
+def _turn(a: tuple[float, ...], b: tuple[float, ...], c: tuple[float, ...]) -> float:
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+
+def settled_moment(task: WalkerTask, stance: np.void) -> WalkerMoment:
+    """A stance record as it is drawn."""
+    stands = int(stance["stands"])
+    return WalkerMoment(outline(task, stance), np.array(stance["pose"]), (float(stands != 0), float(stands != 1)))
+
+
+def posed_moment(task: WalkerTask, stance: np.void, poses: Floats) -> WalkerMoment:
+    """A stance with its frames at other poses, shape (2, 3)."""
+    at = stance.copy()
+    at["pose"] = poses
+    for f, feet in enumerate(task.robot.feet()):
+        x, y, angle = poses[f]
+        c, s = math.cos(angle), math.sin(angle)
+        at["foot"][f] = (x, y) + feet @ np.array([[c, s], [-s, c]])
+    at["mass_x"], at["mass_y"] = carried_weight(task).centre(poses)
+    return settled_moment(task, at)
+
+
+def walker_motion(task: WalkerTask, before: np.void, after: np.void) -> list[Part[WalkerMoment]]:
+    """The parts of the motion from one stance record to the next; it starts and ends exactly in them."""
+    first, last = settled_moment(task, before), settled_moment(task, after)
+    if int(before["stands"]) != int(after["stands"]):
+        return _swap(first, last)
+    way = last.poses - first.poses
+    if not np.any(way):
+        return [Part("still", lambda share, _: last)]
+    way[:, 2] = [math.remainder(turn, math.tau) for turn in way[:, 2]]
+
+    def slide(share: float, _: float) -> WalkerMoment:
+        if share <= 0.0 or share >= 1.0:
+            return first if share <= 0.0 else last
+        return posed_moment(task, before, first.poses + share * way)
+
+    return [Part("slide", slide)]
+
+
+def _swap(first: WalkerMoment, last: WalkerMoment) -> list[Part[WalkerMoment]]:
+    def at(base: WalkerMoment, share: float) -> WalkerMoment:
+        lifts = tuple(share if lift > 0.0 else 0.0 for lift in base.lifts)
+        return WalkerMoment(base.outline, base.poses, (lifts[0], lifts[1]))
+
+    return [
+        Part("land", lambda share, _: at(first, 1.0 - share)),
+        Part("both", lambda share, _: at(first, 0.0)),
+        Part("lift", lambda share, _: at(last, share)),
+    ]

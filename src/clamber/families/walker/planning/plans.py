@@ -1,0 +1,158 @@
+"""Plans of two-frame walkers: packed codes as named actions and back."""
+
+from collections.abc import Mapping
+from typing import Final
+
+import numpy as np
+
+from ....errors import describe_choices
+from ....planning.problem.check import Check
+from ....planning.problem.code_limits import CodeLimits
+from ....planning.problem.codes import MOVE, NONE, RELEASE, Code, pack
+from ....planning.problem.plan_costs import PlanCost
+from ....planning.problem.planned import ActionError, PlannedAction
+from ....planning.problem.posed import Posed
+from ....planning.problem.problem import CompiledProblem, Records
+from ....types import Ints
+from ..robot import FRAMES
+from ..statics.checks import WALKER_CHECKS
+from .problem import MOVES, WalkerProblem, stride_lengths, walker_limits, walker_table
+from .task import WalkerTask
+
+SAME = 1e-6
+"""Moves that differ from a step by less than this part of it are that step."""
+
+
+class WalkerPlans:
+    """How plans of two-frame walkers are named, replayed and reported; limbs are frames, and nothing is held."""
+
+    checks: tuple[Check, ...] = WALKER_CHECKS
+    """In the order of a replay's margins."""
+    burdens: tuple[str, ...] = WalkerProblem.burdens
+
+    def posed(self, task: WalkerTask, threads: int | None, filters: bool) -> Posed:
+        """The task as a problem with the hard checks alone."""
+        table = walker_table(stride_lengths(task))
+        return Posed(WalkerProblem(task, table, threads=threads), len(table))
+
+    def limits(self, task: WalkerTask) -> CodeLimits:
+        """The codes that are actions of a task, and the indices that its stances may have."""
+        return walker_limits(task)
+
+    def without_hangs(self, task: WalkerTask) -> WalkerTask:
+        """The same task: a walker never hangs."""
+        return task
+
+    def sizes(self, task: WalkerTask) -> Mapping[str, float]:
+        """Half a stroke, the guarded singular distance, a tenth of the feet's circle, half of a support triangle, the legs' stroke."""
+        mechanism, legs = task.robot.mechanism, task.robot.legs
+        feet = min(legs.radius_delta, legs.radius_y)
+        return {
+            "stroke": 0.5 * mechanism.stroke,
+            "singular": mechanism.guard * mechanism.singular_distance(0.0),
+            "foothold": max(task.rules.clearance, 0.1 * feet),
+            "balance": 0.5 * feet,  # inradius of a triangle over its circumradius
+            "legs": legs.stroke,
+        }
+
+    def problem(self, task: WalkerTask) -> WalkerProblem:
+        """The task with every check evaluated, for replays."""
+        return WalkerProblem(task, walker_table(), every_check=True, threads=1)
+
+    def hard(self, task: WalkerTask) -> tuple[str, ...]:
+        """Names of the checks that forbid an action."""
+        return task.rules.hard
+
+    def action(self, task: WalkerTask, code: int, after: np.void, gene: str | None) -> PlannedAction:
+        """A packed code as a named action; the frame that moved, or lifted in a swap, does not stand afterwards."""
+        opened = Code.of(code)
+        lifted = FRAMES[1 - int(after["stands"])]
+        if opened.kind == "move":
+            return PlannedAction(kind="move", limb=lifted, delta=_delta(task, opened.argument), gene=gene)
+        if opened.kind == "release":
+            return PlannedAction(kind="release", limb=lifted, gene=gene)
+        return PlannedAction(kind="none", gene=gene)
+
+    def code(self, task: WalkerTask, action: PlannedAction) -> int:
+        """The packed code of a named action; which frame it moves follows from the stance.
+
+        Raises:
+            ActionError: If a walker has no such action.
+        """
+        if action.kind == "none":
+            return pack(NONE)
+        if action.limb is not None and action.limb not in FRAMES:
+            raise ActionError("limb", f"must be a frame: {describe_choices(action.limb, FRAMES)}")
+        if action.kind == "release":
+            return pack(RELEASE)
+        if action.kind == "move":
+            return pack(MOVE, 0, _axis(task, action.delta))
+        raise ActionError("kind", "a walker's actions are none, move and release")
+
+    def module(self, task: WalkerTask, code: int) -> str:
+        """Name of a code: the move, or "swap"."""
+        opened = Code.of(code)
+        return MOVES[opened.argument] if opened.kind == "move" else "swap"
+
+    def pose(self, stance: np.void) -> tuple[float, float, float]:
+        """Place [m] and angle [rad] of the Delta-frame, world frame."""
+        return float(stance["x"]), float(stance["y"]), float(stance["angle"])
+
+    def holds(self, task: WalkerTask, stance: np.void) -> dict[str, int]:
+        """Empty: a walker holds nothing."""
+        return {}
+
+    def taken(self, task: WalkerTask, stance: np.void) -> int | None:
+        """None: a walker takes no holds."""
+        return None
+
+    def model(self, task: WalkerTask) -> str:
+        """The rules that a proof about a task holds for."""
+        return f"hard checks {', '.join(self.hard(task))}"
+
+    def power(self, stance: np.void) -> float:
+        """0: the model has no forces."""
+        return 0.0
+
+    def costs(self, task: WalkerTask) -> Mapping[str, PlanCost]:
+        """The time that a walk takes, and how near it comes to where the mechanism is singular."""
+        return {
+            "time": PlanCost(feature="effort", title="takes", unit="s", digits=0),
+            "strain": PlanCost(feature="peak", title="nearest to a singular place", unit="of 1", digits=2),
+        }
+
+    def duration(self, task: WalkerTask) -> float:
+        """0: the model has no forces, so no energy is counted."""
+        return 0.0
+
+    def torque(self, stance: np.void) -> float:
+        """0: the model has no forces."""
+        return 0.0
+
+    def nearest(self, task: WalkerTask, problem: CompiledProblem, stances: Records, asked: Ints) -> list[int | None]:
+        """None for each: no action of a walker chooses among holds."""
+        return [None] * len(asked)
+
+    def goals_met(self, stance: np.void) -> int:
+        """Goals met, in order."""
+        return int(stance["stage"])
+
+
+def _delta(task: WalkerTask, argument: int) -> tuple[float, float, float]:
+    """What the move of argument 0..5 (+x -x +y -y +theta -theta) changes: [m, m, rad]."""
+    sign = 1.0 - 2.0 * (argument & 1)
+    delta = [0.0, 0.0, 0.0]
+    delta[argument >> 1] = sign * (task.step.angle if argument >= 4 else task.step.length)
+    return delta[0], delta[1], delta[2]
+
+
+def _axis(task: WalkerTask, delta: tuple[float, float, float] | None) -> int:
+    sizes = np.array([task.step.length, task.step.length, task.step.angle])
+    for argument in range(6):
+        if delta is not None and np.all(np.abs(np.subtract(delta, _delta(task, argument))) <= SAME * sizes):
+            return argument
+    allowed = f"must be one step along one axis: {sizes[0]:.6g} m in x or y, or {sizes[2]:.6g} rad, either way"
+    raise ActionError("delta", allowed)
+
+
+PLANS: Final = WalkerPlans()

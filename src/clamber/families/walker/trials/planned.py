@@ -1,0 +1,115 @@
+"""Planned walks: a walker's task under rules that can bear to be carried out, its plan, and the walk that carries it out."""
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+
+from ....errors import SpecError
+from ....planning.problem.plan import Plan
+from ....planning.problem.plan_families import plan_family
+from ....planning.problem.plan_source import is_plan, open_plan
+from ....tasks import Task, load_task
+from ....tasks.library import change_task
+from ....types import Floats
+from ..control.gait import Limits
+from ..execution.course import PlannedCourse
+from ..execution.planned_steps import plan_start, planned_steps
+from ..execution.walking import Lay
+from ..planning import Walk
+from ..planning.task import WalkerTask
+from ..planning.walk import WalkStart
+
+BALANCE: Final = 0.03
+"""Plans that are walked keep the centre of mass so far inside the standing feet [m]: 20 mm that the walk asks for, and its errors ..."""
+CLEARANCE: Final = 0.02
+"""... and feet so far from patches and edges [m]: dead reckoning is a centimetre off after two metres ..."""
+STROKE: Final = 0.006
+"""... and leave so much of the actuators' strokes at either end [m]."""
+GUARD: Final = 0.02
+"""What they leave of the guard against singular postures that walks keep to [-]."""
+
+
+def careful(task: WalkerTask) -> WalkerTask:
+    """A task that asks for more than its checks do, so that a plan that holds in it can bear to be carried out."""
+    rules, guard = task.rules, min(task.robot.mechanism.guard, Limits().guard - GUARD)
+    changed = change_task(
+        task,
+        [
+            f"rules.balance={max(rules.balance, BALANCE)!r} m",
+            f"rules.clearance={max(rules.clearance, CLEARANCE)!r} m",
+            f"rules.stroke={max(rules.stroke, STROKE)!r} m",
+            f"mechanism.guard={guard!r}",
+        ],
+    )
+    assert isinstance(changed, WalkerTask)  # the robot stays what it is
+    return changed
+
+
+def open_planned_walk(what: str, task: str | None, settings: Sequence[str]) -> tuple[WalkerTask, Plan | None] | None:
+    """The walker's task that a text means, by itself or as that of a plan, and the plan; None if it means another family's.
+
+    Args:
+        what: A task's name or file, or a plan's.
+        task: A task in place of the one that the plan names.
+        settings: Texts "key=value" for the task.
+
+    Raises:
+        SpecError: If a plan's task is given beside a task.
+        ClamberError: As `open_plan` and `load_task`.
+    """
+    if is_plan(what):
+        opened = open_plan(what, task, settings)
+        return (opened.task, opened.plan) if isinstance(opened.task, WalkerTask) else None
+    chosen: Task = load_task(what, settings)
+    if not isinstance(chosen, WalkerTask):
+        return None
+    if task is not None:
+        raise SpecError(what, "--task", task, "is for a plan; this is a task itself")
+    return chosen, None
+
+
+def walk_of(task: WalkerTask) -> Walk:
+    """The walk of a task, without its way: robot, ground and start."""
+    start, robot = task.start, task.robot
+    rest = () if robot.arm is None else robot.arm.rest
+    return Walk(
+        name=task.name,
+        title=task.title,
+        robot=robot,
+        ground=task.world,
+        start=WalkStart(x=start.x, y=start.y, heading=start.theta, offset=start.offset, twist=start.twist),
+        way=(),
+        level=True,
+        probe=0.0,
+        arm=rest if start.arm is None else start.arm,
+        payload=start.payload,
+    )
+
+
+def lay_plan(task: WalkerTask, plan: Plan, label: str = "plan") -> Lay:
+    """How a plan is laid out as a course from where the robot stands.
+
+    Args:
+        task: The task that the plan holds in.
+        plan: The plan.
+        label: What errors call it.
+
+    Raises:
+        SpecError: If the plan has actions that the task has not, or one of them violates a hard check; it names step and check.
+    """
+    codes = plan.codes(task, label)
+    replay = plan_family(task).problem(task).replay(codes)
+    if not replay.ok:
+        step = int(np.argmax(replay.reasons >= 0))
+        check = plan_family(task).checks[int(replay.reasons[step])]
+        short = (
+            f"violates the hard check '{check.name}' by {-replay.margins[step, replay.reasons[step]]:.4g} {check.unit}"
+        )
+        raise SpecError(label, f"actions.{step}", plan.actions[step].title, f"{short}; nothing has moved")
+    steps, start = planned_steps(codes, replay), plan_start(replay)
+
+    def lay(pose: Floats) -> PlannedCourse:
+        return PlannedCourse(steps, start, pose, radius=task.robot.legs.radius_delta)
+
+    return lay

@@ -1,0 +1,321 @@
+"""Many walks of one kind, each with its own seed: run over workers, stored as they end, and what they say together."""
+
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from operator import attrgetter
+from pathlib import Path
+from typing import Annotated, Final
+
+import numpy as np
+
+from ....execution.fault import draw_fault
+from ....jobs import Executor, Outcome, look_into, map_items, read_result
+from ....json_form import HIDDEN, Count, Jsonable, Key, in_json
+from ....planning.problem.plan import Plan
+from ....tasks import task_from_document
+from ....trials.fault_trials import FaultRow, TriedFault, check_told, fault_rows, told_fault
+from ....trials.intervals import wilson_interval
+from ....types import Floats, Json
+from ....units import DEGREE
+from ..planning import Walk
+from ..planning.task import WalkerTask
+from ..planning.walks import walk_from_document
+from .faults import BEGINS, failing_of
+from .noise import WalkNoise
+from .planned import lay_plan, walk_of
+from .run_walk import run_walk, walk_flaws
+
+LEVEL: Final = 0.1 * DEGREE
+"""A plate counts as level within this [rad]: what the paper's robot levels itself to."""
+ERROR: Final = "error"
+"""Start of the reason of a trial that raised, or whose workers died."""
+
+
+@dataclass(frozen=True, slots=True)
+class WalkSetup:
+    """What all trials have in common: a walk, or a task with its plan."""
+
+    walked: Walk | WalkerTask
+    noise: WalkNoise
+    plant: tuple[str, ...] = ()
+    """Settings of the plant, such as "friction=50%"."""
+    plan: Plan | None = None
+    """Of a task."""
+    planned: bool = False
+    """Whether a planner made the plan, so that it is no part of what was asked for."""
+    faults: tuple[str, ...] = ()
+    """Kinds of faults, one of which each trial has; none without."""
+
+    @property
+    def name(self) -> str:
+        """Of what is walked."""
+        return self.walked.name
+
+    @property
+    def title(self) -> str:
+        """The same in words."""
+        return f"walks '{self.name}'"
+
+    @property
+    def levels(self) -> bool:
+        """Whether the plate is to be kept level; in a plan it always is."""
+        return not isinstance(self.walked, Walk) or self.walked.level
+
+    def about(self) -> Json:
+        """What tells these trials from others; not how many, nor from which seed on."""
+        told = self._plain()
+        if isinstance(self.walked, WalkerTask):
+            told["plan"] = None if self.plan is None or self.planned else self.plan.to_json()
+        return told
+
+    def item(self, seed: int) -> Json:
+        """One trial for a worker."""
+        told = self._plain()
+        if self.plan is not None:
+            told["plan"] = self.plan.to_json() | {"document": {}}
+        return told | {"seed": seed}
+
+    def _plain(self) -> Json:
+        told = {"document": self.walked.document, "plant": list(self.plant), "noise": self.noise.to_json()}
+        return told | ({"faults": list(self.faults)} if self.faults else {})
+
+    def stored_plan(self, store: Path | None) -> Plan | None:
+        """The plan that the store of these trials was begun with; None where there is none yet.
+
+        Raises:
+            StoreError: If the file can't be the store of these trials.
+        """
+        kept = None if store is None else look_into(store, run_walk_trial, about=self.about(), title=self.title)
+        if kept is None or kept.note is None:
+            return None
+        return Plan.from_json(kept.note, "plan of the store")
+
+
+@dataclass(frozen=True, slots=True)
+class WalkCause:
+    """Walks that ended early in the same way."""
+
+    words: str
+    """Such as "fell"."""
+    n: int
+    interval: tuple[float, float]
+    """Of their share of all walks, 95 %, Wilson's."""
+    steps: tuple[Count, ...]
+    """At which, each once."""
+    seeds: tuple[Count, ...]
+    reason: str
+    """Of the first one."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WalkTrial(Jsonable):
+    """How one walk ended."""
+
+    seed: Count
+    done: bool
+    """Whether both frames came to the end of the way."""
+    reason: str
+    """Why not; empty where it is done."""
+    seconds: float
+    """Simulated."""
+    steps: Count
+    tilt: float
+    """Largest angle of the plate from level while it walked [rad]."""
+    margin: float | None
+    """Least margin of balance while it walked [m]; None where fewer than three feet were on the ground at a time."""
+    off: float | None
+    """From where the way ends [m]; None where it was never laid."""
+    turned: float | None
+    """Heading from that at the end of the way [rad]."""
+    kicks: Count
+    held_way: float | None = None
+    """Way over which the tool was to be held at a point [m]; None where the walk has none, or ended before it was laid."""
+    held_error: float | None = None
+    """Largest distance of the tool from that point while it was held [m]; None where the robot did not come so far."""
+    fault: Annotated[Json | None, Key(kind=TriedFault)] = None
+    """The fault that the robot had, when it was noticed, and how that ended; None in trials without."""
+
+
+@dataclass(slots=True)
+class WalkTrials(Jsonable):
+    """Walks that ended."""
+
+    setup: Annotated[
+        WalkSetup,
+        Key("walk", get=attrgetter("name"), kind=str),
+        Key(
+            "noise",
+            get=lambda setup: setup.noise.to_json(),
+            kind=dict[str, float],
+            meaning="Key to its width, SI units.",
+        ),
+    ]
+    asked: Count
+    """How many there are to be."""
+    ended: Annotated[list[WalkTrial], Key("trials", after="faults")]
+    wall_seconds: Annotated[float, HIDDEN] = 0.0
+    """All workers together, for the walks that ended."""
+
+    @in_json(after="asked")
+    def n(self) -> Count:
+        """Walks that ended."""
+        return len(self.ended)
+
+    @property
+    @in_json(after="n")
+    def done(self) -> int:
+        """Walks that came to their end."""
+        return sum(trial.done for trial in self.ended)
+
+    @property
+    @in_json(after="done")
+    def interval(self) -> tuple[float, float]:
+        """Of the share that came to their end, 95 %, Wilson's."""
+        return wilson_interval(self.done, len(self.ended))
+
+    @property
+    @in_json(after="interval")
+    def balanced(self) -> Count:
+        """Walks whose margin of balance was positive throughout, done or not."""
+        return sum(trial.margin is not None and trial.margin > 0.0 for trial in self.ended)
+
+    @property
+    @in_json(after="balanced")
+    def level(self) -> Count:
+        """Walks that came to their end with the plate never more than 0.1 deg from level since the first step."""
+        return sum(trial.done and trial.tilt <= LEVEL for trial in self.ended)
+
+    @in_json(after="level")
+    def balanced_interval(self) -> tuple[float, float]:
+        """Of the share of those that were balanced, 95 % (Wilson)."""
+        return wilson_interval(self.balanced, len(self.ended))
+
+    @in_json(after="balanced_interval")
+    def causes(self) -> tuple[WalkCause, ...]:
+        """Why walks ended early, the commonest first."""
+        early = [trial for trial in self.ended if not trial.done]
+        found: dict[str, list[WalkTrial]] = {}
+        for trial in early:
+            found.setdefault(cause_of(trial.reason), []).append(trial)
+        return tuple(
+            WalkCause(
+                words, len(alike), wilson_interval(len(alike), len(self.ended)), tuple(sorted({each.steps for each in alike})),
+                tuple(each.seed for each in alike), alike[0].reason,
+            )
+            for words, alike in sorted(found.items(), key=lambda pair: -len(pair[1]))
+        )  # fmt: skip
+
+    @in_json(after="causes")
+    def faults(self) -> tuple[FaultRow, ...]:
+        """By kind; none in trials without."""
+        return fault_rows(self.ended) if self.setup.faults else ()
+
+    def of(self, name: str) -> Floats:
+        """A number of all walks that have it."""
+        return np.array(
+            [value for trial in self.ended if (value := getattr(trial, name)) is not None], dtype=np.float64
+        )
+
+
+def cause_of(reason: str) -> str:
+    """The reason of a walk that ended early without its numbers, such as "fell" of "step 3: fell: the robot tips"."""
+    parts = [part.strip() for part in reason.split(":")]
+    return parts[1] if parts[0].startswith("step ") and len(parts) > 1 else parts[0]
+
+
+def _trial_of(told: Json, store: Path | None) -> WalkTrial:
+    trial = read_result(WalkTrial, told, store)
+    check_told(trial.fault, store)
+    return trial
+
+
+def run_walk_trial(item: Json) -> Json:
+    """One walk; runs in a worker.
+
+    Args:
+        item: As `WalkSetup.item` writes it.
+
+    Returns:
+        `WalkTrial.to_json`.
+    """
+    lay = None
+    if "plan" in item:
+        task = task_from_document(item["document"])
+        assert isinstance(task, WalkerTask)
+        walk, lay = walk_of(task), lay_plan(task, Plan.from_json(item["plan"] | {"document": item["document"]}))
+    else:
+        walk = walk_from_document(item["document"])
+    faults, seed = item.get("faults", ()), item["seed"]
+    fault = draw_fault(faults, seed, failing_of(walk.robot), BEGINS) if faults else None
+    flaws, noise = walk_flaws(walk, item["plant"]), WalkNoise(item["noise"])
+    run = run_walk(walk, flaws, noise=noise, seed=seed, lay=lay, fault=fault)
+    report, margin = run.report, run.margin
+    off, turned = (None, None) if report.missed is None else report.missed
+    way, error = (None, None) if run.held is None else (run.held.part.way, run.held.largest)
+    return WalkTrial(
+        seed=item["seed"], done=run.done, reason=run.reason, seconds=report.seconds, steps=len(report.steps),
+        tilt=run.tilt, margin=margin if np.isfinite(margin) else None, off=off, turned=turned, kicks=report.kicks,
+        held_way=way, held_error=error, fault=told_fault(fault, run.done, report),
+    ).to_json()  # fmt: skip
+
+
+def run_walk_trials(
+    setup: WalkSetup,
+    seeds: Sequence[int],
+    *,
+    executor: Executor,
+    store: Path | None = None,
+    resume: bool = False,
+    told: Callable[[WalkTrials], None] | None = None,
+) -> WalkTrials:
+    """Walk with every seed; each trial is stored, and told of, as it ends. Ctrl-C ends it early, with what there is.
+
+    Args:
+        setup: What all trials have in common; a task with its plan.
+        seeds: One trial each.
+        executor: Who runs them.
+        store: SQLite file that keeps the trials, and the plan.
+        resume: Whether to go on with that file.
+        told: Given what there is so far at each end.
+
+    Raises:
+        StoreError: If the file can't be the store of these trials.
+        ClusterError: If there is no cluster to run on, or it is lost.
+    """
+    assert isinstance(setup.walked, Walk) or setup.plan is not None, "plan first"
+    trials = WalkTrials(setup, len(seeds), [])
+
+    def take(ended: int, total: int, outcome: Outcome) -> None:
+        trials.wall_seconds += outcome.seconds
+        if outcome.result is not None:
+            trials.ended.append(_trial_of(outcome.result, store))
+        if told is not None:
+            told(trials)
+
+    with suppress(KeyboardInterrupt):
+        outcomes = map_items(
+            run_walk_trial,
+            [setup.item(seed) for seed in seeds],
+            executor=executor,
+            store=store,
+            about=setup.about(),
+            title=setup.title,
+            note=None if setup.plan is None else setup.plan.to_json(),
+            resume=resume,
+            progress=take,
+        )
+        trials.wall_seconds = sum(outcome.seconds for outcome in outcomes)
+        trials.ended = [
+            _error(seed, outcome.error or "") if outcome.result is None else _trial_of(outcome.result, store)
+            for seed, outcome in zip(seeds, outcomes, strict=True)
+        ]
+    return trials
+
+
+def _error(seed: int, error: str) -> WalkTrial:
+    """A trial without an answer; it counts as a walk that failed."""
+    return WalkTrial(
+        seed=seed, done=False, reason=f"{ERROR}: {error}", seconds=0.0, steps=0, tilt=0.0, margin=None, off=None,
+        turned=None, kicks=0,
+    )  # fmt: skip

@@ -1,0 +1,110 @@
+"""Which single change of an infeasible task would make it feasible, and the smallest of each kind; each proved by exact search."""
+
+import os
+import time
+from typing import Final
+
+from ...errors import PlannerError
+from ...family import NotOfFamilyError, family_of
+from ...tasks import Task
+from ..problem.plan_families import plan_family
+from ..progress import Listener, Relaxing
+from .result import Opening, Openings, Places, Shut
+from .trial import Trial
+
+SECONDS: Final = 60.0
+"""Most time unless told otherwise [s]."""
+MOST_STANCES: Final = 2_000_000
+"""Stances that the searches keep at once, unless told otherwise: about half a GB for the climber."""
+PLACES_WEIGH: Final = 4
+"""The search for a place of one hold more gets as much of the time as so many other kinds of changes."""
+FIRST_SHARE: Final = 0.1
+"""Of the time, what the task as it is may take: it is known to be infeasible, only its furthest stance is asked for [-]."""
+
+
+def find_openings(
+    task: Task,
+    *,
+    seconds: float | None = SECONDS,
+    max_stances: int = MOST_STANCES,
+    spacing: float | None = None,
+    threads: int | None = None,
+    progress: Listener | None = None,
+) -> Openings:
+    """For every kind of single relaxation, the smallest that makes an infeasible task feasible.
+
+    A number is relaxed as far as it goes, and then bisected: the task is proved feasible at the value told, and infeasible one step
+    (0.1 mm, 0.1 deg, 0.1 oz-in) before it. A start stance that is forbidden counts as infeasible.
+
+    Args:
+        task: A task that is proved infeasible, or whose start is forbidden.
+        seconds: Most time [s]; each kind of change gets its share of it. None: any.
+        max_stances: Memory: most stances that the searches keep at once.
+        spacing: Of the lattice of places for one hold more [m]; None: a quarter of the shortest limb, in whole steps.
+        threads: Places tried at once; one a core unless given.
+        progress: Called now and then.
+
+    Returns:
+        The openings; Ctrl-C ends it with what was found so far.
+
+    Raises:
+        PlannerError: If the task has a plan, or allows actions that exact search can't list one by one.
+    """
+    started = time.monotonic()
+    family = family_of(task)
+    relaxations, one_hold_more = family.relaxations, family.one_hold_more
+    if relaxations is None:
+        raise NotOfFamilyError(family.title, "rules or limits that can be relaxed")
+    opened: list[Opening] = []
+    shut: list[Shut] = []
+    places: Places | None = None
+    ended = ""
+
+    def tell(searches: int) -> None:
+        if progress is not None:
+            progress(Relaxing(searches, key))
+
+    trial = Trial(task, max_stances=max_stances, seconds=seconds, tell=tell)
+    key = "as it is"
+    try:
+        trial.grant(FIRST_SHARE)
+        near = _furthest(trial)
+        kinds = list(relaxations(task))
+        more = PLACES_WEIGH if near is not None and one_hold_more is not None else 0
+        for k, relaxation in enumerate(kinds):
+            key = relaxation.key
+            if relaxation.larger and any(opening.key == key for opening in opened):
+                continue
+            trial.grant(1.0 / (len(kinds) - k + more))
+            outcome = relaxation.seek(trial)
+            (opened if isinstance(outcome, Opening) else shut).append(outcome)  # type: ignore[arg-type]
+        if near is not None and one_hold_more is not None:
+            key = "one hold more"
+            crew = max(1, threads if threads is not None else (os.cpu_count() or 1))
+            places, interrupted = one_hold_more(trial, near, spacing=spacing, threads=crew)
+            ended = "interrupted" if interrupted else ""
+            if places is None:
+                shut.append(Shut(key=key, tried="where the robot can get to was not seen whole", proved=False))
+    except KeyboardInterrupt:
+        ended = "interrupted"
+    if not ended and trial.left() == 0.0:
+        ended = "time"
+    return Openings(
+        openings=tuple(opened),
+        shut=tuple(shut),
+        places=places,
+        searches=trial.searches,
+        seconds=time.monotonic() - started,
+        ended=ended,
+    )
+
+
+def _furthest(trial: Trial) -> tuple[float, float] | None:
+    """Where the body is in the furthest stance seen [m]; None if not even the start is allowed."""
+    answer = trial.settle(())
+    if answer.status == "open":
+        raise PlannerError("openings", trial.task.name, "it has a plan, so nothing needs to be opened")
+    if answer.problem is None:
+        return None
+    x, y, _ = plan_family(trial.task).pose(answer.problem.replay(answer.codes).stances[-1])
+    return x, y

@@ -1,0 +1,399 @@
+"""A family bound to a task, as planners see it: batches of arrays in, batches of arrays out."""
+
+import copy
+import math
+import os
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import Any, ClassVar, Protocol, Self
+
+import numpy as np
+import numpy.typing as npt
+
+from ...errors import SpecError
+from .children import Children, Sprouts
+from .code_limits import CodeLimits, indices
+from .loops import expand, features_of, follow, possible, replay, rollout, sprout
+from .params import Params
+from .table import ActionTable
+from .ways import WayFields
+
+MAX_FEATURES = 8
+PIECES = 8
+"""Most pieces of a batch that one thread takes."""
+LEAST_PIECE = 64
+"""Fewest plans of a piece, where a batch is cut into several per thread."""
+ROLLOUT = np.dtype(
+    [
+        ("fitness", "f8"),  # at the stop
+        ("best", "f8"),  # largest fitness of any prefix
+        ("features", "f8", (MAX_FEATURES,)),
+        ("cell", "i8"),
+        ("genes", "i4"),  # genes that held
+        ("actions", "i4"),  # actions that held
+        ("checks", "i4"),  # actions tried
+        ("best_genes", "i4"),  # genes of the prefix with the best fitness
+        ("reason", "i4"),  # check that stopped it; -1: none, -2: too many actions
+        ("done", "i4"),
+    ],
+    align=True,
+)
+Records = npt.NDArray[np.void]
+
+
+@dataclass(frozen=True, slots=True)
+class Replay:
+    """A plan carried out: stances (n + 1), margins (n, n_checks), reasons (n; -1 where the action holds)."""
+
+    stances: Records
+    margins: npt.NDArray[np.float64]
+    reasons: npt.NDArray[np.int32]
+
+    @property
+    def ok(self) -> bool:
+        """Whether every action holds."""
+        return bool(np.all(self.reasons < 0))
+
+
+class Problem(Protocol):
+    """A task that planners can work on, whatever the robot; a worker rebuilds it from the task's text."""
+
+    start: Records
+    """Start stance, array of one record."""
+    actions: ActionTable
+    checks: tuple[str, ...]
+    """Names of the checks, in the order of `Replay.margins` and of reasons."""
+    features: tuple[str, ...]
+    """Names of the features that weights apply to."""
+
+    def rollout(
+        self, genes: npt.NDArray[np.int32], lengths: npt.NDArray[np.int32], weights: npt.NDArray[np.float64], limit: int
+    ) -> Records:
+        """Carry out many plans; records of `ROLLOUT`."""
+        ...
+
+    def replay(self, codes: Sequence[int] | npt.NDArray[np.int32], *, go_on: bool = False) -> Replay:
+        """Carry out one plan, keeping every stance and margin."""
+        ...
+
+    def expand(self, stances: Records) -> Children:
+        """Every valid child of every stance."""
+        ...
+
+    def is_done(self, stance: Records) -> bool:
+        """Whether a stance (array of one record) has met every goal."""
+        ...
+
+
+class CompiledProblem:
+    """A `Problem` whose family is a set of kernels: the loops of `actions.loops`, spread over threads.
+
+    The answer does not depend on the number of threads: every plan is carried out alone.
+
+    Kernels take codes, entries of the table and indices of stances as they are, and one that does not exist would make them read
+    and write memory that is not theirs. So whatever is handed in is looked at here first, whoever it comes from.
+    """
+
+    burdens: ClassVar[tuple[str, ...]] = ()
+    """Names of what the family's kernel `burden` writes, each with its unit at the end."""
+
+    def __init__(
+        self,
+        params: Params,
+        start: Records,
+        actions: ActionTable,
+        checks: tuple[str, ...],
+        features: tuple[str, ...],
+        threads: int | None = None,
+    ) -> None:
+        self.params = params
+        self.start = start
+        self.actions = self.limits.table(actions)
+        self.checks = checks
+        self.features = features
+        self.threads = max(1, threads if threads is not None else (os.cpu_count() or 1))
+        self._pool: ThreadPoolExecutor | None = None
+        self._kept: list[Params] = []
+        self._scratch = [self._make_scratch() for _ in range(self.threads)]
+
+    @property
+    def limits(self) -> CodeLimits:
+        """The codes, and the indices in stances, that there are here."""
+        raise NotImplementedError
+
+    def _make_scratch(self) -> tuple[Any, Records, npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        params = self.params.for_thread()
+        self._kept.append(params)
+        stances = np.zeros(3, self.start.dtype)
+        return params.record, stances, np.zeros(len(self.checks)), np.zeros((2, len(self.features)))
+
+    def rollout(
+        self, genes: npt.NDArray[np.int32], lengths: npt.NDArray[np.int32], weights: npt.NDArray[np.float64], limit: int
+    ) -> Records:
+        """Carry out many plans, each up to its goal or its first failure.
+
+        Args:
+            genes: Entries of the action table, shape (n, longest).
+            lengths: Genes of each plan, shape (n,).
+            weights: One per feature.
+            limit: Most actions of a plan.
+
+        Returns:
+            Records of `ROLLOUT`, shape (n,).
+
+        Raises:
+            SpecError: If a gene is no entry of the table, or a weight is missing.
+        """
+        genes, lengths = self.limits.genes(genes, lengths, self.actions)
+        weights = self._weights(weights)
+        out = np.zeros(len(genes), ROLLOUT)
+
+        def part(worker: int, first: int, end: int) -> None:
+            params, stances, margins, row = self._scratch[worker]
+            table = self.actions
+            rollout(
+                params, self.start, genes, lengths, first, end, table.offsets, table.codes, limit, weights, stances, margins, row, out
+            )  # fmt: skip
+
+        self._spread(len(genes), part)
+        return out
+
+    def _weights(self, weights: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        taken = np.ascontiguousarray(weights, np.float64)
+        if taken.shape != (len(self.features),):
+            allowed = f"must be one number for each of {', '.join(self.features)}"
+            raise SpecError(self.limits.label, "weights", taken.tolist(), allowed)
+        return taken
+
+    def _spread(self, n: int, part: Callable[[int, int, int], None]) -> None:
+        """Run `part(worker, first, end)` over n items: spread over the pool, or here if there are few.
+
+        Every worker takes several pieces from all over the batch, so that a run of long plans keeps no one waiting.
+        """
+        if self.threads == 1 or n < 4 * self.threads:
+            part(0, 0, n)
+            return
+        if self._pool is None:
+            self._pool = ThreadPoolExecutor(self.threads, thread_name_prefix="clamber")
+        pieces = self.threads * max(1, min(PIECES, n // (LEAST_PIECE * self.threads)))
+        cuts = np.linspace(0, n, pieces + 1).astype(int).tolist()
+
+        def work(worker: int) -> None:
+            for piece in range(worker, pieces, self.threads):
+                part(worker, cuts[piece], cuts[piece + 1])
+
+        for job in [self._pool.submit(work, worker) for worker in range(self.threads)]:
+            job.result()
+
+    def replay(self, codes: Sequence[int] | npt.NDArray[np.int32], *, go_on: bool = False) -> Replay:
+        """Carry out one plan and keep every stance, margin and reason; stops at the first violation unless `go_on`.
+
+        Raises:
+            SpecError: If a code is no action of this task.
+        """
+        packed = self.limits.codes(codes)
+        stances = np.zeros(len(packed) + 1, self.start.dtype)
+        margins = np.full((len(packed), len(self.checks)), np.nan)
+        reasons = np.full(len(packed), -1, np.int32)
+        n = replay(self._scratch[0][0], self.start, packed, go_on, stances, margins, reasons)
+        return Replay(stances[: n + 1], margins[:n], reasons[:n])
+
+    def expand(self, stances: Records) -> Children:
+        """Every valid child of every stance.
+
+        Raises:
+            SpecError: If a stance names a limb, hold or goal that does not exist.
+        """
+        self.limits.stances(stances, self.start.dtype)
+        most = self.branching
+        parts: list[Children] = []
+        first = 0
+        params, _, margins, _ = self._scratch[0]
+        codes = np.zeros(most, np.int32)
+        while first < len(stances):
+            room = max(4 * most, 16 * (len(stances) - first))
+            children = np.zeros(room, self.start.dtype)
+            parent = np.zeros(room, np.int32)
+            code = np.zeros(room, np.int32)
+            n, first = expand(params, stances, first, len(stances), codes, margins, children, parent, code)
+            parts.append(Children(parent[:n], code[:n], children[:n]))
+        if len(parts) == 1:
+            return parts[0]
+        return Children(
+            np.concatenate([part.parent for part in parts]),
+            np.concatenate([part.code for part in parts]),
+            np.concatenate([part.stance for part in parts]),
+        )
+
+    def sprouts(self, n: int) -> Sprouts:
+        """Memory for the children of up to n stances."""
+        slots = self.branching
+        return Sprouts(
+            np.zeros(n, np.int32),
+            np.zeros((n, slots), np.int32),
+            np.zeros((n, slots)),
+            np.zeros((n, slots), np.int64),
+            np.zeros((n, slots), np.uint8),
+            np.zeros((n, slots, self.key_words), np.int64),
+        )
+
+    def sprout(self, stances: Records, weights: npt.NDArray[np.float64], toll: float, out: Sprouts) -> None:
+        """Write every valid child of every stance, scored: weights times features, less `toll` times the bound on what is left.
+
+        Raises:
+            SpecError: If a stance names a limb, hold or goal that does not exist, or a weight is missing.
+        """
+        self.limits.stances(stances, self.start.dtype)
+        weights = self._weights(weights)
+        assert len(stances) <= len(out.count), "memory for fewer stances"
+
+        def part(worker: int, first: int, end: int) -> None:
+            params, child, margins, row = self._scratch[worker]
+            codes = np.zeros(self.branching, np.int32)
+            sprout(
+                params, stances, first, end, weights, toll, margins, row[0], child, codes,
+                out.count, out.code, out.score, out.cell, out.done, out.keys,
+            )  # fmt: skip
+
+        self._spread(len(stances), part)
+
+    def follow(self, stances: Records, parent: npt.NDArray[np.int32], code: npt.NDArray[np.int32]) -> Records:
+        """The stances that valid actions lead to, one for each index of a parent and code.
+
+        Raises:
+            SpecError: If a code is no action, or a parent no stance of these.
+        """
+        self.limits.stances(stances, self.start.dtype)
+        code = self.limits.codes(code)
+        parent = indices(parent, len(stances), "parent", self.limits.label)
+        if len(parent) != len(code):
+            raise SpecError(self.limits.label, "parent", len(parent), f"must be one for each of {len(code)} codes")
+        children = np.zeros(len(parent), self.start.dtype)
+
+        def part(worker: int, first: int, end: int) -> None:
+            params, _, margins, _ = self._scratch[worker]
+            follow(params, stances, parent, code, first, end, margins, children)
+
+        self._spread(len(parent), part)
+        return children
+
+    def possible(self, genes: npt.NDArray[np.int32]) -> npt.NDArray[np.uint8]:
+        """Which table entries hold after a plan that holds (the configuration filter), one byte per entry."""
+        genes = indices(genes, len(self.actions), "genes", self.limits.label)
+        params, stances, margins, _ = self._scratch[0]
+        mask = np.zeros(len(self.actions), np.uint8)
+        possible(
+            params, self.start, genes, len(genes), self.actions.offsets, self.actions.codes, stances, margins, mask
+        )
+        return mask
+
+    def rebind(self, actions: ActionTable, start: Records | None = None) -> Self:
+        """The same problem with another inventory, and from another stance if one is given; threads and scratch are shared."""
+        other = copy.copy(self)
+        other.actions = actions if actions is self.actions else self.limits.table(actions)
+        if start is not None:
+            other.start = self.limits.stances(start, self.start.dtype)
+        return other
+
+    def with_rules(self, **fields: int) -> Self:
+        """The same problem with some fields of its parameters changed; it works on one thread."""
+        other = copy.copy(self)
+        other.params = self.params.with_fields(**fields)
+        other.threads, other._pool, other._kept = 1, None, []
+        other._scratch = [other._make_scratch()]
+        return other
+
+    def without_more_hangs(self, stance: Records) -> Self:
+        """The same problem without the actions that `toward` can't bound, for ways that start at `stance`; most families have none."""
+        return self
+
+    def resolve(self, codes: npt.NDArray[np.int32], stances: Records) -> npt.NDArray[np.int32]:
+        """Codes with every choice that the world made for them written down; `stances` are those of the plan's replay."""
+        return codes
+
+    def relative(self, codes: npt.NDArray[np.int32], stances: Records) -> npt.NDArray[np.int32]:
+        """Codes that say what to do from where the robot is, rather than name places; `stances` are those of the plan's replay."""
+        return codes
+
+    def measured(self, stances: Records) -> npt.NDArray[np.float64]:
+        """Features of stances as actions led to them, shape (n, n_features)."""
+        self.limits.stances(stances, self.start.dtype)
+        rows = np.zeros((len(stances), len(self.features)))
+        for i, row in enumerate(rows):
+            features_of(self.params.record, stances[i : i + 1], row)
+        return rows
+
+    def progress(self, stance: Records) -> float:
+        """The feature `body` of a stance (array of one record): how far along the goals the body is [m]."""
+        return float(self.measured(stance)[0, self.features.index("body")])
+
+    def way_left(self, stance: Records) -> float:
+        """How far the body still has to go along the goals from a stance (array of one record) [m]."""
+        return self.way - self.progress(stance)
+
+    def informed(self, is_late: Callable[[], bool] = lambda: False) -> Self:
+        """The same problem with all that its family knows of bounds and symmetry, for exact search; no answer depends on it.
+
+        Args:
+            is_late: Asked again and again whether there is no more time to work such a bound out; then it is a lower one.
+        """
+        return self
+
+    def mirrored(self, code: int) -> int:
+        """The mirror image of an action, in a problem that is its own mirror image."""
+        raise NotImplementedError
+
+    @property
+    def incomplete(self) -> str | None:
+        """Why `expand` and exact search can't list all that the task allows, or None: they can."""
+        return None
+
+    def ways(self) -> WayFields | None:
+        """About how far it is from every place of the world to each goal; None: the family has no such map."""
+        return None
+
+    @property
+    def landmarks(self) -> int:
+        """How many things the world has that limbs hold or must miss: holds, or patches."""
+        raise NotImplementedError
+
+    @property
+    def estimated_stances(self) -> float:
+        """A rough upper estimate of the stances there are, for choosing a planner; infinite where poses leave the lattice."""
+        return math.inf
+
+    @property
+    def key_words(self) -> int:
+        """Integers of a stance's key."""
+        raise NotImplementedError
+
+    @property
+    def branching(self) -> int:
+        """Most actions that `candidates` may list from one stance."""
+        raise NotImplementedError
+
+    @property
+    def goals(self) -> int:
+        """Number of the task's goals."""
+        return len(self.params.array("goals"))
+
+    @property
+    def way(self) -> float:
+        """The feature `body` of a stance that has met every goal [m]."""
+        raise NotImplementedError
+
+    def is_done(self, stance: Records) -> bool:
+        """Whether a stance (array of one record) has met every goal."""
+        raise NotImplementedError
+
+    def wander(self) -> tuple[Params, Records]:
+        """Parameters and start of a robot that has every goal behind it: stances differ by where they are alone."""
+        start = self.start.copy()
+        start["stage"] = self.goals
+        return self.params.for_thread(), start
+
+    @property
+    def spot_words(self) -> int:
+        """Integers that the family's kernel `spot` writes."""
+        return 3

@@ -1,0 +1,162 @@
+"""The part of the panel that plans and runs: its buttons, how far the work is, and what came of it, beside them."""
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, Final
+
+from ..errors import ClamberError
+from ..families.walker.planning import Walk
+from ..planning.planners import PLANNERS
+from ..planning.problem.plan import Plan
+from ..tasks import Task
+from ..viewing import style
+from ..viewing.browser.inputs import set_input
+from ..viewing.browser.labour import Labour
+from ..viewing.browser.panel_html import message_html
+from ..viewing.browser.solids import colour
+from .undertakings import Planned, carry_out, make_plan, outcome
+
+if TYPE_CHECKING:
+    import viser
+
+PLANNER: Final = "auto"
+CHANGED: Final = "the world was changed meanwhile; what came of it as it was is left out: press again"
+SECONDS: Final = 60.0
+"""Most time for a search, unless the panel says otherwise [s]."""
+
+
+class WorkPanel:
+    """Buttons to plan and to run; a walk, which needs no plan, is run only.
+
+    Args:
+        server: Whose panel they are in; they are made where its context is.
+        task: Gives the task or walk as it is now; raises `ClamberError` if there is none.
+        plans: Whether it is planned before it is run.
+        plan: Gives the plan that a run carries out; None where there is none.
+        planned: Takes a plan that was found, with its task.
+        ran: Takes a run.
+    """
+
+    def __init__(
+        self,
+        server: "viser.ViserServer",
+        task: Callable[[], Task | Walk],
+        plans: bool,
+        plan: Callable[[], Plan | None],
+        planned: Callable[[Task, Plan], None],
+        ran: Callable[[Any], None],
+    ) -> None:
+        self._task, self._plans, self._plan, self._planned, self._ran = task, plans, plan, planned, ran
+        self.labour = Labour(self._tell)
+        gui = server.gui
+        with gui.add_folder("Plan and run" if plans else "Run"):
+            self._planner = gui.add_dropdown("planner", list(PLANNERS), initial_value=PLANNER, visible=plans)
+            self._seconds = gui.add_number(
+                "seconds",
+                SECONDS,
+                min=1.0,
+                max=3600.0,
+                step=1.0,
+                hint="Most time for each search",
+                visible=plans,
+            )
+            self._reserves = gui.add_checkbox(
+                "reserves",
+                True,
+                visible=plans,
+                hint="Keep something back, so that the plan can be run; planning takes longer",
+            )
+            self._plan_button = gui.add_button("Plan", color=colour(style.PARTS[2]), visible=plans)
+            self._plan_words = gui.add_html("")
+            self._run_button = gui.add_button("Run", color=colour(style.PARTS[0]))
+            self._run_words = gui.add_html("")
+            self._bar = gui.add_progress_bar(0.0, visible=False)
+            self._bar_words = gui.add_html("")
+            self._stop_button = gui.add_button("Stop", color=colour(style.ALERT), visible=False)
+        self._plan_button.on_click(lambda _: self.plan())
+        self._run_button.on_click(lambda _: self.run())
+        self._stop_button.on_click(lambda _: self.labour.stop())
+
+    def plan(self) -> None:
+        """Plan the task as it is now."""
+        task, planner, seconds = self._task, self._planner.value, float(self._seconds.value)
+        reserves = self._reserves.value
+
+        def work(tell: Any) -> tuple[Task, Planned]:
+            now = task()
+            assert not isinstance(now, Walk)
+            return now, make_plan(now, planner, seconds, tell, reserves=reserves)
+
+        def done(found: tuple[Task, Planned]) -> None:
+            now, answer = found
+            if self._is_past(now):
+                self._say(self._plan_words, CHANGED, bad=True)
+                return
+            if answer.plan is not None:
+                self._planned(now, answer.plan)
+            self._say(self._plan_words, answer.words, bad=answer.plan is None)
+
+        self._begin(work, done, self._plan_words)
+
+    def run(self) -> None:
+        """Carry the plan out that there is now."""
+        plan = self._plan()
+        if self._plans and plan is None:
+            self._say(self._run_words, "there is no plan to run; press Plan first", bad=True)
+            return
+
+        def work(tell: Any) -> tuple[Task | Walk, Any]:
+            now = self._task()
+            return now, carry_out(now, plan, tell)
+
+        def done(found: tuple[Task | Walk, Any]) -> None:
+            now, run = found
+            if self._is_past(now):
+                self._say(self._run_words, CHANGED, bad=True)
+                return
+            well, words = outcome(run)
+            self._ran(run)
+            self._say(self._run_words, words, bad=not well)
+
+        self._begin(work, done, self._run_words)
+
+    def clear(self) -> None:
+        """Forget what came of earlier work."""
+        self._say(self._plan_words, "", bad=False)
+        self._say(self._run_words, "", bad=False)
+
+    def _is_past(self, task: Task | Walk) -> bool:
+        """Whether the board was edited while a task of it was worked on."""
+        try:
+            return self._task().document != task.document
+        except ClamberError:
+            return True
+
+    def _begin(self, work: Callable[[Any], Any], done: Callable[[Any], None], words: "viser.GuiHtmlHandle") -> None:
+        def ended(found: Any) -> None:
+            done(found)
+            self._show_work(False)
+
+        def failed(reason: str) -> None:
+            self._say(words, reason, bad=True)
+            self._show_work(False)
+
+        if self.labour.busy:
+            self._say(words, "other work is under way; stop it first", bad=True)
+            return
+        self.clear()
+        self._show_work(True)
+        self.labour.begin(work, ended, failed)
+
+    def _show_work(self, under_way: bool) -> None:
+        for button in (self._plan_button, self._run_button):
+            button.disabled = under_way
+        self._bar.visible = self._stop_button.visible = self._bar.animated = under_way
+        self._bar_words.content = ""
+
+    def _tell(self, words: str, share: float | None) -> None:
+        set_input(self._bar, 100.0 if share is None else 100.0 * min(max(share, 0.0), 1.0))
+        self._bar_words.content = message_html(words, bad=False)
+
+    @staticmethod
+    def _say(where: "viser.GuiHtmlHandle", words: str, *, bad: bool) -> None:
+        where.content = message_html(words, bad=bad)
