@@ -12,9 +12,9 @@ import pytest
 
 import clamber
 from clamber.errors import ClamberError
-from clamber.execution.log_csv import parse_csv
+from clamber.execution.log_files import parse_csv
 from clamber.families.climber.world.csv_board import read_points
-from clamber.families.walker.planning.path_file import read_path
+from clamber.families.walker.planning.walks import read_path
 from clamber.files import parse_toml
 from clamber.planning.axes import range_axis, values_axis
 from clamber.units import split_quantity, split_title

@@ -8,8 +8,7 @@ import pytest
 
 from clamber.control.controller import Controller, still_aim
 from clamber.control.law_settings import LawSettings
-from clamber.execution.closed_loop import close_loop
-from clamber.execution.recorder import Recorder
+from clamber.execution.closed_loop import Recorder, close_loop
 from clamber.limb_bench.bench_limb import bench_limb
 from clamber.sim.limb_flaws import LimbFlaws, Push
 from clamber.sim.plants import PLANTS

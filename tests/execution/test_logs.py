@@ -18,8 +18,7 @@ from mcap.writer import CompressionType, Writer
 from clamber.errors import ClamberError, FileError
 from clamber.execution.log import Log, LogError
 from clamber.execution.log_columns import read_mapping
-from clamber.execution.log_csv import csv_text, parse_csv
-from clamber.execution.log_files import read_log, write_log
+from clamber.execution.log_files import csv_text, parse_csv, read_log, write_log
 from clamber.execution.log_mcap import MAGIC, MOST_INFLATED, mcap_bytes, parse_mcap
 from clamber.execution.log_roles import role_of, samples_of
 from clamber.units import DEGREE

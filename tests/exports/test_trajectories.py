@@ -14,8 +14,7 @@ import pytest
 from clamber.errors import SpecError
 from clamber.execution.log_files import write_log
 from clamber.exports.joint_trajectory import JointTrajectory, moved
-from clamber.exports.plan_trajectories import plan_trajectory
-from clamber.exports.run_trajectories import run_trajectory
+from clamber.exports.library import plan_trajectory, run_trajectory
 from clamber.families.climber.execution.climb_trace import ClimbTrace, climb_titles
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.walker.execution.walk_trace import WalkTrace, walk_titles

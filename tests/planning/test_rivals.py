@@ -11,7 +11,7 @@ from clamber.planning.genetic.planner import plan_genetic
 from clamber.planning.planners import PLANNERS
 from clamber.planning.progress import Trying
 from clamber.planning.result import PlanResult
-from clamber.planning.rivals.heap import pop, push
+from clamber.planning.rivals.greedy_kernels import pop, push
 from clamber.planning.rivals.mcts import Settings, luby, plan_mcts
 from clamber.planning.rivals.random import plan_random
 from clamber.tasks import load_task

@@ -10,8 +10,7 @@ from scipy.signal import fftconvolve
 from clamber.families.walker.robot import WalkerRobot
 from clamber.families.walker.robot.ditch import Footing, FootingError, ditch_map, widest_ditch
 from clamber.families.walker.robot.ditch_plan import cross_ditch
-from clamber.families.walker.robot.ditch_slides import fewest_slides
-from clamber.families.walker.robot.intervals import meet, union
+from clamber.families.walker.robot.ditch_slides import fewest_slides, meet, union
 from clamber.families.walker.robot.weight import Weight, weight_of
 from clamber.tasks.robots import load_robot
 from tiers import first_fast

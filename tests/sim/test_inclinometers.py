@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 from walker_by_hand import LEVEL, hoshino, legs_with, lengths, standing
 
-from clamber.families.walker.sim.inclinometers import InclinometerPair
 from clamber.families.walker.sim.walker_flaws import Inclinometers, WalkerFlaws
 from clamber.families.walker.sim.walker_model import walker_spec
-from clamber.families.walker.sim.walker_plant import plate_quaternion
+from clamber.families.walker.sim.walker_plant import InclinometerPair, plate_quaternion
 from clamber.sim.plant_rules import PlantError
 from clamber.units import GRAVITY
 

@@ -11,7 +11,7 @@ import pytest
 from clamber.errors import FileError, SpecError
 from clamber.families.climber.world.board import MOST_HOLDS, Board, build_board
 from clamber.families.climber.world.csv_board import read_points
-from clamber.families.walker.planning.path_file import read_path
+from clamber.families.walker.planning.walks import read_path
 from clamber.files import Document
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.sim.plant_rules import PlantError

@@ -7,15 +7,104 @@ from pathlib import Path
 from typing import Annotated, Any, Final, Literal, TypeAlias
 
 from ..errors import ClamberError, SpecError, UnknownNameError, describe_choices
+from ..execution.log import LogError
 from ..execution.log_files import SUFFIXES as LOGS
+from ..execution.log_files import read_log
+from ..family import NotOfFamilyError, families, family_of
 from ..files import is_path, write_atomically
 from ..json_form import Count, Key, in_json
+from ..planning.problem.plan_families import plan_family
 from ..planning.problem.plan_source import OpenedPlan, is_plan, open_plan, plan_names
+from ..planning.problem.step_verdict import StepVerdict
+from ..planning.problem.verdict import Verdict
+from ..planning.problem.yardsticks import yardsticks_of
 from ..tasks.robots import Robot, load_robot, robot_names
+from ..units import DEGREE
+from ..viewing.margins import named_limits
 from .joint_trajectory import JointTrajectory
-from .plan_table import plan_table
-from .plan_trajectories import plan_trajectory
-from .run_trajectories import run_trajectory
+
+
+def plan_table(opened: OpenedPlan) -> str:
+    """The plan as Markdown, carried out again in its task, violations and all.
+
+    Raises:
+        SpecError: If the plan has an action that its task has not.
+        StartError: If the task's start violates a hard check.
+    """
+    verdict, plan = opened.check(go_on=True), opened.plan
+    sticks = yardsticks_of(opened.task)
+    loaded = any(row.max_torque is not None for row in verdict.per_step)
+    held = any(row.holds for row in verdict.per_step)
+    heads = ["step", "action", "x [m]", "y [m]", "angle [deg]"]
+    heads += (["holds"] if held else []) + (["largest torque [N m]"] if loaded else []) + ["nearest limit", "verdict"]
+    lines = [f"# {_cell(opened.task.title or opened.task.name)}", "", *_facts(verdict, plan.planner, plan.seed), ""]
+    lines += ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
+    for row in verdict.per_step:
+        x, y, angle = row.pose
+        cells = [str(row.step), row.action.title, f"{x:.4f}", f"{y:.4f}", f"{angle / DEGREE:.1f}"]
+        if held:
+            cells.append(", ".join(f"{limb} {hold or 'free'}" for limb, hold in row.holds.items()))
+        if loaded:
+            cells.append("" if row.max_torque is None else f"{row.max_torque:.3f}")
+        limits = named_limits(sticks, row.margins)
+        cells += [str(limits[0]) if limits else "", _judged(row)]
+        lines.append("| " + " | ".join(map(_cell, cells)) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def _facts(verdict: Verdict, planner: str, seed: int | None) -> list[str]:
+    holds = "all hold" if verdict.ok else f"{verdict.steps} hold"
+    reached = "the goal is reached" if verdict.reached else f"{verdict.goals_met} of {verdict.goals} goals are met"
+    made = f"made by {planner or 'hand'}" + ("" if seed is None else f", seed {seed}")
+    lines = [f"{verdict.length} actions for the task `{verdict.task}`, {made}: {holds}; {reached}."]
+    first = verdict.first_violation
+    if first is not None:
+        lines += ["", f"First violation, at step {first.step}: {_cell(first.reason or '')}."]
+    return lines
+
+
+def _judged(row: StepVerdict) -> str:
+    warned = ", ".join(row.reported)
+    if not row.ok:
+        return f"violates {row.check}"
+    return f"holds; reported: {warned}" if warned else "holds"
+
+
+def _cell(text: str) -> str:
+    return text.replace("|", "\\|").replace("\n", " ")
+
+
+def run_trajectory(path: Path) -> JointTrajectory:
+    """The joints of a run, from the log of `clamber run -o`.
+
+    Raises:
+        FileError: If the file cannot be read.
+        LogError: If it is no log of a run.
+    """
+    log = read_log(path, None)
+    for family in families():
+        trajectories = family.trajectories
+        if trajectories is not None and trajectories.note in log.notes:
+            return trajectories.run(log)
+    raise LogError(log.label, None, None, None, "is no log of a run; `clamber run PLAN -o run.mcap` writes one")
+
+
+def plan_trajectory(opened: OpenedPlan) -> JointTrajectory:
+    """The joints of a plan, a point for its start and for the stance after each action, at rest in all of them.
+
+    Violations are no hindrance: the trajectory says where the plan leads, `clamber check` whether it holds.
+
+    Raises:
+        SpecError: If the plan has an action that its task has not.
+    """
+    task = opened.task
+    codes = opened.plan.codes(task, opened.label)
+    replay = plan_family(task).problem(task).replay(codes, go_on=True)
+    trajectories = family_of(task).trajectories
+    if trajectories is None:
+        raise NotOfFamilyError(family_of(task).title, "joint trajectories")
+    return trajectories.plan(task, replay)
+
 
 Kind: TypeAlias = Literal["robot", "plan", "run"]
 

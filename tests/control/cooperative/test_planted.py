@@ -11,9 +11,8 @@ from walkers import ROBOTS, differences, hoshino, random_q
 from clamber.families.walker.control.cooperative.limits import chain_of
 from clamber.families.walker.control.cooperative.planted import follow_feet, heading_of, stand
 from clamber.families.walker.control.cooperative.planted_feet import N_ROWS, LimitError, PlantedFeet
-from clamber.families.walker.control.cooperative.plate_bounds import bound_gradients, bound_values
+from clamber.families.walker.control.cooperative.plate_bounds import bound_gradients, bound_values, guard_room
 from clamber.families.walker.control.cooperative.scratch import Scratch, make_scratch, see_bounds, see_measure, see_tool
-from clamber.families.walker.control.cooperative.singular_guard import guard_room
 from clamber.families.walker.robot import WalkerRobot
 from clamber.families.walker.robot.geometry import TwoFrames
 from clamber.families.walker.robot.two_frames import singular_measure

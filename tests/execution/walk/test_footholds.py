@@ -9,10 +9,10 @@ from spring_walks import BEST, ROBOT, stood
 from clamber.control.loads import strain_of
 from clamber.families.walker.control.gait import DELTA, Y
 from clamber.families.walker.execution import motions
-from clamber.families.walker.execution.footholds import KEPT, proof_strain, prove
 from clamber.families.walker.execution.settings import WalkSettings
 from clamber.families.walker.execution.true_walk import TracedPlant
 from clamber.families.walker.execution.walker import RefusedError, Walker
+from clamber.families.walker.execution.walking import KEPT, proof_strain, prove
 from clamber.families.walker.sim.walker_build import WalkerBuild
 from clamber.families.walker.sim.walker_flaws import WalkerFlaws
 from clamber.families.walker.sim.walker_plant import WalkerSim

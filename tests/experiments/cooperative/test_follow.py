@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from clamber.execution.log_csv import csv_text, parse_csv
+from clamber.execution.log_files import csv_text, parse_csv
 from clamber.families.walker.control.cooperative.planted_feet import LimitError
 from clamber.families.walker.control.cooperative.settings import CooperationError
 from clamber.families.walker.robot import WalkerRobot

@@ -7,7 +7,7 @@ import pytest
 
 from clamber.errors import FileError, UnknownNameError
 from clamber.execution.log import LogError
-from clamber.execution.log_csv import parse_csv
+from clamber.execution.log_files import parse_csv
 from clamber.families.walker.trials.cooperative.tool_path import load_tool_path, path_names, path_of
 
 

@@ -11,13 +11,35 @@ from ..exact.windows import Shortened
 from ..problem.plan import Plan
 from ..problem.plan_families import plan_family
 from ..problem.problems import last_goal_only, pose_problem
+from ..problem.table import ActionTable
 from ..progress import Listener
 from ..result import PlanResult, furthest_of
 from ..shorten import shorten
+from .evolve import Genes
 from .learning import Macro
 from .profile import Profile, load_profile
 from .search import Budget, Outcome, search
-from .seeding import with_seeds
+
+
+def with_seeds(table: ActionTable, plans: Sequence[Genes]) -> tuple[ActionTable, list[Genes]]:
+    """An inventory that can spell the given plans, and the plans in its entries.
+
+    Args:
+        table: The inventory.
+        plans: Packed codes, every hold named.
+
+    Returns:
+        The inventory, longer by the actions that it lacks (grabs of a hold by its name, mostly), and genes of each plan.
+    """
+    single = {
+        int(table.codes[table.offsets[entry]]): entry
+        for entry in range(len(table))
+        if table.offsets[entry + 1] - table.offsets[entry] == 1
+    }
+    lacking = sorted({int(code) for codes in plans for code in codes} - set(single))
+    longer = table.extended([(f"code {code}", (code,), False) for code in lacking])
+    single |= {code: len(table) + i for i, code in enumerate(lacking)}
+    return longer, [np.array([single[int(code)] for code in codes], np.int32) for codes in plans]
 
 
 def plan_genetic(

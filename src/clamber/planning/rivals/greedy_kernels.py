@@ -1,10 +1,51 @@
 """Greedy best-first search as one kernel: keys in a hash table, open stances in a heap, the one that is worth most first."""
 
-from ...compiled import kernel
+from ...compiled import inlined, kernel
 from ..problem.family_kernels import candidates, done, key, restore, step
 from ..stance_table import slot_of
-from .heap import pop, push
 from .walks import worth
+
+
+@inlined
+def before(value, a, b):
+    """Whether entry a comes out before entry b."""
+    return value[a] > value[b] or (value[a] == value[b] and a < b)
+
+
+@inlined
+def push(heap, n, value, entry):
+    """Put an entry in; returns the new size."""
+    at = n
+    while at > 0:
+        above = (at - 1) // 2
+        if not before(value, entry, heap[above]):
+            break
+        heap[at] = heap[above]
+        at = above
+    heap[at] = entry
+    return n + 1
+
+
+@inlined
+def pop(heap, n, value):
+    """Take the first entry out; returns it, and the new size."""
+    first = heap[0]
+    n -= 1
+    last = heap[n]
+    at = 0
+    while True:
+        below = 2 * at + 1
+        if below >= n:
+            break
+        if below + 1 < n and before(value, heap[below + 1], heap[below]):
+            below += 1
+        if not before(value, heap[below], last):
+            break
+        heap[at] = heap[below]
+        at = below
+    heap[at] = last
+    return first, n
+
 
 RUNNING, FOUND, EXHAUSTED, FULL = 0, 1, 2, 3
 NODES, OPEN, EXPANDED, CHECKS, GOAL, BEST = 0, 1, 2, 3, 4, 5
