@@ -6,8 +6,7 @@ from typing import Any, Final
 
 import typer
 
-from clamber.cli.app import application
-from clamber.cli.help_text import commands_below
+from clamber.cli.app import application, commands_below
 
 GROUPS: Final = {
     "Plan": ("plan", "polish", "rehearse", "learn", "inventory", "sweep", "reach", "ditch"),

@@ -13,8 +13,7 @@ from typing import Any, Final
 import numpy as np
 
 import clamber
-from clamber.cli.app import application
-from clamber.cli.help_text import command_of, commands_below
+from clamber.cli.app import application, command_of, commands_below
 from spoiling import CELLS, JUNK, spoil_bytes, spoil_data, spoil_store, spoilt, spoilt_table, toml_file
 
 PACKAGE: Final = Path(clamber.__file__).parent

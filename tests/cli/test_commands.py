@@ -6,9 +6,8 @@ import sys
 import pytest
 from typer.core import TyperGroup
 
-from clamber.cli.app import application
+from clamber.cli.app import application, command_of
 from clamber.cli.commands import COMMANDS, GROUPS
-from clamber.cli.help_text import command_of
 
 
 def told(only: str | None) -> dict[str, str]:

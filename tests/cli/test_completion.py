@@ -11,9 +11,8 @@ import pytest
 import typer
 
 import clamber
-from clamber.cli.app import application
+from clamber.cli.app import application, command_of, commands_below
 from clamber.cli.catalogue import ENTRIES, entries
-from clamber.cli.help_text import command_of, commands_below
 from clamber.families.climber.trials.body_entries import CONTROLS
 from clamber.families.walker.trials.cooperative.tool_path import DATA as PATHS
 

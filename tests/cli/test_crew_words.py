@@ -3,9 +3,8 @@
 import pytest
 from typer.main import get_command
 
-from clamber.cli.app import application
+from clamber.cli.app import application, commands_below
 from clamber.cli.crew import CrewWords
-from clamber.cli.help_text import commands_below
 
 SHARING = (("trials",), ("sweep",), ("limb", "sweep"), ("limb", "tune"))
 

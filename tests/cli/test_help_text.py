@@ -7,8 +7,7 @@ import pytest
 import typer
 from typer.main import get_command
 
-from clamber.cli.app import application
-from clamber.cli.help_text import command_of, commands_below
+from clamber.cli.app import application, command_of, commands_below
 from clamber.cli.output import plain_table, stdout
 
 Clamber = Callable[..., tuple[int, str, str]]

@@ -11,8 +11,7 @@ import pytest
 from command_examples import ELSEWHERE, LONG, QUICK
 from jsonschema import Draft202012Validator
 
-from clamber.cli.app import application
-from clamber.cli.help_text import command_of, commands_below
+from clamber.cli.app import application, command_of, commands_below
 from clamber.cli.printed.library import PRINTED, schema_of
 from clamber.cli.printed.tables import tables_of, top_of
 

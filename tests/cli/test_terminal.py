@@ -7,8 +7,7 @@ from typing import Any
 import pytest
 from command_examples import LONG, QUICK
 
-from clamber.cli.app import application
-from clamber.cli.help_text import command_of, commands_below
+from clamber.cli.app import application, command_of, commands_below
 
 HELP = [" ".join(path) for path, _ in commands_below(command_of(application()))]
 

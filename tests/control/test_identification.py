@@ -6,9 +6,7 @@ import numpy.typing as npt
 import pytest
 
 from clamber.control.identification.amplifier import amplifier_gain
-from clamber.control.identification.backlash import backlash
-from clamber.control.identification.constant_torque import rough_estimates
-from clamber.control.identification.joint import Drivetrain, identify_joint
+from clamber.control.identification.joint import Drivetrain, backlash, identify_joint, rough_estimates
 from clamber.control.identification.joint_fit import JointFit, fit_joint
 from clamber.control.identification.motion import angle_noise, motion_of
 from clamber.control.identification.samples import JointSamples

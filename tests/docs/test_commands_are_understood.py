@@ -7,8 +7,7 @@ import click
 import pytest
 from told_commands import Told, pages, told_by
 
-from clamber.cli.app import application
-from clamber.cli.help_text import command_of
+from clamber.cli.app import application, command_of
 
 TOLD = [told for page in pages() for told in told_by(page)]
 

@@ -7,8 +7,7 @@ from types import ModuleType
 import pytest
 import typer
 
-from clamber.cli.app import application
-from clamber.cli.help_text import commands_below
+from clamber.cli.app import application, commands_below
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from clamber.benchmarks.climb_work import two_rungs
+from clamber.benchmarks.climb_speed import two_rungs
 from clamber.execution.fault import ANY, FAULTS, Fault, FaultChoiceError, draw_fault
 from clamber.execution.faulty_plants import FaultyHardware
 from clamber.execution.hardware import WiredClimber

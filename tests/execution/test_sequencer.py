@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from clamber.benchmarks.climb_work import two_rungs
+from clamber.benchmarks.climb_speed import two_rungs
 from clamber.execution.plant import PlantStoppedError
 from clamber.execution.run_ends import FallenError, FaultError, RefusedError, StuckError
 from clamber.execution.run_report import Ending, Outcome, RunReport

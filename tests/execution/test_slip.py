@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from clamber.benchmarks.climb_work import two_rungs
+from clamber.benchmarks.climb_speed import two_rungs
 from clamber.execution.sequencer import Sequencer
 from clamber.families.climber.execution.climb_report import ClimbReport
 from clamber.families.climber.execution.climb_trace import TracedClimber

@@ -14,11 +14,11 @@ import pytest
 
 from clamber.benchmarks import batches, benches, peers, races, rows, speed, starts, workload
 from clamber.benchmarks.ablation import TASKS, VARIANTS, bench_ablation, varied
+from clamber.benchmarks.batches import ScalingLaw
 from clamber.benchmarks.performance_page import performance_page
 from clamber.benchmarks.plain_problem import PlainProblem, plain_module
 from clamber.benchmarks.planner_trials import Crew, run_cases, run_trials
 from clamber.benchmarks.rows import NOTHING, Row, median_or_nothing
-from clamber.benchmarks.scaling import ScalingLaw
 from clamber.execution.plant import PlantStoppedError
 from clamber.jobs import LocalProcesses
 from clamber.jobs.executor import End

@@ -11,12 +11,11 @@ from jsonschema import Draft202012Validator
 
 from clamber.benchmarks import cases as cases_module
 from clamber.benchmarks.cases import DENSITIES, PATTERN, SIZES, THESIS, all_cases, random_case, thesis_case
-from clamber.benchmarks.contest import Contest, Trial, Truth, run_contest
+from clamber.benchmarks.contest import REFUSED, Contest, Trial, Truth, run_contest, run_trial
 from clamber.benchmarks.pictures.boards_plot import draw_boards
 from clamber.benchmarks.planner_trials import Crew
 from clamber.benchmarks.standing import contradictions, groups, ranking, standing, within
 from clamber.benchmarks.tables import rows_of, save_markdown, save_trials, tables
-from clamber.benchmarks.trial import REFUSED, run_trial
 from clamber.cli import main
 from clamber.cli.printed.library import schema_of
 from clamber.errors import SpecError

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from clamber.benchmarks.climb_work import two_rungs
+from clamber.benchmarks.climb_speed import two_rungs
 from clamber.families.climber.trials.noise import named_noise
 from clamber.families.climber.trials.trial import TrialSetup, error_trial, run_trial, trial_of
 from clamber.trials.fault_trials import ENDINGS, fault_rows

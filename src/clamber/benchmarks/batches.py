@@ -6,6 +6,7 @@ import tempfile
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from statistics import fmean
 from typing import Final
@@ -15,10 +16,81 @@ from ..jobs.store import Store
 from ..planning.sweep import plan_point
 from ..tasks import load_task
 from ..types import Json
-from .jobs_work import nothing, timed_point
 from .planner_trials import Crew
 from .rows import Row, Say, keep_quiet
-from .scaling import GOOD, ScalingLaw
+
+GOOD = 0.8
+"""Efficiency from which a number of cores counts as worth it."""
+
+
+@dataclass(frozen=True, slots=True)
+class ScalingLaw:
+    """Time of a batch of equal items: start + items * max(driver, (item + overhead) / cores) + one last item.
+
+    The driver hands out items and stores results one after another: however many cores there are, a batch takes no less
+    than that. Cores work side by side otherwise, and the last item ends alone. A bottleneck law: it says nothing of
+    contention inside a machine (memory, shared caches), which the measured efficiency of this machine's cores shows.
+    """
+
+    start: float
+    """From the call until the workers are ready, kernels loaded [s]; once a batch."""
+    driver: float
+    """Of the driver for each item: hand out, take back, store [s]."""
+    overhead: float
+    """Of a worker for each item, beside the item itself [s]."""
+
+    def seconds(self, item: float, items: int, cores: int) -> float:
+        """Predicted wall-clock time of a batch [s].
+
+        Args:
+            item: Time that one item takes on one core [s].
+            items: How many there are.
+            cores: Workers, each on a core of its own.
+        """
+        return self.start + items * max(self.driver, (item + self.overhead) / cores) + (item if cores > 1 else 0.0)
+
+    def efficiency(self, item: float, items: int, cores: int) -> float:
+        """Share of linear speed-up, the start included: one core's bare work over what all cores were there for [-]."""
+        return item * items / (cores * self.seconds(item, items, cores))
+
+    def shortest_item(self, items: int, cores: int, good: float = GOOD) -> float:
+        """Least time of an item [s] at which so many cores reach an efficiency; infinite where no item is long enough."""
+        low, high = 1e-6, 1e6
+        if self.efficiency(high, items, cores) < good:
+            return float("inf")
+        while high / low > 1.001:
+            middle = (low * high) ** 0.5
+            low, high = (low, middle) if self.efficiency(middle, items, cores) >= good else (middle, high)
+        return high
+
+
+@cache
+def _ready(text: str) -> float:
+    """The moment at which this process has its kernels loaded: it plans once, for nothing."""
+    plan_point(json.loads(text))
+    return time.monotonic()
+
+
+def timed_point(item: Json) -> Json:
+    """Plan a point of a sweep, in a process that has planned before.
+
+    Args:
+        item: `point` as a sweep has it, and `warm`, another one as JSON text, to load the kernels with.
+
+    Returns:
+        The process, when it was ready, and what the point took by the clock and by the processor [s].
+    """
+    ready = _ready(item["warm"])
+    started, worked = time.monotonic(), time.process_time()
+    plan_point(item["point"])
+    ended = time.monotonic() - started
+    return {"process": os.getpid(), "ready": ready, "seconds": ended, "cpu": time.process_time() - worked}
+
+
+def nothing(item: Json) -> Json:
+    """An item that takes no time: what is left is the cost of handing it out."""
+    return {"n": item["n"]}
+
 
 ITEMS: Final = 1000
 WORKERS: Final = (1, 2, 4)

@@ -1,26 +1,236 @@
 """The benchmarks by name."""
 
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from statistics import median
 from typing import Final
 
+import numpy as np
+
+from ..families.walker.control.cooperative.closest import ReachSearch
+from ..families.walker.control.cooperative.cooperator import Cooperator
+from ..families.walker.control.cooperative.freedoms import freedoms_of, weights_of
+from ..families.walker.control.cooperative.settings import Cooperation, own_speeds
+from ..families.walker.robot import WalkerRobot
+from ..families.walker.trials.cooperative.chain_peers import CHAIN_PEERS, PERIOD, Tick
+from ..families.walker.trials.cooperative.follow import FollowOptions, FollowRun, follow_path
+from ..families.walker.trials.cooperative.tool_path import load_tool_path
+from ..planning.exact.explore import explore
+from ..planning.exact.planner import plan_exact
+from ..planning.genetic.profile import load_profile
+from ..planning.problem.problems import pose_problem
+from ..tasks import load_task
+from ..tasks.robots import load_robot
+from ..types import Floats
 from .ablation import bench_ablation
 from .batches import batch_rows
-from .bench import bench_boards
+from .breadth import breadth_first
 from .climb_speed import climb_rows
-from .control_speed import control_rows
-from .gaps import bench_gaps
-from .hexapod_speed import hexapod_rows
-from .planner_trials import Crew
+from .contest import run_contest
+from .control_speed import control_rows, round_times
+from .ik_peers import installed
+from .planner_trials import Crew, run_cases
 from .plant_bench import plant_rows
-from .proofs import bench_exact
 from .races import race_rows
 from .reductions import filter_rows, macro_rows
-from .rows import Row as Row
-from .rows import Say, keep_quiet
+from .region_speed import region_rows
+from .rows import NOTHING, Row, Say, keep_quiet
 from .seeds import bench_seeds
 from .speed import speed_rows
 from .starts import command_rows, start_rows
+from .tables import rows_of
 from .walls import wall_rows
+
+ROUNDS: Final = 15
+"""How often each piece of work is timed; the median counts, of a ratio that of the ratios of each round."""
+STEPS: Final = 400
+"""Of ours in one timing."""
+PEER_STEPS: Final = 100
+PATH: Final = "wide"
+"""Whose configurations are timed: on its way actuators, legs, balance and joints come to their limits."""
+DOFS: Final = (4, 5, 7, 10)
+
+
+def walker() -> WalkerRobot:
+    """The robot that is timed."""
+    robot = load_robot("hoshino")
+    assert isinstance(robot, WalkerRobot)
+    return robot
+
+
+def _law(run: FollowRun, *, limited: bool) -> Cooperator:
+    settings = Cooperation(
+        speeds=own_speeds(run.robot), tool_speeds=np.full(3, 0.2), feedback=2.0, period=PERIOD, limited=limited
+    )
+    return Cooperator(run.robot, settings, run.footing)
+
+
+def _step_often(law: Cooperator, run: FollowRun, weights: Floats, steps: int) -> None:
+    still, many = np.zeros(3), len(run.q)
+    for k in range(steps):
+        row = k * many // steps
+        law.step(run.q[row], run.wanted[row], still, weights)
+
+
+def _tick_often(tick: Tick, run: FollowRun, steps: int) -> None:
+    many = len(run.q)
+    for k in range(steps):
+        row = k * many // steps
+        tick(run.q[row], run.wanted[row])
+
+
+def step_rows(*, rounds: int = ROUNDS, steps: int = STEPS, say: Say = keep_quiet) -> list[Row]:
+    """One step, called from Python, by degrees of freedom: with every limit, and equation 19 alone."""
+    rows = []
+    for dof in DOFS:
+        say(f"steps with {dof} degrees of freedom")
+        run = follow_path(walker(), load_tool_path(PATH), FollowOptions(dof=dof))
+        weights = weights_of(freedoms_of(dof, 4), 4)
+        works = [partial(_step_often, _law(run, limited=limited), run, weights, steps) for limited in (True, False)]
+        whole, bare = np.median(round_times(works, rounds), axis=0) / steps
+        rows.append(Row(f"redundancy step with all limits, {dof} dof", 1e6 * whole, "us", "< 150"))
+        rows.append(Row(f"equation 19 without limits, {dof} dof", 1e6 * bare, "us"))
+    return rows
+
+
+def peer_rows(*, rounds: int = ROUNDS, steps: int = PEER_STEPS, say: Say = keep_quiet) -> list[Row]:
+    """A step of mink and of pink over ours, which keeps the limits of actuators, legs and balance besides."""
+    run = follow_path(walker(), load_tool_path(PATH), FollowOptions(dof=10))
+    rows = []
+    for name, make in CHAIN_PEERS.items():
+        if not installed(name):
+            rows.append(Row(f"{name} (not installed: pip install 'clamber[bench]')", NOTHING, "ratio"))
+            continue
+        say(f"{name} on the same chain")
+        ours = partial(_step_often, _law(run, limited=True), run, weights_of("all", 4), 10 * steps)
+        ticks = [make(run.robot, own_speeds(run.robot), limited=limited) for limited in (True, False)]
+        works = [ours, *(partial(_tick_often, tick, run, steps) for tick in ticks)]
+        own, limited, bare = round_times(works, rounds).T / steps
+        own /= 10
+        rows += [
+            Row(f"{name}: update and solve_ik, limits of joints and rates, daqp", 1e6 * median(limited), "us"),
+            Row(f"{name}: the same over our step with all limits", median(limited / own), "ratio"),
+            Row(f"{name}: without limits over our step with all limits", median(bare / own), "ratio"),
+        ]
+    return rows
+
+
+def reach_rows(*, rounds: int = ROUNDS, say: Say = keep_quiet) -> list[Row]:
+    """The reachable place nearest to a target, found from one posture and from all."""
+    say("nearest reachable places")
+    run = follow_path(walker(), load_tool_path(PATH), FollowOptions(dof=10))
+    search = ReachSearch(run.robot, run.footing, weights_of("all", 4))
+    near, far = np.array([0.6, 0.2, 0.6]), np.array([1.3, 0.2, 0.6])
+    works = [partial(search.find, run.q[0], target) for target in (near, far)]
+    inside, outside = np.median(round_times(works, rounds), axis=0)
+    return [
+        Row("nearest reachable place, target in reach", 1e3 * inside, "ms"),
+        Row("nearest reachable place, target out of reach", 1e3 * outside, "ms"),
+    ]
+
+
+def hexapod_rows(*, say: Say = keep_quiet) -> list[Row]:
+    """All of it."""
+    return [*step_rows(say=say), *peer_rows(say=say), *reach_rows(say=say), *region_rows(walker(), say=say)]
+
+
+NO_HANGS: Final = "rules.max_hangs=0"
+MOST_STANCES: Final = 12_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """A task that is proved."""
+
+    label: str
+    task: str
+    overrides: tuple[str, ...] = ()
+
+
+CASES: Final = (
+    Case("ladder, 3 in", "ladder"),
+    Case("ladder, 1 in", "ladder", ("step.length=1in",)),
+    Case("modified ladder, 1 in", "modified-ladder"),
+    Case("h, 3 in, no sub-goals", "h", ("step.length=3in", "subgoals=[]")),
+    Case("h, 1 in", "h"),
+    Case("across, 1 in", "across"),
+    Case("circle, 1 in", "circle"),
+)
+
+
+def bench_exact(*, cases: tuple[Case, ...] = CASES, say: Say = keep_quiet) -> list[Row]:
+    """Optimum, stances and time of both searches on every case without hangs, and the ratio of the whole set's times."""
+    _warm()
+    rows: list[Row] = []
+    plain_total = exact_total = 0.0
+    for case in cases:
+        say(case.label)
+        task = load_task(case.task, (NO_HANGS, *case.overrides))
+        problem = pose_problem(task, threads=1).problem
+        started = time.perf_counter()
+        plain = breadth_first(problem, most_stances=MOST_STANCES)
+        plain_seconds = time.perf_counter() - started
+        started = time.perf_counter()
+        seen = explore(problem.informed(), most_stances=MOST_STANCES)
+        exact_seconds = time.perf_counter() - started
+        assert plain.complete and plain.length == (len(seen.codes) if seen.found else None), case.label
+        plain_total, exact_total = plain_total + plain_seconds, exact_total + exact_seconds
+        length = NOTHING if plain.length is None else plain.length
+        rows += [
+            Row(f"{case.label}: proved optimum", length, "actions"),
+            Row(f"{case.label}: breadth-first search, {plain.stances} stances", plain_seconds, "s"),
+            Row(f"{case.label}: exact planner with its bound made, {seen.stances} stances", exact_seconds, "s"),
+        ]
+    rows.append(Row("whole set: breadth-first search", plain_total, "s"))
+    rows.append(Row("whole set: exact planner", exact_total, "s"))
+    rows.append(
+        Row("whole set: exact planner's part of breadth-first search", exact_total / plain_total, "1", "at most 0.1")
+    )
+    return rows
+
+
+def _warm() -> None:
+    """Load or compile both searches before the clock runs."""
+    small = pose_problem(load_task("ladder", (NO_HANGS, "goal.y_min=12in")), threads=1).problem
+    breadth_first(small, most_stances=10_000)
+    explore(small.informed(), most_stances=10_000)
+
+
+BOARDS: Final = ("ladder", "modified-ladder", "h", "across", "circle")
+OVERRIDES: Final = ("rules.max_hangs=0", "step.length=1in")
+SEEDS: Final = tuple(range(20))
+
+
+def bench_gaps(
+    *, boards: Sequence[str] = BOARDS, seeds: Sequence[int] = SEEDS, say: Say = keep_quiet, crew: Crew | None = None
+) -> list[Row]:
+    """Per board: the optimum, and the mean and largest length of the default profile's plans as parts of it."""
+    tasks = {board: load_task(board, OVERRIDES) for board in boards}
+    say("genetic plans")
+    trials = run_cases({board: (task, load_profile("default")) for board, task in tasks.items()}, seeds, crew)
+    rows = []
+    for board, task in tasks.items():
+        say(f"the optimum of {board}")
+        proof = plan_exact(task, threads=1)
+        assert proof.status == "optimal", board
+        lengths = [length for length in trials[board].lengths if length is not None]
+        assert min(lengths, default=proof.length) >= proof.length, board
+        parts = [length / proof.length for length in lengths] if len(lengths) == len(seeds) else [NOTHING]
+        rows += [
+            Row(f"{board}, 1 in, no hangs: proved optimum", proof.length, "actions"),
+            Row(f"{board}: polished genetic plans, mean over the optimum, {len(lengths)} of {len(seeds)} found",
+                sum(parts) / len(parts), "1"),
+            Row(f"{board}: polished genetic plans, longest over the optimum", max(parts), "1", "at most 1.1"),
+        ]  # fmt: skip
+    return rows
+
+
+def bench_boards(*, say: Say = keep_quiet, crew: Crew | None = None) -> list[Row]:
+    """Success, cost, length and proofs of every planner on the whole set."""
+    say("every planner on 45 boards")
+    return rows_of(run_contest(crew=crew))
 
 
 def bench_plan(*, say: Say = keep_quiet) -> list[Row]:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from clamber.benchmarks.climb_work import two_rungs
+from clamber.benchmarks.climb_speed import two_rungs
 from clamber.families.climber.trials.noise import NO_NOISE, draw_for, read_noise
 from clamber.families.climber.trials.plants import drawn_plant
 from clamber.families.climber.trials.run_plan import believing_climber, climbing_flaws

@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from clamber.benchmarks.climb_work import two_rungs
+from clamber.benchmarks.climb_speed import two_rungs
 from clamber.execution.sequencer import Sequencer
 from clamber.families.climber.execution.climb_report import ClimbReport
 from clamber.families.climber.execution.climbing import Climbing, Group
@@ -17,7 +17,7 @@ from clamber.planning.problem.plan import Plan
 CLIMB = """
 import gc
 from numba.core.registry import CPUDispatcher
-from clamber.benchmarks.climb_work import two_rungs
+from clamber.benchmarks.climb_speed import two_rungs
 from clamber.families.climber.trials.noise import named_noise
 from clamber.families.climber.trials.run_plan import climbing_flaws, run_plan
 from clamber.families.climber.trials.warm_up import warm_up

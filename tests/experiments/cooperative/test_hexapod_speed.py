@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from clamber.benchmarks.benches import BENCHES
-from clamber.benchmarks.hexapod_speed import hexapod_rows, peer_rows, reach_rows, step_rows, walker
+from clamber.benchmarks.benches import BENCHES, hexapod_rows, peer_rows, reach_rows, step_rows, walker
 from clamber.benchmarks.ik_peers import installed
 from clamber.families.walker.control.cooperative.limits import chain_of
 from clamber.families.walker.control.cooperative.scratch import make_scratch, see_tool
