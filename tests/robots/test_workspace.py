@@ -7,7 +7,7 @@ import pytest
 from scipy.ndimage import label
 from test_two_frames import hoshino, random_frames, random_pose, similar_frames
 
-from clamber.families.walker.robot.arcs import BRANCH, ELLIPSE
+from clamber.families.walker.robot.curves import BRANCH, ELLIPSE
 from clamber.families.walker.robot.geometry import TwoFrames
 from clamber.families.walker.robot.turning import turning_range
 from clamber.families.walker.robot.workspace import Workspace, best_directions, half_plane, stride, workspace

@@ -7,16 +7,8 @@ from typing import Final
 import numpy as np
 
 from ..families.walker.robot import TwoFrames, WalkerRobot
-from ..families.walker.robot.arcs import (
-    COLUMNS,
-    CURVE_NUMBERS,
-    MOST_ARCS,
-    MOST_CURVES,
-    ROOM,
-    outline,
-    ray,
-    reach_curves,
-)
+from ..families.walker.robot.arcs import COLUMNS, MOST_ARCS, ROOM, outline, ray
+from ..families.walker.robot.curves import CURVE_NUMBERS, MOST_CURVES, reach_curves
 from ..families.walker.robot.ditch import Footing, ditch_map
 from ..families.walker.robot.two_frames import follow_branch
 from ..families.walker.robot.workspace import stride, workspace

@@ -16,7 +16,7 @@ from ....types import Floats
 from ....units import DEGREE
 from ....viewing import style
 from ....viewing.output import drawing
-from ..robot.arcs import INSIDE
+from ..robot.curves import INSIDE
 from ..robot.geometry import TwoFrames
 from ..robot.workspace import Part, best_directions, stride, workspace
 

@@ -8,7 +8,8 @@ it anywhere within t - s in [low, high], what the frames' region allows along d,
 import math
 
 from ....compiled import inlined, kernel
-from .arcs import BELOW, extent, outline, owner_of, ray, reach_curves
+from .arcs import extent, outline, owner_of, ray
+from .curves import BELOW, reach_curves
 
 SIDES = 4
 """Intervals of a frame: by how many of its feet are across, 0 to 3."""

@@ -8,8 +8,9 @@ import numpy.typing as npt
 
 from ....errors import ClamberError
 from ....types import Floats
-from .arcs import COLUMNS, CURVE_NUMBERS, MOST_ARCS, MOST_CURVES, ROOM
+from .arcs import COLUMNS, MOST_ARCS, ROOM
 from .crossing import SIDES, balance_curves, widest_map
+from .curves import CURVE_NUMBERS, MOST_CURVES
 from .geometry import TwoFrames
 from .robot import WalkerRobot
 from .weight import Weight, weight_of

@@ -8,7 +8,8 @@ from typing import Final
 import numpy as np
 
 from ....types import Floats
-from .arcs import crossings, ray
+from .arcs import ray
+from .curves import crossings
 from .workspace import Workspace, half_plane
 
 LINES: Final = 48

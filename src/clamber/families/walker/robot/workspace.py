@@ -8,21 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ....types import Floats
-from .arcs import (
-    BELOW,
-    COLUMNS,
-    CURVE_NUMBERS,
-    MOST_ARCS,
-    MOST_CURVES,
-    ROOM,
-    depth,
-    extent,
-    outline,
-    owner_of,
-    point,
-    ray,
-    reach_curves,
-)
+from .arcs import COLUMNS, MOST_ARCS, ROOM, extent, outline, owner_of, ray
+from .curves import BELOW, CURVE_NUMBERS, MOST_CURVES, depth, point, reach_curves
 from .geometry import TwoFrames
 
 
