@@ -10,8 +10,8 @@ LONG = 400
 MANY = 8
 """Parameters of a function."""
 CEILINGS = {
-    "lines": 96_074,
-    "files": 816,
+    "lines": 96_099,
+    "files": 812,
     f"files above {LONG} lines": 0,
     f"functions with more than {MANY} parameters": 101,
     "median length of a line": 40,

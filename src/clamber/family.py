@@ -21,10 +21,12 @@ if TYPE_CHECKING:
     from .exports.joint_trajectory import Trajectories
     from .inspection.finding import Inspection
     from .planning.openings.relaxations import Relaxation
+    from .planning.problem.plan import Plan
     from .planning.problem.plan_families import PlanFamily
     from .planning.problem.plan_source import OpenedPlan
     from .sim.lone_robot import JointBounds
     from .tasks.task_format import TaskFormat
+    from .trials.run_request import RunRequest
     from .viewing.pictures import Pictures
 
 BUILT_IN: Final = {
@@ -93,6 +95,15 @@ class Family:
     @property
     def inspection(self) -> Inspection | None:
         """What is told of its robots, worlds and tasks, and what is odd about them."""
+        return None
+
+    @property
+    def carry_out(self) -> Callable[[Any, Plan | None, RunRequest], Any] | None:
+        """Carries a task, with its plan if there is one, or what else the family can do, out in contact dynamics."""
+        return None
+
+    def other_work(self, name_or_path: str) -> Any | None:
+        """What can be carried out and is no task, by its name or file, such as a walk; None: it is no such thing."""
         return None
 
     @property

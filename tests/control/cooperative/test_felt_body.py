@@ -6,8 +6,8 @@ from test_planted import SEEDS, footing, near, turn_of
 from walkers import hoshino
 
 from clamber.families.walker.control.cooperative.cooperator import Cooperator
-from clamber.families.walker.control.cooperative.felt_body import FeltBody
 from clamber.families.walker.control.cooperative.settings import Cooperation, own_speeds
+from clamber.families.walker.trials.cooperative.simulated_body import FeltBody
 
 
 @pytest.mark.parametrize("seed", SEEDS)

@@ -12,10 +12,12 @@ if TYPE_CHECKING:
     from ...exports.joint_trajectory import Trajectories
     from ...inspection.finding import Inspection
     from ...planning.openings.relaxations import Relaxation
+    from ...planning.problem.plan import Plan
     from ...planning.problem.plan_families import PlanFamily
     from ...planning.problem.plan_source import OpenedPlan
     from ...sim.lone_robot import JointBounds
     from ...tasks.task_format import TaskFormat
+    from ...trials.run_request import RunRequest
     from ...viewing.pictures import Pictures
 
 
@@ -83,9 +85,16 @@ class Climber(Family):
         return INSPECTION
 
     @property
+    def carry_out(self) -> Callable[[Any, Plan | None, RunRequest], Any]:
+        """Runs in contact dynamics."""
+        from .trials.carry_out import carry_out_climb
+
+        return carry_out_climb
+
+    @property
     def model(self) -> Callable[[Any], tuple[Any, Mapping[str, JointBounds]]]:
         """Body and limbs as MuJoCo models."""
-        from .sim.lone_climber import lone_climber
+        from .sim.climber_model import lone_climber
 
         return lone_climber
 

@@ -12,9 +12,11 @@ if TYPE_CHECKING:
     from ...exports.joint_trajectory import Trajectories
     from ...inspection.finding import Inspection
     from ...planning.openings.relaxations import Relaxation
+    from ...planning.problem.plan import Plan
     from ...planning.problem.plan_families import PlanFamily
     from ...sim.lone_robot import JointBounds
     from ...tasks.task_format import TaskFormat
+    from ...trials.run_request import RunRequest
     from ...viewing.pictures import Pictures
 
 
@@ -68,9 +70,22 @@ class Walker(Family):
         return INSPECTION
 
     @property
+    def carry_out(self) -> Callable[[Any, Plan | None, RunRequest], Any]:
+        """Runs in contact dynamics."""
+        from .trials.carry_out import carry_out_walk
+
+        return carry_out_walk
+
+    def other_work(self, name_or_path: str) -> Any | None:
+        """Walks."""
+        from .planning import is_walk, load_walk
+
+        return load_walk(name_or_path) if is_walk(name_or_path) else None
+
+    @property
     def model(self) -> Callable[[Any], tuple[Any, Mapping[str, JointBounds]]]:
         """Frames, legs and arm as a MuJoCo model."""
-        from .sim.lone_walker import lone_walker
+        from .sim.walker_model import lone_walker
 
         return lone_walker
 

@@ -14,9 +14,10 @@ import numpy as np
 from ....sim.force_sensing import add_sensor
 from ....sim.limb_flaws import LimbFlaws
 from ....sim.limb_model import add_link
+from ....sim.lone_robot import JointBounds
 from ....sim.wall_model import add_wall
 from ....types import Floats
-from ....units import GRAVITY
+from ....units import GRAVITY, INCH
 from ..control.limb_chain import chain_of_limb
 from ..robot.masses import body_inertia, body_mass
 from ..robot.robot import Limb, LimbedRobot
@@ -28,6 +29,10 @@ PEG_SOLIMP: Final = (0.95, 0.99, 0.0005, 0.5, 2.0)
 """Stiff contacts: under the robot's weight a peg sinks less than a tenth of a millimetre into a hook."""
 HOOKS, PEGS, LINKS, WALL = 1, 2, 4, 8
 """Bits of what may touch what: hooks and links touch pegs, a wall and the ball that presses it each other, nothing else touches."""
+
+
+PEG_RADIUS: Final = 0.1875 * INCH
+"""Of the pegs that hooks are shaped for: the bolts of Bevly 1997, 3/8 in thick [m]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -209,3 +214,19 @@ def _add_hook(mujoco: Any, _: Any, link: Any, limb: Limb, tip: Floats, shape: Ho
 
 END_MODELS: Final[dict[str, Callable[..., None]]] = {"hook": _add_hook, "foot": _add_hook, "gripper": _add_gripper}
 """Kind of end effector -> what adds it to a limb's last link; a foot pushes with a hook's bottom."""
+
+
+def lone_climber(robot: LimbedRobot) -> tuple[Any, dict[str, JointBounds]]:
+    """`MjSpec` of a climber alone, and the bounds of its joints."""
+    spec = lone_climber_spec(robot, LimbFlaws(joint_limits=True), peg_radius=PEG_RADIUS)
+    bounds = {}
+    for limb in robot.limbs:
+        chain = chain_of_limb(robot, limb.name)
+        for name, record in zip(chain.joint_names, chain.joints, strict=True):
+            lower, upper, limit, speed = (float(record[key]) for key in ("lower", "upper", "limit", "speed"))
+            bounds[name] = JointBounds(lower, upper, limit, speed)
+    for motor in spec.actuators:
+        most = bounds[motor.name].effort
+        assert most is not None  # every joint of a climber has a motor with a limit
+        motor.ctrllimited, motor.ctrlrange = True, (-most, most)
+    return spec, bounds

@@ -11,6 +11,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from ....sim.lone_robot import JointBounds
 from ....types import Floats
 from ....units import GRAVITY
 from ..robot import FRAMES, WalkerRobot
@@ -252,3 +253,13 @@ def strut_angles(robot: WalkerRobot, place: Floats) -> Floats:
     ways = place[:2] + on_y @ np.array([[c, s], [-s, c]]) - on_delta
     angles: Floats = np.arctan2(ways[:, 1], ways[:, 0])
     return angles
+
+
+def lone_walker(robot: WalkerRobot) -> tuple[Any, dict[str, JointBounds]]:
+    """`MjSpec` of a walker alone, and the bounds of its joints."""
+    legs, arm = robot.legs, robot.arm
+    bounds = {name: JointBounds(legs.shortest, legs.longest, None, legs.speed) for name in leg_names()}
+    if arm is not None:
+        ends = zip(arm_names(robot), arm.lowest, arm.highest, arm.fastest, strict=True)
+        bounds |= {name: JointBounds(low, high, None, speed) for name, low, high, speed in ends}
+    return walker_spec(robot, None, WalkerFlaws()), bounds
