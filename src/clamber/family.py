@@ -10,23 +10,24 @@ from contextlib import suppress
 from functools import cache
 from importlib import import_module
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 from .errors import ClamberError, describe_choices
 from .extensions import ExtensionError, blamed, load_outside, outside
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from .exports.joint_trajectory import Trajectories
     from .inspection.finding import Inspection
     from .planning.openings.relaxations import Relaxation
-    from .planning.problem.plan import Plan
+    from .planning.problem.check import Check
     from .planning.problem.plan_families import PlanFamily
     from .planning.problem.plan_source import OpenedPlan
     from .sim.lone_robot import JointBounds
     from .tasks.task_format import TaskFormat
-    from .trials.run_request import RunRequest
+    from .trials.dynamics import Dynamics
     from .viewing.pictures import Pictures
 
 BUILT_IN: Final = {
@@ -56,10 +57,19 @@ class Family:
     """Such as "two-frame walker"."""
     data: ClassVar[Path | None] = None
     """Folder with its robots, worlds, tasks and plans that come with it, in folders of those names."""
+    commands: ClassVar[Mapping[str, str]] = MappingProxyType({})
+    """Commands that only it has: name -> module and function in it, such as "package.module:function"."""
+    groups: ClassVar[Mapping[str, str]] = MappingProxyType({})
+    """The same for commands of commands: name -> module and Typer application in it."""
 
     @property
     def files(self) -> TaskFormat:
         """How its robots, worlds and tasks are read."""
+        raise NotImplementedError
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """The checks of its stances, in the order of a replay's margins."""
         raise NotImplementedError
 
     @property
@@ -98,13 +108,22 @@ class Family:
         return None
 
     @property
-    def carry_out(self) -> Callable[[Any, Plan | None, RunRequest], Any] | None:
-        """Carries a task, with its plan if there is one, or what else the family can do, out in contact dynamics."""
+    def printed(self) -> Mapping[str, Any]:
+        """What commands print with `--json` about it: words of a command -> dataclasses."""
+        return {}
+
+    @property
+    def dynamics(self) -> Dynamics | None:
+        """How its tasks and plans, and what else it can do, are carried out in contact dynamics."""
         return None
 
-    def other_work(self, name_or_path: str) -> Any | None:
+    def other_work(self, name_or_path: str, settings: Sequence[str] = ()) -> Any | None:
         """What can be carried out and is no task, by its name or file, such as a walk; None: it is no such thing."""
         return None
+
+    def other_names(self) -> tuple[str, ...]:
+        """Names of such things that come with the family."""
+        return ()
 
     @property
     def model(self) -> Callable[[Any], tuple[Any, Mapping[str, JointBounds]]] | None:

@@ -11,6 +11,7 @@ import os
 import pickle
 import sys
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any, Final
@@ -30,6 +31,16 @@ FINE: Final = "fine"
 UNWRITABLE: Final = "unwritable"
 TOLD: Final = "CLAMBER_CACHE_TOLD"
 """Set in the environment once it was said that there is no cache, so that workers do not say it again."""
+
+
+@dataclass(frozen=True, slots=True)
+class Use:
+    """A use of kernels that takes long to compile."""
+
+    function: str
+    """Uses each of them once, as "module:name"."""
+    kernel: str
+    """The one of them that takes longest."""
 
 
 def bounds_checked() -> bool:

@@ -6,7 +6,6 @@ import sys
 from pathlib import Path
 
 import clamber
-from clamber.cli.catalogue import entries
 from clamber.families.climber.world.library import board_names
 from clamber.families.walker.planning.walks import walk_names
 from clamber.families.walker.world.library import ground_names
@@ -19,6 +18,7 @@ from clamber.studies.library import STUDIES
 from clamber.studies.titles import RESULTS
 from clamber.tasks import task_names
 from clamber.tasks.robots import robot_names
+from clamber.terminal.catalogue import entries
 
 
 def first_line(thing: object) -> str:

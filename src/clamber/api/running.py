@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import PlannerError
-from ..family import NotOfFamilyError, families, family_of
+from ..family import families, family_of
 from ..planning.problem.plan import Plan
 from ..planning.result import PlanResult
 from ..tasks import Task, load_task
-from ..trials.run_request import RunRequest
+from ..trials.dynamics import RunEvents, RunRequest
+from ..trials.work import dynamics_of
 
 if TYPE_CHECKING:
     from ..families.climber.trials.run_plan import ClimbRun
@@ -49,12 +50,11 @@ def run(
         ClamberError: If something cannot be read, or something speaks against the plan.
     """
     work, found = _opened(what)
-    family = family_of(work)
-    if family.carry_out is None:
-        raise NotOfFamilyError(family.title, "contact dynamics")
+    dynamics = dynamics_of(family_of(work))
     file = None if log is None else Path(log)
     asked = RunRequest(planner=planner, noise=tuple(noise), plant=tuple(plant), seed=seed, replan=replan, log=file)
-    made: ClimbRun | WalkRun = family.carry_out(work, found, asked)
+    dynamics.check(work, asked)
+    made: ClimbRun | WalkRun = dynamics.run(work, found, asked, RunEvents())
     return made
 
 

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from rich.console import Console
 
-from .crew import EndsLine, check_resume, executor_of
-from .options import AsJson, Output, Ray, Resume, Store, Workers
-from .output import announce_compilation, check_writable, plain_table, print_json, stderr, stdout
+from ..terminal.crew import EndsLine, check_resume, executor_of
+from ..terminal.options import AsJson, Output, Ray, Resume, Store, Workers
+from ..terminal.output import announce_compilation, check_writable, print_json, stderr, stdout
+from ..viewing.text_table import plain_table
 
 if TYPE_CHECKING:
     from ..benchmarks.planner_trials import Crew

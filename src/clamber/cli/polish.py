@@ -5,9 +5,9 @@ from typing import Annotated
 
 import typer
 
-from .name_completion import names_of
-from .options import AsJson, Output, Overrides, Quiet
-from .output import announce_compilation, check_writable, print_json, stderr, stdout
+from ..terminal.name_completion import names_of
+from ..terminal.options import AsJson, Output, Overrides, Quiet
+from ..terminal.output import announce_compilation, check_writable, print_json, stderr, stdout
 
 
 def polish(

@@ -8,9 +8,10 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from .live_line import LiveLine
-from .options import AsJson, Output, Overrides, Quiet, TaskName
-from .output import announce_compilation, check_writable, plain_table, print_json, stderr, stdout
+from ..terminal.live_line import LiveLine
+from ..terminal.options import AsJson, Output, Overrides, Quiet, TaskName
+from ..terminal.output import announce_compilation, check_writable, print_json, stderr, stdout
+from ..viewing.text_table import plain_table
 
 if TYPE_CHECKING:
     from ..planning.reach.reach import Reach

@@ -75,3 +75,8 @@ RESULTS: Final[dict[str, tuple[str, ...]]] = {
     ),
 }
 """Paper or subject -> its results, as in `library.STUDIES`."""
+
+
+def study_titles() -> dict[str, str]:
+    """Study -> its results."""
+    return {paper: ", ".join(results) for paper, results in RESULTS.items()}

@@ -13,6 +13,7 @@ from clamber.families.climber.trials.planning import plan_to_climb, replanner
 from clamber.planning.planners import PLANNERS
 from clamber.planning.result import PlanResult
 from clamber.tasks import Task, load_task
+from clamber.trials.dynamics import RunEvents
 
 
 def climb_of(name: str) -> LimbedTask:
@@ -25,7 +26,9 @@ def climb_of(name: str) -> LimbedTask:
 def test_the_plan_is_the_same_on_any_number_of_threads(name: str) -> None:
     task, cuts = climb_of(name), []
     plans = [
-        plan_to_climb(task, "auto", seconds=math.inf, seed=0, threads=threads, cut=lambda: cuts.append(1))
+        plan_to_climb(
+            task, "auto", seconds=math.inf, seed=0, threads=threads, events=RunEvents(cut=lambda: cuts.append(1))
+        )
         for threads in (1, 2, 4, None)
     ]
     told = [None if plan is None else plan.to_json() for plan in plans]
@@ -47,7 +50,7 @@ def test_every_search_that_its_time_ended_is_told(took: float, cuts: int, monkey
 
     monkeypatch.setitem(PLANNERS, "slow", slow)
     told: list[int] = []
-    replan = replanner("slow", seconds=5.0, seed=7, threads=1, cut=lambda: told.append(1))
+    replan = replanner("slow", seconds=5.0, seed=7, threads=1, events=RunEvents(cut=lambda: told.append(1)))
     assert replan(task) is None
     assert len(told) == cuts
     assert given == [{"seed": 7, "seconds": 5.0, "threads": 1}] * (1 + len(CAUTIONS + STEADY))

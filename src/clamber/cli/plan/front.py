@@ -9,7 +9,8 @@ from ...planning.exact.front import Front, plan_front
 from ...planning.exact.planner import MOST_STANCES
 from ...planning.problem.plan_families import plan_family
 from ...tasks import Task
-from ..output import plain_table, print_json, stderr, stdout
+from ...terminal.output import print_json, stderr, stdout
+from ...viewing.text_table import plain_table
 from .options import PlanOptions
 from .text import ProgressLine
 

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ..options import AsJson, Output, Overrides, PlannerName, Quiet, Ray, Workers
-from ..output import check_writable
+from ...terminal.options import AsJson, Output, Overrides, PlannerName, Quiet, Ray, Workers
+from ...terminal.output import check_writable
 
 if TYPE_CHECKING:
     from ...tasks import Task

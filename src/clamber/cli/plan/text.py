@@ -12,8 +12,8 @@ from ...planning.problem.plan_families import plan_family
 from ...planning.progress import Moment, progress_text
 from ...planning.result import Furthest, PlanResult
 from ...tasks import Task
-from ..live_line import LiveLine
-from ..output import print_indented
+from ...terminal.live_line import LiveLine
+from ...terminal.output import print_indented
 
 
 class ProgressLine(LiveLine):

@@ -5,7 +5,16 @@ from typing import Annotated
 
 import typer
 
-from ..options import PLAN_SECONDS, CarriedOutIn, Faults, NoiseTexts, Overrides, PlannerName, PlanSeconds, Replan
+from ...terminal.options import (
+    PLAN_SECONDS,
+    CarriedOutIn,
+    Faults,
+    NoiseTexts,
+    Overrides,
+    PlannerName,
+    PlanSeconds,
+    Replan,
+)
 
 
 @dataclass(frozen=True, slots=True)

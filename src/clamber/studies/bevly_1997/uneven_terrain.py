@@ -17,10 +17,10 @@ from ...families.climber.trials.noise import NO_NOISE, draw_for, read_noise, tru
 from ...families.climber.trials.plants import drawn_plant
 from ...families.climber.trials.run_plan import believing_climber, climbing_flaws
 from ...families.climber.trials.trial import ERROR, ClimbTrial, TrialSetup
-from ...families.climber.trials.trials import run_trials
 from ...families.climber.trials.warm_up import warm_up
 from ...jobs import LocalProcesses
 from ...planning.problem.plan import Plan
+from ...trials.trial_runs import run_trials
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import MILLI, PAPER

@@ -2,7 +2,7 @@
 
 import json
 from pathlib import Path
-from typing import Final, Literal, TypeAlias
+from typing import Final
 
 from ...errors import FileError
 from ...files import read_text, write_atomically
@@ -11,10 +11,9 @@ from ...regular_files import make_folder
 MARK: Final = "report.json"
 """Says that a folder is a report."""
 SCHEMA: Final = "clamber-report-1"
-Kind: TypeAlias = Literal["studies", "climb", "walk"]
 
 
-def open_report(folder: Path, kind: Kind) -> None:
+def open_report(folder: Path, kind: str) -> None:
     """Make a report's folder, or make sure that there is one of this kind.
 
     Raises:

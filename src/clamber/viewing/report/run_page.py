@@ -9,7 +9,6 @@ from typing import Final, TypeVar
 
 from ...files import write_atomically
 from ...types import Json
-from .folder import Kind
 from .pages import write_page, write_style
 
 INDEX: Final = "index.html"
@@ -43,7 +42,7 @@ class Shown:
 class RunPage:
     """What a run's page says."""
 
-    kind: Kind
+    kind: str
     title: str
     done: bool
     reason: str

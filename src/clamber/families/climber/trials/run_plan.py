@@ -19,7 +19,7 @@ from ....planning.problem.plan import Plan
 from ....planning.problem.plan_source import is_plan, open_plan
 from ....sim.limb_flaws import LimbFlaws
 from ....tasks import Task, load_task
-from ....trials.plant_settings import split_settings
+from ....trials.work import split_settings
 from ....types import Floats
 from ..execution.body_gains import USUAL, BodyGains
 from ..execution.climb_report import ClimbReport
@@ -71,6 +71,11 @@ class ClimbRun(Jsonable):
         mapped, places = self.task.world.positions(), true_places(self.task, self.drawn)
         places[self.drawn.missing] = np.nan
         return None if np.array_equal(places, mapped) else places
+
+
+def action_text(step: int, steps: int, title: str, time: float) -> str:
+    """The action that begins, `time` [s] after the start."""
+    return f"action {step} of {steps}: {title}, at {time:.0f} s"
 
 
 def open_climb(what: str, task: str | None, settings: Sequence[str]) -> tuple[LimbedTask, Plan | None, tuple[str, ...]]:

@@ -3,7 +3,6 @@
 import math
 from pathlib import Path
 
-from ....planning.problem.plan import Plan
 from ....units import DEGREE
 from ....viewing.report.run_page import MILLI, MOST_TOLD, Rows, RunPage, Shown, most, write_run_page
 from ..execution.walk_report import StepReport, WalkReport
@@ -12,12 +11,11 @@ from ..trials.run_walk import WalkRun
 from .walk_run_view import write_walk
 
 
-def write_walk_report(run: WalkRun, plan: Plan | None, command: str, folder: Path) -> Path:
+def write_walk_report(run: WalkRun, command: str, folder: Path) -> Path:
     """Write the report of a walk into a folder that `open_report` made; returns its page.
 
     Args:
         run: The walk.
-        plan: That it followed; None: its own way.
         command: What repeats it.
         folder: The folder.
 
@@ -26,11 +24,12 @@ def write_walk_report(run: WalkRun, plan: Plan | None, command: str, folder: Pat
     """
     write_walk(run, folder / "walk.png")
     write_walk(run, folder / "walk.gif")
-    return write_run_page(walk_page(run, plan, command), folder)
+    return write_run_page(walk_page(run, command), folder)
 
 
-def walk_page(run: WalkRun, plan: Plan | None, command: str) -> RunPage:
+def walk_page(run: WalkRun, command: str) -> RunPage:
     """What the page says; its pictures are not drawn yet."""
+    plan = run.plan
     if plan is not None:
         seed = "" if plan.seed is None else f", seed {plan.seed}"
         planned = [f"{len(plan.actions)} actions for the task '{plan.task}', made by {plan.planner or 'hand'}{seed}."]

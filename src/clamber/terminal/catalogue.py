@@ -47,22 +47,14 @@ def _controllers() -> list[tuple[str, str]]:
 
 
 def _checks() -> list[tuple[str, str]]:
-    from ..families.climber.statics.checks import LIMBED_CHECKS
-    from ..families.walker.statics.checks import WALKER_CHECKS
-
-    return [(check.name, f"[{check.unit}] {check.meaning}") for check in (*LIMBED_CHECKS, *WALKER_CHECKS)]
+    checks = (check for family in BUILT_IN for check in family_named(family).checks)
+    return [(check.name, f"[{check.unit}] {check.meaning}") for check in checks]
 
 
 def _plants() -> list[tuple[str, str]]:
     from ..sim.plant_titles import PLANT_TITLES
 
     return list(PLANT_TITLES.items())
-
-
-def _studies() -> list[tuple[str, str]]:
-    from ..studies.titles import RESULTS
-
-    return [(paper, ", ".join(results)) for paper, results in RESULTS.items()]
 
 
 def _families() -> list[tuple[str, str]]:
@@ -81,7 +73,6 @@ ENTRIES: Final[dict[str, Callable[[], list[tuple[str, str]]]]] = {
     "checks": lambda: [*_checks(), *outside_titles("checks")],
     "controllers": lambda: [*_controllers(), *outside_titles("controllers")],
     "plants": lambda: [*_plants(), *outside_titles("plants")],
-    "studies": _studies,
 }
 
 

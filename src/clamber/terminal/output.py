@@ -3,19 +3,23 @@
 import json
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
+from dataclasses import fields
 from pathlib import Path
 from threading import Event, Thread
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
+import typer
 from rich.console import Console, ConsoleOptions, RenderableType
 from rich.padding import Padding
 from rich.segment import Segment
-from rich.table import Table
 from rich.text import Text
 
 from ..errors import printable
 from ..regular_files import check_target
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
 
 
 class PlainConsole(Console):
@@ -43,14 +47,6 @@ def print_json(value: Any) -> None:
 
     sys.stdout.write(json.dumps(plain(value), indent=2, allow_nan=False) + "\n")
     sys.stdout.flush()  # so that a closed pipe shows here and not at exit
-
-
-def plain_table(*columns: str, right: tuple[str, ...] = ()) -> Table:
-    """A table without lines; the columns in `right` hold numbers."""
-    table = Table(box=None, pad_edge=False, header_style="bold")
-    for column in columns:
-        table.add_column(Text(column), justify="right" if column in right else "left", overflow="fold")
-    return table
 
 
 def print_indented(console: Console, words: str, indent: int = 2) -> None:
@@ -103,6 +99,23 @@ def tell_cuts(cuts: int) -> None:
         stderr().print(
             f"--seconds ended {searches}: another machine, or this one under another load, may plan otherwise"
         )
+
+
+def refuse_unused(options: "DataclassInstance", unused: Collection[str], why: str) -> None:
+    """Make sure that no option is given that has no meaning.
+
+    Args:
+        options: As they came; a field that is as usual was not given.
+        unused: Fields of options that have no meaning.
+        why: For what, such as "'level-walk' is a walk".
+
+    Raises:
+        BadParameter: If one of these options is not as usual.
+    """
+    for field in fields(options):
+        if field.name in unused and getattr(options, field.name) != field.default:
+            flag = f"--{'no-' if field.default is True else ''}{field.name.replace('_', '-')}"
+            raise typer.BadParameter(f"{why}: this has no meaning for it", param_hint=flag)
 
 
 def check_writable(path: Path | None) -> None:

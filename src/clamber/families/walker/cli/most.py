@@ -4,14 +4,15 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from .name_completion import names_of
-from .options import AsJson, NoiseTexts, Overrides, Quiet
-from .output import announce_compilation, plain_table, print_json, stderr, stdout
+from ....terminal.name_completion import names_of
+from ....terminal.options import AsJson, NoiseTexts, Overrides, Quiet
+from ....terminal.output import announce_compilation, print_json, stderr, stdout
+from ....viewing.text_table import plain_table
 
 if TYPE_CHECKING:
-    from ..families.walker.planning import Walk
-    from ..families.walker.sim.walker_flaws import WalkerFlaws
-    from ..families.walker.trials.most import Most
+    from ..planning import Walk
+    from ..sim.walker_flaws import WalkerFlaws
+    from ..trials.most import Most
 
 
 def most(
@@ -33,13 +34,13 @@ def most(
     quiet: Quiet = False,
 ) -> None:
     """Find the largest of N values with which a walk comes to its end in balance, by bisection; without noise unless asked for."""
-    from ..errors import SpecError
-    from ..families.walker.planning import load_walk
-    from ..families.walker.trials.most import MostOfWalk, Tried, find_most
-    from ..families.walker.trials.noise import named_walk_noise, read_walk_noise
-    from ..families.walker.trials.run_walk import run_walk, walk_flaws
-    from ..planning.axes import range_axis
-    from ..trials.plant_settings import split_settings
+    from ....errors import SpecError
+    from ....planning.axes import range_axis
+    from ....trials.work import split_settings
+    from ..planning import load_walk
+    from ..trials.most import MostOfWalk, Tried, find_most
+    from ..trials.noise import named_walk_noise, read_walk_noise
+    from ..trials.run_walk import run_walk, walk_flaws
 
     axis = range_axis(vary)
     sizes = read_walk_noise(named_walk_noise("none"), noise or ())
@@ -69,7 +70,7 @@ def most(
 
 
 def _print_most(walk: str, key: str, found: "Most") -> None:
-    from ..units import DEGREE
+    from ....units import DEGREE
 
     console = stdout()
     if found.borne is None:

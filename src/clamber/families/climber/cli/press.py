@@ -4,11 +4,11 @@ from typing import Annotated
 
 import typer
 
-from ..errors import SpecError
-from .limb.options import Flaws, FlawsChoice, Settings
-from .name_completion import names_of
-from .options import BOARD, ROBOT, AsJson, Output
-from .output import announce_compilation, check_writable, plain_table, print_json, stdout
+from ....errors import SpecError
+from ....terminal.name_completion import names_of
+from ....terminal.options import BOARD, ROBOT, AsJson, Flaws, FlawsChoice, Output, Settings
+from ....terminal.output import announce_compilation, check_writable, print_json, stdout
+from ....viewing.text_table import plain_table
 
 
 def press(
@@ -29,15 +29,15 @@ def press(
     The file of `-o` is a picture of force and body over time (.png, .svg, .pdf).
     """
     check_writable(output)
-    from ..families.climber.pictures.press_plot import draw_press
-    from ..families.climber.robot.robot import LimbedRobot
-    from ..families.climber.sim.flaw_texts import named_flaws, read_flaws
-    from ..families.climber.trials.press import run_press
-    from ..families.climber.trials.run_plan import PHYSICS_RATE
-    from ..families.climber.world.library import load_board
-    from ..tasks.robots import load_robot
-    from ..units import parse_quantity, read_point
-    from ..viewing.output import CANVASES, check_suffix
+    from ....tasks.robots import load_robot
+    from ....units import parse_quantity, read_point
+    from ....viewing.output import CANVASES, check_suffix
+    from ..pictures.press_plot import draw_press
+    from ..robot.robot import LimbedRobot
+    from ..sim.flaw_texts import named_flaws, read_flaws
+    from ..trials.press import run_press
+    from ..trials.run_plan import PHYSICS_RATE
+    from ..world.library import load_board
 
     if output is not None:
         check_suffix(output, CANVASES)

@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING, Annotated, Any, Self
 
 import typer
 
-from .name_completion import names_of
-from .option_holder import takes_options
-from .options import AsJson, NoiseTexts, Overrides, Quiet
-from .output import print_json, stderr
+from ....terminal.name_completion import names_of
+from ....terminal.option_holder import takes_options
+from ....terminal.options import AsJson, NoiseTexts, Overrides, Quiet
+from ....terminal.output import print_json, stderr
 
 if TYPE_CHECKING:
     import socket
 
-    from ..execution.link.channel import Address
-    from ..execution.link.server import PlantServer
-    from ..families.climber.planning.task import LimbedTask
+    from ....execution.link.channel import Address
+    from ....execution.link.server import PlantServer
+    from ..planning.task import LimbedTask
 
 plant = typer.Typer(no_args_is_help=True, help="A robot in its own process, driven over a local socket.")
 
@@ -60,7 +60,7 @@ class ServeOptions:
 
     def wished(self) -> "Address":
         """Where it is to listen."""
-        from ..execution.link.channel import Address, read_address
+        from ....execution.link.channel import Address, read_address
 
         return Address("tcp", "127.0.0.1", self.port) if self.socket is None else read_address(f"unix:{self.socket}")
 
@@ -109,10 +109,10 @@ def serve(
     `clamber run TASK --plant ADDRESS` climbs through it, `clamber plant stop ADDRESS` stops it. The address is the one line on stdout, with
     --json one value. Ctrl-C, SIGTERM and SIGHUP stop the robot safely and hold it for 2 s first (exit codes 130, 143, 129).
     """
-    from ..execution.link.channel import listen, unlink
-    from ..families.climber.trials.run_plan import climbing_task
-    from ..tasks import load_task
-    from ..trials.plant_settings import split_settings
+    from ....execution.link.channel import listen, unlink
+    from ....tasks import load_task
+    from ....trials.work import split_settings
+    from ..trials.run_plan import climbing_task
 
     words.check()
     for_task, for_plant = split_settings(words.overrides or ())
@@ -140,9 +140,9 @@ def _server_of(
     chosen: "LimbedTask", for_plant: list[str], words: ServeOptions
 ) -> "Callable[[socket.socket], PlantServer]":
     """What serves the task's robot at a listener, drawn before anyone can connect."""
-    from ..families.climber.trials.noise import NO_NOISE, check_noise, draw_for, read_noise
-    from ..families.climber.trials.plants import climb_server, drawn_plant
-    from ..families.climber.trials.run_plan import climbing_flaws
+    from ..trials.noise import NO_NOISE, check_noise, draw_for, read_noise
+    from ..trials.plants import climb_server, drawn_plant
+    from ..trials.run_plan import climbing_flaws
 
     flaws = climbing_flaws(chosen, for_plant)
     deviations = read_noise(NO_NOISE, words.noise or ())
@@ -214,8 +214,8 @@ def release(address: Served, as_json: AsJson = False) -> None:
 
 
 def _ask_server(address: str, *, release: bool, as_json: bool) -> None:
-    from ..execution.link.channel import read_address
-    from ..execution.link.client import stop_plant
+    from ....execution.link.channel import read_address
+    from ....execution.link.client import stop_plant
 
     said = stop_plant(read_address(address), release=release)
     if as_json:

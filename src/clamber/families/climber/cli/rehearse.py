@@ -7,14 +7,15 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 from rich.console import Console
 
-from .crew import executor_of
-from .live_line import LiveLine
-from .name_completion import names_of
-from .options import AsJson, CarriedOutIn, NoiseTexts, Output, Overrides, Quiet, Ray, Workers
-from .output import announce_compilation, check_writable, plain_table, print_json, stderr, stdout
+from ....terminal.crew import executor_of
+from ....terminal.live_line import LiveLine
+from ....terminal.name_completion import names_of
+from ....terminal.options import AsJson, CarriedOutIn, NoiseTexts, Output, Overrides, Quiet, Ray, Workers
+from ....terminal.output import announce_compilation, check_writable, print_json, stderr, stdout
+from ....viewing.text_table import plain_table
 
 if TYPE_CHECKING:  # loads NumPy, which `--help` does without
-    from ..families.climber.trials.lessons import Lesson, Rehearsed
+    from ..trials.lessons import Lesson, Rehearsed
 
 FIRST_SEED: Final = 500_000
 """Of rehearsals, unless stated: far from those that trials begin with."""
@@ -78,14 +79,14 @@ def rehearse(
     """
     check_writable(output)
     announce_compilation(quiet=quiet)
-    from .compile_ahead import CLIMBING, compile_ahead
+    from ....terminal.compile_ahead import compile_ahead
+    from ..trials.warm_up import CLIMBING
 
     compile_ahead(CLIMBING)
-    from ..families.climber.trials.lessons import LearnedPlan, climbs_with, learn
-    from ..families.climber.trials.noise import named_noise, read_noise
-    from ..families.climber.trials.run_plan import open_climb
-    from ..families.climber.trials.trial import TrialSetup
-    from ..families.climber.trials.trials import with_plan
+    from ..trials.lessons import LearnedPlan, climbs_with, learn
+    from ..trials.noise import named_noise, read_noise
+    from ..trials.run_plan import open_climb
+    from ..trials.trial import TrialSetup, with_plan
 
     widths = read_noise(named_noise("usual"), noise or ())
     opened, asked, plant = open_climb(plan, task, overrides or ())

@@ -4,11 +4,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from .options import AsJson
-from .output import announce_compilation, plain_table, print_json, stdout
+from ....terminal.options import AsJson
+from ....terminal.output import announce_compilation, print_json, stdout
+from ....viewing.text_table import plain_table
 
 if TYPE_CHECKING:
-    from ..families.walker.robot.calibration import Fit
+    from ..robot.calibration import Fit
 
 
 def calibrate(
@@ -26,8 +27,8 @@ def calibrate(
 
     The numbers are those of Hoshino and others unless given, their angles mirrored to grow with the region.
     """
-    from ..families.walker.robot.calibration import HOSHINO_1995, Published, fit_families
-    from ..units import parse_quantity
+    from ....units import parse_quantity
+    from ..robot.calibration import HOSHINO_1995, Published, fit_families
 
     published = Published(
         least=parse_quantity(least, "angle"), most=parse_quantity(most, "angle"), step=parse_quantity(step, "length"),
@@ -63,7 +64,7 @@ def calibrate(
 
 
 def _numbers(fit: "Fit") -> tuple[str, ...]:
-    from ..units import DEGREE
+    from ....units import DEGREE
 
     sizes, mm = fit.sizes, 1e3
     return (

@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from .name_completion import names_of
-from .options import AsJson, Output
-from .output import announce_compilation, check_writable, plain_table, print_json, stdout
+from ....terminal.name_completion import names_of
+from ....terminal.options import AsJson, Output
+from ....terminal.output import announce_compilation, check_writable, print_json, stdout
+from ....viewing.text_table import plain_table
 
 if TYPE_CHECKING:
-    from ..families.walker.robot.ditch import Footing
-    from ..families.walker.robot.ditch_plan import Crossing
+    from ..robot.ditch import Footing
+    from ..robot.ditch_plan import Crossing
 
 MM = 1e3
 
@@ -53,12 +54,12 @@ def ditch(
     output: Output = None,
 ) -> None:
     """Tell how wide a ditch a walker crosses, by the angle of its frames; with --width, plan a crossing, pivots first."""
-    from ..errors import SpecError
-    from ..families.walker.robot import WalkerRobot
-    from ..families.walker.robot.ditch import Footing
-    from ..families.walker.robot.ditch_plan import cross_ditch
-    from ..tasks.robots import load_robot
-    from ..units import parse_quantity
+    from ....errors import SpecError
+    from ....tasks.robots import load_robot
+    from ....units import parse_quantity
+    from ..robot import WalkerRobot
+    from ..robot.ditch import Footing
+    from ..robot.ditch_plan import cross_ditch
 
     check_writable(output)
     made = load_robot(robot)
@@ -75,7 +76,7 @@ def ditch(
         reserve=parse_quantity(reserve, "length"), aside=not straight,
     )  # fmt: skip
     if output is not None and found.status == "found":
-        from ..families.walker.pictures.walker_ditch_plot import draw_crossing
+        from ..pictures.walker_ditch_plot import draw_crossing
 
         draw_crossing(found, output)
     if as_json:
@@ -91,16 +92,16 @@ def ditch(
 def _tell_widest(footing: "Footing", aside: bool, as_json: bool, output: Output) -> None:
     import numpy as np
 
-    from ..families.walker.robot.ditch import ditch_map
-    from ..families.walker.robot.turning import turning_range
-    from ..units import DEGREE
+    from ....units import DEGREE
+    from ..robot.ditch import ditch_map
+    from ..robot.turning import turning_range
 
     turn = turning_range(footing.frames, (0.0, 0.0, 0.0), guard=footing.guard or None)
     thetas = np.arange(math.ceil(turn.least / DEGREE), math.floor(turn.most / DEGREE) + 1.0)
     directions = np.arange(0.0, 361.0)
     widths = ditch_map(footing, thetas * DEGREE, directions * DEGREE, aside=aside)
     if output is not None:
-        from ..families.walker.pictures.walker_ditch_plot import draw_ditch_maps
+        from ..pictures.walker_ditch_plot import draw_ditch_maps
 
         title = "with sidesteps" if aside else "straight"
         draw_ditch_maps(thetas.tolist(), directions.tolist(), {title: widths * MM}, output)
@@ -125,7 +126,7 @@ def _tell_widest(footing: "Footing", aside: bool, as_json: bool, output: Output)
 
 
 def _tell_crossing(found: "Crossing") -> None:
-    from ..units import DEGREE
+    from ....units import DEGREE
 
     console = stdout()
     console.print(

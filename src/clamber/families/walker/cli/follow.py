@@ -7,15 +7,16 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.console import Console
 
-from ..errors import FileError, SpecError
-from .name_completion import names_of
-from .options import AsJson
-from .output import announce_compilation, check_writable, plain_table, print_json, stdout
+from ....errors import FileError, SpecError
+from ....terminal.name_completion import names_of
+from ....terminal.options import AsJson
+from ....terminal.output import announce_compilation, check_writable, print_json, stdout
+from ....viewing.text_table import plain_table
 
 if TYPE_CHECKING:
-    from ..families.walker.robot import WalkerRobot
-    from ..families.walker.trials.cooperative.follow import FollowRun
-    from ..families.walker.trials.cooperative.tool_path import ToolPath
+    from ..robot import WalkerRobot
+    from ..trials.cooperative.follow import FollowRun
+    from ..trials.cooperative.tool_path import ToolPath
 
 Outputs = Annotated[
     list[Path] | None,
@@ -52,9 +53,9 @@ def follow(
 
     Exit code 1 if the tool does not come to the path's end or cannot reach points of it.
     """
-    from ..families.walker.trials.cooperative.follow import FollowOptions, follow_path
-    from ..families.walker.trials.cooperative.tool_path import load_tool_path
-    from ..units import parse_quantity
+    from ....units import parse_quantity
+    from ..trials.cooperative.follow import FollowOptions, follow_path
+    from ..trials.cooperative.tool_path import load_tool_path
 
     if blind and not dynamics:
         raise typer.BadParameter("is for a robot in dynamics", param_hint="--blind")
@@ -84,7 +85,7 @@ def follow(
 
 def _print_follow(console: Console, run: "FollowRun", path: "ToolPath") -> None:
     """Print how the tool followed its path, how far it was off, and which limit it came nearest to."""
-    from ..families.walker.control.cooperative.planted_feet import SUPPORT_WORDS
+    from ..control.cooperative.planted_feet import SUPPORT_WORDS
 
     closest = run.closest_range()
     unit = "" if closest.unit == "1" else f" {closest.unit}"
@@ -107,8 +108,8 @@ def _print_follow(console: Console, run: "FollowRun", path: "ToolPath") -> None:
 
 
 def _check_files(files: Sequence[Path]) -> None:
-    from ..execution.log_files import SUFFIXES
-    from ..viewing.output import CANVASES
+    from ....execution.log_files import SUFFIXES
+    from ....viewing.output import CANVASES
 
     for file in files:
         check_writable(file)
@@ -118,8 +119,8 @@ def _check_files(files: Sequence[Path]) -> None:
 
 
 def _load_robot_with_arm(name: str) -> "WalkerRobot":
-    from ..families.walker.robot import WalkerRobot
-    from ..tasks.robots import load_robot
+    from ....tasks.robots import load_robot
+    from ..robot import WalkerRobot
 
     chosen = load_robot(name)
     if not isinstance(chosen, WalkerRobot) or chosen.arm is None:
@@ -128,12 +129,12 @@ def _load_robot_with_arm(name: str) -> "WalkerRobot":
 
 
 def _write_files(run: "FollowRun", files: Sequence[Path]) -> None:
-    from ..execution.log_files import SUFFIXES, write_log
+    from ....execution.log_files import SUFFIXES, write_log
 
     for file in files:
         if file.suffix.lower() in SUFFIXES:
             write_log(run.log(), file, "follow")
         else:
-            from ..families.walker.pictures.follow_plot import draw_follow
+            from ..pictures.follow_plot import draw_follow
 
             draw_follow(run, file)

@@ -1,5 +1,6 @@
 """Options and arguments that several commands share."""
 
+from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Final, TypeAlias
 
@@ -11,6 +12,14 @@ ROBOT: Final = "libra"
 """The climber of commands that are told of none."""
 BOARD: Final = "ladder"
 """Its board."""
+
+
+class FlawsChoice(StrEnum):
+    """Sets of a plant's properties."""
+
+    ideal = "ideal"
+    nominal = "nominal"
+
 
 TaskName: TypeAlias = Annotated[
     str,
@@ -53,6 +62,14 @@ Store: TypeAlias = Annotated[
     Path | None, typer.Option(metavar="FILE", help="Keep each result as it ends (SQLite), to resume from.")
 ]
 Resume: TypeAlias = Annotated[bool, typer.Option("--resume", help="Go on with --store: what is finished stays.")]
+Flaws: TypeAlias = Annotated[
+    FlawsChoice,
+    typer.Option("--flaws", help="nominal: backlash, rate and encoders of the robot's file, one sample of delay."),
+]
+Settings: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="KEY=VALUE", help="Change the plant, such as backlash=2deg or payload=0.3kg."),
+]
 PlanSeconds: TypeAlias = Annotated[
     float,
     typer.Option(min=0.0, help="Most time for each search; where it ends one, another machine may find another plan."),

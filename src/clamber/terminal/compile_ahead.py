@@ -1,24 +1,10 @@
 """Kernels that a command needs later, compiled in other processes while it compiles those that it needs first."""
 
 import os
-from dataclasses import dataclass
-from typing import Final
 
 from .. import kernel_cache
+from ..kernel_cache import Use
 from .command_end import until_command_ends
-
-
-@dataclass(frozen=True, slots=True)
-class Use:
-    """A use of kernels that takes long to compile."""
-
-    function: str
-    """Uses each of them once, as "module:name"."""
-    kernel: str
-    """The one of them that takes longest."""
-
-
-CLIMBING: Final = Use("clamber.families.climber.trials.warm_up:warm_up_beside_planning", "command_tick")
 
 
 def compile_ahead(*uses: Use) -> None:
