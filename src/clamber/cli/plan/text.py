@@ -30,7 +30,8 @@ def print_result(console: Console, result: PlanResult, output: Path | None) -> N
     if found:
         gap = "" if not result.gap else f", at most {result.gap} more than the shortest plan"
         console.print(f"{result.status}: {result.length} actions for '{result.plan.task}'{gap}", style="bold green")
-        console.print(_costs_text(result))
+        if costs := _costs_text(result):
+            console.print(costs)
     else:
         console.print(f"{result.status}: no plan for '{result.plan.task}'", style="bold red")
         console.print(result.reason)
