@@ -16,7 +16,7 @@ from .errors import ClamberError, describe_choices
 from .extensions import ExtensionError, blamed, load_outside, outside
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from .exports.joint_trajectory import Trajectories
     from .inspection.finding import Inspection
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from .sim.lone_robot import JointBounds
     from .tasks.task_format import TaskFormat
     from .trials.run_request import RunRequest
+    from .viewing.browser.exhibit import Scenes
     from .viewing.pictures import Pictures
 
 BUILT_IN: Final = {
@@ -84,7 +85,12 @@ class Family:
 
     @property
     def pictures(self) -> Pictures | None:
-        """How stances and plans are drawn."""
+        """How stances, plans and runs are drawn."""
+        return None
+
+    @property
+    def scenes(self) -> Scenes | None:
+        """How its robots are shown in the viewer, and what is offered there."""
         return None
 
     @property
@@ -102,9 +108,16 @@ class Family:
         """Carries a task, with its plan if there is one, or what else the family can do, out in contact dynamics."""
         return None
 
-    def other_work(self, name_or_path: str) -> Any | None:
-        """What can be carried out and is no task, by its name or file, such as a walk; None: it is no such thing."""
+    def other_work(self, name_or_path: str, overrides: Sequence[str] = ()) -> Any | None:
+        """What can be carried out and is no task, by its name or file, such as a walk; None: it is no such thing.
+
+        `overrides` are texts "key=value" that change it.
+        """
         return None
+
+    def other_names(self) -> tuple[str, ...]:
+        """Names of all such work that comes with the family."""
+        return ()
 
     @property
     def model(self) -> Callable[[Any], tuple[Any, Mapping[str, JointBounds]]] | None:

@@ -1,7 +1,9 @@
-"""What one run in contact dynamics is asked for, whatever the family."""
+"""One run in contact dynamics, whatever the family: what is asked for, and what all answers have."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any, Protocol, runtime_checkable
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -22,3 +24,22 @@ class RunRequest:
     """Whether a new plan is searched for where a hold cannot be had."""
     log: Path | None = None
     """File that grows during the run."""
+    tell: Callable[[str, float | None], None] | None = None
+    """Hears how far the run is, in words and as a share of the whole where that is known [-]; it may end the run by an error."""
+
+
+@runtime_checkable
+class CarriedOut(Protocol):
+    """What happened in a run."""
+
+    @property
+    def work(self) -> Any:
+        """The task, or what else of the family was carried out."""
+
+    @property
+    def done(self) -> bool:
+        """Whether it came to its end."""
+
+    @property
+    def reason(self) -> str:
+        """Why it did not; empty where it did."""

@@ -13,6 +13,7 @@ from ..family import NotOfFamilyError, family_of
 from ..planning.problem.plan import Plan
 from ..planning.problem.problem import Replay
 from ..tasks import Task
+from ..trials.run_request import CarriedOut
 from ..types import Floats
 from .animation import WRITERS
 from .output import CANVASES, StepError, check_suffix, save_figure
@@ -37,6 +38,8 @@ class Pictures:
     """A task's world on given axes."""
     torque_limits: Callable[[Any], Floats] | None = None
     """Of all joints that carry weight [N m]; None: the model has no joint torques."""
+    write_run: Callable[[Any, Path], None] | None = None
+    """Writes what was carried out as the file's suffix says; None: nothing is."""
 
 
 def pictures_of(task: Task) -> Pictures:
@@ -51,18 +54,24 @@ def pictures_of(task: Task) -> Pictures:
     return family.pictures
 
 
-def _carried_out(task: Task, plan: Replay | Plan) -> Replay:
+def carried_out(task: Task, plan: Replay | Plan | None, label: str = "plan") -> Replay:
+    """A plan carried out on paper, violations and all; without one, the start.
+
+    Raises:
+        ClamberError: If the plan, which `label` names, has actions that the task has not, or the start violates a hard check.
+    """
     if isinstance(plan, Replay):
         return plan
-    return family_of(task).plans.problem(task).replay(plan.codes(task), go_on=True)
+    codes = np.zeros(0, np.int32) if plan is None else plan.codes(task, label)
+    return family_of(task).plans.problem(task).replay(codes, go_on=True)
 
 
-def draw_stance(task: Task, plan: Replay | Plan, step: int, target: str | Path | Axes) -> None:
+def draw_stance(task: Task, plan: Replay | Plan | None, step: int, target: str | Path | Axes) -> None:
     """Draw the stance after a step.
 
     Args:
         task: The task.
-        plan: A plan, or its replay.
+        plan: A plan, or its replay; None: the start alone.
         step: Number of the action, from 1; 0 is the start.
         target: A file (.png, .svg, .pdf), which also gets pose, nearest limit and loads; or axes, for the robot in its
             world alone.
@@ -72,7 +81,7 @@ def draw_stance(task: Task, plan: Replay | Plan, step: int, target: str | Path |
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    family, replay = pictures_of(task), _carried_out(task, plan)
+    family, replay = pictures_of(task), carried_out(task, plan)
     if not 0 <= step < len(replay.stances):
         raise StepError(step, len(replay.stances) - 1)
     if isinstance(target, Axes):
@@ -94,7 +103,7 @@ def draw_route(task: Task, plan: Replay | Plan, path: str | Path) -> None:
     """
     check_suffix(path, CANVASES)
     with styled():
-        save_figure(pictures_of(task).route(task, _carried_out(task, plan)), path)
+        save_figure(pictures_of(task).route(task, carried_out(task, plan)), path)
 
 
 def animate(task: Task, plan: Replay | Plan, path: str | Path) -> None:
@@ -107,4 +116,19 @@ def animate(task: Task, plan: Replay | Plan, path: str | Path) -> None:
     """
     suffix = check_suffix(path, WRITERS)
     with styled():
-        WRITERS[suffix](pictures_of(task).view(task, _carried_out(task, plan)), Path(path))
+        WRITERS[suffix](pictures_of(task).view(task, carried_out(task, plan)), Path(path))
+
+
+def draw_run(run: CarriedOut, path: str | Path) -> None:
+    """Write what was carried out as the file's suffix says: a log, an animation, or the whole run in one picture.
+
+    Raises:
+        NotOfFamilyError: If the family's runs are not drawn.
+        SuffixError: If the suffix names no format.
+        MissingExtraError: If the format needs an extra that is not installed.
+        FileError: If the file cannot be written.
+    """
+    write = pictures_of(run.work).write_run
+    if write is None:
+        raise NotOfFamilyError(family_of(run.work).title, "pictures of runs")
+    write(run, Path(path))

@@ -57,6 +57,11 @@ def goal_box(goal: GoalBox, bounds: Bounds) -> Floats | None:
     return np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
 
 
+def join(first: Bounds, second: Bounds) -> Bounds:
+    """The part of a world that holds both parts."""
+    return min(first[0], second[0]), max(first[1], second[1]), min(first[2], second[2]), max(first[3], second[3])
+
+
 def name_goal(goals: Sequence[GoalBox], index: int, extra: Sequence[str] = ()) -> str:
     """What a goal is called in pictures, with what it asks for beside a place."""
     goal = goals[index]

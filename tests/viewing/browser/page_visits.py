@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from clamber.types import Floats
-from clamber.viewer.app import App
+from clamber.viewing.browser.app import App
 from clamber.viewing.browser.scenery import FOV
 
 PICTURES = Path(__file__).resolve().parents[3] / "out" / "screenshots"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from ...sim.lone_robot import JointBounds
     from ...tasks.task_format import TaskFormat
     from ...trials.run_request import RunRequest
+    from ...viewing.browser.exhibit import Scenes
     from ...viewing.pictures import Pictures
 
 
@@ -56,6 +57,13 @@ class Walker(Family):
         return PICTURES
 
     @property
+    def scenes(self) -> Scenes:
+        """Ground and walker in three dimensions, with the ground's editor."""
+        from .pictures.scenes import SCENES
+
+        return SCENES
+
+    @property
     def trajectories(self) -> Trajectories:
         """Joints over plans and runs."""
         from .trajectories import TRAJECTORIES
@@ -76,11 +84,17 @@ class Walker(Family):
 
         return carry_out_walk
 
-    def other_work(self, name_or_path: str) -> Any | None:
+    def other_work(self, name_or_path: str, overrides: Sequence[str] = ()) -> Any | None:
         """Walks."""
         from .planning import is_walk, load_walk
 
-        return load_walk(name_or_path) if is_walk(name_or_path) else None
+        return load_walk(name_or_path, overrides) if is_walk(name_or_path) else None
+
+    def other_names(self) -> tuple[str, ...]:
+        """Names of walks."""
+        from .planning import walk_names
+
+        return walk_names()
 
     @property
     def model(self) -> Callable[[Any], tuple[Any, Mapping[str, JointBounds]]]:

@@ -30,5 +30,11 @@ def carry_out_climb(task: LimbedTask, plan: Plan | None, asked: RunRequest) -> C
         )
     if plan is None:
         raise PlannerError(asked.planner, climb.name, "it found no plan that can be carried out; nothing has moved")
+
+    def tell(step: int, steps: int, title: str, clock: float) -> None:
+        if asked.tell is not None:
+            words = f"action {step} of {steps}: {title}, {clock:.0f} s on the robot's clock"
+            asked.tell(words, (step - 1) / max(steps, 1))
+
     again = replanner(asked.planner, seconds=asked.plan_seconds, seed=asked.seed) if asked.replan else None
-    return run_plan(climb, plan, flaws, noise=widths, seed=asked.seed, replan=again, log=asked.log)
+    return run_plan(climb, plan, flaws, noise=widths, seed=asked.seed, replan=again, log=asked.log, progress=tell)

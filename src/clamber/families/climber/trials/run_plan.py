@@ -56,6 +56,11 @@ class ClimbRun(Jsonable):
     """What its log lacks, there only if it could not be written to its end; None: nothing, or there is no log."""
 
     @property
+    def work(self) -> LimbedTask:
+        """What was carried out."""
+        return self.task
+
+    @property
     def done(self) -> bool:
         """Whether every action was carried out, and the body came to the goal with it."""
         return self.report.done

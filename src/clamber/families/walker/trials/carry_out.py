@@ -29,5 +29,10 @@ def carry_out_walk(work: Walk | WalkerTask, plan: Plan | None, asked: RunRequest
                 raise PlannerError(asked.planner, task.name, f"no plan that can bear to be walked: {result.reason}")
             plan = result.plan
         walk, lay = walk_of(task), lay_plan(task, plan)
+
+    def tell(step: int, way: float, whole: float) -> None:
+        if asked.tell is not None:
+            asked.tell(f"step {step}: {way:.2f} of {whole:.2f} m", way / whole if whole > 0.0 else None)
+
     widths = read_walk_noise(named_walk_noise("none"), asked.noise)
-    return run_walk(walk, walk_flaws(walk, asked.plant), noise=widths, seed=asked.seed, lay=lay)
+    return run_walk(walk, walk_flaws(walk, asked.plant), noise=widths, seed=asked.seed, lay=lay, progress=tell)

@@ -119,6 +119,11 @@ class WalkRun(Jsonable):
     """What its log lacks, there only if it could not be written to its end; None: nothing, or there is no log."""
 
     @property
+    def work(self) -> Walk:
+        """What was carried out."""
+        return self.walk
+
+    @property
     @in_json()
     def done(self) -> bool:
         """Whether it came to the end of its way, truly."""

@@ -1,35 +1,87 @@
 """The part of the panel that plans and runs: its buttons, how far the work is, and what came of it, beside them."""
 
+import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Final
 
-from ..errors import ClamberError
-from ..families.walker.planning import Walk
-from ..planning.planners import PLANNERS
-from ..planning.problem.plan import Plan
-from ..tasks import Task
-from ..viewing import style
-from ..viewing.browser.inputs import set_input
-from ..viewing.browser.labour import Labour
-from ..viewing.browser.panel_html import message_html
-from ..viewing.browser.solids import colour
-from .undertakings import Planned, carry_out, make_plan, outcome
+from ...errors import ClamberError
+from ...family import NotOfFamilyError, family_of
+from ...kernel_cache import is_compiled
+from ...planning.planners import PLANNERS
+from ...planning.problem.plan import Plan
+from ...planning.progress import Moment, Routing, progress_text
+from ...trials.run_request import RunRequest
+from .. import style
+from .exhibit import Planned, Scenes, scenes_of
+from .inputs import set_input
+from .labour import Labour, Tell
+from .panel_html import message_html
+from .solids import colour
 
 if TYPE_CHECKING:
     import viser
 
 PLANNER: Final = "auto"
+TOLD: Final = 0.2
+"""Between two words of a search's progress [s]."""
 CHANGED: Final = "the world was changed meanwhile; what came of it as it was is left out: press again"
 SECONDS: Final = 60.0
 """Most time for a search, unless the panel says otherwise [s]."""
 
 
+def make_plan(task: Any, planner: str, seconds: float, tell: Tell, *, reserves: bool) -> Planned:
+    """Plan a task as its family does; `seconds` is the most time for each search [s].
+
+    Raises:
+        ClamberError: If the planner cannot work on the task, or the start violates a hard check.
+    """
+    scenes, listener = scenes_of(family_of(task)), _Listener(tell)
+    tell(f"planning: looking for any plan{_unless_compiled(scenes)}")
+    if reserves:
+        return scenes.plan_with_reserves(task, planner, seconds, listener, tell)
+    return scenes.plan(task, planner, seconds, listener)
+
+
+def carry_out(task: Any, plan: Plan | None, tell: Tell) -> Any:
+    """Carry a plan, or work that needs none, out in contact dynamics.
+
+    Raises:
+        ClamberError: If something speaks against the plan.
+    """
+    family = family_of(task)
+    if family.carry_out is None:
+        raise NotOfFamilyError(family.title, "contact dynamics")
+    tell(f"making the robot ready{_unless_compiled(scenes_of(family))}")
+    return family.carry_out(task, plan, RunRequest(plan_seconds=SECONDS, tell=tell))
+
+
+def _unless_compiled(scenes: Scenes) -> str:
+    """What to add where no such robot has moved on this machine: its kernels are compiled, and nothing is told meanwhile."""
+    ready = not scenes.kernel or is_compiled(scenes.kernel)
+    return "" if ready else "; kernels are compiled, once, which takes a minute or two"
+
+
+class _Listener:
+    """Passes a search's progress on, now and then."""
+
+    def __init__(self, tell: Tell) -> None:
+        self._tell, self._last = tell, time.monotonic()
+
+    def __call__(self, moment: Moment) -> None:
+        now = time.monotonic()
+        if now - self._last < TOLD:
+            return
+        self._last = now
+        self._tell(progress_text(moment), moment.share if isinstance(moment, Routing) else None)
+
+
 class WorkPanel:
-    """Buttons to plan and to run; a walk, which needs no plan, is run only.
+    """Buttons to plan and to run; work that needs no plan is run only.
 
     Args:
         server: Whose panel they are in; they are made where its context is.
-        task: Gives the task or walk as it is now; raises `ClamberError` if there is none.
+        task: Gives the task, or the other work, as it is now; raises `ClamberError` if there is none.
+        scenes: Of its family.
         plans: Whether it is planned before it is run.
         plan: Gives the plan that a run carries out; None where there is none.
         planned: Takes a plan that was found, with its task.
@@ -39,13 +91,15 @@ class WorkPanel:
     def __init__(
         self,
         server: "viser.ViserServer",
-        task: Callable[[], Task | Walk],
+        task: Callable[[], Any],
+        scenes: Scenes,
         plans: bool,
         plan: Callable[[], Plan | None],
-        planned: Callable[[Task, Plan], None],
+        planned: Callable[[Any, Plan], None],
         ran: Callable[[Any], None],
     ) -> None:
-        self._task, self._plans, self._plan, self._planned, self._ran = task, plans, plan, planned, ran
+        self._task, self._scenes, self._plans = task, scenes, plans
+        self._plan, self._planned, self._ran = plan, planned, ran
         self.labour = Labour(self._tell)
         gui = server.gui
         with gui.add_folder("Plan and run" if plans else "Run"):
@@ -61,8 +115,8 @@ class WorkPanel:
             )
             self._reserves = gui.add_checkbox(
                 "reserves",
-                True,
-                visible=plans,
+                scenes.keeps_reserves,
+                visible=plans and scenes.keeps_reserves,
                 hint="Keep something back, so that the plan can be run; planning takes longer",
             )
             self._plan_button = gui.add_button("Plan", color=colour(style.PARTS[2]), visible=plans)
@@ -81,12 +135,11 @@ class WorkPanel:
         task, planner, seconds = self._task, self._planner.value, float(self._seconds.value)
         reserves = self._reserves.value
 
-        def work(tell: Any) -> tuple[Task, Planned]:
+        def work(tell: Any) -> tuple[Any, Planned]:
             now = task()
-            assert not isinstance(now, Walk)
             return now, make_plan(now, planner, seconds, tell, reserves=reserves)
 
-        def done(found: tuple[Task, Planned]) -> None:
+        def done(found: tuple[Any, Planned]) -> None:
             now, answer = found
             if self._is_past(now):
                 self._say(self._plan_words, CHANGED, bad=True)
@@ -104,18 +157,17 @@ class WorkPanel:
             self._say(self._run_words, "there is no plan to run; press Plan first", bad=True)
             return
 
-        def work(tell: Any) -> tuple[Task | Walk, Any]:
+        def work(tell: Any) -> tuple[Any, Any]:
             now = self._task()
             return now, carry_out(now, plan, tell)
 
-        def done(found: tuple[Task | Walk, Any]) -> None:
+        def done(found: tuple[Any, Any]) -> None:
             now, run = found
             if self._is_past(now):
                 self._say(self._run_words, CHANGED, bad=True)
                 return
-            well, words = outcome(run)
             self._ran(run)
-            self._say(self._run_words, words, bad=not well)
+            self._say(self._run_words, self._scenes.outcome(run), bad=not run.done)
 
         self._begin(work, done, self._run_words)
 
@@ -124,10 +176,10 @@ class WorkPanel:
         self._say(self._plan_words, "", bad=False)
         self._say(self._run_words, "", bad=False)
 
-    def _is_past(self, task: Task | Walk) -> bool:
-        """Whether the board was edited while a task of it was worked on."""
+    def _is_past(self, task: Any) -> bool:
+        """Whether the world was edited while a task of it was worked on."""
         try:
-            return self._task().document != task.document
+            return bool(self._task().document != task.document)
         except ClamberError:
             return True
 
