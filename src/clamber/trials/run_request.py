@@ -37,6 +37,10 @@ class CarriedOut(Protocol):
         """The task, or what else of the family was carried out."""
 
     @property
+    def trace(self) -> Any:
+        """Samples of it, with `to_log()`."""
+
+    @property
     def done(self) -> bool:
         """Whether it came to its end."""
 

@@ -4,7 +4,6 @@ from collections.abc import Callable
 
 import typer
 
-from ...families.climber.pictures.climb_run_view import check_run_suffix, write_run
 from ...families.climber.planning.task import LimbedTask
 from ...families.climber.trials.noise import NO_NOISE, check_noise, read_noise
 from ...families.climber.trials.planning import plan_to_climb, replanner
@@ -14,6 +13,7 @@ from ...families.climber.trials.run_plan import climbing_flaws, open_climb, run_
 from ...planning.planners import find_planner
 from ...planning.problem.plan import Plan
 from ...sim.limb_flaws import LimbFlaws
+from ...viewing.pictures import check_run_suffix, draw_run
 from ..compile_ahead import CLIMBING, compile_ahead
 from ..output import announce_compilation, print_json, stderr, stdout, tell_cuts
 from .options import RunOptions
@@ -65,7 +65,7 @@ def run_climb(what: str, words: RunOptions, telling: RunReport) -> None:
     tell_cuts(len(cuts))
     for file in words.outputs:
         if file != words.growing:
-            write_run(run, file)
+            draw_run(run, file)
     page = telling.of_climb(run)
     if words.as_json:
         print_json(run)

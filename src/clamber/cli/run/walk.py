@@ -54,11 +54,11 @@ def walk_and_tell(
     walk: Walk, words: RunOptions, telling: RunReport, lay: Lay | None = None, plan: Plan | None = None
 ) -> None:
     """Carry a walk out, along its own way or another course, write files and say how it went; leaves with 1 where it did not end well."""
-    from ...families.walker.pictures.walk_run_view import check_walk_suffix, write_walk
     from ...families.walker.trials.noise import named_walk_noise, read_walk_noise
+    from ...viewing.pictures import check_run_suffix, draw_run
 
     for file in words.outputs:
-        check_walk_suffix(file)
+        check_run_suffix(file)
     telling.open("walk")
     deviations = read_walk_noise(named_walk_noise("none"), words.noise or ())
     flaws = walk_flaws(walk, split_settings(words.overrides or ())[1])
@@ -67,7 +67,7 @@ def walk_and_tell(
         run = run_walk(walk, flaws, noise=deviations, seed=words.seed, lay=lay, progress=line.update, log=log)
     for file in words.outputs:
         if file != words.growing:
-            write_walk(run, file)
+            draw_run(run, file)
     page = telling.of_walk(run, plan)
     if words.as_json:
         print_json(run)

@@ -78,8 +78,8 @@ def climb_trials_of(what: str, asked: TrialsOptions, words: CrewWords) -> None:
 
 
 def _check_suffix(output: Path, replay: int | None) -> None:
-    from ...families.climber.pictures.climb_run_view import check_run_suffix
     from ...viewing.output import CANVASES, check_suffix
+    from ...viewing.pictures import check_run_suffix
 
     if replay is None:
         check_suffix(output, CANVASES)
@@ -113,14 +113,14 @@ def _planned(what: str, asked: TrialsOptions, words: CrewWords) -> TrialSetup:
 
 def _replay(setup: TrialSetup, seed: int, words: CrewWords) -> int:
     """One trial again; the exit code."""
-    from ...families.climber.pictures.climb_run_view import write_run
+    from ...viewing.pictures import draw_run
     from ..run.text import ClimbLine, print_run
 
     known, plans = stored_trial(setup, seed, words.store)
     with ClimbLine(stderr(), quiet=words.quiet) as line:
         run, trial, _ = climb_once(setup, seed, plans=plans, progress=line.update)
     if words.output is not None:
-        write_run(run, words.output)
+        draw_run(run, words.output)
     if known is not None and known != trial:
         stderr().print(
             f"the store's trial {seed} went otherwise: another machine or other code; it ended {known.outcome}"

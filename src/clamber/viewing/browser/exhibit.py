@@ -13,8 +13,10 @@ from ...family import Family, NotOfFamilyError, families, family_of
 from ...planning.planners import plan_task
 from ...planning.problem.plan import Plan
 from ...planning.problem.plan_source import check_name, is_plan, open_plan
+from ...planning.problem.problem import Replay
 from ...planning.progress import Listener
 from ...tasks import load_task
+from ...trials.run_request import CarriedOut
 from ..pictures import carried_out, pictures_of
 from ..scene import Bounds
 from ..view import View
@@ -92,14 +94,15 @@ class Scenes(ABC):
         """A plan, carried out on paper."""
         return PlanFilm(view)
 
-    def exhibit(self, task: Any, plan: Plan | None, label: str = "plan") -> Exhibit:
-        """A task, or other work, with a plan, violations and all; without one, its start.
+    def exhibit(self, task: Any, plan: Plan | Replay | None, label: str = "plan") -> Exhibit:
+        """A task, or other work, with a plan or its replay, violations and all; without one, its start.
 
         Raises:
             ClamberError: If the plan has actions that the task has not, or the start violates a hard check.
         """
         view = pictures_of(task).view(task, carried_out(task, plan, label))
-        return Exhibit(view.title, self.scenery(task, view.bounds), self.film(view), task=task, plan=plan)
+        kept = plan if isinstance(plan, Plan) else None
+        return Exhibit(view.title, self.scenery(task, view.bounds), self.film(view), task=task, plan=kept)
 
     def run_film(self, exhibit: Exhibit, run: Any) -> Film[Any]:
         """What was just carried out."""
@@ -209,9 +212,17 @@ def _opened(what: str, task: str | None, overrides: Sequence[str]) -> Exhibit:
     return exhibit_of(opened.task, opened.plan, what)
 
 
-def exhibit_of(task: Any, plan: Plan | None = None, label: str = "plan") -> Exhibit:
+def exhibit_of(task: Any, plan: Plan | Replay | None = None, label: str = "plan") -> Exhibit:
     """A task, or what else a family can carry out, with a plan if there is one; see `Scenes.exhibit`."""
     return scenes_of(family_of(task)).exhibit(task, plan, label)
+
+
+def run_exhibit(run: CarriedOut) -> Exhibit:
+    """What was just carried out, beside its plan where it has one."""
+    scenes = scenes_of(family_of(run.work))
+    exhibit = scenes.exhibit(run.work, getattr(run, "plan", None))
+    exhibit.run_film = scenes.run_film(exhibit, run)
+    return exhibit
 
 
 def _made_with(log: Log) -> str:

@@ -4,6 +4,7 @@ import contextlib
 import html
 import io
 import json
+from collections.abc import Iterable
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, Final
@@ -15,7 +16,6 @@ from ...types import Floats, Json
 from .. import style
 from ..output import check_suffix
 from ..panel import Gauges
-from ..player import round_all
 from .app import LOOPBACK, aim_camera, check_viser, guarded_server, light_scene
 from .exhibit import Exhibit
 from .film import Film
@@ -107,6 +107,11 @@ def panel_data(
         "bars": [block_data(gauges) for gauges in film.gauges],
         "values": [_numbers(film.values(moment)) for moment in moments],
     }  # fmt: skip
+
+
+def round_all(values: Iterable[float]) -> list[float]:
+    """Lengths in whole tenths of a millimetre, and other numbers to four decimals."""
+    return [round(float(value), 4) for value in values]
 
 
 def block_data(gauges: Gauges) -> Json:

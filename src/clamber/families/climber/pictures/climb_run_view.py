@@ -2,32 +2,24 @@
 
 import cmath
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Final
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from ....execution.log_files import SUFFIXES as LOGS
-from ....execution.log_files import write_log
 from ....planning.problem.problem import Replay
-from ....planning.problem.yardsticks import yardsticks_of
-from ....types import Floats, Json
+from ....types import Floats
 from ....viewing import style
-from ....viewing.animation import WRITERS
-from ....viewing.output import CANVASES, check_suffix, save_figure
 from ....viewing.route import draw_way, label_ghost, pick_ghosts
-from ....viewing.style import styled
-from ....viewing.view import Part, Spread, View
+from ....viewing.view import Part, Picture, View
 from ....viewing.words import describe_pose
 from ..execution.climb_report import ActionReport
-from ..execution.climb_trace import TOPIC, ClimbTrace
+from ..execution.climb_trace import ClimbTrace
 from ..planning.task import LimbedTask
 from ..robot.robot import Limb
 from ..statics.checks import LIMBED_CHECKS
 from ..statics.records import STANCE
 from ..trials.run_plan import ClimbRun
-from .climb_player import SCRIPT, climb_world, spread_snapshot
 from .climber import ClimberArtists, Snapshot
 from .geometry import Posture, body_outline
 from .torques import torque_gauges
@@ -49,7 +41,7 @@ class Moment(Snapshot):
 
 
 class ClimbRunView(View[Moment]):
-    """A picture of a climb that was carried out; forces of holds are not measured, so none are drawn.
+    """A climb that was carried out; forces of holds are not measured, so none are drawn.
 
     Args:
         task: Robot and board.
@@ -63,23 +55,26 @@ class ClimbRunView(View[Moment]):
     noun = "Action"
     strip_title = "What became of every action"
     strip_words = OUTCOMES
-    script = SCRIPT
 
     def __init__(
         self, task: LimbedTask, trace: ClimbTrace, actions: list[ActionReport], pegs: Floats | None = None
     ) -> None:
-        self.task, self.trace, self.actions = task, trace, actions
+        self.task, self.trace, self.actions, self._pegs = task, trace, actions, pegs
         self._poses = trace.believed if trace.true_pose is None else trace.true_pose
         self._angles = trace.angles if trace.true_angles is None else trace.true_angles
         self._index = {hold.number: k for k, hold in enumerate(task.world.holds)}
         self._outline = body_outline(task.robot)
         some = np.unique(np.linspace(0, len(trace.time) - 1, SHOWN).astype(int))
         bounds = find_bounds(task, [self.posture(int(k)) for k in some])
-        super().__init__(task, _no_replay(len(actions)), bounds, torque_gauges(task), yardsticks_of(task))
-        draw_scene(self.wall, task, bounds)
-        if pegs is not None:
-            self.wall.plot(pegs[:, 0], pegs[:, 1], ls="none", marker="x", ms=3.0, mew=0.7, color=style.ALERT, zorder=9)
-        self.robot = ClimberArtists(self.wall, task, bounds)
+        super().__init__(task, _no_replay(len(actions)), bounds, torque_gauges(task))
+
+    def draw(self, picture: Picture[Moment]) -> ClimberArtists:
+        """Wall and climber, with the pegs as they truly are."""
+        draw_scene(picture.wall, self.task, self.bounds)
+        if self._pegs is not None:
+            x, y = self._pegs.T
+            picture.wall.plot(x, y, ls="none", marker="x", ms=3.0, mew=0.7, color=style.ALERT, zorder=9)
+        return ClimberArtists(picture.wall, self.task, self.bounds)
 
     @property
     def grades(self) -> list[int]:
@@ -154,59 +149,38 @@ class ClimbRunView(View[Moment]):
         """Whether an action came to another end than it should."""
         return step > 0 and self.actions[step - 1].outcome != "ok"
 
-    def world(self) -> Json:
-        """Holds, keep-outs, goals and the shape of the robot."""
-        return climb_world(self.task, self.bounds)
 
-    def spread(self, at: Moment) -> Spread:
-        """A moment for the player."""
-        return spread_snapshot(at)
+class ClimbRunPicture(Picture[Moment]):
+    """A figure of a climb; red crosses are pegs as they truly are."""
 
+    view: ClimbRunView
 
-def check_run_suffix(path: Path) -> str:
-    """The suffix of a file that a run can be written to: a log, an animation, or the whole climb in one picture.
-
-    Raises:
-        SuffixError: If it is no such suffix.
-    """
-    return check_suffix(path, (*LOGS, *WRITERS, *CANVASES))
-
-
-def write_run(run: ClimbRun, path: Path) -> None:
-    """Write what happened in a climb as the file's suffix says; red crosses are pegs as they truly are.
-
-    Raises:
-        SuffixError: If the suffix names no format.
-        MissingExtraError: If .mp4 is asked for without the extra `video`.
-        FileError: If the file cannot be written.
-    """
-    suffix = check_run_suffix(path)
-    if suffix in LOGS:
-        write_log(run.trace.to_log(), path, TOPIC)
-        return
-    with styled():
-        view = ClimbRunView(run.task, run.trace, run.report.actions, run.true_pegs)
-        if suffix in WRITERS:
-            WRITERS[suffix](view, path)
-        else:
-            save_figure(_whole(view), path)
+    def whole(self) -> Figure:
+        """The way of the body with ghosts along it, and how it ended."""
+        view = self.view
+        trace, last = view.trace, len(view.actions)
+        poses = trace.believed if trace.true_pose is None else trace.true_pose
+        self.show(last, view.at_time(float(trace.time[-1])))
+        ends = np.searchsorted(trace.time, [0.0, *(one.start + one.seconds for one in view.actions)])
+        ends = np.minimum(ends, len(trace.time) - 1)
+        unloaded = np.zeros((len(trace.limbs), 2))
+        for k in pick_ghosts(poses[ends, :2])[:-1]:
+            ghost = ClimberArtists(self.wall, view.task, view.bounds, alpha=0.25, arrows=False)
+            ghost.update(Snapshot(view.posture(int(ends[k])), unloaded, unloaded))
+            x, y = poses[ends[k], :2].tolist()
+            label_ghost(self.wall, k, x, y, "action")
+        draw_way(self.wall, poses[:, :2])
+        return self.figure
 
 
-def _whole(view: ClimbRunView) -> Figure:
-    """The way of the body with ghosts along it, and how it ended."""
-    trace, last = view.trace, len(view.actions)
-    poses = trace.believed if trace.true_pose is None else trace.true_pose
-    view.show(last, view.at_time(float(trace.time[-1])))
-    ends = np.searchsorted(trace.time, [0.0, *(one.start + one.seconds for one in view.actions)])
-    ends = np.minimum(ends, len(trace.time) - 1)
-    unloaded = np.zeros((len(trace.limbs), 2))
-    for k in pick_ghosts(poses[ends, :2])[:-1]:
-        ghost = ClimberArtists(view.wall, view.task, view.bounds, alpha=0.25, arrows=False)
-        ghost.update(Snapshot(view.posture(int(ends[k])), unloaded, unloaded))
-        x, y = poses[ends[k], :2].tolist()
-        label_ghost(view.wall, k, x, y, "action")
-    draw_way(view.wall, poses[:, :2])
-    return view.figure
+def run_view(run: ClimbRun) -> ClimbRunView:
+    """A climb that was just carried out."""
+    return ClimbRunView(run.task, run.trace, run.report.actions, run.true_pegs)
+
+
+def run_picture(run: ClimbRun) -> ClimbRunPicture:
+    """A figure of it."""
+    return ClimbRunPicture(run_view(run))
 
 
 def _chain(limb: Limb, origin: complex, angle: float, joints: Floats) -> list[tuple[float, float]]:

@@ -7,14 +7,12 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ....planning.problem.problem import Replay
-from ....planning.problem.yardsticks import yardsticks_of
-from ....types import Floats, Json
+from ....types import Floats
 from ....units import DEGREE
-from ....viewing.view import Part, Spread, View
+from ....viewing.view import Part, Picture, View
 from ....viewing.words import DIRECTIONS, describe_pose, length_unit
 from ..planning.arrays import CHECKS
 from ..planning.task import LimbedTask
-from .climb_player import SCRIPT, climb_world, spread_snapshot
 from .climber import ClimberArtists, Snapshot, arrow_ends
 from .geometry import Posture, postures, stance_posture
 from .motion import Phase, Transition
@@ -76,20 +74,21 @@ class ClimbView(View[Snapshot]):
     """
 
     rows = ("Pose", "Holds")
-    script = SCRIPT
 
     def __init__(self, task: LimbedTask, replay: Replay) -> None:
-        self.task = task
         self.postures: list[Posture] = postures(task.robot, task.world, replay.stances)
         self.settles = [
             settle(task, stance, posture) for stance, posture in zip(replay.stances, self.postures, strict=True)
         ]
         arrows = np.vstack([arrow_ends(task, snapshot) for snapshot in self.settles])
         bounds = find_bounds(task, self.postures, arrows)
-        super().__init__(task, replay, bounds, torque_gauges(task), yardsticks_of(task))
-        draw_scene(self.wall, task, bounds)
-        self.robot = ClimberArtists(self.wall, task, bounds)
-        draw_force_key(self.panel, task, self.key, self.layout.scale)
+        super().__init__(task, replay, bounds, torque_gauges(task))
+
+    def draw(self, picture: Picture[Snapshot]) -> ClimberArtists:
+        """Wall and climber."""
+        draw_scene(picture.wall, self.task, self.bounds)
+        draw_force_key(picture.panel, self.task, picture.key, picture.layout.scale)
+        return ClimberArtists(picture.wall, self.task, self.bounds)
 
     def settled(self, step: int) -> Snapshot:
         """The stance after a step; 0 is the start."""
@@ -128,14 +127,6 @@ class ClimbView(View[Snapshot]):
         posture = at.posture
         pose = describe_pose(self.task, posture.x, posture.y, posture.angle)
         return pose, describe_holds(self.task, self.replay.stances[step])
-
-    def world(self) -> Json:
-        """Holds, keep-outs, goals and the shape of the robot."""
-        return climb_world(self.task, self.bounds)
-
-    def spread(self, at: Snapshot) -> Spread:
-        """Body, limbs and forces; directions of body and end effectors; holds."""
-        return spread_snapshot(at)
 
 
 def settle(task: LimbedTask, stance: np.void, posture: Posture) -> Snapshot:

@@ -17,7 +17,7 @@ from ....viewing.scene import Bounds
 from ....viewing.view import PANEL_WIDTH, Layout, is_wide
 from ....viewing.words import length_unit
 from ..planning.task import LimbedTask
-from .climb_run_view import write_run
+from .climb_run_view import run_picture
 from .climb_view import ClimbView, draw_climb
 from .climber import ClimberArtists, Snapshot
 from .geometry import Posture, postures
@@ -130,4 +130,4 @@ def wall_points(task: LimbedTask) -> Floats:
     return np.vstack([task.world.positions(), *(np.array(polygon) for polygon in task.world.keep_out)])
 
 
-PICTURES: Final = Pictures(ClimbView, draw_climb, climb_route, wall_points, draw_scene, torque_limits, write_run)
+PICTURES: Final = Pictures(ClimbView, draw_climb, climb_route, wall_points, draw_scene, torque_limits, run_picture)

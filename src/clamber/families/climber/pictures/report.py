@@ -9,11 +9,10 @@ from ....planning.problem.verdict import Verdict, check_plan
 from ....planning.problem.yardsticks import yardsticks_of
 from ....units import DEGREE
 from ....viewing.margins import named_limits
-from ....viewing.pictures import draw_route
+from ....viewing.pictures import draw_route, draw_run
 from ....viewing.report.run_page import MILLI, Rows, RunPage, Shown, most, write_run_page
 from ..execution.climb_report import ActionReport
 from ..trials.run_plan import ClimbRun
-from .climb_run_view import write_run
 from .torques import torque_limits
 
 CHECKS_TOLD: Final = 3
@@ -33,8 +32,8 @@ def write_climb_report(run: ClimbRun, command: str, folder: Path) -> Path:
         FileError: If a file cannot be written.
     """
     draw_route(run.task, run.plan, folder / "plan.png")
-    write_run(run, folder / "climb.png")
-    write_run(run, folder / "climb.html")
+    draw_run(run, folder / "climb.png")
+    draw_run(run, folder / "climb.html")
     run.plan.save(folder / "plan.json")
     return write_run_page(climb_page(run, command), folder)
 

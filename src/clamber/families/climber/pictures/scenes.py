@@ -22,7 +22,7 @@ from ..trials.planning import plan_to_climb
 from ..trials.rehearsal import Rehearsal, rehearse
 from ..trials.run_plan import ClimbRun, climbing_flaws, climbing_task
 from .board_panel import BoardPanel
-from .climb_run_view import ClimbRunView
+from .climb_run_view import ClimbRunView, run_view
 from .climber_figure import ClimberFigure
 from .run_film import ClimbFilm
 from .wall_scene import WallScene
@@ -81,7 +81,7 @@ class ClimbScenes(Scenes):
 
     def run_film(self, exhibit: Exhibit, run: ClimbRun) -> ClimbFilm:
         """See `Scenes`."""
-        return ClimbFilm(ClimbRunView(run.task, run.trace, run.report.actions, run.true_pegs))
+        return ClimbFilm(run_view(run))
 
     def with_log(self, exhibit: Exhibit, log: Log) -> Exhibit:
         """See `Scenes`."""

@@ -17,7 +17,7 @@ from ....viewing.scene import Bounds
 from ....viewing.view import Layout
 from ....viewing.words import length_unit
 from ..planning.task import WalkerTask
-from .walk_run_view import write_walk
+from .walk_run_view import run_picture
 from .walker_artists import COLOURS, NAMES, WalkerArtists, draw_ground, walker_bounds
 from .walker_motion import WalkerMoment, settled_moment
 from .walker_view import WalkerView, draw_walk
@@ -71,4 +71,4 @@ def start_point(task: WalkerTask) -> Floats:
     return np.array([[task.start.x, task.start.y]])
 
 
-PICTURES: Final = Pictures(WalkerView, draw_walk, walker_route, start_point, draw_ground, write_run=write_walk)
+PICTURES: Final = Pictures(WalkerView, draw_walk, walker_route, start_point, draw_ground, run=run_picture)

@@ -5,11 +5,11 @@ from pathlib import Path
 
 from ....planning.problem.plan import Plan
 from ....units import DEGREE
+from ....viewing.pictures import draw_run
 from ....viewing.report.run_page import MILLI, MOST_TOLD, Rows, RunPage, Shown, most, write_run_page
 from ..execution.walk_report import StepReport, WalkReport
 from ..planning.piece import Piece
 from ..trials.run_walk import WalkRun
-from .walk_run_view import write_walk
 
 
 def write_walk_report(run: WalkRun, plan: Plan | None, command: str, folder: Path) -> Path:
@@ -24,8 +24,8 @@ def write_walk_report(run: WalkRun, plan: Plan | None, command: str, folder: Pat
     Raises:
         FileError: If a file cannot be written.
     """
-    write_walk(run, folder / "walk.png")
-    write_walk(run, folder / "walk.gif")
+    draw_run(run, folder / "walk.png")
+    draw_run(run, folder / "walk.gif")
     return write_run_page(walk_page(run, plan, command), folder)
 
 

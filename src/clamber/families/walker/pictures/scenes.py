@@ -10,6 +10,7 @@ import numpy as np
 from ....execution.log import Log, LogError
 from ....execution.sample_log import told_of
 from ....planning.problem.plan import Plan
+from ....planning.problem.problem import Replay
 from ....planning.progress import Listener
 from ....tasks.library import task_names
 from ....types import Floats, Json
@@ -127,7 +128,7 @@ class WalkScenes(Scenes):
         assert isinstance(view, WalkerView)  # a walker's
         return PlannedWalkFilm(view)
 
-    def exhibit(self, task: Walk | WalkerTask, plan: Plan | None, label: str = "plan") -> Exhibit:
+    def exhibit(self, task: Walk | WalkerTask, plan: Plan | Replay | None, label: str = "plan") -> Exhibit:
         """See `Scenes`: of a walk before it has begun its robot at its start, and its way.
 
         Raises:

@@ -6,35 +6,34 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ....planning.problem.problem import Replay
-from ....planning.problem.yardsticks import yardsticks_of
-from ....types import Floats, Json
+from ....types import Floats
 from ....units import DEGREE
-from ....viewing.view import Part, Spread, View
+from ....viewing.view import Part, Picture, View
 from ....viewing.words import describe_pose, length_unit
 from ..planning.task import WalkerTask
 from ..statics.checks import WALKER_CHECKS
 from .walker_artists import COLOURS, NAMES, WalkerArtists, draw_ground, draw_key, walker_bounds
 from .walker_loads import actuator_gauges
 from .walker_motion import WalkerMoment, settled_moment, walker_motion
-from .walker_player import SCRIPT, spread_moment, walker_world
 
 
 class WalkerView(View[WalkerMoment]):
     """A picture of a walk that can be set to any moment of it."""
 
     rows = NAMES
-    script = SCRIPT
 
     def __init__(self, task: WalkerTask, replay: Replay) -> None:
-        self.task = task
         self.moments = [settled_moment(task, stance) for stance in replay.stances]
         bounds = walker_bounds(task, self.moments)
-        super().__init__(task, replay, bounds, actuator_gauges(task.robot), yardsticks_of(task))
-        draw_ground(self.wall, task, bounds)
-        self.robot = WalkerArtists(self.wall, task, bounds)
-        for head, colour in zip(self.heads, COLOURS, strict=False):
+        super().__init__(task, replay, bounds, actuator_gauges(task.robot))
+
+    def draw(self, picture: Picture[WalkerMoment]) -> WalkerArtists:
+        """Ground and walker."""
+        draw_ground(picture.wall, self.task, self.bounds)
+        for head, colour in zip(picture.heads, COLOURS, strict=False):
             head.set(color=colour, weight="bold")
-        draw_key(self.panel, self.key.left, self.key.top)
+        draw_key(picture.panel, picture.key.left, picture.key.top)
+        return WalkerArtists(picture.wall, self.task, self.bounds)
 
     def settled(self, step: int) -> WalkerMoment:
         """The stance after a step; 0 is the start."""
@@ -58,14 +57,6 @@ class WalkerView(View[WalkerMoment]):
             describe_pose(self.task, *pose) + f"  ({'lifted' if lift > 0.0 else 'stands'})"
             for pose, lift in zip(at.poses.tolist(), at.lifts, strict=True)
         )
-
-    def world(self) -> Json:
-        """Patches, goals and the shape of the robot."""
-        return walker_world(self.task, self.bounds)
-
-    def spread(self, at: WalkerMoment) -> Spread:
-        """Origins and lifts of the frames; their angles."""
-        return spread_moment(at)
 
 
 def describe_walk(task: WalkerTask, before: WalkerMoment, after: WalkerMoment, reason: int) -> str:
