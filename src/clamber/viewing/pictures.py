@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final, Protocol
+from typing import TYPE_CHECKING, Any, Final, Protocol
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -22,6 +22,9 @@ from .output import CANVASES, StepError, check_suffix, save_figure
 from .scene import Bounds
 from .style import styled
 from .view import Picture, View
+
+if TYPE_CHECKING:
+    from .report.run_page import RunPage
 
 ANIMATIONS: Final = (".gif", ".html", ".mp4")
 
@@ -51,6 +54,8 @@ class Pictures:
     """Of all joints that carry weight [N m]; None: the model has no joint torques."""
     run: Callable[[Any], RunPicture] | None = None
     """What was carried out; None: it is not drawn."""
+    report: Callable[[Any, Plan | None], "RunPage"] | None = None
+    """What a report says of a run, and of the plan that it began with; None: there are none."""
 
 
 def pictures_of(task: Task) -> Pictures:

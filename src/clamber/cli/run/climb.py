@@ -66,7 +66,7 @@ def run_climb(what: str, words: RunOptions, telling: RunReport) -> None:
     for file in words.outputs:
         if file != words.growing:
             draw_run(run, file)
-    page = telling.of_climb(run)
+    page = telling.of(run, run.plan)
     if words.as_json:
         print_json(run)
     else:

@@ -5,9 +5,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ...families.climber.trials.run_plan import ClimbRun
-    from ...families.walker.trials.run_walk import WalkRun
     from ...planning.problem.plan import Plan
+    from ...trials.run_request import CarriedOut
     from ...viewing.report.folder import Kind
 
 
@@ -30,18 +29,10 @@ class RunReport:
 
             open_report(self.folder, kind)
 
-    def of_climb(self, run: "ClimbRun") -> tuple[Path, ...]:
-        """Write that of a climb; its page, if there is to be one."""
+    def of(self, run: "CarriedOut", plan: "Plan | None") -> tuple[Path, ...]:
+        """Write that of a run, which may have followed a plan; its page, if there is to be one."""
         if self.folder is None:
             return ()
-        from ...families.climber.pictures.report import write_climb_report
+        from ...viewing.report.run_page import write_run_report
 
-        return (write_climb_report(run, self.command, self.folder),)
-
-    def of_walk(self, run: "WalkRun", plan: "Plan | None") -> tuple[Path, ...]:
-        """Write that of a walk, which may have followed a plan; its page, if there is to be one."""
-        if self.folder is None:
-            return ()
-        from ...families.walker.pictures.report import write_walk_report
-
-        return (write_walk_report(run, plan, self.command, self.folder),)
+        return (write_run_report(run, plan, self.command, self.folder),)

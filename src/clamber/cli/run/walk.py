@@ -68,7 +68,7 @@ def walk_and_tell(
     for file in words.outputs:
         if file != words.growing:
             draw_run(run, file)
-    page = telling.of_walk(run, plan)
+    page = telling.of(run, plan)
     if words.as_json:
         print_json(run)
     else:

@@ -22,6 +22,7 @@ from .climb_view import ClimbView, draw_climb
 from .climber import ClimberArtists, Snapshot
 from .geometry import Posture, postures
 from .motion import Transition
+from .report import climb_page
 from .torques import show_torque, torque_limits
 from .wall import draw_scene, find_bounds
 
@@ -130,4 +131,6 @@ def wall_points(task: LimbedTask) -> Floats:
     return np.vstack([task.world.positions(), *(np.array(polygon) for polygon in task.world.keep_out)])
 
 
-PICTURES: Final = Pictures(ClimbView, draw_climb, climb_route, wall_points, draw_scene, torque_limits, run_picture)
+PICTURES: Final = Pictures(
+    ClimbView, draw_climb, climb_route, wall_points, draw_scene, torque_limits, run_picture, climb_page
+)

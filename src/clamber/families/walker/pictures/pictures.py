@@ -17,6 +17,7 @@ from ....viewing.scene import Bounds
 from ....viewing.view import Layout
 from ....viewing.words import length_unit
 from ..planning.task import WalkerTask
+from .report import walk_page
 from .walk_run_view import run_picture
 from .walker_artists import COLOURS, NAMES, WalkerArtists, draw_ground, walker_bounds
 from .walker_motion import WalkerMoment, settled_moment
@@ -71,4 +72,6 @@ def start_point(task: WalkerTask) -> Floats:
     return np.array([[task.start.x, task.start.y]])
 
 
-PICTURES: Final = Pictures(WalkerView, draw_walk, walker_route, start_point, draw_ground, run=run_picture)
+PICTURES: Final = Pictures(
+    WalkerView, draw_walk, walker_route, start_point, draw_ground, run=run_picture, report=walk_page
+)
