@@ -6,8 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from clamber.families.climber.execution.course import climbable
-from clamber.families.climber.pictures.climb_run_view import OUTCOMES, ClimbRunPicture, ClimbRunView
-from clamber.families.climber.pictures.run_film import ClimbFilm
+from clamber.families.climber.pictures.climb_run import OUTCOMES, ClimbFilm, ClimbRunPicture, ClimbRunView
 from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.trials.noise import NO_NOISE, Noise, read_noise

@@ -13,11 +13,10 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from clamber.errors import ClamberError, FileError
+from clamber.families.climber.pictures.artists import arrow_ends
 from clamber.families.climber.pictures.charts import draw_history, draw_torques
-from clamber.families.climber.pictures.climb_view import ClimbView, describe_action
-from clamber.families.climber.pictures.climber import arrow_ends
+from clamber.families.climber.pictures.climb_view import ClimbView, Transition, describe_action, swung_foot
 from clamber.families.climber.pictures.geometry import body_outline, joint_angles, limb_chain, postures, stance_posture
-from clamber.families.climber.pictures.motion import Transition, swung_foot
 from clamber.families.climber.planning.problem import LimbedProblem
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.robot.robot import Limb

@@ -10,7 +10,7 @@ from PIL import Image
 
 from clamber.families.walker.execution.true_walk import TracedPlant, TrueWalk
 from clamber.families.walker.pictures.walk_run_view import WalkRunView, footprints
-from clamber.families.walker.pictures.walk_shapes import plate_axes, shapes_at
+from clamber.families.walker.pictures.walker_motion import plate_axes, shapes_at
 from clamber.families.walker.robot import WalkerRobot
 from clamber.families.walker.sim.walker_flaws import WalkerFlaws
 from clamber.families.walker.sim.walker_plant import WalkerSim

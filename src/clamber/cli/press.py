@@ -29,7 +29,7 @@ def press(
     The file of `-o` is a picture of force and body over time (.png, .svg, .pdf).
     """
     check_writable(output)
-    from ..families.climber.pictures.press_plot import draw_press
+    from ..families.climber.pictures.body_plots import draw_press
     from ..families.climber.robot.robot import LimbedRobot
     from ..families.climber.sim.flaw_texts import named_flaws, read_flaws
     from ..families.climber.trials.press import run_press

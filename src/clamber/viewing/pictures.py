@@ -111,12 +111,7 @@ def draw_stance(task: Task, plan: Replay | Plan | None, step: int, target: str |
 
 
 def draw_route(task: Task, plan: Replay | Plan, path: str | Path) -> None:
-    """Draw a whole plan as one still picture (.png, .svg, .pdf).
-
-    Raises:
-        SuffixError: If the file's suffix names no format for still pictures.
-        FileError: If the file cannot be written.
-    """
+    """Draw a whole plan as one still picture (.png, .svg, .pdf)."""
     check_suffix(path, CANVASES)
     with styled():
         save_figure(pictures_of(task).route(task, carried_out(task, plan)), path)

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from clamber.errors import ClamberError, StartError
-from clamber.families.climber.pictures.board_panel import BoardPanel
-from clamber.families.climber.pictures.run_film import ClimbFilm
+from clamber.families.climber.pictures.board_editor import BoardPanel
+from clamber.families.climber.pictures.climb_run import ClimbFilm
 from clamber.families.climber.planning.task import LimbedTask
-from clamber.families.walker.pictures.ground_panel import GroundPanel
+from clamber.families.walker.pictures.ground_editor import GroundPanel
 from clamber.families.walker.planning import Walk
 from clamber.families.walker.planning.task import WalkerTask
 from clamber.planning.problem.plan import load_plan

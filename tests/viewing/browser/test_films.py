@@ -17,7 +17,7 @@ from clamber.execution.log_files import write_log
 from clamber.families.climber.execution.climb_trace import TOPIC
 from clamber.families.climber.execution.course import climbable
 from clamber.families.climber.execution.legs import legs_of
-from clamber.families.climber.pictures.run_film import ClimbFilm
+from clamber.families.climber.pictures.climb_run import ClimbFilm
 from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.trials.run_plan import ClimbRun, climbing_flaws, run_plan

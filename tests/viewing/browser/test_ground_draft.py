@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from clamber.errors import ClamberError, SpecError
-from clamber.families.walker.pictures.ground_draft import DITCH, PATCH, STEP, GroundDraft
-from clamber.families.walker.pictures.standing_film import standing
-from clamber.families.walker.pictures.way import way_poses
+from clamber.families.walker.pictures.ground_editor import DITCH, PATCH, STEP, GroundDraft
+from clamber.families.walker.pictures.walk_film import standing, way_poses
 from clamber.families.walker.planning import Walk, load_walk, walk_names
 from clamber.families.walker.planning.task import WalkerTask
 from clamber.tasks import Task, load_task

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from page_visits import Visit, pixel, wait_for
 
-from clamber.families.climber.pictures.board_panel import BoardPanel
-from clamber.families.climber.pictures.wall_scene import WallScene
-from clamber.families.walker.pictures.ground_panel import GroundPanel
+from clamber.families.climber.pictures.board_editor import BoardPanel
+from clamber.families.climber.pictures.space import WallScene
+from clamber.families.walker.pictures.ground_editor import GroundPanel
 from clamber.families.walker.planning import load_walk
 from clamber.planning.problem.plan import load_plan
 from clamber.planning.problem.verdict import check_plan

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from ...planning.problem.plan import Plan
     from ...trials.run_request import CarriedOut
-    from ...viewing.report.folder import Kind
+    from ...viewing.report.pages import Kind
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +25,7 @@ class RunReport:
             FileError: If it cannot be made, or holds something else.
         """
         if self.folder is not None:
-            from ...viewing.report.folder import open_report
+            from ...viewing.report.pages import open_report
 
             open_report(self.folder, kind)
 

@@ -63,7 +63,7 @@ def climb_trials_of(what: str, asked: TrialsOptions, words: CrewWords) -> None:
         )  # fmt: skip
     summary = sum_up(told)
     if words.output is not None:
-        from ...families.climber.pictures.trials_plot import draw_trials
+        from ...families.climber.pictures.charts import draw_trials
 
         draw_trials(summary, words.output)
     if words.as_json:

@@ -17,8 +17,7 @@ from .inputs import by_hand, set_input
 from .own_pages import Guard, UnguardedError, check_guarded, guarded
 from .playback import Playback
 from .save_panel import SavePanel
-from .scenery import FOV, Camera
-from .solids import colour
+from .solids import FOV, Camera, colour
 from .stage import Stage
 from .work_panel import WorkPanel
 

@@ -21,13 +21,13 @@ from ..pictures import carried_out, pictures_of
 from ..scene import Bounds
 from ..view import View
 from .film import Film, PlanFilm
-from .scenery import Scenery
+from .solids import Scenery
 
 if TYPE_CHECKING:
     import viser
 
-    from .labour import Tell
     from .stage import Stage
+    from .work_panel import Tell
 
 NAMED: Final = "name the task, plan or walk that it was made with beside it"
 

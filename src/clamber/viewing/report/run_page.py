@@ -12,8 +12,7 @@ from ...family import NotOfFamilyError, family_of
 from ...files import write_atomically
 from ...planning.problem.plan import Plan
 from ..pictures import draw_route, draw_run, pictures_of
-from .folder import Kind
-from .pages import write_page, write_style
+from .pages import Kind, write_page, write_style
 
 INDEX: Final = "index.html"
 PLAN_PICTURE: Final = "plan.png"

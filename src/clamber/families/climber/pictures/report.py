@@ -12,7 +12,7 @@ from ....viewing.margins import named_limits
 from ....viewing.report.run_page import MILLI, Rows, RunPage, most, plan_words
 from ..execution.climb_report import ActionReport
 from ..trials.run_plan import ClimbRun
-from .torques import torque_limits
+from .artists import torque_limits
 
 CHECKS_TOLD: Final = 3
 """Checks whose least margins are told, the tightest first."""

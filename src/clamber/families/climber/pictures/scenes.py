@@ -13,7 +13,7 @@ from ....planning.problem.plan import Plan
 from ....planning.progress import Listener
 from ....tasks.library import task_names
 from ....viewing.browser.exhibit import NAMED, Editor, Exhibit, Planned, Scenes
-from ....viewing.browser.scenery import FOV, NARROW, Camera
+from ....viewing.browser.solids import FOV, NARROW, Camera
 from ....viewing.scene import Bounds, join
 from ..execution.climb_report import LoggedClimb
 from ..execution.climb_trace import ClimbTrace
@@ -21,17 +21,15 @@ from ..planning.task import LimbedTask
 from ..trials.planning import plan_to_climb
 from ..trials.rehearsal import Rehearsal, rehearse
 from ..trials.run_plan import ClimbRun, climbing_flaws, climbing_task
-from .board_panel import BoardPanel
-from .climb_run_view import ClimbRunView, run_view
-from .climber_figure import ClimberFigure
-from .run_film import ClimbFilm
-from .wall_scene import WallScene
+from .board_editor import BoardPanel
+from .climb_run import ClimbFilm, ClimbRunView, run_view
+from .space import ClimberFigure, WallScene
 
 if TYPE_CHECKING:
     import viser
 
-    from ....viewing.browser.labour import Tell
     from ....viewing.browser.stage import Stage
+    from ....viewing.browser.work_panel import Tell
 
 ASIDE: Final = (-0.38, 0.12)
 """From where the camera looks at the wall: to the left and up, over its distance [-]."""

@@ -13,15 +13,13 @@ from ....types import Floats
 from ....viewing import style
 from ....viewing.pictures import Pictures
 from ....viewing.route import FACTS, draw_way, label_ghost, pick_ghosts, write_facts
-from ....viewing.scene import Bounds
+from ....viewing.scene import Bounds, length_unit
 from ....viewing.view import Layout
-from ....viewing.words import length_unit
 from ..planning.task import WalkerTask
 from .report import walk_page
 from .walk_run_view import run_picture
-from .walker_artists import COLOURS, NAMES, WalkerArtists, draw_ground, walker_bounds
 from .walker_motion import WalkerMoment, settled_moment
-from .walker_view import WalkerView, draw_walk
+from .walker_view import COLOURS, NAMES, WalkerArtists, WalkerView, draw_ground, draw_walk, walker_bounds
 
 GHOSTS: Final = 2
 """Stances drawn between start and end, at most: a walker covers most of its own steps."""

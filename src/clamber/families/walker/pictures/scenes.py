@@ -15,7 +15,7 @@ from ....planning.progress import Listener
 from ....tasks.library import task_names
 from ....types import Floats, Json
 from ....viewing.browser.exhibit import Editor, Exhibit, Planned, Scenes
-from ....viewing.browser.scenery import FOV, NARROW, Camera
+from ....viewing.browser.solids import FOV, NARROW, Camera
 from ....viewing.scene import Bounds, join
 from ....viewing.view import View
 from ..execution.walk_report import LoggedWalk
@@ -26,19 +26,16 @@ from ..robot import WalkerRobot
 from ..trials.planned import careful
 from ..trials.run_walk import WalkRun
 from ..world.ground import Ground
-from .ground_panel import GroundPanel
-from .ground_scene import GroundScene
-from .standing_film import StandingFilm
-from .walk_film import PlannedWalkFilm, WalkFilm, logged_walk
-from .walker_figure import WalkerFigure
+from .ground_editor import GroundPanel
+from .space import GroundScene, WalkerFigure
+from .walk_film import PlannedWalkFilm, StandingFilm, WalkFilm, logged_walk, way_poses
 from .walker_view import WalkerView
-from .way import way_poses
 
 if TYPE_CHECKING:
     import viser
 
-    from ....viewing.browser.labour import Tell
     from ....viewing.browser.stage import Stage
+    from ....viewing.browser.work_panel import Tell
 
 FROM: Final = (-0.45, -1.0, 0.75)
 """From where the camera looks at the ground, over its distance [-]."""

@@ -22,7 +22,7 @@ from ..execution.true_walk import TrueWalk
 from ..robot import WalkerRobot
 from ..trials.run_walk import WalkRun
 from ..world.ground import Ground, Surface
-from .walk_shapes import WalkShapes, shapes_at
+from .walker_motion import WalkShapes, shapes_at
 
 COLOURS: Final = (style.PARTS[0], style.PARTS[1])
 """Of the Delta-frame and the Y-frame."""
