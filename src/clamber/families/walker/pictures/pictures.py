@@ -18,8 +18,8 @@ from ....viewing.view import Layout
 from ..planning.task import WalkerTask
 from .report import walk_page
 from .walk_run_view import run_picture
-from .walker_motion import WalkerMoment, settled_moment
-from .walker_view import COLOURS, NAMES, WalkerArtists, WalkerView, draw_ground, draw_walk, walker_bounds
+from .walker_motion import COLOURS, NAMES, WalkerMoment, settled_moment
+from .walker_view import WalkerArtists, WalkerView, draw_ground, draw_walk, walker_bounds
 
 GHOSTS: Final = 2
 """Stances drawn between start and end, at most: a walker covers most of its own steps."""

@@ -13,7 +13,7 @@ from ....viewing.scene import Bounds, goal_box, name_goal
 from ..planning.task import Goal
 from ..robot import WalkerRobot
 from ..world.ground import Ground, Surface
-from .walker_motion import WalkShapes
+from .walker_motion import COLOURS, WalkShapes
 
 if TYPE_CHECKING:
     import viser
@@ -152,8 +152,6 @@ def _bricks(bricks: Floats, bottom: float) -> Mesh:
     return vertices.reshape(-1, 3), faces.reshape(-1, 3)
 
 
-PAINT: Final = (style.PARTS[0], style.PARTS[1])
-"""Of the Delta-frame and the Y-frame."""
 THICK: Final = 0.028
 """Radius of a frame's bars over that of its circle of feet [-]."""
 LONGEST: Final = 0.9
@@ -190,7 +188,7 @@ class WalkerFigure:
         r = THICK * max(robot.legs.radius_delta, robot.legs.radius_y)
         self._size, self._radius = max(robot.legs.radius_delta, robot.legs.radius_y), r
         self.root = server.scene.add_frame(name, show_axes=False)
-        first, second, ink, arm = (np.array(colour(shade), np.uint8) for shade in (*PAINT, style.INK, style.QUIET))
+        first, second, ink, arm = (np.array(colour(shade), np.uint8) for shade in (*COLOURS, style.INK, style.QUIET))
         paint = [first] * 3 + [second] * 3 + [ink] * 3 + [first] * 3 + [second] * 3 + [arm] * 2
         sizes = [r] * 6 + [0.5 * r] * 3 + [0.7 * r] * 6 + [0.8 * r] * 2
         self._bars = Sticks(server, f"{name}/bars", np.array(paint), np.array(sizes), opacity)

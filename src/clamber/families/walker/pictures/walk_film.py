@@ -20,8 +20,8 @@ from ..trials.run_walk import lay_track
 from ..world.ground import Ground, Surface
 from .space import WalkMoment
 from .walker_loads import WalkLoads, actuator_gauges, leg_force_gauges, leg_gauges, plate_normals
-from .walker_motion import WalkerMoment, WalkShapes, plate_axes, shapes_at
-from .walker_view import NAMES, WalkerView
+from .walker_motion import NAMES, WalkerMoment, WalkShapes, plate_axes, shapes_at
+from .walker_view import WalkerView
 
 USUAL: Final = 16.0
 """A walk takes many minutes: it is played that much faster than it was [-]."""

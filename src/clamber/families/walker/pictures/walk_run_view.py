@@ -22,10 +22,8 @@ from ..execution.true_walk import TrueWalk
 from ..robot import WalkerRobot
 from ..trials.run_walk import WalkRun
 from ..world.ground import Ground, Surface
-from .walker_motion import WalkShapes, shapes_at
+from .walker_motion import COLOURS, WalkShapes, shapes_at
 
-COLOURS: Final = (style.PARTS[0], style.PARTS[1])
-"""Of the Delta-frame and the Y-frame."""
 ROOM: Final = 0.45
 """About the plate's way, that is shown [m] ..."""
 EDGE: Final = 0.05

@@ -2,15 +2,21 @@
 
 import math
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
 from ....types import Floats, Ints
+from ....viewing import style
 from ....viewing.view import Part
 from ..execution.true_walk import TrueWalk
 from ..planning.problem import WalkerOutline, carried_weight, outline
 from ..planning.task import WalkerTask
-from ..robot import WalkerRobot
+from ..robot import FRAMES, WalkerRobot
+
+COLOURS: Final = (style.PARTS[0], style.PARTS[1])
+"""Of the Delta-frame and the Y-frame."""
+NAMES: Final = tuple(f"{name.capitalize()}-frame" for name in FRAMES)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

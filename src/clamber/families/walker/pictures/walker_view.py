@@ -27,15 +27,11 @@ from ....viewing.scene import (
 )
 from ....viewing.view import Part, Picture, View
 from ..planning.task import WalkerTask
-from ..robot import FRAMES
 from ..statics.checks import WALKER_CHECKS
 from ..world.ground import Block
 from .walker_loads import actuator_gauges
-from .walker_motion import WalkerMoment, settled_moment, walker_motion
+from .walker_motion import COLOURS, NAMES, WalkerMoment, settled_moment, walker_motion
 
-COLOURS: Final = (style.PARTS[0], style.PARTS[1])
-"""Of the Delta-frame and the Y-frame."""
-NAMES: Final = tuple(f"{name.capitalize()}-frame" for name in FRAMES)
 RISE: Final = 0.25
 """By what share of its radius a lifted foot looks larger, for it is nearer to the eye [-]."""
 SUPPORT: Final = "#8FA3B5"
