@@ -117,7 +117,7 @@ def prepare(folder: Path, run: Callable[..., int]) -> None:
     from clamber.families.climber.planning.plans import thesis_code
     from clamber.planning.problem.plan import Plan
     from clamber.tasks import load_task
-    from clamber.viewer.app import check_viser
+    from clamber.viewing.browser.app import check_viser
 
     task: Any = climbable(load_task("ladder"))  # type: ignore[arg-type]
     codes = [thesis_code(task, number) for number in (300, 3)]

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from .sim.lone_robot import JointBounds
     from .tasks.task_format import TaskFormat
     from .trials.dynamics import Dynamics
+    from .viewing.browser.exhibit import Scenes
     from .viewing.pictures import Pictures
 
 BUILT_IN: Final = {
@@ -94,7 +95,12 @@ class Family:
 
     @property
     def pictures(self) -> Pictures | None:
-        """How stances and plans are drawn."""
+        """How stances, plans and runs are drawn."""
+        return None
+
+    @property
+    def scenes(self) -> Scenes | None:
+        """How its robots are shown in the viewer, and what is offered there."""
         return None
 
     @property
@@ -117,7 +123,7 @@ class Family:
         """How its tasks and plans, and what else it can do, are carried out in contact dynamics."""
         return None
 
-    def other_work(self, name_or_path: str, settings: Sequence[str] = ()) -> Any | None:
+    def other_work(self, name_or_path: str, overrides: Sequence[str] = ()) -> Any | None:
         """What can be carried out and is no task, by its name or file, such as a walk; None: it is no such thing."""
         return None
 

@@ -40,8 +40,8 @@ def test_json_says_where_the_page_is(clamber: Clamber) -> None:
 
 
 def test_page_answers_on_loopback(monkeypatch: pytest.MonkeyPatch) -> None:
-    from clamber.viewer.app import App
-    from clamber.viewer.exhibit import open_exhibit
+    from clamber.viewing.browser.app import App
+    from clamber.viewing.browser.exhibit import open_exhibit
 
     app = App(open_exhibit(["gap"]))
     try:
@@ -55,8 +55,8 @@ def test_page_answers_on_loopback(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture(params=["127.0.0.1", "0.0.0.0"])
 def opened(request: pytest.FixtureRequest) -> Iterator[tuple[str, str, str]]:
     """A viewer, for this machine and exposed: its host with port, its token, the cookie that its page sets."""
-    from clamber.viewer.app import App
-    from clamber.viewer.exhibit import open_exhibit
+    from clamber.viewing.browser.app import App
+    from clamber.viewing.browser.exhibit import open_exhibit
 
     app = App(open_exhibit(["gap"]), host=request.param)
     try:
@@ -99,8 +99,8 @@ def version() -> Subprotocol:
 
 
 def test_a_name_of_others_that_leads_to_this_machine_is_refused() -> None:
-    from clamber.viewer.app import App
-    from clamber.viewer.exhibit import open_exhibit
+    from clamber.viewing.browser.app import App
+    from clamber.viewing.browser.exhibit import open_exhibit
 
     app = App(open_exhibit(["gap"]))
     try:

@@ -51,7 +51,9 @@ def told(clamber: Run, *words: str) -> Any:
 
 def test_no_file_of_the_source_knows_it() -> None:
     source = HERE.parents[2] / "src"
-    assert [path for path in source.rglob("*") if path.suffix in (".py", ".toml") and "shuttle" in path.read_text()] == []
+    assert [
+        path for path in source.rglob("*") if path.suffix in (".py", ".toml") and "shuttle" in path.read_text()
+    ] == []
 
 
 def test_it_is_small() -> None:
@@ -77,7 +79,9 @@ def test_it_is_listed_checked_and_inspected(clamber: Run, plan: Path) -> None:
 def test_its_reach_is_mapped_and_its_keys_are_swept(clamber: Run) -> None:
     seen = told(clamber, "reach", "shuttle-line")
     assert seen["status"] == "complete" and seen["goals"][0]["first_step"] == SHORTEST
-    assert max(seen["places"]["x_m"]) == pytest.approx(0.59)  # the last rung at 48 cm, a reach of 12 cm, steps of 2 cm from 5 cm
+    assert max(seen["places"]["x_m"]) == pytest.approx(
+        0.59
+    )  # the last rung at 48 cm, a reach of 12 cm, steps of 2 cm from 5 cm
     swept = told(clamber, "sweep", "shuttle-line", "--vary", "robot.reach=8cm..10cm:3", "--planner", "exact")
     assert [point["status"] for point in swept["points"]] == ["infeasible", "optimal", "optimal"]
 
@@ -86,7 +90,11 @@ def test_what_would_open_an_infeasible_task_is_told(clamber: Run) -> None:
     code, out, _ = clamber("plan", "shuttle-line", "--planner", "exact", "--set", "robot.reach=8cm", "--json", "-q")
     assert code == 1
     (opening,) = json.loads(out)["openings"]["openings"]
-    assert (opening["key"], opening["after"], opening["least"]) == ("robot.reach", "90 mm", True)  # half of the gap of 18 cm
+    assert (opening["key"], opening["after"], opening["least"]) == (
+        "robot.reach",
+        "90 mm",
+        True,
+    )  # half of the gap of 18 cm
 
 
 def test_it_runs_and_is_tried_out(clamber: Run, plan: Path) -> None:

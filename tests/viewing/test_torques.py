@@ -2,7 +2,7 @@
 
 import pytest
 
-from clamber.families.climber.pictures.torques import show_torque
+from clamber.families.climber.pictures.artists import show_torque
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from clamber.families.climber.pictures.trials_plot import _figure, draw_trials
+from clamber.families.climber.pictures.charts import draw_trials, trials_figure
 from clamber.families.climber.trials.trial_summary import sum_up
 from clamber.trials.trial_runs import Trials
 from clamber.viewing.output import SuffixError
@@ -38,7 +38,7 @@ def test_any_number_of_climbs_is_drawn(tmp_path: Path, suffix: str, n: int, fail
 
 def test_its_title_its_panels_and_its_bars_say_what_was_counted() -> None:
     summary = sum_up(trials(30, 4))
-    figure = _figure(summary)
+    figure = trials_figure(summary)
     title = figure.get_suptitle()
     assert "26 of 30 climbs succeeded, 86.7 %" in title
     panels = [axes for axes in figure.axes if axes.get_visible()]

@@ -9,8 +9,8 @@ import pytest
 from PIL import Image
 
 from clamber.families.walker.execution.true_walk import TracedPlant, TrueWalk
-from clamber.families.walker.pictures.walk_run_view import WalkRunView, draw_walk, footprints
-from clamber.families.walker.pictures.walk_shapes import plate_axes, shapes_at
+from clamber.families.walker.pictures.walk_run_view import WalkRunView, footprints
+from clamber.families.walker.pictures.walker_motion import plate_axes, shapes_at
 from clamber.families.walker.robot import WalkerRobot
 from clamber.families.walker.sim.walker_flaws import WalkerFlaws
 from clamber.families.walker.sim.walker_plant import WalkerSim
@@ -18,6 +18,7 @@ from clamber.families.walker.world.ground import Ground
 from clamber.families.walker.world.library import load_ground
 from clamber.tasks.robots import load_robot
 from clamber.viewing.output import SuffixError
+from clamber.viewing.pictures import write_run_picture
 
 
 @pytest.fixture(scope="module")
@@ -69,15 +70,16 @@ def test_the_plate_s_axes_are_a_turn() -> None:
 
 @pytest.mark.parametrize("ground", ["level", "slope", "ditch"])
 def test_walks_are_drawn_as_the_suffix_says(robot: WalkerRobot, walk: TrueWalk, ground: str, tmp_path: Path) -> None:
-    for suffix in (".png", ".gif") if ground == "level" else (".png",):
-        draw_walk(robot, load_ground(ground), walk, "a walk", tmp_path / f"walk{suffix}")
+    view = WalkRunView(robot, load_ground(ground), walk, "a walk")
+    for suffix in (".gif", ".png") if ground == "level" else (".png",):
+        write_run_picture(view, tmp_path / f"walk{suffix}")
         with Image.open(tmp_path / f"walk{suffix}") as picture:
             assert min(picture.size) > 300
     if ground == "level":
         with Image.open(tmp_path / "walk.gif") as moving:
             assert getattr(moving, "n_frames", 1) == 7  # a second of the walk each
     with pytest.raises(SuffixError):
-        draw_walk(robot, load_ground(ground), walk, "a walk", tmp_path / "walk.html")
+        write_run_picture(view, tmp_path / "walk.html")
 
 
 FAR = ((1.0, 0.0), (2.0, 0.0), (0.0, 2.0))

@@ -3,22 +3,15 @@
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from ..errors import ClamberError
-from ..families.climber.pictures.climb_run_view import write_run
-from ..families.climber.planning.task import LimbedTask
-from ..families.climber.trials.run_plan import ClimbRun
-from ..families.walker.pictures.walk_run_view import write_walk
-from ..families.walker.planning.task import WalkerTask
-from ..families.walker.trials.run_walk import WalkRun
 from ..limb_bench.pictures.comparison import draw_comparison
 from ..limb_bench.result import LimbResult
 from ..planning.problem.plan import Plan
-from ..planning.problem.plan_families import plan_family
 from ..planning.result import PlanResult
+from ..tasks import Task
+from ..trials.dynamics import CarriedOut
 from ..viewing.output import CANVASES
-from ..viewing.pictures import animate, draw_route, draw_stance
+from ..viewing.pictures import animate, draw_route, draw_run, draw_stance
 
 
 class NotDrawnError(ClamberError):
@@ -48,19 +41,16 @@ def draw(what: Any, path: str | Path, *, step: int | None = None) -> Path:
         ClamberError: If the file cannot be written, or its suffix names nothing that can be made of it.
     """
     file = Path(path)
-    if isinstance(what, ClimbRun):
-        write_run(what, file)
-    elif isinstance(what, WalkRun):
-        write_walk(what, file)
+    if isinstance(what, CarriedOut):
+        draw_run(what, file)
     elif isinstance(what, LimbResult):
         draw_comparison(what, file)
     elif isinstance(what, PlanResult):
         _draw_plan(what.task, what.plan, file, step)
     elif isinstance(what, Plan):
         _draw_plan(what.rebuild_task(), what, file, step)
-    elif isinstance(what, LimbedTask | WalkerTask):
-        start = plan_family(what).problem(what).replay(np.zeros(0, np.int32))
-        draw_stance(what, start, 0, file)
+    elif isinstance(what, Task):
+        draw_stance(what, None, 0, file)
     else:
         raise NotDrawnError(type(what).__name__)
     return file

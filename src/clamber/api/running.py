@@ -11,13 +11,11 @@ from ..family import families, family_of
 from ..planning.problem.plan import Plan
 from ..planning.result import PlanResult
 from ..tasks import Task, load_task
-from ..trials.dynamics import RunEvents, RunRequest
+from ..trials.dynamics import CarriedOut, RunEvents, RunRequest
 from ..trials.work import dynamics_of
 
 if TYPE_CHECKING:
-    from ..families.climber.trials.run_plan import ClimbRun
     from ..families.walker.planning import Walk
-    from ..families.walker.trials.run_walk import WalkRun
 
 
 def run(
@@ -29,7 +27,7 @@ def run(
     seed: int = 0,
     replan: bool = True,
     log: str | Path | None = None,
-) -> ClimbRun | WalkRun:
+) -> CarriedOut:
     """Carry a task, a plan or a walk out on a simulated robot that differs from what its controller believes by `noise`.
 
     Args:
@@ -54,7 +52,7 @@ def run(
     file = None if log is None else Path(log)
     asked = RunRequest(planner=planner, noise=tuple(noise), plant=tuple(plant), seed=seed, replan=replan, log=file)
     dynamics.check(work, asked)
-    made: ClimbRun | WalkRun = dynamics.run(work, found, asked, RunEvents())
+    made: CarriedOut = dynamics.run(work, found, asked, RunEvents())
     return made
 
 

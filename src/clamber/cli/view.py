@@ -14,8 +14,8 @@ from ..terminal.options import AsJson, Overrides
 from ..terminal.output import announce_compilation, check_writable, print_json, stderr, stdout
 
 if TYPE_CHECKING:
-    from ..viewer.app import App
-    from ..viewer.exhibit import Exhibit
+    from ..viewing.browser.app import App
+    from ..viewing.browser.exhibit import Exhibit
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +38,10 @@ class ViewOptions:
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")] = True
     seconds: Annotated[float | None, typer.Option(min=0.0, help="Close after so long; without it, Ctrl-C does.")] = None
     save: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Write one page (.html) that needs no server, and end.")
+        Path | None,
+        typer.Option(
+            "--output", "-o", "--save", metavar="FILE", help="Write one page (.html) that needs no server, and end."
+        ),
     ] = None
     as_json: AsJson = False
 
@@ -53,7 +56,7 @@ class Opened:
 
 @dataclass(frozen=True, slots=True)
 class Saved:
-    """`--save`: a page that was written."""
+    """`--output`: a page that was written."""
 
     written: Annotated[Path, Key(kind=str)]
     title: str
@@ -78,11 +81,11 @@ def view(
     The page is served from this machine to this machine alone, unless --expose says otherwise.
     """
     check_writable(words.save)
-    from ..viewer.app import LOOPBACK, App, check_viser
+    from ..viewing.browser.app import LOOPBACK, App, check_viser
 
     check_viser()
     announce_compilation()
-    from ..viewer.exhibit import open_exhibit
+    from ..viewing.browser.exhibit import open_exhibit
 
     exhibit = open_exhibit(things, words.task, words.overrides or ())
     if words.save is not None:
@@ -105,7 +108,7 @@ def view(
 
 
 def _save(exhibit: "Exhibit", path: Path, *, as_json: bool) -> None:
-    from ..viewer.page import write_page
+    from ..viewing.browser.page import write_page
 
     size = write_page(exhibit, path)
     if as_json:

@@ -6,8 +6,7 @@ from pathlib import Path
 from typing import Final
 
 from ..regular_files import is_file, make_folder
-from ..viewing.report.folder import open_report
-from ..viewing.report.pages import write_page, write_style
+from ..viewing.report.pages import open_report, write_page, write_style
 from .library import STUDIES, TITLES
 from .result import StudyResult
 from .told import ToldResult, keep_result, read_result, sources

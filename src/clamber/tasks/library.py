@@ -1,7 +1,7 @@
 """Tasks by name or path: a task file names its robot and its board, and the robot's family builds the whole."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 from ..family import Family, families
 from ..files import Document, data_names, find_data, read_toml
@@ -11,6 +11,7 @@ from .parts import Naming
 from .robots import family_in, read_robot, shipped
 
 
+@runtime_checkable
 class Task(Protocol):
     """A task of any family."""
 

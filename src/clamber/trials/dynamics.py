@@ -6,10 +6,11 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol, runtime_checkable
 
 from ..errors import PlannerError
-from ..execution.log_stream import WantedLog
+from ..execution.log_stream import LogGap, WantedLog
+from ..execution.run_report import RunReport
 from ..kernel_cache import Use
 from ..planning.problem.plan import Plan
 from ..planning.progress import Listener
@@ -82,8 +83,41 @@ class RunEvents:
     """A search was ended by its seconds, so that another machine may find another plan."""
     planned: Callable[[Plan], None] = _ignore
     """A plan was found, before anything moves."""
-    step: Callable[[str], None] = _ignore
-    """The action or step that begins, in words."""
+    step: Callable[[str, float | None], None] = _ignore
+    """The action or step that begins, in words, and the share that is done where it is known [-]; may end the run by an error."""
+
+
+@runtime_checkable
+class CarriedOut(Protocol):
+    """What happened in a run; it has a JSON form, too."""
+
+    @property
+    def work(self) -> Any:
+        """The task, or what else of the family was carried out."""
+
+    @property
+    def plan(self) -> Plan | None:
+        """That it followed; None: work that needs none."""
+
+    @property
+    def trace(self) -> Any:
+        """Samples of it, with `to_log()`; None where the family keeps none."""
+
+    @property
+    def report(self) -> RunReport:
+        """What became of it."""
+
+    @property
+    def done(self) -> bool:
+        """Whether it came to its end."""
+
+    @property
+    def reason(self) -> str:
+        """Why it did not; empty where it did."""
+
+    @property
+    def log_gap(self) -> LogGap | None:
+        """What its log lacks; None: nothing, or there is no log."""
 
 
 class Dynamics(ABC):
@@ -109,8 +143,10 @@ class Dynamics(ABC):
         """
 
     @abstractmethod
-    def run(self, work: Any, plan: Plan | None, asked: RunRequest, events: RunEvents, label: str = "plan") -> Any:
-        """Carry a plan, or the one that is found for the task, out once.
+    def run(
+        self, work: Any, plan: Plan | None, asked: RunRequest, events: RunEvents, label: str = "plan"
+    ) -> CarriedOut:
+        """Carry a plan, or the one that is found for the task, out once; returns a `CarriedOut`.
 
         Args:
             work: A task, or what else the family can carry out.
@@ -119,29 +155,10 @@ class Dynamics(ABC):
             events: Called on the way.
             label: What errors call the plan.
 
-        Returns:
-            A run with `done`, `reason`, `report`, `log_gap` and a JSON form.
-
         Raises:
             NoPlanError: If there is no plan that can be carried out.
             ClamberError: If something speaks against the plan, or the request names what there is not.
         """
-
-    @abstractmethod
-    def check_suffix(self, file: Path) -> None:
-        """Make sure that `write_run` can write such a file.
-
-        Raises:
-            SuffixError: If it cannot.
-        """
-
-    @abstractmethod
-    def write_run(self, run: Any, file: Path) -> None:
-        """Write what happened as the file's suffix says."""
-
-    @abstractmethod
-    def write_report(self, run: Any, command: str, folder: Path) -> Path:
-        """Write the report of a run into a folder that `open_report` made; returns its page. `command` repeats the run."""
 
     @abstractmethod
     def print_run(self, console: Console, run: Any) -> None:

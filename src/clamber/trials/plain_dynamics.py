@@ -41,6 +41,16 @@ class PlainRun(Jsonable):
     log_gap: Annotated[LogGap | None, HIDDEN] = None
 
     @property
+    def work(self) -> Task:
+        """What was carried out."""
+        return self.task
+
+    @property
+    def trace(self) -> None:
+        """None is kept."""
+        return None
+
+    @property
     def done(self) -> bool:
         """Whether the plan came to its end."""
         return self.report.done
@@ -133,17 +143,19 @@ class PlainSetup(Setup[PlainRun, PlainTrial]):
         """A run that raised."""
         return PlainTrial(seed=seed, done=False, reason=f"error: {error}", seconds=0.0, drawn={})
 
-    def again(self, seed: int, kept: Json | None, step: Callable[[str], None]) -> tuple[PlainRun, PlainTrial]:
+    def again(
+        self, seed: int, kept: Json | None, step: Callable[[str, float | None], None]
+    ) -> tuple[PlainRun, PlainTrial]:
         """One run again."""
         return _one(self.item(seed), step)
 
 
 def run_plain_trial(item: Json) -> Json:
     """One trial, as `PlainTrial.to_json`; runs in a worker."""
-    return _one(item, lambda words: None)[1].to_json()
+    return _one(item, lambda words, share: None)[1].to_json()
 
 
-def _one(item: Json, step: Callable[[str], None]) -> tuple[PlainRun, PlainTrial]:
+def _one(item: Json, step: Callable[[str, float | None], None]) -> tuple[PlainRun, PlainTrial]:
     task = task_from_document(item["document"])
     dynamics = family_of(task).dynamics
     assert isinstance(dynamics, PlainDynamics)
@@ -160,7 +172,9 @@ class PlainDynamics(Dynamics):
     """Key -> what may deviate; each is drawn evenly to either side."""
 
     @abstractmethod
-    def simulate(self, task: Any, plan: Plan, drawn: Mapping[str, float], step: Callable[[str], None]) -> RunReport:
+    def simulate(
+        self, task: Any, plan: Plan, drawn: Mapping[str, float], step: Callable[[str, float | None], None]
+    ) -> RunReport:
         """Carry a plan out.
 
         Args:
@@ -192,7 +206,7 @@ class PlainDynamics(Dynamics):
         return self.carried_out(work, plan, widths, asked.seed, events.step)
 
     def carried_out(
-        self, task: Task, plan: Plan, widths: Mapping[str, float], seed: int, step: Callable[[str], None]
+        self, task: Task, plan: Plan, widths: Mapping[str, float], seed: int, step: Callable[[str, float | None], None]
     ) -> PlainRun:
         """A plan carried out with what a seed draws of each width, from a stream for each key."""
         drawn = {
@@ -217,18 +231,6 @@ class PlainDynamics(Dynamics):
                 label, f"actions.{violated.step}", str(violated.asked), f"{violated.reason}; nothing has moved"
             )
         return plan
-
-    def check_suffix(self, file: Path) -> None:
-        """There are no files of runs."""
-        raise SpecError("--output", "file", str(file), "runs of this family write no files")
-
-    def write_run(self, run: PlainRun, file: Path) -> None:
-        """There are no files of runs."""
-        self.check_suffix(file)
-
-    def write_report(self, run: PlainRun, command: str, folder: Path) -> Path:
-        """There are no reports."""
-        raise NotOfFamilyError(family_of(run.task).title, "report of a run")
 
     def print_run(self, console: "Console", run: PlainRun) -> None:
         """How it ended, and when."""

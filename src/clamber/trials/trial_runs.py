@@ -70,7 +70,7 @@ class Setup(ABC, Generic[RunT, TrialT]):
         """A trial that raised, or whose workers died; it counts as a failure."""
 
     @abstractmethod
-    def again(self, seed: int, kept: Json | None, step: Callable[[str], None]) -> tuple[RunT, TrialT]:
+    def again(self, seed: int, kept: Json | None, step: Callable[[str, float | None], None]) -> tuple[RunT, TrialT]:
         """One trial again, with its whole run.
 
         Args:

@@ -20,11 +20,7 @@ def draw_front(front: Front, path: str | Path) -> None:
 
     Args:
         front: From `plan_front`.
-        path: A file (.png, .svg, .pdf).
-
-    Raises:
-        SuffixError: If the file's suffix names no format for still pictures.
-        FileError: If the file cannot be written.
+        path: Of the picture (`drawing`).
     """
     with drawing(path, (7.2, 4.4)) as figure:
         axes = figure.subplots()

@@ -44,7 +44,7 @@ class Gauges:
     show: Callable[[float], str]
     """A value in words."""
     unit: tuple[str, float, int]
-    """The same for the player: unit, its size in SI units, decimals."""
+    """The same for pages: unit, its size in SI units, decimals."""
     group: int
     """Bars that stand close together."""
     note: str = ""

@@ -1,24 +1,39 @@
-"""Pictures of any robot's plan: each family says how its own are drawn."""
+"""Pictures of any robot's plans and runs: each family says how its own are drawn."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, Final, Protocol
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ..execution.log_files import SUFFIXES as LOGS
+from ..execution.log_files import write_log
 from ..family import NotOfFamilyError, family_of
 from ..planning.problem.plan import Plan
 from ..planning.problem.problem import Replay
 from ..tasks import Task
+from ..trials.dynamics import CarriedOut
 from ..types import Floats
-from .animation import WRITERS
+from .animation import WRITERS, Animated
 from .output import CANVASES, StepError, check_suffix, save_figure
 from .scene import Bounds
 from .style import styled
-from .view import View
+from .view import Picture, View
+
+if TYPE_CHECKING:
+    from .report.run_page import RunPage
+
+ANIMATIONS: Final = (".gif", ".html", ".mp4")
+
+
+class RunPicture(Animated[Any], Protocol):
+    """A figure of a run."""
+
+    def whole(self) -> Figure:
+        """All of it in one picture."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +41,7 @@ class Pictures:
     """How one family of robots is drawn."""
 
     view: Callable[[Any, Replay], View[Any]]
-    """A picture that can be set to any moment."""
+    """A plan at any of its moments."""
     draw: Callable[[Any, np.void, Axes], None]
     """One stance record on given axes."""
     route: Callable[[Any, Replay], Figure]
@@ -37,6 +52,10 @@ class Pictures:
     """A task's world on given axes."""
     torque_limits: Callable[[Any], Floats] | None = None
     """Of all joints that carry weight [N m]; None: the model has no joint torques."""
+    run: Callable[[Any], RunPicture] | None = None
+    """What was carried out; None: it is not drawn."""
+    report: Callable[[Any], "RunPage"] | None = None
+    """What a report says of a run; None: there are none."""
 
 
 def pictures_of(task: Task) -> Pictures:
@@ -51,18 +70,24 @@ def pictures_of(task: Task) -> Pictures:
     return family.pictures
 
 
-def _carried_out(task: Task, plan: Replay | Plan) -> Replay:
+def carried_out(task: Task, plan: Replay | Plan | None, label: str = "plan") -> Replay:
+    """A plan carried out on paper, violations and all; without one, the start.
+
+    Raises:
+        ClamberError: If the plan, which `label` names, has actions that the task has not, or the start violates a hard check.
+    """
     if isinstance(plan, Replay):
         return plan
-    return family_of(task).plans.problem(task).replay(plan.codes(task), go_on=True)
+    codes = np.zeros(0, np.int32) if plan is None else plan.codes(task, label)
+    return family_of(task).plans.problem(task).replay(codes, go_on=True)
 
 
-def draw_stance(task: Task, plan: Replay | Plan, step: int, target: str | Path | Axes) -> None:
+def draw_stance(task: Task, plan: Replay | Plan | None, step: int, target: str | Path | Axes) -> None:
     """Draw the stance after a step.
 
     Args:
         task: The task.
-        plan: A plan, or its replay.
+        plan: A plan, or its replay; None: the start alone.
         step: Number of the action, from 1; 0 is the start.
         target: A file (.png, .svg, .pdf), which also gets pose, nearest limit and loads; or axes, for the robot in its
             world alone.
@@ -72,7 +97,7 @@ def draw_stance(task: Task, plan: Replay | Plan, step: int, target: str | Path |
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    family, replay = pictures_of(task), _carried_out(task, plan)
+    family, replay = pictures_of(task), carried_out(task, plan)
     if not 0 <= step < len(replay.stances):
         raise StepError(step, len(replay.stances) - 1)
     if isinstance(target, Axes):
@@ -80,21 +105,16 @@ def draw_stance(task: Task, plan: Replay | Plan, step: int, target: str | Path |
         return
     check_suffix(target, CANVASES)
     with styled():
-        view = family.view(task, replay)
-        view.show(step, view.settled(step))
-        save_figure(view.figure, target)
+        picture = Picture(family.view(task, replay))
+        picture.show(step, picture.view.settled(step))
+        save_figure(picture.figure, target)
 
 
 def draw_route(task: Task, plan: Replay | Plan, path: str | Path) -> None:
-    """Draw a whole plan as one still picture (.png, .svg, .pdf).
-
-    Raises:
-        SuffixError: If the file's suffix names no format for still pictures.
-        FileError: If the file cannot be written.
-    """
+    """Draw a whole plan as one still picture (.png, .svg, .pdf)."""
     check_suffix(path, CANVASES)
     with styled():
-        save_figure(pictures_of(task).route(task, _carried_out(task, plan)), path)
+        save_figure(pictures_of(task).route(task, carried_out(task, plan)), path)
 
 
 def animate(task: Task, plan: Replay | Plan, path: str | Path) -> None:
@@ -103,8 +123,67 @@ def animate(task: Task, plan: Replay | Plan, path: str | Path) -> None:
     Raises:
         SuffixError: If the file's suffix names no format for animations.
         MissingExtraError: If .mp4 is asked for without the extra `video`.
+        MissingViserError: If .html is asked for without the extra `view`.
         FileError: If the file cannot be written.
     """
-    suffix = check_suffix(path, WRITERS)
+    suffix = check_suffix(path, ANIMATIONS)
+    if suffix not in WRITERS:
+        from .browser.exhibit import exhibit_of
+        from .browser.page import write_page  # loads the viewer
+
+        write_page(exhibit_of(task, plan), Path(path))
+        return
     with styled():
-        WRITERS[suffix](pictures_of(task).view(task, _carried_out(task, plan)), Path(path))
+        WRITERS[suffix](Picture(pictures_of(task).view(task, carried_out(task, plan))), Path(path))
+
+
+def check_run_suffix(path: str | Path) -> str:
+    """The suffix of a file that a run can be written to: a log, an animation, or the whole run in one picture.
+
+    Raises:
+        SuffixError: If it is no such suffix.
+    """
+    return check_suffix(path, (*LOGS, *ANIMATIONS, *CANVASES))
+
+
+def draw_run(run: CarriedOut, path: str | Path) -> None:
+    """Write what was carried out as the file's suffix says.
+
+    Raises:
+        NotOfFamilyError: If the family's runs are not drawn.
+        SuffixError: If the suffix names no format.
+        MissingExtraError: If .mp4 is asked for without the extra `video`.
+        MissingViserError: If .html is asked for without the extra `view`.
+        FileError: If the file cannot be written.
+    """
+    suffix, file = check_run_suffix(path), Path(path)
+    if suffix in LOGS:
+        log = run.trace.to_log()
+        write_log(log, file, log.label)
+        return
+    if suffix in ANIMATIONS and suffix not in WRITERS:
+        from .browser.exhibit import run_exhibit  # loads the viewer
+        from .browser.page import write_page
+
+        write_page(run_exhibit(run), file)
+        return
+    draw = pictures_of(run.work).run
+    if draw is None:
+        raise NotOfFamilyError(family_of(run.work).title, "pictures of runs")
+    with styled():
+        write_run_picture(draw(run), file)
+
+
+def write_run_picture(picture: RunPicture, path: Path) -> None:
+    """Write a figure of a run, animated or still; within `styled`.
+
+    Raises:
+        SuffixError: If the suffix names no such format.
+        MissingExtraError: If .mp4 is asked for without the extra `video`.
+        FileError: If the file cannot be written.
+    """
+    suffix = check_suffix(path, (*WRITERS, *CANVASES))
+    if suffix in WRITERS:
+        WRITERS[suffix](picture, path)
+    else:
+        save_figure(picture.whole(), path)

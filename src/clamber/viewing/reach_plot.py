@@ -21,9 +21,8 @@ from ..units import OZ_IN
 from . import style
 from .output import CANVASES, check_suffix, save_figure
 from .pictures import pictures_of
-from .scene import fit_bounds, halo
+from .scene import fit_bounds, halo, length_unit
 from .style import styled
-from .words import length_unit
 
 WIDEST, HIGHEST, NARROWEST = 7.4, 6.4, 4.9
 """Room for the world, and least width of the texts [in]."""
@@ -41,11 +40,7 @@ def draw_reach(reach: Reach, layer: str, path: str | Path) -> None:
     Args:
         reach: The reachable space.
         layer: One of the layers of the robot's family.
-        path: A file (.png, .svg, .pdf).
-
-    Raises:
-        SuffixError: If the file's suffix names no format for still pictures.
-        FileError: If the file cannot be written.
+        path: Of the picture (`drawing`).
     """
     check_suffix(path, CANVASES)
     with styled():

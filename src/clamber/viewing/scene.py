@@ -1,4 +1,4 @@
-"""What stands still in any picture: its part of the world, axes in the task's unit, hatched regions, goals."""
+"""What stands still in any picture, and its words: axes in the task's unit, hatched regions, goals, poses."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -13,9 +13,24 @@ from matplotlib.ticker import FuncFormatter, MultipleLocator
 from ..tasks import Task
 from ..tasks.regions import GoalBox
 from ..types import Floats
-from ..units import DEGREE
+from ..units import DEGREE, INCH
 from . import style
-from .words import length_unit
+
+DIRECTIONS: Final = (("right", 1.0 + 0j), ("left", -1.0 + 0j), ("up", 1j), ("down", -1j))
+
+
+def length_unit(task: Task) -> tuple[str, float]:
+    """Unit of length for people, and its size [m]: inches where the task steps by quarter inches, else centimetres."""
+    quarters = 4.0 * task.step.length / INCH
+    return ("in", INCH) if abs(quarters - round(quarters)) < 1e-6 else ("cm", 0.01)
+
+
+def describe_pose(task: Task, x: float, y: float, angle: float) -> str:
+    """A pose in words: x, y in the task's unit, angle in degrees."""
+    unit, size = length_unit(task)
+    turn = math.remainder(angle, math.tau) / DEGREE
+    return f"x {x / size:.1f} {unit},  y {y / size:.1f} {unit},  {round(turn)}°"
+
 
 PAD: Final = 0.05
 """Least room around everything that is drawn [m]."""
@@ -55,6 +70,11 @@ def goal_box(goal: GoalBox, bounds: Bounds) -> Floats | None:
         return None
     x0, x1, y0, y1 = (given if given is not None else edge for given, edge in zip(sides, bounds, strict=True))
     return np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
+
+
+def join(first: Bounds, second: Bounds) -> Bounds:
+    """The part of a world that holds both parts."""
+    return min(first[0], second[0]), max(first[1], second[1]), min(first[2], second[2]), max(first[3], second[3])
 
 
 def name_goal(goals: Sequence[GoalBox], index: int, extra: Sequence[str] = ()) -> str:

@@ -29,11 +29,7 @@ def draw_sweep(sweep: Sweep, path: str | Path) -> None:
 
     Args:
         sweep: One or two axes.
-        path: A file (.png, .svg, .pdf).
-
-    Raises:
-        SuffixError: If the file's suffix names no format for still pictures.
-        FileError: If the file cannot be written.
+        path: Of the picture (`drawing`).
     """
     check_suffix(path, CANVASES)
     with styled():

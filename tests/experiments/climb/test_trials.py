@@ -42,7 +42,7 @@ def test_a_trial_is_the_same_from_a_worker_and_climbed_again(tmp_path: Path) -> 
     for told in trials.ended:
         known = stored_result(setup, told.seed, store)
         assert known is not None and plans_on_the_way(known) == []
-        run, again = setup.again(told.seed, known, lambda words: None)
+        run, again = setup.again(told.seed, known, lambda words, share: None)
         assert again == told == setup.trial(known)
         other, _, _ = climb_once(setup, told.seed)
         for name in ("time", "believed", "torques", "true_pose"):

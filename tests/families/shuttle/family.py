@@ -263,11 +263,11 @@ class ShuttleRuns(PlainDynamics):
         "slip": NoiseKind(dimension="length", unit="mm", scale=1e-3, width=5e-3, words="of each step")
     }
 
-    def simulate(self, task: Any, plan: Plan, drawn: Mapping[str, float], step: Callable[[str], None]) -> RunReport:
+    def simulate(self, task: Any, plan: Plan, drawn: Mapping[str, float], step: Callable[..., None]) -> RunReport:
         problem = Problem(task, 1)
         stances, seconds = problem.replay(plan.codes(task)).stances, 0.0
         for number, stance in enumerate(stances[1:], start=1):
-            step(f"action {number} of {len(stances) - 1}")
+            step(f"action {number} of {len(stances) - 1}", number / len(stances))
             seconds += 1.0
             feet = [task.world.rungs[rung] for rung in stance["hold"] if rung >= 0]
             off = max(abs(place - stance["x"]) for place in feet) + abs(drawn["slip"]) - task.robot.reach

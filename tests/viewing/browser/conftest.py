@@ -8,9 +8,9 @@ import pytest
 from page_visits import Visit
 
 from clamber.tasks import load_task
-from clamber.viewer.app import LOOPBACK, App
-from clamber.viewer.exhibit import Exhibit
-from clamber.viewer.undertakings import carry_out, make_plan
+from clamber.viewing.browser.app import LOOPBACK, App
+from clamber.viewing.browser.exhibit import Exhibit
+from clamber.viewing.browser.work_panel import carry_out, make_plan
 
 
 @pytest.fixture(scope="session")

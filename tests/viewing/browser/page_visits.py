@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from clamber.types import Floats
-from clamber.viewer.app import App
-from clamber.viewing.browser.scenery import FOV
+from clamber.viewing.browser.app import App
+from clamber.viewing.browser.solids import FOV
 
 PICTURES = Path(__file__).resolve().parents[3] / "out" / "screenshots"
 PATIENCE = 120_000  # [ms], far above what any step takes: pictures are drawn without a graphics card

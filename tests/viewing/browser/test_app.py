@@ -10,18 +10,19 @@ import numpy as np
 import pytest
 
 from clamber.errors import ClamberError, StartError
-from clamber.families.climber.pictures.run_film import ClimbFilm
+from clamber.families.climber.pictures.board_editor import BoardPanel
+from clamber.families.climber.pictures.climb_run import ClimbFilm
 from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.walker.pictures.ground_editor import GroundPanel
 from clamber.families.walker.planning import Walk
 from clamber.families.walker.planning.task import WalkerTask
 from clamber.planning.problem.plan import load_plan
 from clamber.planning.problem.plan_source import open_plan
 from clamber.planning.problem.verdict import check_plan
 from clamber.tasks import Task, load_task
-from clamber.viewer import work_panel
-from clamber.viewer.app import App, PortError, check_port
-from clamber.viewer.exhibit import open_exhibit
-from clamber.viewer.undertakings import Planned
+from clamber.viewing.browser import work_panel
+from clamber.viewing.browser.app import App, PortError, check_port
+from clamber.viewing.browser.exhibit import Planned, open_exhibit
 from clamber.viewing.browser.film import Film
 
 Serve = Callable[..., App]
@@ -74,8 +75,8 @@ def test_texts_follow_the_step(serve: Serve) -> None:
 
 def test_plan_and_run_are_made_and_shown_together(serve: Serve, compiled: None) -> None:
     app = serve(open_exhibit(["ladder"]))
-    board, work = app.board, app.work
-    assert board is not None and work is not None
+    board, work = app.editor, app.work
+    assert isinstance(board, BoardPanel) and work is not None
     board.draft.set_goal(9 * 0.0254, 12 * 0.0254)
     board.apply()
     assert app.exhibit.task is not None and app.exhibit.plan is None
@@ -103,8 +104,8 @@ def test_plan_and_run_are_made_and_shown_together(serve: Serve, compiled: None) 
 
 def test_bad_board_is_drawn_and_told_of_and_nothing_else_changes(serve: Serve) -> None:
     app = serve(open_exhibit(["gap"]))
-    board = app.board
-    assert board is not None
+    board = app.editor
+    assert isinstance(board, BoardPanel)
     before = app.exhibit
     peg = board.draft.pegs[1]
     board.draft.move(2, peg.x, peg.y)
@@ -114,7 +115,7 @@ def test_bad_board_is_drawn_and_told_of_and_nothing_else_changes(serve: Serve) -
         and board._goal_words.content == ""
     )
     assert app.exhibit is before
-    drawn = app._wall()._pegs
+    drawn = board._scene()._pegs
     assert drawn is not None
     np.testing.assert_allclose(drawn.node.batched_positions[1], drawn.node.batched_positions[0])
     for number in (1, 2, 3):
@@ -130,8 +131,8 @@ def test_bad_board_is_drawn_and_told_of_and_nothing_else_changes(serve: Serve) -
 
 def test_start_that_does_not_hold_is_told_of(serve: Serve) -> None:
     app = serve(open_exhibit(["gap"]))
-    board = app.board
-    assert board is not None
+    board = app.editor
+    assert isinstance(board, BoardPanel)
     peg = board.draft.pegs[1]
     board.draft.move(1, peg.x - 1.0, peg.y)  # out of the reach of the limb that is on it
     with pytest.raises(StartError):
@@ -144,8 +145,8 @@ def test_start_that_does_not_hold_is_told_of(serve: Serve) -> None:
 
 def test_start_is_moved_and_its_limbs_put_on_other_pegs(serve: Serve) -> None:
     app = serve(open_exhibit(["ladder"]))
-    board, task = app.board, app.exhibit.task
-    assert board is not None and isinstance(task, LimbedTask)
+    board, task = app.editor, app.exhibit.task
+    assert isinstance(board, BoardPanel) and isinstance(task, LimbedTask)
     begins = task.start
     board.start._moved(begins.x + 0.01, begins.y, 0.05)
     shown = app.exhibit.task
@@ -184,7 +185,7 @@ def test_ports_are_checked() -> None:
 
 def test_a_port_that_is_taken_between_the_check_and_the_start_is_told_of(monkeypatch: pytest.MonkeyPatch) -> None:
     """viser listens on the next one in silence, where the viewer's address does not lead."""
-    monkeypatch.setattr("clamber.viewer.app.check_port", lambda host, port: None)
+    monkeypatch.setattr("clamber.viewing.browser.app.check_port", lambda host, port: None)
     with socket.create_server(("127.0.0.1", 0)) as other:
         port = other.getsockname()[1]
         with pytest.raises(PortError, match=f"port {port}: another program has just taken it"):
@@ -193,8 +194,8 @@ def test_a_port_that_is_taken_between_the_check_and_the_start_is_told_of(monkeyp
 
 def test_an_edited_board_is_saved_with_its_task_and_its_plan(tmp_path: Path, serve: Serve) -> None:
     app = serve(open_exhibit(["ladder-hand"]), folder=tmp_path)
-    board, saving = app.board, app.saving
-    assert board is not None and saving is not None
+    board, saving = app.editor, app.saving
+    assert isinstance(board, BoardPanel) and saving is not None
     saving.save()
     plan = tmp_path / "ladder-edited-plan.json"
     assert check_plan(load_task(str(tmp_path / "ladder-edited.toml")), load_plan(plan)).ok
@@ -236,16 +237,16 @@ def test_files_of_others_are_not_written_over(tmp_path: Path, serve: Serve) -> N
 
 def test_a_board_that_makes_no_task_is_not_saved(tmp_path: Path, serve: Serve) -> None:
     app = serve(open_exhibit(["gap"]), folder=tmp_path)
-    assert app.board is not None and app.saving is not None
-    for number in tuple(app.board.draft.pegs):
-        app.board.draft.remove(number)
+    assert isinstance(app.editor, BoardPanel) and app.saving is not None
+    for number in tuple(app.editor.draft.pegs):
+        app.editor.draft.remove(number)
     app.saving.save()
     assert "no holds" in app.saving._words.content and list(tmp_path.iterdir()) == []
 
 
 def test_a_page_that_others_can_reach_saves_nothing(serve: Serve) -> None:
     app = serve(open_exhibit(["gap"]), "0.0.0.0")
-    assert app.board is not None and app.saving is None
+    assert app.editor is not None and app.saving is None
 
 
 def test_a_run_that_nothing_judges_shows_the_margins_of_its_plan(serve: Serve, compiled: None) -> None:
@@ -266,8 +267,8 @@ def test_what_is_found_for_a_board_that_was_changed_meanwhile_is_left_out(
     serve: Serve, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     app = serve(open_exhibit(["ladder"]))
-    board, work = app.board, app.work
-    assert board is not None and work is not None
+    board, work = app.editor, app.work
+    assert isinstance(board, BoardPanel) and work is not None
     answer = Planned(open_plan("ladder-hand").plan, "found")
 
     def edited_meanwhile(task: Task, *rest: Any, **options: Any) -> Planned:
@@ -287,8 +288,8 @@ def test_what_is_found_for_a_board_that_was_changed_meanwhile_is_left_out(
 
 def test_ground_start_and_goal_of_a_walk_are_edited(serve: Serve) -> None:
     app = serve(open_exhibit(["level-walk"]))
-    ground, work = app.ground, app.work
-    assert ground is not None and work is not None and app.board is None
+    ground, work = app.editor, app.work
+    assert isinstance(ground, GroundPanel) and work is not None
     assert app.playback.film.seconds == 0.0 and not work._planner.visible and not work._plan_button.visible
     ground._add("step")
     ground._set_goal(0.1, 0.0, 0.0)
@@ -305,8 +306,8 @@ def test_ground_start_and_goal_of_a_walk_are_edited(serve: Serve) -> None:
 
 def test_a_walkers_task_is_planned_on_the_ground_as_it_was_edited(serve: Serve) -> None:
     app = serve(open_exhibit(["patch-walk"]))
-    ground, work = app.ground, app.work
-    assert ground is not None and work is not None and work._plan_button.visible
+    ground, work = app.editor, app.work
+    assert isinstance(ground, GroundPanel) and work is not None and work._plan_button.visible
     ground._set_goal(0.3, 0.0, 0.0)
     k = ground._picked
     ground._adds.value = "patch"

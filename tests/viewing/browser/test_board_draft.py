@@ -3,7 +3,7 @@
 import pytest
 
 from clamber.errors import ClamberError, SpecError
-from clamber.families.climber.pictures.board_draft import BoardDraft
+from clamber.families.climber.pictures.board_editor import BoardDraft
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.tasks import load_task
 from clamber.viewing.browser.inputs import about

@@ -4,6 +4,7 @@ import json
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,17 +17,18 @@ from clamber.execution.log_files import write_log
 from clamber.families.climber.execution.climb_trace import TOPIC
 from clamber.families.climber.execution.course import climbable
 from clamber.families.climber.execution.legs import legs_of
-from clamber.families.climber.pictures.climb_scenery import join
-from clamber.families.climber.pictures.run_film import ClimbFilm
+from clamber.families.climber.pictures.climb_run import ClimbFilm
 from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.trials.run_plan import ClimbRun, climbing_flaws, run_plan
 from clamber.families.walker.pictures.walk_film import PlannedWalkFilm, loads_at_rest
+from clamber.family import family_of
 from clamber.planning.planners import plan_task
 from clamber.planning.problem.plan import Plan
 from clamber.tasks import load_task
-from clamber.viewer.exhibit import Exhibit, open_exhibit, planned_exhibit, run_film
-from clamber.viewing.browser.film import PlanFilm
+from clamber.viewing.browser.exhibit import Exhibit, exhibit_of, open_exhibit, scenes_of
+from clamber.viewing.browser.film import Film, PlanFilm
+from clamber.viewing.scene import join
 
 
 @pytest.fixture(scope="module")
@@ -40,6 +42,10 @@ def climbed() -> ClimbRun:
 @pytest.fixture(scope="module")
 def hand() -> Exhibit:
     return open_exhibit(["ladder-hand"])
+
+
+def run_film_of(run: ClimbRun) -> Film[Any]:
+    return scenes_of(family_of(run.task)).run_film(exhibit_of(run.task), run)
 
 
 def test_plan_rests_in_its_stances(hand: Exhibit) -> None:
@@ -81,7 +87,7 @@ def test_margins_of_a_step_are_those_of_the_replay(hand: Exhibit) -> None:
 
 
 def test_run_is_where_its_trace_says(climbed: ClimbRun) -> None:
-    film = run_film(planned_exhibit(climbed.task, None), climbed)
+    film = run_film_of(climbed)
     for k in (0, len(climbed.trace.time) // 2, len(climbed.trace.time) - 1):
         at = film.at(float(climbed.trace.time[k]))
         assert climbed.trace.true_pose is not None
@@ -93,7 +99,7 @@ def test_run_is_where_its_trace_says(climbed: ClimbRun) -> None:
 
 def test_forces_of_a_climber_at_rest_carry_its_weight(climbed: ClimbRun) -> None:
     """Statics: by the motors' torques alone the forces of the holds add up to the weight, but for what joints at rest rub."""
-    film = run_film(planned_exhibit(climbed.task, None), climbed)
+    film = run_film_of(climbed)
     at = film.at(0.2)  # it waits for half a second before its first action
     assert min(at.posture.held) >= 0
     unknown = np.zeros(2)
@@ -107,8 +113,8 @@ def test_forces_of_a_climber_at_rest_carry_its_weight(climbed: ClimbRun) -> None
 
 
 def test_run_and_plan_are_shown_at_the_same_action(climbed: ClimbRun) -> None:
-    exhibit = planned_exhibit(climbed.task, climbed.plan)
-    film, plan = run_film(exhibit, climbed), exhibit.plan_film
+    exhibit = exhibit_of(climbed.task, climbed.plan)
+    film, plan = run_film_of(climbed), exhibit.plan_film
     assert isinstance(film, ClimbFilm) and isinstance(plan, PlanFilm)
     for k, action in enumerate(climbed.report.actions, 1):
         assert film.planned_time(float(film.starts[k]), plan) == pytest.approx(plan.starts[action.first])
@@ -119,7 +125,7 @@ def test_log_shows_the_run_that_it_is_of(climbed: ClimbRun, tmp_path: Path) -> N
     path = tmp_path / "climb.mcap"
     write_log(climbed.trace.to_log(), path, TOPIC)
     exhibit = open_exhibit([str(path)])  # it says that its task is the ladder
-    film, straight = exhibit.run_film, run_film(planned_exhibit(climbed.task, None), climbed)
+    film, straight = exhibit.run_film, run_film_of(climbed)
     assert film is not None
     assert (film.steps, film.grades, film.seconds) == (straight.steps, straight.grades, straight.seconds)
     for time in np.linspace(0.0, film.seconds, 7):
@@ -210,7 +216,7 @@ def test_a_planned_walks_standing_feet_carry_its_weight() -> None:
 def test_a_walks_plan_is_found_again_step_by_step_from_where_its_frames_are() -> None:
     task = load_task("patch-walk")
     planned = plan_task(task, "auto", seed=0)
-    film = planned_exhibit(task, planned.plan).plan_film
+    film = exhibit_of(task, planned.plan).plan_film
     assert isinstance(film, PlannedWalkFilm) and len(film.steps) > 20
     rests = [film.rest(step) for step in range(len(film.steps))]
     times = [film.nearest(film._film.at(rest).poses) for rest in rests]

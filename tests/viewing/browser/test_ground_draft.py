@@ -6,14 +6,13 @@ import numpy as np
 import pytest
 
 from clamber.errors import ClamberError, SpecError
-from clamber.families.walker.pictures.ground_draft import DITCH, PATCH, STEP, GroundDraft
-from clamber.families.walker.pictures.standing_film import standing
-from clamber.families.walker.pictures.way import way_poses
+from clamber.families.walker.pictures.ground_editor import DITCH, PATCH, STEP, GroundDraft
+from clamber.families.walker.pictures.walk_film import standing, way_poses
 from clamber.families.walker.planning import Walk, load_walk, walk_names
 from clamber.families.walker.planning.task import WalkerTask
 from clamber.tasks import Task, load_task
 from clamber.tasks.task_files import task_files
-from clamber.viewer.exhibit import planned_exhibit, walk_exhibit
+from clamber.viewing.browser.exhibit import exhibit_of
 from clamber.viewing.browser.inputs import about
 
 
@@ -138,7 +137,7 @@ def test_what_cannot_be_is_refused_where_it_is(make, spoil, what: str, words: st
     spoil(draft)
     with pytest.raises(ClamberError, match=words) as caught:
         made = draft.build()
-        walk_exhibit(made) if isinstance(made, Walk) else planned_exhibit(made, None)
+        exhibit_of(made)
     assert about(caught.value) == what
     assert "\n" not in str(caught.value) and isinstance(str(caught.value), str)
 
@@ -156,7 +155,7 @@ def test_walks_stand_with_every_foot_on_their_ground(name: str) -> None:
     at = standing(walk)
     soles = at.feet[0].reshape(6, 3)
     np.testing.assert_allclose(soles[:, 2], walk.ground.heights(soles[:, :2]), atol=2e-3 + 0.02 * walk.ground.slope)
-    exhibit = walk_exhibit(walk)
+    exhibit = exhibit_of(walk)
     assert exhibit.main.seconds == 0.0 and exhibit.plan is None
     x0, x1, y0, y1 = exhibit.scenery.bounds  # type: ignore[attr-defined]
     way = way_poses(walk)

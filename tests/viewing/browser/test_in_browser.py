@@ -7,14 +7,16 @@ import numpy as np
 import pytest
 from page_visits import Visit, pixel, wait_for
 
-from clamber.families.climber.pictures.wall_scene import WallScene
+from clamber.families.climber.pictures.board_editor import BoardPanel
+from clamber.families.climber.pictures.space import WallScene
+from clamber.families.walker.pictures.ground_editor import GroundPanel
 from clamber.families.walker.planning import load_walk
 from clamber.planning.problem.plan import load_plan
 from clamber.planning.problem.verdict import check_plan
 from clamber.tasks import load_task
-from clamber.viewer.app import App
-from clamber.viewer.exhibit import open_exhibit
-from clamber.viewer.page import write_page
+from clamber.viewing.browser.app import App
+from clamber.viewing.browser.exhibit import open_exhibit
+from clamber.viewing.browser.page import write_page
 
 Open = Callable[[str], Visit]
 Serve = Callable[..., App]
@@ -45,8 +47,8 @@ def test_board_is_edited_planned_saved_and_run_by_clicks(
     serve: Serve, visit: Open, compiled: None, tmp_path: Path
 ) -> None:
     app = serve(open_exhibit(["ladder"]), folder=tmp_path)
-    shown, board = visit(app.url), app.board
-    assert board is not None and isinstance(app.stage.world, WallScene)
+    shown, board = visit(app.url), app.editor
+    assert isinstance(board, BoardPanel) and isinstance(app.stage.world, WallScene)
     page, depth = shown.page, app.stage.world.depth
     page.get_by_role("tab", name="Board").click()
     page.get_by_label("edit on the wall").check()
@@ -97,8 +99,8 @@ def test_board_is_edited_planned_saved_and_run_by_clicks(
 @pytest.mark.slow
 def test_clicks_on_the_wall_add_and_remove_pegs_and_set_the_goal(serve: Serve, visit: Open) -> None:
     app = serve(open_exhibit(["gap"]))
-    shown, board = visit(app.url), app.board
-    assert board is not None and isinstance(app.stage.world, WallScene)
+    shown, board = visit(app.url), app.editor
+    assert isinstance(board, BoardPanel) and isinstance(app.stage.world, WallScene)
     page, depth = shown.page, app.stage.world.depth
     page.get_by_role("tab", name="Board").click()
     page.get_by_label("edit on the wall").check()
@@ -122,8 +124,8 @@ def test_clicks_on_the_wall_add_and_remove_pegs_and_set_the_goal(serve: Serve, v
 @pytest.mark.slow
 def test_start_is_dragged_on_the_wall_and_its_limbs_chosen(serve: Serve, visit: Open) -> None:
     app = serve(open_exhibit(["ladder"]))
-    shown, board = visit(app.url), app.board
-    assert board is not None and isinstance(app.stage.world, WallScene)
+    shown, board = visit(app.url), app.editor
+    assert isinstance(board, BoardPanel) and isinstance(app.stage.world, WallScene)
     page, depth, begins = shown.page, app.stage.world.depth, board.draft.start
     page.get_by_role("tab", name="Board").click()
     before = shown.picture("start")
@@ -159,8 +161,8 @@ def test_start_is_dragged_on_the_wall_and_its_limbs_chosen(serve: Serve, visit: 
 @pytest.mark.slow
 def test_ground_is_edited_and_walked_by_clicks(serve: Serve, visit: Open, tmp_path: Path) -> None:
     app = serve(open_exhibit(["slope-walk"]), folder=tmp_path)
-    shown, ground = visit(app.url), app.ground
-    assert ground is not None
+    shown, ground = visit(app.url), app.editor
+    assert isinstance(ground, GroundPanel)
     page = shown.page
     page.get_by_role("tab", name="Ground").click()
     page.get_by_label("edit on ground").check()
@@ -208,8 +210,8 @@ def test_ground_is_edited_and_walked_by_clicks(serve: Serve, visit: Open, tmp_pa
 @pytest.mark.slow
 def test_bad_boards_are_told_of_and_the_page_stays(serve: Serve, visit: Open, compiled: None) -> None:
     app = serve(open_exhibit(["gap"]))
-    shown, board = visit(app.url), app.board
-    assert board is not None
+    shown, board = visit(app.url), app.editor
+    assert isinstance(board, BoardPanel)
     shown.page.get_by_role("tab", name="Board").click()
 
     place = shown.vector("its place [in]")

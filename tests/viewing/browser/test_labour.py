@@ -5,7 +5,7 @@ import threading
 import pytest
 
 from clamber.errors import ClamberError
-from clamber.viewing.browser.labour import Labour, Tell
+from clamber.viewing.browser.work_panel import Labour, Tell
 
 
 class Ears:

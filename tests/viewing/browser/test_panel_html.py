@@ -7,8 +7,8 @@ import numpy as np
 from clamber.families.walker.pictures.walker_loads import leg_force_gauges
 from clamber.families.walker.robot import WalkerRobot
 from clamber.tasks.robots import load_robot
-from clamber.viewer.exhibit import open_exhibit
 from clamber.viewing import style
+from clamber.viewing.browser.exhibit import open_exhibit
 from clamber.viewing.browser.film import MarginRow
 from clamber.viewing.browser.panel_html import head_html, loads_html, margins_html, message_html, strip_html
 

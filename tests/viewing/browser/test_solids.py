@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from clamber.families.climber.pictures.wall_space import TURN, in_space, on_wall, turned
+from clamber.families.climber.pictures.space import TURN, in_space, on_wall, turned
 from clamber.types import Floats
 from clamber.viewing.browser.solids import SIDES, Mesh, along_z, ball, prism, rod
 

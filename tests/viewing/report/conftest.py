@@ -28,7 +28,7 @@ class Links(HTMLParser):
 
 @pytest.fixture
 def visit(chromium: Any) -> Callable[..., Any]:
-    """Opens a page from the disk in a browser that is offline: no message on its console, every picture loaded, every link there."""
+    """Opens a page from the disk in a browser that is offline: no warning on its console, every picture loaded, every link there."""
 
     def open_page(path: Path, picture: str, *, width: int = 1100, dark: bool = False) -> Any:
         messages: list[str] = []
@@ -36,7 +36,7 @@ def visit(chromium: Any) -> Callable[..., Any]:
             viewport={"width": width, "height": 900}, color_scheme="dark" if dark else "light", offline=True
         )
         page = context.new_page()
-        page.on("console", lambda message: messages.append(message.text))
+        page.on("console", lambda message: messages.append(message.text) if message.type != "log" else None)
         page.on("pageerror", lambda error: messages.append(str(error)))
         page.on("requestfailed", lambda request: messages.append(f"failed: {request.url}"))
         page.goto(path.as_uri())

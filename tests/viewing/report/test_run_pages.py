@@ -104,8 +104,9 @@ def test_reports_of_runs_open_in_a_browser(climb: Path, walk: Path, visit: Calla
 
 def test_the_climb_plays_inside_its_report(climb: Path, visit: Callable[..., Any]) -> None:
     page = visit(climb / "index.html", "climb-player")
+    page.get_by_text("Play it here").click()
     page.locator("iframe").scroll_into_view_if_needed()
     player = page.frame_locator("iframe")
-    player.locator("#play").click()
-    page.wait_for_timeout(700)
-    assert float(player.locator("#time").input_value()) > 0.2
+    player.locator("canvas[data-engine]").wait_for(timeout=75_000)
+    player.locator("#clamber li").nth(2).click()
+    player.locator('#clamber[data-step="2"]').wait_for(timeout=30_000)

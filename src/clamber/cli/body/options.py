@@ -134,7 +134,7 @@ def run_bench(words: BodyOptions, stand: "BodyStand", scenario: "BodyScenario", 
     runs = run_bodies(stand, scenario, words.build_entries(stand), flaws)
     measured = [measure_body(run, scenario) for run in runs]
     if words.output is not None:
-        from ...families.climber.pictures.body_plot import draw_bodies
+        from ...families.climber.pictures.body_plots import draw_bodies
 
         draw_bodies(runs, scenario, words.output)
     if words.as_json:

@@ -11,7 +11,7 @@ from ...terminal.live_line import LiveLine
 from ...terminal.output import announce_compilation, print_json, refuse_unused, stderr, stdout, tell_cuts
 from ...trials.dynamics import NoPlanError, RunEvents, RunRequest
 from ...trials.work import Work
-from ...viewing.report.folder import open_report
+from ...viewing.report.pages import open_report
 from .options import RunOptions
 
 
@@ -25,8 +25,11 @@ def carry_out(work: Work, words: RunOptions, command: str) -> None:
     """
     dynamics = work.dynamics
     refuse_unused(words, dynamics.unused(work.item), f"'{work.label}' is a {dynamics.kind}")
-    for file in words.outputs:
-        dynamics.check_suffix(file)
+    if words.outputs:
+        from ...viewing.pictures import check_run_suffix
+
+        for file in words.outputs:
+            check_run_suffix(file)
     find_planner(words.planner)
     peg_error = () if words.peg_error is None else (f"peg_error={words.peg_error}",)
     noise = (*(words.noise or ()), *peg_error)
@@ -45,7 +48,7 @@ def carry_out(work: Work, words: RunOptions, command: str) -> None:
             search=lambda moment: line.show(progress_text(moment)),
             cut=lambda: cuts.append(None),
             planned=lambda plan: None if words.save_plan is None else plan.save(words.save_plan),
-            step=line.show,
+            step=lambda words, share: line.show(words),
         )
         if work.plan is not None:
             events.planned(work.plan)
@@ -62,18 +65,21 @@ def carry_out(work: Work, words: RunOptions, command: str) -> None:
 
 def _tell(work: Work, words: RunOptions, run: Any, command: str) -> None:
     """Write the files of a run and print it."""
-    dynamics = work.dynamics
+    if words.outputs:
+        from ...viewing.pictures import draw_run
     for file in words.outputs:
         if file != words.growing:
-            dynamics.write_run(run, file)
+            draw_run(run, file)
     written = words.written(run.log_gap)
     if words.report is not None:
-        written = (*written, dynamics.write_report(run, command, words.report))
+        from ...viewing.report.run_page import write_run_report
+
+        written = (*written, write_run_report(run, command, words.report))
     if words.as_json:
         print_json(run)
         return
     console = stdout()
-    dynamics.print_run(console, run)
+    work.dynamics.print_run(console, run)
     if run.log_gap is not None:
         console.print(str(run.log_gap), soft_wrap=True)
     for path in written:

@@ -32,7 +32,9 @@ def try_out(work: Work, asked: TrialsOptions, words: CrewWords) -> None:
     dynamics = work.dynamics
     refuse_unused(asked, dynamics.unused(work.item), f"'{work.label}' is a {dynamics.kind}")
     if words.output is not None:
-        (dynamics.check_picture if asked.replay is None else dynamics.check_suffix)(words.output)
+        from ...viewing.pictures import check_run_suffix
+
+        (dynamics.check_picture if asked.replay is None else check_run_suffix)(words.output)
     find_planner(asked.planner)
     request = TrialsRequest(
         planner=asked.planner, plan_seconds=asked.seconds, noise=tuple(asked.noise or ()), plant=work.plant,
@@ -93,9 +95,11 @@ def _replay(work: Work, setup: Setup[Any, Any], seed: int, words: CrewWords, lin
     """One trial again; the exit code."""
     dynamics = work.dynamics
     kept = stored_result(setup, seed, words.store)
-    run, trial = setup.again(seed, kept, line.show)
+    run, trial = setup.again(seed, kept, lambda words, share: line.show(words))
     if words.output is not None:
-        dynamics.write_run(run, words.output)
+        from ...viewing.pictures import draw_run
+
+        draw_run(run, words.output)
     if kept is not None and setup.trial(kept, words.store) != trial:
         line.say(f"the store's trial {seed} went otherwise: another machine or other code")
     if words.as_json:

@@ -15,7 +15,7 @@ from .trials.noise import NO_NOISE, Noise, check_noise, named_noise, read_noise
 from .trials.planning import no_plan, plan_to_climb, replanner
 from .trials.plants import check_plant, is_remote
 from .trials.rehearsal import rehearse
-from .trials.run_plan import ClimbRun, action_text, climbing_flaws, climbing_task, run_plan
+from .trials.run_plan import ClimbRun, action_told, climbing_flaws, climbing_task, run_plan
 from .trials.trial import ClimbTrial, ClimbTrials, TrialSetup, with_plan
 from .trials.trial_summary import TrialSummary, sum_up
 from .trials.warm_up import CLIMBING
@@ -76,26 +76,8 @@ class ClimberDynamics(Dynamics):
         return run_plan(
             task, plan, flaws, noise=_noise(asked), seed=asked.seed, force=asked.force,
             replan=replanner(asked.planner, **search) if asked.replan else None,
-            progress=lambda *action: events.step(action_text(*action)), label=label, log=asked.log, plant=asked.motors,
+            progress=lambda *action: events.step(*action_told(*action)), label=label, log=asked.log, plant=asked.motors,
         )  # fmt: skip
-
-    def check_suffix(self, file: Path) -> None:
-        """A log, an animation or a picture."""
-        from .pictures.climb_run_view import check_run_suffix
-
-        check_run_suffix(file)
-
-    def write_run(self, run: ClimbRun, file: Path) -> None:
-        """A log, an animation or a picture of a climb."""
-        from .pictures.climb_run_view import write_run
-
-        write_run(run, file)
-
-    def write_report(self, run: ClimbRun, command: str, folder: Path) -> Path:
-        """The report of a climb."""
-        from .pictures.report import write_climb_report
-
-        return write_climb_report(run, command, folder)
 
     def print_run(self, console: "Console", run: ClimbRun) -> None:
         """How it ended, a row for each kind of action."""
@@ -141,7 +123,7 @@ class ClimberDynamics(Dynamics):
 
     def draw_trials(self, trials: ClimbTrials, file: Path) -> None:
         """Success over what was drawn."""
-        from .pictures.trials_plot import draw_trials
+        from .pictures.charts import draw_trials
 
         draw_trials(sum_up(trials), file)
 

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from ...sim.lone_robot import JointBounds
     from ...tasks.task_format import TaskFormat
     from ...trials.dynamics import Dynamics
+    from ...viewing.browser.exhibit import Scenes
     from ...viewing.pictures import Pictures
 
 
@@ -84,6 +85,13 @@ class Climber(Family):
         from .pictures.pictures import PICTURES
 
         return PICTURES
+
+    @property
+    def scenes(self) -> Scenes:
+        """Wall and climber in three dimensions, with the board's editor."""
+        from .pictures.scenes import SCENES
+
+        return SCENES
 
     @property
     def trajectories(self) -> Trajectories:

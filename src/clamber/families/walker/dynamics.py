@@ -16,7 +16,7 @@ from .planning.task import WalkerTask
 from .trials.faults import failing_of
 from .trials.noise import WalkNoise, named_walk_noise, read_walk_noise
 from .trials.planned import careful, lay_plan, walk_of
-from .trials.run_walk import WalkRun, run_walk, step_text, walk_flaws
+from .trials.run_walk import WalkRun, run_walk, step_told, walk_flaws
 from .trials.trials import WalkSetup, WalkTrial, WalkTrials
 
 if TYPE_CHECKING:
@@ -72,27 +72,9 @@ class WalkerDynamics(Dynamics):
         walk = _walk_of(work)
         run = run_walk(
             walk, walk_flaws(walk, asked.plant), noise=_noise(asked), seed=asked.seed, lay=lay, log=asked.log,
-            progress=lambda *step: events.step(step_text(*step)),
+            progress=lambda *step: events.step(*step_told(*step)),
         )  # fmt: skip
         return replace(run, plan=plan)
-
-    def check_suffix(self, file: Path) -> None:
-        """A log, an animation or a picture."""
-        from .pictures.walk_run_view import check_walk_suffix
-
-        check_walk_suffix(file)
-
-    def write_run(self, run: WalkRun, file: Path) -> None:
-        """A log, an animation or a picture of a walk."""
-        from .pictures.walk_run_view import write_walk
-
-        write_walk(run, file)
-
-    def write_report(self, run: WalkRun, command: str, folder: Path) -> Path:
-        """The report of a walk."""
-        from .pictures.report import write_walk_report
-
-        return write_walk_report(run, command, folder)
 
     def print_run(self, console: "Console", run: WalkRun) -> None:
         """How it ended, a row for each step."""

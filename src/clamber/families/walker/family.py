@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from ...sim.lone_robot import JointBounds
     from ...tasks.task_format import TaskFormat
     from ...trials.dynamics import Dynamics
+    from ...viewing.browser.exhibit import Scenes
     from ...viewing.pictures import Pictures
 
 
@@ -67,6 +68,13 @@ class Walker(Family):
         return PICTURES
 
     @property
+    def scenes(self) -> Scenes:
+        """Ground and walker in three dimensions, with the ground's editor."""
+        from .pictures.scenes import SCENES
+
+        return SCENES
+
+    @property
     def trajectories(self) -> Trajectories:
         """Joints over plans and runs."""
         from .trajectories import TRAJECTORIES
@@ -94,11 +102,11 @@ class Walker(Family):
 
         return DYNAMICS
 
-    def other_work(self, name_or_path: str, settings: Sequence[str] = ()) -> Any | None:
+    def other_work(self, name_or_path: str, overrides: Sequence[str] = ()) -> Any | None:
         """Walks."""
         from .planning import is_walk, load_walk
 
-        return load_walk(name_or_path, settings) if is_walk(name_or_path) else None
+        return load_walk(name_or_path, overrides) if is_walk(name_or_path) else None
 
     def other_names(self) -> tuple[str, ...]:
         """Walks."""

@@ -169,7 +169,7 @@ def _held(replayed: Replayed, two: list[int], pose: Floats, places: Floats, rng:
 
 def _figure(held: list[Held]) -> Figure:
     def picture(path: Path) -> None:
-        from ...viewing.body_angle_plot import draw_angle_errors
+        from ...viewing.study_lines_plot import draw_angle_errors
 
         draw_angle_errors(
             np.array([one.inclined for one in held]) / DEGREE,

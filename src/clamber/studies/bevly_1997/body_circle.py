@@ -53,7 +53,7 @@ def lead_body() -> StudyResult:
     ratios = {(m, lap): rms["ideal", lap, transpose(m)] / rms["ideal", lap, SCCT] for m in MATCHED for lap in LAPS}
 
     def paths(path: Path) -> None:
-        from ...families.climber.pictures.body_plot import draw_body_circles
+        from ...families.climber.pictures.body_plots import draw_body_circles
 
         draw_body_circles(kept, path)
 

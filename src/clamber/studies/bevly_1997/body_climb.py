@@ -261,7 +261,7 @@ def _gait_numbers(run: ClimbRun, facts: GaitFacts) -> dict[str, Value]:
 
 def _stages(label: str, run: ClimbRun) -> Figure:
     def stages(path: Path) -> None:
-        from ...families.climber.pictures.climb_stages import draw_stages
+        from ...families.climber.pictures.pictures import draw_stages
 
         draw_stages(run, path)
 
@@ -331,7 +331,7 @@ def _step_numbers(run: ClimbRun, facts: GaitFacts) -> dict[str, tuple[Value, ...
 
 def _times(label: str, run: ClimbRun) -> Figure:
     def times(path: Path) -> None:
-        from ...families.climber.pictures.climb_stages import draw_body_over_time
+        from ...families.climber.pictures.pictures import draw_body_over_time
 
         draw_body_over_time(run, path)
 

@@ -111,7 +111,7 @@ def sweep_stiffness() -> StudyResult:
     ]
 
     def picture(path: Path) -> None:
-        from ...families.climber.pictures.body_cycle_plot import draw_onsets
+        from ...families.climber.pictures.body_plots import draw_onsets
 
         draw_onsets(
             GAINS, {case: found for case, found in swings.items() if case[0] == "on hooks"}, CYCLE * MILLI, path

@@ -52,7 +52,7 @@ def limit_pulls() -> StudyResult:
     noisy = climb_rungs(CONTROLS, SEEDS, executor=LocalProcesses(os.cpu_count() or 1))
 
     def heights(path: Path) -> None:
-        from ...families.climber.pictures.climb_stages import draw_heights
+        from ...families.climber.pictures.pictures import draw_heights
 
         draw_heights({label: alone[label, "ideal"][1] for label in CONTROLS}, path)
 

@@ -150,7 +150,7 @@ def _table(trials: dict[str, list[PushTrial]]) -> Table:
 
 def _figure(runs: list[BodyRun]) -> Figure:
     def times(path: Path) -> None:
-        from ...families.climber.pictures.body_plot import draw_body_times
+        from ...families.climber.pictures.body_plots import draw_body_times
 
         draw_body_times({"": runs}, f"{HARD:g} N on the body for {SHORT:g} s (grey)", path)
 

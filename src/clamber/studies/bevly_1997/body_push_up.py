@@ -60,7 +60,7 @@ def push_body_up() -> StudyResult:
         return ours.x_max < theirs.x_max and ours.behind_rms < theirs.behind_rms
 
     def times(path: Path) -> None:
-        from ...families.climber.pictures.body_plot import draw_body_times
+        from ...families.climber.pictures.body_plots import draw_body_times
 
         shown = {f"{plant} plant": [run for run in runs if run.entry.label != BIASED] for plant, runs in kept.items()}
         draw_body_times(shown, "7.5 cm up in 0.5 s, hooks on pegs", path)

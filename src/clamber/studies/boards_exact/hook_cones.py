@@ -110,7 +110,7 @@ def narrow_cones() -> StudyResult:
     proved = ordered and all(row[4] == "valid" for row in rows)
 
     def curve(path: Path) -> None:
-        from ...families.climber.pictures.cone_plot import draw_cones
+        from ...families.climber.pictures.charts import draw_cones
 
         draw_cones({board: {at: proof.length for at, proof in proofs.items()} for board, proofs in tried.items()}, path)
 

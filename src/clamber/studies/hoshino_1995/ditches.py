@@ -141,18 +141,18 @@ def _compare_crossing(plan: Crossing) -> tuple[Compared, ...]:
 
 def _figures(ditches: Ditches) -> tuple[Figure, ...]:
     def maps(path: Path) -> None:
-        from ...families.walker.pictures.walker_ditch_plot import draw_ditch_maps
+        from ...families.walker.pictures.mechanism_plots import draw_ditch_maps
 
         shown = {"straight": ditches.straight[:, :MAPPED], "with sidesteps": ditches.aside[:, :MAPPED]}
         draw_ditch_maps(ANGLES, DIRECTIONS[:MAPPED], shown, path)
 
     def curves(path: Path) -> None:
-        from ...families.walker.pictures.walker_ditch_plot import draw_ditch_curves
+        from ...families.walker.pictures.mechanism_plots import draw_ditch_curves
 
         draw_ditch_curves(DIRECTIONS, {theta: ditches.straight[ANGLES.index(theta)] for theta in DRAWN}, path)
 
     def crossing(path: Path) -> None:
-        from ...families.walker.pictures.walker_ditch_plot import draw_crossing
+        from ...families.walker.pictures.mechanism_plots import draw_crossing
 
         draw_crossing(ditches.crossing, path)
 

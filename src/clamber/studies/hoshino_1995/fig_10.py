@@ -136,7 +136,7 @@ def _table(motions: Motions) -> Table:
 
 def _figure(motions: Motions) -> Figure:
     def draw(path: Path) -> None:
-        from ...families.walker.pictures.tool_runs_plot import Motion, draw_motions
+        from ...families.walker.pictures.tool_plots import Motion, draw_motions
 
         shown = [(motions.free[dof], motions.free[dof].title) for dof in SHOWN]
         shown.insert(2, (motions.faster[DRAWN_SPEED], f"5 dof, $T_q$ of z {DRAWN_SPEED:g} m/s"))

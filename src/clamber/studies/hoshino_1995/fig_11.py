@@ -23,7 +23,7 @@ def vary_gain() -> StudyResult:
     ]
 
     def courses(path: Path) -> None:
-        from ...families.walker.pictures.tool_runs_plot import draw_gains
+        from ...families.walker.pictures.tool_plots import draw_gains
 
         draw_gains(usual[0.0].time, {gain: run.measure for gain, run in usual.items()}, means, path)
 

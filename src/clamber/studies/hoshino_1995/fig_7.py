@@ -24,7 +24,7 @@ def compare_inclinations() -> StudyResult:
     holds = max(*read.values(), *true.values()) <= PRINTED
 
     def motions(path: Path) -> None:
-        from ...families.walker.pictures.inclination_plot import draw_inclining
+        from ...families.walker.pictures.walk_plots import draw_inclining
 
         draw_inclining(
             {f"on {_word(legs)} legs": _course(run) for legs, run in runs.items()}, within=PRINTED, path=path
@@ -90,7 +90,7 @@ def _rows(legs: int, run: Inclining) -> list[tuple[Value, ...]]:
 
 
 def _course(run: Inclining):  # type: ignore[no-untyped-def]
-    from ...families.walker.pictures.inclination_plot import Course
+    from ...families.walker.pictures.walk_plots import Course
 
     moves = list(zip(run.begins, run.arrives, strict=True))
     return Course(run.trace.time, run.wanted / DEGREE, run.trace.inclines / DEGREE, run.true_inclines() / DEGREE, moves)

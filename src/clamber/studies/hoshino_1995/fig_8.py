@@ -38,7 +38,7 @@ def walk_level() -> StudyResult:
     ]
 
     def courses(path: Path) -> None:
-        from ...families.walker.pictures.levelling_plot import draw_levelling
+        from ...families.walker.pictures.walk_plots import draw_levelling
 
         draw_levelling(level, tilted, within=LEVEL, path=path)
 

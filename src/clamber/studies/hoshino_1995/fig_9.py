@@ -38,7 +38,7 @@ def compare_directions() -> StudyResult:
     share = float((downhill > 0.5 * math.pi).mean())
 
     def directions(path: Path) -> None:
-        from ...families.walker.pictures.inclination_plot import draw_directions
+        from ...families.walker.pictures.walk_plots import draw_directions
 
         draw_directions(tilts, ours[..., 1] / DEGREE, ours[..., 0], printed, path)
 

@@ -44,9 +44,9 @@ def pass_steps() -> StudyResult:
     shown = runs[SEEDS[0]]
 
     def course(path: Path) -> None:
-        from ...families.walker.pictures.walk_run_view import write_walk
+        from ...viewing.pictures import draw_run
 
-        write_walk(shown, path)
+        draw_run(shown, path)
 
     return StudyResult(
         paper=PAPER,

@@ -79,7 +79,7 @@ def walk_everywhere(directions: tuple[int, ...] = DIRECTIONS) -> StudyResult:
     )
 
     def paths(path: Path) -> None:
-        from ...families.walker.pictures.walk_paths_plot import draw_paths
+        from ...families.walker.pictures.walk_plots import draw_paths
 
         draw_paths({f"{direction} deg": run for direction, run in runs.items()}, {}, path)
 
@@ -152,7 +152,7 @@ def turn_anywhere(centres: tuple[tuple[float, float], ...] = CENTRES) -> StudyRe
     )
 
     def paths(path: Path) -> None:
-        from ...families.walker.pictures.walk_paths_plot import draw_paths
+        from ...families.walker.pictures.walk_plots import draw_paths
 
         names = {centre: f"about {centre[0]:g}, {centre[1]:g} m" for centre in runs}
         draw_paths({names[centre]: run for centre, run in runs.items()}, {names[c]: c for c in runs}, path)

@@ -93,12 +93,12 @@ def _table(frames: TwoFrames) -> Table:
 
 def _figures(frames: TwoFrames, curve: Floats) -> tuple[Figure, ...]:
     def picture(path: Path) -> None:
-        from ...families.walker.pictures.walker_regions_plot import draw_regions
+        from ...families.walker.pictures.mechanism_plots import draw_regions
 
         draw_regions(frames, SHOWN, path)
 
     def growth(path: Path) -> None:
-        from ...families.walker.pictures.walker_regions_plot import draw_areas
+        from ...families.walker.pictures.mechanism_plots import draw_areas
 
         names = ("strokes alone", "part around the centre", "short of a singular pose", _guard(frames))
         draw_areas(ANGLES, dict(zip(names, curve.T, strict=True)), path)

@@ -30,7 +30,7 @@ def count_freedoms() -> StudyResult:
     ]
 
     def spread(path: Path) -> None:
-        from ...families.walker.pictures.tool_runs_plot import draw_freedoms
+        from ...families.walker.pictures.tool_plots import draw_freedoms
 
         draw_freedoms(means, DOFS, GAINS, path)
 

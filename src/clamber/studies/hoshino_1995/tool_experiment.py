@@ -49,7 +49,7 @@ def follow_in_dynamics() -> StudyResult:
     )
 
     def course(path: Path) -> None:
-        from ...families.walker.pictures.follow_plot import draw_follow
+        from ...families.walker.pictures.tool_plots import draw_follow
 
         draw_follow(real[10], path)
 

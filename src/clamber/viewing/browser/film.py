@@ -8,16 +8,15 @@ import numpy as np
 
 from ...planning.problem.yardsticks import NOTHING_LIMITS
 from ...types import Floats
-from ..frames import EVEN, FRAMES, PAUSE
 from ..margins import Limiting, grade
 from ..panel import Gauges
 from ..style import STRIP_WORDS
-from ..view import Moment, Part, View
+from ..view import EVEN, FRAMES, PAUSE, Moment, Part, View
 
 BEFORE: Final = 0.01
 """So much before the next step a step is over, where none rests between them [s]."""
 RATE: Final = 15.0
-"""Frames of `frames.FRAMES` in a second of a plan's film."""
+"""Frames of `view.FRAMES` in a second of a plan's film."""
 
 
 @dataclass(frozen=True, slots=True)

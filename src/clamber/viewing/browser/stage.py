@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any, Final, Literal
 
 from .film import Film
 from .panel_html import head_html, loads_html, step_margins_html, strip_html
-from .scenery import Figure, Scenery, World
+from .solids import Figure, Scenery, World
 
 if TYPE_CHECKING:
     import viser

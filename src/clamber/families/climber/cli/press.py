@@ -32,7 +32,7 @@ def press(
     from ....tasks.robots import load_robot
     from ....units import parse_quantity, read_point
     from ....viewing.output import CANVASES, check_suffix
-    from ..pictures.press_plot import draw_press
+    from ..pictures.body_plots import draw_press
     from ..robot.robot import LimbedRobot
     from ..sim.flaw_texts import named_flaws, read_flaws
     from ..trials.press import run_press

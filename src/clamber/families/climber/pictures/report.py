@@ -1,6 +1,5 @@
 """A climb's report: the plan with its least margins, what became of every action, and where it was close."""
 
-from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -9,42 +8,21 @@ from ....planning.problem.verdict import Verdict, check_plan
 from ....planning.problem.yardsticks import yardsticks_of
 from ....units import DEGREE
 from ....viewing.margins import named_limits
-from ....viewing.pictures import draw_route
-from ....viewing.report.run_page import MILLI, Rows, RunPage, Shown, most, write_run_page
+from ....viewing.report.run_page import MILLI, Rows, RunPage, most, plan_words
 from ..execution.climb_report import ActionReport
 from ..trials.run_plan import ClimbRun
-from .climb_run_view import write_run
-from .torques import torque_limits
+from .artists import torque_limits
 
 CHECKS_TOLD: Final = 3
 """Checks whose least margins are told, the tightest first."""
 JOINTS: Final = ("shoulder", "elbow")
 
 
-def write_climb_report(run: ClimbRun, command: str, folder: Path) -> Path:
-    """Write the report of a climb into a folder that `open_report` made; returns its page.
-
-    Args:
-        run: The climb.
-        command: What repeats it.
-        folder: The folder.
-
-    Raises:
-        FileError: If a file cannot be written.
-    """
-    draw_route(run.task, run.plan, folder / "plan.png")
-    write_run(run, folder / "climb.png")
-    write_run(run, folder / "climb.html")
-    run.plan.save(folder / "plan.json")
-    return write_run_page(climb_page(run, command), folder)
-
-
-def climb_page(run: ClimbRun, command: str) -> RunPage:
-    """What the page says; its pictures are not drawn yet."""
+def climb_page(run: ClimbRun) -> RunPage:
+    """What the report of a climb says."""
     verdict = check_plan(run.task, run.plan, go_on=True)
-    report, planner = run.report, run.plan.planner or "hand"
-    seed = "" if run.plan.seed is None else f", seed {run.plan.seed}"
-    planned = [f"{verdict.length} actions for the task '{run.task.name}', made by {planner}{seed}."]
+    report = run.report
+    planned = [plan_words(run.plan, run.task.name)]
     if not verdict.ok and verdict.first_violation is not None:
         first = verdict.first_violation
         planned.append(f"The plan violates a hard check at step {first.step}: {first.reason}.")
@@ -55,19 +33,14 @@ def climb_page(run: ClimbRun, command: str) -> RunPage:
     planned += [f"Forced in spite of {objection}." for objection in report.forced]
     return RunPage(
         kind="climb",
-        title=run.task.title or run.task.name,
-        done=report.done,
-        reason=report.reason,
         facts=_facts(run),
-        command=command,
         planned=tuple(planned),
-        planned_picture=Shown("plan.png", "The plan from start to end."),
         plan=_plan_rows(verdict, run),
-        close=Rows(("What", "How close", "Where"), (*_margins(verdict, run), *_closest(run))),
+        close=(*_margins(verdict, run), *_closest(run)),
         happened=_happened(report.actions),
-        picture=Shown("climb.png", "The climb as it was: the way of the body, and the robot along it."),
-        motion=Shown("climb.html", "The climb as it was, to play."),
-        data=run.to_json(),
+        picture="The climb as it was: the way of the body, and the robot along it.",
+        motion=".html",
+        keeps_plan=True,
     )
 
 

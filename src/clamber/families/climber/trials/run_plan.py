@@ -56,6 +56,11 @@ class ClimbRun(Jsonable):
     """What its log lacks, there only if it could not be written to its end; None: nothing, or there is no log."""
 
     @property
+    def work(self) -> LimbedTask:
+        """What was carried out."""
+        return self.task
+
+    @property
     def done(self) -> bool:
         """Whether every action was carried out, and the body came to the goal with it."""
         return self.report.done
@@ -73,9 +78,9 @@ class ClimbRun(Jsonable):
         return None if np.array_equal(places, mapped) else places
 
 
-def action_text(step: int, steps: int, title: str, time: float) -> str:
-    """The action that begins, `time` [s] after the start."""
-    return f"action {step} of {steps}: {title}, at {time:.0f} s"
+def action_told(step: int, steps: int, title: str, time: float) -> tuple[str, float]:
+    """The action that begins, `time` [s] after the start, in words, and the share of the plan that is done [-]."""
+    return f"action {step} of {steps}: {title}, at {time:.0f} s", (step - 1) / max(steps, 1)
 
 
 def open_climb(what: str, task: str | None, settings: Sequence[str]) -> tuple[LimbedTask, Plan | None, tuple[str, ...]]:

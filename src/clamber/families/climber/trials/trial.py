@@ -24,7 +24,7 @@ from .faults import BEGINS, failing_of
 from .noise import NOISE, Noise, check_noise, noise_of
 from .planning import QUIET, no_plan, plan_to_climb, replanner
 from .rehearsal import rehearse
-from .run_plan import ClimbRun, action_text, climbing_flaws, run_plan
+from .run_plan import ClimbRun, action_told, climbing_flaws, run_plan
 from .warm_up import warm_up
 
 PLAN_SEED: Final = 0
@@ -187,10 +187,12 @@ class TrialSetup(Setup[ClimbRun, ClimbTrial]):
         """Load the kernels of a climb."""
         warm_up()
 
-    def again(self, seed: int, kept: Json | None, step: Callable[[str], None]) -> tuple[ClimbRun, ClimbTrial]:
+    def again(
+        self, seed: int, kept: Json | None, step: Callable[[str, float | None], None]
+    ) -> tuple[ClimbRun, ClimbTrial]:
         """One climb again, with the plans that it was given on its way."""
         plans = None if kept is None else plans_on_the_way(kept)
-        run, trial, _ = climb_once(self, seed, plans=plans, progress=lambda *action: step(action_text(*action)))
+        run, trial, _ = climb_once(self, seed, plans=plans, progress=lambda *action: step(*action_told(*action)))
         return run, trial
 
 

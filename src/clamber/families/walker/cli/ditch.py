@@ -76,7 +76,7 @@ def ditch(
         reserve=parse_quantity(reserve, "length"), aside=not straight,
     )  # fmt: skip
     if output is not None and found.status == "found":
-        from ..pictures.walker_ditch_plot import draw_crossing
+        from ..pictures.mechanism_plots import draw_crossing
 
         draw_crossing(found, output)
     if as_json:
@@ -101,7 +101,7 @@ def _tell_widest(footing: "Footing", aside: bool, as_json: bool, output: Output)
     directions = np.arange(0.0, 361.0)
     widths = ditch_map(footing, thetas * DEGREE, directions * DEGREE, aside=aside)
     if output is not None:
-        from ..pictures.walker_ditch_plot import draw_ditch_maps
+        from ..pictures.mechanism_plots import draw_ditch_maps
 
         title = "with sidesteps" if aside else "straight"
         draw_ditch_maps(thetas.tolist(), directions.tolist(), {title: widths * MM}, output)

@@ -135,6 +135,6 @@ def _write_files(run: "FollowRun", files: Sequence[Path]) -> None:
         if file.suffix.lower() in SUFFIXES:
             write_log(run.log(), file, "follow")
         else:
-            from ..pictures.follow_plot import draw_follow
+            from ..pictures.tool_plots import draw_follow
 
             draw_follow(run, file)

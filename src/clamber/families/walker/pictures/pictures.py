@@ -13,13 +13,13 @@ from ....types import Floats
 from ....viewing import style
 from ....viewing.pictures import Pictures
 from ....viewing.route import FACTS, draw_way, label_ghost, pick_ghosts, write_facts
-from ....viewing.scene import Bounds
+from ....viewing.scene import Bounds, length_unit
 from ....viewing.view import Layout
-from ....viewing.words import length_unit
 from ..planning.task import WalkerTask
-from .walker_artists import COLOURS, NAMES, WalkerArtists, draw_ground, walker_bounds
-from .walker_motion import WalkerMoment, settled_moment
-from .walker_view import WalkerView, draw_walk
+from .report import walk_page
+from .walk_run_view import run_picture
+from .walker_motion import COLOURS, NAMES, WalkerMoment, settled_moment
+from .walker_view import WalkerArtists, WalkerView, draw_ground, draw_walk, walker_bounds
 
 GHOSTS: Final = 2
 """Stances drawn between start and end, at most: a walker covers most of its own steps."""
@@ -70,4 +70,6 @@ def start_point(task: WalkerTask) -> Floats:
     return np.array([[task.start.x, task.start.y]])
 
 
-PICTURES: Final = Pictures(WalkerView, draw_walk, walker_route, start_point, draw_ground)
+PICTURES: Final = Pictures(
+    WalkerView, draw_walk, walker_route, start_point, draw_ground, run=run_picture, report=walk_page
+)

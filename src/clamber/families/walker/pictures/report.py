@@ -1,57 +1,32 @@
 """A walk's report: its way or plan, what became of every step, and where it was close."""
 
 import math
-from pathlib import Path
 
 from ....units import DEGREE
-from ....viewing.report.run_page import MILLI, MOST_TOLD, Rows, RunPage, Shown, most, write_run_page
+from ....viewing.report.run_page import MILLI, MOST_TOLD, Rows, RunPage, most, plan_words
 from ..execution.walk_report import StepReport, WalkReport
 from ..planning.piece import Piece
 from ..trials.run_walk import WalkRun
-from .walk_run_view import write_walk
 
 
-def write_walk_report(run: WalkRun, command: str, folder: Path) -> Path:
-    """Write the report of a walk into a folder that `open_report` made; returns its page.
-
-    Args:
-        run: The walk.
-        command: What repeats it.
-        folder: The folder.
-
-    Raises:
-        FileError: If a file cannot be written.
-    """
-    write_walk(run, folder / "walk.png")
-    write_walk(run, folder / "walk.gif")
-    return write_run_page(walk_page(run, command), folder)
-
-
-def walk_page(run: WalkRun, command: str) -> RunPage:
-    """What the page says; its pictures are not drawn yet."""
+def walk_page(run: WalkRun) -> RunPage:
+    """What the report of a walk says, which may have followed a plan."""
     plan = run.plan
     if plan is not None:
-        seed = "" if plan.seed is None else f", seed {plan.seed}"
-        planned = [f"{len(plan.actions)} actions for the task '{plan.task}', made by {plan.planner or 'hand'}{seed}."]
+        planned = plan_words(plan, plan.task)
         rows = Rows(("Step", "Action"), tuple((k, one.title) for k, one in enumerate(plan.actions, start=1)))
     else:
-        planned = [f"The way: {'; '.join(map(piece_in_words, run.walk.way))}."]
+        planned = f"The way: {'; '.join(map(piece_in_words, run.walk.way))}."
         rows = None
     return RunPage(
         kind="walk",
-        title=run.walk.title or run.walk.name,
-        done=run.done,
-        reason=run.reason,
         facts=_facts(run),
-        command=command,
-        planned=tuple(planned),
-        planned_picture=None,
+        planned=(planned,),
         plan=rows,
-        close=Rows(("What", "How close", "Where"), tuple(_closest(run))),
+        close=tuple(_closest(run)),
         happened=_happened(run.report.steps),
-        picture=Shown("walk.png", "The walk as it was, from the side and from above."),
-        motion=Shown("walk.gif", "The walk as it was."),
-        data=run.to_json(),
+        picture="The walk as it was, from the side and from above.",
+        motion=".gif",
     )
 
 

@@ -1,4 +1,4 @@
-"""Walks as films: as planned, and as they truly were."""
+"""Walks as films: before they begin, as planned, and as they truly were."""
 
 import math
 from typing import Any, Final
@@ -8,16 +8,19 @@ import numpy as np
 from ....types import Floats, Json
 from ....units import DEGREE, GRAVITY
 from ....viewing.browser.film import Film, MarginRow, PlanFilm
+from ..control.gait import lengths_at
+from ..control.track import Track, straight
+from ..control.walker_balance import mass_centre
 from ..execution.true_walk import TrueWalk, hull_margins
 from ..execution.walk_trace import WalkTrace
+from ..planning import Walk
 from ..robot import WalkerRobot
-from ..robot.weight import weight_of
+from ..robot.weight import arm_places, weight_of
+from ..trials.run_walk import lay_track
 from ..world.ground import Ground, Surface
-from .walk_shapes import WalkShapes, shapes_at
-from .walker_artists import NAMES
-from .walker_figure import WalkMoment
-from .walker_loads import WalkLoads, leg_force_gauges, plate_normals
-from .walker_motion import WalkerMoment
+from .space import WalkMoment
+from .walker_loads import WalkLoads, actuator_gauges, leg_force_gauges, leg_gauges, plate_normals
+from .walker_motion import NAMES, WalkerMoment, WalkShapes, plate_axes, shapes_at
 from .walker_view import WalkerView
 
 USUAL: Final = 16.0
@@ -292,3 +295,92 @@ def logged_walk(trace: WalkTrace) -> TrueWalk:
 def _true_margins(trace: TrueWalk) -> Floats:
     rows = len(trace.time)
     return hull_margins(trace.feet.reshape(rows, 6, 3), trace.touching.reshape(rows, 6), trace.centre)
+
+
+class StandingFilm(Film[WalkMoment]):
+    """The start of a walk, which has no plan.
+
+    Args:
+        walk: The walk.
+    """
+
+    def __init__(self, walk: Walk) -> None:
+        robot = walk.robot
+        self.title, self.seconds, self.steps, self.grades = walk.title or walk.name, 0.0, ("start",), (3,)
+        self.starts = self.ends = np.zeros(1)
+        self.gauges = leg_gauges(robot), actuator_gauges(robot)
+        trace = standing(walk)
+        legs, place = walk.start_legs().ravel(), walk.start_place()
+        shapes = shapes_at(robot, trace, 0)
+        start = walk.start
+        self._moment = WalkMoment(
+            shapes, np.zeros((2, 3, 3)), weight_on_ground(robot, walk.payload), np.array([(start.x, start.y, start.heading)] * 2),
+            (legs, lengths_at(robot, place[None])[0]),
+        )  # fmt: skip
+        self._start = start
+
+    def at(self, time: float) -> WalkMoment:
+        """See `Film`."""
+        return self._moment
+
+    def values(self, at: WalkMoment) -> tuple[Floats, ...]:
+        """See `Film`."""
+        return at.loads
+
+    def facts(self, step: int, at: WalkMoment) -> tuple[tuple[str, str], ...]:
+        """See `Film`."""
+        start = self._start
+        return (
+            ("Plate", f"x {start.x + 0.0:.3f} m,  y {start.y + 0.0:.3f} m,  {start.heading / DEGREE + 0.0:.1f}°"),
+            ("Plan", "none is needed: a walk goes its way step by step; press Run"),
+        )
+
+    def margins(self, step: int) -> list[MarginRow]:
+        """See `Film`: nothing has happened."""
+        return []
+
+
+def standing(walk: Walk) -> TrueWalk:
+    """A walk's robot on six feet where it starts, in one row; who carries what, statics does not tell: those forces are NaN."""
+    robot, place, legs = walk.robot, walk.start_place(), walk.start_legs().ravel()
+    pose = walk.start_pose()
+    axes = plate_axes(*pose[3:])
+    c, s = np.cos(place[2]), np.sin(place[2])
+    tops = robot.feet().copy()
+    tops[1] = tops[1] @ np.array(((c, s), (-s, c))) + place[:2]
+    down = tops.reshape(6, 2) @ axes[:, :2].T - legs[:, None] * axes[:, 2]
+    heights = walk.ground.heights(pose[:2] + down[:, :2])
+    pose[2] = float((heights - down[:, 2]).max())
+    arm: Any = np.array(walk.arm)
+    tool = np.full(3, np.nan) if robot.arm is None else pose[:3] + axes @ arm_places(robot.arm, arm)[-1]
+    nothing = np.full((1, 2, 3, 3), np.nan)
+    return TrueWalk(
+        time=np.zeros(1), pose=pose[None], place=place[None], feet=(pose[:3] + down).reshape(1, 2, 3, 3), forces=nothing,
+        centre=mass_centre(robot, pose, place, arm, walk.payload)[None], tool=tool[None], thrusts=np.full((1, 3), np.nan),
+        inclines=np.zeros((1, 2)),
+    )  # fmt: skip
+
+
+BEYOND: Final = 0.5
+"""So far behind a ditch both frames have crossed it, for a picture [m]."""
+PLACES: Final = 60
+"""Along a way that is drawn."""
+
+
+def way_poses(walk: Walk) -> Floats:
+    """Poses of the Delta-frame along a walk's way: x, y [m], heading [rad], shape (n, 3).
+
+    Raises:
+        ClamberError: If there is no way to one of its places.
+    """
+    start = walk.start
+    track = _track(walk, np.array((start.x, start.y, start.heading)))
+    return np.array([track.pose(way) for way in np.linspace(0.0, track.length, PLACES)])
+
+
+def _track(walk: Walk, pose: Floats) -> Track:
+    first = walk.way[0]
+    if first.ditch is None or first.ahead is None:
+        return lay_track(walk, pose)
+    whole = first.ahead + first.ditch + BEYOND
+    return straight(pose, first.along or 0.0, whole, walk.robot.legs.radius_delta)

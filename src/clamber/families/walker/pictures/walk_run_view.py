@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Callable
-from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -13,26 +12,18 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
 
-from ....execution.log_files import SUFFIXES as LOGS
-from ....execution.log_files import write_log
 from ....types import Floats
 from ....units import DEGREE
 from ....viewing import style
-from ....viewing.frames import Frame
-from ....viewing.gif import write_gif_frames
-from ....viewing.output import CANVASES, check_suffix, save_figure
 from ....viewing.scene import draw_forbidden
-from ....viewing.style import bare, styled
-from ....viewing.video import write_mp4_frames
+from ....viewing.style import bare
+from ....viewing.view import Frame
 from ..execution.true_walk import TrueWalk
-from ..execution.walk_trace import TOPIC
 from ..robot import WalkerRobot
 from ..trials.run_walk import WalkRun
 from ..world.ground import Ground, Surface
-from .walk_shapes import WalkShapes, shapes_at
+from .walker_motion import COLOURS, WalkShapes, shapes_at
 
-COLOURS: Final = (style.PARTS[0], style.PARTS[1])
-"""Of the Delta-frame and the Y-frame."""
 ROOM: Final = 0.45
 """About the plate's way, that is shown [m] ..."""
 EDGE: Final = 0.05
@@ -52,11 +43,6 @@ FRAMES: Final = 300
 """Of an animation, at most."""
 SECONDS: Final = 1.0
 """Of the walk between two frames, at least."""
-MOVING: Final[dict[str, Callable[["WalkRunView", list[Frame[int]], Path], None]]] = {
-    ".gif": write_gif_frames,
-    ".mp4": write_mp4_frames,
-}
-"""Suffix -> what writes an animation."""
 FEW: Final = 100_000
 """Samples of a curve, at most: kicks are as short as a tenth of a second."""
 RELIEF: Final = LinearSegmentedColormap.from_list("relief", ["#8FA3B5", "#F7F8FA", "#C9B28F"])
@@ -110,12 +96,18 @@ class WalkRunView:
             clock.set_xdata([time, time])
         self.time_text.set_text(f"{time:.0f} s")
 
-    def add_ghosts(self) -> None:
-        """Show, faintly, where the robot was before."""
+    def frames(self, most: int) -> list[Frame[int]]:
+        """What an animation shows: rows of the trace."""
+        count = int(min(FRAMES, most, max(2.0, self.trace.time[-1] / SECONDS)))
+        return [Frame(0, int(k), 1.0) for k in np.linspace(0, len(self.trace.time) - 1, count).astype(int)]
+
+    def whole(self) -> Figure:
+        """The end of the walk, and faintly where the robot was before."""
         for k in np.linspace(0, len(self.trace.time) - 1, GHOSTS).astype(int)[:-1]:
             shapes = shapes_at(self.robot, self.trace, int(k))
             for axes, project in ((self.side, self.from_side), (self.top, _from_above)):
                 _Drawn(axes, project, alpha=0.22).update(shapes)
+        return self.figure
 
     def from_side(self, points: Floats) -> Floats:
         """Points of the world as the side view has them: along the way, and height [m]."""
@@ -303,44 +295,6 @@ def footprints(trace: TrueWalk, f: int) -> list[Floats]:
     return found
 
 
-def check_walk_suffix(path: Path) -> str:
-    """The suffix of a file that a walk can be written to: a log, an animation, or the whole walk in one picture.
-
-    Raises:
-        SuffixError: If it is no such suffix.
-    """
-    return check_suffix(path, (*LOGS, *MOVING, *CANVASES))
-
-
-def write_walk(run: WalkRun, path: Path) -> None:
-    """Write what happened in a walk as the file's suffix says.
-
-    Raises:
-        SuffixError: If the suffix names no format.
-        MissingExtraError: If .mp4 is asked for without the extra `video`.
-        FileError: If the file cannot be written.
-    """
-    if check_walk_suffix(path) in LOGS:
-        write_log(run.trace.to_log(), path, TOPIC)
-        return
-    draw_walk(run.walk.robot, run.walk.ground, run.true, run.walk.title or run.walk.name, path)
-
-
-def draw_walk(robot: WalkerRobot, ground: Ground, trace: TrueWalk, title: str, path: Path) -> None:
-    """Draw a walk, still or moving.
-
-    Raises:
-        SuffixError: If the suffix names no format of pictures.
-        MissingExtraError: If .mp4 is asked for without the extra `video`.
-        FileError: If the file cannot be written.
-    """
-    suffix = check_suffix(path, (*MOVING, *CANVASES))
-    with styled():
-        view = WalkRunView(robot, ground, trace, title)
-        if suffix in CANVASES:
-            view.add_ghosts()
-            save_figure(view.figure, path)
-            return
-        count = int(min(FRAMES, max(2.0, trace.time[-1] / SECONDS)))
-        rows = np.linspace(0, len(trace.time) - 1, count).astype(int)
-        MOVING[suffix](view, [Frame(0, int(k), 1.0) for k in rows], path)
+def run_picture(run: WalkRun) -> WalkRunView:
+    """A walk that was just carried out."""
+    return WalkRunView(run.walk.robot, run.walk.ground, run.true, run.walk.title or run.walk.name)

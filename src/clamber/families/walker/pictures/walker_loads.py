@@ -12,8 +12,7 @@ from ..control.gait import lengths_at
 from ..execution.true_walk import TrueWalk
 from ..robot import FRAMES, WalkerRobot
 from ..world.ground import Ground
-from .walk_shapes import plate_axes
-from .walker_artists import COLOURS
+from .walker_motion import COLOURS, plate_axes
 
 LEGS: Final = tuple(f"{frame.capitalize()} leg {i + 1}" for frame in FRAMES for i in range(3))
 ACTUATORS: Final = tuple(f"actuator {i + 1}" for i in range(3))

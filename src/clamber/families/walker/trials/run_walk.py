@@ -122,6 +122,11 @@ class WalkRun(Jsonable):
     """What its log lacks, there only if it could not be written to its end; None: nothing, or there is no log."""
 
     @property
+    def work(self) -> Walk:
+        """What was carried out."""
+        return self.walk
+
+    @property
     @in_json()
     def done(self) -> bool:
         """Whether it came to the end of its way, truly."""
@@ -273,9 +278,9 @@ def run_walk(
     return WalkRun(walk, report, walker.trace(notes), true, taken, held, fault, log_gap=gap)
 
 
-def step_text(step: int, way: float, whole: float) -> str:
-    """The step that begins, on `whole` metres of way."""
-    return f"step {step}: {way:.2f} of {whole:.2f} m"
+def step_told(step: int, way: float, whole: float) -> tuple[str, float | None]:
+    """The step that begins, on `whole` metres of way, in words, and the share that is done [-]."""
+    return f"step {step}: {way:.2f} of {whole:.2f} m", way / whole if whole > 0.0 else None
 
 
 def stand(walker: TracedWalker, walk: Walk) -> None:

@@ -24,7 +24,7 @@ from ..planning.walks import walk_from_document
 from .faults import BEGINS, failing_of
 from .noise import WalkNoise
 from .planned import lay_plan, walk_of
-from .run_walk import WalkRun, run_walk, step_text, walk_flaws
+from .run_walk import WalkRun, run_walk, step_told, walk_flaws
 
 LEVEL: Final = 0.1 * DEGREE
 """A plate counts as level within this [rad]: what the paper's robot levels itself to."""
@@ -77,7 +77,7 @@ class WalkTrial(Jsonable):
     """The fault that the robot had, when it was noticed, and how that ended; None in trials without."""
 
 
-def walk_once(item: Json, step: Callable[[str], None] | None = None) -> WalkRun:
+def walk_once(item: Json, step: Callable[[str, float | None], None] | None = None) -> WalkRun:
     """One walk of many.
 
     Args:
@@ -94,7 +94,7 @@ def walk_once(item: Json, step: Callable[[str], None] | None = None) -> WalkRun:
     faults, seed = item.get("faults", ()), item["seed"]
     fault = draw_fault(faults, seed, failing_of(walk.robot), BEGINS) if faults else None
     flaws, noise = walk_flaws(walk, item["plant"]), WalkNoise(item["noise"])
-    told = None if step is None else lambda *moment: step(step_text(*moment))
+    told = None if step is None else lambda *moment: step(*step_told(*moment))
     return run_walk(walk, flaws, noise=noise, seed=seed, lay=lay, fault=fault, progress=told)
 
 
@@ -185,7 +185,9 @@ class WalkSetup(Setup[WalkRun, WalkTrial]):
             turned=None, kicks=0,
         )  # fmt: skip
 
-    def again(self, seed: int, kept: Json | None, step: Callable[[str], None]) -> tuple[WalkRun, WalkTrial]:
+    def again(
+        self, seed: int, kept: Json | None, step: Callable[[str, float | None], None]
+    ) -> tuple[WalkRun, WalkTrial]:
         """One walk again."""
         run = walk_once(self.item(seed), step)
         return run, judged(seed, run)

@@ -1,33 +1,143 @@
-"""The part of the panel that edits a board: pegs are dragged on the wall, or moved by their numbers; so are start and goal."""
+"""A board while it is edited, and the part of the panel that does: pegs, start and goal are dragged on the wall, or typed."""
 
+import copy
+import itertools
+import math
+import threading
 from collections.abc import Callable
 from contextlib import AbstractContextManager
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from ....viewing.browser.inputs import by_hand, set_input
-from ....viewing.browser.pose_part import Plane, PosePart
-from ....viewing.words import length_unit
-from ..planning.task import FREE, LimbedTask
-from .board_draft import BoardDraft
-from .wall_space import in_space, on_wall
-
-if TYPE_CHECKING:
-    import viser
-
-import threading
-from typing import TYPE_CHECKING
-
-from ....errors import ClamberError
-from ....types import Floats
-from ....viewing.browser.inputs import about
+from ....tasks import task_from_document
+from ....types import Floats, Json
+from ....viewing.browser.inputs import (
+    FINE,
+    Plane,
+    PosePart,
+    add_handle,
+    by_hand,
+    goal_about,
+    middle,
+    refusal,
+    set_input,
+)
 from ....viewing.browser.panel_html import message_html
-from ....viewing.browser.pose_part import FINE
-from .wall_scene import WallScene
+from ....viewing.scene import length_unit
+from ..execution.here import GENERATORS, hold_document
+from ..planning.task import FREE, LimbedTask
+from ..world.board import Hold
+from .space import WallScene, in_space, on_wall
 
 if TYPE_CHECKING:
     import viser
+
+STEP: Final = 0.0762
+"""How far beside its neighbour a new peg is first tried [m]: three inches, as on the thesis's boards."""
+LABEL: Final = "the edited board"
+
+
+class BoardDraft:
+    """The pegs, the start and the goal of a task as they are now, whether or not they make a task.
+
+    Args:
+        task: As it was.
+    """
+
+    def __init__(self, task: LimbedTask) -> None:
+        self.task = task
+        self._start(task)
+
+    def _start(self, task: LimbedTask) -> None:
+        self.pegs: dict[int, Hold] = {hold.number: hold for hold in task.world.holds}
+        self.goal: tuple[float, float] | None = None
+        """Where the body is to go, where that was set [m]; None: as the task says."""
+        self.start = task.start
+        """Where the robot begins."""
+        self._template = task.world.holds[0]
+
+    def undo(self) -> None:
+        """Pegs, start and goal as the task has them."""
+        self._start(self.task)
+
+    @property
+    def changed(self) -> bool:
+        """Whether anything is other than the task says."""
+        moved = tuple(self.pegs.values()) != self.task.world.holds
+        return moved or self.goal is not None or self.start is not self.task.start
+
+    def move(self, number: int, x: float, y: float) -> None:
+        """Put a peg at a place of the wall [m]; one that is not there stays away."""
+        if number in self.pegs:
+            self.pegs[number] = replace(self.pegs[number], x=float(x), y=float(y))
+
+    def add(self, x: float, y: float) -> int:
+        """A new peg like the board's first at a place of the wall [m]; its number."""
+        number = max(self.pegs, default=0) + 1
+        self.pegs[number] = replace(self._template, number=number, x=float(x), y=float(y))
+        return number
+
+    def room_beside(self, number: int | None) -> tuple[float, float]:
+        """A place near a peg where another has room [m]."""
+        beside = self.pegs.get(number) if number is not None else None
+        x, y = (self._template.x, self._template.y) if beside is None else (beside.x, beside.y)
+        for ring, (across, up) in itertools.product(range(1, 100), ((0, 1), (1, 0), (-1, 0), (0, -1), (1, 1))):
+            at = x + ring * across * STEP, y + ring * up * STEP
+            if all(math.dist(at, (hold.x, hold.y)) > 4.0 * hold.radius for hold in self.pegs.values()):
+                return at
+        return x, y
+
+    def remove(self, number: int) -> None:
+        """Take a peg away; one that is not there stays away."""
+        self.pegs.pop(number, None)
+
+    def set_goal(self, x: float, y: float) -> None:
+        """Let the body go to a place of the wall, give or take a step of the task [m]."""
+        self.goal = float(x), float(y)
+
+    def set_start(self, x: float, y: float, angle: float) -> None:
+        """Let the body begin at a place of the wall [m], turned by an angle [rad]."""
+        self.start = replace(self.start, x=float(x), y=float(y), theta=float(angle))
+
+    def hold(self, limb: str, number: int) -> None:
+        """Let a limb begin on a peg, or free with 0."""
+        self.start = replace(self.start, holds={**self.start.holds, limb: int(number)})
+
+    def document(self) -> Json:
+        """The task as its file would say it."""
+        document = copy.deepcopy(self.task.document)
+        board = {key: value for key, value in document["board"].items() if key not in GENERATORS}
+        holds = [hold_document(hold, hold.direction, hold.cone) for _, hold in sorted(self.pegs.items())]
+        document["board"] = board | {"holds": holds}
+        document["labels"] = document.get("labels", {}) | {"board": LABEL}
+        if self.start is not self.task.start:
+            document["start"] = self._start_document(document["start"])
+        if self.goal is not None:
+            document["goal"] = goal_about(document["goal"], *self.goal, self.task.step.length)
+        return document
+
+    def _start_document(self, before: Json) -> Json:
+        """The start as a task's file has it; what it said of limbs that hold, or of where the place comes from, is left out."""
+        start = self.start
+        kept = {key: value for key, value in before.items() if key not in ("between", "feet", "in_use")}
+        feet = {limb: at for limb, at in before.get("feet", {}).items() if start.holds.get(limb, FREE) == FREE}
+        in_use = before.get("in_use")
+        kept |= {"feet": feet} if feet else {}
+        kept |= {"in_use": in_use} if in_use is not None and start.holds.get(in_use, FREE) != FREE else {}
+        place = {"x": f"{start.x!r} m", "y": f"{start.y!r} m", "theta": f"{start.theta!r} rad"}
+        return kept | place | {"holds": dict(start.holds)}
+
+    def build(self) -> LimbedTask:
+        """The task, if pegs and goal make one.
+
+        Raises:
+            SpecError: If they do not: no pegs, pegs that overlap, a start on a peg that is gone, a goal far from all.
+        """
+        task = task_from_document(self.document(), LABEL)
+        assert isinstance(task, LimbedTask)  # the robot stays what it is
+        return task
 
 
 NOWHERE: Final = "free"
@@ -140,10 +250,7 @@ class BoardPanel:
         with gui.add_folder("Goal"):
             self._goal = gui.add_vector2(f"goal [{self._unit}]", self._shown(*self._goal_place()), step=0.25)
             self._goal_words = gui.add_html("")
-        self._gizmo = server.scene.add_transform_controls(
-            "/peg handle", scale=0.09, active_axes=(True, False, True), disable_rotations=True, depth_test=False, visible=False,
-            line_width=3.0,
-        )  # fmt: skip
+        self._gizmo = add_handle(server, "peg", 0.09, (True, False, True))
         self._editing.on_update(by_hand(lambda _: self.pick(self._picked()), lock))
         self._peg.on_update(by_hand(lambda _: self.pick(self._picked()), lock))
         self._place.on_update(by_hand(lambda _: self._typed_place(), lock))
@@ -175,11 +282,7 @@ class BoardPanel:
         scene = self._scene()
         scene.draw_pegs(tuple(self.draft.pegs.values()))
         self.start.refresh()
-        wrong: dict[str, str] = {}
-        try:
-            self._changed(self.draft.build())
-        except ClamberError as error:
-            wrong[about(error)] = str(error)
+        wrong = refusal(lambda: self._changed(self.draft.build()))
         self._peg_words.content = message_html(wrong.get("world", ""), bad=True)
         self.start.body.say(wrong.get("start", ""))
         self._goal_words.content = message_html(wrong.get("goal", ""), bad=True)
@@ -205,14 +308,8 @@ class BoardPanel:
         """A place in the goal's box, for a start."""
         x_min, x_max, y_min, y_max = self.draft.task.goals[-1].box
         places = self.draft.task.world.positions()
-        middle = places.mean(axis=0)
-        found = []
-        for low, high, usual in ((x_min, x_max, middle[0]), (y_min, y_max, middle[1])):
-            if np.isfinite(low) and np.isfinite(high):
-                found.append(0.5 * (low + high))
-            else:
-                found.append(low if np.isfinite(low) else high if np.isfinite(high) else usual)
-        return float(found[0]), float(found[1])
+        x, y = places.mean(axis=0).tolist()
+        return middle(x_min, x_max, x), middle(y_min, y_max, y)
 
     def _typed_place(self) -> None:
         number = self._picked()

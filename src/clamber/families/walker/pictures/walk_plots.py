@@ -1,4 +1,4 @@
-"""Inclinations as pictures: a plate that is inclined one way after another, and where the steepest direction is told wrongly."""
+"""Walks of studies: inclined plates, plates kept level beside others, ways seen from above."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -9,8 +9,10 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ....types import Floats
+from ....units import DEGREE
 from ....viewing import style
 from ....viewing.output import drawing
+from ..trials.run_walk import WalkRun
 
 AXES: Final = ("along x", "along y")
 MOVING: Final = "#EEF1F4"
@@ -41,11 +43,7 @@ def draw_inclining(courses: Mapping[str, Course], *, within: float, path: str | 
     Args:
         courses: Title -> course; a column each.
         within: Error that is allowed at rest [deg].
-        path: A file (.png, .svg, .pdf).
-
-    Raises:
-        SuffixError: If the file's suffix names no format for still pictures.
-        FileError: If the file cannot be written.
+        path: Of the picture (`drawing`).
     """
     with drawing(path, (4.9 * len(courses), 5.0)) as figure:
         grid = figure.subplots(2, len(courses), sharex="col", sharey="row", squeeze=False, height_ratios=(1.5, 1.0))
@@ -93,11 +91,7 @@ def draw_directions(tilts: Floats, angles: Floats, right: Floats, told: Floats, 
         angles: Steepest angle by beta and gamma [deg], shape (n, n).
         right: Its direction, likewise [rad].
         told: The direction that the equation gives, likewise [rad].
-        path: A file (.png, .svg, .pdf).
-
-    Raises:
-        SuffixError: If the file's suffix names no format for still pictures.
-        FileError: If the file cannot be written.
+        path: Of the picture (`drawing`).
     """
     with drawing(path, (6.0, 6.0)) as figure:
         axes = figure.subplots()
@@ -116,3 +110,87 @@ def draw_directions(tilts: Floats, angles: Floats, right: Floats, told: Floats, 
         axes.set(xlabel="gamma [deg]", ylabel="beta [deg]", aspect="equal", xlim=(-room, room), ylim=(-room, room))
         axes.set_title("Steepest angle of the plate (contours), and which way is up in it", fontsize=9.5)
         figure.legend(loc="outside lower center", ncols=2, fontsize=8)
+
+
+MM: Final = 1e3
+CURVE_POINTS: Final = 4000
+"""Points of a curve, about."""
+
+
+def draw_levelling(
+    level: Mapping[str, WalkRun], tilted: Mapping[str, WalkRun], *, within: float, path: str | Path
+) -> None:
+    """Draw the plate's tilt and the margin of balance by the way that the plate has gone, a column for each walk.
+
+    Args:
+        level: Name -> walk with the plate kept level.
+        tilted: The same names -> walks with the plate as the slope.
+        within: What counts as level [deg].
+        path: Of the picture (`drawing`).
+    """
+    with drawing(path, (3.6 * len(level), 4.6)) as figure:
+        grid = figure.subplots(2, len(level), sharex=True, sharey="row", squeeze=False)
+        for (name, run), above, below in zip(level.items(), *grid, strict=True):
+            way, tilts, margins = _course(run)
+            above.plot(way, tilts, color=style.PARTS[0], lw=0.9)
+            above.axhline(within, color=style.ALERT, lw=0.9, ls=(0, (4, 3)))
+            above.set_title(name, fontsize=9.5)
+            below.plot(way, margins, color=style.PARTS[0], lw=0.9, label="level")
+            way, _, margins = _course(tilted[name])
+            below.plot(way, margins, color=style.PARTS[1], lw=0.9, label="as the slope")
+            below.axhline(0.0, color=style.ALERT, lw=0.9)
+            below.set_xlabel("way of the plate [m]")
+            for axes in (above, below):
+                style.bare(axes)
+                axes.grid(color=style.FAINT, lw=0.6, axis="y")
+        grid[0, 0].set_ylim(bottom=0.0)
+        grid[0, 0].set_ylabel("tilt, level [deg]")
+        grid[1, 0].set_ylabel("margin of balance [mm]")
+        grid[1, 0].legend(fontsize=8)
+
+
+def _course(run: WalkRun) -> tuple[Floats, Floats, Floats]:
+    """Way [m], tilt [deg] and margin [mm] from the first step on; peaks are kept, samples between them are not all."""
+    true, rows = run.true, run.walking
+    pose, tilts = true.pose[rows, :2], true.tilts[rows] / DEGREE
+    way = np.hypot(*(pose - pose[:1]).T)
+    margins = true.margins[rows] * MM
+    margins[~np.isfinite(margins)] = np.nan
+    gap = max(1, len(way) // CURVE_POINTS)
+    starts = np.arange(0, len(way), gap)
+    return way[starts], np.maximum.reduceat(tilts, starts), np.minimum.reduceat(margins, starts)
+
+
+WAY_POINTS: Final = 2000
+"""Points of a way, about."""
+HEADING: Final = 0.08
+"""Length of the mark of a heading [m]."""
+
+
+def draw_paths(runs: Mapping[str, WalkRun], centres: Mapping[str, tuple[float, float]], path: str | Path) -> None:
+    """Draw the ways of the Delta-frame's origin, with its heading at the end.
+
+    Args:
+        runs: Name -> walk.
+        centres: Name -> point that it turned about, where it did, in the Delta-frame at the start [m].
+        path: Of the picture (`drawing`).
+    """
+    with drawing(path, (6.2, 5.2)) as figure:
+        axes = figure.add_subplot()
+        for k, (name, run) in enumerate(runs.items()):
+            poses = run.true.pose[run.walking][:, [0, 1, 3]]
+            if not len(poses):
+                continue
+            shown = poses[np.unique(np.linspace(0, len(poses) - 1, WAY_POINTS).astype(int))]
+            colour, dashes = style.PARTS[k % len(style.PARTS)], "-" if k < len(style.PARTS) else "--"
+            axes.plot(shown[:, 0], shown[:, 1], color=colour, ls=dashes, lw=1.3, label=name)
+            x, y, heading = poses[-1]
+            axes.plot((x, x + HEADING * np.cos(heading)), (y, y + HEADING * np.sin(heading)), color=colour, lw=2.4)
+            if name in centres:
+                axes.plot(*centres[name], marker="+", ms=9, mew=1.6, color=colour)
+        axes.set_aspect("equal", adjustable="datalim")
+        axes.set_xlabel("x [m]")
+        axes.set_ylabel("y [m]")
+        axes.grid(color=style.FAINT, lw=0.6)
+        style.bare(axes)
+        figure.legend(loc="outside right upper", fontsize=8)

@@ -3,34 +3,22 @@
 import contextlib
 import io
 import socket
-from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
-from ..errors import ClamberError
-from ..families.climber.pictures.board_panel import BoardPanel
-from ..families.climber.pictures.climb_scenery import join
-from ..families.climber.pictures.wall_scene import WallScene
-from ..families.climber.planning.task import LimbedTask
-from ..families.climber.trials.run_plan import ClimbRun
-from ..families.walker.pictures.ground_panel import GroundPanel
-from ..families.walker.pictures.walk_scenery import WalkScenery
-from ..families.walker.planning import Walk
-from ..families.walker.planning.task import WalkerTask
-from ..families.walker.trials.run_walk import WalkRun
-from ..planning.problem.plan import Plan
-from ..tasks import Task
-from ..tasks.task_files import task_files
-from ..viewing import style
-from ..viewing.browser.inputs import by_hand, set_input
-from ..viewing.browser.own_pages import Guard, UnguardedError, check_guarded, guarded
-from ..viewing.browser.playback import Playback
-from ..viewing.browser.save_panel import SavePanel
-from ..viewing.browser.scenery import FOV, Camera
-from ..viewing.browser.solids import colour
-from ..viewing.browser.stage import Stage
-from ..viewing.scene import Bounds
-from .exhibit import Exhibit, planned_exhibit, run_film, walk_exhibit
+from ...errors import ClamberError
+from ...family import family_of
+from ...planning.problem.plan import Plan
+from ...tasks.task_files import task_files
+from .. import style
+from ..scene import join
+from .exhibit import Editor, Exhibit, exhibit_of, scenes_of
+from .inputs import by_hand, set_input
+from .own_pages import Guard, UnguardedError, check_guarded, guarded
+from .playback import Playback
+from .save_panel import SavePanel
+from .solids import FOV, Camera, colour
+from .stage import Stage
 from .work_panel import WorkPanel
 
 if TYPE_CHECKING:
@@ -157,12 +145,15 @@ class App:
             self.stage.add_details()
         self._shown.on_update(by_hand(lambda _: self.choose(self._shown.value)))
         self.work: WorkPanel | None = None
-        self.board: BoardPanel | None = None
+        self.editor: Editor | None = None
         self.saving: SavePanel | None = None
-        self.ground: GroundPanel | None = None
         if exhibit.task is not None:
-            with tabs.add_tab("Board" if isinstance(exhibit.task, LimbedTask) else "Ground", viser.Icon.EDIT):
-                self._add_work(exhibit.task)
+            scenes = scenes_of(family_of(exhibit.task))
+            with tabs.add_tab(scenes.tab, viser.Icon.EDIT):
+                self.editor = scenes.editor(server, exhibit.task, self.stage, self.show_task)
+                self.work = WorkPanel(
+                    server, self.editor.task, scenes, exhibit.planned, lambda: self.exhibit.plan, self.show_task, self.show_run
+                )  # fmt: skip
                 if host == LOOPBACK:  # nobody else is to write files on this machine
                     self.saving = SavePanel(server, f"{exhibit.task.name}-edited", folder, self.files)
         self.choose("both")
@@ -172,17 +163,17 @@ class App:
         """Show the plan, the run, or both, as far as they are there."""
         stage = self.stage
         stage.shown = "plan" if shown == "plan" else "run" if shown == "run" else "both"
-        self._shown.visible = len(stage.films) > 1 and not isinstance(self.exhibit.task, Walk)
+        self._shown.visible = len(stage.films) > 1 and self.exhibit.planned
         set_input(self._shown, stage.shown)
         self.playback.load(stage.main)
 
-    def show_task(self, task: Task | Walk, plan: Plan | None = None) -> None:
-        """Show a task with a plan, or its start; or the start of a walk.
+    def show_task(self, task: Any, plan: Plan | None = None) -> None:
+        """Show a task, or other work, with a plan, or its start.
 
         Raises:
             ClamberError: If its start violates a hard check.
         """
-        exhibit = walk_exhibit(task) if isinstance(task, Walk) else planned_exhibit(task, plan)
+        exhibit = exhibit_of(task, plan)
         # what was shown stays in sight, so that the world does not jump while it is edited
         seen = join(self.stage.scenery.bounds, exhibit.scenery.bounds)
         exhibit.scenery = exhibit.scenery.with_bounds(seen)
@@ -192,42 +183,24 @@ class App:
             self.stage.set_film("plan", exhibit.plan_film)
             self.choose("plan")
 
-    def show_run(self, run: ClimbRun | WalkRun) -> None:
+    def show_run(self, run: Any) -> None:
         """Play a run beside its plan."""
-        self.exhibit.run_film = run_film(self.exhibit, run)
+        self.exhibit.run_film = scenes_of(family_of(self.exhibit.task)).run_film(self.exhibit, run)
         with self.playback.still():
             self.stage.set_film("run", self.exhibit.run_film)
             self.choose("both")
         self.playback.play(True)
 
-    def _add_work(self, task: Task | Walk) -> None:
-        if isinstance(task, LimbedTask):
-            self.board = BoardPanel(self.server, task, self._wall, self.show_task)
-            self._made: Callable[[], Task | Walk] = self.board.task
-        else:
-            assert isinstance(task, WalkerTask | Walk)
-            self.ground = GroundPanel(self.server, task, self._shown_ground, self.show_task)
-            self._made = self.ground.task
-        plans = not isinstance(task, Walk)
-        self.work = WorkPanel(self.server, self._made, plans, lambda: self.exhibit.plan, self.show_task, self.show_run)
-
     def files(self, name: str) -> dict[str, str]:
-        """Names of files and their texts, of what was made on the page: the task of the edited board or ground, and the plan that is shown.
+        """Names of files and their texts, of what was made on the page: the task as it was edited, and the plan that is shown.
 
         Raises:
-            ClamberError: If the board or ground makes no task.
+            ClamberError: If what was edited makes no task.
         """
+        assert self.editor is not None  # without it nothing is saved
         plan = self.exhibit.plan
-        made = task_files(self._made().document, name)
+        made = task_files(self.editor.task().document, name)
         return made if plan is None else made | {f"{name}-plan.json": plan.text()}
-
-    def _wall(self) -> WallScene:
-        assert isinstance(self.stage.world, WallScene)  # a climber's
-        return self.stage.world
-
-    def _shown_ground(self) -> Bounds:
-        assert isinstance(self.stage.scenery, WalkScenery)  # a walker's
-        return self.stage.scenery.bounds
 
     @property
     def url(self) -> str:

@@ -1,7 +1,136 @@
-# ruff: noqa: E501 - a part of a page, not code
-"""The panel of a page without a server: it follows the time bar of the recording, and sets it."""
+"""The viewer as one page that needs no server: the scene recorded, and what the panel says of it beside."""
 
-from typing import Final
+import contextlib
+import html
+import io
+import json
+from collections.abc import Iterable
+from itertools import pairwise
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from ...files import write_atomically
+from ...types import Floats, Json
+from .. import style
+from ..output import check_suffix
+from ..panel import Gauges
+from .app import LOOPBACK, aim_camera, check_viser, guarded_server, light_scene
+from .exhibit import Exhibit
+from .film import Film
+from .own_pages import Guard
+from .panel_html import head_html, step_margins_html
+from .stage import STRIPS, Stage
+
+SUFFIXES: Final = (".html",)
+PICTURES: Final = 20.0
+"""Of a recording, in a second of it."""
+MOST: Final = 2400
+"""Pictures of a recording, at most: longer films get fewer in a second."""
+
+
+def write_page(exhibit: Exhibit, path: Path) -> int:
+    """Write a viewer's page with the recorded scene and the client inside; nothing is loaded from elsewhere.
+
+    Returns:
+        Its size [bytes].
+
+    Raises:
+        SuffixError: If the file's suffix is not .html.
+        MissingViserError: If the viewer's package is missing.
+        FileError: If the file cannot be written.
+    """
+    check_suffix(path, SUFFIXES)
+    check_viser()
+    with contextlib.redirect_stdout(io.StringIO()):  # its last words
+        server = guarded_server(LOOPBACK, Guard(0))  # nobody is to come
+        try:
+            page = _record(server, exhibit)
+        finally:
+            server.stop()
+    content = page.encode()
+    write_atomically(path, content)
+    return len(content)
+
+
+def _record(server: Any, exhibit: Exhibit) -> str:
+    stage = Stage(server, exhibit.scenery)
+    light_scene(server)
+    stage.set_film("plan", exhibit.plan_film)
+    stage.set_film("run", exhibit.run_film)
+    stage.shown = "both" if len(stage.films) > 1 else "plan"
+    aim_camera(server, exhibit.scenery.camera())
+    film = stage.main
+    times = _times(film)
+    stage.show(film, 0.0)
+    recorder = server.get_scene_serializer()
+    for before, now in pairwise(times.tolist()):
+        recorder.insert_sleep((now - before) / film.speed)
+        stage.show(film, now)
+    page: str = recorder.as_html()
+    data = json.dumps(
+        panel_data(film, times, stage.main_kind, exhibit.plan_film), separators=(",", ":"), allow_nan=False
+    )
+    data = data.replace("<", "\\u003c")  # so that no name in the data can end the script
+    panel = PANEL.replace("@TITLE@", html.escape(exhibit.title)).replace("@DATA@", data)
+    end = page.rindex("</body>")
+    return page[:end] + panel + page[end:]
+
+
+def _times(film: Film[Any]) -> "np.ndarray[tuple[int], np.dtype[np.float64]]":
+    """When the pictures are taken, in the film's time [s]."""
+    count = int(min(MOST, np.ceil(film.seconds / film.speed * PICTURES)))
+    return np.linspace(0.0, film.seconds, max(count, 1) + 1) if film.seconds > 0.0 else np.zeros(1)
+
+
+def panel_data(
+    film: Film[Any], times: "np.ndarray[tuple[int], np.dtype[np.float64]]", kind: str, plan: Film[Any] | None
+) -> Json:
+    """What the page's own panel is given; times in seconds of the recording, `plan` the plan of a run."""
+
+    def margins(step: int) -> str:
+        then = None if plan is None else film.planned_time(film.rest(step), plan)
+        return step_margins_html(film, step, plan, None if plan is None or then is None else plan.step_at(then))
+
+    moments = [film.at(float(time)) for time in times]
+    return {
+        "times": round_all(times / film.speed),
+        "starts": round_all(film.starts / film.speed),
+        "rests": round_all(film.rest(step) / film.speed for step in range(len(film.steps))),
+        "steps": [
+            {"words": words, "grade": grade, "head": head_html(film, k, film.at(film.rest(k))), "margins": margins(k)}
+            for k, (words, grade) in enumerate(zip(film.steps, film.grades, strict=True))
+        ],
+        "worst": film.worst,
+        "strip": {"title": f"{STRIPS[kind]} {film.noun.lower()}", "colours": style.STRIP, "words": film.words},
+        "bars": [block_data(gauges) for gauges in film.gauges],
+        "values": [_numbers(film.values(moment)) for moment in moments],
+    }  # fmt: skip
+
+
+def round_all(values: Iterable[float]) -> list[float]:
+    """Lengths in whole tenths of a millimetre, and other numbers to four decimals."""
+    return [round(float(value), 4) for value in values]
+
+
+def block_data(gauges: Gauges) -> Json:
+    """A block of bars for the page's panel."""
+    return {
+        "title": gauges.title, "names": gauges.names, "colours": gauges.colours, "low": gauges.low.tolist(),
+        "high": gauges.high.tolist(), "limits": gauges.limits, "calm": [gauges.calm[0], min(gauges.calm[1], 1e9)],
+        "unit": gauges.unit, "note": gauges.note, "alert": style.ALERT,
+    }  # fmt: skip
+
+
+def _numbers(blocks: tuple[Floats, ...]) -> list[float | None]:
+    """Values of all blocks in a row, those that are not told as None."""
+    flat = np.concatenate(blocks)
+    return [
+        number if known else None
+        for number, known in zip(round_all(np.nan_to_num(flat)), np.isfinite(flat), strict=True)
+    ]
+
 
 PANEL: Final = r"""<style>
 #clamber { position: fixed; right: 12px; top: 12px; width: min(340px, 44vw); max-height: calc(100vh - 76px); overflow: auto; z-index: 2; background: #fffffff2; color: #22303c;
@@ -89,5 +218,5 @@ show(0);
 setInterval(() => { makeRoom(); const slider = bar(); if (slider) show(Number(slider.getAttribute("aria-valuenow")) || 0); }, 80);
 })();
 </script>
-"""
-"""`@TITLE@` and `@DATA@` are replaced; the data is JSON as `page.panel_data` makes it."""
+"""  # noqa: E501 - a part of a page, not code
+"""`@TITLE@` and `@DATA@` are replaced; the data is JSON as `panel_data` makes it."""

@@ -1,4 +1,4 @@
-"""Pictures of a body on two limbs: circles side by side, and x, y, angle and hooks over time."""
+"""Pictures of a body on its limbs: circles side by side, x, y, angle and hooks over time, limit cycles, a force held."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -11,8 +11,10 @@ from matplotlib.lines import Line2D
 from ....viewing import style
 from ....viewing.law_colours import LAW_COLOURS, MATCH_LINES, WANTED
 from ....viewing.output import drawing
+from ....viewing.style import bare
 from ..trials.body_bench import SLOT, BodyEntry, BodyRun
 from ..trials.body_scenario import BodyScenario
+from ..trials.press import Pressed
 
 MILLI: Final = 1e3
 COORDINATED: Final = "#8C564B"
@@ -41,12 +43,7 @@ def _quiet(axes: Axes) -> None:
 
 
 def draw_bodies(runs: Sequence[BodyRun], scenario: BodyScenario, path: str | Path) -> None:
-    """Draw runs of one scenario: paths of a circle, else over time.
-
-    Raises:
-        SuffixError: If the file's suffix names no format for still pictures.
-        FileError: If the file cannot be written.
-    """
+    """Draw runs of one scenario: paths of a circle, else over time."""
     if scenario.kind == "circle":
         draw_body_circles({f"{scenario.radius * 100:g} cm": (scenario, runs)}, path)
     else:
@@ -59,11 +56,7 @@ def draw_body_circles(laps: Mapping[str, tuple[BodyScenario, Sequence[BodyRun]]]
 
     Args:
         laps: Heading of a row -> its scenario and runs, the same controls for each.
-        path: A file (.png, .svg, .pdf).
-
-    Raises:
-        SuffixError: If the file's suffix names no format for still pictures.
-        FileError: If the file cannot be written.
+        path: Of the picture (`drawing`).
     """
     count = len(next(iter(laps.values()))[1])
     angle = np.linspace(0.0, 2 * np.pi, 181)
@@ -97,12 +90,8 @@ def draw_body_times(
     Args:
         columns: Heading -> runs.
         title: Of the picture.
-        path: A file (.png, .svg, .pdf).
+        path: Of the picture (`drawing`).
         from_aim: Whether y is told from the aim, else from where the aim began.
-
-    Raises:
-        SuffixError: If the file's suffix names no format for still pictures.
-        FileError: If the file cannot be written.
     """
     names = ("x [mm]", "y off the aim [mm]" if from_aim else "y [mm]", "angle [deg]", "tip off its peg [mm]")
     with drawing(path, (max(6.0, 4.2 * len(columns)), 7.4)) as figure:
@@ -161,3 +150,74 @@ def _room(columns: Mapping[str, Sequence[BodyRun]], which: int, *, from_aim: boo
     low, high = min(float(np.nanmin(each)) for each in values), max(float(np.nanmax(each)) for each in values)
     margin = 0.08 * max(high - low, 1e-3)
     return low - margin, high + margin
+
+
+LEAST: Final = 0.01
+"""Smaller motion is drawn as this [mm]."""
+PLAY_DASHES: Final = ("-", (0, (5, 1.6)), (0, (1, 1.2)))
+"""One for each play."""
+
+
+def draw_onsets(
+    gains: Sequence[float],
+    swings: Mapping[tuple[str, str, float, str], Sequence[float]],
+    cycle: float,
+    path: str | Path,
+) -> None:
+    """Draw one panel for each way to tell the body's place.
+
+    Args:
+        gains: Kpx.
+        swings: Held, place by, backlash [deg], play -> peak to peak along x at each of them [mm].
+        cycle: From which on the body counts as cycling [mm].
+        path: Of the picture (`drawing`).
+    """
+    places = list(dict.fromkeys(place for _, place, _, _ in swings))
+    colours = dict(zip(dict.fromkeys(b for _, _, b, _ in swings), style.PARTS, strict=False))
+    dashes = dict(zip(dict.fromkeys(p for _, _, _, p in swings), PLAY_DASHES, strict=False))
+    with drawing(path, (4.4 * len(places), 4.4)) as figure:
+        grid = figure.subplots(1, len(places), sharex=True, sharey=True, squeeze=False)[0]
+        for axes, place in zip(grid, places, strict=True):
+            axes.axhline(cycle, color=style.ALERT, lw=0.8)
+            for (_, each, backlash, play), found in swings.items():
+                if each == place:
+                    values = np.maximum(found, LEAST)
+                    axes.plot(gains, values, color=colours[backlash], ls=dashes[play], lw=1.5, marker="o", ms=2.5)
+            axes.set_xscale("log")
+            axes.set_yscale("log")
+            axes.set_title(f"place by {place}", fontsize=9.5)
+            axes.set_xlabel("Kpx")
+            style.bare(axes)
+            axes.grid(color=style.FAINT, lw=0.6)
+        grid[0].set_ylabel("left to and fro along x [mm]")
+        handles = [Line2D([], [], color=colour, label=f"backlash {b:g} deg") for b, colour in colours.items()]
+        handles += [Line2D([], [], color=style.QUIET, ls=dash, label=f"play {p}") for p, dash in dashes.items()]
+        figure.legend(handles=handles, loc="outside lower center", ncols=3, fontsize=8, handlelength=3.2)
+        figure.suptitle("From which stiffness on the body cycles", x=0.01, ha="left", fontsize=11, fontweight="bold")
+
+
+FORCE, ASKED, TRUE = "#0072B2", "#999999", "#D55E00"
+
+
+def draw_press(result: Pressed, path: str | Path) -> None:
+    """Draw the true force with its band of a tenth, and how far the body went beside what it was asked.
+
+    Args:
+        result: From `run_press`.
+        path: Of the picture (`drawing`).
+    """
+    with drawing(path, (7.2, 5.0)) as figure:
+        force, body = figure.subplots(2, 1, sharex=True, height_ratios=(1.4, 1.0))
+        force.axhspan(0.9 * result.wanted, 1.1 * result.wanted, color=FORCE, alpha=0.12, lw=0)
+        force.plot(result.time, result.force, color=FORCE, lw=0.9)
+        force.set_ylabel("force on the wall [N]")
+        force.set_title(f"{result.wanted:.3g} N held while the body moves; the band is a tenth", loc="left")
+        for k, (axis, dashes) in enumerate((("x", (3, 1.5)), ("y", (1, 0)))):
+            start = result.aim[0, k]
+            body.plot(result.time, 1e3 * (result.aim[:, k] - start), color=ASKED, lw=0.9, dashes=dashes)
+            body.plot(result.time, 1e3 * (result.body[:, k] - start), color=TRUE, lw=1.2, dashes=dashes, label=axis)
+        body.set_ylabel("body from its first aim [mm]")
+        body.set_xlabel("time [s]")
+        body.legend(frameon=False, loc="upper left")
+        for axes in (force, body):
+            bare(axes)
