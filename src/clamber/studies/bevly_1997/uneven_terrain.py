@@ -20,6 +20,7 @@ from ...families.climber.trials.trial import ERROR, ClimbTrial, TrialSetup
 from ...families.climber.trials.warm_up import warm_up
 from ...jobs import LocalProcesses
 from ...planning.problem.plan import Plan
+from ...trials.held_out import FIRST_HELD_OUT
 from ...trials.trial_runs import run_trials
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
@@ -28,9 +29,7 @@ from .body_climb import gait_plan
 from .body_entries import PLANT
 from .replayed import limbed_task
 
-FIRST: Final = 1_000_002_000
-"""First seed: held out, nothing was tuned on it, nor was one of them looked at before."""
-SEEDS: Final = range(FIRST, FIRST + 6)
+SEEDS: Final = range(FIRST_HELD_OUT, FIRST_HELD_OUT + 6)
 RUNGS: Final = 2
 TERRAINS: Final[dict[str, tuple[str, ...]]] = {
     "warped by up to 60 mm": ("terrain=60mm",),
