@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from clamber.families.climber.pictures.cone_plot import draw_cones
-from clamber.planning.beam.layers import Beam
+from clamber.planning.beam_layers import Beam
 from clamber.planning.problem.problems import pose_problem
 from clamber.studies.bevly_1997.replayed import limbed_task
 from clamber.studies.boards_exact import STUDY

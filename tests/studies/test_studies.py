@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from clamber.planning.problem.codes import MOVE, pack
-from clamber.planning.problem.plan_families import plan_family
+from clamber.planning.problem.problems import plan_family
 from clamber.studies.bevly_1997.modified_ladder import NO_HANGS, OWN, OWN_HALVES
 from clamber.studies.bevly_1997.no_rotation import WITHOUT_TURNS
 from clamber.studies.bevly_1997.printed_plans import PRINTED

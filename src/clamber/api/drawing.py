@@ -15,7 +15,7 @@ from ..families.walker.trials.run_walk import WalkRun
 from ..limb_bench.pictures.comparison import draw_comparison
 from ..limb_bench.result import LimbResult
 from ..planning.problem.plan import Plan
-from ..planning.problem.plan_families import plan_family
+from ..planning.problem.problems import plan_family
 from ..planning.result import PlanResult
 from ..viewing.output import CANVASES
 from ..viewing.pictures import animate, draw_route, draw_stance

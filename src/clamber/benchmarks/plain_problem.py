@@ -12,9 +12,9 @@ import numpy.typing as npt
 
 from ..families.climber.planning.problem import LimbedProblem
 from ..families.climber.planning.task import LimbedTask
+from ..planning.problem.arrays import ActionTable
 from ..planning.problem.codes import Code
 from ..planning.problem.problem import Records
-from ..planning.problem.table import ActionTable
 
 CHECKOUT: Final = Path(__file__).resolve().parents[3]
 PACKAGE: Final = "clamber_tests_plain"

@@ -8,10 +8,10 @@ import numpy as np
 from ..families.climber.planning.problem import FEATURE_NAMES, LimbedProblem
 from ..planning.genetic.evolve import Genes, first_generation, next_generation, weights_for
 from ..planning.genetic.profile import load_profile
+from ..planning.problem.arrays import ActionTable
 from ..planning.problem.plan_source import open_plan, plan_names
 from ..planning.problem.problem import CompiledProblem, Records
 from ..planning.problem.problems import pose_problem
-from ..planning.problem.table import ActionTable
 from ..tasks import load_task
 
 BOARDS: Final = ("ladder", "modified-ladder", "h", "across", "circle")

@@ -11,8 +11,7 @@ from .output import announce_compilation, plain_table, print_json, stdout
 
 if TYPE_CHECKING:
     from ..inspection.finding import Finding
-    from ..planning.problem.step_verdict import StepVerdict
-    from ..planning.problem.verdict import Verdict
+    from ..planning.problem.verdict import StepVerdict, Verdict
 
 
 def check(

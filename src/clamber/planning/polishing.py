@@ -5,13 +5,11 @@ from dataclasses import replace
 
 from ..errors import SpecError
 from ..tasks import Task
-from .exact.windows import is_plan
 from .problem.plan import Plan
-from .problem.plan_families import plan_family
-from .problem.problems import pose_problem
+from .problem.problems import plan_family, pose_problem
 from .progress import Listener, Shortening
 from .result import PlanResult
-from .shorten import EFFORT, WIDTH, shorten
+from .shorten import EFFORT, WIDTH, is_plan, shorten
 
 
 def polish_plan(

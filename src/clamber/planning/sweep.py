@@ -18,8 +18,7 @@ from ..tasks import Task, load_task, task_from_document
 from ..types import Json
 from ..units import OZ_IN
 from .axes import Axis, Mark, check_axes
-from .budgets import accepts
-from .planners import find_planner, first_loop
+from .planners import accepts, find_planner, first_loop
 
 SUCCESS: Final = ("optimal", "found")
 NO_START: Final = "no start"

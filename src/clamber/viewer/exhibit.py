@@ -32,9 +32,9 @@ from ..families.walker.robot import WalkerRobot
 from ..families.walker.trials.run_walk import WalkRun
 from ..families.walker.world.ground import Ground
 from ..planning.problem.plan import Plan
-from ..planning.problem.plan_families import plan_family
 from ..planning.problem.plan_source import check_name, is_plan, open_plan
 from ..planning.problem.problem import Replay
+from ..planning.problem.problems import plan_family
 from ..tasks import Task, load_task
 from ..tasks.library import task_names
 from ..types import Json

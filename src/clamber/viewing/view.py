@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from ..planning.problem.problem import Replay
-from ..planning.problem.yardsticks import Yardsticks
+from ..planning.problem.problems import Yardsticks
 from ..types import Floats, Json
 from . import style
 from .margins import Limiting, all_limiting, grade

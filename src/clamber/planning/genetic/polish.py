@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from ..problem.arrays import ActionTable
 from ..problem.problem import CompiledProblem
-from ..problem.table import ActionTable
 from .evolve import Evolution, Genes
 from .operators import vary
 from .profile import Profile

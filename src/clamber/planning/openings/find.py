@@ -7,7 +7,7 @@ from typing import Final
 from ...errors import PlannerError
 from ...family import NotOfFamilyError, family_of
 from ...tasks import Task
-from ..problem.plan_families import plan_family
+from ..problem.problems import plan_family
 from ..progress import Listener, Relaxing
 from .result import Opening, Openings, Places, Shut
 from .trial import Trial

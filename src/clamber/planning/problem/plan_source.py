@@ -15,8 +15,8 @@ from ...tasks.overrides import apply_overrides
 from ...tasks.robots import family_in, shipped
 from ...types import Ints
 from .plan import Plan, load_plan
-from .plan_families import plan_family
 from .problem import Replay
+from .problems import plan_family
 from .verdict import Verdict, check_plan
 
 

@@ -11,9 +11,7 @@ from ...errors import PlannerError
 from ...files import write_atomically
 from ...json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ...tasks import Task
-from ..problem.plan_families import plan_family
-from ..problem.problems import pose_problem, without_hangs
-from ..problem.yardsticks import yardsticks_of
+from ..problem.problems import plan_family, pose_problem, without_hangs, yardsticks_of
 from .flood import Flood, flood
 from .table import Rim, Table, place_table, pose_table, rim_of
 

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Final
 
 from ...planning.genetic.planner import plan_genetic
-from ...planning.problem.plan_families import plan_family
+from ...planning.problem.problems import plan_family
 from ...types import Ints
 from ...units import INCH
 from ..exhaust import exhaust

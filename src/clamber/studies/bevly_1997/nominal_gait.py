@@ -7,8 +7,8 @@ import numpy as np
 
 from ...families.climber.planning.plans import thesis_code
 from ...families.climber.planning.task import LimbedTask
-from ...planning.problem.plan_families import plan_family
 from ...planning.problem.problem import Replay
+from ...planning.problem.problems import plan_family
 from ...units import INCH, OZ_IN
 from ..result import Compared, Figure, StudyResult, Table, Value
 from . import PAPER

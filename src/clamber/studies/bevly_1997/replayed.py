@@ -6,9 +6,9 @@ from typing import Final
 
 from ...errors import SpecError
 from ...families.climber.planning.task import LimbedTask
-from ...planning.problem.plan_families import plan_family
 from ...planning.problem.plan_source import OpenedPlan, open_plan
 from ...planning.problem.problem import Replay
+from ...planning.problem.problems import plan_family
 from ...planning.problem.verdict import Verdict
 from ...tasks import load_task
 

@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from ...planning.beam.layers import Beam, search_layers
+from ...planning.beam_layers import Beam, search_layers
 from ...planning.genetic.planner import plan_genetic
 from ...planning.problem.plan import load_plan
 from ...planning.problem.problems import pose_problem

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from ....execution.log_files import SUFFIXES as LOGS
 from ....execution.log_files import write_log
 from ....planning.problem.problem import Replay
-from ....planning.problem.yardsticks import yardsticks_of
+from ....planning.problem.problems import yardsticks_of
 from ....types import Floats, Json
 from ....viewing import style
 from ....viewing.animation import WRITERS

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ....planning.problem.problem import Replay
-from ....planning.problem.yardsticks import yardsticks_of
+from ....planning.problem.problems import yardsticks_of
 from ....types import Floats, Json
 from ....units import DEGREE
 from ....viewing.view import Part, Spread, View

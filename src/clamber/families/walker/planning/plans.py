@@ -9,10 +9,8 @@ from ....errors import describe_choices
 from ....planning.problem.check import Check
 from ....planning.problem.code_limits import CodeLimits
 from ....planning.problem.codes import MOVE, NONE, RELEASE, Code, pack
-from ....planning.problem.plan_costs import PlanCost
-from ....planning.problem.planned import ActionError, PlannedAction
-from ....planning.problem.posed import Posed
 from ....planning.problem.problem import CompiledProblem, Records
+from ....planning.problem.problems import ActionError, PlanCost, PlannedAction, Posed
 from ....types import Ints
 from ..robot import FRAMES
 from ..statics.checks import WALKER_CHECKS

@@ -8,9 +8,9 @@ import numpy as np
 from ....errors import SpecError
 from ....planning.problem.codes import Code
 from ....planning.problem.plan import Plan
-from ....planning.problem.plan_families import plan_family
 from ....planning.problem.plan_source import is_plan, open_plan
 from ....planning.problem.problem import Replay
+from ....planning.problem.problems import plan_family
 from ....tasks import Task, load_task
 from ....tasks.library import change_task
 from ....types import Floats, Ints

@@ -6,15 +6,15 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Final
 
-from ...tasks import Task
-from ..beam.planner import plan_beam
-from ..exact.planner import plan_exact
-from ..genetic.planner import plan_genetic
-from ..problem.problem import CompiledProblem
-from ..problem.problems import pose_problem
-from ..progress import Listener
-from ..result import PlanResult
-from ..route.planner import plan_route
+from ..tasks import Task
+from .beam import plan_beam
+from .exact.planner import plan_exact
+from .genetic.planner import plan_genetic
+from .problem.problem import CompiledProblem
+from .problem.problems import pose_problem
+from .progress import Listener
+from .result import PlanResult
+from .route import plan_route
 
 SMALL: Final = 1.0e8
 """Estimated stances up to which exact search is tried first: the five boards without hangs have up to 1.2e7 (docs/planning.md)."""

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from ...compiled import kernel
-from ..problem.randoms import scramble
-from ..stance_table import slot_of
+from ..compiled import kernel
+from .problem.randoms import scramble
+from .stance_table import slot_of
 
 
 @kernel

@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 
-from ...compiled import inlined, kernel
-from ..problem.family_kernels import candidates, done, key, restore, step
-from ..problem.randoms import scramble
+from ..compiled import inlined, kernel
+from .problem.family_kernels import candidates, done, key, restore, step
+from .problem.randoms import scramble
 
 RUNNING, FOUND, EXHAUSTED, FULL = 0, 1, 2, 3
 NONE = -1

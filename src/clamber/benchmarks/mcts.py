@@ -5,13 +5,13 @@ from typing import Final
 
 import numpy as np
 
-from ...tasks import Task
-from ..problem.problem import Records
-from ..progress import Listener
-from ..result import PlanResult
-from .answer import LONGEST, MAX_CHECKS, Hunt
-from .guidance import guidance
+from ..planning.problem.problem import Records
+from ..planning.progress import Listener
+from ..planning.result import PlanResult
+from ..planning.stance_table import table_size
+from ..tasks import Task
 from .mcts_kernels import CHECKS, DEAD, EDGES, NODES, TABU, enter, simulate
+from .rivals import LONGEST, MAX_CHECKS, Hunt, guidance
 
 MAX_STANCES: Final = 500_000
 """Nodes kept unless told otherwise: about 160 bytes each for the climber, edges included. A full tree is dropped, and a new
@@ -109,7 +109,7 @@ class _Tree:
         self.total, self.top = np.zeros(capacity), np.zeros(capacity)
         self.mark = np.zeros(capacity, np.int64)
         self.child_of, self.code_of = np.zeros(edges, np.int32), np.zeros(edges, np.int32)
-        self.table = np.zeros(1 << int(np.ceil(np.log2(2 * capacity))), np.int32)
+        self.table = np.zeros(table_size(capacity), np.int32)
         self.path, self.trail, self.plan = (np.zeros(LONGEST + 1, np.int32) for _ in range(3))
         self.codes, self.tried = np.zeros(problem.branching, np.int32), np.zeros(problem.branching, np.int32)
         self.stances = np.zeros(4, problem.start.dtype)

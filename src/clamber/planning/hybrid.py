@@ -6,18 +6,17 @@ from typing import Any, Final
 
 import numpy as np
 
-from ...errors import PlannerError
-from ...tasks import Task
-from ..exact.costs import Aim
-from ..exact.explore import Exploration, explore, inform
-from ..genetic.planner import plan_genetic
-from ..genetic.profile import Profile
-from ..problem.plan import Plan
-from ..problem.plan_families import plan_family
-from ..problem.problem import CompiledProblem
-from ..problem.problems import first_goal_only, pose_problem
-from ..progress import Exploring, Listener
-from ..result import PlanResult, furthest_of
+from ..errors import PlannerError
+from ..tasks import Task
+from .exact.costs import Aim
+from .exact.explore import Exploration, explore, inform
+from .genetic.planner import plan_genetic
+from .genetic.profile import Profile
+from .problem.plan import Plan
+from .problem.problem import CompiledProblem
+from .problem.problems import first_goal_only, plan_family, pose_problem
+from .progress import Exploring, Listener
+from .result import PlanResult, furthest_of
 
 MOST_STANCES: Final = 2_000_000
 """Stances that the exact search keeps unless told otherwise: about 250 MB for the climber."""

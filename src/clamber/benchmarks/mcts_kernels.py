@@ -2,11 +2,11 @@
 
 import math
 
-from ...compiled import inlined, kernel
-from ..problem.family_kernels import candidates, key, restore, step
-from ..problem.randoms import below, draw
-from ..stance_table import slot_of
-from .walks import wander
+from ..compiled import inlined, kernel
+from ..planning.problem.family_kernels import candidates, key, restore, step
+from ..planning.problem.randoms import below, draw
+from ..planning.stance_table import slot_of
+from .rival_kernels import wander
 
 NODES, EDGES, CHECKS, NUMBER = 0, 1, 2, 3
 """Places in the state: nodes, edges, actions judged, simulations so far."""

@@ -4,16 +4,14 @@ import time
 from dataclasses import replace
 from typing import Final
 
-from ...errors import PlannerError
-from ...tasks import Task
-from ..exact.windows import Shortened
-from ..problem.plan import Plan
-from ..problem.plan_families import plan_family
-from ..problem.problems import pose_problem
-from ..progress import Layers, Listener
-from ..result import PlanResult, furthest_of
-from ..shorten import shorten
-from .layers import LONGEST, NICHE, WIDTH, Beam, Reached, search_layers
+from ..errors import PlannerError
+from ..tasks import Task
+from .beam_layers import LONGEST, NICHE, WIDTH, Beam, Reached, search_layers
+from .problem.plan import Plan
+from .problem.problems import plan_family, pose_problem
+from .progress import Layers, Listener
+from .result import PlanResult, furthest_of
+from .shorten import Shortened, shorten
 
 WIDER: Final = 4
 """A beam's width as a multiple of the one before that found nothing."""

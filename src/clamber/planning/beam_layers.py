@@ -8,10 +8,9 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from ..exact.windows import table_size
-from ..problem.problem import CompiledProblem, Records
-from ..stance_table import rehash
-from .kernels import choose
+from .beam_kernels import choose
+from .problem.problem import CompiledProblem, Records
+from .stance_table import rehash, table_size
 
 WIDTH: Final = 500
 NICHE: Final = 20
