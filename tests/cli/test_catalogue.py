@@ -14,8 +14,6 @@ from clamber.planning.planners import PLANNERS, find_planner
 from clamber.planning.problem.plan_source import plan_names
 from clamber.sim.plant_titles import PLANT_TITLES
 from clamber.sim.plants import PLANTS
-from clamber.studies.library import STUDIES
-from clamber.studies.titles import RESULTS
 from clamber.tasks import task_names
 from clamber.tasks.robots import robot_names
 
@@ -41,7 +39,6 @@ def test_titles_are_the_first_lines_of_what_they_tell_of() -> None:
     for name, planner in PLANNERS.items():
         assert first_line(find_planner(name)) == planner.title
     assert {name: first_line(plant) for name, plant in PLANTS.items()} == PLANT_TITLES
-    assert {paper: tuple(results) for paper, results in STUDIES.items()} == RESULTS
 
 
 def test_listing_loads_nothing_that_is_slow_to_load() -> None:

@@ -60,9 +60,9 @@ def _plants() -> list[tuple[str, str]]:
 
 
 def _studies() -> list[tuple[str, str]]:
-    from ..studies.titles import RESULTS
+    from ..studies.library import STUDIES
 
-    return [(paper, ", ".join(results)) for paper, results in RESULTS.items()]
+    return [(paper, ", ".join(results)) for paper, results in STUDIES.items()]
 
 
 def _families() -> list[tuple[str, str]]:

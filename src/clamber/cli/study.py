@@ -24,9 +24,9 @@ ALL = "all"
 
 def results_of(context: typer.Context, incomplete: str) -> list[str]:
     """What completes the name of a result of the study that is named before it."""
-    from ..studies.titles import RESULTS
+    from ..studies.library import STUDIES
 
-    return [name for name in RESULTS.get(context.params.get("paper", ""), ()) if name.startswith(incomplete)]
+    return [name for name in STUDIES.get(context.params.get("paper", ""), ()) if name.startswith(incomplete)]
 
 
 @dataclass(frozen=True, slots=True)
