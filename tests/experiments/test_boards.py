@@ -9,23 +9,38 @@ import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 
-from clamber.benchmarks import cases as cases_module
-from clamber.benchmarks.cases import DENSITIES, PATTERN, SIZES, THESIS, all_cases, random_case, thesis_case
+from clamber.benchmarks import contest as contest_module
 from clamber.benchmarks.contest import (
+    DENSITIES,
+    PATTERN,
     REFUSED,
+    SIZES,
+    THESIS,
     Allowance,
     Contender,
     Contest,
     Trial,
     Truth,
+    all_cases,
     contenders,
+    random_case,
     run_contest,
     run_trial,
+    thesis_case,
 )
 from clamber.benchmarks.pictures.boards_plot import draw_boards
 from clamber.benchmarks.planner_trials import Crew
-from clamber.benchmarks.standing import contradictions, groups, ranking, standing, within
-from clamber.benchmarks.tables import rows_of, save_markdown, save_trials, tables
+from clamber.benchmarks.tables import (
+    contradictions,
+    groups,
+    ranking,
+    rows_of,
+    save_markdown,
+    save_trials,
+    standing,
+    tables,
+    within,
+)
 from clamber.cli import main
 from clamber.cli.printed.library import schema_of
 from clamber.errors import SpecError
@@ -207,9 +222,9 @@ def test_bad_words_are_told_before_anything_runs(
 def test_the_command_prints_tables_and_writes_the_picture(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(cases_module, "SIZES", (10,))
-    monkeypatch.setattr(cases_module, "PATTERN", (0, 3))
-    monkeypatch.setattr(cases_module, "THESIS", ())
+    monkeypatch.setattr(contest_module, "SIZES", (10,))
+    monkeypatch.setattr(contest_module, "PATTERN", (0, 3))
+    monkeypatch.setattr(contest_module, "THESIS", ())
     monkeypatch.setattr("clamber.benchmarks.contest.ALLOWANCE", FEW)
     few = [contender for contender in contenders() if contender.name in ("greedy", "exact", "random")]
     monkeypatch.setattr("clamber.benchmarks.contest.contenders", lambda: tuple(few))

@@ -5,7 +5,7 @@ from collections import deque
 import numpy as np
 import pytest
 
-from clamber.benchmarks.cases import random_case
+from clamber.benchmarks.contest import random_case
 from clamber.errors import PlannerError
 from clamber.planning.exact.explore import explore
 from clamber.planning.exact.planner import plan_exact

@@ -14,10 +14,9 @@ from clamber.planning.beam import plan_beam
 from clamber.planning.beam_layers import Beam, search_layers
 from clamber.planning.genetic.planner import plan_genetic
 from clamber.planning.hybrid import plan_hybrid
-from clamber.planning.polishing import polish_plan
 from clamber.planning.problem.family_kernels import toward
 from clamber.planning.problem.problems import pose_problem
-from clamber.planning.shorten import is_plan, shorten, shorten_by_windows, shorten_in_corridor
+from clamber.planning.shorten import is_plan, polish_plan, shorten, shorten_by_windows, shorten_in_corridor
 from clamber.tasks import load_task
 
 NO_HANGS = "rules.max_hangs=0"

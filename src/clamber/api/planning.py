@@ -10,8 +10,8 @@ from ..errors import PlannerError, SpecError
 from ..inspection.finding import Finding
 from ..inspection.open_file import inspect_file
 from ..planning.exact.costs import read_costs
+from ..planning.openings.find import Openings
 from ..planning.openings.find import find_openings as _find_openings
-from ..planning.openings.result import Openings
 from ..planning.planners import accepts, find_planner
 from ..planning.problem.plan import Plan
 from ..planning.problem.plan_source import open_plan

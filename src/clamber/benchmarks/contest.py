@@ -1,17 +1,14 @@
-"""Every planner on every board: the trials, over worker processes, and what is true of each board."""
+"""Every planner on every board of the set, within one allowance: the boards, the trials, and what is true of each board."""
 
-from dataclasses import dataclass
-from typing import Final
-from ..families.climber.planning.random_task import random_task
-from ..tasks import load_task
-from ..types import Json
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 from typing import Any, Final
+
 from ..errors import ClamberError
+from ..families.climber.planning.random_task import random_task
 from ..jobs import LocalProcesses, Outcome, map_items, read_result
 from ..planning.genetic.profile import profile_names
 from ..planning.planners import PLANNERS, accepts, find_planner

@@ -1,45 +1,34 @@
-"""How long a tick of control takes, beside mink and pink, and what a closed loop costs over the physics in it."""
+"""How fast control is: a tick of every law, inverse kinematics of other libraries, the closed loop, and regions of the walker's frames."""
 
 import importlib.util
-from collections.abc import Callable
-from typing import Any, Final, TypeAlias
-import numpy as np
-from ..control.chain import Chain
-from ..sim.limb_flaws import LimbFlaws
-from ..sim.limb_model import limb_spec
-from ..types import Floats
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from statistics import median
 from typing import Any, Final, TypeAlias
+
 import numpy as np
+
 from ..control.chain import Chain
 from ..control.controller import Controller, still_aim
 from ..control.law_settings import LAWS, LawSettings
 from ..execution.closed_loop import close_loop
 from ..families.climber.control.limb_chain import chain_of_limb, closed_branches
-from ..families.climber.robot.robot import LimbedRobot
-from ..sim.limb_flaws import LimbFlaws, Push
-from ..sim.mujoco_limb import MujocoLimb
-from ..sim.ode_limb import OdeLimb
-from ..sim.raw_steps import RawSteps
-from ..tasks.robots import load_robot
-from ..types import Floats, Records
-from .rows import NOTHING, Row, Say, keep_quiet
-from collections.abc import Callable
-from functools import partial
-from typing import Final
-import numpy as np
 from ..families.walker.robot import TwoFrames, WalkerRobot
 from ..families.walker.robot.arcs import COLUMNS, MOST_ARCS, ROOM, outline, ray
 from ..families.walker.robot.curves import CURVE_NUMBERS, MOST_CURVES, reach_curves
 from ..families.walker.robot.ditch import Footing, ditch_map
 from ..families.walker.robot.two_frames import follow_branch
 from ..families.walker.robot.workspace import stride, workspace
-from ..types import Floats
-from .rows import Row, Say, keep_quiet
+from ..limb_bench.bench_limb import limbed_robot
+from ..sim.limb_flaws import LimbFlaws, Push
+from ..sim.limb_model import limb_spec
+from ..sim.mujoco_limb import MujocoLimb
+from ..sim.ode_limb import OdeLimb
+from ..sim.raw_steps import RawSteps
+from ..types import Floats, Records
+from .rows import NOTHING, Row, Say, keep_quiet
 
 Tick: TypeAlias = Callable[[Floats, Floats], Floats]
 """Joint speeds [rad/s] that bring the tip from the joint angles [rad] to a place of the base frame [m] within one period."""
@@ -142,8 +131,7 @@ class TimedLimb:
 
 def timed_limb() -> TimedLimb:
     """LIBRA's first limb with its tip at `START`."""
-    robot = load_robot("libra")
-    assert isinstance(robot, LimbedRobot)
+    robot = limbed_robot("libra")
     spec = robot.limbs[0]
     gears = np.array((spec.shoulder.gear, spec.elbow.gear))
     return TimedLimb(chain_of_limb(robot, robot.limb_names[0]), gears, np.array(closed_branches(spec, *START)[0]))

@@ -1,20 +1,18 @@
-"""The genetic algorithms of DEAP, pymoo and pygad on our tasks: same genes, same fitness, ordinary operators of their own."""
+"""Our planner beside the genetic algorithms of other libraries: plans per second, and time until the first plan."""
 
+import importlib.util
 import math
 import random
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
-from typing import Any, Final
-import numpy as np
-from ..planning.genetic.evolve import Genes, first_generation, next_generation, weights_for
-from ..planning.genetic.profile import load_profile
-from ..planning.problem.problem import CompiledProblem
-import importlib.util
-from collections.abc import Iterable
-from dataclasses import dataclass
 from statistics import median
 from typing import Any, Final
+
+import numpy as np
+
+from ..planning.genetic.evolve import Genes, first_generation, next_generation, weights_for
+from ..planning.genetic.profile import load_profile
 from ..planning.problem.problem import CompiledProblem
 from ..planning.problem.problems import pose_problem
 from ..tasks import load_task

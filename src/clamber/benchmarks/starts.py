@@ -1,21 +1,19 @@
-"""What a user waits for and pays in memory: whole processes of the command line, from start to end."""
+"""What a user waits for and pays in memory: whole processes of the command line; and the page of measured speeds."""
 
-import os
-import subprocess
-import sys
-import tempfile
-from pathlib import Path
-from typing import Final
-from ..kernel_cache import cache_root
-from .rows import Row, Say, keep_quiet
 import math
 import os
 import platform
+import subprocess
+import sys
+import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Final
+
 from .. import __version__
 from ..jobs.release import version_of
-from .rows import Row
+from ..kernel_cache import cache_root
+from .rows import Row, Say, keep_quiet
 
 COMMAND: Final = (sys.executable, "-c", "from clamber.cli import main; main()")
 STARTS: Final = 3

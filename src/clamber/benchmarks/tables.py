@@ -1,20 +1,16 @@
-"""The contest as tables of words: headings and rows, for the terminal, for Markdown, and trial by trial as CSV."""
+"""How each planner did, as tables of words: shares, medians and gaps, for the terminal, for Markdown, and trial by trial as CSV."""
 
-import math
-from collections.abc import Collection
-from dataclasses import dataclass
-from statistics import median
-from .contest import Contest, Trial, Truth
-from .rows import median_or_nothing
 import csv
 import io
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
+from statistics import median
+
 from ..files import write_atomically
 from .contest import Contest, Trial, Truth
-from .rows import Row
+from .rows import Row, median_or_nothing
 
 PROVED = ("infeasible",)
 

@@ -1,7 +1,6 @@
 """Work begun ahead of its time, in other processes: what comes of it lies on disk and is found there later, or else is not."""
 
 import os
-import os
 import subprocess
 import sys
 from collections.abc import Iterator, Sequence
@@ -9,6 +8,7 @@ from contextlib import contextmanager, suppress
 from importlib import import_module
 from threading import Thread
 from typing import Final
+
 
 def usable_cores() -> int:
     """Cores that this process may use: fewer than the machine has where it was pinned to some."""

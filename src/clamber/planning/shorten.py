@@ -1,23 +1,23 @@
-"""Make any plan shorter: a beam search about it, exact windows between its own stances, the shortest way through the stances about it."""
+"""Make any plan shorter: a beam search about it, exact windows between its own stances, the shortest path through the stances about it."""
 
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Final
+
 import numpy as np
-from ..types import Ints
-from .beam_layers import Beam, Corridor, search_layers
-from .problem.problem import CompiledProblem
-from .shorten_kernels import collect, search_window, shortest, stance_keys
-from .stance_table import path_to, rehash, table_size
-import time
-from dataclasses import replace
+
 from ..errors import SpecError
 from ..tasks import Task
+from ..types import Ints
+from .beam_layers import Beam, Corridor, search_layers
 from .problem.plan import Plan
+from .problem.problem import CompiledProblem
 from .problem.problems import plan_family, pose_problem
 from .progress import Listener, Shortening
 from .result import PlanResult
+from .shorten_kernels import collect, search_window, shortest, stance_keys
+from .stance_table import path_to, rehash, table_size
 
 SHORTEST_WINDOW: Final = 6
 """Actions of the smallest window."""

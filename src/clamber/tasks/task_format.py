@@ -1,20 +1,17 @@
-"""How the files of one family of robots are read."""
+"""How the files of one family of robots are read, what task files of all have in common, and a task taken apart into files again."""
 
-from collections.abc import Callable, Mapping
+import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
-from ..files import Document
-import math
-from collections.abc import Mapping, Sequence
-from typing import Final
+from typing import Any, Final
+
 from ..errors import describe_choices
 from ..files import Document, content_hash
-from typing import Final
-from ..files import Document
 from ..toml_text import toml_text
 from ..types import Json
 from .robots import family_in, read_robot, robot_names
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TaskFormat:

@@ -20,7 +20,7 @@ from ..families.walker.planning.task import WalkerTask
 from ..families.walker.trials.run_walk import WalkRun
 from ..planning.problem.plan import Plan
 from ..tasks import Task
-from ..tasks.task_files import task_files
+from ..tasks.task_format import task_files
 from ..viewing import style
 from ..viewing.browser.inputs import by_hand, set_input
 from ..viewing.browser.own_pages import Guard, UnguardedError, check_guarded, guarded

@@ -12,11 +12,11 @@ from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.trials.run_plan import climbing_task
 from clamber.families.climber.trials.steadying import BENT, SHIFT, WORTH, steadied, steadied_result
 from clamber.planning.planners import find_planner
-from clamber.planning.polishing import polish_plan
 from clamber.planning.problem.codes import HOLD
 from clamber.planning.problem.plan import Plan
 from clamber.planning.problem.plan_source import open_plan
 from clamber.planning.problem.problems import plan_family, yardsticks_of
+from clamber.planning.shorten import polish_plan
 from clamber.tasks import load_task
 from clamber.types import Floats, Ints
 

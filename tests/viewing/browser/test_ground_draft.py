@@ -12,7 +12,7 @@ from clamber.families.walker.pictures.way import way_poses
 from clamber.families.walker.planning import Walk, load_walk, walk_names
 from clamber.families.walker.planning.task import WalkerTask
 from clamber.tasks import Task, load_task
-from clamber.tasks.task_files import task_files
+from clamber.tasks.task_format import task_files
 from clamber.viewer.exhibit import planned_exhibit, walk_exhibit
 from clamber.viewing.browser.inputs import about
 

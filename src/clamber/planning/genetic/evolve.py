@@ -3,17 +3,15 @@
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+
 import numpy as np
 import numpy.typing as npt
+
+from ..problem.arrays import ActionTable
 from ..problem.problem import CompiledProblem, Records
 from ..progress import Listener, Progress
-from .operators import breed, random_genes
+from .operators import breed, random_genes, vary
 from .profile import Profile, Search
-import numpy as np
-from ..problem.arrays import ActionTable
-from ..problem.problem import CompiledProblem
-from .operators import vary
-from .profile import Profile
 
 Genes = npt.NDArray[np.int32]
 CROSSOVERS = ("tail", "one_point", "two_point")

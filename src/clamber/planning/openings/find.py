@@ -1,13 +1,13 @@
 """Which single change of an infeasible task would make it feasible, and the smallest of each kind; each proved by exact search."""
 
-from dataclasses import dataclass
-from typing import Annotated
-from ...json_form import Count, Jsonable, Key, in_json
 import os
 import time
-from typing import Final
+from dataclasses import dataclass
+from typing import Annotated, Final
+
 from ...errors import PlannerError
 from ...family import NotOfFamilyError, family_of
+from ...json_form import Count, Jsonable, Key, in_json
 from ...tasks import Task
 from ..problem.problems import plan_family
 from ..progress import Listener, Relaxing

@@ -1,23 +1,21 @@
 """What a robot can ever reach: poses of its body, holds, goals, and what each place costs."""
 
-from dataclasses import dataclass
-from typing import Final
-from ...errors import ClamberError, UnknownNameError, describe_choices
-from ...family import family_of
-from ...tasks import Task
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from operator import attrgetter
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal
-from ...errors import PlannerError
+
+from ...errors import ClamberError, PlannerError, UnknownNameError, describe_choices
+from ...family import family_of
 from ...files import write_atomically
 from ...json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ...tasks import Task
 from ..problem.problems import plan_family, pose_problem, without_hangs, yardsticks_of
 from .flood import Flood, flood
 from .table import Rim, Table, place_table, pose_table, rim_of
+
 
 class LayerError(ClamberError):
     """A layer is asked for that the robot's model has nothing to say about."""
