@@ -59,7 +59,7 @@ def bench(
             stderr().print(f"{name} is left out: {stop}; is the machine too busy for a plant in real time?")
     rows = [row for each in measured.values() for row in each]
     if output is not None:
-        from ..benchmarks.performance_page import performance_page
+        from ..benchmarks.starts import performance_page
         from ..files import write_atomically
 
         write_atomically(
@@ -129,8 +129,7 @@ def bench_boards(crew: "Crew", *, output: Path | None, as_json: bool) -> None:
 
 def print_contest(console: Console, contest: Any, output: Path | None) -> None:
     """Print the tables, what the columns mean, and whatever contradicts a proof."""
-    from ..benchmarks.standing import contradictions
-    from ..benchmarks.tables import tables
+    from ..benchmarks.tables import contradictions, tables
 
     for told in tables(contest):
         console.print(told.title, style="bold")

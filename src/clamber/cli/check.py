@@ -12,8 +12,7 @@ from ..viewing.text_table import plain_table
 
 if TYPE_CHECKING:
     from ..inspection.finding import Finding
-    from ..planning.problem.step_verdict import StepVerdict
-    from ..planning.problem.verdict import Verdict
+    from ..planning.problem.verdict import StepVerdict, Verdict
 
 
 def check(

@@ -6,7 +6,7 @@ from typing import Annotated, Final
 
 import typer
 
-from ..studies.titles import study_titles
+from ..studies.library import study_titles
 from ..terminal.catalogue import ENTRIES
 from ..terminal.options import AsJson
 from ..terminal.output import print_json, stdout

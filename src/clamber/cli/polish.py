@@ -31,8 +31,8 @@ def polish(
     """Make a plan that reaches its goal shorter, by search about it; every check of the task still holds."""
     check_writable(output)
     announce_compilation(quiet=quiet)
-    from ..planning.polishing import polish_plan
     from ..planning.problem.plan_source import open_plan
+    from ..planning.shorten import polish_plan
     from .plan.text import ProgressLine, print_result
 
     opened = open_plan(plan, task, overrides or ())

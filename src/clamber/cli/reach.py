@@ -44,7 +44,7 @@ def reach(
     from ..tasks import load_task
 
     loaded = load_task(task, overrides or ())
-    from ..planning.reach.layers import choose_layer
+    from ..planning.reach.reach import choose_layer
 
     shown = choose_layer(loaded, layer)
     announce_compilation(quiet=quiet)
@@ -103,7 +103,7 @@ def _layer_table(reach: "Reach", layer: str) -> Table:
     """Where the layer is best and worst, and what it is in the middle."""
     import numpy as np
 
-    from ..planning.reach.layers import LAYERS
+    from ..planning.reach.reach import LAYERS
 
     shown = LAYERS[layer]
     values = reach.places.floats(shown.column)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.console import Console
 
-from ..studies.titles import study_titles
+from ..studies.library import study_titles
 from ..terminal.crew import EndsLine, executor_of
 from ..terminal.name_completion import names_of
 from ..terminal.option_holder import takes_options
@@ -26,9 +26,9 @@ ALL = "all"
 
 def results_of(context: typer.Context, incomplete: str) -> list[str]:
     """What completes the name of a result of the study that is named before it."""
-    from ..studies.titles import RESULTS
+    from ..studies.library import STUDIES
 
-    return [name for name in RESULTS.get(context.params.get("paper", ""), ()) if name.startswith(incomplete)]
+    return [name for name in STUDIES.get(context.params.get("paper", ""), ()) if name.startswith(incomplete)]
 
 
 @dataclass(frozen=True, slots=True)

@@ -51,7 +51,7 @@ def sweep(
     axes = [*map(range_axis, vary or ()), *map(values_axis, values or ())]
     check_axes(axes)
     marks = [read_mark(text, axes) for text in mark or ()]
-    from ..planning.budgets import accepts
+    from ..planning.planners import accepts
 
     if words.ray is None:
         announce_compilation(quiet=words.quiet)

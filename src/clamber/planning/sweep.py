@@ -18,9 +18,8 @@ from ..tasks import Task, load_task, task_from_document
 from ..types import Json
 from ..units import OZ_IN
 from .axes import Axis, Mark, check_axes
-from .budgets import accepts
-from .planners import find_planner, first_loop
-from .problem.plan_families import plan_family
+from .planners import accepts, find_planner, first_loop
+from .problem.problems import plan_family
 
 SUCCESS: Final = ("optimal", "found")
 NO_START: Final = "no start"

@@ -35,9 +35,9 @@ def _plans() -> list[tuple[str, str]]:
 
 
 def _planners() -> list[tuple[str, str]]:
-    from ..planning.planner_titles import PLANNER_TITLES
+    from ..planning.planners import PLANNERS
 
-    return list(PLANNER_TITLES.items())
+    return [(name, planner.title) for name, planner in PLANNERS.items()]
 
 
 def _controllers() -> list[tuple[str, str]]:

@@ -6,8 +6,7 @@ from typing import Final
 from matplotlib.ticker import MaxNLocator
 
 from ..planning.exact.front import Front
-from ..planning.problem.plan_costs import PlanCost
-from ..planning.problem.plan_families import plan_family
+from ..planning.problem.problems import PlanCost, plan_family
 from . import style
 from .output import drawing
 from .style import bare

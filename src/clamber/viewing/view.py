@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from ..planning.problem.problem import Replay
-from ..planning.problem.yardsticks import yardsticks_of
+from ..planning.problem.problems import yardsticks_of
 from ..types import Floats
 from . import style
 from .margins import Limiting, all_limiting, grade

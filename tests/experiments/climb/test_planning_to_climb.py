@@ -1,6 +1,7 @@
 """Plans that are to be carried out: the same on any number of threads, and told where time ended a search."""
 
 import math
+import sys
 from dataclasses import replace
 from typing import Any
 
@@ -10,7 +11,7 @@ from clamber.families.climber.execution.course import climbable
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.trials.cautions import CAUTIONS, STEADY
 from clamber.families.climber.trials.planning import plan_to_climb, replanner
-from clamber.planning.planners import PLANNERS
+from clamber.planning.planners import PLANNERS, BuiltIn, find_planner
 from clamber.planning.result import PlanResult
 from clamber.tasks import Task, load_task
 from clamber.trials.dynamics import RunEvents
@@ -42,13 +43,14 @@ def test_every_search_that_its_time_ended_is_told(took: float, cuts: int, monkey
     """A search that finds nothing and has taken all its seconds was ended by them: then another machine may find a plan."""
     given: list[dict[str, Any]] = []
     task = climb_of("ladder")
-    known = PLANNERS["greedy"](task, seconds=0.0)
+    known = find_planner("greedy")(task, seconds=0.0)
 
     def slow(task: Task, *, seed: int = 0, seconds: float | None = None, threads: int | None = None) -> PlanResult:
         given.append({"seed": seed, "seconds": seconds, "threads": threads})
         return replace(known, status="stopped", seconds=took)
 
-    monkeypatch.setitem(PLANNERS, "slow", slow)
+    monkeypatch.setattr(sys.modules[__name__], "slow", slow, raising=False)
+    monkeypatch.setitem(PLANNERS, "slow", BuiltIn(f"{__name__}:slow", "", "replay"))
     told: list[int] = []
     replan = replanner("slow", seconds=5.0, seed=7, threads=1, events=RunEvents(cut=lambda: told.append(1)))
     assert replan(task) is None

@@ -14,22 +14,17 @@ from clamber.family import Family
 from clamber.files import Document, find_data, read_toml
 from clamber.inspection.finding import Finding, Inspection
 from clamber.planning.openings.relaxations import key_dial
+from clamber.planning.problem.arrays import ActionTable, Params, WayFields
 from clamber.planning.problem.check import TICKS, Check
 from clamber.planning.problem.code_limits import CodeLimits
 from clamber.planning.problem.codes import HOLD, MOVE, NONE, RELEASE, Code, pack
-from clamber.planning.problem.params import Params
 from clamber.planning.problem.plan import Plan
-from clamber.planning.problem.plan_families import PlanFamily
-from clamber.planning.problem.planned import ActionError, PlannedAction
-from clamber.planning.problem.posed import Posed
 from clamber.planning.problem.problem import CompiledProblem
-from clamber.planning.problem.table import ActionTable
-from clamber.planning.problem.ways import WayFields
+from clamber.planning.problem.problems import ActionError, PlanFamily, PlannedAction, Posed
 from clamber.specs import Name, build_spec, field_names, spec
 from clamber.tasks.parts import parts_of
 from clamber.tasks.regions import GoalBox
-from clamber.tasks.task_file import hashes_of
-from clamber.tasks.task_format import TaskFormat
+from clamber.tasks.task_format import TaskFormat, hashes_of
 from clamber.trials.noise import NoiseKind
 from clamber.trials.plain_dynamics import PlainDynamics
 from clamber.types import Json

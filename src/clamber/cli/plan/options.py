@@ -74,9 +74,9 @@ class PlanOptions:
         Raises:
             BadParameter: If the planner does not take what was asked for.
         """
-        from ...planning.budgets import accepts
         from ...planning.exact.costs import read_costs
         from ...planning.learning import load_macros
+        from ...planning.planners import accepts
 
         usual = {
             "seed": self.seed, "seconds": self.seconds, "threads": self.threads,

@@ -8,7 +8,7 @@ from rich.console import Console
 from ...planning.genetic.learning import Macro
 from ...planning.learning import Lesson
 from ...planning.problem.plan import Plan
-from ...planning.problem.plan_families import plan_family
+from ...planning.problem.problems import plan_family
 from ...planning.progress import Moment, progress_text
 from ...planning.result import Furthest, PlanResult
 from ...tasks import Task

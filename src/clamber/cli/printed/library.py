@@ -13,7 +13,7 @@ from ...family import families
 from ...inspection.finding import Finding
 from ...planning.exact.front import Front
 from ...planning.learning import Lesson
-from ...planning.problem.posed import SizedInventory
+from ...planning.problem.problems import SizedInventory
 from ...planning.problem.verdict import CheckedPlan
 from ...planning.reach.reach import Reach
 from ...planning.result import PlanResult

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from ...inspection.finding import Inspection
     from ...planning.openings.relaxations import Relaxation
     from ...planning.problem.check import Check
-    from ...planning.problem.plan_families import PlanFamily
     from ...planning.problem.plan_source import OpenedPlan
+    from ...planning.problem.problems import PlanFamily
     from ...sim.lone_robot import JointBounds
     from ...tasks.task_format import TaskFormat
     from ...trials.dynamics import Dynamics

@@ -6,7 +6,7 @@ from typing import Final, Generic
 
 import numpy as np
 
-from ...planning.problem.yardsticks import NOTHING_LIMITS
+from ...planning.problem.problems import NOTHING_LIMITS
 from ...types import Floats
 from ..margins import Limiting, grade
 from ..panel import Gauges

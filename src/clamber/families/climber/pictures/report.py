@@ -4,8 +4,8 @@ from typing import Final
 
 import numpy as np
 
+from ....planning.problem.problems import yardsticks_of
 from ....planning.problem.verdict import Verdict, check_plan
-from ....planning.problem.yardsticks import yardsticks_of
 from ....units import DEGREE
 from ....viewing.margins import named_limits
 from ....viewing.report.run_page import MILLI, Rows, RunPage, most, plan_words

@@ -10,14 +10,11 @@ from typing import Final
 import numpy as np
 
 from ....errors import describe_choices
+from ....planning.problem.arrays import ActionTable
 from ....planning.problem.code_limits import CodeLimits
 from ....planning.problem.codes import HOLD, MOVE, NEAREST, NONE, RANDOM, RELEASE, Code, pack
-from ....planning.problem.plan_costs import PlanCost
-from ....planning.problem.plan_families import PlanFamily
-from ....planning.problem.planned import ActionError, PlannedAction
-from ....planning.problem.posed import Posed
 from ....planning.problem.problem import CompiledProblem, Records
-from ....planning.problem.table import ActionTable
+from ....planning.problem.problems import ActionError, PlanCost, PlanFamily, PlannedAction, Posed
 from ....types import Ints
 from ....units import OZ_IN
 from ..statics.checks import LIMBED_CHECKS

@@ -10,7 +10,7 @@ import numpy as np
 from ....jobs import Executor
 from ....json_form import Count, Key, in_json
 from ....planning.problem.plan import Plan
-from ....planning.problem.planned import PlannedAction
+from ....planning.problem.problems import PlannedAction
 from ....trials.held_out import check_training
 from ....trials.trial_runs import run_trials
 from ..execution.course import lay_course

@@ -7,8 +7,7 @@ from typing import Final, TypeAlias
 import numpy as np
 
 from ....errors import StartError
-from ....planning.budgets import accepts
-from ....planning.planners import PLANNERS, PROVERS
+from ....planning.planners import PROVERS, accepts, find_planner
 from ....planning.problem.plan import Plan
 from ....planning.result import PlanResult
 from ....trials.dynamics import NoPlanError, RunEvents
@@ -69,7 +68,7 @@ def plan_to_climb(
     def search(task: LimbedTask, planner: str) -> PlanResult | None:
         options = {name: value for name, value in stated.items() if accepts(planner, name)}
         try:
-            result = PLANNERS[planner](task, **options)
+            result = find_planner(planner)(task, **options)
         except StartError:  # it stands where no such plan may begin
             return None
         if result.seconds >= seconds:

@@ -8,10 +8,7 @@ import numpy as np
 from ....errors import describe_choices
 from ....planning.problem.code_limits import CodeLimits
 from ....planning.problem.codes import MOVE, NONE, RELEASE, Code, pack
-from ....planning.problem.plan_costs import PlanCost
-from ....planning.problem.plan_families import PlanFamily
-from ....planning.problem.planned import ActionError, PlannedAction
-from ....planning.problem.posed import Posed
+from ....planning.problem.problems import ActionError, PlanCost, PlanFamily, PlannedAction, Posed
 from ..robot import FRAMES
 from ..statics.checks import WALKER_CHECKS
 from .problem import MOVES, WalkerProblem, stride_lengths, walker_limits, walker_table

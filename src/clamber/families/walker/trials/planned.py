@@ -7,8 +7,8 @@ import numpy as np
 from ....errors import SpecError
 from ....planning.problem.codes import Code
 from ....planning.problem.plan import Plan
-from ....planning.problem.plan_families import plan_family
 from ....planning.problem.problem import Replay
+from ....planning.problem.problems import plan_family
 from ....tasks.library import change_task
 from ....types import Floats, Ints
 from ..control.gait import Limits
