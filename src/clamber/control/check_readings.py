@@ -8,14 +8,14 @@ import math
 
 from ..compiled import kernel
 
-FASTEST, ANSWER, FULL, SLOW = 0, 1, 2, 3
+FASTEST, ANSWER, FULL, SLOW, AGAINST = 0, 1, 2, 3, 4
 """Rows of `bounds`: largest speed; change of the command that moves every joint; a command that is nearly all that there is, and the
-speed below which a joint does not follow it."""
+speed below which a joint does not follow it; speed against it beyond which the joint gives way."""
 VALUE, SPEED, AGE, SEEN, SAME, LOW, HIGH, DRIVEN, MEAN, YIELDING = 0, 1, 2, 3, 4, 5, 6, 7, 8, 9
 """Rows of `memory`: last believed value and speed, ticks since; whether there is one; ticks without any change of the reading, least and
 largest command meanwhile; ticks of a full command that the joint does not follow; the command, smoothed; ticks of a full command against
-which the joint turns."""
-BOUNDS, MEMORY = 4, 10
+which the joint gives way."""
+BOUNDS, MEMORY = 5, 10
 """Rows of each."""
 BELIEVED, NO_NUMBER, JUMP, NOTHING_NEW = 0, 1, 2, 3
 """Verdicts."""
@@ -76,7 +76,7 @@ def check_readings(values, speeds, commands, bounds, period, elapsed, smoothing,
         along = v if command > 0.0 else -v
         full = abs(command) >= bounds[FULL, c]
         memory[DRIVEN, c] = memory[DRIVEN, c] + age if full and along < bounds[SLOW, c] else 0.0
-        memory[YIELDING, c] = memory[YIELDING, c] + age if full and along < -bounds[SLOW, c] else 0.0
+        memory[YIELDING, c] = memory[YIELDING, c] + age if full and along < -bounds[AGAINST, c] else 0.0
         if memory[SAME, c] >= patience[0] and memory[HIGH, c] - memory[LOW, c] > bounds[ANSWER, c]:
             told = True
         if memory[DRIVEN, c] >= patience[1] or memory[YIELDING, c] >= patience[2]:

@@ -8,6 +8,7 @@ from typing import Final
 import numpy as np
 
 from ..control.check_readings import (
+    AGAINST,
     AGE,
     ANSWER,
     BELIEVED,
@@ -44,7 +45,7 @@ FULLY_DRIVEN: Final = 1.0
 """For so long a joint does not follow a full command, before that is a fault [s]: arms that hold the body against the push of a third have
 been seen to do so for 0.35 s in climbs without a fault."""
 YIELDS: Final = 0.2
-"""For so long a joint turns against a full command, before that is a fault [s]."""
+"""For so long a joint gives way to a full command, before that is a fault [s]."""
 ANSWERING: Final = 0.3
 """A change of command by this part of a joint's torque limit moves it by a count [-]: twice what has been seen in climbs without a fault,
 where friction of 1.3 times the file's keeps a joint still. A joint whose limb is held at both ends may stay still all the same, as only
@@ -53,6 +54,9 @@ FULL_COMMAND: Final = 0.9
 """Part of a torque limit that counts as a full command [-]."""
 FOLLOWS: Final = 0.01
 """A joint that turns the way it is driven with less than this part of its speed without load does not follow [-]."""
+GIVES_WAY: Final = 0.05
+"""A joint that turns against its command with more than this part of its speed without load gives way [-]. Healthy joints under a little
+more than their torque creep against it: with 2 % of that speed for 0.35 s in climbs without a fault, where a limb is let go."""
 MEANT: Final = 0.15
 """Time constant of the command that a joint is taken to have been held with [s]."""
 LATE: Final = 2
@@ -90,6 +94,7 @@ class ReadingMonitor:
         self._bounds, self._memory = np.zeros((BOUNDS, n)), np.zeros((MEMORY, n))
         for k, channel in enumerate(self.channels):
             self._bounds[FASTEST, k], self._bounds[SLOW, k] = channel.fastest, FOLLOWS * channel.fastest
+            self._bounds[AGAINST, k] = GIVES_WAY * channel.fastest
             self._bounds[ANSWER, k], self._bounds[FULL, k] = ANSWERING * channel.limit, FULL_COMMAND * channel.limit
         self._verdicts = np.zeros(n, np.int64)
         self._patience = np.ceil(np.array((UNMOVED, FULLY_DRIVEN, YIELDS)) / period)

@@ -11,7 +11,8 @@ from clamber.planning.problem.family_kernels import family_kernels
 
 REACH, SUPPORT = 0, 1
 PARAMS = np.dtype([
-    ("step", "f8"), ("reach", "f8"), ("origin", "f8"), ("hard", "i4"), ("n_goals", "i4"), ("n_limbs", "i4"), ("turn_ticks", "i8"), ("base", "f8"), ("kinds", "i4", (8,)),
+    ("step", "f8"), ("reach", "f8"), ("origin", "f8"), ("base", "f8"), ("hard", "i4"), ("n_goals", "i4"), ("n_limbs", "i4"),
+    ("turn_ticks", "i8"), ("kinds", "i4", (8,)),
     ("goals_at", "i8"), ("rungs_at", "i8"), ("n_rungs", "i8"),
 ], align=True)  # fmt: skip
 GOAL = np.dtype([("x_min", "f8"), ("x_max", "f8")], align=True)
