@@ -30,11 +30,12 @@ from clamber.planning.problem.table import ActionTable
 from clamber.planning.problem.yardsticks import yardsticks_of
 from clamber.tasks import load_task
 from clamber.viewing.animation import write_gif, write_mp4
+from clamber.viewing.film import make_frames
 from clamber.viewing.margins import all_limiting, grade
 from clamber.viewing.output import MissingExtraError, StepError, SuffixError
 from clamber.viewing.pictures import animate, draw_route, draw_stance
 from clamber.viewing.style import styled
-from clamber.viewing.view import Picture, make_frames
+from clamber.viewing.view import Picture
 
 RIGHT, LEFT, BOTTOM = 0, 1, 2
 UP = pack(1, 0, 2)

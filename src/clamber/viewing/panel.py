@@ -1,6 +1,6 @@
 """The panel beside a picture: bars of values between limits, strip of steps."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -116,7 +116,7 @@ class StepStrip:
     def __init__(
         self,
         axes: Axes,
-        grades: list[int],
+        grades: Sequence[int],
         place: Place,
         title: str = "Smallest margin of every step",
         words: tuple[str, str, str, str] = style.STRIP_WORDS,

@@ -14,11 +14,11 @@ import numpy as np
 from ...files import write_atomically
 from ...types import Floats, Json
 from .. import style
+from ..film import Film
 from ..output import check_suffix
 from ..panel import Gauges
 from .app import LOOPBACK, aim_camera, check_viser, guarded_server, light_scene
 from .exhibit import Exhibit
-from .film import Film
 from .own_pages import Guard
 from .panel_html import head_html, step_margins_html
 from .stage import STRIPS, Stage

@@ -25,7 +25,7 @@ from ..execution.climb_trace import ClimbTrace
 from ..planning.task import LimbedTask
 from ..trials.run_plan import ClimbRun
 from .artists import ClimberArtists, Snapshot, draw_scene, find_bounds, show_torque, torque_limits
-from .climb_run import ClimbRunView, run_picture
+from .climb_run import ClimbFilm, run_picture
 from .climb_view import ClimbView, Transition, draw_climb
 from .geometry import Posture, postures
 from .report import climb_page
@@ -43,7 +43,7 @@ def draw_stages(run: ClimbRun, path: str | Path) -> None:
     check_suffix(path, CANVASES)
     actions = run.report.actions
     with styled():
-        view = ClimbRunView(run.task, run.trace, actions)
+        view = ClimbFilm(run.task, run.trace, actions)
         shown = [view.settled(step) for step in range(len(actions) + 1)]
         titles = ["start", *(action.title for action in actions)]
         points = np.vstack([np.vstack([at.posture.outline, at.posture.chains.reshape(-1, 2)]) for at in shown])

@@ -15,9 +15,9 @@ from matplotlib.patches import Polygon
 from ....types import Floats
 from ....units import DEGREE
 from ....viewing import style
+from ....viewing.film import Frame
 from ....viewing.scene import draw_forbidden
 from ....viewing.style import bare
-from ....viewing.view import Frame
 from ..execution.true_walk import TrueWalk
 from ..robot import WalkerRobot
 from ..trials.run_walk import WalkRun
