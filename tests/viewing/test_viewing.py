@@ -14,7 +14,6 @@ from PIL import Image
 
 from clamber.errors import ClamberError, FileError
 from clamber.families.climber.pictures.artists import arrow_ends
-from clamber.families.climber.pictures.charts import draw_history, draw_torques
 from clamber.families.climber.pictures.climb_view import ClimbView, Transition, describe_action, swung_foot
 from clamber.families.climber.pictures.geometry import body_outline, joint_angles, limb_chain, postures, stance_posture
 from clamber.families.climber.planning.problem import LimbedProblem
@@ -34,6 +33,7 @@ from clamber.viewing.film import make_frames
 from clamber.viewing.margins import all_limiting, grade
 from clamber.viewing.output import MissingExtraError, StepError, SuffixError
 from clamber.viewing.pictures import animate, draw_route, draw_stance
+from clamber.viewing.plan_curves import draw_history, draw_torques
 from clamber.viewing.style import styled
 from clamber.viewing.view import Picture
 

@@ -49,7 +49,7 @@ class Ride:
     def replay(self) -> Replay:
         places = np.zeros(self.length + 1, [("x", np.float64)])
         places["x"] = np.arange(self.length + 1)
-        return Replay(places, np.full((self.length, 1), 0.5), np.full(self.length, -1, np.int32))  # type: ignore[arg-type]
+        return Replay(places, np.full((self.length, 1), 0.5), np.full(self.length, -1, np.int32))
 
 
 class RideView(PlanView[float]):
@@ -128,13 +128,13 @@ def no_points(task: Ride) -> Floats:
 
 class Shuttles(Family):
     name, title = "shuttle", "shuttle on a rail"
-    plans = SimpleNamespace(  # type: ignore[assignment]
+    plans = SimpleNamespace(
         checks=(Check("end", "m", "to the end of the rail"),),
         hard=lambda task: ("end",),
         sizes=lambda task: {"end": 1.0},
     )
-    pictures = Pictures(RideView, lambda *_: None, lambda *_: None, no_points, lambda *_: None)  # type: ignore[assignment,arg-type,return-value]
-    scenes = RideScenes()  # type: ignore[assignment]
+    pictures = Pictures(RideView, lambda *_: None, lambda *_: None, no_points, lambda *_: None)  # type: ignore[assignment,arg-type]
+    scenes = RideScenes()
 
 
 class Unseen(Shuttles):

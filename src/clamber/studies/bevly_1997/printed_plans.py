@@ -159,7 +159,7 @@ def _figures(done: Replayed) -> tuple[Figure, ...]:
         draw_route(done.task, done.replay, path)
 
     def torques(path: Path) -> None:
-        from ...families.climber.pictures.charts import draw_torques
+        from ...viewing.plan_curves import draw_torques
 
         draw_torques(done.task, {done.opened.plan.planner: done.replay}, path)
 
