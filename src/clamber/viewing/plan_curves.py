@@ -76,12 +76,10 @@ def draw_history(history: Sequence[Generation], path: str | Path, *, goals: Sequ
         lower.plot(
             number, [entry.best_fitness for entry in history], color=style.PARTS[2], lw=1.8, drawstyle="steps-post"
         )
-        lower.set_ylabel("best fitness")
-        lower.set_xlabel("generation")
+        lower.set(ylabel="best fitness", xlabel="generation")
         lower.xaxis.set_major_locator(MaxNLocator(integer=True))
         for axes in (upper, lower):
-            style.bare(axes)
-            axes.grid(axis="y", color=style.FAINT, lw=0.6)
+            style.ruled(axes, "y")
             axes.set_axisbelow(True)
 
 
@@ -129,8 +127,7 @@ def draw_torques(task: Task, replays: Mapping[str, Replay], path: str | Path) ->
         )  # fmt: skip
         axes.set_ylim(0.0, 1.12 * most / OZ_IN)
         axes.set_xlim(left=0.0)
-        axes.set_xlabel("step")
-        axes.set_ylabel("largest joint torque [oz-in]")
+        axes.set(xlabel="step", ylabel="largest joint torque [oz-in]")
         metric = axes.secondary_yaxis("right", functions=(_from_ounces, _to_ounces))
         metric.set_ylabel("[N m]")
         metric.spines["right"].set_color(style.FAINT)
@@ -165,12 +162,10 @@ def draw_front(front: Front, path: str | Path) -> None:
             axes.fill_between(ends, [high, *up, up[-1]], low, step="post", color=style.FAINT, alpha=0.6, lw=0)
             axes.plot([across[0]] * 2, [high, up[0]], color=style.PARTS[0], lw=1.4, alpha=0.6)
             axes.plot(ends[-2:], [up[-1]] * 2, color=style.PARTS[0], lw=1.4, alpha=0.6)
-            axes.set_xlim(ends[0], ends[-1])
-            axes.set_ylim(low, high)
+            axes.set(xlim=(ends[0], ends[-1]), ylim=(low, high))
             proved = "no plan lies here" if front.complete else "no plan found here"
             axes.text(0.06, 0.06, proved, transform=axes.transAxes, color=style.QUIET)
-        axes.set_xlabel(_label(costs[front.costs[0]]))
-        axes.set_ylabel(_label(costs[front.costs[1]]))
+        axes.set(xlabel=_label(costs[front.costs[0]]), ylabel=_label(costs[front.costs[1]]))
         for name, axis in zip(front.costs, (axes.xaxis, axes.yaxis), strict=True):
             if name == "length":
                 axis.set_major_locator(MaxNLocator(integer=True))

@@ -72,8 +72,7 @@ class Layout:
 
     def fix_panel(self, panel: Axes) -> None:
         """Set the panel's limits, in inches; last, for the strip's image sets limits of its own."""
-        panel.set_xlim(0.0, self.panel[0])
-        panel.set_ylim(0.0, self.panel[1])
+        panel.set(xlim=(0.0, self.panel[0]), ylim=(0.0, self.panel[1]))
         panel.axis("off")
 
 

@@ -78,8 +78,7 @@ def draw_body_over_time(run: ClimbRun, path: str | Path) -> None:
             axes.plot(trace.time, trace.aim[:, which] * MILLI, color=style.INK, lw=0.9, label="as aimed at")
             axes.plot(trace.time, poses[:, which] * MILLI, color=style.PARTS[0], lw=1.5, label="as it is")
             axes.set_ylabel(name)
-            style.bare(axes)
-            axes.grid(axis="y", color=style.FAINT, lw=0.6)
+            style.ruled(axes, "y")
             for number, action in enumerate(run.report.actions, 1):
                 axes.axvline(action.start, color=style.FAINT, lw=0.8, zorder=0)
                 if which == 0:
@@ -107,10 +106,8 @@ def draw_heights(traces: Mapping[str, ClimbTrace], path: str | Path) -> None:
             above = (trace.true_pose[:, 1] - trace.aim[:, 1]) * MILLI
             axes.plot(trace.time, above, color=colour, lw=1.4, label=label)
             axes.plot(trace.time[-1:], above[-1:], color=colour, marker="o", ms=4)
-        style.bare(axes)
-        axes.grid(color=style.FAINT, lw=0.6)
-        axes.set_xlabel("time [s]")
-        axes.set_ylabel("body above its aim [mm]")
+        style.ruled(axes)
+        axes.set(xlabel="time [s]", ylabel="body above its aim [mm]")
         axes.legend(fontsize=8, ncols=3)
 
 
