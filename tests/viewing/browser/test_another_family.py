@@ -29,7 +29,7 @@ from clamber.viewing.view import Picture
 BOUNDS = (-0.5, 3.5, -0.5, 0.5)
 REACH = Gauges(
     title="Reach", names=("shuttle",), colours=(style.PARTS[0],), low=np.zeros(1), high=np.full(1, 4.0), limits=(),
-    calm=(0.0, 1.0), show=lambda value: f"{value:.1f} m", unit=("m", 1.0, 1), group=1,
+    calm=(0.0, 1.0), unit=("m", 1.0, 1), group=1,
 )  # fmt: skip
 
 

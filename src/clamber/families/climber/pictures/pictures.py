@@ -18,13 +18,13 @@ from ....viewing import style
 from ....viewing.output import CANVASES, check_suffix, drawing, save_figure
 from ....viewing.pictures import Pictures
 from ....viewing.route import FACTS, ROW, draw_way, label_ghost, pick_ghosts, write_facts
-from ....viewing.scene import Bounds, length_unit
+from ....viewing.scene import Bounds
 from ....viewing.style import styled
 from ....viewing.view import PANEL_WIDTH, Layout, is_wide
 from ..execution.climb_trace import ClimbTrace
 from ..planning.task import LimbedTask
 from ..trials.run_plan import ClimbRun
-from .artists import ClimberArtists, Snapshot, draw_scene, find_bounds, show_torque, torque_limits
+from .artists import ClimberArtists, Snapshot, draw_scene, find_bounds, torque_gauges, torque_limits
 from .climb_run import ClimbFilm, run_picture
 from .climb_view import ClimbView, Transition, draw_climb
 from .geometry import Posture, postures
@@ -151,9 +151,9 @@ def _draw_ghosts(wall: Axes, task: LimbedTask, shown: list[Posture], bounds: Bou
 
 
 def _facts(task: LimbedTask, replay: Replay) -> tuple[tuple[str, str], ...]:
-    ounces = length_unit(task)[0] == "in"
+    gauges = torque_gauges(task)
     torque = float(np.max(np.abs(replay.stances["torques"][:, : len(task.robot.limbs)])))
-    most, limit = (show_torque(value, ounces=ounces) for value in (torque, float(torque_limits(task).max())))
+    most, limit = map(gauges.show, (torque, float(gauges.high.max())))
     return ("Hangs", str(int(replay.stances["hangs"][-1]))), ("Largest torque", f"{most} of {limit}")
 
 
