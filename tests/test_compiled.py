@@ -18,8 +18,8 @@ from numba.core.registry import CPUDispatcher
 from clamber.families.climber.planning.problem import LimbedProblem
 from clamber.kernel_cache import kernel_hash
 from clamber.planning.problem import codes
+from clamber.planning.problem.arrays import ActionTable
 from clamber.planning.problem.codes import pack
-from clamber.planning.problem.table import ActionTable
 from clamber.sources import PACKAGE, kernel_files, package_hash
 from clamber.tasks import load_task
 

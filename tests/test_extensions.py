@@ -21,7 +21,7 @@ MODULE = '''
 from pathlib import Path
 
 from clamber.families.climber.family import Climber
-from clamber.planning.problem.outside_checks import OutsideCheck
+from clamber.planning.problem.verdict import OutsideCheck
 from clamber.planning.exact.planner import plan_exact
 from clamber.sim.ode_limb import OdeLimb
 

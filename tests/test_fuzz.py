@@ -20,9 +20,9 @@ from clamber.families.climber.family import CLIMBER
 from clamber.families.climber.planning.problem import LimbedProblem
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.world.library import load_board
+from clamber.planning.problem.arrays import ActionTable
 from clamber.planning.problem.codes import MOVE, NEAREST, pack
 from clamber.planning.problem.plan import Plan, load_plan
-from clamber.planning.problem.table import ActionTable
 from clamber.tasks import load_task
 from clamber.tasks.robots import load_robot
 from spoiling import spoilt, toml_file

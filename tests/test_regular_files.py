@@ -208,7 +208,7 @@ OTHER_WAYS = {
     "viewing/report/pages.py": "reads the package itself",
     "cli/commands.py": "reads the package itself",
     "cli/printed/meanings.py": "reads the package itself",
-    "benchmarks/performance_page.py": "asks the system for its processor",
+    "benchmarks/starts.py": "asks the system for its processor",
     "jobs/store.py": "locks a file whose name was checked",
     "jobs/cluster.py": "opens the null device",
     "execution/link/token.py": "keeps a secret in a folder that only its user can reach",

@@ -23,9 +23,9 @@ if TYPE_CHECKING:
     from .families.climber.world.library import load_board as load_board
     from .families.walker.planning.walks import load_walk as load_walk
     from .families.walker.world.library import load_ground as load_ground
-    from .planning.problem.outside_checks import OutsideCheck as OutsideCheck
     from .planning.problem.plan import Plan as Plan
     from .planning.problem.problems import pose_problem as pose_problem
+    from .planning.problem.verdict import OutsideCheck as OutsideCheck
     from .planning.problem.verdict import Verdict as Verdict
     from .planning.result import PlanResult as PlanResult
     from .tasks.library import change_task as change_task

@@ -10,6 +10,7 @@ from contextlib import suppress
 from functools import cache
 from importlib import import_module
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 from .errors import ClamberError, describe_choices
@@ -21,12 +22,12 @@ if TYPE_CHECKING:
     from .exports.joint_trajectory import Trajectories
     from .inspection.finding import Inspection
     from .planning.openings.relaxations import Relaxation
-    from .planning.problem.plan import Plan
-    from .planning.problem.plan_families import PlanFamily
+    from .planning.problem.check import Check
     from .planning.problem.plan_source import OpenedPlan
+    from .planning.problem.problems import PlanFamily
     from .sim.lone_robot import JointBounds
     from .tasks.task_format import TaskFormat
-    from .trials.run_request import RunRequest
+    from .trials.dynamics import Dynamics
     from .viewing.browser.exhibit import Scenes
     from .viewing.pictures import Pictures
 
@@ -57,10 +58,19 @@ class Family:
     """Such as "two-frame walker"."""
     data: ClassVar[Path | None] = None
     """Folder with its robots, worlds, tasks and plans that come with it, in folders of those names."""
+    commands: ClassVar[Mapping[str, str]] = MappingProxyType({})
+    """Commands that only it has: name -> module and function in it, such as "package.module:function"."""
+    groups: ClassVar[Mapping[str, str]] = MappingProxyType({})
+    """The same for commands of commands: name -> module and Typer application in it."""
 
     @property
     def files(self) -> TaskFormat:
         """How its robots, worlds and tasks are read."""
+        raise NotImplementedError
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """The checks of its stances, in the order of a replay's margins."""
         raise NotImplementedError
 
     @property
@@ -104,19 +114,21 @@ class Family:
         return None
 
     @property
-    def carry_out(self) -> Callable[[Any, Plan | None, RunRequest], Any] | None:
-        """Carries a task, with its plan if there is one, or what else the family can do, out in contact dynamics."""
+    def printed(self) -> Mapping[str, Any]:
+        """What commands print with `--json` about it: words of a command -> dataclasses."""
+        return {}
+
+    @property
+    def dynamics(self) -> Dynamics | None:
+        """How its tasks and plans, and what else it can do, are carried out in contact dynamics."""
         return None
 
     def other_work(self, name_or_path: str, overrides: Sequence[str] = ()) -> Any | None:
-        """What can be carried out and is no task, by its name or file, such as a walk; None: it is no such thing.
-
-        `overrides` are texts "key=value" that change it.
-        """
+        """What can be carried out and is no task, by its name or file, such as a walk; None: it is no such thing."""
         return None
 
     def other_names(self) -> tuple[str, ...]:
-        """Names of all such work that comes with the family."""
+        """Names of such things that come with the family."""
         return ()
 
     @property

@@ -10,7 +10,8 @@ import hashlib
 import os
 import pickle
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any, Final
@@ -30,6 +31,16 @@ FINE: Final = "fine"
 UNWRITABLE: Final = "unwritable"
 TOLD: Final = "CLAMBER_CACHE_TOLD"
 """Set in the environment once it was said that there is no cache, so that workers do not say it again."""
+
+
+@dataclass(frozen=True, slots=True)
+class Use:
+    """A use of kernels that takes long to compile."""
+
+    function: str
+    """Uses each of them once, as "module:name"."""
+    kernel: str
+    """The one of them that takes longest."""
 
 
 def bounds_checked() -> bool:
@@ -152,6 +163,28 @@ def _problem_at_start() -> tuple[str, str] | None:
     return problem
 
 
+_outside_types: Final[dict[Any, Path]] = {}
+"""Record type -> a file with kernels of another package that are chosen by it."""
+
+
+def made_outside(kind: Any, kernels: Iterable[Any]) -> None:
+    """Take note of a record type by which kernels are chosen: machine code for it is made of their sources, too, wherever they stand."""
+    for each in kernels:
+        file = Path(each.py_func.__code__.co_filename)
+        if PACKAGE not in file.parents:
+            _outside_types[kind] = file
+
+
+@cache
+def _outside_hash(file: Path) -> str:
+    """SHA-256 of the sources of the package that a file outside ours belongs to, in hex."""
+    top = file.parent
+    while (top.parent / "__init__.py").exists():
+        top = top.parent
+    sources = sorted(top.rglob("*.py")) if (file.parent / "__init__.py").exists() else [file]
+    return hashlib.sha256(b"\0".join(path.read_bytes() for path in sources)).hexdigest()
+
+
 class _KernelLocator(_CacheLocator):  # type: ignore[misc]
     """Puts every kernel's machine code into the one folder of `cache_folder`."""
 
@@ -207,6 +240,11 @@ class _KernelCacheFile(IndexDataCacheFile):  # type: ignore[misc]
             return None
 
 
+def _record_of(kind: Any) -> Any:
+    """The element type of an array, or the type itself."""
+    return getattr(kind, "dtype", kind)
+
+
 class KernelCache(FunctionCache):  # type: ignore[misc]
     """A kernel's machine code on disk; of several processes that miss it, one compiles it and the others wait for that.
 
@@ -221,6 +259,14 @@ class KernelCache(FunctionCache):  # type: ignore[misc]
         """Raises `RuntimeError` where there is no folder for it."""
         super().__init__(py_func)
         self._cache_file = _KernelCacheFile(self._cache_path, self._impl.filename_base, kernel_hash())
+
+    def _index_key(self, sig: Any, codegen: Any) -> tuple[Any, ...]:
+        """Numba's key, and the sources of other packages that the machine code is made of."""
+        files = {_outside_types[kind] for kind in map(_record_of, getattr(sig, "args", sig)) if kind in _outside_types}
+        own = Path(self._py_func.__code__.co_filename)
+        if PACKAGE not in own.parents:
+            files.add(own)
+        return (*super()._index_key(sig, codegen), *sorted(map(_outside_hash, files)))
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """The machine code for some types, or None; then it is this process's turn to compile it."""

@@ -18,9 +18,9 @@ from clamber.families.climber.planning.problem import LimbedProblem
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.statics.elbows import has_assignment
 from clamber.planning.problem import codes
+from clamber.planning.problem.arrays import ActionTable
 from clamber.planning.problem.codes import Code, pack
 from clamber.planning.problem.loops import replay
-from clamber.planning.problem.table import ActionTable
 from plain.evaluator import CHECKS, Action, PlainEvaluator, PlainResult, PlainStance
 from plain.variants import random_task
 from tiers import first_fast

@@ -27,7 +27,7 @@ from clamber.families.climber.world.board import RandomSpec
 from clamber.families.climber.world.random_board import random_board
 from clamber.families.climber.world.scatter import MOST_PACKED
 from clamber.planning.problem.problems import pose_problem
-from clamber.planning.route.planner import plan_route
+from clamber.planning.route import plan_route
 from clamber.tasks import load_task
 from clamber.toml_text import toml_text
 

@@ -14,7 +14,7 @@ from clamber.families.climber.planning.thesis_plan import load_thesis_plan
 from clamber.planning.problem.codes import MOVE, NEAREST, RANDOM, RELEASE, Code, pack
 from clamber.planning.problem.plan import Plan, load_plan
 from clamber.planning.problem.plan_source import is_plan, open_plan, plan_names
-from clamber.planning.problem.planned import PlannedAction
+from clamber.planning.problem.problems import PlannedAction
 from clamber.planning.problem.verdict import Verdict, check_plan
 from clamber.tasks import Task, load_task
 from clamber.tasks.library import task_names

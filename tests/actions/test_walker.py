@@ -18,10 +18,10 @@ from clamber.families.walker.statics.stance import BALANCE, FOOTHOLD, LEGS, SING
 from clamber.families.walker.world.ground import Block, Ground
 from clamber.planning.planners import plan_task
 from clamber.planning.problem import codes
+from clamber.planning.problem.arrays import ActionTable
 from clamber.planning.problem.codes import MOVE, NONE, RELEASE, pack
 from clamber.planning.problem.family_kernels import bound, key
 from clamber.planning.problem.plan import Plan
-from clamber.planning.problem.table import ActionTable
 from clamber.planning.problem.verdict import check_plan
 from clamber.tasks import load_task, task_from_document
 from clamber.tasks.robots import load_robot

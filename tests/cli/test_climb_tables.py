@@ -4,13 +4,12 @@ from typing import Any
 
 import pytest
 
-from clamber.cli.output import stdout
-from clamber.cli.run.text import print_run
-from clamber.cli.trials.text import print_trials
 from clamber.families.climber.execution.climb_report import ActionReport, ClimbReport
+from clamber.families.climber.pictures.climb_text import print_run, print_trials
 from clamber.families.climber.trials.run_plan import ClimbRun
 from clamber.families.climber.trials.trial_summary import TrialSummary
 from clamber.tasks import load_task
+from clamber.terminal.output import stdout
 
 
 def action(step: int, kind: str, title: str, recovered: int) -> ActionReport:
@@ -49,6 +48,6 @@ def test_trials_tell_how_many_hooks_were_brought_back(recovered: int, capsys: py
         task="ladder", noise="usual", asked=9, n=9, done=8, causes=(), seconds=None, per_rung=None, short=None, speed=None,
         pushes=None, stalled=0, replanned=0, recovered=recovered, recovering=3, saved=2, forced=(), effects=(),
     )  # fmt: skip
-    print_trials(stdout(), summary, range(9), None)
+    print_trials(stdout(), summary, range(9))
     told = "hooks that came off and were brought back: 5, in 3 climbs, 2 of which succeeded"
     assert (told in " ".join(capsys.readouterr().out.split())) == (recovered > 0)

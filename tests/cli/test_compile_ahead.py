@@ -9,7 +9,9 @@ import pytest
 
 from clamber import kernel_cache
 from clamber.cli import main
-from clamber.cli.compile_ahead import CLIMBING, Use, compile_ahead
+from clamber.family import families
+from clamber.kernel_cache import Use
+from clamber.terminal.compile_ahead import compile_ahead
 
 USES = (Use("module:one", "first"), Use("module:two", "second"))
 
@@ -52,7 +54,9 @@ def test_where_nobody_could_find_it_nothing_is_begun(
     assert told == []
 
 
-@pytest.mark.parametrize("use", [CLIMBING])
+@pytest.mark.parametrize(
+    "use", [use for family in families() if family.dynamics is not None for use in family.dynamics.compiled]
+)
 def test_a_use_leaves_the_kernel_that_tells_of_it(use: Use) -> None:
     module, _, name = use.function.partition(":")
     getattr(import_module(module), name)()

@@ -12,7 +12,7 @@ import typer
 
 import clamber
 from clamber.cli.app import application, command_of, commands_below
-from clamber.cli.catalogue import ENTRIES, entries
+from clamber.cli.list import LISTED
 from clamber.families.climber.trials.body_entries import CONTROLS
 from clamber.families.walker.trials.cooperative.tool_path import DATA as PATHS
 
@@ -37,7 +37,7 @@ def complete(typed: str, shell: str = "bash") -> subprocess.CompletedProcess[str
 
 
 def names(kind: str) -> set[str]:
-    return {name for name, _ in entries(kind)}
+    return {name for name, _ in LISTED[kind]()}
 
 
 @pytest.mark.parametrize(
@@ -83,7 +83,7 @@ def test_results_of_a_study_are_completed() -> None:
 
 
 def test_shells_that_show_meanings_get_titles() -> None:
-    title = dict(entries("tasks"))["ladder"]
+    title = dict(LISTED["tasks"]())["ladder"]
     assert title and title in complete("clamber plan lad", "zsh").stdout
 
 
@@ -96,7 +96,7 @@ def test_words_that_are_said_to_be_listed_are_completed() -> None:
             kinds = re.findall(r"`clamber list (\w+)`", getattr(word, "help", None) or "")
             offered = {item.value for item in word.shell_complete(context, "")}
             for kind in kinds:
-                assert kind in ENTRIES
+                assert kind in LISTED
                 assert names(kind) <= offered, (path, word.name)
                 told += 1
     assert told >= 10

@@ -4,7 +4,7 @@ import pytest
 from typer.main import get_command
 
 from clamber.cli.app import application, commands_below
-from clamber.cli.crew import CrewWords
+from clamber.terminal.crew import CrewWords
 
 SHARING = (("trials",), ("sweep",), ("limb", "sweep"), ("limb", "tune"))
 

@@ -6,24 +6,26 @@ from typing import TypeAlias
 
 import pytest
 
-from clamber.cli.crew import CrewWords
-from clamber.cli.run import planned_walk as run_planned_walk
-from clamber.cli.run import walk as run_walk
 from clamber.cli.run.options import RunOptions
-from clamber.cli.trials import walk as trials_walk
 from clamber.cli.trials.options import TrialsOptions
+from clamber.family import family_named
+from clamber.tasks import load_task
+from clamber.terminal.crew import CrewWords
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 OF_PLANS = (("--task", "ladder"), ("--planner", "exact"), ("--seconds", "3"))
 OF_RUNS = (("--peg-error", "3mm"), ("--no-replan",), ("--plant", "volts"), ("--force",))
-OF_TRIALS = (("--no-replan",), ("--force",), ("--replay", "3"), ("--output", "trials.png"))
+OF_TRIALS = (("--no-replan",), ("--force",))
 
 
 def test_every_one_of_them_is_an_option() -> None:
     of_run = {field.name for field in fields(RunOptions)}
     of_trials = {field.name for holder in (TrialsOptions, CrewWords) for field in fields(holder)}
-    assert {*run_walk.CLIMBS_ONLY, *run_planned_walk.CLIMBS_ONLY} <= of_run
-    assert {*trials_walk.CLIMBS_ONLY, *trials_walk.PLANS_ONLY} <= of_trials
+    walker = family_named("walker")
+    assert walker.dynamics is not None
+    for work in (load_task("terrace-walk"), walker.other_work("level-walk")):
+        assert walker.dynamics.unused(work) <= of_run
+        assert walker.dynamics.unused(work) & of_trials
 
 
 @pytest.mark.parametrize(
@@ -39,3 +41,9 @@ def test_what_only_climbs_have_is_refused(command: str, what: str, option: tuple
     code, out, err = clamber(command, what, *option)
     assert (code, out) == (2, "")
     assert option[0] in err and f"'{what}' is a walk" in " ".join(err.split())
+
+
+def test_trials_of_walks_have_no_picture(clamber: Run) -> None:
+    code, out, err = clamber("trials", "level-walk", "--output", "trials.png")
+    assert (code, out) == (2, "")
+    assert "a two-frame walker has no picture of trials" in err

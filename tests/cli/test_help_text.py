@@ -8,7 +8,7 @@ import typer
 from typer.main import get_command
 
 from clamber.cli.app import application, command_of, commands_below
-from clamber.cli.output import plain_table, stdout
+from clamber.terminal.output import plain_table, stdout
 
 Clamber = Callable[..., tuple[int, str, str]]
 TEXTS = {

@@ -56,7 +56,7 @@ def test_a_walk_that_falls_leaves_with_1(run: Any, tmp_path: Path) -> None:
         (("slope-walk", "--set", "plant.backlash=1deg"), "friction"),
         (("slope-walk", "--noise", "peg_error=1mm"), "inclinometer_noise"),
         (("slope-walk", "--set", "ground.slope=50deg"), "legs"),
-        (("slope-walk", "-o", "walk.html"), ".gif"),
+        (("slope-walk", "-o", "walk.xyz"), ".gif"),
         (("level-walk", "--set", "way=[{ path = 'gone.csv' }]"), "gone.csv"),
         (("level-walk", "--set", "way=[{ twist = { vx = '1 mm/s' } }]"), "lasts"),
     ],

@@ -14,8 +14,8 @@ import numpy.typing as npt
 import pytest
 
 from clamber.families.climber.robot.robot import LimbedRobot
-from clamber.studies.bevly_1997.replayed import limbed_task, replay_printed
-from clamber.studies.titles import RESULTS
+from clamber.studies.bevly_1997.printed_plans import limbed_task, replay_printed
+from clamber.studies.library import STUDIES
 from clamber.tasks.robots import load_robot
 from clamber.units import INCH
 
@@ -420,6 +420,6 @@ def test_the_page_names_every_row_of_the_study_and_no_other(paper: str, heading:
     rows, without = tables(heading)
     named = [name for row in rows for name in re.findall(r"[a-z][\w-]+(?: of boards-exact)?", row[2])]
     own = [name for name in named if " of " not in name]
-    assert sorted(own) == sorted(RESULTS[paper])
-    assert {name.split(" of ")[0] for name in named if " of " in name} <= set(RESULTS["boards-exact"])
+    assert sorted(own) == sorted(STUDIES[paper])
+    assert {name.split(" of ")[0] for name in named if " of " in name} <= set(STUDIES["boards-exact"])
     assert all(len(row) == 3 and all(row) for row in (*rows, *without))

@@ -11,7 +11,7 @@ from clamber.families.climber.sim.climber_plant import ClimberPlant
 from clamber.families.climber.trials.planning import plan_to_climb
 from clamber.families.climber.trials.run_plan import climbing_flaws, climbing_task, run_plan
 from clamber.families.climber.world.library import load_board
-from clamber.planning.planners import PLANNERS
+from clamber.planning.planners import find_planner
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.tasks import load_task
 from clamber.tasks.robots import load_robot
@@ -75,7 +75,7 @@ def test_a_gripper_that_slips_is_noticed() -> None:
 
 def test_hooks_provably_cannot_climb_the_overhang() -> None:
     hooks = climbing_task(load_task("overhang", ["robot=libra"]))
-    result = PLANNERS["exact"](hooks, seconds=120.0)
+    result = find_planner("exact")(hooks, seconds=120.0)
     assert result.status == "infeasible", result.reason
     assert climbing_task(load_task("overhang")).rules == hooks.rules
 

@@ -23,7 +23,7 @@ from clamber.families.climber.sim.climber_model import HookShape, climber_spec
 from clamber.families.climber.sim.climber_plant import ClimberPlant
 from clamber.families.climber.trials.hanging import hang_up, one_peg, push_while_hanging
 from clamber.families.climber.trials.planning import plan_to_climb
-from clamber.planning.planners import PLANNERS
+from clamber.planning.planners import find_planner
 from clamber.planning.problem.plan import Plan
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.tasks import load_task
@@ -269,7 +269,7 @@ def plan() -> Plan:
 def test_the_gap_needs_a_hang() -> None:
     assert gap().rules.max_hangs == 1
     without = load_task("gap", ("rules.max_hangs=0",))
-    assert PLANNERS["exact"](without).status == "infeasible"
+    assert find_planner("exact")(without).status == "infeasible"
     course = lay_course(gap(), plan())
     assert course.objections == ()
     assert [alone(course, step) is not None for step in range(len(course.stances))].count(True) >= 1

@@ -11,7 +11,7 @@ from clamber.families.climber.trials.cautions import HANGING, STEADY, cautious, 
 from clamber.families.climber.trials.noise import named_noise
 from clamber.families.climber.trials.run_plan import climbing_flaws, climbing_task, run_plan
 from clamber.families.climber.trials.trial import TrialSetup, climb_once
-from clamber.planning.beam.planner import plan_beam
+from clamber.planning.beam import plan_beam
 from clamber.planning.problem.plan import Plan, load_plan
 from clamber.planning.problem.problems import pose_problem
 from clamber.tasks import load_task

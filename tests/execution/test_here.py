@@ -9,7 +9,7 @@ from clamber.families.climber.execution.here import task_from_here
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.trials.run_plan import climbing_task
 from clamber.planning.problem.plan import load_plan
-from clamber.planning.problem.plan_families import plan_family
+from clamber.planning.problem.problems import plan_family
 from clamber.tasks import load_task
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -20,7 +20,6 @@ from mcap.records import Message
 from mcap.stream_reader import StreamReader
 
 from clamber.cli import main
-from clamber.cli.run.text import ClimbLine
 from clamber.errors import FileError
 from clamber.execution.log import LogError
 from clamber.execution.log_files import read_log
@@ -33,6 +32,7 @@ from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.planning.problem.plan import Plan
 from clamber.tasks import load_task
+from clamber.terminal.live_line import LiveLine
 from clamber.types import Floats
 
 TITLES = ("time [s]", "elbow angle [rad]")
@@ -197,14 +197,14 @@ def test_a_climb_goes_on_without_its_log_and_says_from_when_that_is_missing(
     tmp_path: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     plan, before = climb_plan(tmp_path, RUNG[:2]), resource.getrlimit(resource.RLIMIT_FSIZE)
-    whole = ClimbLine.update
+    whole = LiveLine.show
 
-    def fills_the_disk(line: ClimbLine, step: int, steps: int, title: str, at: float) -> None:
-        if step == 2:
+    def fills_the_disk(line: LiveLine, words: str) -> None:
+        if words.startswith("action 2 "):
             resource.setrlimit(resource.RLIMIT_FSIZE, (2000, before[1]))
-        whole(line, step, steps, title, at)
+        whole(line, words)
 
-    monkeypatch.setattr(ClimbLine, "update", fills_the_disk)
+    monkeypatch.setattr(LiveLine, "show", fills_the_disk)
     try:
         with pytest.raises(SystemExit) as left:
             main(("run", str(plan), "-q", "--json", "-o", str(tmp_path / "run.mcap")))

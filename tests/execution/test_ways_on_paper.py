@@ -12,7 +12,7 @@ from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.trials.cautions import CAUTIONS, cautious
 from clamber.families.climber.trials.noise import named_noise
 from clamber.families.climber.trials.run_plan import climbing_flaws, climbing_task, run_plan
-from clamber.planning.planners import PLANNERS
+from clamber.planning.planners import find_planner
 from clamber.planning.problem.plan import Plan
 from clamber.planning.problem.plan_source import open_plan
 from clamber.tasks import load_task
@@ -66,7 +66,7 @@ def test_pegs_where_a_hook_comes_from_leave_it_no_way(radius: float, blocked: bo
 def test_what_has_no_way_on_paper_is_missed_in_climbs() -> None:
     """The shortest cautious plan for H: its forces are easy, and a third of its climbs miss one grab."""
     task = climbing_task(load_task("h"))
-    found = PLANNERS["exact"](cautious(task, CAUTIONS[0]))
+    found = find_planner("exact")(cautious(task, CAUTIONS[0]))
     plan = Plan.of_codes(task, found.plan.codes(task))
     blocked = grabs_without_way(lay_course(task, plan), ERROR)
     assert len(blocked) == 1

@@ -12,13 +12,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from clamber.benchmarks import batches, benches, peers, races, rows, speed, starts, workload
-from clamber.benchmarks.ablation import TASKS, VARIANTS, bench_ablation, varied
+from clamber.benchmarks import batches, benches, peers, rows, speed, starts
 from clamber.benchmarks.batches import ScalingLaw
-from clamber.benchmarks.performance_page import performance_page
-from clamber.benchmarks.plain_problem import PlainProblem, plain_module
-from clamber.benchmarks.planner_trials import Crew, run_cases, run_trials
+from clamber.benchmarks.planner_trials import TASKS, VARIANTS, Crew, bench_ablation, run_cases, run_trials, varied
 from clamber.benchmarks.rows import NOTHING, Row, median_or_nothing
+from clamber.benchmarks.speed import PlainProblem, plain_module
+from clamber.benchmarks.starts import performance_page
 from clamber.execution.plant import PlantStoppedError
 from clamber.jobs import LocalProcesses
 from clamber.jobs.executor import End
@@ -63,7 +62,7 @@ def test_every_variant_but_the_default_changes_the_profile(variant: str) -> None
 def test_the_plain_problem_tries_as_many_actions_as_the_kernels() -> None:
     module = plain_module()
     assert module is not None
-    load = workload.evolved_load("ladder", generations=5, copies=1)
+    load = speed.evolved_load("ladder", generations=5, copies=1)
     plain = PlainProblem(load.task, load.table, module)
     few = load.few(40)
     tried = [plain.carry_out(few.table.spell(row[:n])) for row, n in zip(few.genes, few.lengths, strict=True)]
@@ -78,7 +77,7 @@ def test_a_package_without_its_tests_has_no_plain_evaluator(tmp_path: Any) -> No
 
 @pytest.mark.parametrize("peer", peers.PEERS)
 def test_a_peer_is_given_our_fitness_and_its_count_is_true(peer: str, problem: CompiledProblem) -> None:
-    if not races.installed(peer):
+    if not peers.installed(peer):
         pytest.skip(f"{peer} comes with the extra `bench`")
     asked: list[int] = []
 
@@ -123,7 +122,7 @@ def test_trials_that_run_out_of_budget_count_as_failures() -> None:
 
 
 def test_speed_is_reported_for_every_load() -> None:
-    loads = [workload.evolved_load("ladder", generations=3, copies=1), workload.printed_load("across-hand", copies=2)]
+    loads = [speed.evolved_load("ladder", generations=3, copies=1), speed.printed_load("across-hand", copies=2)]
     told = speed.speed_rows(loads=loads, repeats=1)
     assert {load.name for load in loads} <= {row.name.rpartition("by CPU time, ")[2] for row in told}
     assert all(row.value > 0.0 for row in told if "load of the machine" not in row.name)

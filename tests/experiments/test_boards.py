@@ -9,23 +9,47 @@ import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 
-from clamber.benchmarks import cases as cases_module
-from clamber.benchmarks.cases import DENSITIES, PATTERN, SIZES, THESIS, all_cases, random_case, thesis_case
-from clamber.benchmarks.contest import REFUSED, Contest, Trial, Truth, run_contest, run_trial
+from clamber.benchmarks import contest as contest_module
+from clamber.benchmarks.contest import (
+    DENSITIES,
+    PATTERN,
+    REFUSED,
+    SIZES,
+    THESIS,
+    Allowance,
+    Contender,
+    Contest,
+    Trial,
+    Truth,
+    all_cases,
+    contenders,
+    random_case,
+    run_contest,
+    run_trial,
+    thesis_case,
+)
 from clamber.benchmarks.pictures.boards_plot import draw_boards
 from clamber.benchmarks.planner_trials import Crew
-from clamber.benchmarks.standing import contradictions, groups, ranking, standing, within
-from clamber.benchmarks.tables import rows_of, save_markdown, save_trials, tables
+from clamber.benchmarks.tables import (
+    contradictions,
+    groups,
+    ranking,
+    rows_of,
+    save_markdown,
+    save_trials,
+    standing,
+    tables,
+    within,
+)
 from clamber.cli import main
 from clamber.cli.printed.library import schema_of
 from clamber.errors import SpecError
 from clamber.families.climber.planning.random_task import random_task
 from clamber.jobs import LocalProcesses, StoreError
-from clamber.planning.budgets import Allowance, Contender, accepts, contenders
 from clamber.planning.exact.explore import explore
-from clamber.planning.planners import PLANNERS
+from clamber.planning.planners import PLANNERS, BuiltIn, accepts, find_planner
 from clamber.planning.problem.problems import pose_problem
-from clamber.tasks import load_task, task_from_document
+from clamber.tasks import Task, load_task, task_from_document
 from here import Here
 from plain.search import breadth_first
 
@@ -166,8 +190,11 @@ def test_a_planner_that_cannot_take_a_task_is_refused_and_not_failed() -> None:
     assert told["status"] == REFUSED and "rules.allowed" in told["reason"]
 
 
+def plan_by_time(task: Task, *, seed: int = 0, seconds: float | None = None, threads: int | None = None) -> None: ...
+
+
 def test_a_planner_that_only_knows_time_is_limited_by_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(PLANNERS, "timed", lambda task, *, seed=0, seconds=None, threads=None: None)
+    monkeypatch.setitem(PLANNERS, "timed", BuiltIn(f"{__name__}:plan_by_time", "", "replay"))
     timed = Contender(name="timed", planner="timed")
     assert not timed.counts and timed.limits(FEW) == {"seconds": FEW.seconds}
 
@@ -195,9 +222,9 @@ def test_bad_words_are_told_before_anything_runs(
 def test_the_command_prints_tables_and_writes_the_picture(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(cases_module, "SIZES", (10,))
-    monkeypatch.setattr(cases_module, "PATTERN", (0, 3))
-    monkeypatch.setattr(cases_module, "THESIS", ())
+    monkeypatch.setattr(contest_module, "SIZES", (10,))
+    monkeypatch.setattr(contest_module, "PATTERN", (0, 3))
+    monkeypatch.setattr(contest_module, "THESIS", ())
     monkeypatch.setattr("clamber.benchmarks.contest.ALLOWANCE", FEW)
     few = [contender for contender in contenders() if contender.name in ("greedy", "exact", "random")]
     monkeypatch.setattr("clamber.benchmarks.contest.contenders", lambda: tuple(few))
@@ -247,7 +274,7 @@ def exact_agrees(board: tuple[int, float, int, tuple[str, ...]]) -> bool | None:
     else:
         assert len(found.codes) == shortest, board
     for rival in ("greedy", "random", "mcts"):
-        result = PLANNERS[rival](task, seed=1, max_checks=20_000, threads=1)
+        result = find_planner(rival)(task, seed=1, max_checks=20_000, threads=1)
         assert result.status != "infeasible" or shortest is None, board
         if result.status == "found":
             assert shortest is not None and result.length >= shortest, board

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from clamber.benchmarks import control_speed, ik_peers
+from clamber.benchmarks import control_speed
 from clamber.benchmarks.benches import BENCHES
 from clamber.control.controller import Controller
 from clamber.control.law_settings import LAWS
@@ -35,16 +35,16 @@ def test_every_law_has_a_row_alone_and_in_a_batch() -> None:
         assert all(row.value > 0.0 and row.unit == "us" for row in mine)
 
 
-@pytest.mark.parametrize("peer", ik_peers.IK_PEERS)
+@pytest.mark.parametrize("peer", control_speed.IK_PEERS)
 def test_a_peer_finds_the_same_motion_as_the_inverse_of_our_jacobian(peer: str, leg: BenchLimb) -> None:
-    if not ik_peers.installed(peer):
+    if not control_speed.installed(peer):
         pytest.skip(f"{peer} comes with the extra `bench`")
-    tick, _ = ik_peers.IK_PEERS[peer](leg.chain)
+    tick, _ = control_speed.IK_PEERS[peer](leg.chain)
     # Their error is a screw: it is the plain difference where the tip's frame is parallel to the base, to first order in the way to go
     for shoulder in (-0.6, -0.2, 0.5):
         q = np.array((shoulder, np.pi / 2 - shoulder))
         error = np.array((1e-6, -2e-6))
-        speeds = np.linalg.solve(leg.chain.jacobian(q)[:2], error) / ik_peers.PERIOD
+        speeds = np.linalg.solve(leg.chain.jacobian(q)[:2], error) / control_speed.PERIOD
         place = leg.chain.place(q) + np.array((*error, 0.0))
         np.testing.assert_allclose(tick(q, place), speeds, rtol=1e-4, atol=1e-6)
 
@@ -52,7 +52,7 @@ def test_a_peer_finds_the_same_motion_as_the_inverse_of_our_jacobian(peer: str, 
 def test_a_missing_peer_is_a_row_without_a_value(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(control_speed, "installed", lambda peer: False)
     rows = control_speed.peer_rows()
-    assert len(rows) == len(ik_peers.IK_PEERS)
+    assert len(rows) == len(control_speed.IK_PEERS)
     assert all(math.isnan(row.value) and "not installed" in row.name for row in rows)
 
 

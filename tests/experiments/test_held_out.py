@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from clamber.cli.rehearse import FIRST_SEED
+from clamber.families.climber.cli.rehearse import FIRST_SEED
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.trials.lessons import learn
 from clamber.families.climber.trials.rehearsal import SEEDS

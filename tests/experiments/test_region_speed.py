@@ -2,7 +2,7 @@
 
 import math
 
-from clamber.benchmarks.region_speed import region_rows
+from clamber.benchmarks.control_speed import region_rows
 from clamber.families.walker.robot import WalkerRobot
 from clamber.tasks.robots import load_robot
 

@@ -24,12 +24,12 @@ from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.trials.noise import named_noise
 from clamber.families.climber.trials.trial import TrialSetup
-from clamber.families.climber.trials.trials import run_trials
 from clamber.jobs import ClusterError, LocalProcesses, Outcome, RayCluster, cluster, map_items
 from clamber.planning.axes import range_axis
 from clamber.planning.problem.plan import Plan
 from clamber.planning.sweep import Sweep, run_sweep
 from clamber.tasks import load_task
+from clamber.trials.trial_runs import run_trials
 
 needs_ray = pytest.mark.skipif(importlib.util.find_spec("ray") is None, reason="Ray is optional")
 FOLDERS = os.pathsep.join((str(Path(clamber.__file__).parents[1]), str(Path(__file__).parent)))

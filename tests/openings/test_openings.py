@@ -12,9 +12,8 @@ from clamber.errors import PlannerError, SpecError, StartError
 from clamber.families.climber.planning.relaxations import climber_relaxations
 from clamber.family import Family, families, family_of
 from clamber.planning.exact.planner import plan_exact
-from clamber.planning.openings.find import find_openings
+from clamber.planning.openings.find import Opening, Openings, find_openings
 from clamber.planning.openings.relaxations import Dial
-from clamber.planning.openings.result import Opening, Openings
 from clamber.planning.problem.problems import pose_problem
 from clamber.tasks import load_task
 from clamber.tasks.library import change_task

@@ -17,10 +17,10 @@ from clamber.planning.genetic.learning import Macro
 from clamber.planning.genetic.planner import plan_genetic
 from clamber.planning.genetic.profile import load_profile
 from clamber.planning.learning import load_macros
+from clamber.planning.problem.arrays import ActionTable
 from clamber.planning.problem.codes import ARGUMENT_BITS, LIMB_BITS, Code
 from clamber.planning.problem.plan import Plan
 from clamber.planning.problem.problems import pose_problem
-from clamber.planning.problem.table import ActionTable
 from clamber.tasks import Task, load_task
 
 FOLDER = Path(sys.argv[1])

@@ -5,12 +5,11 @@ from collections import deque
 import numpy as np
 import pytest
 
-from clamber.benchmarks.cases import random_case
+from clamber.benchmarks.contest import random_case
 from clamber.errors import PlannerError
-from clamber.planning.budgets import accepts
 from clamber.planning.exact.explore import explore
 from clamber.planning.exact.planner import plan_exact
-from clamber.planning.planners import PLANNERS
+from clamber.planning.planners import PLANNERS, accepts, find_planner
 from clamber.planning.problem.problems import pose_problem
 from clamber.tasks import load_task, task_from_document
 from plain.search import NO_HANGS, SMALL, UNCLIMBABLE, breadth_first, keys_of, restored
@@ -95,7 +94,7 @@ def test_no_planner_beats_the_optimum(planner: str, board: str) -> None:
     proof = plan_exact(task)
     assert proof.status in ("optimal", "infeasible")
     options = {name: most for name, most in SMALL_BUDGETS.items() if accepts(planner, name)}
-    result = PLANNERS[planner](task, seed=1, threads=2, **options)
+    result = find_planner(planner)(task, seed=1, threads=2, **options)
     if proof.status == "infeasible":
         assert not result.has_plan and result.status != "optimal"
     elif result.has_plan:

@@ -9,17 +9,14 @@ from hypothesis import strategies as st
 
 from clamber.compiled import kernel
 from clamber.errors import SpecError
-from clamber.planning.auto.planner import plan_auto
-from clamber.planning.beam.layers import Beam, search_layers
-from clamber.planning.beam.planner import plan_beam
-from clamber.planning.exact.corridor import shorten_in_corridor
-from clamber.planning.exact.windows import is_plan, shorten_by_windows
+from clamber.planning.auto import plan_auto
+from clamber.planning.beam import plan_beam
+from clamber.planning.beam_layers import Beam, search_layers
 from clamber.planning.genetic.planner import plan_genetic
-from clamber.planning.hybrid.planner import plan_hybrid
-from clamber.planning.polishing import polish_plan
+from clamber.planning.hybrid import plan_hybrid
 from clamber.planning.problem.family_kernels import toward
 from clamber.planning.problem.problems import pose_problem
-from clamber.planning.shorten import shorten
+from clamber.planning.shorten import is_plan, polish_plan, shorten, shorten_by_windows, shorten_in_corridor
 from clamber.tasks import load_task
 
 NO_HANGS = "rules.max_hangs=0"

@@ -20,13 +20,10 @@ from clamber.planning.problem.check import TICKS
 from clamber.planning.problem.codes import pack
 from clamber.planning.problem.family_kernels import key
 from clamber.planning.problem.loops import replay
-from clamber.planning.problem.plan_families import plan_family
 from clamber.planning.problem.plan_source import open_replay
 from clamber.planning.problem.problem import CompiledProblem
-from clamber.planning.problem.problems import pose_problem
-from clamber.planning.problem.yardsticks import yardsticks_of
-from clamber.planning.reach.layers import LAYERS, LayerError, choose_layer, layers_of
-from clamber.planning.reach.reach import Reach, find_reach
+from clamber.planning.problem.problems import plan_family, pose_problem, yardsticks_of
+from clamber.planning.reach.reach import LAYERS, LayerError, Reach, choose_layer, find_reach, layers_of
 from clamber.tasks import Task, load_task
 from clamber.viewing.margins import all_limiting
 from clamber.viewing.reach_plot import draw_reach

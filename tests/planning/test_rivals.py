@@ -5,15 +5,15 @@ from typing import Any
 import numpy as np
 import pytest
 
+from clamber.benchmarks.mcts import Settings, luby, plan_mcts
+from clamber.benchmarks.rival_kernels import pop, push
+from clamber.benchmarks.rivals import plan_random
 from clamber.errors import PlannerError
 from clamber.planning.exact.planner import plan_exact
 from clamber.planning.genetic.planner import plan_genetic
-from clamber.planning.planners import PLANNERS
+from clamber.planning.planners import find_planner
 from clamber.planning.progress import Trying
 from clamber.planning.result import PlanResult
-from clamber.planning.rivals.greedy_kernels import pop, push
-from clamber.planning.rivals.mcts import Settings, luby, plan_mcts
-from clamber.planning.rivals.random import plan_random
 from clamber.tasks import load_task
 
 RIVALS = ("greedy", "random", "mcts")
@@ -26,7 +26,7 @@ UNCLIMBABLE = (
 
 
 def run(rival: str, name: str, overrides: tuple[str, ...], **options: Any) -> PlanResult:
-    return PLANNERS[rival](load_task(name, overrides), **options)
+    return find_planner(rival)(load_task(name, overrides), **options)
 
 
 @pytest.mark.parametrize("rival", RIVALS)
@@ -85,7 +85,7 @@ def test_no_time_is_a_result(rival: str) -> None:
 
 @pytest.mark.parametrize("rival", RIVALS)
 def test_an_interrupt_is_a_result(rival: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("clamber.planning.rivals.greedy.QUOTA", 10)
+    monkeypatch.setattr("clamber.benchmarks.rivals.QUOTA", 10)
 
     def interrupt(_: object) -> None:
         raise KeyboardInterrupt

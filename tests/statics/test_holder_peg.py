@@ -11,8 +11,8 @@ from clamber.families.climber.robot.hooks import HOOK_AHEAD, HOOK_WIDTH
 from clamber.families.climber.sim.climber_model import HookShape
 from clamber.families.climber.statics.checks import LIMBED_CHECKS
 from clamber.families.climber.statics.interference import hook_gap
+from clamber.planning.problem.arrays import ActionTable
 from clamber.planning.problem.codes import pack
-from clamber.planning.problem.table import ActionTable
 from clamber.tasks import load_task
 from clamber.types import Floats
 

@@ -18,7 +18,7 @@ from clamber.families.climber.statics.elbows import (
 from clamber.families.climber.statics.stance import HOOK
 from clamber.planning.problem.codes import Code
 from clamber.planning.problem.problems import pose_problem
-from clamber.studies.bevly_1997.replayed import limbed_task
+from clamber.studies.bevly_1997.printed_plans import limbed_task
 from clamber.studies.boards_exact.hook_cones import hooked
 from plain.evaluator import PlainEvaluator
 

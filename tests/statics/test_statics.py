@@ -19,10 +19,10 @@ from clamber.families.climber.statics.programme import BOX, maximise
 from clamber.families.climber.world.board import Board, Hold
 from clamber.plane import inside, point_segment, polygon_polygon, segment_polygon, segment_segment
 from clamber.planning.problem import codes
+from clamber.planning.problem.arrays import ActionTable
 from clamber.planning.problem.check import TICKS
 from clamber.planning.problem.codes import pack
 from clamber.planning.problem.loops import replay
-from clamber.planning.problem.table import ActionTable
 from clamber.tasks import load_task
 from plain.variants import random_task
 

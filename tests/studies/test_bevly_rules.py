@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from clamber.studies.bevly_1997.evolution import PASSED, Curve, judge_curves
-from clamber.studies.bevly_1997.planner_success import TASKS, judge_planner
 from clamber.studies.bevly_1997.printed_plans import PRINTED, judge_plan
+from clamber.studies.bevly_1997.search_variants import TASKS, judge_planner
 
 SHOWN = Curve(generations=60, passed=40, before=0.01, after=0.04, flat=(15, 38))
 

@@ -7,18 +7,22 @@ import numpy as np
 import pytest
 
 from clamber.families.climber.pictures.charts import draw_cones
-from clamber.planning.beam.layers import Beam
+from clamber.planning.beam_layers import Beam
 from clamber.planning.problem.problems import pose_problem
-from clamber.studies.bevly_1997.replayed import limbed_task
-from clamber.studies.boards_exact import STUDY
-from clamber.studies.boards_exact.boards import BOARDS, MODEL
-from clamber.studies.boards_exact.calm_start import joined, places_on_start_holds, start_at, start_torque
+from clamber.studies.bevly_1997.printed_plans import limbed_task
 from clamber.studies.boards_exact.hook_cones import bisect_cone, holds_at, hooked
 from clamber.studies.boards_exact.no_rotation import forbid_rotation_with
 from clamber.studies.boards_exact.optima import BARE_H, COARSE
 from clamber.studies.boards_exact.peg_spacing import vary_spacing_over
-from clamber.studies.boards_exact.proofs import prove
-from clamber.studies.boards_exact.torque_front import limit, trade_length_for_torque
+from clamber.studies.boards_exact.proofs import BOARDS, MODEL, prove
+from clamber.studies.boards_exact.torques import (
+    joined,
+    limit,
+    places_on_start_holds,
+    start_at,
+    start_torque,
+    trade_length_for_torque,
+)
 from clamber.studies.library import STUDIES
 from clamber.units import OZ_IN
 
@@ -110,9 +114,9 @@ def test_front_of_h_is_complete_and_every_plan_of_it_replays() -> None:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("name", STUDIES[STUDY])
+@pytest.mark.parametrize("name", STUDIES["boards-exact"])
 def test_results_keep_their_verdicts(name: str) -> None:
-    result = STUDIES[STUDY][name]()
+    result = STUDIES["boards-exact"][name]()
     assert result.result == name
     assert result.verdict == ("differs" if name == "peg-spacing" else "holds")
     json.dumps(result.to_json(), allow_nan=False)

@@ -3,9 +3,8 @@
 import pytest
 
 from clamber.families.walker.trials.most import Tried
-from clamber.studies.hoshino_1995.passing_steps import judge_steps
-from clamber.studies.hoshino_1995.plane_walks import Strayed, judge_strayed, turn_anywhere, walk_everywhere
-from clamber.studies.hoshino_1995.tool_experiment import judge_following
+from clamber.studies.hoshino_1995.tool_runs import judge_following
+from clamber.studies.hoshino_1995.walks import Strayed, judge_steps, judge_strayed, turn_anywhere, walk_everywhere
 from clamber.studies.library import OF_ARM_AND_BODY, OF_WALKING
 
 STRAIGHT = Strayed(done=True, direction=0.2, turned=-0.3, centre=0.0, steps=6)

@@ -7,12 +7,9 @@ import numpy as np
 import pytest
 
 from clamber.planning.problem.codes import MOVE, pack
-from clamber.planning.problem.plan_families import plan_family
-from clamber.studies.bevly_1997.modified_ladder import NO_HANGS, OWN, OWN_HALVES
-from clamber.studies.bevly_1997.no_rotation import WITHOUT_TURNS
-from clamber.studies.bevly_1997.printed_plans import PRINTED
-from clamber.studies.bevly_1997.replayed import limbed_task
-from clamber.studies.exhaust import exhaust
+from clamber.planning.problem.problems import plan_family
+from clamber.studies.bevly_1997.modified_ladder import NO_HANGS, OWN, OWN_HALVES, WITHOUT_TURNS, exhaust
+from clamber.studies.bevly_1997.printed_plans import PRINTED, limbed_task
 from clamber.studies.library import ON_A_BODY, ON_ONE_LIMB, STUDIES
 from clamber.studies.markdown import write_markdown
 
@@ -111,6 +108,12 @@ def test_report_has_a_page_for_each_result_and_its_pictures(tmp_path: Path) -> N
         assert f"ladder-plan-{figure.name}.png" in page
         assert (pages / f"ladder-plan-{figure.name}.png").read_bytes().startswith(b"\x89PNG")
     assert not (tmp_path / "bevly-1997.md").exists()  # only all results make a paper's page
+
+
+@pytest.mark.parametrize("paper", STUDIES)
+def test_every_result_names_a_function(paper: str) -> None:
+    for repeat in STUDIES[paper].values():
+        assert repeat.function.__annotations__["return"].__name__ == "StudyResult"
 
 
 def test_every_printed_plan_is_a_result() -> None:

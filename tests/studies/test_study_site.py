@@ -10,8 +10,7 @@ from clamber.errors import FileError
 from clamber.studies import site as sites
 from clamber.studies.library import STUDIES, TITLES
 from clamber.studies.result import Compared, Figure, StudyResult, Table
-from clamber.studies.site import StudySite
-from clamber.studies.told import read_result, seeds_in_words
+from clamber.studies.site import StudySite, read_result, seeds_in_words
 
 PIXEL = bytes.fromhex(
     "89504e470d0a1a0a0000000d49484452000000010000000108060000001f15c4890000000d49444154789c63f8ffff3f0005fe02fea73581840000000049454e44ae426082"

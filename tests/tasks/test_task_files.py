@@ -7,7 +7,7 @@ import pytest
 from clamber.errors import SpecError
 from clamber.tasks import load_task
 from clamber.tasks.library import task_names
-from clamber.tasks.task_files import task_files
+from clamber.tasks.task_format import task_files
 
 
 def written(folder: Path, files: dict[str, str]) -> None:

@@ -8,7 +8,7 @@ import pytest
 
 from clamber.families.climber.pictures.charts import draw_trials, trials_figure
 from clamber.families.climber.trials.trial_summary import sum_up
-from clamber.families.climber.trials.trials import Trials
+from clamber.trials.trial_runs import Trials
 from clamber.viewing.output import SuffixError
 from tiers import first_fast
 

@@ -23,10 +23,10 @@ from clamber.families.walker.pictures.walker_motion import hull, settled_moment,
 from clamber.families.walker.pictures.walker_view import WalkerView, describe_walk
 from clamber.families.walker.planning.problem import WalkerProblem, outline, walker_table
 from clamber.families.walker.planning.task import WalkerTask
+from clamber.planning.problem.arrays import ActionTable
 from clamber.planning.problem.codes import pack
 from clamber.planning.problem.problem import Replay
-from clamber.planning.problem.table import ActionTable
-from clamber.planning.problem.yardsticks import yardsticks_of
+from clamber.planning.problem.problems import yardsticks_of
 from clamber.tasks import load_task
 from clamber.viewing.animation import write_gif, write_mp4
 from clamber.viewing.film import make_frames

@@ -9,7 +9,7 @@ from ..limb_bench.result import LimbResult
 from ..planning.problem.plan import Plan
 from ..planning.result import PlanResult
 from ..tasks import Task
-from ..trials.run_request import CarriedOut
+from ..trials.dynamics import CarriedOut
 from ..viewing.output import CANVASES
 from ..viewing.pictures import animate, draw_route, draw_run, draw_stance
 

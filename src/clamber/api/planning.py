@@ -9,14 +9,13 @@ import numpy as np
 from ..errors import PlannerError, SpecError
 from ..inspection.finding import Finding
 from ..inspection.open_file import inspect_file
-from ..planning.budgets import accepts
 from ..planning.exact.costs import read_costs
+from ..planning.openings.find import Openings
 from ..planning.openings.find import find_openings as _find_openings
-from ..planning.openings.result import Openings
-from ..planning.planners import find_planner
+from ..planning.planners import accepts, find_planner
 from ..planning.problem.plan import Plan
-from ..planning.problem.plan_families import plan_family
 from ..planning.problem.plan_source import open_plan
+from ..planning.problem.problems import plan_family
 from ..planning.problem.verdict import Verdict, check_plan
 from ..planning.result import PlanResult, Status, furthest_of
 from ..tasks import Task, load_task

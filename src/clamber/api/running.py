@@ -7,16 +7,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import PlannerError
-from ..family import NotOfFamilyError, families, family_of
+from ..family import families, family_of
 from ..planning.problem.plan import Plan
 from ..planning.result import PlanResult
 from ..tasks import Task, load_task
-from ..trials.run_request import RunRequest
+from ..trials.dynamics import CarriedOut, RunEvents, RunRequest
+from ..trials.work import dynamics_of
 
 if TYPE_CHECKING:
-    from ..families.climber.trials.run_plan import ClimbRun
     from ..families.walker.planning import Walk
-    from ..families.walker.trials.run_walk import WalkRun
 
 
 def run(
@@ -28,7 +27,7 @@ def run(
     seed: int = 0,
     replan: bool = True,
     log: str | Path | None = None,
-) -> ClimbRun | WalkRun:
+) -> CarriedOut:
     """Carry a task, a plan or a walk out on a simulated robot that differs from what its controller believes by `noise`.
 
     Args:
@@ -49,12 +48,11 @@ def run(
         ClamberError: If something cannot be read, or something speaks against the plan.
     """
     work, found = _opened(what)
-    family = family_of(work)
-    if family.carry_out is None:
-        raise NotOfFamilyError(family.title, "contact dynamics")
+    dynamics = dynamics_of(family_of(work))
     file = None if log is None else Path(log)
     asked = RunRequest(planner=planner, noise=tuple(noise), plant=tuple(plant), seed=seed, replan=replan, log=file)
-    made: ClimbRun | WalkRun = family.carry_out(work, found, asked)
+    dynamics.check(work, asked)
+    made: CarriedOut = dynamics.run(work, found, asked, RunEvents())
     return made
 
 

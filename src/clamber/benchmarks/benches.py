@@ -14,6 +14,7 @@ from ..families.walker.control.cooperative.cooperator import Cooperator
 from ..families.walker.control.cooperative.freedoms import freedoms_of, weights_of
 from ..families.walker.control.cooperative.settings import Cooperation, own_speeds
 from ..families.walker.robot import WalkerRobot
+from ..families.walker.robot.robot import build_walker
 from ..families.walker.trials.cooperative.chain_peers import CHAIN_PEERS, PERIOD, Tick
 from ..families.walker.trials.cooperative.follow import FollowOptions, FollowRun, follow_path
 from ..families.walker.trials.cooperative.tool_path import load_tool_path
@@ -22,22 +23,17 @@ from ..planning.exact.planner import plan_exact
 from ..planning.genetic.profile import load_profile
 from ..planning.problem.problems import pose_problem
 from ..tasks import load_task
-from ..tasks.robots import load_robot
+from ..tasks.robots import read_robot
 from ..types import Floats
-from .ablation import bench_ablation
 from .batches import batch_rows
 from .breadth import breadth_first
 from .climb_speed import climb_rows
 from .contest import run_contest
-from .control_speed import control_rows, round_times
-from .ik_peers import installed
-from .planner_trials import Crew, run_cases
+from .control_speed import control_rows, installed, region_rows, round_times
+from .peers import race_rows
+from .planner_trials import Crew, bench_ablation, bench_seeds, filter_rows, macro_rows, run_cases
 from .plant_bench import plant_rows
-from .races import race_rows
-from .reductions import filter_rows, macro_rows
-from .region_speed import region_rows
 from .rows import NOTHING, Row, Say, keep_quiet
-from .seeds import bench_seeds
 from .speed import speed_rows
 from .starts import command_rows, start_rows
 from .tables import rows_of
@@ -55,9 +51,7 @@ DOFS: Final = (4, 5, 7, 10)
 
 def walker() -> WalkerRobot:
     """The robot that is timed."""
-    robot = load_robot("hoshino")
-    assert isinstance(robot, WalkerRobot)
-    return robot
+    return build_walker(read_robot("hoshino"))
 
 
 def _law(run: FollowRun, *, limited: bool) -> Cooperator:

@@ -7,7 +7,7 @@ import numpy as np
 from ..compiled import kernel
 from ..planning.problem.family_kernels import candidates, done, key, restore, step
 from ..planning.problem.problem import CompiledProblem
-from ..planning.stance_table import slot_of
+from ..planning.stance_table import slot_of, table_size
 
 FOUND, EXHAUSTED, FULL = 0, 1, 2
 
@@ -78,7 +78,7 @@ def breadth_first(problem: CompiledProblem, *, most_stances: int = 4_000_000) ->
     state = np.zeros(3, np.int64)
     end = breadth(
         problem.params.record, problem.start, keys, np.zeros(room, np.int32),
-        np.full(1 << int(np.ceil(np.log2(2 * room))), -1, np.int32), np.zeros(problem.branching, np.int32),
+        np.full(table_size(room), -1, np.int32), np.zeros(problem.branching, np.int32),
         np.zeros(2, problem.start.dtype), np.zeros(len(problem.checks)), np.zeros(problem.key_words, np.int64), state,
     )  # fmt: skip
     return Breadth(

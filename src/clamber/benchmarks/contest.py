@@ -1,20 +1,125 @@
-"""Every planner on every board: the trials, over worker processes, and what is true of each board."""
+"""Every planner on every board of the set, within one allowance: the boards, the trials, and what is true of each board."""
 
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 from typing import Any, Final
 
 from ..errors import ClamberError
+from ..families.climber.planning.random_task import random_task
 from ..jobs import LocalProcesses, Outcome, map_items, read_result
-from ..planning.budgets import Allowance, Contender, contenders
-from ..planning.planners import PLANNERS
+from ..planning.genetic.profile import profile_names
+from ..planning.planners import PLANNERS, accepts, find_planner
 from ..tasks import load_task, task_from_document
 from ..types import Json
-from .cases import Case, all_cases
 from .planner_trials import Crew
+
+NO_HANGS: Final = ("rules.max_hangs=0",)
+"""With any number of hangs the reachable space doesn't close, and nothing could be proved."""
+THESIS: Final = ("ladder", "modified-ladder", "h", "across", "circle")
+SIZES: Final = (10, 20, 40, 80)
+"""Holds of a random board."""
+DENSITIES: Final = (6.0, 8.0, 10.0, 16.0)
+"""Holds per square metre. LIBRA climbs hardly anything at 6 and nearly everything at 16."""
+PATTERN: Final = (0, 1, 1, 1, 2, 2, 2, 3, 3, 0)
+"""Density of each seed's board, by index: more boards where it is open whether there is a way."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Case:
+    """One board, and what is to be done on it."""
+
+    name: str
+    size: str
+    """"thesis", or the number of holds."""
+    density: str
+    """"thesis", or holds per square metre."""
+    document: Json
+    """The whole task."""
+
+
+def thesis_case(name: str) -> Case:
+    """A board of the thesis, by the name of its task; steps as in the task."""
+    return Case(name=name, size="thesis", density="thesis", document=load_task(name, NO_HANGS).document)
+
+
+def random_case(holds: int, seed: int) -> Case:
+    """A random board: from the lowest stance that the rules allow to the top, in steps of 3 in and 15 deg."""
+    density = DENSITIES[PATTERN[seed % len(PATTERN)]]
+    name = f"random-{holds}-{density:g}-{seed}"
+    task = random_task(holds, density, seed, name=name, overrides=NO_HANGS)
+    return Case(name=name, size=str(holds), density=f"{density:g}", document=task.document)
+
+
+def all_cases() -> tuple[Case, ...]:
+    """The whole set, the same everywhere."""
+    made = [random_case(holds, seed) for holds in SIZES for seed in range(len(PATTERN))]
+    return (*(thesis_case(name) for name in THESIS), *made)
+
+
+UNBOUNDED: Final = 1_000_000_000
+SEEDLESS: Final = ("exact", "greedy", "route")
+"""Planners that draw nothing at random: one seed tells all."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Allowance:
+    """What one search may spend."""
+
+    checks: int
+    """Single actions judged: the same on any machine."""
+    seconds: float
+    """In their place, for a planner that can't stop at a number of checks [s]."""
+    patience: float
+    """No search takes longer than this [s]."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Contender:
+    """A planner with its settings, as a comparison names it."""
+
+    name: str
+    """Such as "exact" or "genetic/thesis"."""
+    planner: str
+    options: Json = field(default_factory=dict)
+
+    @property
+    def draws(self) -> bool:
+        """Whether another seed may give another answer."""
+        return self.planner not in SEEDLESS
+
+    @property
+    def counts(self) -> bool:
+        """Whether its searches end, or can be cut in hindsight, at a number of checks.
+
+        An exact search does the same whatever its limits, so what it judged tells whether an allowance would have sufficed.
+        """
+        return accepts(self.planner, "max_checks") or self.planner == "exact"
+
+    def limits(self, allowance: Allowance) -> Json:
+        """An allowance in the planner's own options; limits of its own in other units are lifted."""
+        counted = accepts(self.planner, "max_checks")
+        options: Json = {"seconds": allowance.patience if self.counts else allowance.seconds}
+        if counted:
+            options["max_checks"] = allowance.checks
+        if counted and accepts(self.planner, "max_evaluations"):
+            options["max_evaluations"] = UNBOUNDED
+        return options
+
+
+def contenders() -> tuple[Contender, ...]:
+    """Every planner, the genetic one with each of its profiles."""
+    found: list[Contender] = []
+    for planner in PLANNERS:
+        if planner == "genetic":
+            profiles = profile_names()
+            found += [Contender(name=f"{planner}/{p}", planner=planner, options={"profile": p}) for p in profiles]
+        else:
+            found.append(Contender(name=planner, planner=planner))
+    return tuple(found)
+
 
 TINY: Json = {"seed": 0, "threads": 1}
 REFUSED = "refused"
@@ -34,7 +139,7 @@ def run_trial(item: Json) -> Json:
     load_machine_code(item["planner"])
     task = task_from_document(item["document"])
     try:
-        result = PLANNERS[item["planner"]](task, threads=1, **item["options"])
+        result = find_planner(item["planner"])(task, threads=1, **item["options"])
     except ClamberError as error:
         return {"status": REFUSED, "reason": str(error), "length": None, "first_length": None, "cost": 0, "checks": 0,
                 "seconds": 0.0, "lower_bound": None}  # fmt: skip
@@ -60,7 +165,7 @@ def load_machine_code(planner: str) -> None:
     """Plan something tiny, once a process, so that no trial's time counts what loading the kernels takes, or compiling them."""
     tiny = load_task("ladder", ("rules.max_hangs=0", "goal.y_min=12in"))
     limits = Contender(name=planner, planner=planner).limits(Allowance(checks=2000, seconds=0.1, patience=1.0))
-    PLANNERS[planner](tiny, threads=1, **limits)
+    find_planner(planner)(tiny, threads=1, **limits)
 
 
 ALLOWANCE: Final = Allowance(checks=2_000_000, seconds=2.0, patience=120.0)

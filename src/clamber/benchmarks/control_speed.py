@@ -1,5 +1,6 @@
-"""How long a tick of control takes, beside mink and pink, and what a closed loop costs over the physics in it."""
+"""How fast control is: a tick of every law, inverse kinematics of other libraries, the closed loop, and regions of the walker's frames."""
 
+import importlib.util
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -14,15 +15,87 @@ from ..control.controller import Controller, still_aim
 from ..control.law_settings import LAWS, LawSettings
 from ..execution.closed_loop import close_loop
 from ..families.climber.control.limb_chain import chain_of_limb, closed_branches
-from ..families.climber.robot.robot import LimbedRobot
+from ..families.walker.robot import TwoFrames, WalkerRobot
+from ..families.walker.robot.arcs import COLUMNS, MOST_ARCS, ROOM, outline, ray
+from ..families.walker.robot.curves import CURVE_NUMBERS, MOST_CURVES, reach_curves
+from ..families.walker.robot.ditch import Footing, ditch_map
+from ..families.walker.robot.two_frames import follow_branch
+from ..families.walker.robot.workspace import stride, workspace
+from ..limb_bench.bench_limb import limbed_robot
 from ..sim.limb_flaws import LimbFlaws, Push
+from ..sim.limb_model import limb_spec
 from ..sim.mujoco_limb import MujocoLimb
 from ..sim.ode_limb import OdeLimb
 from ..sim.raw_steps import RawSteps
-from ..tasks.robots import load_robot
 from ..types import Floats, Records
-from .ik_peers import IK_PEERS, Tick, installed
 from .rows import NOTHING, Row, Say, keep_quiet
+
+Tick: TypeAlias = Callable[[Floats, Floats], Floats]
+"""Joint speeds [rad/s] that bring the tip from the joint angles [rad] to a place of the base frame [m] within one period."""
+PERIOD: Final = 0.005
+SOLVER: Final = "daqp"
+
+
+def mink_tick(chain: Chain) -> tuple[Tick, Tick]:
+    """A tick of mink on the limb's MuJoCo model: with the new angles read in, and `solve_ik` alone.
+
+    The quadratic programme has no limits in it, the least work that it can be.
+    """
+    import mink
+
+    configuration: Any = mink.Configuration(limb_spec(chain, LimbFlaws()).compile())
+    task: Any = mink.FrameTask("tip", "site", position_cost=[1.0, 1.0, 0.0], orientation_cost=0.0)
+
+    def solve(q: Floats, place: Floats) -> Floats:
+        task.set_target(mink.SE3.from_translation(place))
+        out: Floats = mink.solve_ik(configuration, [task], PERIOD, SOLVER, limits=[])
+        return out
+
+    def tick(q: Floats, place: Floats) -> Floats:
+        configuration.update(q)
+        return solve(q, place)
+
+    return tick, solve
+
+
+def pink_tick(chain: Chain) -> tuple[Tick, Tick]:
+    """A tick of pink on a Pinocchio model of the same arm: with the new angles read in, and `solve_ik` alone."""
+    import pinocchio
+    from pink import Configuration, solve_ik
+    from pink.tasks import FrameTask
+
+    model = pinocchio.Model()
+    parent = 0
+    for name, joint in zip(chain.joint_names, chain.joints, strict=True):
+        place = pinocchio.SE3(joint["turn"].copy(), joint["place"].copy())
+        parent = model.addJoint(parent, pinocchio.JointModelRevoluteUnaligned(*joint["axis"]), place, name)
+    root = chain.root[0]
+    tip = pinocchio.SE3(root["tip_turn"].copy(), root["tip"].copy())
+    model.addFrame(pinocchio.Frame("tip", parent, 0, tip, pinocchio.FrameType.OP_FRAME))
+    configuration: Any = Configuration(model, model.createData(), np.zeros(chain.n))
+    # pink counts a task's rows in the tip's frame: all three, so that any turn of it asks for the same place
+    task: Any = FrameTask("tip", position_cost=1.0, orientation_cost=0.0)
+
+    def solve(q: Floats, place: Floats) -> Floats:
+        task.set_target(pinocchio.SE3(np.eye(3), place))
+        out: Floats = solve_ik(configuration, [task], PERIOD, SOLVER, limits=[])
+        return out
+
+    def tick(q: Floats, place: Floats) -> Floats:
+        configuration.update(q)
+        return solve(q, place)
+
+    return tick, solve
+
+
+IK_PEERS: Final[dict[str, Callable[[Chain], tuple[Tick, Tick]]]] = {"mink": mink_tick, "pink": pink_tick}
+"""Library -> what it does in a tick; each is optional."""
+
+
+def installed(peer: str) -> bool:
+    """Whether a library is there, with its solver."""
+    return all(importlib.util.find_spec(name) is not None for name in (peer, "qpsolvers", SOLVER))
+
 
 Clock: TypeAlias = Callable[[], float]
 ROUNDS: Final = 15
@@ -58,8 +131,7 @@ class TimedLimb:
 
 def timed_limb() -> TimedLimb:
     """LIBRA's first limb with its tip at `START`."""
-    robot = load_robot("libra")
-    assert isinstance(robot, LimbedRobot)
+    robot = limbed_robot("libra")
     spec = robot.limbs[0]
     gears = np.array((spec.shoulder.gear, spec.elbow.gear))
     return TimedLimb(chain_of_limb(robot, robot.limb_names[0]), gears, np.array(closed_branches(spec, *START)[0]))
@@ -232,3 +304,54 @@ def ode_row(*, rounds: int = ROUNDS, seconds: float = SECONDS) -> Row:
 def control_rows(*, say: Say = keep_quiet) -> list[Row]:
     """All of it."""
     return [*tick_rows(say=say), *peer_rows(say=say), *loop_rows(say=say)]
+
+
+REGION_ROUNDS: Final = 15
+REPEATS: Final = 200
+"""Of a piece of work in one timing."""
+
+
+def region_rows(robot: WalkerRobot, *, rounds: int = REGION_ROUNDS, say: Say = keep_quiet) -> list[Row]:
+    """Times of what a planner or controller asks of the mechanism, at many angles."""
+    say("regions of the two frames")
+    frames = TwoFrames.of(robot.mechanism)
+    thetas = np.linspace(-0.3, 0.8, REPEATS)
+    footing = Footing.of(robot)
+    directions = np.linspace(0.0, np.pi / 3.0, 10)
+    works: list[Callable[[], object]] = [
+        partial(_regions_and_strides, frames, thetas),
+        partial(_compiled_regions, frames, thetas),
+        partial(_poses, frames, 1e-3),
+        partial(_poses, frames, 5e-2),
+        partial(ditch_map, footing, thetas, directions),
+    ]
+    whole, bare, near, far, ditches = np.median(round_times(works, rounds), axis=0) / REPEATS
+    return [
+        Row("exact region, its parts and areas, and a step, at one angle", 1e3 * whole, "ms", "< 1"),
+        Row("the same within a kernel: arcs, areas, step", 1e6 * bare, "us"),
+        Row("pose behind lengths, followed over 1 mm", 1e6 * near, "us"),
+        Row("pose behind lengths, followed over 50 mm", 1e6 * far, "us"),
+        Row("widest ditch at one angle and direction", 1e6 * ditches / len(directions), "us"),
+    ]
+
+
+def _regions_and_strides(frames: TwoFrames, thetas: Floats) -> None:
+    for theta in thetas:
+        workspace(frames, float(theta), guard=frames.guard)
+        stride(frames, float(theta), 0.5, guard=frames.guard)
+
+
+def _compiled_regions(frames: TwoFrames, thetas: Floats) -> None:
+    curves, arcs = np.zeros((MOST_CURVES, CURVE_NUMBERS)), np.empty((MOST_ARCS, COLUMNS))
+    areas, owners, room = np.empty(MOST_ARCS), np.empty(MOST_ARCS, np.int64), np.empty(ROOM)
+    for theta in thetas:
+        n = reach_curves(frames.delta, frames.y, theta, frames.shortest, frames.longest, frames.guard, curves)
+        outline(curves, n, arcs, areas, owners, room)
+        ray(curves, n, 0.0, 0.0, 1.0, 0.0)
+        ray(curves, n, 0.0, 0.0, -1.0, 0.0)
+
+
+def _poses(frames: TwoFrames, off: float) -> None:
+    aim, room = frames.lengths((off, 0.5 * off, off)), np.empty((9, 3))
+    for _ in range(REPEATS):
+        follow_branch(frames.delta, frames.y, aim, np.zeros(3), room)

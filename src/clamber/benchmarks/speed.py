@@ -1,19 +1,157 @@
 """How many actions a second the kernels judge: on one core, on all of them, and against plain Python."""
 
+import importlib
+import importlib.util
 import os
+import sys
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
+from types import ModuleType
 from typing import Any, Final
 
 import numpy as np
+import numpy.typing as npt
 
-from ..planning.problem.problem import CompiledProblem
+from ..families.climber.planning.problem import FEATURE_NAMES, LimbedProblem
+from ..families.climber.planning.task import LimbedTask
+from ..planning.genetic.evolve import Genes, first_generation, next_generation, weights_for
+from ..planning.genetic.profile import load_profile
+from ..planning.problem.arrays import ActionTable
+from ..planning.problem.codes import Code
+from ..planning.problem.plan_source import open_plan, plan_names
+from ..planning.problem.problem import CompiledProblem, Records
+from ..planning.problem.problems import pose_problem
+from ..tasks import load_task
 from ..types import Ints
-from .plain_problem import PlainProblem, plain_module
 from .rows import NOTHING, Row, Say, keep_quiet
-from .workload import Load, whole_load
+
+CHECKOUT: Final = Path(__file__).resolve().parents[3]
+PACKAGE: Final = "clamber_tests_plain"
+
+
+def plain_module(checkout: Path = CHECKOUT) -> ModuleType | None:
+    """The tests' plain evaluator, loaded by its path; None where there is no checkout around this package."""
+    init = checkout / "tests" / "plain" / "__init__.py"
+    if not init.is_file():
+        return None
+    if PACKAGE not in sys.modules:
+        spec = importlib.util.spec_from_file_location(PACKAGE, init, submodule_search_locations=[str(init.parent)])
+        assert spec is not None and spec.loader is not None
+        module = importlib.util.module_from_spec(spec)
+        sys.modules[PACKAGE] = module
+        spec.loader.exec_module(module)
+    return importlib.import_module(f"{PACKAGE}.evaluator")
+
+
+class PlainProblem(LimbedProblem):
+    """A limbed task whose plans the plain evaluator carries out.
+
+    The kernels then carry them out once more for the records (a few hundredths of the time), so searches go the same way with both.
+    """
+
+    def __init__(self, task: LimbedTask, actions: ActionTable, module: ModuleType) -> None:
+        super().__init__(task, actions, threads=1)
+        self.plain: Any = module.PlainEvaluator(task)
+
+    def rollout(
+        self, genes: npt.NDArray[np.int32], lengths: npt.NDArray[np.int32], weights: npt.NDArray[np.float64], limit: int
+    ) -> Records:
+        """Carry out many plans, each up to its goal or its first failure; see `CompiledProblem.rollout`."""
+        for row, length in zip(genes, lengths, strict=True):
+            self.carry_out(self.actions.spell(row[:length])[:limit])
+        return super().rollout(genes, lengths, weights, limit)
+
+    def carry_out(self, codes: npt.NDArray[np.int32]) -> int:
+        """Carry out one plan, plainly; the number of actions tried."""
+        now = self.plain.start()
+        goals = len(self.task.goals)
+        for tried, code in enumerate(codes.tolist()):
+            if now.stage >= goals:
+                return tried
+            result = self.plain.step(now, self._action(code))
+            if result.reason is not None:
+                return tried + 1
+            now = result.stance
+        return len(codes)
+
+    def _action(self, code: int) -> tuple[Any, ...]:
+        opened = Code.of(code)
+        if opened.kind == "none":
+            return ("none",)
+        if opened.kind == "move":
+            return ("move", opened.argument // 2, -1 if opened.argument % 2 else 1)
+        if opened.kind == "release":
+            return ("release", opened.limb)
+        if opened.kind == "hold":
+            return ("hold", opened.limb, self.task.world.holds[opened.argument].number)
+        assert opened.kind == "nearest", "the filtered inventory draws no holds at random"
+        return ("nearest", opened.limb, opened.argument)
+
+
+BOARDS: Final = ("ladder", "modified-ladder", "h", "across", "circle")
+GENERATIONS: Final = 60
+COPIES: Final = 6
+"""How often an evolved generation is carried out in one go: some hundredths of a second, so that the best of a few goes is undisturbed."""
+PRINTED_COPIES: Final = 300
+LIMIT: Final = 400
+
+
+@dataclass(frozen=True, slots=True)
+class Load:
+    """A batch of plans for one problem."""
+
+    name: str
+    task: Any
+    table: ActionTable
+    genes: Genes
+    lengths: Genes
+    weights: Any
+
+    def problem(self, threads: int) -> LimbedProblem:
+        """The task, ready for these plans."""
+        return LimbedProblem(self.task, self.table, threads=threads)
+
+    def run(self, problem: CompiledProblem) -> Records:
+        """Carry the batch out."""
+        return problem.rollout(self.genes, self.lengths, self.weights, LIMIT)
+
+    def few(self, n: int) -> "Load":
+        """A batch of `n` of these plans, evenly drawn from the first copy."""
+        rows = np.unique(np.linspace(0, len(self.genes) - 1, n).astype(int))
+        return Load(self.name, self.task, self.table, self.genes[rows].copy(), self.lengths[rows].copy(), self.weights)
+
+
+def evolved_load(board: str, *, generations: int = GENERATIONS, copies: int = COPIES, seed: int = 0) -> Load:
+    """What a search has in hand when it finds its plan, or after so many generations."""
+    profile = load_profile("default")
+    task = load_task(board)
+    problem = pose_problem(task).problem
+    state = first_generation(problem, profile, seed)
+    while not state.found and state.generation < generations:
+        next_generation(problem, profile, state, seed)
+    genes, lengths = state.population.genes, state.population.lengths
+    weights = weights_for(problem, profile)
+    return Load(
+        f"{board}, evolved", task, problem.actions, np.tile(genes, (copies, 1)), np.tile(lengths, copies), weights
+    )
+
+
+def printed_load(name: str, *, copies: int = PRINTED_COPIES) -> Load:
+    """A printed plan, many times, up to where it stops holding."""
+    opened = open_plan(name)
+    codes = opened.plan.codes(opened.task)
+    table = ActionTable.build([(str(i), [int(code)], False) for i, code in enumerate(codes)])
+    genes = np.tile(np.arange(len(codes), dtype=np.int32), (copies, 1))
+    return Load(name, opened.task, table, genes, np.full(copies, len(codes), np.int32), np.zeros(len(FEATURE_NAMES)))
+
+
+def whole_load() -> list[Load]:
+    """The mix: every board's evolved plans and every printed plan."""
+    return [evolved_load(board) for board in BOARDS] + [printed_load(name) for name in plan_names()]
+
 
 REPEATS: Final = 25
 IN_A_ROW: Final = 5

@@ -9,6 +9,7 @@ from typing import Final
 
 import numpy as np
 
+from ..families.climber.planning.inventory import make_inventory
 from ..families.climber.planning.problem import LimbedProblem
 from ..families.climber.planning.random_task import climb_data, random_task
 from ..families.climber.statics.elbows import EVERY
@@ -99,8 +100,7 @@ def _walls(size: int, density: float, stances: int) -> list[Walled]:
     made = []
     for seed in range(walls):
         task = random_task(size, density, seed)
-        problem = pose_problem(task, threads=1).problem
-        assert isinstance(problem, LimbedProblem)
+        problem = LimbedProblem(task, make_inventory(task).table(), threads=1)
         made.append(Walled(problem, sampled_stances(problem, stances // walls, seed)))
     return made
 

@@ -15,9 +15,9 @@ from typer.core import TyperCommand, TyperGroup
 
 from .. import __version__
 from ..errors import ClamberError, printable
-from .command_end import until_command_ends
+from ..terminal.command_end import until_command_ends
+from ..terminal.output import fall_silent
 from .commands import add_commands
-from .output import fall_silent
 
 SECONDS: Final = 600.0
 """Of a bench's run [s]: 120 000 samples of every signal at 200 Hz."""

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from rich.console import Console
 
-from .crew import EndsLine, check_resume, executor_of
-from .options import AsJson, Output, Ray, Resume, Store, Workers
-from .output import announce_compilation, check_writable, plain_table, print_json, stderr, stdout
+from ..terminal.crew import EndsLine, check_resume, executor_of
+from ..terminal.options import AsJson, Output, Ray, Resume, Store, Workers
+from ..terminal.output import announce_compilation, check_writable, print_json, stderr, stdout
+from ..viewing.text_table import plain_table
 
 if TYPE_CHECKING:
     from ..benchmarks.planner_trials import Crew
@@ -58,7 +59,7 @@ def bench(
             stderr().print(f"{name} is left out: {stop}; is the machine too busy for a plant in real time?")
     rows = [row for each in measured.values() for row in each]
     if output is not None:
-        from ..benchmarks.performance_page import performance_page
+        from ..benchmarks.starts import performance_page
         from ..files import write_atomically
 
         write_atomically(
@@ -128,8 +129,7 @@ def bench_boards(crew: "Crew", *, output: Path | None, as_json: bool) -> None:
 
 def print_contest(console: Console, contest: Any, output: Path | None) -> None:
     """Print the tables, what the columns mean, and whatever contradicts a proof."""
-    from ..benchmarks.standing import contradictions
-    from ..benchmarks.tables import tables
+    from ..benchmarks.tables import contradictions, tables
 
     for told in tables(contest):
         console.print(told.title, style="bold")

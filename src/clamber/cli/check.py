@@ -5,14 +5,14 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.console import Console
 
-from .name_completion import names_of
-from .options import AsJson, Overrides
-from .output import announce_compilation, plain_table, print_json, stdout
+from ..terminal.name_completion import names_of
+from ..terminal.options import AsJson, Overrides
+from ..terminal.output import announce_compilation, print_json, stdout
+from ..viewing.text_table import plain_table
 
 if TYPE_CHECKING:
     from ..inspection.finding import Finding
-    from ..planning.problem.step_verdict import StepVerdict
-    from ..planning.problem.verdict import Verdict
+    from ..planning.problem.verdict import StepVerdict, Verdict
 
 
 def check(
@@ -69,7 +69,7 @@ def _check_plan(what: str, task: str | None, overrides: list[str], everything: b
 
 
 def _print_finding(finding: "Finding") -> None:
-    from .output import plain_table
+    from ..viewing.text_table import plain_table
 
     console = stdout()
     console.print(f"{finding.kind} '{finding.name}'" + (f": {finding.title}" if finding.title else ""), style="bold")

@@ -2,32 +2,29 @@
 
 import ast
 from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, Final
 
 import typer
 
+from ..family import BUILT_IN, families, family_named
+
 COMMANDS: Final = {
     "list": "list:list_names",
     "plan": "plan.command:plan",
     "polish": "polish:polish",
-    "rehearse": "rehearse:rehearse",
     "learn": "learn:learn",
     "inventory": "inventory:inventory",
     "check": "check:check",
     "run": "run.command:run",
-    "press": "press:press",
-    "follow": "follow:follow",
     "trials": "trials.command:trials",
-    "most": "most:most",
     "show": "show:show",
     "view": "view:view",
     "export": "export:export",
     "bench": "bench:bench",
     "sweep": "sweep:sweep",
     "reach": "reach:reach",
-    "calibrate": "calibrate:calibrate",
-    "ditch": "ditch:ditch",
     "study": "study:study",
     "schema": "schema:schema",
     "doctor": "doctor:doctor",
@@ -37,21 +34,49 @@ GROUPS: Final = {
     "limb": "limb.commands:limb",
     "body": "body.commands:body",
     "new": "new:new",
-    "plant": "plant:plant",
 }
 """Commands of commands: name -> module and application in it."""
+
+
+def _of_families(kind: str, only: str | None) -> dict[str, str]:
+    """Name -> place of the commands, or groups of commands, that families add; ours come first, and none takes a name that there is.
+
+    Args:
+        kind: `commands` or `groups`.
+        only: The one that is called; where it is one of ours, other packages are not looked for. None: all.
+    """
+    found: dict[str, str] = {}
+    for name in BUILT_IN:
+        found |= getattr(family_named(name), kind)
+    if only is None or only not in {*COMMANDS, *GROUPS, *found}:
+        for family in families():
+            found = dict(getattr(family, kind)) | found
+    return {name: place for name, place in found.items() if name not in COMMANDS and name not in GROUPS}
+
+
+def commands(only: str | None = None) -> dict[str, str]:
+    """Command -> module and function in it: those of any robot, then those of one family."""
+    return {name: f"{__package__}.{place}" for name, place in COMMANDS.items()} | _of_families("commands", only)
+
+
+def groups(only: str | None = None) -> dict[str, str]:
+    """The same for commands of commands."""
+    return {name: f"{__package__}.{place}" for name, place in GROUPS.items()} | _of_families("groups", only)
 
 
 def _read(place: str) -> Any:
     """The function or the group at a place."""
     module, name = place.split(":")
-    return getattr(import_module(f".{module}", __package__), name)
+    return getattr(import_module(module), name)
 
 
 def first_paragraph(place: str) -> str:
     """What a command or a group does: the first paragraph of its help, from its source alone."""
     module, name = place.split(":")
-    file = Path(__file__).parent.joinpath(*module.split(".")).with_suffix(".py")
+    package, _, last = module.rpartition(".")
+    spec = find_spec(package)
+    assert spec is not None and spec.submodule_search_locations
+    file = Path(spec.submodule_search_locations[0], f"{last}.py")
     for node in ast.parse(file.read_text(encoding="utf-8")).body:
         if isinstance(node, ast.FunctionDef) and node.name == name:
             return " ".join((ast.get_docstring(node) or "").split("\n\n")[0].split())
@@ -67,13 +92,14 @@ def add_commands(app: typer.Typer, only: str | None = None) -> None:
         app: The application.
         only: The one that is called; the others are there by name and line alone. None: all of them, whole.
     """
-    listed = only not in COMMANDS | GROUPS  # else nobody sees the lines of the others
-    for name, place in COMMANDS.items():
+    single, grouped = commands(only), groups(only)
+    listed = only not in single | grouped  # else nobody sees the lines of the others
+    for name, place in single.items():
         if only in (None, name):
             app.command(name)(_read(place))
         else:
             app.command(name, help=first_paragraph(place) if listed else None)(_nothing)
-    for name, place in GROUPS.items():
+    for name, place in grouped.items():
         if only in (None, name):
             app.add_typer(_read(place), name=name)
         else:

@@ -5,8 +5,9 @@ from typing import TYPE_CHECKING
 import typer
 from rich.console import Console
 
-from .options import AsJson
-from .output import plain_table, print_json, stdout
+from ..terminal.options import AsJson
+from ..terminal.output import print_json, stdout
+from ..viewing.text_table import plain_table
 
 if TYPE_CHECKING:
     from .doctor_facts import Health

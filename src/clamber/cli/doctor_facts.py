@@ -14,7 +14,7 @@ from typing import Annotated, Any, Final, Literal
 
 from .. import __version__, kernel_cache, sources
 from ..extensions import GROUPS, ExtensionError, all_outside, load_outside, outside, package_of
-from ..jobs.cores import usable_cores
+from ..jobs.ahead import usable_cores
 from ..jobs.release import version_of
 from ..json_form import Count, Key, in_json
 

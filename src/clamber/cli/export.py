@@ -5,9 +5,9 @@ from typing import Annotated
 
 import typer
 
-from .name_completion import names_of
-from .options import AsJson, Overrides
-from .output import announce_compilation, check_writable, print_json, stdout
+from ..terminal.name_completion import names_of
+from ..terminal.options import AsJson, Overrides
+from ..terminal.output import announce_compilation, check_writable, print_json, stdout
 
 
 def export(

@@ -4,8 +4,9 @@ from typing import Annotated
 
 import typer
 
-from .options import AsJson, Overrides, TaskName
-from .output import announce_compilation, plain_table, print_indented, print_json, stdout
+from ..terminal.options import AsJson, Overrides, TaskName
+from ..terminal.output import announce_compilation, print_indented, print_json, stdout
+from ..viewing.text_table import plain_table
 
 
 def inventory(

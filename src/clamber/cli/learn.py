@@ -4,8 +4,8 @@ from typing import Annotated
 
 import typer
 
-from .options import AsJson, Output, Overrides, Quiet, TaskName
-from .output import announce_compilation, check_writable, print_json, stderr, stdout
+from ..terminal.options import AsJson, Output, Overrides, Quiet, TaskName
+from ..terminal.output import announce_compilation, check_writable, print_json, stderr, stdout
 
 
 def learn(

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Annotated, Any, Final, TypeAlias
 
 import typer
 
-from .name_completion import names_of
-from .option_holder import takes_options
-from .options import BOARD, ROBOT, AsJson
-from .output import announce_compilation, check_writable, print_json, stdout
+from ..terminal.name_completion import names_of
+from ..terminal.option_holder import takes_options
+from ..terminal.options import BOARD, ROBOT, AsJson
+from ..terminal.output import announce_compilation, check_writable, print_json, stdout
 
 if TYPE_CHECKING:
     from ..types import Json

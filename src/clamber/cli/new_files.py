@@ -13,9 +13,9 @@ from ..families.climber.world.csv_board import DEFAULT_RADIUS, build_points_boar
 from ..families.climber.world.random_board import random_board_data
 from ..files import Document
 from ..json_form import Count
+from ..terminal.options import ROBOT
 from ..types import Json
 from ..units import parse_quantity
-from .options import ROBOT
 
 COMMAND: Final = "clamber new board"
 

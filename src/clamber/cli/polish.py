@@ -5,9 +5,9 @@ from typing import Annotated
 
 import typer
 
-from .name_completion import names_of
-from .options import AsJson, Output, Overrides, Quiet
-from .output import announce_compilation, check_writable, print_json, stderr, stdout
+from ..terminal.name_completion import names_of
+from ..terminal.options import AsJson, Output, Overrides, Quiet
+from ..terminal.output import announce_compilation, check_writable, print_json, stderr, stdout
 
 
 def polish(
@@ -31,8 +31,8 @@ def polish(
     """Make a plan that reaches its goal shorter, by search about it; every check of the task still holds."""
     check_writable(output)
     announce_compilation(quiet=quiet)
-    from ..planning.polishing import polish_plan
     from ..planning.problem.plan_source import open_plan
+    from ..planning.shorten import polish_plan
     from .plan.text import ProgressLine, print_result
 
     opened = open_plan(plan, task, overrides or ())

@@ -8,9 +8,10 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from .live_line import LiveLine
-from .options import AsJson, Output, Overrides, Quiet, TaskName
-from .output import announce_compilation, check_writable, plain_table, print_json, stderr, stdout
+from ..terminal.live_line import LiveLine
+from ..terminal.options import AsJson, Output, Overrides, Quiet, TaskName
+from ..terminal.output import announce_compilation, check_writable, print_json, stderr, stdout
+from ..viewing.text_table import plain_table
 
 if TYPE_CHECKING:
     from ..planning.reach.reach import Reach
@@ -43,7 +44,7 @@ def reach(
     from ..tasks import load_task
 
     loaded = load_task(task, overrides or ())
-    from ..planning.reach.layers import choose_layer
+    from ..planning.reach.reach import choose_layer
 
     shown = choose_layer(loaded, layer)
     announce_compilation(quiet=quiet)
@@ -102,7 +103,7 @@ def _layer_table(reach: "Reach", layer: str) -> Table:
     """Where the layer is best and worst, and what it is in the middle."""
     import numpy as np
 
-    from ..planning.reach.layers import LAYERS
+    from ..planning.reach.reach import LAYERS
 
     shown = LAYERS[layer]
     values = reach.places.floats(shown.column)

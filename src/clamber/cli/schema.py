@@ -4,8 +4,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from .options import AsJson
-from .output import plain_table, print_json, stdout
+from ..terminal.options import AsJson
+from ..terminal.output import print_json, stdout
+from ..viewing.text_table import plain_table
 
 if TYPE_CHECKING:
     from ..types import Json

@@ -7,9 +7,9 @@ from typing import Annotated
 import typer
 
 from ..json_form import Count, Key
-from .name_completion import names_of
-from .options import AsJson, Output, Overrides
-from .output import announce_compilation, check_writable, print_json, stdout
+from ..terminal.name_completion import names_of
+from ..terminal.options import AsJson, Output, Overrides
+from ..terminal.output import announce_compilation, check_writable, print_json, stdout
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.console import Console
 
-from .crew import EndsLine, executor_of
-from .name_completion import names_of
-from .option_holder import takes_options
-from .options import AsJson, Quiet, Resume, Store, Workers
-from .output import announce_compilation, plain_table, print_indented, print_json, stderr, stdout
+from ..studies.library import study_titles
+from ..terminal.crew import EndsLine, executor_of
+from ..terminal.name_completion import names_of
+from ..terminal.option_holder import takes_options
+from ..terminal.options import AsJson, Quiet, Resume, Store, Workers
+from ..terminal.output import announce_compilation, print_indented, print_json, stderr, stdout
+from ..viewing.text_table import plain_table
 
 if TYPE_CHECKING:
     from ..studies.result import StudyResult
@@ -24,9 +26,9 @@ ALL = "all"
 
 def results_of(context: typer.Context, incomplete: str) -> list[str]:
     """What completes the name of a result of the study that is named before it."""
-    from ..studies.titles import RESULTS
+    from ..studies.library import STUDIES
 
-    return [name for name in RESULTS.get(context.params.get("paper", ""), ()) if name.startswith(incomplete)]
+    return [name for name in STUDIES.get(context.params.get("paper", ""), ()) if name.startswith(incomplete)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +71,7 @@ def study(
         str,
         typer.Argument(
             help="A paper or subject (`clamber list studies`), or all.",
-            autocompletion=names_of("studies", besides=("all",)),
+            autocompletion=names_of(besides={"all": "", **study_titles()}),
         ),
     ],
     result: Annotated[

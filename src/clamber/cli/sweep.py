@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.console import Console
 
-from .crew import CrewWords
-from .option_holder import takes_options
-from .options import Overrides, PlannerName, TaskName
-from .output import announce_compilation, plain_table, print_json, stdout
+from ..terminal.crew import CrewWords
+from ..terminal.option_holder import takes_options
+from ..terminal.options import Overrides, PlannerName, TaskName
+from ..terminal.output import announce_compilation, print_json, stdout
+from ..viewing.text_table import plain_table
 
 if TYPE_CHECKING:
     from ..planning.sweep import Sweep
@@ -50,7 +51,7 @@ def sweep(
     axes = [*map(range_axis, vary or ()), *map(values_axis, values or ())]
     check_axes(axes)
     marks = [read_mark(text, axes) for text in mark or ()]
-    from ..planning.budgets import accepts
+    from ..planning.planners import accepts
 
     if words.ray is None:
         announce_compilation(quiet=words.quiet)

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..json_form import Count, Key
-from .name_completion import names_of
-from .option_holder import takes_options
-from .options import AsJson, Overrides
-from .output import announce_compilation, check_writable, print_json, stderr, stdout
+from ..terminal.name_completion import names_of
+from ..terminal.option_holder import takes_options
+from ..terminal.options import AsJson, Overrides
+from ..terminal.output import announce_compilation, check_writable, print_json, stderr, stdout
 
 if TYPE_CHECKING:
     from ..viewing.browser.app import App

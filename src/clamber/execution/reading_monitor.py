@@ -157,6 +157,7 @@ class ReadingMonitor:
             self._look()
         else:
             self.clear += 1
+            self.silent[:] = False
         if elapsed > 1:
             self.clear = 0
         if self._overdue > self._most:

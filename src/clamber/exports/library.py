@@ -13,11 +13,9 @@ from ..execution.log_files import read_log
 from ..family import NotOfFamilyError, families, family_of
 from ..files import is_path, write_atomically
 from ..json_form import Count, Key, in_json
-from ..planning.problem.plan_families import plan_family
 from ..planning.problem.plan_source import OpenedPlan, is_plan, open_plan, plan_names
-from ..planning.problem.step_verdict import StepVerdict
-from ..planning.problem.verdict import Verdict
-from ..planning.problem.yardsticks import yardsticks_of
+from ..planning.problem.problems import plan_family, yardsticks_of
+from ..planning.problem.verdict import StepVerdict, Verdict
 from ..tasks.robots import Robot, load_robot, robot_names
 from ..units import DEGREE
 from ..viewing.margins import named_limits

@@ -11,8 +11,8 @@ from ..family import NotOfFamilyError, families, family_of
 from ..files import Document, is_path, read_toml
 from ..planning.problem.check import UNLIMITED
 from ..planning.problem.codes import pack
-from ..planning.problem.plan_families import plan_family
 from ..planning.problem.plan_source import is_plan, plan_names
+from ..planning.problem.problems import plan_family
 from ..regular_files import user_path
 from ..tasks import Task, load_task, task_names
 from ..tasks.library import change_task

@@ -9,7 +9,11 @@ from importlib import import_module
 from threading import Thread
 from typing import Final
 
-from .cores import usable_cores
+
+def usable_cores() -> int:
+    """Cores that this process may use: fewer than the machine has where it was pinned to some."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
 
 CALL: Final = "import sys; from clamber.jobs.ahead import call; call(sys.argv[1])"
 

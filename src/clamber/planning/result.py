@@ -13,10 +13,8 @@ from ..units import OZ_IN
 from .genetic.evolve import Generation
 from .genetic.learning import Macro
 from .problem.plan import Plan
-from .problem.plan_costs import spent
-from .problem.plan_families import plan_family
-from .problem.planned import PlannedAction
 from .problem.problem import CompiledProblem
+from .problem.problems import PlannedAction, plan_family, spent
 from .problem.verdict import Verdict, check_plan
 
 Status = Literal["optimal", "found", "infeasible", "bounded", "stopped"]

@@ -1,21 +1,245 @@
-"""Make any plan shorter: a beam search about it, exact windows between its own stances, the shortest way through the stances about it."""
+"""Make any plan shorter: a beam search about it, exact windows between its own stances, the shortest path through the stances about it."""
 
 import time
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
 
-from .beam.layers import Beam, Corridor, search_layers
-from .exact.corridor import shorten_in_corridor
-from .exact.windows import Codes, Shortened, is_plan, shorten_by_windows
+from ..errors import SpecError
+from ..tasks import Task
+from ..types import Ints
+from .beam_layers import Beam, Corridor, search_layers
+from .problem.plan import Plan
 from .problem.problem import CompiledProblem
+from .problem.problems import plan_family, pose_problem
+from .progress import Listener, Shortening
+from .result import PlanResult
+from .shorten_kernels import collect, search_window, shortest, stance_keys
+from .stance_table import path_to, rehash, table_size
+
+SHORTEST_WINDOW: Final = 6
+"""Actions of the smallest window."""
+WINDOW_GROWTH: Final = 1.5
+"""A window's length as a multiple of the one before."""
+
+
+@dataclass(frozen=True, slots=True)
+class Shortened:
+    """A plan made shorter, and what that cost."""
+
+    codes: Ints
+    """The plan; the one given where nothing helped."""
+    stances: int
+    """Stances seen, all searches together."""
+    checks: int
+    """Actions judged."""
+    complete: bool
+    """Whether every search ended by itself, rather than by its limit."""
+    interrupted: bool = False
+    """Whether Ctrl-C ended it; the plan is the shortest up to then."""
+
+
+class WindowSearch:
+    """The memory of window searches, used again for each."""
+
+    def __init__(self, problem: CompiledProblem, most: int) -> None:
+        """Take memory for windows of at most `most` stances."""
+        capacity = most + problem.branching
+        self.keys = np.zeros((capacity, problem.key_words), np.int64)
+        self.g = np.zeros(capacity, np.int32)
+        self.closed = np.zeros(capacity, np.uint8)
+        self.parent = np.zeros(capacity, np.int32)
+        self.code = np.zeros(capacity, np.int32)
+        self.entries = np.zeros(capacity, np.int32)
+        self.following = np.zeros(capacity, np.int64)
+        self.table = np.zeros(table_size(capacity), np.int32)
+        self.codes = np.zeros(problem.branching, np.int32)
+        self.stances = np.zeros(2, problem.start.dtype)
+        self.margins = np.zeros(len(problem.checks))
+        self.words = np.zeros(problem.key_words, np.int64)
+        self.state = np.zeros(5, np.int64)
+        self.seen = 0
+        self.checks = 0
+        self.complete = True
+
+    def shorten(self, problem: CompiledProblem, codes: Ints, first: int, last: int) -> Ints:
+        """The plan with a shorter way from its stance `first` on, or as it is.
+
+        A window that ends where the plan does may end in any goal stance.
+
+        Args:
+            problem: The task.
+            codes: A plan that holds; every hold named.
+            first, last: The window.
+        """
+        replayed = problem.replay(codes)
+        plan = replayed.stances
+        to_goal = last == len(codes)
+        near = problem if to_goal else problem.without_more_hangs(plan[first : first + 1])
+        if not to_goal and near is not problem and plan["hangs"][last] != plan["hangs"][first]:
+            near = problem
+        params = near.params.record
+        keys = np.zeros((len(plan), problem.key_words), np.int64)
+        stance_keys(params, plan, keys)
+        table = np.zeros(table_size(len(plan)), np.int32)
+        table[:] = -1
+        rehash(keys, len(plan), table)
+        heads = np.zeros(len(plan) + 1, np.int64)
+        search_window(
+            params, plan, keys, table, first, last, to_goal, self.keys, self.g, self.closed, self.parent, self.code,
+            self.entries, self.following, heads, self.table, self.codes, self.stances, self.margins, self.words,
+            self.state,
+        )  # fmt: skip
+        nodes, judged, node, rejoined, saved = (int(value) for value in self.state)
+        self.seen += nodes
+        self.checks += judged
+        self.complete &= nodes + problem.branching <= len(self.keys)
+        if not saved:
+            return codes
+        way = path_to(self.parent, self.code, node)
+        shorter = np.concatenate([codes[:first], way, codes[rejoined:]]).astype(np.int32)
+        return shorter if is_plan(problem, shorter) else codes
+
+
+def shorten_by_windows(
+    problem: CompiledProblem,
+    codes: Ints,
+    *,
+    most: int = 20_000,
+    effort: int = 1_000_000,
+    seconds: float | None = None,
+    tell: Callable[[int], None] | None = None,
+) -> Shortened:
+    """Make a plan shorter: windows of growing length slide over it until none saves an action.
+
+    Args:
+        problem: The task.
+        codes: A plan that holds and reaches the goal; every hold named (`Problem.resolve`).
+        most: Most stances of one window.
+        effort: Most stances of all windows together; the last window may go beyond it.
+        seconds: Most time [s].
+        tell: Called with the length of the plan after each window.
+
+    Returns:
+        A plan that holds, reaches the goal, and is never longer.
+    """
+    started = time.monotonic()
+    search = WindowSearch(problem, most)
+    length, first = SHORTEST_WINDOW, 0
+    try:
+        while len(codes) > 1:
+            if search.seen >= effort or (seconds is not None and time.monotonic() - started >= seconds):
+                search.complete = False
+                break
+            length = min(length, len(codes))
+            before = len(codes)
+            codes = search.shorten(problem, codes, first, min(before, first + length))
+            if tell is not None:
+                tell(len(codes))
+            if len(codes) < before:
+                first = max(0, first - length // 2)
+            elif first + length < before:
+                first += max(1, length // 3)
+            elif length < before:
+                length, first = int(WINDOW_GROWTH * length), 0
+            else:
+                break
+    except KeyboardInterrupt:
+        return Shortened(codes, search.seen, search.checks, complete=False, interrupted=True)
+    return Shortened(codes, search.seen, search.checks, search.complete)
+
+
+def is_plan(problem: CompiledProblem, codes: Ints) -> bool:
+    """Whether codes hold all the way and end in a goal stance."""
+    replayed = problem.replay(codes)
+    return replayed.ok and problem.is_done(replayed.stances[-1:])
+
+
+FIRST_CORRIDOR: Final = 10_000
+"""Stances of the first corridor."""
+CORRIDOR_GROWTH: Final = 4
+"""Stances of a corridor as a multiple of those of the one before, when that held nothing shorter."""
+EDGES_PER_STANCE: Final = 12
+"""Ways on per stance that memory is taken for; where there are more, the corridor gets narrower."""
+
+
+def shorten_in_corridor(
+    problem: CompiledProblem,
+    codes: Ints,
+    *,
+    most: int = 200_000,
+    effort: int = 1_000_000,
+    seconds: float | None = None,
+    tell: Callable[[int], None] | None = None,
+) -> Shortened:
+    """Make a plan shorter: the shortest plan among all stances near it, again and again, in corridors that widen until none helps.
+
+    The neighbourhood graph of Nakhost and Mueller (Action elimination and plan neighborhood graph search, ICAPS 2010), without the
+    stances that no shorter plan can visit.
+
+    Args:
+        problem: The task.
+        codes: A plan that holds and reaches the goal; every hold named (`Problem.resolve`).
+        most: Most stances of one corridor: memory, about 100 bytes and a key each.
+        effort: Most stances of all corridors together; the last corridor may go beyond it.
+        seconds: Most time [s].
+        tell: Called with the length of the plan after each corridor.
+
+    Returns:
+        A plan that holds, reaches the goal, and is never longer; `complete` if no plan of the task is shorter.
+    """
+    started = time.monotonic()
+    size, seen, checks, complete = min(FIRST_CORRIDOR, most), 0, 0, False
+    try:
+        while not complete and seen < effort and (seconds is None or time.monotonic() - started < seconds):
+            before = len(codes)
+            codes, nodes, judged, complete = _through(problem, codes, size)
+            seen += nodes
+            checks += judged
+            if tell is not None:
+                tell(len(codes))
+            if len(codes) < before:
+                continue
+            if size >= most:
+                break
+            size = min(most, CORRIDOR_GROWTH * size)
+    except KeyboardInterrupt:
+        return Shortened(codes, seen, checks, complete=False, interrupted=True)
+    return Shortened(codes, seen, checks, complete)
+
+
+def _through(problem: CompiledProblem, codes: Ints, size: int) -> tuple[Ints, int, int, bool]:
+    """The shortest plan in a corridor; stances and actions that it took; whether every stance that matters was in it."""
+    plan = problem.replay(codes).stances
+    room = size + len(plan) + problem.branching
+    keys = np.zeros((room, problem.key_words), np.int64)
+    leads = np.zeros(room, np.uint8)
+    table = np.full(table_size(room), -1, np.int32)
+    first_edge = np.zeros(room + 1, np.int64)
+    edge_to = np.zeros(EDGES_PER_STANCE * room, np.int32)
+    edge_code = np.zeros(EDGES_PER_STANCE * room, np.int32)
+    state = np.zeros(3, np.int64)
+    collect(
+        problem.params.record, plan, keys, leads, table, first_edge, edge_to, edge_code, np.zeros(problem.branching, np.int32),
+        np.zeros(2, plan.dtype), np.zeros(len(problem.checks)), np.zeros(problem.key_words, np.int64), state,
+    )  # fmt: skip
+    nodes, expanded, judged = (int(value) for value in state)
+    parent = np.zeros(nodes, np.int32)
+    code = np.zeros(nodes, np.int32)
+    goal = shortest(expanded, leads, first_edge, edge_to, edge_code, parent, code, np.zeros(nodes, np.int32))
+    complete = expanded == nodes
+    if goal < 0:
+        return codes, nodes, judged, complete
+    way = path_to(parent, code, goal)
+    better = len(way) < len(codes) and is_plan(problem, way)
+    return way if better else codes, nodes, judged, complete
 
 
 def shorten_by_beam(
     problem: CompiledProblem,
-    codes: Codes,
+    codes: Ints,
     *,
     width: int,
     steps: float = 10.0,
@@ -57,7 +281,7 @@ EFFORT: Final = 300_000
 
 def shorten(
     problem: CompiledProblem,
-    codes: Codes,
+    codes: Ints,
     *,
     width: int = WIDTH,
     effort: int = EFFORT,
@@ -101,3 +325,65 @@ def shorten(
 
 def _then(first: Shortened, second: Shortened) -> Shortened:
     return replace(second, stances=first.stances + second.stances, checks=first.checks + second.checks)
+
+
+def polish_plan(
+    task: Task,
+    plan: Plan,
+    *,
+    width: int = WIDTH,
+    effort: int = EFFORT,
+    seconds: float | None = None,
+    progress: Listener | None = None,
+    label: str = "plan",
+) -> PlanResult:
+    """Make a plan shorter (`planning.shorten`).
+
+    Args:
+        task: The task to carry it out in.
+        plan: A plan that holds and reaches the goal; what comes after the goal is left out.
+        width, effort, seconds: As in `shorten`.
+        progress: Called now and then.
+        label: What errors call the plan.
+
+    Returns:
+        The plan ("found"; "optimal" where every shorter one was ruled out).
+
+    Raises:
+        SpecError: If the plan breaks a hard check on its way to the goal, or does not get there.
+    """
+    started = time.monotonic()
+    problem = pose_problem(task).problem
+    codes = plan.codes(task, label)
+    stances = problem.replay(codes).stances
+    end = next((i for i in range(len(stances)) if problem.is_done(stances[i : i + 1])), len(codes))
+    if not is_plan(problem, codes[:end]):
+        allowed = "must hold up to the goal and reach it; `clamber check` says where it does not"
+        raise SpecError(label, "actions", f"{len(codes)} actions", allowed)
+
+    def tell(length: int) -> None:
+        if progress is not None:
+            progress(Shortening(length))
+
+    done = shorten(problem, codes[:end], width=width, effort=effort, seconds=seconds, tell=tell)
+    family = plan_family(task)
+    after = problem.replay(done.codes).stances[1:]
+    cut = len(codes) - len(done.codes)
+    reason = f"{len(codes)} actions before, {cut} fewer now" if cut else "no shorter plan was found about it"
+    made = Plan.of_codes(task, done.codes, seed=plan.seed, planner=f"{plan.planner}, polished" if cut else plan.planner)
+    return PlanResult(
+        status="optimal" if done.complete else "found",
+        plan=made if cut else replace(plan),
+        task=task,
+        reason=reason,
+        evaluations=0,
+        checks=done.checks,
+        seconds=time.monotonic() - started,
+        seed=plan.seed or 0,
+        planner=made.planner,
+        max_torque=max((family.torque(stance) for stance in after), default=0.0),
+        lower_bound=len(done.codes) if done.complete else None,
+        stances=done.stances,
+        model=family.model(task) if done.complete else "",
+        first_length=len(codes),
+    )

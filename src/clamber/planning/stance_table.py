@@ -3,6 +3,7 @@
 import numpy as np
 
 from ..compiled import inlined, kernel
+from ..types import Ints
 from .problem.randoms import scramble
 
 
@@ -31,3 +32,17 @@ def rehash(keys, n, table):
     """Fill an empty hash table with the first n keys."""
     for node in range(n):
         table[slot_of(keys[node], table, keys)] = node
+
+
+def table_size(entries: int) -> int:
+    """A power of two, at least twice as many as the entries."""
+    return 1 << int(np.ceil(np.log2(2 * max(2, entries))))
+
+
+def path_to(parent: Ints, code: Ints, node: int) -> Ints:
+    """Actions from the root, whose parent is no node above 0, to a node."""
+    codes = []
+    while node > 0:
+        codes.append(int(code[node]))
+        node = int(parent[node])
+    return np.array(codes[::-1], np.int32)

@@ -18,8 +18,8 @@ from ..tasks import Task, load_task, task_from_document
 from ..types import Json
 from ..units import OZ_IN
 from .axes import Axis, Mark, check_axes
-from .budgets import accepts
-from .planners import find_planner, first_loop
+from .planners import accepts, find_planner, first_loop
+from .problem.problems import plan_family
 
 SUCCESS: Final = ("optimal", "found")
 NO_START: Final = "no start"
@@ -197,7 +197,7 @@ def plan_point(item: Json) -> Json:
     """
     task = task_from_document(item["document"])
     planner = find_planner(item["planner"])
-    proves = accepts(item["planner"], "minimize")
+    proves = accepts(item["planner"], "minimize") and "torque" in plan_family(task).costs(task)
     order: Json = {"minimize": ("length", "torque")} if proves else {}
     try:
         result = planner(task, threads=1, **item["options"], **order)

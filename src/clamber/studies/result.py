@@ -45,8 +45,9 @@ class Figure:
 class StudyResult(Jsonable):
     """A published result and ours."""
 
-    paper: str
-    result: str
+    paper: str = ""
+    """As the command line calls it; filled in, as the next, by what repeats it (`library.Repeat`)."""
+    result: str = ""
     """Its name on the command line."""
     claim: str
     """What the paper says, in our words, with the place where it says so."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final, Generic, TypeVar
 import numpy as np
 
 from ..planning.problem.problem import Replay
-from ..planning.problem.yardsticks import NOTHING_LIMITS, yardsticks_of
+from ..planning.problem.problems import NOTHING_LIMITS, yardsticks_of
 from ..types import Floats
 from .margins import Limiting, all_limiting, grade
 from .panel import Gauges

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from ..planning.problem.check import Check
 from ..planning.problem.problem import Replay
-from ..planning.problem.yardsticks import NOTHING_LIMITS, Yardsticks
+from ..planning.problem.problems import NOTHING_LIMITS, Yardsticks
 from ..types import Floats
 from ..units import DEGREE
 

@@ -15,7 +15,7 @@ from ..family import NotOfFamilyError, family_of
 from ..planning.problem.plan import Plan
 from ..planning.problem.problem import Replay
 from ..tasks import Task
-from ..trials.run_request import CarriedOut
+from ..trials.dynamics import CarriedOut
 from ..types import Floats
 from .animation import WRITERS, Animated
 from .film import View
@@ -55,8 +55,8 @@ class Pictures:
     """Of all joints that carry weight [N m]; None: the model has no joint torques."""
     run: Callable[[Any], RunPicture] | None = None
     """What was carried out; None: it is not drawn."""
-    report: Callable[[Any, Plan | None], "RunPage"] | None = None
-    """What a report says of a run, and of the plan that it began with; None: there are none."""
+    report: Callable[[Any], "RunPage"] | None = None
+    """What a report says of a run; None: there are none."""
 
 
 def pictures_of(task: Task) -> Pictures:

@@ -9,9 +9,8 @@ from matplotlib.ticker import MaxNLocator
 
 from ..family import NotOfFamilyError, family_of
 from ..planning.exact.front import Front
-from ..planning.problem.plan_costs import PlanCost
-from ..planning.problem.plan_families import plan_family
 from ..planning.problem.problem import Replay
+from ..planning.problem.problems import PlanCost, plan_family
 from ..tasks import Task
 from ..units import OZ_IN
 from . import style

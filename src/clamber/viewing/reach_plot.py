@@ -14,8 +14,7 @@ from matplotlib.image import AxesImage
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
-from ..planning.reach.layers import LAYERS
-from ..planning.reach.reach import Reach
+from ..planning.reach.reach import LAYERS, Reach
 from ..types import Floats
 from ..units import OZ_IN
 from . import style

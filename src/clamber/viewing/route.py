@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 
 from ..planning.problem.problem import Replay
-from ..planning.problem.yardsticks import Yardsticks
+from ..planning.problem.problems import Yardsticks
 from ..types import Floats
 from . import style
 from .margins import all_limiting, grade

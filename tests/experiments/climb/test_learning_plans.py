@@ -16,7 +16,7 @@ from clamber.families.climber.trials.cautions import STEADY, cautious
 from clamber.families.climber.trials.planning import plan_to_climb
 from clamber.families.climber.trials.rehearsal import Rehearsal, grab_at_fault
 from clamber.families.climber.trials.run_plan import climbing_task
-from clamber.planning.planners import PLANNERS
+from clamber.planning.planners import find_planner
 from clamber.planning.problem.plan import Plan
 from clamber.planning.problem.plan_source import open_plan
 from clamber.tasks import load_task
@@ -46,11 +46,11 @@ def test_a_climb_went_wrong_with_the_grab_that_failed_or_the_one_that_led_there(
 
 def test_a_limb_never_takes_a_hold_that_is_barred_to_it() -> None:
     task = climbing_task(load_task("ladder"))
-    free = PLANNERS["beam"](task, seconds=60.0).plan
+    free = find_planner("beam")(task, seconds=60.0).plan
     limb, hold = next((action.limb, action.hold) for action in free.actions if action.kind == "grab")
     assert limb is not None and hold is not None
     barred = climbing_task(load_task("ladder", [f"rules.barred.{limb}=[{hold}]"]))
-    result = PLANNERS["beam"](barred, seconds=60.0)
+    result = find_planner("beam")(barred, seconds=60.0)
     assert result.has_plan
     assert (limb, hold) not in grabs(result.plan)
 

@@ -11,7 +11,7 @@ from clamber.families.climber.trials.cautions import CAUTIONS, cautious
 from clamber.families.climber.trials.lessons import Climbs, Lesson, Rehearsed, learn
 from clamber.families.climber.trials.run_plan import climbing_task
 from clamber.families.climber.trials.trial import ClimbTrial
-from clamber.planning.planners import PLANNERS
+from clamber.planning.planners import find_planner
 from clamber.planning.problem.plan import Plan
 from clamber.tasks import load_task
 
@@ -21,7 +21,7 @@ SEEDS = range(40, 48)
 @pytest.fixture(scope="module")
 def climb() -> tuple[LimbedTask, Plan]:
     task = climbing_task(load_task("ladder"))
-    return task, Plan.of_codes(task, PLANNERS["beam"](cautious(task, CAUTIONS[0])).plan.codes(task))
+    return task, Plan.of_codes(task, find_planner("beam")(cautious(task, CAUTIONS[0])).plan.codes(task))
 
 
 def trial(seed: int, step: int, *, done: bool) -> ClimbTrial:

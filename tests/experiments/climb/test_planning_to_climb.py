@@ -1,6 +1,7 @@
 """Plans that are to be carried out: the same on any number of threads, and told where time ended a search."""
 
 import math
+import sys
 from dataclasses import replace
 from typing import Any
 
@@ -10,9 +11,10 @@ from clamber.families.climber.execution.course import climbable
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.trials.cautions import CAUTIONS, STEADY
 from clamber.families.climber.trials.planning import plan_to_climb, replanner
-from clamber.planning.planners import PLANNERS
+from clamber.planning.planners import PLANNERS, BuiltIn, find_planner
 from clamber.planning.result import PlanResult
 from clamber.tasks import Task, load_task
+from clamber.trials.dynamics import RunEvents
 
 
 def climb_of(name: str) -> LimbedTask:
@@ -25,7 +27,9 @@ def climb_of(name: str) -> LimbedTask:
 def test_the_plan_is_the_same_on_any_number_of_threads(name: str) -> None:
     task, cuts = climb_of(name), []
     plans = [
-        plan_to_climb(task, "auto", seconds=math.inf, seed=0, threads=threads, cut=lambda: cuts.append(1))
+        plan_to_climb(
+            task, "auto", seconds=math.inf, seed=0, threads=threads, events=RunEvents(cut=lambda: cuts.append(1))
+        )
         for threads in (1, 2, 4, None)
     ]
     told = [None if plan is None else plan.to_json() for plan in plans]
@@ -39,15 +43,16 @@ def test_every_search_that_its_time_ended_is_told(took: float, cuts: int, monkey
     """A search that finds nothing and has taken all its seconds was ended by them: then another machine may find a plan."""
     given: list[dict[str, Any]] = []
     task = climb_of("ladder")
-    known = PLANNERS["greedy"](task, seconds=0.0)
+    known = find_planner("greedy")(task, seconds=0.0)
 
     def slow(task: Task, *, seed: int = 0, seconds: float | None = None, threads: int | None = None) -> PlanResult:
         given.append({"seed": seed, "seconds": seconds, "threads": threads})
         return replace(known, status="stopped", seconds=took)
 
-    monkeypatch.setitem(PLANNERS, "slow", slow)
+    monkeypatch.setattr(sys.modules[__name__], "slow", slow, raising=False)
+    monkeypatch.setitem(PLANNERS, "slow", BuiltIn(f"{__name__}:slow", "", "replay"))
     told: list[int] = []
-    replan = replanner("slow", seconds=5.0, seed=7, threads=1, cut=lambda: told.append(1))
+    replan = replanner("slow", seconds=5.0, seed=7, threads=1, events=RunEvents(cut=lambda: told.append(1)))
     assert replan(task) is None
     assert len(told) == cuts
     assert given == [{"seed": 7, "seconds": 5.0, "threads": 1}] * (1 + len(CAUTIONS + STEADY))

@@ -16,15 +16,15 @@ from clamber.families.climber.trials.rerouting import (
     without,
 )
 from clamber.families.climber.trials.run_plan import climbing_task
-from clamber.planning.planners import PLANNERS
+from clamber.planning.planners import find_planner
 from clamber.planning.problem.plan import Plan
-from clamber.planning.problem.plan_families import plan_family
+from clamber.planning.problem.problems import plan_family
 from clamber.tasks import load_task
 
 
 def found(name: str, planner: str = "beam") -> tuple[LimbedTask, Plan]:
     task = climbing_task(load_task(name))
-    result = PLANNERS[planner](cautious(task, CAUTIONS[0]))
+    result = find_planner(planner)(cautious(task, CAUTIONS[0]))
     return task, Plan.of_codes(task, result.plan.codes(task))
 
 

@@ -11,13 +11,12 @@ from clamber.families.climber.execution.course import lay_course
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.trials.run_plan import climbing_task
 from clamber.families.climber.trials.steadying import BENT, SHIFT, WORTH, steadied, steadied_result
-from clamber.planning.planners import PLANNERS
-from clamber.planning.polishing import polish_plan
+from clamber.planning.planners import find_planner
 from clamber.planning.problem.codes import HOLD
 from clamber.planning.problem.plan import Plan
-from clamber.planning.problem.plan_families import plan_family
 from clamber.planning.problem.plan_source import open_plan
-from clamber.planning.problem.yardsticks import yardsticks_of
+from clamber.planning.problem.problems import plan_family, yardsticks_of
+from clamber.planning.shorten import polish_plan
 from clamber.tasks import load_task
 from clamber.types import Floats, Ints
 
@@ -40,7 +39,7 @@ def steps_of_grabs(codes: Ints) -> list[int]:
 @pytest.fixture(scope="module", params=["ladder", "h", "modified-ladder"])
 def found(request: pytest.FixtureRequest) -> tuple[LimbedTask, Plan]:
     task = climbing_task(load_task(request.param))
-    return task, PLANNERS["beam"](task, seconds=120.0).plan
+    return task, find_planner("beam")(task, seconds=120.0).plan
 
 
 def test_a_steadied_plan_has_the_same_actions_and_ends_in_the_same_stance(found: tuple[LimbedTask, Plan]) -> None:
@@ -108,7 +107,7 @@ def test_only_grabs_are_steadied(found: tuple[LimbedTask, Plan]) -> None:
 
 
 def test_a_walker_has_no_grabs_to_steady() -> None:
-    result = PLANNERS["greedy"](load_task("patch-walk"), seconds=120.0)
+    result = find_planner("greedy")(load_task("patch-walk"), seconds=120.0)
     assert result.has_plan
     with pytest.raises(SpecError, match="only climbers"):
         steadied_result(result, 1)

@@ -7,7 +7,7 @@ from climbs_by_hand import climb, setup_of
 
 from clamber.families.climber.trials.trial import error_trial
 from clamber.families.climber.trials.trial_summary import sum_up
-from clamber.families.climber.trials.trials import Trials
+from clamber.trials.trial_runs import Trials
 
 UP = (300, 3, 3)
 """The bottom limb lets go, and the body goes up by 3 in twice: one rung."""

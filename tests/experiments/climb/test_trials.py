@@ -22,13 +22,13 @@ from clamber.families.climber.execution.course import PlanRefusedError
 from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.trials import run_plan as runs
 from clamber.families.climber.trials import trial as one
-from clamber.families.climber.trials import trials as module
 from clamber.families.climber.trials.noise import NO_NOISE, NOISE, named_noise, read_noise
-from clamber.families.climber.trials.trial import climb_once, error_trial, trial_of
-from clamber.families.climber.trials.trials import NoPlanError, run_trials, stored_trial, with_plan
+from clamber.families.climber.trials.trial import climb_once, error_trial, plans_on_the_way, trial_of, with_plan
 from clamber.jobs import LocalProcesses, StoreError
 from clamber.planning.problem.plan import Plan
+from clamber.trials.dynamics import NoPlanError
 from clamber.trials.noise import NoiseError
+from clamber.trials.trial_runs import run_trials, stored_result
 from clamber.types import Json
 
 LETS_GO = (300, 3)
@@ -40,13 +40,14 @@ def test_a_trial_is_the_same_from_a_worker_and_climbed_again(tmp_path: Path) -> 
     trials = run_trials(setup, [3, 11], executor=LocalProcesses(1), store=store)
     assert [trial.seed for trial in trials.ended] == [3, 11]
     for told in trials.ended:
-        known, plans = stored_trial(setup, told.seed, store)
-        run, again, _ = climb_once(setup, told.seed, plans=plans)
-        assert again == told == known
+        known = stored_result(setup, told.seed, store)
+        assert known is not None and plans_on_the_way(known) == []
+        run, again = setup.again(told.seed, known, lambda words, share: None)
+        assert again == told == setup.trial(known)
         other, _, _ = climb_once(setup, told.seed)
         for name in ("time", "believed", "torques", "true_pose"):
             np.testing.assert_array_equal(getattr(run.trace, name), getattr(other.trace, name), err_msg=name)
-    assert stored_trial(setup, 4, store) == (None, None)
+    assert stored_result(setup, 4, store) is None
     assert trials.ended[0].drawn != trials.ended[1].drawn
     assert trials.ended[0].seconds > 0.0
 
@@ -134,7 +135,7 @@ def test_the_plan_is_made_once_and_kept_in_the_store(tmp_path: Path, monkeypatch
         asked.append(1)
         return setup.plan
 
-    monkeypatch.setattr(module, "plan_to_climb", plan_to_climb)
+    monkeypatch.setattr(one, "plan_to_climb", plan_to_climb)
     unplanned = replace(setup, plan=None)
     ready = with_plan(unplanned, store)
     run_trials(ready, [0], executor=LocalProcesses(1), store=store)
@@ -143,7 +144,7 @@ def test_the_plan_is_made_once_and_kept_in_the_store(tmp_path: Path, monkeypatch
     assert later.plan == ready.plan == setup.plan
     more = run_trials(later, [0, 1], executor=LocalProcesses(1), store=store, resume=True)
     assert [trial.seed for trial in more.ended] == [0, 1]
-    monkeypatch.setattr(module, "plan_to_climb", lambda *_, **__: None)
+    monkeypatch.setattr(one, "plan_to_climb", lambda *_, **__: None)
     with pytest.raises(NoPlanError, match="no plan for 'ladder'"):
         with_plan(unplanned)
 

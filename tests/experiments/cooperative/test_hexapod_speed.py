@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from clamber.benchmarks.benches import BENCHES, hexapod_rows, peer_rows, reach_rows, step_rows, walker
-from clamber.benchmarks.ik_peers import installed
+from clamber.benchmarks.control_speed import installed
 from clamber.families.walker.control.cooperative.limits import chain_of
 from clamber.families.walker.control.cooperative.scratch import make_scratch, see_tool
 from clamber.families.walker.control.cooperative.settings import own_speeds

@@ -7,12 +7,13 @@ import pytest
 
 from clamber.errors import SpecError
 from clamber.families.walker.planning.task import WalkerTask
-from clamber.families.walker.trials.planned import careful, lay_plan, open_planned_walk, walk_of
+from clamber.families.walker.trials.planned import careful, lay_plan, walk_of
 from clamber.families.walker.trials.run_walk import run_walk, walk_flaws
 from clamber.planning.planners import plan_task
 from clamber.planning.problem.codes import MOVE, pack
 from clamber.planning.problem.plan import Plan
 from clamber.tasks import load_task
+from clamber.trials.work import open_work
 
 
 def load(*changes: str) -> WalkerTask:
@@ -36,13 +37,15 @@ def test_a_plan_that_violates_a_check_is_refused_with_the_step() -> None:
         lay_plan(task, plan)
 
 
-def test_climbs_are_none_of_a_walker() -> None:
-    assert open_planned_walk("ladder", None, ()) is None
-    assert open_planned_walk("ladder-hand", None, ()) is None
-    opened = open_planned_walk("terrace-walk", None, ("start.payload=1 kg",))
-    assert opened is not None and opened[0].start.payload == 1.0 and opened[1] is None
+def test_what_is_carried_out_is_opened_with_its_family() -> None:
+    assert open_work("ladder").family.name == "limbed"
+    climb = open_work("ladder-hand", None, ("plant.backlash=1deg",))
+    assert climb.plan is not None and climb.plant == ("backlash=1deg",)
+    opened = open_work("terrace-walk", None, ("start.payload=1 kg",))
+    assert opened.family.name == "walker" and opened.item.start.payload == 1.0 and opened.plan is None
+    assert open_work("level-walk").item.name == "level-walk"
     with pytest.raises(SpecError, match="--task"):
-        open_planned_walk("terrace-walk", "patch-walk", ())
+        open_work("terrace-walk", "patch-walk")
 
 
 @pytest.mark.slow

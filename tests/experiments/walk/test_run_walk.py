@@ -15,7 +15,7 @@ from clamber.families.walker.trials.noise import WALK_NOISE, named_walk_noise, r
 from clamber.families.walker.trials.run_walk import WalkRun, run_walk, walk_flaws
 from clamber.sim.plant_rules import PlantError
 from clamber.trials.noise import NoiseError
-from clamber.trials.plant_settings import split_settings
+from clamber.trials.work import split_settings
 from tiers import first_fast
 
 SHORT = "way.0.distance=15cm"

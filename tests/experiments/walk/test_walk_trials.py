@@ -12,11 +12,12 @@ from clamber.families.walker.planning import load_walk
 from clamber.families.walker.planning.task import WalkerTask
 from clamber.families.walker.trials.noise import WalkNoise, named_walk_noise
 from clamber.families.walker.trials.planned import careful
-from clamber.families.walker.trials.trials import WalkSetup, WalkTrial, WalkTrials, run_walk_trial, run_walk_trials
+from clamber.families.walker.trials.trials import WalkSetup, WalkTrial, WalkTrials, run_walk_trial
 from clamber.jobs import LocalProcesses, StoreError
 from clamber.planning.planners import plan_task
 from clamber.tasks import load_task
 from clamber.trials.intervals import wilson_interval
+from clamber.trials.trial_runs import run_trials
 
 SHORT = "way.0.distance=3cm"
 
@@ -44,9 +45,9 @@ def test_a_trial_is_the_same_again_by_its_seed() -> None:
 def test_trials_are_kept_and_taken_from_their_store(tmp_path: Path) -> None:
     setup, store = WalkSetup(load_walk("level-walk", [SHORT]), named_walk_noise("none")), tmp_path / "walks.db"
     crew = LocalProcesses(1)
-    one = run_walk_trials(setup, range(1), executor=crew, store=store)
+    one = run_trials(setup, range(1), executor=crew, store=store)
     told: list[int] = []
-    two = run_walk_trials(
+    two = run_trials(
         setup, range(2), executor=crew, store=store, resume=True, told=lambda trials: told.append(len(trials.ended))
     )  # fmt: skip
     assert [each.seed for each in two.ended] == [0, 1]
@@ -63,7 +64,7 @@ def test_a_plan_is_walked_by_every_seed_and_kept_in_the_store(tmp_path: Path) ->
     assert result.has_plan
     setup, store = WalkSetup(task, named_walk_noise("none"), (), result.plan, planned=True), tmp_path / "walks.db"
     assert setup.stored_plan(store) is None
-    trials = run_walk_trials(setup, range(2), executor=LocalProcesses(1), store=store)
+    trials = run_trials(setup, range(2), executor=LocalProcesses(1), store=store)
     assert [trial.done for trial in trials.ended] == [True, True], trials.ended
     assert all((trial.off or 1.0) < 5e-3 for trial in trials.ended)  # from where the plan ends
     asked_anew = replace(setup, plan=None)

@@ -11,7 +11,7 @@ from clamber.families.walker.pictures.walk_film import standing, way_poses
 from clamber.families.walker.planning import Walk, load_walk, walk_names
 from clamber.families.walker.planning.task import WalkerTask
 from clamber.tasks import Task, load_task
-from clamber.tasks.task_files import task_files
+from clamber.tasks.task_format import task_files
 from clamber.viewing.browser.exhibit import exhibit_of
 from clamber.viewing.browser.inputs import about
 

@@ -11,7 +11,7 @@ from matplotlib.ticker import FuncFormatter
 from ...viewing import style
 from ...viewing.output import drawing
 from ..contest import Contest, Truth
-from ..standing import Standing, ranking
+from ..tables import Standing, ranking
 
 LINES: Final = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)))
 """The first eight planners have colours of their own, the next ones the same colours in dashes."""

@@ -4,9 +4,9 @@ from typing import Annotated
 
 import typer
 
-from ..crew import EndsLine
-from ..option_holder import takes_options
-from ..output import announce_compilation, print_json, stderr, stdout
+from ...terminal.crew import EndsLine
+from ...terminal.option_holder import takes_options
+from ...terminal.output import announce_compilation, print_json, stderr, stdout
 from .options import BodyOptions, run_bench
 
 body = typer.Typer(help="Compare controls of a climber's body that two limbs hold.", no_args_is_help=True)

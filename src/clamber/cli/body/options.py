@@ -6,10 +6,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..limb.options import FlawsChoice
-from ..name_completion import names_of
-from ..options import AsJson, Output, Quiet
-from ..output import announce_compilation, check_writable, print_json, stdout
+from ...terminal.name_completion import names_of
+from ...terminal.options import AsJson, FlawsChoice, Output, Quiet
+from ...terminal.output import announce_compilation, check_writable, print_json, stdout
 
 if TYPE_CHECKING:
     from ...families.climber.trials.body_bench import BodyEntry

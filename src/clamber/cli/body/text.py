@@ -10,7 +10,7 @@ from ...families.climber.trials.body_bench import BodyRun
 from ...families.climber.trials.body_measures import BodyMeasures
 from ...families.climber.trials.body_scenario import BodyScenario
 from ...families.climber.trials.body_trials import PushTrial
-from ..output import plain_table
+from ...viewing.text_table import plain_table
 
 COLUMNS: Final = {
     "radial_rms": ("radial rms\nmm", 1e3, 2),

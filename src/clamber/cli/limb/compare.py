@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Annotated, Any, Final
 import typer
 from rich.console import Console
 
-from ..crew import EndsLine
-from ..option_holder import takes_options
-from ..output import announce_compilation, stderr
+from ...terminal.crew import EndsLine
+from ...terminal.option_holder import takes_options
+from ...terminal.output import announce_compilation, stderr
 from . import options as opt
 
 if TYPE_CHECKING:

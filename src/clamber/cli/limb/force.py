@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.console import Console
 
-from ..option_holder import takes_options
-from ..output import announce_compilation
+from ...terminal.option_holder import takes_options
+from ...terminal.output import announce_compilation
 from . import options as opt
 
 if TYPE_CHECKING:

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 import typer
 from rich.console import Console
 
+from ...terminal.name_completion import names_of
+from ...terminal.option_holder import takes_options
+from ...terminal.options import AsJson
+from ...terminal.output import announce_compilation, print_json, stdout
 from ...units import DEGREE
-from ..name_completion import names_of
-from ..option_holder import takes_options
-from ..options import AsJson
-from ..output import announce_compilation, print_json, stdout
 from . import options as opt
 
 if TYPE_CHECKING:

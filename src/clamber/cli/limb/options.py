@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 import typer
 from rich.console import Console
 
-from ..crew import CrewWords
-from ..name_completion import names_of
-from ..options import ROBOT, AsJson, Output, Quiet
-from ..output import check_writable, plain_table, print_json, stdout
+from ...terminal.crew import CrewWords
+from ...terminal.name_completion import names_of
+from ...terminal.options import ROBOT, AsJson, Flaws, FlawsChoice, Output, Quiet, Settings
+from ...terminal.output import check_writable, print_json, stdout
+from ...viewing.text_table import plain_table
 
 if TYPE_CHECKING:
     from ...limb_bench.bench_limb import BenchLimb
@@ -30,13 +31,6 @@ class MatchChoice(StrEnum):
     none = "none"
 
 
-class FlawsChoice(StrEnum):
-    """Sets of a plant's properties."""
-
-    ideal = "ideal"
-    nominal = "nominal"
-
-
 Matched: TypeAlias = Annotated[
     MatchChoice,
     typer.Option("--match", help="Which tip stiffness laws without gains of their own share with the reference."),
@@ -44,14 +38,6 @@ Matched: TypeAlias = Annotated[
 Robot: TypeAlias = Annotated[str, typer.Option(help="A climber's name or file.", autocompletion=names_of("robots"))]
 LimbName: TypeAlias = Annotated[str | None, typer.Option("--limb", help="Its limb, by name or from 1.")]
 Plant: TypeAlias = Annotated[str, typer.Option(help="What simulates the limb.", autocompletion=names_of("plants"))]
-Flaws: TypeAlias = Annotated[
-    FlawsChoice,
-    typer.Option("--flaws", help="nominal: backlash, rate and encoders of the robot's file, one sample of delay."),
-]
-Settings: TypeAlias = Annotated[
-    list[str] | None,
-    typer.Option("--set", metavar="KEY=VALUE", help="Change the plant, such as backlash=2deg or payload=0.3kg."),
-]
 Seed: TypeAlias = Annotated[
     int | None, typer.Option(min=0, help="Draw play, encoder phase, noise and model error (0 where they need one).")
 ]

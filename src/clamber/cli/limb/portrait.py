@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 from rich.console import Console
 
-from ..name_completion import names_of
-from ..option_holder import takes_options
-from ..options import ROBOT, AsJson, Quiet
-from ..output import announce_compilation, print_json, stdout
+from ...terminal.name_completion import names_of
+from ...terminal.option_holder import takes_options
+from ...terminal.options import ROBOT, AsJson, Quiet
+from ...terminal.output import announce_compilation, print_json, stdout
 from . import options as opt
 
 if TYPE_CHECKING:

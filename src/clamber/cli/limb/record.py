@@ -6,9 +6,9 @@ from typing import Annotated
 
 import typer
 
-from ..option_holder import takes_options
-from ..options import ROBOT, AsJson, Quiet
-from ..output import announce_compilation, check_writable, print_json, stdout
+from ...terminal.option_holder import takes_options
+from ...terminal.options import ROBOT, AsJson, Flaws, FlawsChoice, Quiet, Settings
+from ...terminal.output import announce_compilation, check_writable, print_json, stdout
 from . import options as opt
 
 
@@ -34,8 +34,8 @@ def record(
         Path, typer.Option("--output", "-o", metavar="FILE", help="The log to write (.csv, .mcap).")
     ] = Path("limb.csv"),
     robot: opt.Robot = ROBOT,
-    flaws: opt.Flaws = opt.FlawsChoice.nominal,
-    settings: opt.Settings = None,
+    flaws: Flaws = FlawsChoice.nominal,
+    settings: Settings = None,
     *,
     sensors: SensorWords,
     as_json: AsJson = False,

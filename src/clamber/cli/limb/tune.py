@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.console import Console
 
-from ..crew import CrewWords
-from ..name_completion import names_of
-from ..option_holder import takes_options
-from ..output import announce_compilation, check_writable
+from ...terminal.crew import CrewWords
+from ...terminal.name_completion import names_of
+from ...terminal.option_holder import takes_options
+from ...terminal.output import announce_compilation, check_writable
 from . import options as opt
 
 if TYPE_CHECKING:

@@ -4,10 +4,10 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from ..crew import EndsLine, executor_of
-from ..option_holder import takes_options
-from ..options import TaskName
-from ..output import announce_compilation, print_json, stderr, stdout
+from ...terminal.crew import EndsLine, executor_of
+from ...terminal.option_holder import takes_options
+from ...terminal.options import TaskName
+from ...terminal.output import announce_compilation, print_json, stderr, stdout
 from .options import PlanOptions
 
 if TYPE_CHECKING:

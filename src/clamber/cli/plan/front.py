@@ -7,9 +7,10 @@ from rich.console import Console
 from ...planning.exact.costs import read_costs
 from ...planning.exact.front import Front, plan_front
 from ...planning.exact.planner import MOST_STANCES
-from ...planning.problem.plan_families import plan_family
+from ...planning.problem.problems import plan_family
 from ...tasks import Task
-from ..output import plain_table, print_json, stderr, stdout
+from ...terminal.output import print_json, stderr, stdout
+from ...viewing.text_table import plain_table
 from .options import PlanOptions
 from .text import ProgressLine
 

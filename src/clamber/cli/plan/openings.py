@@ -9,11 +9,11 @@ from rich.console import Console
 
 from ...errors import SpecError, StartError
 from ...json_form import INLINE
-from ...planning.openings.find import find_openings
-from ...planning.openings.result import Openings, Places, shown
+from ...planning.openings.find import Openings, Places, find_openings, shown
 from ...planning.result import PlanResult
 from ...tasks import Task
-from ..output import plain_table, print_json, stderr, stdout
+from ...terminal.output import print_json, stderr, stdout
+from ...viewing.text_table import plain_table
 from .text import ProgressLine
 
 

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ..options import AsJson, Output, Overrides, PlannerName, Quiet, Ray, Workers
-from ..output import check_writable
+from ...terminal.options import AsJson, Output, Overrides, PlannerName, Quiet, Ray, Workers
+from ...terminal.output import check_writable
 
 if TYPE_CHECKING:
     from ...tasks import Task
@@ -74,9 +74,9 @@ class PlanOptions:
         Raises:
             BadParameter: If the planner does not take what was asked for.
         """
-        from ...planning.budgets import accepts
         from ...planning.exact.costs import read_costs
         from ...planning.learning import load_macros
+        from ...planning.planners import accepts
 
         usual = {
             "seed": self.seed, "seconds": self.seconds, "threads": self.threads,

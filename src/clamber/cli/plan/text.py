@@ -8,12 +8,12 @@ from rich.console import Console
 from ...planning.genetic.learning import Macro
 from ...planning.learning import Lesson
 from ...planning.problem.plan import Plan
-from ...planning.problem.plan_families import plan_family
+from ...planning.problem.problems import plan_family
 from ...planning.progress import Moment, progress_text
 from ...planning.result import Furthest, PlanResult
 from ...tasks import Task
-from ..live_line import LiveLine
-from ..output import print_indented
+from ...terminal.live_line import LiveLine
+from ...terminal.output import print_indented
 
 
 class ProgressLine(LiveLine):
@@ -30,7 +30,8 @@ def print_result(console: Console, result: PlanResult, output: Path | None) -> N
     if found:
         gap = "" if not result.gap else f", at most {result.gap} more than the shortest plan"
         console.print(f"{result.status}: {result.length} actions for '{result.plan.task}'{gap}", style="bold green")
-        console.print(_costs_text(result))
+        if costs := _costs_text(result):
+            console.print(costs)
     else:
         console.print(f"{result.status}: no plan for '{result.plan.task}'", style="bold red")
         console.print(result.reason)

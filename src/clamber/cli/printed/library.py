@@ -9,37 +9,23 @@ from pydantic import TypeAdapter, create_model
 from ...benchmarks.rows import Row
 from ...errors import UnknownNameError
 from ...exports.library import Exported
-from ...families.climber.execution.log_identify import Identification
-from ...families.climber.trials.body_measures import BodyContest
-from ...families.climber.trials.body_trials import PushTrial
-from ...families.climber.trials.lessons import LearnedPlan
-from ...families.climber.trials.press import Pressed
-from ...families.climber.trials.run_plan import ClimbRun
-from ...families.walker.robot.calibration import Rivals
-from ...families.walker.robot.ditch_plan import Crossing
-from ...families.walker.trials.cooperative.follow import FollowRun
-from ...families.walker.trials.most import MostOfWalk
-from ...families.walker.trials.run_walk import WalkRun
+from ...family import families
 from ...inspection.finding import Finding
 from ...planning.exact.front import Front
 from ...planning.learning import Lesson
-from ...planning.problem.posed import SizedInventory
+from ...planning.problem.problems import SizedInventory
 from ...planning.problem.verdict import CheckedPlan
 from ...planning.reach.reach import Reach
 from ...planning.result import PlanResult
 from ...planning.sweep import Sweep
 from ...studies.result import StudyResult
 from ...types import Json
-from ..catalogue import ENTRIES
-from ..ditch import WidestDitch
 from ..doctor_facts import Health
+from ..list import LISTED as KINDS_LISTED
 from ..new import NewRobot, NewTask
 from ..new_files import NewBoard
 from ..plan.openings import NoStart, Planned
-from ..plant import PlantAnswer, ServedPlant
 from ..show import Drawn
-from ..trials.climb import ClimbTrials, ReplayedTrial
-from ..trials.walk import PrintedWalkTrials
 from ..view import Opened, Saved
 from .limbs import Contest, Forces, LimbSweep, OpenLoop, Portraits, Recorded, Tuned
 from .schemas import STRICT, modelled
@@ -53,54 +39,51 @@ class Entry:
     title: str
 
 
-KINDS: Final[dict[str, Any]] = {kind: (modelled(list[Entry]), []) for kind in ENTRIES}
+KINDS: Final[dict[str, Any]] = {kind: (modelled(list[Entry]), []) for kind in KINDS_LISTED}
 LISTED: Final[Any] = create_model(
     "Listed", __config__=STRICT, __doc__="Names by kind; of one kind alone only that is there.", **KINDS
 )
-PRINTED: Final[dict[str, Any]] = {
+OURS: Final[dict[str, Any]] = {
     "list": LISTED,
     "plan": Planned | Front | NoStart,
     "polish": PlanResult,
-    "rehearse": LearnedPlan,
     "learn": Lesson,
     "inventory": SizedInventory,
     "check": CheckedPlan | Finding,
-    "run": ClimbRun | WalkRun,
-    "press": Pressed,
-    "follow": FollowRun,
-    "trials": ClimbTrials | PrintedWalkTrials | ReplayedTrial,
-    "most": MostOfWalk,
     "show": Drawn,
     "view": Opened | Saved,
     "export": Exported,
     "bench": list[Row],
     "sweep": Sweep,
     "reach": Reach,
-    "calibrate": list[Rivals],
-    "ditch": list[WidestDitch] | Crossing,
     "study": StudyResult | list[StudyResult],
     "doctor": Health,
     "new board": NewBoard,
     "new robot": NewRobot,
     "new task": NewTask,
-    "plant serve": ServedPlant,
-    "plant stop": PlantAnswer,
-    "plant release": PlantAnswer,
     "limb step": Contest,
     "limb circle": Contest,
     "limb push": Contest,
     "limb open-loop": OpenLoop,
     "limb record": Recorded,
-    "limb identify": Identification,
     "limb force": Forces,
     "limb portrait": Portraits,
     "limb sweep": LimbSweep,
     "limb tune": Tuned,
-    "body circle": BodyContest,
-    "body push-up": BodyContest,
-    "body push": BodyContest | dict[str, list[PushTrial]],
 }
-"""Words of a command after `clamber` -> what it prints."""
+"""Words of a command after `clamber` -> what it prints, whatever the robot."""
+
+
+def _with_families() -> dict[str, Any]:
+    found = dict(OURS)
+    for family in families():
+        for words, kind in family.printed.items():
+            found[words] = found[words] | kind if words in found else kind
+    return found
+
+
+PRINTED: Final = _with_families()
+"""The same with what families add."""
 DRAFT: Final = "https://json-schema.org/draft/2020-12/schema"
 
 

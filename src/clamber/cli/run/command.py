@@ -6,10 +6,9 @@ from typing import Annotated
 
 import typer
 
-from ..name_completion import names_of
-from ..option_holder import takes_options
+from ...terminal.name_completion import names_of
+from ...terminal.option_holder import takes_options
 from .options import RunOptions
-from .report import RunReport
 
 NOT_REPEATED = ("output", "save_plan", "report", "as_json", "quiet")
 """Options that change nothing of a run."""
@@ -58,26 +57,8 @@ def run(
     `--set plant.backlash=1deg` changes the plant, other keys the task; `--noise usual` lets the plant differ from what is believed
     (docs/climbing.md). A file of `-o` is a log (.mcap, .csv), an animation (.gif, .html, .mp4) or a picture (.png, .svg, .pdf).
     """
-    telling = RunReport(words.report, repeat_words(context, NOT_REPEATED))
     words.check()
-    from ...families.walker.planning import is_walk, walk_names
-    from ...planning.problem.plan_source import check_name
+    from ...trials.work import open_work
+    from .carried_out import carry_out
 
-    check_name(what, walk_names())
-    if is_walk(what):
-        from .walk import run_walk_file
-
-        run_walk_file(what, words, telling)
-        return
-    from ...families.walker.trials.planned import open_planned_walk
-    from ...trials.plant_settings import split_settings
-
-    planned = open_planned_walk(what, words.task, split_settings(words.overrides or ())[0])
-    if planned is not None:
-        from .planned_walk import run_planned_walk
-
-        run_planned_walk(what, *planned, words, telling)
-        return
-    from .climb import run_climb
-
-    run_climb(what, words, telling)
+    carry_out(open_work(what, words.task, words.overrides or ()), words, repeat_words(context, NOT_REPEATED))

@@ -7,8 +7,18 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..options import PLAN_SECONDS, AsJson, CarriedOutIn, NoiseTexts, Overrides, PlannerName, PlanSeconds, Quiet, Replan
-from ..output import check_writable
+from ...terminal.options import (
+    PLAN_SECONDS,
+    AsJson,
+    CarriedOutIn,
+    NoiseTexts,
+    Overrides,
+    PlannerName,
+    PlanSeconds,
+    Quiet,
+    Replan,
+)
+from ...terminal.output import check_writable
 
 if TYPE_CHECKING:
     from ...execution.log_stream import LogGap, WantedLog

@@ -4,9 +4,9 @@ from typing import Annotated
 
 import typer
 
-from ..crew import CrewWords
-from ..name_completion import names_of
-from ..option_holder import takes_options
+from ...terminal.crew import CrewWords
+from ...terminal.name_completion import names_of
+from ...terminal.option_holder import takes_options
 from .options import TrialsOptions
 
 
@@ -30,24 +30,8 @@ def trials(
     --noise friction=30%` leaves one of them. `-o` writes a picture (.png, .svg, .pdf), or with `--replay` what `clamber run` writes.
     """
     words.check()
-    from ...families.walker.planning import is_walk, walk_names
-    from ...planning.problem.plan_source import check_name
+    from ...trials.work import open_work
+    from .carried_out import try_out
 
-    check_name(what, walk_names())
-    if is_walk(what):
-        from .walk import walk_trials_of
-
-        walk_trials_of(what, asked, words)
-        return
-    from ...families.walker.trials.planned import open_planned_walk
-    from ...trials.plant_settings import split_settings
-
-    planned = open_planned_walk(what, asked.task, split_settings(asked.overrides or ())[0])
-    if planned is not None:
-        from .walk import planned_walk_trials_of
-
-        planned_walk_trials_of(what, *planned, asked, words)
-        return
-    from .climb import climb_trials_of
-
-    climb_trials_of(what, asked, words)
+    asked.check()
+    try_out(open_work(what, asked.task, asked.overrides or ()), asked, words)

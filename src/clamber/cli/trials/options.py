@@ -5,7 +5,16 @@ from typing import Annotated
 
 import typer
 
-from ..options import PLAN_SECONDS, CarriedOutIn, Faults, NoiseTexts, Overrides, PlannerName, PlanSeconds, Replan
+from ...terminal.options import (
+    PLAN_SECONDS,
+    CarriedOutIn,
+    Faults,
+    NoiseTexts,
+    Overrides,
+    PlannerName,
+    PlanSeconds,
+    Replan,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,7 +25,7 @@ class TrialsOptions:
     seed: Annotated[
         int,
         typer.Option(
-            min=0, help="Of the first climb; each further one has the next. From 1000002000 on: held out, for rates."
+            min=0, help="Of the first climb; each further one has the next. From 1000003000 on: held out, for rates."
         ),
     ] = 0
     noise: NoiseTexts = None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from ...family import Family
@@ -12,12 +13,12 @@ if TYPE_CHECKING:
     from ...exports.joint_trajectory import Trajectories
     from ...inspection.finding import Inspection
     from ...planning.openings.relaxations import Relaxation
-    from ...planning.problem.plan import Plan
-    from ...planning.problem.plan_families import PlanFamily
+    from ...planning.problem.check import Check
     from ...planning.problem.plan_source import OpenedPlan
+    from ...planning.problem.problems import PlanFamily
     from ...sim.lone_robot import JointBounds
     from ...tasks.task_format import TaskFormat
-    from ...trials.run_request import RunRequest
+    from ...trials.dynamics import Dynamics
     from ...viewing.browser.exhibit import Scenes
     from ...viewing.pictures import Pictures
 
@@ -28,6 +29,13 @@ class Climber(Family):
     name = "limbed"
     title = "limbed climber"
     data = Path(__file__).parent / "data"
+    commands = MappingProxyType(
+        {
+            "rehearse": "clamber.families.climber.cli.rehearse:rehearse",
+            "press": "clamber.families.climber.cli.press:press",
+        }
+    )
+    groups = MappingProxyType({"plant": "clamber.families.climber.cli.plant:plant"})
 
     @property
     def files(self) -> TaskFormat:
@@ -35,6 +43,13 @@ class Climber(Family):
         from .planning.task_file import FILES
 
         return FILES
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Of its stances."""
+        from .statics.checks import LIMBED_CHECKS
+
+        return LIMBED_CHECKS
 
     @property
     def plans(self) -> PlanFamily:
@@ -93,11 +108,18 @@ class Climber(Family):
         return INSPECTION
 
     @property
-    def carry_out(self) -> Callable[[Any, Plan | None, RunRequest], Any]:
-        """Runs in contact dynamics."""
-        from .trials.carry_out import carry_out_climb
+    def printed(self) -> Mapping[str, Any]:
+        """Runs, trials, benches and plants."""
+        from .printed import PRINTED
 
-        return carry_out_climb
+        return PRINTED
+
+    @property
+    def dynamics(self) -> Dynamics:
+        """Runs and trials in contact dynamics."""
+        from .dynamics import DYNAMICS
+
+        return DYNAMICS
 
     @property
     def model(self) -> Callable[[Any], tuple[Any, Mapping[str, JointBounds]]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from ...family import Family
@@ -12,11 +13,11 @@ if TYPE_CHECKING:
     from ...exports.joint_trajectory import Trajectories
     from ...inspection.finding import Inspection
     from ...planning.openings.relaxations import Relaxation
-    from ...planning.problem.plan import Plan
-    from ...planning.problem.plan_families import PlanFamily
+    from ...planning.problem.check import Check
+    from ...planning.problem.problems import PlanFamily
     from ...sim.lone_robot import JointBounds
     from ...tasks.task_format import TaskFormat
-    from ...trials.run_request import RunRequest
+    from ...trials.dynamics import Dynamics
     from ...viewing.browser.exhibit import Scenes
     from ...viewing.pictures import Pictures
 
@@ -27,6 +28,9 @@ class Walker(Family):
     name = "walker"
     title = "two-frame walker"
     data = Path(__file__).parent / "data"
+    commands = MappingProxyType(
+        {name: f"clamber.families.walker.cli.{name}:{name}" for name in ("follow", "most", "calibrate", "ditch")}
+    )
 
     @property
     def files(self) -> TaskFormat:
@@ -34,6 +38,13 @@ class Walker(Family):
         from .planning.task import FILES
 
         return FILES
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Of its stances."""
+        from .statics.checks import WALKER_CHECKS
+
+        return WALKER_CHECKS
 
     @property
     def plans(self) -> PlanFamily:
@@ -78,11 +89,18 @@ class Walker(Family):
         return INSPECTION
 
     @property
-    def carry_out(self) -> Callable[[Any, Plan | None, RunRequest], Any]:
-        """Runs in contact dynamics."""
-        from .trials.carry_out import carry_out_walk
+    def printed(self) -> Mapping[str, Any]:
+        """Runs, trials and crossings."""
+        from .printed import PRINTED
 
-        return carry_out_walk
+        return PRINTED
+
+    @property
+    def dynamics(self) -> Dynamics:
+        """Runs and trials in contact dynamics."""
+        from .dynamics import DYNAMICS
+
+        return DYNAMICS
 
     def other_work(self, name_or_path: str, overrides: Sequence[str] = ()) -> Any | None:
         """Walks."""
@@ -91,7 +109,7 @@ class Walker(Family):
         return load_walk(name_or_path, overrides) if is_walk(name_or_path) else None
 
     def other_names(self) -> tuple[str, ...]:
-        """Names of walks."""
+        """Walks."""
         from .planning import walk_names
 
         return walk_names()

@@ -6,7 +6,7 @@ from typing import Final
 
 from ...errors import ClamberError, describe_choices
 from ...tasks import Task
-from ..problem.plan_families import plan_family
+from ..problem.problems import plan_family
 
 COSTS: Final = {"length": "length", "energy": "effort", "time": "effort", "torque": "peak", "strain": "peak"}
 """Cost -> the feature that counts it. Every family has the length, one cost that adds up, one that is a largest value."""

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...types import Ints
 from ..problem.problem import CompiledProblem
-from ..stance_table import rehash
+from ..stance_table import rehash, table_size
 from .costs import COSTS, Aim
 from .kernels import explore_some, furthest, plant
 from .records import EXHAUSTED, FOUND, FULL, LABEL, NEAREST, NEWEST, NODE, RUNNING, SEARCH, SHORTEST, STATE
@@ -38,7 +38,7 @@ class Memory:
         self.table = self._table()
 
     def _table(self) -> Ints:
-        table = np.full(1 << int(np.ceil(np.log2(2 * len(self.keys)))), -1, np.int32)
+        table = np.full(table_size(len(self.keys)), -1, np.int32)
         rehash(self.keys, int(self.state["nodes"][0]), table)
         return table
 

@@ -11,9 +11,7 @@ from ...files import write_atomically
 from ...json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ...tasks import Task
 from ..problem.plan import Plan
-from ..problem.plan_costs import spent
-from ..problem.plan_families import plan_family
-from ..problem.planned import PlannedAction
+from ..problem.problems import PlannedAction, plan_family, spent
 from ..progress import Exploring, Listener
 from .costs import COSTS, Aim, check_costs
 from .explore import Exploration, Way, inform

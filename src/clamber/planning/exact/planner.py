@@ -6,10 +6,8 @@ from collections.abc import Sequence
 from ...errors import PlannerError
 from ...tasks import Task
 from ..problem.plan import Plan
-from ..problem.plan_costs import spent
-from ..problem.plan_families import plan_family
 from ..problem.problem import CompiledProblem
-from ..problem.problems import pose_problem
+from ..problem.problems import plan_family, pose_problem, spent
 from ..progress import Exploring, Listener
 from ..result import PlanResult, Status, furthest_of
 from .costs import COSTS, check_costs, describe_order

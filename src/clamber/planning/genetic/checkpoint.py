@@ -15,9 +15,8 @@ from ...jobs.release import difference, release
 from ...regular_files import is_there
 from ...specs import build_spec, spec
 from ..problem.problem import MAX_FEATURES, ROLLOUT, CompiledProblem
-from .evolve import Evolution, Generation, Genes, Population
+from .evolve import Evolution, Generation, Genes, Population, explicit_problem
 from .learning import Macro
-from .polish import explicit_problem
 
 SCHEMA: Final = "clamber-checkpoint-1"
 MOST: Final = 64 * 1024 * 1024

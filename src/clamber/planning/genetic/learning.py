@@ -7,8 +7,8 @@ import numpy as np
 from pydantic import Field, StrictInt
 
 from ...specs import spec
+from ..problem.arrays import ActionTable
 from ..problem.problem import CompiledProblem, Records
-from ..problem.table import ActionTable
 from .evolve import Evolution, Genes
 
 Count = Annotated[int, Field(strict=True, ge=0, lt=2**62)]

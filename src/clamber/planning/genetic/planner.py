@@ -7,14 +7,12 @@ from pathlib import Path
 import numpy as np
 
 from ...tasks import Task
-from ..exact.windows import Shortened
+from ..problem.arrays import ActionTable
 from ..problem.plan import Plan
-from ..problem.plan_families import plan_family
-from ..problem.problems import last_goal_only, pose_problem
-from ..problem.table import ActionTable
+from ..problem.problems import last_goal_only, plan_family, pose_problem
 from ..progress import Listener
 from ..result import PlanResult, furthest_of
-from ..shorten import shorten
+from ..shorten import Shortened, shorten
 from .evolve import Genes
 from .learning import Macro
 from .profile import Profile, load_profile

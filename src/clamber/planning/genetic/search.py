@@ -13,16 +13,20 @@ from ..problem.problem import CompiledProblem
 from ..progress import Listener
 from .checkpoint import Keeper, Run, with_macros
 from .evolve import (
+    BATCH,
+    PATIENCE,
     Evolution,
     Generation,
     Genes,
+    explicit_problem,
     first_generation,
     next_generation,
     out_of_time,
+    polish,
+    spell_to_goal,
     tell,
 )
 from .learning import Macro, learn_while_searching
-from .polish import BATCH, PATIENCE, explicit_problem, polish, spell_to_goal
 from .profile import Profile
 
 LEARN_EVERY: Final = 10

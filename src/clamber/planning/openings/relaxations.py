@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
-from .result import Opening, Shut, shown
+from .find import Opening, Shut, shown
 from .trial import Answer, Trial
 
 

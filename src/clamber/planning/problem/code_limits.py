@@ -10,8 +10,8 @@ import numpy.typing as npt
 
 from ...errors import SpecError
 from ...types import Ints
+from .arrays import ActionTable
 from .codes import ARGUMENT_BITS, ARGUMENT_MASK, KINDS, LIMB_BITS, LIMB_MASK
-from .table import ActionTable
 
 
 @dataclass(frozen=True)

@@ -6,11 +6,13 @@ time and the machine code is cached on disk
 """
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 from numba import from_dtype, types
 from numba.extending import overload
+
+from ...kernel_cache import made_outside
 
 SCALARS = (
     "step",
@@ -28,19 +30,46 @@ SCALARS = (
     "aims",
     "burden",
 )
-FAMILIES: dict[types.Type, dict[str, Any]] = {}
+FAMILIES: dict[types.Type, dict[str, Callable[..., Any]]] = {}
+
+
+def _no_other(p, s, which, t):  # type: ignore[no-untyped-def]
+    return False
+
+
+def _no_mirror(p, s, t):  # type: ignore[no-untyped-def]
+    return False
+
+
+def _no_bound(p, s, t):  # type: ignore[no-untyped-def]
+    return 0.0
+
+
+def _no_burden(p, s, spare, margins, row):  # type: ignore[no-untyped-def]
+    pass
+
+
+PLAIN: Final[dict[str, Callable[..., Any]]] = {
+    "freer": _no_other,
+    "reflect": _no_mirror,
+    "toward": _no_bound,
+    "burden": _no_burden,
+}
+"""Kernels that a family may do without: nothing is known that would make searches shorter, and being somewhere costs nothing."""
 
 
 def family_kernels(params: np.dtype[np.void], **kernels: Any) -> None:
-    """Register a family: the record type of its parameters and its scalar kernels, one for each of `SCALARS`."""
-    wrong = set(SCALARS) ^ set(kernels)
+    """Register a family: the record type of its parameters and its scalar kernels, one for each of `SCALARS` but those in `PLAIN`."""
+    wrong = (set(SCALARS) - set(PLAIN) - set(kernels)) | (set(kernels) - set(SCALARS))
     assert not wrong, f"kernels {sorted(wrong)} missing or unknown"
-    FAMILIES[from_dtype(params)] = kernels
+    kind = from_dtype(params)
+    FAMILIES[kind] = {**PLAIN, **{name: each.py_func for name, each in kernels.items()}}
+    made_outside(kind, kernels.values())
 
 
 def _chosen(name: str, params: types.Type) -> Callable[..., Any]:
     assert params in FAMILIES, f"no family has parameters of type {params}"
-    return FAMILIES[params][name].py_func  # type: ignore[no-any-return]
+    return FAMILIES[params][name]
 
 
 def step(p, before, code, after, margins):  # type: ignore[no-untyped-def]
@@ -54,7 +83,7 @@ def candidates(p, s, codes):  # type: ignore[no-untyped-def]
 
 
 def key(p, s, words):  # type: ignore[no-untyped-def]
-    """Write the integers that stances with equal futures share."""
+    """Write the integers that stances with equal futures share; the first three are x, y and angle of the body, `TICKS` for each step."""
     raise TypeError("called from kernels only")
 
 

@@ -13,9 +13,9 @@ from ...files import Document, check_schema, parse_json, read_text, write_atomic
 from ...specs import build_spec, spec
 from ...tasks import Task, task_from_document
 from ...types import Ints, Json
-from .plan_families import plan_family
-from .planned import ActionError as ActionError
-from .planned import PlannedAction as PlannedAction
+from .problems import ActionError as ActionError
+from .problems import PlannedAction as PlannedAction
+from .problems import plan_family
 
 SCHEMA: Final = "clamber-plan-1"
 

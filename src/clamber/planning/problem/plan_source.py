@@ -15,8 +15,8 @@ from ...tasks.overrides import apply_overrides
 from ...tasks.robots import family_in, shipped
 from ...types import Ints
 from .plan import Plan, load_plan
-from .plan_families import plan_family
 from .problem import Replay
+from .problems import plan_family
 from .verdict import Verdict, check_plan
 
 
@@ -112,11 +112,8 @@ def open_replay(name_or_path: str, task: str | None = None, overrides: Sequence[
 
 
 def _open_printed(path: Path, name: str | None, overrides: tuple[str, ...]) -> OpenedPlan:
-    opened = next(family.printed_plan for family in families() if family.printed_plan is not None)(
-        path, name, overrides
-    )
-    assert isinstance(opened, OpenedPlan)
-    return opened
+    read = next(family.printed_plan for family in families() if family.printed_plan is not None)
+    return read(path, name, overrides)
 
 
 def _changed(task: Task, overrides: Sequence[str], label: str) -> Task:

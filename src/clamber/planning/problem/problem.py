@@ -12,12 +12,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ...errors import SpecError
-from .children import Children, Sprouts
+from .arrays import ActionTable, Children, Params, Sprouts, WayFields
 from .code_limits import CodeLimits, indices
 from .loops import expand, features_of, follow, possible, replay, rollout, sprout
-from .params import Params
-from .table import ActionTable
-from .ways import WayFields
 
 MAX_FEATURES = 8
 PIECES = 8

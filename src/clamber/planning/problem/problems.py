@@ -1,12 +1,238 @@
-"""From a task to the problem that planners work on."""
+"""From a task to its problem: what a family of robots says of its tasks, and how its plans are named, costed and measured."""
 
-from dataclasses import replace
-from typing import Any
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Annotated, Any, ClassVar, Final, Literal
+
+import numpy as np
+from pydantic import Field, StrictStr
 
 from ...family import family_of
+from ...json_form import Count, Jsonable, in_json
+from ...specs import spec
 from ...tasks import Task
+from ...types import Ints
+from .check import Check
 from .code_limits import CodeLimits
-from .posed import Posed
+from .problem import CompiledProblem, Records
+
+Finite = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+
+
+@spec
+class PlannedAction(Jsonable):
+    """What the robot is told to do in one step, every choice made."""
+
+    kind: Literal["none", "move", "release", "grab"]
+    limb: StrictStr | None = None
+    """Name of the limb or frame; None where the action has none."""
+    hold: Annotated[int, Field(strict=True, ge=1)] | None = None
+    """Number of the hold that a grab takes; None for a grab that found no hold."""
+    delta: tuple[Finite, Finite, Finite] | None = None
+    """A move's change of x [m], y [m] and angle [rad], world frame."""
+    code: Annotated[int, Field(strict=True, ge=0)] | None = None
+    """The thesis's number (0, 1..6, N00, NXX) with the hold that was taken; None where it has no number for this."""
+    gene: StrictStr | None = None
+    """What the action was before its hold was chosen, such as "192" or "nearest 2"."""
+
+    @property
+    def title(self) -> str:
+        """The action in a few words, for tables and messages."""
+        if self.kind == "none":
+            return "none"
+        if self.kind == "move" and self.delta is not None:
+            axes = zip(("x", "y", "theta"), self.delta, strict=True)
+            way = " ".join(f"{'+' if part > 0 else '-'}{axis}" for axis, part in axes if part)
+            return f"{self.limb} {way}" if self.limb else way
+        if self.kind == "grab":
+            return f"{self.limb} grabs {self.gene or 'no hold' if self.hold is None else self.hold}"
+        return f"{self.limb} releases"
+
+
+class ActionError(Exception):
+    """A planned action is none that the task's robot has; whoever knows the file turns it into a `SpecError`."""
+
+    def __init__(self, key: str, allowed: str) -> None:
+        super().__init__(key, allowed)
+        self.key, self.allowed = key, allowed
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlanCost:
+    """A cost, and the feature that counts it."""
+
+    feature: str
+    """"effort" adds up over actions; "peak" is the largest of any stance, the start included."""
+    title: str
+    size: float = 1.0
+    """The cost per unit of the feature, in the cost's SI unit."""
+    unit: str
+    """What people read it in."""
+    per_unit: float = 1.0
+    """One of that in the cost's SI unit."""
+    digits: int = 1
+    """Behind the point."""
+
+    def words(self, value: float) -> str:
+        """The cost of a plan, told: title, number, unit."""
+        return f"{self.title} {value / self.per_unit:.{self.digits}f}{f' {self.unit}' if self.unit else ''}"
+
+
+def spent(problem: CompiledProblem, costs: Mapping[str, PlanCost], stances: Records) -> dict[str, float]:
+    """Each cost of a plan, in its SI unit.
+
+    Args:
+        problem: The plan's problem.
+        costs: Name of the cost -> the cost.
+        stances: The plan's stances, the start first.
+    """
+    features = problem.measured(stances)
+    out = {}
+    for name, cost in costs.items():
+        column = features[:, problem.features.index(cost.feature)]
+        out[name] = cost.size * float(column.max() if cost.feature == "peak" else column[1:].sum())
+    return out
+
+
+@dataclass(frozen=True, slots=True)
+class Dropped:
+    """Modules that a filter left out."""
+
+    filter: str
+    reason: str
+    names: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Posed:
+    """A task as a problem, and what its inventory's filters did."""
+
+    problem: CompiledProblem
+    full_size: int
+    """Modules of the unfiltered inventory."""
+    dropped: tuple[Dropped, ...] = ()
+
+    def sized(self, length: int) -> "SizedInventory":
+        """The inventory with the size of the search for plans of `length` actions."""
+        names = tuple(self.problem.actions.names)
+        return SizedInventory(len(names), self.full_size, names, self.dropped, length)
+
+
+@dataclass(frozen=True, slots=True)
+class SizedInventory(Jsonable):
+    """The modules that a plan can be made of, and the search sizes D = N^m (thesis 2.2.1)."""
+
+    modules: Count
+    full_size: Count
+    """Before the filters."""
+    names: tuple[str, ...]
+    dropped: tuple[Dropped, ...]
+    length: Count
+    """Actions of a plan, for the size of the search."""
+
+    @property
+    @in_json()
+    def log10_before(self) -> float:
+        """Logarithm of how many plans of that length there are before the filters."""
+        return self.length * math.log10(self.full_size)
+
+    @property
+    @in_json()
+    def log10_after(self) -> float:
+        """The same after them."""
+        return self.length * math.log10(self.modules)
+
+
+class PlanFamily(ABC):
+    """How plans of one family are named, replayed and reported; tasks and stances are the family's own."""
+
+    checks: ClassVar[tuple[Check, ...]]
+    """In the order of a replay's margins."""
+    burdens: ClassVar[tuple[str, ...]] = ()
+    """What can be told of being in a stance, each with its unit at the end."""
+
+    @abstractmethod
+    def posed(self, task: Any, threads: int | None, filters: bool) -> Posed:
+        """The task as a problem with the hard checks alone, its inventory filtered if asked for."""
+
+    @abstractmethod
+    def limits(self, task: Any) -> CodeLimits:
+        """The codes that are actions of a task, and the indices that its stances may have."""
+
+    def without_hangs(self, task: Any) -> Any:
+        """The same task with no hangs allowed; most families have none."""
+        return task
+
+    @abstractmethod
+    def sizes(self, task: Any) -> Mapping[str, float]:
+        """Check -> the size that its margin is a share of, in its own unit; counts have none, for they are never tight."""
+
+    @abstractmethod
+    def problem(self, task: Any) -> CompiledProblem:
+        """The task with every check evaluated, for replays."""
+
+    @abstractmethod
+    def hard(self, task: Any) -> tuple[str, ...]:
+        """Names of the checks that forbid an action."""
+
+    @abstractmethod
+    def action(self, task: Any, code: int, after: np.void, gene: str | None) -> PlannedAction:
+        """A packed code as a named action, its hold read from the stance that it led to."""
+
+    @abstractmethod
+    def code(self, task: Any, action: PlannedAction) -> int:
+        """The packed code of a named action; raises `ActionError` where the task has no such action."""
+
+    @abstractmethod
+    def module(self, task: Any, code: int) -> str:
+        """Name of a packed code as a module of the inventory."""
+
+    @abstractmethod
+    def pose(self, stance: np.void) -> tuple[float, float, float]:
+        """Place [m] and angle [rad] of the body, world frame."""
+
+    def holds(self, task: Any, stance: np.void) -> dict[str, int]:
+        """Limb name -> number of its hold, 0 if it is free; empty where nothing is held."""
+        return {}
+
+    def taken(self, task: Any, stance: np.void) -> int | None:
+        """Number of the hold that the last action took, None if it took none."""
+        return None
+
+    def model(self, task: Any) -> str:
+        """The rules that a proof about a task holds for."""
+        return f"hard checks {', '.join(self.hard(task))}"
+
+    def costs(self, task: Any) -> Mapping[str, PlanCost]:
+        """What a plan may be asked to have little of, beside its actions: name -> cost; one adds up, one is a largest value."""
+        return {}
+
+    def power(self, stance: np.void) -> float:
+        """Power that holding the stance takes [W]; 0 in models without forces."""
+        return 0.0
+
+    def duration(self, task: Any) -> float:
+        """Time that one action takes [s], for its energy; 0 in models without forces."""
+        return 0.0
+
+    def torque(self, stance: np.void) -> float:
+        """Largest joint torque [N m]; 0 in models without forces."""
+        return 0.0
+
+    def nearest(self, task: Any, problem: CompiledProblem, stances: Records, asked: Ints) -> list[int | None]:
+        """What each "nearest" among the codes `asked` takes from the stance before it: hold numbers, shape (n,)."""
+        return [None] * len(asked)
+
+    def goals_met(self, stance: np.void) -> int:
+        """Goals met, in order."""
+        return int(stance["stage"])
+
+
+def plan_family(task: Task) -> PlanFamily:
+    """How plans of a task's family are named, replayed and reported."""
+    return family_of(task).plans
 
 
 def code_limits(task: Task) -> CodeLimits:
@@ -43,3 +269,25 @@ def pose_problem(task: Task, *, threads: int | None = None, filters: bool = True
         filters: Whether the inventory's filters are applied.
     """
     return family_of(task).plans.posed(task, threads, filters)
+
+
+NOTHING_LIMITS: Final = 1e8
+"""Larger margins mean that nothing limits."""
+
+
+@dataclass(frozen=True, slots=True)
+class Yardsticks:
+    """What a task's margins are measured against."""
+
+    checks: tuple[Check, ...]
+    """In the order of a replay's margins."""
+    hard: tuple[str, ...]
+    """Names of the checks that forbid an action."""
+    sizes: Mapping[str, float]
+    """Check -> the size that its margin is a share of, in its own unit; counts have none, for they are never tight."""
+
+
+def yardsticks_of(task: Task) -> Yardsticks:
+    """The yardsticks of a task."""
+    plans = family_of(task).plans
+    return Yardsticks(plans.checks, plans.hard(task), plans.sizes(task))

@@ -1,22 +1,119 @@
-"""The verdict on a plan: carried out again action by action, every check of every step, and the first violation."""
+"""The verdict on a plan: carried out again action by action, every check of every step, those of other packages, the first violation."""
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Annotated, Literal
+from typing import Annotated, Literal, TypeAlias
 
 import numpy as np
 
+from ...extensions import ExtensionError, blamed, failure, load_outside, outside
 from ...json_form import HIDDEN, INLINE, Count, Jsonable, Key, in_json
 from ...tasks import Task
 from ...types import Ints
 from ...units import DEGREE, INCH, OZ_IN
 from .check import TOLERANCE, UNLIMITED, Check
-from .outside_checks import judge_outside
 from .plan import Plan
-from .plan_families import PlanFamily, plan_family
-from .planned import PlannedAction
 from .problem import Replay
-from .step_verdict import StepVerdict
+from .problems import PlanFamily, PlannedAction, plan_family
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StepVerdict(Jsonable):
+    """One step of a plan and what the checks say of it."""
+
+    step: int
+    """From 1."""
+    action: Annotated[PlannedAction, HIDDEN]
+    asked: Annotated[int | str, Key("action")]
+    """The action as its file has it: the thesis's number where there is one, else in words."""
+    ok: bool
+    """Whether every hard check holds."""
+    check: str | None
+    """The first violated hard check."""
+    reason: str | None
+    """The same in words, with the amount."""
+    hold: int | None
+    """Number of the hold that was taken."""
+    nearest: int | None
+    """Number of the hold that "nearest" takes here, where the plan's file asks for that and prints the hold taken."""
+    max_torque: Annotated[float | None, Key("max_torque_oz_in", per=OZ_IN)]
+    """Largest joint torque; None where it could not be had."""
+    power: Annotated[float | None, Key("power_W")]
+    """Electrical power that holding the stance takes; None where it could not be had."""
+    reported: tuple[str, ...]
+    """Violated checks that only report."""
+    margins: dict[str, float | None]
+    """Check -> signed margin in its own unit (SI); None where nothing limits it or it could not be had."""
+    pose: Annotated[tuple[float, float, float], HIDDEN]
+    """Body afterwards, world frame [m, m, rad]."""
+    holds: Annotated[dict[str, int], HIDDEN]
+    """Limb -> hold afterwards, 0 if free."""
+
+
+MarginOf: TypeAlias = Callable[[Task, StepVerdict], float | None]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OutsideCheck:
+    """A check of another package, named by its entry point in the group `clamber.checks`."""
+
+    unit: str
+    """SI unit of its margin; "1" for a count."""
+    meaning: str
+    """What the margin says, in one line."""
+    margin: MarginOf
+    """Of a task and a step of a plan: the signed margin, positive holds; None where nothing limits it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Judged:
+    """What the checks of other packages say of a plan."""
+
+    checks: tuple[Check, ...]
+    rows: tuple[dict[str, float | None], ...]
+    """For each step: check -> margin."""
+    notes: tuple[str, ...]
+    """Which of them could not be had, and why."""
+
+
+def judge_outside(task: Task, steps: Sequence[StepVerdict], taken: Sequence[str]) -> Judged:
+    """The margins of every check that other packages add, for each step; one that fails is a note and no error.
+
+    Args:
+        task: What is planned.
+        steps: As our own checks have judged them.
+        taken: Names of our own checks.
+    """
+    checks: list[Check] = []
+    rows: list[dict[str, float | None]] = [{} for _ in steps]
+    notes: list[str] = []
+    for name in outside("checks"):
+        try:
+            if name in taken:
+                raise failure("checks", name, "has the name of one of Clamber's own checks")
+            check = _loaded(name)
+            margins = [_margin(name, check, task, step) for step in steps]
+        except ExtensionError as error:
+            notes.append(f"a check was left out: {error}")
+            continue
+        checks.append(Check(name, check.unit, check.meaning))
+        for row, margin in zip(rows, margins, strict=True):
+            row[name] = margin
+    return Judged(tuple(checks), tuple(rows), tuple(notes))
+
+
+def _loaded(name: str) -> OutsideCheck:
+    check = load_outside("checks", name)
+    if not isinstance(check, OutsideCheck):
+        raise failure("checks", name, f"is a {type(check).__name__}; it must be a clamber.OutsideCheck")
+    return check
+
+
+def _margin(name: str, check: OutsideCheck, task: Task, step: StepVerdict) -> float | None:
+    with blamed("checks", name):
+        margin = check.margin(task, step)
+        return None if margin is None or math.isnan(margin) else float(margin)
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,8 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ..problem.problem import CompiledProblem, Records
-from ..problem.yardsticks import Yardsticks
-from ..stance_table import rehash
+from ..problem.problems import Yardsticks
+from ..stance_table import rehash, table_size
 from .kernels import POSE, POSES, STANCES, WEIGHED, absorb, note, note_tries, plant, spread, weigh
 
 FIRST: Final = 1 << 14
@@ -38,7 +38,7 @@ class Store:
             rows = np.zeros(capacity, self.rows.dtype)
             rows[:used] = self.rows[:used]
             self.rows = rows
-        self.table = np.full(1 << int(np.ceil(np.log2(2 * capacity))), -1, np.int32)
+        self.table = np.full(table_size(capacity), -1, np.int32)
         rehash(self.keys, used, self.table)
 
 

@@ -8,7 +8,7 @@ from ...compiled import inlined, kernel
 from ..problem.check import TICKS
 from ..problem.codes import MOVE, NONE, pack_code, unpack
 from ..problem.family_kernels import aims, burden, candidates, key, restore, spot, step
-from ..problem.yardsticks import NOTHING_LIMITS
+from ..problem.problems import NOTHING_LIMITS
 from ..stance_table import slot_of
 
 STANCES, WEIGHED, POSES = 0, 1, 2

@@ -14,10 +14,9 @@ from ...families.climber.execution.postures import postures
 from ...types import Floats
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
-from . import MILLI, PAPER
+from . import MILLI
 from .body_entries import PEG_ERROR
-from .hook_check import PLANS
-from .replayed import INFERRED, Replayed, replay_printed
+from .printed_plans import INFERRED, PLANS, Replayed, replay_printed
 
 PLAY: Final = 1.0 * DEGREE
 """Half the printed backlash: where in its play each joint is, either way [rad]."""
@@ -69,8 +68,6 @@ def find_poses() -> StudyResult:
             for plan, held in found.items()}  # fmt: skip
     everything = [one for held in found.values() for one in held]
     return StudyResult(
-        paper=PAPER,
-        result="section-4-4-3",
         claim="Section 4.4.3: with two legs on known pegs the body's place follows from the first, its angle from turning the body about "
         "that peg, from zero, until the second leg is as high as its peg.",
         verdict=judged(exact, ratio),

@@ -19,10 +19,10 @@ from ...planning.problem.plan import Plan
 from ...types import Floats
 from ...units import INCH
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
-from . import MILLI, PAPER
+from . import MILLI
 from .body_entries import OURS, OWN, PLANT, SCCT, TABLE_4_1
 from .nominal_gait import GAIT
-from .replayed import limbed_task
+from .printed_plans import limbed_task
 
 RUNGS: Final = 2
 PRINTED: Final = f"{SCCT}, Table 4.1, limit of 4.4.2"
@@ -215,8 +215,6 @@ def show_gait() -> StudyResult:
         for a in run.report.actions
     ]
     return StudyResult(
-        paper=PAPER,
-        result="fig-4-15",
         claim="Figure 4.15, section 4.5: LIBRA climbs by the gait 191, 392, 291, 300, 3 of the action module planner; leg 3 switches "
         "its elbow as it changes sides, and follows the body once it has let go.",
         verdict=judge_gait(facts),
@@ -279,8 +277,6 @@ def climb_two_steps() -> StudyResult:
         for title, sway in one.sways.items()
     ]
     return StudyResult(
-        paper=PAPER,
-        result="fig-4-16",
         claim="Figure 4.16, section 4.5: over two steps of the ladder the body follows its path; where it is to hold still there are "
         "errors as legs pull away from pegs and grab new ones, for the body is compliant so that hooks never leave the pegs.",
         verdict=judge_steps(facts),

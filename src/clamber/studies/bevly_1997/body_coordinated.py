@@ -14,7 +14,7 @@ from ...families.climber.trials.body_scenario import push
 from ...families.climber.trials.body_stand import BodyStand, bench_flaws, ladder_stand
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
-from . import MILLI, PAPER
+from . import MILLI
 from .body_entries import EARLIER, PEG_ERROR, PLANT, SCCT, TABLE_4_1
 
 SEEDS: Final = 12
@@ -91,8 +91,6 @@ def compare_schemes() -> StudyResult:
         and moved[EARLIER, "fixed"] < moved[SCCT, "fixed"],
     )
     return StudyResult(
-        paper=PAPER,
-        result="section-4-4-5",
         claim="Section 4.4.5: a second leg that is commanded inside its peg needs no weight fed forward; but it needs to know where the "
         "pegs are, and a leg that can push and pull. So the weight is fed, and the body is kept less accurately.",
         verdict=judged(claims),

@@ -14,7 +14,7 @@ from ...families.climber.trials.body_scenario import push
 from ...families.climber.trials.body_stand import BodyStand, bench_flaws, ladder_stand
 from ...sim.limb_flaws import LimbFlaws
 from ..result import Compared, Figure, StudyResult, Table, Value
-from . import MILLI, PAPER
+from . import MILLI
 from .body_entries import BIASED, OUR_ALPHA, OURS, OWN, PLANT, SCCT, TABLE_4_1
 
 GAINS: Final = tuple(float(100.0 * 2 ** (k / 2)) for k in range(-4, 15))
@@ -118,8 +118,6 @@ def sweep_stiffness() -> StudyResult:
         )
 
     return StudyResult(
-        paper=PAPER,
-        result="section-4-4-4",
         claim="Section 4.4.4: as x is measured at one leg but +x is controlled by the other, joint backlash and the play between hooks and "
         "pegs limit how stiff LIBRA can be along x.",
         verdict="holds" if by_backlash and by_play and by_place else "open" if by_backlash or by_play else "differs",

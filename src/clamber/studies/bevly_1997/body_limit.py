@@ -15,7 +15,7 @@ from ...families.climber.trials.body_rung import FRICTION, PEG_ERROR, WEIGHT, Ru
 from ...jobs import LocalProcesses
 from ...trials.held_out import FIRST_HELD_OUT
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
-from . import MILLI, PAPER
+from . import MILLI
 from .body_entries import OURS, OWN, PLANT, TABLE_4_1
 
 SEEDS: Final = range(FIRST_HELD_OUT, FIRST_HELD_OUT + 20)
@@ -57,8 +57,6 @@ def limit_pulls() -> StudyResult:
         draw_heights({label: alone[label, "ideal"][1] for label in CONTROLS}, path)
 
     return StudyResult(
-        paper=PAPER,
-        result="section-4-4-2",
         claim="Section 4.4.2: endpoint accelerations are limited to at least alpha along the grab direction, alpha some offset of 0 or "
         "more, so that a leg never pulls away from its peg.",
         verdict=judge_limit(alone[PRINTED, "ideal"][0], noisy[PRINTED]),

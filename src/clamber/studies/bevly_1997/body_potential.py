@@ -16,7 +16,7 @@ from ...families.climber.trials.body_stand import BodyStand, bench_flaws, ladder
 from ...plane import segment_polygon
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Verdict
-from . import MILLI, PAPER
+from . import MILLI
 from .body_entries import PLANT, TABLE_4_1
 
 SAFE: Final = 0.01
@@ -68,8 +68,6 @@ def cross_body() -> StudyResult:
     rungs = {name: climb_rung(BodyGains(potential=strength), SEED) for name, strength in STRENGTHS.items()}
     reach = BodyGains().potential_range * max(limb.length for limb in stand.robot.limbs)
     return StudyResult(
-        paper=PAPER,
-        result="section-4-4-6",
         claim="Section 4.4.6: a simple virtual potential (Khatib, 1986) about the body keeps the limbs a safe distance from it; a peg is "
         "grabbed in a sequence of steps (Figure 4.14).",
         verdict=judged(least[WITHOUT], least[WITH]),

@@ -15,7 +15,7 @@ from ...families.climber.trials.body_stiffness import body_stiffness
 from ...families.climber.trials.body_trials import PushTrial, push_trials
 from ...sim.limb_flaws import LimbFlaws
 from ..result import Compared, Figure, StudyResult, Table, Value
-from . import MILLI, PAPER
+from . import MILLI
 from .body_entries import BIASED, EARLIER, JOINT_PD, OUR_ALPHA, OURS, OWN, PLANT, SCCT, TABLE_4_1, rivals
 
 SLOW: Final = 8.0
@@ -70,8 +70,6 @@ def push_body() -> StudyResult:
     stiffer = float(even[0, 0] / even[1, 1])
     ratio = {name: x / y for name, (x, y) in moved.items()}
     return StudyResult(
-        paper=PAPER,
-        result="fig-4-19",
         claim="Figure 4.19, section 4.5: pushed sideways the body yields and both hooks stay on; it goes ten times as far along x as "
         "along y, "
         "for Kpy is set ten times as stiff as Kpx.",

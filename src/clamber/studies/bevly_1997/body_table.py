@@ -14,7 +14,6 @@ from ...families.climber.trials.body_rung import FRICTION, PEG_ERROR, WEIGHT, Ru
 from ...families.climber.trials.body_stand import ladder_stand
 from ...jobs import Executor, LocalProcesses
 from ..result import Compared, StudyResult, Table, Value, Verdict
-from . import PAPER
 from .body_entries import EARLIER, JOINT_PD, OURS, PLANT, TABLE_4_1
 
 SEEDS: Final = 12
@@ -96,8 +95,6 @@ def count_lost_pegs(
     done = {label: sum(trial.done for trial in trials) for label, trials in told.items()}
     by_first, by_stiffness = earlier_verdicts(told)
     return StudyResult(
-        paper=PAPER,
-        result="table-4-2",
         claim="Section 4.2: conventional joint PD control loses contact with the pegs, or pushes too hard on others, so that LIBRA falls; "
         "Cartesian control keeps the hooks on their pegs, wherever these are.",
         verdict=judge_rungs(told),
@@ -136,7 +133,7 @@ def count_lost_pegs(
             "when the body is pushed (`fig-4-19`).",
             "Free limbs follow the same law as the body, but hooks are pushed onto pegs by force under every control, which is what "
             "section 4.2 asks of Cartesian control when it grabs: joint PD's own trouble in grabbing is not in this table.",
-            f"`clamber study {PAPER} table-4-2 --seeds 200 --store rungs.db` takes 200 seeds.",
+            "`clamber study bevly-1997 table-4-2 --seeds 200 --store rungs.db` takes 200 seeds.",
         ),
         table=_table(told),
         seeds=range(seeds),

@@ -15,9 +15,9 @@ from ...planning.genetic.profile import load_profile
 from ...planning.result import PlanResult
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
-from . import PAPER
 from .modified_ladder import HELD_OFFSET, OWN_HALVES
-from .replayed import INFERRED, limbed_task
+from .printed_plans import INFERRED, limbed_task
+from .search_variants import WEIGHTS
 
 SEEDS: Final = range(10)
 FRESH: Final = range(100, 120)
@@ -29,7 +29,6 @@ STEEP: Final = 2.0
 """A slope counts as a jump if it is so many times the one before [-]."""
 NEAR: Final = 10
 """Generations on either side of a sub-goal that count as around it."""
-WEIGHTS: Final = 'Population, weights and the spread of cut points are not printed; the profile "thesis" has ours.'
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,8 +102,6 @@ def follow_modified_ladder() -> StudyResult:
     ratios = [curve.after / curve.before for curve in curves if curve.passed is not None]
     ratio = median(ratios) if ratios else None
     return StudyResult(
-        paper=PAPER,
-        result="modified-ladder-evolution",
         claim="Figure 2.16: the fitness stays flat for long while no way past the missing pegs is known, then grows in large jumps.",
         verdict=judge_curves(curves),
         compared=(
@@ -168,8 +165,6 @@ def follow_h() -> StudyResult:
     ratio = median(ratios) if ratios else None
     jumps = all(len(str(row[3]).split(", ")) == len(task.goals) - 1 for row in rows if row[1] == "found")
     return StudyResult(
-        paper=PAPER,
-        result="h-evolution",
         claim="Figure 2.19: the fitness on H jumps where a sub-goal is reached and hardly grows around each, "
         "faster on the straight parts.",
         verdict="open" if ratio is None or not jumps else "holds" if ratio <= 1.0 / STEEP else "differs",

@@ -5,9 +5,7 @@ from typing import Final
 
 import numpy as np
 
-from ...benchmarks.ablation import varied
-from ...benchmarks.planner_trials import run_trials
-from ...benchmarks.reductions import TALL
+from ...benchmarks.planner_trials import TALL, run_trials, varied
 from ...families.climber.planning.task import LimbedTask
 from ...planning.genetic.learning import Macro
 from ...planning.genetic.profile import load_profile
@@ -16,11 +14,9 @@ from ...planning.problem.problem import CompiledProblem, Records
 from ...planning.problem.problems import pose_problem
 from ...types import Ints
 from ...units import INCH
-from ..exhaust import exhaust
 from ..result import Compared, StudyResult, Table, Value, Verdict
-from . import PAPER
-from .modified_ladder import NO_HANGS
-from .replayed import INFERRED, limbed_task
+from .modified_ladder import NO_HANGS, exhaust
+from .printed_plans import INFERRED, limbed_task
 from .search_variants import WEIGHTS, median_evaluations
 
 SEEDS: Final = range(100, 110)
@@ -80,8 +76,6 @@ def learn_to_climb() -> StudyResult:
     met = macro is not None and climbs(pose_problem(ladder, threads=1).problem, (macro,)) is True
     alone = {} if macro is None else {name: _highest(task, macro) for name, task in (("short", ladder), ("tall", tall))}
     return StudyResult(
-        paper=PAPER,
-        result="learned-module",
         claim='Section 2.2.2: a repeated sequence can be one module of a higher level, "climb up one step"; the planner can learn it, and '
         "with it in the inventory the search is smaller.",
         verdict=judge_learning(met, saved, len(SEEDS)),
@@ -136,8 +130,6 @@ def plan_with_modules_alone() -> StudyResult:
         (macro.name, len(macro.codes), macro.gain / INCH, macro.from_start) for macro in lesson.macros
     )
     return StudyResult(
-        paper=PAPER,
-        result="modules-alone",
         claim="Section 2.5.2: where only modules of a high level are used a solution may be lost, as the robot's full capabilities are "
         "not.",
         verdict=judge_modules_alone(on_ladder is True, on_modified, actions.codes is not None),

@@ -11,7 +11,6 @@ from ...control.law_settings import LawSettings
 from ...limb_bench.bench_limb import BenchLimb
 from ...limb_bench.stability import loop_matrix
 from ..result import Compared, StudyResult, Table, Value, Verdict
-from . import PAPER
 from .limb_entries import GAINS, PLANT, SMOOTH, leg_1, scct
 
 SOFTER: Final = 10.0
@@ -67,8 +66,6 @@ def damp_directions() -> StudyResult:
             rows.append((branch, "resolved rate", servo, *ratios))
     apart = [float(y / x) for x, y in rate]
     return StudyResult(
-        paper=PAPER,
-        result="section-3-2-3",
         claim="Section 3.2.3: resolved rate control with a Cartesian gain leaves the damping in the joints, so that a direction is "
         "over-damped or under-damped where stiffnesses differ.",
         verdict=judge_damping(rate, direct),
@@ -106,8 +103,6 @@ def compare_admittance() -> StudyResult:
         for derivative in (0.0, DERIVATIVE)
     }
     return StudyResult(
-        paper=PAPER,
-        result="section-3-3-2",
         claim="Section 3.3.2: the implicit admittance control, 3.25, becomes SCCT, 3.16, when K'_d is left out; the two equations can be "
         "identical though one commands velocities and the other accelerations.",
         verdict=judge_identity(off[0.0], off[DERIVATIVE]),

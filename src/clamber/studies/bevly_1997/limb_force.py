@@ -11,7 +11,7 @@ from ...limb_bench.force import ForceResult, force_entries, run_force
 from ...limb_bench.scenario import ForceTask
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
-from . import MILLI, PAPER
+from . import MILLI
 from .limb_entries import IDEAL, PLANT, leg_1
 
 ANGLES: Final = (60.0, 90.0, 120.0)
@@ -72,8 +72,6 @@ def press_walls() -> StudyResult:
         one = result.rows[0].measures
         told.setdefault((law, case), []).append(Pressed(one.held, one.worst, one.off_line))
     return StudyResult(
-        paper=PAPER,
-        result="fig-3-15",
         claim="Section 3.5, Figure 3.15: SCCT along a wall and J^T across it control motion and force if the wall's angle is known; "
         "implicit force control, a place inside the wall, does if its stiffness is. No results are printed.",
         verdict=judged(told),

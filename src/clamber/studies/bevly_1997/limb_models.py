@@ -10,14 +10,13 @@ import numpy as np
 
 from ...control.chain import Chain
 from ...families.climber.control.limb_chain import chain_of_limb
-from ...families.climber.robot.robot import LimbedRobot
+from ...limb_bench.bench_limb import limbed_robot
 from ...sim.limb_flaws import LimbFlaws
 from ...sim.plants import plant_maker
-from ...tasks.robots import load_robot
 from ...types import Floats
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value
-from . import MILLI, PAPER
+from . import MILLI
 from .limb_entries import IDEAL
 
 JOINTS: Final = tuple((limb, joint) for joint in (0, 1) for limb in (0, 1, 2))
@@ -74,8 +73,7 @@ def drive_joint(number: int) -> JointDrive:
     Args:
         number: As in Table 3.1, from 1.
     """
-    robot = load_robot("libra")
-    assert isinstance(robot, LimbedRobot)
+    robot = limbed_robot("libra")
     limb, joint = JOINTS[number - 1]
     chain = chain_of_limb(robot, robot.limb_names[limb])
     spec = robot.limbs[limb]
@@ -117,8 +115,6 @@ def compare_models() -> StudyResult:
     forward = all(float(d.curves[plant][1, 1:].min()) > 0.0 for d in drives for plant in (SIMPLE, LIMB))
     close = all(d.difference(plant) < CLOSE for d in drives for plant in (LIMB, LIKE_ROBOT))
     return StudyResult(
-        paper=PAPER,
-        result="fig-3-9",
         claim="Figure 3.9, section 3.4.2: driven by a sinusoidal torque with an offset that keeps its speed positive, each joint moves "
         "much as the simple model 3.28 says: the geared motors' inertia dominates the limb.",
         verdict="holds" if close and forward else "differs",

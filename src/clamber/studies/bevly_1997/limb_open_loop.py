@@ -11,7 +11,7 @@ from ...limb_bench.open_loop import FIRST, TRANSFORMS, OpenLoopRun, first_turn, 
 from ...types import Floats
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value
-from . import MILLI, PAPER
+from . import MILLI
 from .limb_entries import BRANCHES, IDEAL, PLANT, SMOOTH, leg_1
 
 DOWN: Final = -math.pi / 2
@@ -93,8 +93,6 @@ def compare_transforms() -> StudyResult:
     bent = all(value is not None and abs(value) > STRAIGHT for key, value in strong.items() if key[2] == TRANSPOSE)
     turns: Turns = {name: {branch: _all_round(limb, name) for branch, limb in limbs.items()} for name in TRANSFORMS}
     return StudyResult(
-        paper=PAPER,
-        result="fig-3-10",
         claim="Figure 3.10, section 3.4.3: torques K' J^-1 a for an acceleration along -y start the tip along -y, torques J^T F for a "
         "force along -y do not; later the tip strays from -y, for Jdot qd grows.",
         verdict="holds" if straight and bent else "differs",

@@ -1,4 +1,4 @@
-"""Figure 3.14: stiff along y, soft along x, pushed along x and let go."""
+"""Figure 3.14: stiff along y, soft along x, pushed along x and let go; and how stiff y can be made before the tip cycles."""
 
 import math
 from pathlib import Path
@@ -11,11 +11,12 @@ from ...limb_bench.bench_limb import BenchLimb
 from ...limb_bench.matching import tip_stiffness
 from ...limb_bench.measures import Entry, Run
 from ...limb_bench.runner import run_contest
-from ...limb_bench.scenario import Scenario, push_scenario
+from ...limb_bench.scenario import Scenario, push_scenario, step_scenario
+from ...sim.limb_flaws import LimbFlaws
 from ...types import Floats
+from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value
-from . import MILLI, PAPER
-from .limb_bandwidth import CYCLE, TIMES, first_to_cycle
+from . import MILLI
 from .limb_entries import (
     BASELINES,
     BRANCHES,
@@ -32,9 +33,50 @@ from .limb_entries import (
     gains_shown,
     judged,
     leg_1,
+    matched_transpose,
     scct,
     transpose,
 )
+
+WORN: Final = LimbFlaws(backlash=2.0 * DEGREE, encoder_counts=400, delay=1)
+"""As the robot is: play, encoders, 200 Hz, one sample of delay."""
+TIMES: Final = tuple(2.0 ** (k / 4) for k in range(14, 24))
+"""Stiffness along y over that of the reference."""
+CYCLE: Final = 5e-4
+"""Way of the tip, peak to peak, that counts as cycling [m]."""
+NUDGED: Final = 6.0
+LATE: Final = 5.0
+"""From here on the tip is to rest [s]."""
+NUDGE: Final = 0.005
+"""A step along y that sets the tip moving [m]."""
+
+
+def _stiffer(reference: LawSettings, times: float) -> LawSettings:
+    """The reference with `times` the stiffness along y, its damping ratio kept."""
+    (soft, stiff), (slow, fast) = np.broadcast_to(reference.kp, 2), np.broadcast_to(reference.kd, 2)
+    return scct((float(soft), float(stiff * times)), (float(slow), float(fast * times**0.5)))
+
+
+def first_to_cycle(limb: BenchLimb, reference: LawSettings) -> dict[str, float | None]:
+    """Label of a law -> Kp of y of the SCCT that it is as stiff as, raised by fourths of a doubling until the tip cycles.
+
+    None: it does not cycle at any that was tried.
+    """
+    scenario = step_scenario(limb, WORN.control_rate, dy=-NUDGE, seconds=NUDGED)
+    out: dict[str, float | None] = dict.fromkeys((SCCT, *(transpose(match) for match in MATCHED)))
+    for times in TIMES:
+        gains = _stiffer(reference, times)
+        laws = {
+            SCCT: gains,
+            **{transpose(match): matched_transpose(limb.chain, gains, limb.q0, match) for match in MATCHED},
+        }
+        trying = [Entry(label, law) for label, law in laws.items() if out[label] is None]
+        for run in run_contest(limb, scenario, trying, WORN):
+            late = run.trace.true_places()[run.trace.time >= LATE, 0, :2]
+            if not np.ptp(late, axis=0).max() <= CYCLE:  # this way round, NaN counts as cycling
+                out[run.entry.label] = float(np.broadcast_to(gains.kp, 2)[1])
+    return out
+
 
 SOFT: Final = 20.0
 STIFF: Final = 200.0
@@ -126,8 +168,6 @@ def push_and_release() -> StudyResult:
         draw_push(shown, CENTRE, (START, RELEASE), path)
 
     return StudyResult(
-        paper=PAPER,
-        result="fig-3-14",
         claim="Figure 3.14, section 3.4.3: very stiff along y and soft along x, pushed along x and released, SCCT keeps y better than "
         "Jacobian transpose control and can be given the higher bandwidth; the limb moves back to its centre.",
         verdict=judged(better),

@@ -7,12 +7,11 @@ import numpy as np
 
 from ...families.climber.planning.plans import thesis_code
 from ...families.climber.planning.task import LimbedTask
-from ...planning.problem.plan_families import plan_family
 from ...planning.problem.problem import Replay
+from ...planning.problem.problems import plan_family
 from ...units import INCH, OZ_IN
 from ..result import Compared, Figure, StudyResult, Table, Value
-from . import PAPER
-from .replayed import INFERRED, limbed_task, replay_printed
+from .printed_plans import INFERRED, limbed_task, replay_printed
 
 GAIT: Final = (191, 392, 291, 300, 3)
 CYCLES: Final = 40
@@ -60,8 +59,6 @@ def climb_with_gait() -> StudyResult:
 
     torques = float(replay.stances["torque"].max()) / OZ_IN
     return StudyResult(
-        paper=PAPER,
-        result="nominal-gait",
         claim="Figure 2.14: the gait 191, 392, 291, 300, 3 climbs the ladder; it is not the only one, but one with low torques.",
         verdict="holds" if met is not None else "differs",
         compared=(

@@ -8,9 +8,7 @@ import numpy as np
 
 from ...types import Floats
 from ..result import Compared, StudyResult, Table, Value, Verdict
-from . import PAPER
-from .hook_check import PLANS
-from .replayed import INFERRED, replay_printed
+from .printed_plans import INFERRED, PLANS, replay_printed
 
 SEVERAL: Final = 3
 """Configurations of the printed plans that count as several."""
@@ -103,8 +101,6 @@ def compare_push_pull() -> StudyResult:
     every = list(splits.values())
     ratios = sorted(one.push_pull / one.least for one in every)
     return StudyResult(
-        paper=PAPER,
-        result="push-pull",
         claim="Section 2.3.2: with two legs on one side both forces are taken through the centre of gravity, which for several "
         "configurations makes the end-effector forces least.",
         verdict=judge_push_pull(every),

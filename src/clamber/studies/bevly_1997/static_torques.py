@@ -11,8 +11,7 @@ from ...families.climber.pictures.geometry import joint_angles, limb_chain
 from ...families.climber.robot.robot import LimbedRobot
 from ...types import Floats
 from ..result import Compared, StudyResult, Table, Value, Verdict
-from . import PAPER
-from .replayed import INFERRED, replay_printed
+from .printed_plans import INFERRED, replay_printed
 
 PLANS: Final[dict[str, str]] = {"Table D.1, ladder": "ladder-hand", "Table D.2, H by hand": "h-hand"}
 """Those in steps of 3 in and 15 deg."""
@@ -64,8 +63,6 @@ def compare_torques() -> StudyResult:
     ratios = [float(row[5] or 0.0) for row in rows]
     times = [float(row[6] or 0.0) for row in rows]
     return StudyResult(
-        paper=PAPER,
-        result="static-torques",
         claim="Section 2.3.2: the torques that support a system such as LIBRA statically dominate over dynamic effects.",
         verdict=judge_static(ratios),
         compared=(

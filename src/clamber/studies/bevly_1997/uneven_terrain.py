@@ -17,20 +17,19 @@ from ...families.climber.trials.noise import NO_NOISE, draw_for, read_noise, tru
 from ...families.climber.trials.plants import drawn_plant
 from ...families.climber.trials.run_plan import believing_climber, climbing_flaws
 from ...families.climber.trials.trial import ERROR, ClimbTrial, TrialSetup
-from ...families.climber.trials.trials import run_trials
 from ...families.climber.trials.warm_up import warm_up
 from ...jobs import LocalProcesses
 from ...planning.problem.plan import Plan
+from ...trials.held_out import FIRST_HELD_OUT
+from ...trials.trial_runs import run_trials
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
-from . import MILLI, PAPER
+from . import MILLI
 from .body_climb import gait_plan
 from .body_entries import PLANT
-from .replayed import limbed_task
+from .printed_plans import limbed_task
 
-FIRST: Final = 1_000_002_000
-"""First seed: held out, nothing was tuned on it, nor was one of them looked at before."""
-SEEDS: Final = range(FIRST, FIRST + 6)
+SEEDS: Final = range(FIRST_HELD_OUT, FIRST_HELD_OUT + 6)
 RUNGS: Final = 2
 TERRAINS: Final[dict[str, tuple[str, ...]]] = {
     "warped by up to 60 mm": ("terrain=60mm",),
@@ -74,8 +73,6 @@ def climb_uneven() -> StudyResult:
     alone = {name: sum(_climbs_alone(task, plan, texts, seed) for seed in SEEDS) for name, texts in TERRAINS.items()}
     off = {name: np.array([_displaced(texts, seed) for seed in SEEDS]) for name, texts in TERRAINS.items()}
     return StudyResult(
-        paper=PAPER,
-        result="section-5-2",
         claim="Section 5.2 suggests to study how LIBRA moves on unknown and uneven terrain, its body compliant towards the unknown. "
         "No result is printed; asked here is whether it climbs.",
         verdict=judged(*({name: count / len(SEEDS) for name, count in counts.items()} for counts in (climbed, alone))),

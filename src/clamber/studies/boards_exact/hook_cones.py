@@ -8,11 +8,9 @@ import numpy as np
 
 from ...planning.problem.problems import pose_problem
 from ...types import Json
-from ..bevly_1997.replayed import limbed_task
+from ..bevly_1997.printed_plans import limbed_task
 from ..result import Compared, Figure, StudyResult, Table, Value
-from . import STUDY
-from .boards import BOARDS, HARD_HOOKS, KEPT, MODEL, NEVER_HANGS, TOLD, cone
-from .proofs import Proof, proof_of, prove, prove_all, run_all
+from .proofs import BOARDS, HARD_HOOKS, KEPT, MODEL, NEVER_HANGS, TOLD, Proof, cone, proof_of, prove, prove_all, run_all
 
 CONES: Final = (90.0, 75.0, 60.0)
 """Half angles of the cone about the grab direction that a hook takes forces in [deg]."""
@@ -65,8 +63,6 @@ def compare_hooks() -> StudyResult:
         rows.append((board, *lengths, _cost(lengths[2], lengths[1]), sum(proof.stances for proof in mine)))
     proved = all(proof.feasible and proof.valid for proof in proofs)
     return StudyResult(
-        paper=STUDY,
-        result="hook-cost",
         claim="With hooks that can only pull (the check hook is hard, a limb keeps the side of its elbow while it holds) every board "
         "can still be climbed at cones of 90, 75 and 60 deg; this is what that costs in actions.",
         verdict="holds" if proved else "differs",
@@ -115,8 +111,6 @@ def narrow_cones() -> StudyResult:
         draw_cones({board: {at: proof.length for at, proof in proofs.items()} for board, proofs in tried.items()}, path)
 
     return StudyResult(
-        paper=STUDY,
-        result="narrowest-cone",
         claim="The narrowest cone of the hooks in which each board can still be climbed: "
         "a plan there, none in one a quarter of a degree narrower.",
         verdict="holds" if proved else "differs",

@@ -6,19 +6,16 @@ from typing import Final
 
 import numpy as np
 
-from ...planning.beam.layers import Beam, search_layers
+from ...planning.beam_layers import Beam, search_layers
 from ...planning.genetic.planner import plan_genetic
 from ...planning.problem.plan import load_plan
 from ...planning.problem.problems import pose_problem
 from ...planning.problem.verdict import check_plan
 from ...units import INCH
-from ..bevly_1997.modified_ladder import HELD_OFFSET, OWN_HALVES
-from ..bevly_1997.no_rotation import WITHOUT_TURNS
-from ..bevly_1997.replayed import limbed_task
+from ..bevly_1997.modified_ladder import HELD_OFFSET, OWN_HALVES, WITHOUT_TURNS
+from ..bevly_1997.printed_plans import limbed_task
 from ..result import Compared, StudyResult, Table, Value
-from . import STUDY
-from .boards import MODEL, TOLD
-from .proofs import Proof, prove
+from .proofs import MODEL, TOLD, Proof, prove
 
 READINGS: Final = {
     "own halves, offset while holding": (OWN_HALVES, HELD_OFFSET),
@@ -62,8 +59,6 @@ def forbid_rotation_with(most: int, seeds: range, beams: tuple[Beam, ...]) -> St
     shown = check_plan(kept.rebuild_task(str(ONE_HANG_PLAN)), kept)
     proved = strict.status == "infeasible" and free.feasible and free.valid
     return StudyResult(
-        paper=STUDY,
-        result="no-rotation",
         claim="Without modules 005 and 006 the modified ladder can't be climbed if legs 1 and 2 keep to their own column and the reach "
         "offset counts while a leg holds (no hangs); if both are free, it can.",
         verdict="holds" if proved and shown.reached else "differs",

@@ -5,11 +5,9 @@ from typing import Final
 
 from ...types import Json
 from ...units import OZ_IN
-from ..bevly_1997.replayed import H_START, replay_printed
+from ..bevly_1997.printed_plans import H_START, replay_printed
 from ..result import Compared, Figure, StudyResult, Table, Value
-from . import STUDY
-from .boards import BOARDS, MODEL, NEVER_HANGS, TOLD
-from .proofs import Proof, prove_all
+from .proofs import BOARDS, MODEL, NEVER_HANGS, TOLD, Proof, prove_all
 
 PRINTED: Final[dict[str, tuple[str, str, tuple[str, ...]]]] = {
     "ladder": ("ladder-hand", "Table D.1, by hand, 3 in steps", ()),
@@ -53,8 +51,6 @@ def prove_optima() -> StudyResult:
         draw_route(shown.load(), shown.replay(), path)
 
     return StudyResult(
-        paper=STUDY,
-        result="optima",
         claim="The shortest plan of every board, proved by exact search and replayed without it; "
         "of the shortest, the one that loads the joints least; and of those that load them least, the shortest.",
         verdict="holds" if proved else "differs",

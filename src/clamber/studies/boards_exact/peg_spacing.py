@@ -8,11 +8,9 @@ from ...planning.axes import range_axis, read_mark
 from ...planning.sweep import NO_START, SUCCESS, Sweep, run_sweep
 from ...types import Json
 from ...units import INCH
-from ..bevly_1997.replayed import limbed_task
+from ..bevly_1997.printed_plans import limbed_task
 from ..result import Compared, Figure, StudyResult, Table, Value
-from . import STUDY
-from .boards import MODEL, NEVER_HANGS, TOLD
-from .proofs import CORES, prove_all
+from .proofs import CORES, MODEL, NEVER_HANGS, TOLD, prove_all
 
 ACROSS: Final = "board.spacing=12in..26in:15"
 UP: Final = "board.rung=3in..12in:10"
@@ -60,8 +58,6 @@ def vary_spacing_over(across: str, up: str) -> StudyResult:
         draw_sweep(lifted, path)
 
     return StudyResult(
-        paper=STUDY,
-        result="peg-spacing",
         claim="The thesis says that pegs must be 18 to 20 in apart across and about 6 in up for the robot to climb. "
         "On ladders of other widths and rungs: which can be climbed, and on which is the climb to 60 in shortest?",
         verdict="holds" if stated <= climbed and not others else "differs",

@@ -2,7 +2,6 @@
 
 from typing import Final
 
-PAPER: Final = "hoshino-1995"
 CALIBRATED: Final = (
     "The paper prints no sizes of the frames. Ours, attachments on two circles of 238.4 mm and 50 mm for a drawn-in actuator, are "
     "fitted to its range of angles and its longest step: three data, two fitted numbers. They are very likely, not proven; other "

@@ -11,7 +11,7 @@ from ...families.walker.robot.ditch_plan import Crossing, cross_ditch
 from ...types import Floats
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table
-from . import CALIBRATED, PAPER, SIGNS
+from . import CALIBRATED, SIGNS
 from .walker import ANGLES, MM, hoshino
 
 DIRECTIONS: Final = tuple(range(0, 361))
@@ -87,8 +87,6 @@ def draw_figure_5() -> StudyResult:
     """The map of straight crossings and that with sidesteps, and a wide ditch crossed after a pivot."""
     ditches = Ditches.found()
     return StudyResult(
-        paper=PAPER,
-        result="fig-5",
         claim="Figure 5, section 3.3: the widest ditch that the robot overcomes, lying across its way, depends on theta and on the walking "
         "direction theta_w, periodically in theta_w; before a wide one it has to pivot and change its walking direction.",
         verdict="holds" if ditches.hold else "differs",

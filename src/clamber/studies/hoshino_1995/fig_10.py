@@ -10,7 +10,6 @@ from ...families.walker.control.cooperative.limits import freedom_names
 from ...families.walker.control.cooperative.tool_chain import POSE
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
-from . import PAPER
 from .tool_runs import BALANCED, CHOSEN, DOFS, ToolRun, go
 from .walker import hoshino
 
@@ -83,8 +82,6 @@ def compare_freedoms() -> StudyResult:
     """The way of the tool with every set of freedoms; ends, and by how much the motions differ."""
     motions = Motions.gone()
     return StudyResult(
-        paper=PAPER,
-        result="fig-10",
         claim="Figure 10, section 6.2: with 4, 5 and 10 degrees of freedom the tool goes the same way by different motions.",
         verdict=motions.verdict,
         compared=_compare(motions),

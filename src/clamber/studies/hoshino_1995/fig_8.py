@@ -11,7 +11,7 @@ from ...families.walker.trials.run_walk import WalkRun
 from ...types import Floats
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value
-from . import CAPTIONS, PAPER, SIMULATED
+from . import CAPTIONS, SIMULATED
 from .walker import MM, known_noise, run_changed
 
 WAYS: Final = {"up": 0.0, "across": 90.0, "down": 180.0}
@@ -43,8 +43,6 @@ def walk_level() -> StudyResult:
         draw_levelling(level, tilted, within=LEVEL, path=path)
 
     return StudyResult(
-        paper=PAPER,
-        result="fig-8",
         claim="Figure 8, section 5: a walk on a slope of 10 deg while the upper surface is kept level; on the whole it could be.",
         verdict="holds" if ends and rests <= LEVEL else "differs",
         compared=(

@@ -10,7 +10,7 @@ from ...families.walker.control.posture import slope_of, tilt_of
 from ...types import Floats
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value
-from . import CAPTIONS, PAPER
+from . import CAPTIONS
 
 MOST: Final = 30.5
 """Of beta and gamma [deg]; half a degree off the axes, on which equation 6 divides by 0."""
@@ -43,8 +43,6 @@ def compare_directions() -> StudyResult:
         draw_directions(tilts, ours[..., 1] / DEGREE, ours[..., 0], printed, path)
 
     return StudyResult(
-        paper=PAPER,
-        result="fig-9",
         claim="Figure 9, section 4.2, equations 3 to 7: the direction eta in which the upper surface inclines most has tan eta = "
         "-tan gamma / sin beta; eta and the angle xi there follow from beta and gamma, and the other way.",
         verdict="holds" if tangents < 1e-6 and direction_off < 1e-4 else "differs",

@@ -13,7 +13,7 @@ from ...families.walker.robot.turning import turning_range
 from ...families.walker.robot.workspace import best_directions, stride
 from ...units import DEGREE
 from ..result import Compared, StudyResult, Table, Value, Verdict
-from . import CALIBRATED, PAPER, SIGNS
+from . import CALIBRATED, SIGNS
 from .walker import MM, hoshino
 
 MINUTE: Final = 60.0
@@ -110,8 +110,6 @@ def compare_numbers() -> StudyResult:
     """Range of angles, longest step and its directions, and both speeds, from the geometry and the speeds of the robot's own motors."""
     cycle = Cycle.of_robot()
     return StudyResult(
-        paper=PAPER,
-        result="table",
         claim="Sections 3.1, 3.2: strokes from 0 to 250 mm let theta range from -48 to 18 deg; the longest step, 160 mm, is at 30 + 60 n "
         "deg, equation 2; the robot walks at 130 mm/min and turns at 150 deg/min.",
         verdict=judge_numbers(cycle.ours(), cycle.directions),

@@ -11,7 +11,7 @@ from ...families.walker.robot.workspace import best_directions, workspace
 from ...types import Floats
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value
-from . import CALIBRATED, PAPER, SIGNS
+from . import CALIBRATED, SIGNS
 from .walker import ANGLES, CM2, MM, hoshino
 
 SHOWN: Final = (-15, -10, 0, 10, 20, 30, 40, 46)
@@ -23,8 +23,6 @@ def draw_figure_4() -> StudyResult:
     frames = TwoFrames.of(hoshino().mechanism)
     curve = np.array([_areas(frames, theta) for theta in ANGLES])
     return StudyResult(
-        paper=PAPER,
-        result="fig-4",
         claim="Figure 4, section 3.1: the larger the angle between the frames, the larger the range of their relative position; only the "
         "strokes of 0 to 250 mm limit it.",
         verdict="holds" if bool((np.diff(curve[:, 0]) > 0.0).all()) else "differs",

@@ -4,9 +4,10 @@ from collections.abc import Sequence
 
 from ...families.walker.planning import load_walk
 from ...families.walker.robot import WalkerRobot
+from ...families.walker.robot.robot import build_walker
 from ...families.walker.trials.noise import WalkNoise, named_walk_noise, read_walk_noise
 from ...families.walker.trials.run_walk import WalkRun, run_walk, walk_flaws
-from ...tasks.robots import load_robot
+from ...tasks.robots import read_robot
 
 MM = 1e3
 CM2 = 1e4
@@ -16,9 +17,7 @@ ANGLES = tuple(range(-17, 48))
 
 def hoshino() -> WalkerRobot:
     """The robot."""
-    robot = load_robot("hoshino")
-    assert isinstance(robot, WalkerRobot)
-    return robot
+    return build_walker(read_robot("hoshino"))
 
 
 def known_noise() -> WalkNoise:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 from ...errors import ClamberError
 from ...family import family_of
 from ...planning.problem.plan import Plan
-from ...tasks.task_files import task_files
+from ...tasks.task_format import task_files
 from .. import style
 from ..scene import join
 from .exhibit import Editor, Exhibit, exhibit_of, scenes_of

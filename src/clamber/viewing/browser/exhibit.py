@@ -16,7 +16,7 @@ from ...planning.problem.plan_source import check_name, is_plan, open_plan
 from ...planning.problem.problem import Replay
 from ...planning.progress import Listener
 from ...tasks import load_task
-from ...trials.run_request import CarriedOut
+from ...trials.dynamics import CarriedOut
 from ..film import Film, View
 from ..pictures import carried_out, pictures_of
 from ..scene import Bounds

@@ -7,12 +7,13 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from ...errors import ClamberError
-from ...family import NotOfFamilyError, family_of
+from ...family import family_of
 from ...kernel_cache import is_compiled
 from ...planning.planners import PLANNERS
 from ...planning.problem.plan import Plan
 from ...planning.progress import Moment, Routing, progress_text
-from ...trials.run_request import RunRequest
+from ...trials.dynamics import RunEvents, RunRequest
+from ...trials.work import dynamics_of
 from .. import style
 from .exhibit import Planned, Scenes, scenes_of
 from .inputs import set_input
@@ -124,10 +125,9 @@ def carry_out(task: Any, plan: Plan | None, tell: Tell) -> Any:
         ClamberError: If something speaks against the plan.
     """
     family = family_of(task)
-    if family.carry_out is None:
-        raise NotOfFamilyError(family.title, "contact dynamics")
+    dynamics = dynamics_of(family)
     tell(f"making the robot ready{_unless_compiled(scenes_of(family))}")
-    return family.carry_out(task, plan, RunRequest(plan_seconds=SECONDS, tell=tell))
+    return dynamics.run(task, plan, RunRequest(plan_seconds=SECONDS), RunEvents(step=tell))
 
 
 def _unless_compiled(scenes: Scenes) -> str:

@@ -4,7 +4,7 @@ import json
 import math
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Final
 
 from ... import __version__
 from ...errors import FileError
@@ -17,10 +17,9 @@ if TYPE_CHECKING:
 MARK: Final = "report.json"
 """Says that a folder is a report."""
 SCHEMA: Final = "clamber-report-1"
-Kind: TypeAlias = Literal["studies", "climb", "walk"]
 
 
-def open_report(folder: Path, kind: Kind) -> None:
+def open_report(folder: Path, kind: str) -> None:
     """Make a report's folder, or make sure that there is one of this kind.
 
     Raises:

@@ -12,7 +12,7 @@ from ...family import NotOfFamilyError, family_of
 from ...files import write_atomically
 from ...planning.problem.plan import Plan
 from ..pictures import draw_route, draw_run, pictures_of
-from .pages import Kind, write_page, write_style
+from .pages import write_page, write_style
 
 INDEX: Final = "index.html"
 PLAN_PICTURE: Final = "plan.png"
@@ -38,7 +38,7 @@ class Rows:
 class RunPage:
     """What a family says of a run."""
 
-    kind: Kind
+    kind: str
     facts: tuple[tuple[str, str], ...]
     """Name, value with unit."""
     planned: tuple[str, ...]
@@ -68,12 +68,11 @@ def plan_words(plan: Plan, task: str) -> str:
     return f"{len(plan.actions)} actions for the task '{task}', made by {plan.planner or 'hand'}{seed}."
 
 
-def write_run_report(run: Any, plan: Plan | None, command: str, folder: Path) -> Path:
+def write_run_report(run: Any, command: str, folder: Path) -> Path:
     """Write the report of a run into a folder that `open_report` made, the page last; returns the page.
 
     Args:
         run: What was carried out.
-        plan: That it began with; None: it had none.
         command: What repeats it.
         folder: The folder.
 
@@ -84,7 +83,7 @@ def write_run_report(run: Any, plan: Plan | None, command: str, folder: Path) ->
     write = pictures_of(run.work).report
     if write is None:
         raise NotOfFamilyError(family_of(run.work).title, "reports of runs")
-    page = write(run, plan)
+    page, plan = write(run), run.plan
     motion = page.motion if page.motion != ".html" or find_spec("viser") else ".gif"
     picture, moving = f"{page.kind}.png", f"{page.kind}{motion}"
     for file in (picture, moving):

@@ -8,8 +8,7 @@ import numpy as np
 
 from ....errors import ClamberError
 from ....planning.problem.plan import Plan
-from ....planning.problem.plan_families import plan_family
-from ....planning.problem.planned import PlannedAction
+from ....planning.problem.problems import PlannedAction, plan_family
 from ....tasks.library import change_task
 from ....types import Floats, Ints, Records
 from ..planning.task import LimbedTask

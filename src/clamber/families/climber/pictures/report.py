@@ -4,9 +4,8 @@ from typing import Final
 
 import numpy as np
 
-from ....planning.problem.plan import Plan
+from ....planning.problem.problems import yardsticks_of
 from ....planning.problem.verdict import Verdict, check_plan
-from ....planning.problem.yardsticks import yardsticks_of
 from ....units import DEGREE
 from ....viewing.margins import named_limits
 from ....viewing.report.run_page import MILLI, Rows, RunPage, most, plan_words
@@ -19,7 +18,7 @@ CHECKS_TOLD: Final = 3
 JOINTS: Final = ("shoulder", "elbow")
 
 
-def climb_page(run: ClimbRun, plan: Plan | None) -> RunPage:
+def climb_page(run: ClimbRun) -> RunPage:
     """What the report of a climb says."""
     verdict = check_plan(run.task, run.plan, go_on=True)
     report = run.report

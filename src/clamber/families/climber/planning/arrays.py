@@ -6,8 +6,8 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
+from ....planning.problem.arrays import Params
 from ....planning.problem.check import TICKS
-from ....planning.problem.params import Params
 from ....planning.problem.problem import Records
 from ..robot.robot import Limb
 from ..statics.checks import LIMBED_CHECKS

@@ -6,9 +6,9 @@ from typing import Final
 import numpy as np
 
 from ....errors import SpecError
+from ....planning.problem.arrays import ActionTable
 from ....planning.problem.codes import HOLD, MOVE, NEAREST, NONE, RANDOM, RELEASE, Code, pack
-from ....planning.problem.posed import Dropped
-from ....planning.problem.table import ActionTable
+from ....planning.problem.problems import Dropped
 from .crowding import most_covered
 from .task import LimbedTask
 

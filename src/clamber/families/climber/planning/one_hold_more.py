@@ -14,10 +14,9 @@ from typing import Any, Final
 import numpy as np
 
 from ....kernel_cache import is_compiled
-from ....planning.openings.result import Opening, Places
+from ....planning.openings.find import Opening, Places
 from ....planning.openings.trial import Answer, Trial
-from ....planning.problem.problems import pose_problem
-from ....planning.problem.yardsticks import yardsticks_of
+from ....planning.problem.problems import pose_problem, yardsticks_of
 from ....planning.reach.flood import flood
 from ....toml_text import toml_value
 from ....types import Floats

@@ -5,7 +5,7 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from ....planning.problem.ways import WayFields
+from ....planning.problem.arrays import WayFields
 from ....types import Floats
 from .task import Goal, LimbedTask
 

@@ -10,14 +10,11 @@ from typing import Final
 import numpy as np
 
 from ....errors import describe_choices
-from ....planning.problem.check import Check
+from ....planning.problem.arrays import ActionTable
 from ....planning.problem.code_limits import CodeLimits
 from ....planning.problem.codes import HOLD, MOVE, NEAREST, NONE, RANDOM, RELEASE, Code, pack
-from ....planning.problem.plan_costs import PlanCost
-from ....planning.problem.planned import ActionError, PlannedAction
-from ....planning.problem.posed import Posed
 from ....planning.problem.problem import CompiledProblem, Records
-from ....planning.problem.table import ActionTable
+from ....planning.problem.problems import ActionError, PlanCost, PlanFamily, PlannedAction, Posed
 from ....types import Ints
 from ....units import OZ_IN
 from ..statics.checks import LIMBED_CHECKS
@@ -31,12 +28,11 @@ SAME: Final = 1e-6
 """Moves that differ from a step by less than this part of it are that step."""
 
 
-class LimbedPlans:
+class LimbedPlans(PlanFamily):
     """How plans of limbed climbers are named, replayed and reported."""
 
-    checks: tuple[Check, ...] = LIMBED_CHECKS
-    """In the order of a replay's margins."""
-    burdens: tuple[str, ...] = LimbedProblem.burdens
+    checks = LIMBED_CHECKS
+    burdens = LimbedProblem.burdens
 
     def posed(self, task: LimbedTask, threads: int | None, filters: bool) -> Posed:
         """The task as a problem with the hard checks alone, its inventory filtered if asked for."""
@@ -160,10 +156,6 @@ class LimbedPlans:
     def torque(self, stance: np.void) -> float:
         """Largest joint torque [N m]."""
         return float(stance["torque"])
-
-    def goals_met(self, stance: np.void) -> int:
-        """Goals met, in order."""
-        return int(stance["stage"])
 
     def nearest(self, task: LimbedTask, problem: CompiledProblem, stances: Records, asked: Ints) -> list[int | None]:
         """What each "nearest" among the codes `asked` takes from the stance before it: hold numbers, shape (n,)."""

@@ -10,15 +10,13 @@ import numpy as np
 import numpy.typing as npt
 
 from ....errors import StartError
+from ....planning.problem.arrays import ActionTable, Params, WayFields
 from ....planning.problem.code_limits import CodeLimits
 from ....planning.problem.codes import ARGUMENT_MASK, MOVE, NEAREST, NONE, RANDOM, RELEASE, Code, pack
 from ....planning.problem.codes import HOLD as HOLD_KIND
 from ....planning.problem.family_kernels import family_kernels
 from ....planning.problem.loops import replay
-from ....planning.problem.params import Params
 from ....planning.problem.problem import CompiledProblem, Records
-from ....planning.problem.table import ActionTable
-from ....planning.problem.ways import WayFields
 from ..statics.checks import LIMBED_CHECKS
 from ..statics.elbows import EVERY
 from ..statics.records import PARAMS, STANCE

@@ -8,7 +8,7 @@ from ....files import Document
 from ....specs import field_names
 from ....tasks.overrides import apply_overrides, split_override
 from ....tasks.robots import read_robot
-from ....tasks.task_file import SCHEMA
+from ....tasks.task_format import SCHEMA
 from ....types import Json
 from ..robot.robot import build_limbed
 from ..world.board import build_board

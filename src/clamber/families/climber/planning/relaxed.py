@@ -11,8 +11,8 @@ from typing import Any, Final
 
 import numpy as np
 
+from ....planning.problem.arrays import AnyArray, Params
 from ....planning.problem.check import TICKS
-from ....planning.problem.params import AnyArray, Params
 from ..statics.elbows import EVERY
 from ..statics.records import STANCE
 from ..statics.stance import HANGS, REACH

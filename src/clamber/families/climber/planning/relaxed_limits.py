@@ -15,7 +15,7 @@ from ....files import Document
 from ....planning.exact.costs import Aim
 from ....planning.openings.relaxations import Dial, key_dial
 from ....planning.openings.trial import Answer, Trial
-from ....planning.problem.plan_families import plan_family
+from ....planning.problem.problems import plan_family
 from ....units import DEGREE, OZ_IN
 from .task import LimbedTask
 

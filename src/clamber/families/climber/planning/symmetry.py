@@ -6,9 +6,9 @@ from typing import Any, Final
 import numpy as np
 from scipy.spatial import cKDTree
 
+from ....planning.problem.arrays import Params
 from ....planning.problem.check import TICKS
 from ....planning.problem.codes import HOLD, MOVE, RELEASE, Code, pack
-from ....planning.problem.params import Params
 from ..statics.records import LIMBS
 
 NEAR: Final = 1e-9

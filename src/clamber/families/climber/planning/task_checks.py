@@ -9,7 +9,7 @@ import numpy as np
 from ....errors import describe_choices
 from ....files import Document
 from ....tasks.regions import check_order, check_polygon
-from ....tasks.task_file import check_hard
+from ....tasks.task_format import check_hard
 from ..robot.robot import LimbedRobot
 from ..statics.checks import LIMBED_CHECKS
 from ..world.board import Board

@@ -7,8 +7,7 @@ from typing import Final
 from ....files import Document, check_schema
 from ....specs import build_spec, field_names
 from ....tasks.parts import parts_of
-from ....tasks.task_file import SCHEMA, check_angle, hashes_of
-from ....tasks.task_format import TaskFormat
+from ....tasks.task_format import SCHEMA, TaskFormat, check_angle, hashes_of
 from ..robot.robot import LimbedRobot, build_limbed
 from ..world.board import SHORT_KEYS, Board, build_board
 from ..world.library import read_board

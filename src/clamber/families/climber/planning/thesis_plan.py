@@ -11,7 +11,7 @@ from ....files import Document, read_toml
 from ....planning.problem.codes import Code
 from ....planning.problem.plan import Plan
 from ....planning.problem.plan_source import OpenedPlan
-from ....planning.problem.planned import ActionError
+from ....planning.problem.problems import ActionError
 from ....specs import build_spec, spec
 from ....tasks import Task, load_task
 from .plans import hold_code, thesis_code

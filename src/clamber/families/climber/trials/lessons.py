@@ -10,8 +10,9 @@ import numpy as np
 from ....jobs import Executor
 from ....json_form import Count, Key, in_json
 from ....planning.problem.plan import Plan
-from ....planning.problem.planned import PlannedAction
+from ....planning.problem.problems import PlannedAction
 from ....trials.held_out import check_training
+from ....trials.trial_runs import run_trials
 from ..execution.course import lay_course
 from ..planning.task import LimbedTask
 from .cautions import CAUTIONS, steady
@@ -19,7 +20,6 @@ from .rehearsal import grab_before
 from .rerouting import cut_before, grabs_of, mended, other_end, without
 from .steadying import steadied
 from .trial import ClimbTrial, TrialSetup
-from .trials import run_trials
 
 Climbs: TypeAlias = Callable[[Plan, Sequence[int]], list[ClimbTrial]]
 """Climbs by a plan once with each seed, without another plan on the way."""

@@ -7,10 +7,10 @@ from typing import Final, TypeAlias
 import numpy as np
 
 from ....errors import StartError
-from ....planning.budgets import accepts
-from ....planning.planners import PLANNERS, PROVERS
+from ....planning.planners import PROVERS, accepts, find_planner
 from ....planning.problem.plan import Plan
 from ....planning.result import PlanResult
+from ....trials.dynamics import NoPlanError, RunEvents
 from ..execution.climbing import Replan
 from ..execution.course import lay_course
 from ..planning.task import LimbedTask
@@ -29,8 +29,14 @@ EASY: Final = 3.5
 """What may count against a stance that is easy to hold: no link on a hold, no hook or motor much beyond what is wished."""
 QUICK: Final = "beam"
 """Planner in place of one that proves: what fails in rehearsal changes the task time and again."""
+QUIET: Final = RunEvents()
 LESSONS: Final = 10
 """Most plans of one caution that are rehearsed, each without what failed in those before."""
+
+
+def no_plan(planner: str, task: LimbedTask) -> NoPlanError:
+    """What is raised where `plan_to_climb` finds none."""
+    return NoPlanError(planner, task.name, "that hooks can be trusted with")
 
 
 def plan_to_climb(
@@ -40,7 +46,7 @@ def plan_to_climb(
     seconds: float,
     seed: int,
     threads: int | None = None,
-    cut: Callable[[], None] = lambda: None,
+    events: RunEvents = QUIET,
     rehearse: Rehearse | None = None,
 ) -> Plan | None:
     """The most cautious plan that is easy to carry out and climbs, or one that has learned from its rehearsals, or the one that did best.
@@ -54,19 +60,19 @@ def plan_to_climb(
         seconds: Most time for each search.
         seed: Of the planner.
         threads: Threads; None for one a core.
-        cut: Told of each search that its seconds ended: another machine may find another plan.
+        events: Called on the way, for each search.
         rehearse: Climbs by a plan in simulation; None: ease alone decides.
     """
-    stated = {"seconds": seconds, "seed": seed, "threads": threads}
+    stated = {"seconds": seconds, "seed": seed, "threads": threads, "progress": events.search}
 
     def search(task: LimbedTask, planner: str) -> PlanResult | None:
         options = {name: value for name, value in stated.items() if accepts(planner, name)}
         try:
-            result = PLANNERS[planner](task, **options)
+            result = find_planner(planner)(task, **options)
         except StartError:  # it stands where no such plan may begin
             return None
         if result.seconds >= seconds:
-            cut()
+            events.cut()
         return result if result.has_plan else None
 
     def found_with(caution: Caution, planner: str) -> Plan | None:
@@ -167,11 +173,11 @@ def _taught(
 
 
 def replanner(
-    planner: str, *, seconds: float, seed: int, threads: int | None = None, cut: Callable[[], None] = lambda: None
+    planner: str, *, seconds: float, seed: int, threads: int | None = None, events: RunEvents = QUIET
 ) -> Replan:
     """What a sequencer asks for another plan; see `plan_to_climb`."""
 
     def replan(task: LimbedTask) -> Plan | None:
-        return plan_to_climb(task, planner, seconds=seconds, seed=seed, threads=threads, cut=cut)
+        return plan_to_climb(task, planner, seconds=seconds, seed=seed, threads=threads, events=events)
 
     return replan

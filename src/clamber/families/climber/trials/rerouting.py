@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from ....errors import StartError
-from ....planning.beam.planner import plan_beam
+from ....planning.beam import plan_beam
 from ....planning.problem.plan import Plan
 from ..execution.bearing import borne
 from ..execution.course import Course, lay_course

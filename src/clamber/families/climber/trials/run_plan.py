@@ -19,7 +19,7 @@ from ....planning.problem.plan import Plan
 from ....planning.problem.plan_source import is_plan, open_plan
 from ....sim.limb_flaws import LimbFlaws
 from ....tasks import Task, load_task
-from ....trials.plant_settings import split_settings
+from ....trials.work import split_settings
 from ....types import Floats
 from ..execution.body_gains import USUAL, BodyGains
 from ..execution.climb_report import ClimbReport
@@ -76,6 +76,11 @@ class ClimbRun(Jsonable):
         mapped, places = self.task.world.positions(), true_places(self.task, self.drawn)
         places[self.drawn.missing] = np.nan
         return None if np.array_equal(places, mapped) else places
+
+
+def action_told(step: int, steps: int, title: str, time: float) -> tuple[str, float]:
+    """The action that begins, `time` [s] after the start, in words, and the share of the plan that is done [-]."""
+    return f"action {step} of {steps}: {title}, at {time:.0f} s", (step - 1) / max(steps, 1)
 
 
 def open_climb(what: str, task: str | None, settings: Sequence[str]) -> tuple[LimbedTask, Plan | None, tuple[str, ...]]:

@@ -8,8 +8,7 @@ import numpy as np
 from ....errors import SpecError, StartError
 from ....planning.problem.codes import ARGUMENT_BITS, HOLD, LIMB_BITS, MOVE
 from ....planning.problem.plan import Plan
-from ....planning.problem.plan_families import plan_family
-from ....planning.problem.yardsticks import yardsticks_of
+from ....planning.problem.problems import plan_family, yardsticks_of
 from ....planning.result import PlanResult
 from ....types import Floats, Ints
 from ..planning.task import LimbedTask

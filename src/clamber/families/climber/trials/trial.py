@@ -1,8 +1,9 @@
 """One climb of many: what it has in common with the others, what its seed draws, how it ended, and the same climb again."""
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated, Final
+from typing import Annotated, Final, TypeAlias
 
 import numpy as np
 
@@ -12,73 +13,24 @@ from ....jobs import read_result
 from ....json_form import Count, Jsonable, Key
 from ....planning.problem.plan import Plan
 from ....tasks import task_from_document
+from ....trials.dynamics import RunEvents
 from ....trials.fault_trials import TriedFault, check_told, told_fault
+from ....trials.trial_runs import Setup, Trials
 from ....types import Json
 from ..execution.climbing import Progress, Replan
+from ..execution.course import lay_course
 from ..planning.task import LimbedTask
 from .faults import BEGINS, failing_of
-from .noise import NOISE, Noise, noise_of
-from .planning import replanner
-from .run_plan import ClimbRun, climbing_flaws, run_plan
+from .noise import NOISE, Noise, check_noise, noise_of
+from .planning import QUIET, no_plan, plan_to_climb, replanner
+from .rehearsal import rehearse
+from .run_plan import ClimbRun, action_told, climbing_flaws, run_plan
+from .warm_up import warm_up
 
 PLAN_SEED: Final = 0
 """Of the plan that all trials share, and of plans made on the way."""
 ERROR: Final = "error"
 """Outcome of a trial that raised, or whose workers died."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TrialSetup:
-    """What all trials have in common, as plain as a worker needs it."""
-
-    task: LimbedTask
-    """Under the rules that can be carried out."""
-    noise: Noise
-    plan: Plan | None = None
-    """None: not made yet, see `with_plan`."""
-    planned: bool = False
-    """Whether `planner` made the plan, so that it is no part of what was asked for."""
-    plant: tuple[str, ...] = ()
-    """Settings of the plant, such as "backlash=1deg"."""
-    planner: str = "auto"
-    seconds: float = 600.0
-    """Most time for each search for a plan."""
-    replan: bool = True
-    """Whether to plan again where a hold cannot be had."""
-    force: bool = False
-    """Whether to carry out a plan that something speaks against."""
-    faults: tuple[str, ...] = ()
-    """Kinds of faults, one of which each trial has; none without."""
-
-    def about(self) -> Json:
-        """What tells these trials from others; not how many, nor from which seed on."""
-        return {
-            "task": self.task.document,
-            "plan": None if self.plan is None or self.planned else self.plan.to_json(),
-            "plant": list(self.plant),
-            "noise": self.noise.to_json(),
-            "planner": [self.planner, self.seconds, self.replan],
-            "force": self.force,
-        } | ({"faults": list(self.faults)} if self.faults else {})
-
-    @property
-    def title(self) -> str:
-        """The same in words."""
-        return f"trials of '{self.task.name}' with noise {self.noise.words()}"
-
-    def item(self, seed: int) -> Json:
-        """One trial for a worker."""
-        assert self.plan is not None, "plan first"
-        return {
-            "document": self.task.document,
-            "plan": _without_document(self.plan),
-            "plant": list(self.plant),
-            "noise": self.noise.to_json(),
-            "planner": [self.planner, self.seconds, self.replan],
-            "force": self.force,
-            "faults": list(self.faults),
-            "seed": seed,
-        }
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -136,6 +88,143 @@ def error_trial(seed: int, error: str) -> ClimbTrial:
         seed=seed, done=False, outcome=ERROR, step=0, kind="", limb="", reason=error, seconds=0.0, short=0.0, pushes=0,
         grabs=0, stalled=0, replans=0, recovered=0, drawn={},
     )  # fmt: skip
+
+
+def run_trial(item: Json) -> Json:
+    """One trial; runs in a worker.
+
+    Args:
+        item: As `TrialSetup.item` writes it.
+
+    Returns:
+        The trial, and `plans` that were made on the way.
+    """
+    task = task_from_document(item["document"])
+    assert isinstance(task, LimbedTask)
+    planner, seconds, replan = item["planner"]
+    setup = TrialSetup(
+        task=task,
+        noise=noise_of(item["noise"]),
+        plan=Plan.from_json(item["plan"] | {"document": item["document"]}),
+        plant=tuple(item["plant"]),
+        planner=planner,
+        seconds=seconds,
+        replan=replan,
+        force=item["force"],
+        faults=tuple(item["faults"]),
+    )
+    _, trial, plans = climb_once(setup, item["seed"])
+    return trial.to_json() | {"plans": plans}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TrialSetup(Setup[ClimbRun, ClimbTrial]):
+    """What all trials have in common, as plain as a worker needs it."""
+
+    task: LimbedTask
+    """Under the rules that can be carried out."""
+    noise: Noise
+    plan: Plan | None = None
+    """None: not made yet, see `with_plan`."""
+    planned: bool = False
+    """Whether `planner` made the plan, so that it is no part of what was asked for."""
+    plant: tuple[str, ...] = ()
+    """Settings of the plant, such as "backlash=1deg"."""
+    planner: str = "auto"
+    seconds: float = 600.0
+    """Most time for each search for a plan."""
+    replan: bool = True
+    """Whether to plan again where a hold cannot be had."""
+    force: bool = False
+    """Whether to carry out a plan that something speaks against."""
+    faults: tuple[str, ...] = ()
+    """Kinds of faults, one of which each trial has; none without."""
+
+    def about(self) -> Json:
+        """What tells these trials from others; not how many, nor from which seed on."""
+        return {
+            "task": self.task.document,
+            "plan": None if self.plan is None or self.planned else self.plan.to_json(),
+            "plant": list(self.plant),
+            "noise": self.noise.to_json(),
+            "planner": [self.planner, self.seconds, self.replan],
+            "force": self.force,
+        } | ({"faults": list(self.faults)} if self.faults else {})
+
+    @property
+    def worker(self) -> Callable[[Json], Json]:
+        """One trial."""
+        return run_trial
+
+    @property
+    def title(self) -> str:
+        """The same in words."""
+        return f"trials of '{self.task.name}' with noise {self.noise.words()}"
+
+    def item(self, seed: int) -> Json:
+        """One trial for a worker."""
+        assert self.plan is not None, "plan first"
+        return {
+            "document": self.task.document,
+            "plan": _without_document(self.plan),
+            "plant": list(self.plant),
+            "noise": self.noise.to_json(),
+            "planner": [self.planner, self.seconds, self.replan],
+            "force": self.force,
+            "faults": list(self.faults),
+            "seed": seed,
+        }
+
+    def trial(self, result: Json, store: Path | None = None) -> ClimbTrial:
+        """The trial of a result; see `trial_of`."""
+        return trial_of(result, store)
+
+    def failed(self, seed: int, error: str) -> ClimbTrial:
+        """A climb that raised; see `error_trial`."""
+        return error_trial(seed, error)
+
+    def warm_up(self) -> None:
+        """Load the kernels of a climb."""
+        warm_up()
+
+    def again(
+        self, seed: int, kept: Json | None, step: Callable[[str, float | None], None]
+    ) -> tuple[ClimbRun, ClimbTrial]:
+        """One climb again, with the plans that it was given on its way."""
+        plans = None if kept is None else plans_on_the_way(kept)
+        run, trial, _ = climb_once(self, seed, plans=plans, progress=lambda *action: step(*action_told(*action)))
+        return run, trial
+
+
+ClimbTrials: TypeAlias = Trials[TrialSetup, ClimbTrial]
+
+
+def with_plan(
+    setup: TrialSetup, store: Path | None = None, label: str = "plan", events: RunEvents = QUIET
+) -> TrialSetup:
+    """The setup with its plan: its own, that of the store, or a new one; errors call it `label`.
+
+    Raises:
+        NoPlanError: If there is none.
+        PlanRefusedError: If something speaks against it and it is not forced.
+        NoiseError: If a width is more than what there is of it.
+        StoreError: If the file can't be the store of these trials.
+    """
+    flaws = climbing_flaws(setup.task, setup.plant)
+    check_noise(setup.noise, setup.task.robot, flaws)
+    stored, planned = setup.stored_plan(store), setup.plan is None
+    plan = setup.plan or stored
+    if plan is None:
+        plan = plan_to_climb(
+            setup.task, setup.planner, seconds=setup.seconds, seed=PLAN_SEED, events=events,
+            rehearse=lambda task, plan: rehearse(task, plan, flaws),
+        )  # fmt: skip
+    if plan is None:
+        raise no_plan(setup.planner, setup.task)
+    course = lay_course(setup.task, plan, label)
+    if course.objections and not setup.force:
+        raise course.objections[0]
+    return replace(setup, plan=plan, planned=planned)
 
 
 @dataclass(slots=True)
@@ -222,31 +311,16 @@ def _outcome(run: ClimbRun) -> str:
     return run.report.reason.partition(":")[0]
 
 
-def run_trial(item: Json) -> Json:
-    """One trial; runs in a worker.
+def plans_on_the_way(result: Json) -> list[Json | None]:
+    """The plans that a trial was given on its way, of its result in a store.
 
-    Args:
-        item: As `TrialSetup.item` writes it.
-
-    Returns:
-        The trial, and `plans` that were made on the way.
+    Raises:
+        SpecError: If they are no plans.
     """
-    task = task_from_document(item["document"])
-    assert isinstance(task, LimbedTask)
-    planner, seconds, replan = item["planner"]
-    setup = TrialSetup(
-        task=task,
-        noise=noise_of(item["noise"]),
-        plan=Plan.from_json(item["plan"] | {"document": item["document"]}),
-        plant=tuple(item["plant"]),
-        planner=planner,
-        seconds=seconds,
-        replan=replan,
-        force=item["force"],
-        faults=tuple(item["faults"]),
-    )
-    _, trial, plans = climb_once(setup, item["seed"])
-    return trial.to_json() | {"plans": plans}
+    plans = result.get("plans")
+    if not isinstance(plans, list) or not all(plan is None or isinstance(plan, dict) for plan in plans):
+        raise SpecError("a stored result", "plans", plans, "must be a list of plans")
+    return plans
 
 
 def _without_document(plan: Plan) -> Json:

@@ -12,7 +12,7 @@ from ....trials.intervals import wilson_interval
 from ....units import INCH
 from ..execution.course import Course, lay_course, names_of
 from .sensitivity import Effect, find_effects
-from .trials import Trials
+from .trial import ClimbTrials
 
 WAY: Final = 6.0 * INCH
 """A rung of the thesis's ladder, that times are told for [m]."""
@@ -113,7 +113,7 @@ class TrialSummary(Jsonable):
         return wilson_interval(self.done, self.n)
 
 
-def sum_up(trials: Trials) -> TrialSummary:
+def sum_up(trials: ClimbTrials) -> TrialSummary:
     """What there is to say of trials, ended early or not."""
     ended = trials.ended
     times = [trial.seconds for trial in ended if trial.done]
@@ -151,7 +151,7 @@ def body_way(course: Course) -> float:
     return float(np.hypot(np.diff(course.stances["x"]), np.diff(course.stances["y"])).sum())
 
 
-def _causes(trials: Trials) -> tuple[Cause, ...]:
+def _causes(trials: ClimbTrials) -> tuple[Cause, ...]:
     failed = [trial for trial in trials.ended if not trial.done]
     alike: dict[tuple[str, str, str], list[int]] = {}
     for k, trial in enumerate(failed):

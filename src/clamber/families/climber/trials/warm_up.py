@@ -6,6 +6,7 @@ from typing import Final
 import numpy as np
 
 from ....execution.sequencer import Sequencer
+from ....kernel_cache import Use
 from ....planning.problem.plan import Plan
 from ....tasks import load_task
 from ..execution.climb_trace import TracedClimber
@@ -16,6 +17,7 @@ from ..planning.task import LimbedTask
 from ..sim.climber_plant import ClimberPlant
 from ..sim.flaw_texts import named_flaws
 
+CLIMBING: Final = Use("clamber.families.climber.trials.warm_up:warm_up_beside_planning", "command_tick")
 FIRST_GRAB: Final = 106
 """Of the thesis's gait on the ladder, its number of the action."""
 

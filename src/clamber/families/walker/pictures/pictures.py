@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ....planning.problem.problem import Replay
-from ....planning.problem.yardsticks import yardsticks_of
+from ....planning.problem.problems import yardsticks_of
 from ....types import Floats
 from ....viewing import style
 from ....viewing.pictures import Pictures

@@ -2,7 +2,6 @@
 
 import math
 
-from ....planning.problem.plan import Plan
 from ....units import DEGREE
 from ....viewing.report.run_page import MILLI, MOST_TOLD, Rows, RunPage, most, plan_words
 from ..execution.walk_report import StepReport, WalkReport
@@ -10,8 +9,9 @@ from ..planning.piece import Piece
 from ..trials.run_walk import WalkRun
 
 
-def walk_page(run: WalkRun, plan: Plan | None) -> RunPage:
+def walk_page(run: WalkRun) -> RunPage:
     """What the report of a walk says, which may have followed a plan."""
+    plan = run.plan
     if plan is not None:
         planned = plan_words(plan, plan.task)
         rows = Rows(("Step", "Action"), tuple((k, one.title) for k, one in enumerate(plan.actions, start=1)))

@@ -6,14 +6,9 @@ from typing import Final
 import numpy as np
 
 from ....errors import describe_choices
-from ....planning.problem.check import Check
 from ....planning.problem.code_limits import CodeLimits
 from ....planning.problem.codes import MOVE, NONE, RELEASE, Code, pack
-from ....planning.problem.plan_costs import PlanCost
-from ....planning.problem.planned import ActionError, PlannedAction
-from ....planning.problem.posed import Posed
-from ....planning.problem.problem import CompiledProblem, Records
-from ....types import Ints
+from ....planning.problem.problems import ActionError, PlanCost, PlanFamily, PlannedAction, Posed
 from ..robot import FRAMES
 from ..statics.checks import WALKER_CHECKS
 from .problem import MOVES, WalkerProblem, stride_lengths, walker_limits, walker_table
@@ -23,12 +18,10 @@ SAME = 1e-6
 """Moves that differ from a step by less than this part of it are that step."""
 
 
-class WalkerPlans:
+class WalkerPlans(PlanFamily):
     """How plans of two-frame walkers are named, replayed and reported; limbs are frames, and nothing is held."""
 
-    checks: tuple[Check, ...] = WALKER_CHECKS
-    """In the order of a replay's margins."""
-    burdens: tuple[str, ...] = WalkerProblem.burdens
+    checks = WALKER_CHECKS
 
     def posed(self, task: WalkerTask, threads: int | None, filters: bool) -> Posed:
         """The task as a problem with the hard checks alone."""
@@ -38,10 +31,6 @@ class WalkerPlans:
     def limits(self, task: WalkerTask) -> CodeLimits:
         """The codes that are actions of a task, and the indices that its stances may have."""
         return walker_limits(task)
-
-    def without_hangs(self, task: WalkerTask) -> WalkerTask:
-        """The same task: a walker never hangs."""
-        return task
 
     def sizes(self, task: WalkerTask) -> Mapping[str, float]:
         """Half a stroke, the guarded singular distance, a tenth of the feet's circle, half of a support triangle, the legs' stroke."""
@@ -98,44 +87,12 @@ class WalkerPlans:
         """Place [m] and angle [rad] of the Delta-frame, world frame."""
         return float(stance["x"]), float(stance["y"]), float(stance["angle"])
 
-    def holds(self, task: WalkerTask, stance: np.void) -> dict[str, int]:
-        """Empty: a walker holds nothing."""
-        return {}
-
-    def taken(self, task: WalkerTask, stance: np.void) -> int | None:
-        """None: a walker takes no holds."""
-        return None
-
-    def model(self, task: WalkerTask) -> str:
-        """The rules that a proof about a task holds for."""
-        return f"hard checks {', '.join(self.hard(task))}"
-
-    def power(self, stance: np.void) -> float:
-        """0: the model has no forces."""
-        return 0.0
-
     def costs(self, task: WalkerTask) -> Mapping[str, PlanCost]:
         """The time that a walk takes, and how near it comes to where the mechanism is singular."""
         return {
             "time": PlanCost(feature="effort", title="takes", unit="s", digits=0),
             "strain": PlanCost(feature="peak", title="nearest to a singular place", unit="of 1", digits=2),
         }
-
-    def duration(self, task: WalkerTask) -> float:
-        """0: the model has no forces, so no energy is counted."""
-        return 0.0
-
-    def torque(self, stance: np.void) -> float:
-        """0: the model has no forces."""
-        return 0.0
-
-    def nearest(self, task: WalkerTask, problem: CompiledProblem, stances: Records, asked: Ints) -> list[int | None]:
-        """None for each: no action of a walker chooses among holds."""
-        return [None] * len(asked)
-
-    def goals_met(self, stance: np.void) -> int:
-        """Goals met, in order."""
-        return int(stance["stage"])
 
 
 def _delta(task: WalkerTask, argument: int) -> tuple[float, float, float]:

@@ -9,13 +9,12 @@ from typing import Final
 import numpy as np
 
 from ....errors import MISSING, SpecError
+from ....planning.problem.arrays import ActionTable, Params
 from ....planning.problem.check import TICKS
 from ....planning.problem.code_limits import CodeLimits
 from ....planning.problem.codes import MOVE, NONE, RELEASE, pack
 from ....planning.problem.loops import replay
-from ....planning.problem.params import Params
 from ....planning.problem.problem import CompiledProblem, Records
-from ....planning.problem.table import ActionTable
 from ....types import Floats
 from ..robot import FRAMES
 from ..robot.weight import Weight, weight_of

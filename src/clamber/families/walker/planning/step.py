@@ -215,12 +215,6 @@ def freer(p, s, which, t):
     return True
 
 
-@inlined
-def reflect(p, s, t):
-    """No symmetry of the walker is used."""
-    return False
-
-
 @kernel
 def candidates(p, s, codes):
     """Every different action from a stance; returns their number, which is seven."""
@@ -269,11 +263,6 @@ def aims(p, s, k):
     return meets(s, walker_goals(p)[k])
 
 
-@inlined
-def burden(p, s, spare, margins, row):
-    """Nothing: the model has no forces."""
-
-
 @kernel
 def toward(p, s, t):
     """An admissible, consistent number of actions from a stance to another's key.
@@ -300,11 +289,9 @@ family_kernels(
     measure=measure,
     bound=bound,
     freer=freer,
-    reflect=reflect,
     done=done,
     cell=cell,
     spot=spot,
     aims=aims,
-    burden=burden,
     toward=toward,
 )

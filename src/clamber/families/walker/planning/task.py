@@ -11,8 +11,7 @@ from ....files import Document, check_schema
 from ....specs import Name, build_spec, field_names, spec
 from ....tasks.parts import parts_of
 from ....tasks.regions import GoalBox
-from ....tasks.task_file import SCHEMA, check_angle, check_hard, hashes_of
-from ....tasks.task_format import TaskFormat
+from ....tasks.task_format import SCHEMA, TaskFormat, check_angle, check_hard, hashes_of
 from ....types import Json
 from ....units import Angle, Length, NonNegativeLength, NonNegativeMass, Point, Quantity
 from ..robot import WalkerRobot, build_walker

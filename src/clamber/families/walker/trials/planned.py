@@ -1,6 +1,5 @@
 """Planned walks: a walker's task under rules that can bear to be carried out, its plan, and the walk that carries it out."""
 
-from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
@@ -8,10 +7,8 @@ import numpy as np
 from ....errors import SpecError
 from ....planning.problem.codes import Code
 from ....planning.problem.plan import Plan
-from ....planning.problem.plan_families import plan_family
-from ....planning.problem.plan_source import is_plan, open_plan
 from ....planning.problem.problem import Replay
-from ....tasks import Task, load_task
+from ....planning.problem.problems import plan_family
 from ....tasks.library import change_task
 from ....types import Floats, Ints
 from ..control.gait import Limits
@@ -80,29 +77,6 @@ def careful(task: WalkerTask) -> WalkerTask:
     )
     assert isinstance(changed, WalkerTask)  # the robot stays what it is
     return changed
-
-
-def open_planned_walk(what: str, task: str | None, settings: Sequence[str]) -> tuple[WalkerTask, Plan | None] | None:
-    """The walker's task that a text means, by itself or as that of a plan, and the plan; None if it means another family's.
-
-    Args:
-        what: A task's name or file, or a plan's.
-        task: A task in place of the one that the plan names.
-        settings: Texts "key=value" for the task.
-
-    Raises:
-        SpecError: If a plan's task is given beside a task.
-        ClamberError: As `open_plan` and `load_task`.
-    """
-    if is_plan(what):
-        opened = open_plan(what, task, settings)
-        return (opened.task, opened.plan) if isinstance(opened.task, WalkerTask) else None
-    chosen: Task = load_task(what, settings)
-    if not isinstance(chosen, WalkerTask):
-        return None
-    if task is not None:
-        raise SpecError(what, "--task", task, "is for a plan; this is a task itself")
-    return chosen, None
 
 
 def walk_of(task: WalkerTask) -> Walk:

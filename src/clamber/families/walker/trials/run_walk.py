@@ -16,6 +16,7 @@ from ....execution.log_stream import LogGap, WantedLog, growing_log
 from ....execution.run_ends import RunEndedError
 from ....execution.sequencer import Sequencer
 from ....json_form import HIDDEN, INLINE, Jsonable, Key, OrNull, in_json
+from ....planning.problem.plan import Plan
 from ....sim.plant_rules import PlantError
 from ....types import Floats
 from ....units import parse_quantity
@@ -115,6 +116,8 @@ class WalkRun(Jsonable):
     """There only if the walk has a point to hold, and the way was laid."""
     fault: Annotated[Fault | None, HIDDEN] = None
     """That the robot had."""
+    plan: Annotated[Plan | None, HIDDEN] = None
+    """That it followed; None: its own way."""
     log_gap: Annotated[LogGap | None, Key(after="hold", may_be_missing=True)] = None
     """What its log lacks, there only if it could not be written to its end; None: nothing, or there is no log."""
 
@@ -272,7 +275,12 @@ def run_walk(
     true = plant.trace()
     held = holds[0].as_it_was(true) if holds else None
     taken = time.perf_counter() - began
-    return WalkRun(walk, report, walker.trace(notes), true, taken, held, fault, gap)
+    return WalkRun(walk, report, walker.trace(notes), true, taken, held, fault, log_gap=gap)
+
+
+def step_told(step: int, way: float, whole: float) -> tuple[str, float | None]:
+    """The step that begins, on `whole` metres of way, in words, and the share that is done [-]."""
+    return f"step {step}: {way:.2f} of {whole:.2f} m", way / whole if whole > 0.0 else None
 
 
 def stand(walker: TracedWalker, walk: Walk) -> None:

@@ -1,7 +1,6 @@
 """Many walks of one kind, each with its own seed: run over workers, stored as they end, and what they say together."""
 
-from collections.abc import Callable, Sequence
-from contextlib import suppress
+from collections.abc import Callable
 from dataclasses import dataclass
 from operator import attrgetter
 from pathlib import Path
@@ -10,12 +9,13 @@ from typing import Annotated, Final
 import numpy as np
 
 from ....execution.fault import draw_fault
-from ....jobs import Executor, Outcome, look_into, map_items, read_result
+from ....jobs import read_result
 from ....json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ....planning.problem.plan import Plan
 from ....tasks import task_from_document
 from ....trials.fault_trials import FaultRow, TriedFault, check_told, fault_rows, told_fault
 from ....trials.intervals import wilson_interval
+from ....trials.trial_runs import Setup, Trials
 from ....types import Floats, Json
 from ....units import DEGREE
 from ..planning import Walk
@@ -24,72 +24,12 @@ from ..planning.walks import walk_from_document
 from .faults import BEGINS, failing_of
 from .noise import WalkNoise
 from .planned import lay_plan, walk_of
-from .run_walk import run_walk, walk_flaws
+from .run_walk import WalkRun, run_walk, step_told, walk_flaws
 
 LEVEL: Final = 0.1 * DEGREE
 """A plate counts as level within this [rad]: what the paper's robot levels itself to."""
 ERROR: Final = "error"
 """Start of the reason of a trial that raised, or whose workers died."""
-
-
-@dataclass(frozen=True, slots=True)
-class WalkSetup:
-    """What all trials have in common: a walk, or a task with its plan."""
-
-    walked: Walk | WalkerTask
-    noise: WalkNoise
-    plant: tuple[str, ...] = ()
-    """Settings of the plant, such as "friction=50%"."""
-    plan: Plan | None = None
-    """Of a task."""
-    planned: bool = False
-    """Whether a planner made the plan, so that it is no part of what was asked for."""
-    faults: tuple[str, ...] = ()
-    """Kinds of faults, one of which each trial has; none without."""
-
-    @property
-    def name(self) -> str:
-        """Of what is walked."""
-        return self.walked.name
-
-    @property
-    def title(self) -> str:
-        """The same in words."""
-        return f"walks '{self.name}'"
-
-    @property
-    def levels(self) -> bool:
-        """Whether the plate is to be kept level; in a plan it always is."""
-        return not isinstance(self.walked, Walk) or self.walked.level
-
-    def about(self) -> Json:
-        """What tells these trials from others; not how many, nor from which seed on."""
-        told = self._plain()
-        if isinstance(self.walked, WalkerTask):
-            told["plan"] = None if self.plan is None or self.planned else self.plan.to_json()
-        return told
-
-    def item(self, seed: int) -> Json:
-        """One trial for a worker."""
-        told = self._plain()
-        if self.plan is not None:
-            told["plan"] = self.plan.to_json() | {"document": {}}
-        return told | {"seed": seed}
-
-    def _plain(self) -> Json:
-        told = {"document": self.walked.document, "plant": list(self.plant), "noise": self.noise.to_json()}
-        return told | ({"faults": list(self.faults)} if self.faults else {})
-
-    def stored_plan(self, store: Path | None) -> Plan | None:
-        """The plan that the store of these trials was begun with; None where there is none yet.
-
-        Raises:
-            StoreError: If the file can't be the store of these trials.
-        """
-        kept = None if store is None else look_into(store, run_walk_trial, about=self.about(), title=self.title)
-        if kept is None or kept.note is None:
-            return None
-        return Plan.from_json(kept.note, "plan of the store")
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,8 +77,124 @@ class WalkTrial(Jsonable):
     """The fault that the robot had, when it was noticed, and how that ended; None in trials without."""
 
 
+def walk_once(item: Json, step: Callable[[str, float | None], None] | None = None) -> WalkRun:
+    """One walk of many.
+
+    Args:
+        item: As `WalkSetup.item` writes it.
+        step: Told the step that begins.
+    """
+    lay = None
+    if "plan" in item:
+        task = task_from_document(item["document"])
+        assert isinstance(task, WalkerTask)
+        walk, lay = walk_of(task), lay_plan(task, Plan.from_json(item["plan"] | {"document": item["document"]}))
+    else:
+        walk = walk_from_document(item["document"])
+    faults, seed = item.get("faults", ()), item["seed"]
+    fault = draw_fault(faults, seed, failing_of(walk.robot), BEGINS) if faults else None
+    flaws, noise = walk_flaws(walk, item["plant"]), WalkNoise(item["noise"])
+    told = None if step is None else lambda *moment: step(*step_told(*moment))
+    return run_walk(walk, flaws, noise=noise, seed=seed, lay=lay, fault=fault, progress=told)
+
+
+def judged(seed: int, run: WalkRun) -> WalkTrial:
+    """What is kept of a walk."""
+    report, margin = run.report, run.margin
+    off, turned = (None, None) if report.missed is None else report.missed
+    way, error = (None, None) if run.held is None else (run.held.part.way, run.held.largest)
+    return WalkTrial(
+        seed=seed, done=run.done, reason=run.reason, seconds=report.seconds, steps=len(report.steps),
+        tilt=run.tilt, margin=margin if np.isfinite(margin) else None, off=off, turned=turned, kicks=report.kicks,
+        held_way=way, held_error=error, fault=told_fault(run.fault, run.done, report),
+    )  # fmt: skip
+
+
+def run_walk_trial(item: Json) -> Json:
+    """One walk, as `WalkTrial.to_json`; runs in a worker."""
+    return judged(item["seed"], walk_once(item)).to_json()
+
+
+@dataclass(frozen=True, slots=True)
+class WalkSetup(Setup[WalkRun, WalkTrial]):
+    """What all trials have in common: a walk, or a task with its plan."""
+
+    walked: Walk | WalkerTask
+    noise: WalkNoise
+    plant: tuple[str, ...] = ()
+    """Settings of the plant, such as "friction=50%"."""
+    plan: Plan | None = None
+    """Of a task."""
+    planned: bool = False
+    """Whether a planner made the plan, so that it is no part of what was asked for."""
+    faults: tuple[str, ...] = ()
+    """Kinds of faults, one of which each trial has; none without."""
+
+    @property
+    def name(self) -> str:
+        """Of what is walked."""
+        return self.walked.name
+
+    @property
+    def worker(self) -> Callable[[Json], Json]:
+        """One trial."""
+        return run_walk_trial
+
+    @property
+    def title(self) -> str:
+        """The same in words."""
+        return f"walks '{self.name}'"
+
+    @property
+    def levels(self) -> bool:
+        """Whether the plate is to be kept level; in a plan it always is."""
+        return not isinstance(self.walked, Walk) or self.walked.level
+
+    def about(self) -> Json:
+        """What tells these trials from others; not how many, nor from which seed on."""
+        told = self._plain()
+        if isinstance(self.walked, WalkerTask):
+            told["plan"] = None if self.plan is None or self.planned else self.plan.to_json()
+        return told
+
+    def item(self, seed: int) -> Json:
+        """One trial for a worker."""
+        told = self._plain()
+        if self.plan is not None:
+            told["plan"] = self.plan.to_json() | {"document": {}}
+        return told | {"seed": seed}
+
+    def _plain(self) -> Json:
+        told = {"document": self.walked.document, "plant": list(self.plant), "noise": self.noise.to_json()}
+        return told | ({"faults": list(self.faults)} if self.faults else {})
+
+    def begun(self, asked: int) -> "WalkTrials":
+        """No walks yet."""
+        return WalkTrials(self, asked, [])
+
+    def trial(self, result: Json, store: Path | None = None) -> WalkTrial:
+        """The trial of a result."""
+        trial = read_result(WalkTrial, result, store)
+        check_told(trial.fault, store)
+        return trial
+
+    def failed(self, seed: int, error: str) -> WalkTrial:
+        """A walk that raised."""
+        return WalkTrial(
+            seed=seed, done=False, reason=f"{ERROR}: {error}", seconds=0.0, steps=0, tilt=0.0, margin=None, off=None,
+            turned=None, kicks=0,
+        )  # fmt: skip
+
+    def again(
+        self, seed: int, kept: Json | None, step: Callable[[str, float | None], None]
+    ) -> tuple[WalkRun, WalkTrial]:
+        """One walk again."""
+        run = walk_once(self.item(seed), step)
+        return run, judged(seed, run)
+
+
 @dataclass(slots=True)
-class WalkTrials(Jsonable):
+class WalkTrials(Trials[WalkSetup, WalkTrial], Jsonable):
     """Walks that ended."""
 
     setup: Annotated[
@@ -222,100 +278,3 @@ def cause_of(reason: str) -> str:
     """The reason of a walk that ended early without its numbers, such as "fell" of "step 3: fell: the robot tips"."""
     parts = [part.strip() for part in reason.split(":")]
     return parts[1] if parts[0].startswith("step ") and len(parts) > 1 else parts[0]
-
-
-def _trial_of(told: Json, store: Path | None) -> WalkTrial:
-    trial = read_result(WalkTrial, told, store)
-    check_told(trial.fault, store)
-    return trial
-
-
-def run_walk_trial(item: Json) -> Json:
-    """One walk; runs in a worker.
-
-    Args:
-        item: As `WalkSetup.item` writes it.
-
-    Returns:
-        `WalkTrial.to_json`.
-    """
-    lay = None
-    if "plan" in item:
-        task = task_from_document(item["document"])
-        assert isinstance(task, WalkerTask)
-        walk, lay = walk_of(task), lay_plan(task, Plan.from_json(item["plan"] | {"document": item["document"]}))
-    else:
-        walk = walk_from_document(item["document"])
-    faults, seed = item.get("faults", ()), item["seed"]
-    fault = draw_fault(faults, seed, failing_of(walk.robot), BEGINS) if faults else None
-    flaws, noise = walk_flaws(walk, item["plant"]), WalkNoise(item["noise"])
-    run = run_walk(walk, flaws, noise=noise, seed=seed, lay=lay, fault=fault)
-    report, margin = run.report, run.margin
-    off, turned = (None, None) if report.missed is None else report.missed
-    way, error = (None, None) if run.held is None else (run.held.part.way, run.held.largest)
-    return WalkTrial(
-        seed=item["seed"], done=run.done, reason=run.reason, seconds=report.seconds, steps=len(report.steps),
-        tilt=run.tilt, margin=margin if np.isfinite(margin) else None, off=off, turned=turned, kicks=report.kicks,
-        held_way=way, held_error=error, fault=told_fault(fault, run.done, report),
-    ).to_json()  # fmt: skip
-
-
-def run_walk_trials(
-    setup: WalkSetup,
-    seeds: Sequence[int],
-    *,
-    executor: Executor,
-    store: Path | None = None,
-    resume: bool = False,
-    told: Callable[[WalkTrials], None] | None = None,
-) -> WalkTrials:
-    """Walk with every seed; each trial is stored, and told of, as it ends. Ctrl-C ends it early, with what there is.
-
-    Args:
-        setup: What all trials have in common; a task with its plan.
-        seeds: One trial each.
-        executor: Who runs them.
-        store: SQLite file that keeps the trials, and the plan.
-        resume: Whether to go on with that file.
-        told: Given what there is so far at each end.
-
-    Raises:
-        StoreError: If the file can't be the store of these trials.
-        ClusterError: If there is no cluster to run on, or it is lost.
-    """
-    assert isinstance(setup.walked, Walk) or setup.plan is not None, "plan first"
-    trials = WalkTrials(setup, len(seeds), [])
-
-    def take(ended: int, total: int, outcome: Outcome) -> None:
-        trials.wall_seconds += outcome.seconds
-        if outcome.result is not None:
-            trials.ended.append(_trial_of(outcome.result, store))
-        if told is not None:
-            told(trials)
-
-    with suppress(KeyboardInterrupt):
-        outcomes = map_items(
-            run_walk_trial,
-            [setup.item(seed) for seed in seeds],
-            executor=executor,
-            store=store,
-            about=setup.about(),
-            title=setup.title,
-            note=None if setup.plan is None else setup.plan.to_json(),
-            resume=resume,
-            progress=take,
-        )
-        trials.wall_seconds = sum(outcome.seconds for outcome in outcomes)
-        trials.ended = [
-            _error(seed, outcome.error or "") if outcome.result is None else _trial_of(outcome.result, store)
-            for seed, outcome in zip(seeds, outcomes, strict=True)
-        ]
-    return trials
-
-
-def _error(seed: int, error: str) -> WalkTrial:
-    """A trial without an answer; it counts as a walk that failed."""
-    return WalkTrial(
-        seed=seed, done=False, reason=f"{ERROR}: {error}", seconds=0.0, steps=0, tilt=0.0, margin=None, off=None,
-        turned=None, kicks=0,
-    )  # fmt: skip

@@ -1,0 +1,86 @@
+"""A task, a plan or a walk carried out once, and what is told of it."""
+
+from typing import Any
+
+import typer
+
+from ...planning.planners import find_planner
+from ...planning.progress import progress_text
+from ...terminal.compile_ahead import compile_ahead
+from ...terminal.live_line import LiveLine
+from ...terminal.output import announce_compilation, print_json, refuse_unused, stderr, stdout, tell_cuts
+from ...trials.dynamics import NoPlanError, RunEvents, RunRequest
+from ...trials.work import Work
+from ...viewing.report.pages import open_report
+from .options import RunOptions
+
+
+def carry_out(work: Work, words: RunOptions, command: str) -> None:
+    """Carry it out and say how it went; leaves with 1 where there is no plan, or where it did not come to its end.
+
+    Args:
+        work: What is carried out.
+        words: How.
+        command: What repeats the run, for its report.
+    """
+    dynamics = work.dynamics
+    refuse_unused(words, dynamics.unused(work.item), f"'{work.label}' is a {dynamics.kind}")
+    if words.outputs:
+        from ...viewing.pictures import check_run_suffix
+
+        for file in words.outputs:
+            check_run_suffix(file)
+    find_planner(words.planner)
+    peg_error = () if words.peg_error is None else (f"peg_error={words.peg_error}",)
+    noise = (*(words.noise or ()), *peg_error)
+    with LiveLine(stderr(), quiet=words.quiet) as line:
+        asked = RunRequest(
+            planner=words.planner, plan_seconds=words.seconds, noise=noise, plant=work.plant, seed=words.seed,
+            replan=words.replan, force=words.force, motors=words.plant, log=words.log(line.say),
+        )  # fmt: skip
+        dynamics.check(work.item, asked)
+        if words.report is not None:
+            open_report(words.report, dynamics.kind)
+        announce_compilation(quiet=words.quiet)
+        compile_ahead(*dynamics.compiled)
+        cuts: list[None] = []
+        events = RunEvents(
+            search=lambda moment: line.show(progress_text(moment)),
+            cut=lambda: cuts.append(None),
+            planned=lambda plan: None if words.save_plan is None else plan.save(words.save_plan),
+            step=lambda words, share: line.show(words),
+        )
+        if work.plan is not None:
+            events.planned(work.plan)
+        try:
+            run = dynamics.run(work.item, work.plan, asked, events, work.label)
+        except NoPlanError as none:
+            line.say(str(none))
+            raise typer.Exit(1) from None
+        finally:
+            tell_cuts(len(cuts))
+    _tell(work, words, run, command)
+    raise typer.Exit(130 if run.report.reason == "interrupted" else 0 if run.done else 1)
+
+
+def _tell(work: Work, words: RunOptions, run: Any, command: str) -> None:
+    """Write the files of a run and print it."""
+    if words.outputs:
+        from ...viewing.pictures import draw_run
+    for file in words.outputs:
+        if file != words.growing:
+            draw_run(run, file)
+    written = words.written(run.log_gap)
+    if words.report is not None:
+        from ...viewing.report.run_page import write_run_report
+
+        written = (*written, write_run_report(run, command, words.report))
+    if words.as_json:
+        print_json(run)
+        return
+    console = stdout()
+    work.dynamics.print_run(console, run)
+    if run.log_gap is not None:
+        console.print(str(run.log_gap), soft_wrap=True)
+    for path in written:
+        console.print(f"written: {path}", soft_wrap=True)

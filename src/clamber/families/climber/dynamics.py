@@ -1,0 +1,136 @@
+"""Climbs in contact dynamics: one, and many under model error."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Final
+
+from ...errors import SpecError
+from ...execution.fault import FAULTS, check_faults
+from ...json_form import INLINE
+from ...planning.problem.plan import Plan
+from ...trials.dynamics import Conditions, Dynamics, RunEvents, RunRequest, TrialsRequest
+from .planning.task import LimbedTask
+from .trials.noise import NO_NOISE, Noise, check_noise, named_noise, read_noise
+from .trials.planning import no_plan, plan_to_climb, replanner
+from .trials.plants import check_plant, is_remote
+from .trials.rehearsal import rehearse
+from .trials.run_plan import ClimbRun, action_told, climbing_flaws, climbing_task, run_plan
+from .trials.trial import ClimbTrial, ClimbTrials, TrialSetup, with_plan
+from .trials.trial_summary import TrialSummary, sum_up
+from .trials.warm_up import CLIMBING
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+
+@dataclass(frozen=True, slots=True)
+class TrialedClimb:
+    """Many climbs of one plan."""
+
+    summary: Annotated[TrialSummary, INLINE]
+    held_out: bool
+    """Whether all seeds are held out: none that any tuning may use."""
+    trials: list[ClimbTrial]
+
+
+@dataclass(frozen=True, slots=True)
+class ReplayedClimb:
+    """`--replay SEED`: one climb of the trials again."""
+
+    run: Annotated[ClimbRun, INLINE]
+    trial: ClimbTrial
+
+
+class ClimberDynamics(Dynamics):
+    """Climbs on a plant with flaws, pegs that are not where the map says."""
+
+    kind = "climb"
+    past = "climbed"
+    compiled = (CLIMBING,)
+
+    def check(self, work: LimbedTask, asked: Conditions) -> None:
+        """Plant, noise and faults."""
+        flaws = climbing_flaws(climbing_task(work), asked.plant)
+        if isinstance(asked, RunRequest):
+            check_plant(asked.motors)
+            if asked.plant and is_remote(asked.motors):
+                key, _, value = asked.plant[0].partition("=")
+                raise SpecError("--set", f"plant.{key}", value, "is the plant server's to set")
+        if isinstance(asked, TrialsRequest):
+            check_faults(asked.faults, tuple(FAULTS))
+        check_noise(_noise(asked), work.robot, flaws)
+
+    def run(
+        self, work: LimbedTask, plan: Plan | None, asked: RunRequest, events: RunEvents, label: str = "plan"
+    ) -> ClimbRun:
+        """One climb."""
+        task = climbing_task(work)
+        flaws = climbing_flaws(task, asked.plant)
+        search: dict[str, Any] = {"seconds": asked.plan_seconds, "seed": asked.seed, "events": events}
+        if plan is None:
+            plan = plan_to_climb(task, asked.planner, rehearse=lambda task, plan: rehearse(task, plan, flaws), **search)
+            if plan is None:
+                raise no_plan(asked.planner, task)
+            events.planned(plan)
+        return run_plan(
+            task, plan, flaws, noise=_noise(asked), seed=asked.seed, force=asked.force,
+            replan=replanner(asked.planner, **search) if asked.replan else None,
+            progress=lambda *action: events.step(*action_told(*action)), label=label, log=asked.log, plant=asked.motors,
+        )  # fmt: skip
+
+    def print_run(self, console: "Console", run: ClimbRun) -> None:
+        """How it ended, a row for each kind of action."""
+        from .pictures.climb_text import print_run
+
+        print_run(console, run)
+
+    def trials(
+        self,
+        work: LimbedTask,
+        plan: Plan | None,
+        asked: TrialsRequest,
+        events: RunEvents,
+        store: Path | None = None,
+        label: str = "plan",
+    ) -> TrialSetup:
+        """What all climbs have in common."""
+        setup = TrialSetup(
+            task=climbing_task(work), noise=_noise(asked), plan=plan, plant=asked.plant, planner=asked.planner,
+            seconds=asked.plan_seconds, replan=asked.replan, force=asked.force, faults=asked.faults,
+        )  # fmt: skip
+        return with_plan(setup, store, label, events)
+
+    def trials_json(self, trials: ClimbTrials, held_out: bool) -> TrialedClimb:
+        """Summary and trials."""
+        return TrialedClimb(sum_up(trials), held_out, trials.ended)
+
+    def replay_json(self, run: ClimbRun, trial: ClimbTrial) -> ReplayedClimb:
+        """The climb, and what trials keep of it."""
+        return ReplayedClimb(run, trial)
+
+    def print_trials(self, console: "Console", trials: ClimbTrials, seeds: Sequence[int]) -> None:
+        """Success, causes, times, and what of the noise matters."""
+        from .pictures.climb_text import print_trials
+
+        print_trials(console, sum_up(trials), seeds)
+
+    def check_picture(self, file: Path) -> None:
+        """A picture."""
+        from ...viewing.output import CANVASES, check_suffix
+
+        check_suffix(file, CANVASES)
+
+    def draw_trials(self, trials: ClimbTrials, file: Path) -> None:
+        """Success over what was drawn."""
+        from .pictures.charts import draw_trials
+
+        draw_trials(sum_up(trials), file)
+
+
+def _noise(asked: Conditions) -> Noise:
+    """Widths: of trials the usual ones, of one run none, but for those that are named."""
+    return read_noise(named_noise("usual") if isinstance(asked, TrialsRequest) else NO_NOISE, asked.noise)
+
+
+DYNAMICS: Final = ClimberDynamics()

@@ -1,0 +1,27 @@
+"""What commands print with `--json` about climbers."""
+
+from typing import Any, Final
+
+from .cli.plant import PlantAnswer, ServedPlant
+from .dynamics import ReplayedClimb, TrialedClimb
+from .execution.log_identify import Identification
+from .trials.body_measures import BodyContest
+from .trials.body_trials import PushTrial
+from .trials.lessons import LearnedPlan
+from .trials.press import Pressed
+from .trials.run_plan import ClimbRun
+
+PRINTED: Final[dict[str, Any]] = {
+    "rehearse": LearnedPlan,
+    "run": ClimbRun,
+    "press": Pressed,
+    "trials": TrialedClimb | ReplayedClimb,
+    "plant serve": ServedPlant,
+    "plant stop": PlantAnswer,
+    "plant release": PlantAnswer,
+    "limb identify": Identification,
+    "body circle": BodyContest,
+    "body push-up": BodyContest,
+    "body push": BodyContest | dict[str, list[PushTrial]],
+}
+"""Words of a command after `clamber` -> what it prints."""

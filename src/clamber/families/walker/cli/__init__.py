@@ -1,0 +1,1 @@
+"""Commands that only two-frame walkers have."""

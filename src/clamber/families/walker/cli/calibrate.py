@@ -1,0 +1,74 @@
+"""`clamber calibrate`: sizes of a two-frame mechanism from its published range of angles and longest step, with the rival fits."""
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ....terminal.options import AsJson
+from ....terminal.output import announce_compilation, print_json, stdout
+from ....viewing.text_table import plain_table
+
+if TYPE_CHECKING:
+    from ..robot.calibration import Fit
+
+
+def calibrate(
+    least: Annotated[
+        str, typer.Option(metavar="ANGLE", help="Least angle of the Y-frame in the Delta-frame.")
+    ] = "-18 deg",
+    most: Annotated[str, typer.Option(metavar="ANGLE", help="Largest angle of it.")] = "48 deg",
+    step: Annotated[str, typer.Option(metavar="LENGTH", help="Longest step.")] = "160 mm",
+    direction: Annotated[str, typer.Option(metavar="ANGLE", help="Its direction, up to 60 deg.")] = "30 deg",
+    stroke: Annotated[str, typer.Option(metavar="LENGTH", help="Stroke of the actuators.")] = "250 mm",
+    seeds: Annotated[int, typer.Option(min=1, help="Random starts of every family of fits.")] = 8,
+    as_json: AsJson = False,
+) -> None:
+    """Fit a walker's unprinted sizes to what is printed of it, and list what else fits as well.
+
+    The numbers are those of Hoshino and others unless given, their angles mirrored to grow with the region.
+    """
+    from ....units import parse_quantity
+    from ..robot.calibration import HOSHINO_1995, Published, fit_families
+
+    published = Published(
+        least=parse_quantity(least, "angle"), most=parse_quantity(most, "angle"), step=parse_quantity(step, "length"),
+        direction=parse_quantity(direction, "angle"), stroke=parse_quantity(stroke, "length"),
+    )  # fmt: skip
+    if not published.least < 0.0 < published.most:
+        raise typer.BadParameter("must be on either side of 0 deg", param_hint="--least, --most")
+    if published.step <= 0.0 or published.stroke <= 0.0:
+        raise typer.BadParameter("must be more than 0", param_hint="--step, --stroke")
+    announce_compilation()
+    found = fit_families(published, range(seeds))
+    if as_json:
+        print_json(found)
+        return
+    console = stdout()
+    table = plain_table(
+        "free", "R [mm]", "R_y [mm]", "offset", "drawn in", "least", "most", "step", "misfit", "seeds",
+        right=("R [mm]", "R_y [mm]", "offset", "drawn in", "least", "most", "step", "misfit", "seeds"),
+    )  # fmt: skip
+    for number, rivals in enumerate(found, 1):
+        for k, fit in enumerate(rivals.fits):
+            counted = f"{rivals.good}/{rivals.seeds}" if k == 0 else ""
+            table.add_row(f"({number})" if k == 0 else "", *_numbers(fit), counted)
+    console.print(table)
+    for number, rivals in enumerate(found, 1):
+        console.print(f"({number}) {rivals.family.name}; step: {rivals.family.reading}")
+    console.print(
+        "misfit: largest difference from what is given, in half last places (0.5 deg, 0.5 mm); 1 and below rounds to it. "
+        "seeds: how many starts came as near. Lengths in mm, angles in deg."
+    )
+    if published == HOSHINO_1995:
+        console.print("Best directions turn with the whole mechanism, so they tell no fit from another.")
+
+
+def _numbers(fit: "Fit") -> tuple[str, ...]:
+    from ....units import DEGREE
+
+    sizes, mm = fit.sizes, 1e3
+    return (
+        f"{sizes.radius * mm:.1f}", f"{sizes.radius * sizes.ratio * mm:.1f}", f"{sizes.offset / DEGREE:.1f}",
+        f"{sizes.shortest * mm:.1f}", f"{fit.least / DEGREE:.2f}", f"{fit.most / DEGREE:.2f}", f"{fit.step * mm:.2f}",
+        f"{fit.misfit:.2f}",
+    )  # fmt: skip

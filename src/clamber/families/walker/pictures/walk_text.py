@@ -1,0 +1,133 @@
+"""Walks as a terminal shows them: what became of the steps of one, and what many say together."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from rich.console import Console
+
+from ....trials.fault_trials import fault_rows
+from ....trials.held_out import seeds_in_words
+from ....trials.intervals import wilson_interval
+from ....units import DEGREE
+from ....viewing.text_table import plain_table
+from ....viewing.trials_text import print_faults, share_range, some
+from ..execution.walk_report import WalkReport
+from ..trials.held_point import HeldPoint
+from ..trials.run_walk import WalkRun
+from ..trials.trials import LEVEL, WalkCause, WalkTrials
+
+
+def print_walk(console: Console, run: WalkRun) -> None:
+    """Print how a walk ended, a row for each step, and where it was close."""
+    report = run.report
+    if run.done:
+        console.print(f"walked: {len(report.steps)} steps of '{run.walk.name}'", style="bold green")
+    else:
+        console.print(f"not walked: '{run.walk.name}'", style="bold red")
+        console.print(run.reason)
+    console.print(_steps(report))
+    speed = report.seconds / run.wall_seconds if run.wall_seconds > 0.0 else 0.0
+    console.print(f"{report.seconds:.0f} s in {run.wall_seconds:.1f} s ({speed:.0f} times as fast as it happens)")
+    x, y, z, alpha = (report.true_pose or report.pose)[:4]
+    console.print(f"plate at x {x:.3f} m, y {y:.3f} m, z {z:.3f} m, heading {alpha / DEGREE:.1f} deg")
+    if report.missed is not None:
+        off, turned = report.missed
+        console.print(f"{1e3 * off:.1f} mm and {turned / DEGREE:.2f} deg from where the way ends")
+    console.print(f"largest tilt while walking {run.tilt / DEGREE:.3f} deg, least margin {_millimetres(run.margin)}")
+    if run.held is not None:
+        for line in held_lines(run.held):
+            console.print(line)
+    if report.kicks:
+        console.print(f"kicked {report.kicks} times: the plate tilted without its legs telling")
+
+
+def held_lines(held: HeldPoint) -> list[str]:
+    """Where the tool was to be held, and what came of it."""
+    part = held.part
+    reach = ", ".join(f"{first:.3f} to {last:.3f} m" for first, last in part.reach)
+    lines = [f"the arm reaches the point from the way's {reach}; held from {part.first:.3f} to {part.last:.3f} m"]
+    if not len(held.errors):
+        return [*lines, "the robot did not come so far"]
+    where = "the point" if len(part.points) == 1 else "its place on the line"
+    largest, mean = 1e3 * float(held.errors.max()), 1e3 * float(held.errors.mean())
+    seconds = float(held.time[-1] - held.time[0])
+    lines.append(f"held for {seconds:.0f} s: the tool at most {largest:.2f} mm from {where}, {mean:.2f} mm on average")
+    lines.append(
+        f"joints {part.room / DEGREE:.1f} deg and more inside their ranges, at most {100.0 * part.speed:.0f} % of their speed; "
+        f"manipulability of the arm {part.measures[0]:.3f} and more, {part.measures[1]:.3f} on average"
+    )
+    if part.raised != (0.0, 0.0):
+        least, most = (1e3 * raised for raised in part.raised)
+        lines.append(f"the plate {least:.0f} to {most:.0f} mm higher for the tool than walking would have it")
+    return lines
+
+
+def _steps(report: WalkReport) -> object:
+    table = plain_table("step", "frame", "way [m]", "outcome", "from [s]", "off [mm]", "reckoned margin",
+                        right=("step", "way [m]", "from [s]", "off [mm]", "reckoned margin"))  # fmt: skip
+    for step in report.steps:
+        off = f"{1e3 * step.off:.1f}" if np.isfinite(step.off) else ""
+        table.add_row(
+            str(step.number), step.frame, f"{step.way:.3f}", step.outcome, f"{step.start:.0f}", off, _millimetres(step.balance)
+        )  # fmt: skip
+    return table
+
+
+def _millimetres(margin: float) -> str:
+    return f"{1e3 * margin:.0f} mm" if np.isfinite(margin) else "none: fewer than three feet on the ground"
+
+
+def print_walk_trials(console: Console, trials: WalkTrials, seeds: Sequence[int]) -> None:
+    """Print how often walks came to their end, and the spread of what is measured of them."""
+    n = len(trials.ended)
+    low, high = trials.interval
+    style = "bold green" if trials.done == n else "bold red"
+    console.print(f"{trials.done} of {n} walks '{trials.setup.name}' came to their end", style=style)
+    console.print(f"95 % between {100 * low:.1f} and {100 * high:.1f} %")
+    console.print(seeds_in_words(seeds))
+    low, high = wilson_interval(trials.balanced, n)
+    console.print(
+        f"{trials.balanced} of {n} kept their balance throughout: 95 % between {100 * low:.1f} and {100 * high:.1f} %"
+    )
+    causes = trials.causes()
+    if causes:
+        print_walk_causes(console, causes)
+    if trials.setup.faults:
+        print_faults(console, fault_rows(trials.ended))
+    lost = [trial.seed for trial in trials.ended if trial.done and not (trial.margin or 0.0) > 0.0]
+    if lost:
+        console.print(f"came to their end without a margin of balance at some tick: seeds {some(lost)}")
+    table = plain_table("", "median", "5 %", "95 %", "least", "most", right=("median", "5 %", "95 %", "least", "most"))
+    rows = (
+        ("tilt [deg]", "tilt", DEGREE, 3), ("margin [mm]", "margin", 1e-3, 1), ("off [mm]", "off", 1e-3, 1),
+        ("heading off [deg]", "turned", DEGREE, 2), ("time [s]", "seconds", 1.0, 0), ("kicks", "kicks", 1.0, 0),
+        ("held over [m]", "held_way", 1.0, 3), ("held, farthest [mm]", "held_error", 1e-3, 2),
+    )  # fmt: skip
+    for title, name, unit, digits in rows:
+        values = trials.of(name) / unit
+        if name == "margin" and len(values) < n:
+            title = f"{title}, of {len(values)}"
+        if len(values):
+            told = (*np.percentile(values, (50.0, 5.0, 95.0)), values.min(), values.max())
+            table.add_row(title, *(f"{value:.{digits}f}" for value in told))
+    console.print(table)
+    if trials.setup.levels:
+        low, high = wilson_interval(trials.level, n)
+        console.print(
+            f"{trials.level} of {n} came to their end with the plate never more than {LEVEL / DEGREE:g} deg from level: "
+            f"95 % between {100 * low:.1f} and {100 * high:.1f} %"
+        )
+    walked = float(trials.of("seconds").sum())
+    if trials.wall_seconds > 0.0:
+        console.print(
+            f"{trials.wall_seconds:.0f} s of computing: {walked / trials.wall_seconds:.0f} times as fast as they happen"
+        )
+
+
+def print_walk_causes(console: Console, causes: Sequence[WalkCause]) -> None:
+    """Print a row for each way in which walks ended early, and the reason of the commonest."""
+    table = plain_table("failed", "times", "of all, 95 %", "steps", "seeds", right=("times",))
+    for cause in causes:
+        table.add_row(cause.words, str(cause.n), share_range(cause.interval), some(cause.steps), some(cause.seeds))
+    console.print(table)
+    console.print(f"seed {causes[0].seeds[0]}: {causes[0].reason}", soft_wrap=True)

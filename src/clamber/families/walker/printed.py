@@ -1,0 +1,21 @@
+"""What commands print with `--json` about two-frame walkers."""
+
+from typing import Any, Final
+
+from .cli.ditch import WidestDitch
+from .dynamics import ReplayedWalk, TrialedWalk
+from .robot.calibration import Rivals
+from .robot.ditch_plan import Crossing
+from .trials.cooperative.follow import FollowRun
+from .trials.most import MostOfWalk
+from .trials.run_walk import WalkRun
+
+PRINTED: Final[dict[str, Any]] = {
+    "run": WalkRun,
+    "follow": FollowRun,
+    "trials": TrialedWalk | ReplayedWalk,
+    "most": MostOfWalk,
+    "calibrate": list[Rivals],
+    "ditch": list[WidestDitch] | Crossing,
+}
+"""Words of a command after `clamber` -> what it prints."""

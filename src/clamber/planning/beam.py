@@ -1,0 +1,104 @@
+"""The beam planner as a whole: a task in, a plan or the furthest stance out."""
+
+import time
+from dataclasses import replace
+from typing import Final
+
+from ..errors import PlannerError
+from ..tasks import Task
+from .beam_layers import LONGEST, NICHE, WIDTH, Beam, Reached, search_layers
+from .problem.plan import Plan
+from .problem.problems import plan_family, pose_problem
+from .progress import Layers, Listener
+from .result import PlanResult, furthest_of
+from .shorten import Shortened, shorten
+
+WIDER: Final = 4
+"""A beam's width as a multiple of the one before that found nothing."""
+WIDENINGS: Final = 2
+"""How often a beam that finds nothing is made wider."""
+
+
+def plan_beam(
+    task: Task,
+    *,
+    seed: int = 0,
+    width: int = WIDTH,
+    niche: int = NICHE,
+    longest: int = LONGEST,
+    polish: int = 60_000,
+    seconds: float | None = None,
+    threads: int | None = None,
+    progress: Listener | None = None,
+) -> PlanResult:
+    """Plan by beam search, with or without hangs: quick and near the shortest plan; it proves nothing.
+
+    Layer by layer, of all plans with equally many actions the best are kept: new stances only, and few of one niche. A beam that ends
+    without a plan is made four times as wide, twice.
+
+    Args:
+        task: What to plan.
+        seed: Only written down: nothing here is drawn at random.
+        width: Stances kept of each layer at first.
+        niche: Most of one niche in a layer: same goals met, same contacts, nearby.
+        longest: Most actions of a plan.
+        polish: Most stances that windows about the plan may see afterwards (`planning.shorten`); 0 for none.
+        seconds: Most wall-clock time [s].
+        threads: Threads; None for one a core. The plan does not depend on them.
+        progress: Called after every layer.
+
+    Returns:
+        The plan ("found"), or the stance with the best score and what stops it there ("stopped").
+
+    Raises:
+        PlannerError: If the task allows actions that can't be listed one by one.
+    """
+    started = time.monotonic()
+    problem = pose_problem(task, threads=threads).problem
+    if problem.incomplete is not None:
+        raise PlannerError("beam", task.name, problem.incomplete)
+
+    def tell(layer: int, stances: int, score: float) -> None:
+        if progress is not None:
+            progress(Layers(layer, stances, score))
+
+    def left() -> float | None:
+        return None if seconds is None else max(0.0, seconds - (time.monotonic() - started))
+
+    beam = Beam(width=width, niche=niche, longest=longest)
+    checks = 0
+    for _ in range(1 + WIDENINGS):
+        reached = search_layers(problem, beam, seconds=left(), tell=tell)
+        checks += reached.checks
+        if reached.found or reached.interrupted or left() == 0.0:
+            break
+        beam = replace(beam, width=WIDER * beam.width)
+    shortened = Shortened(reached.codes, 0, 0, complete=False)
+    if reached.found and polish:
+        shortened = shorten(problem, reached.codes, width=0, effort=polish, seconds=left())
+    family = plan_family(task)
+    stances = problem.replay(shortened.codes).stances
+    return PlanResult(
+        status="found" if reached.found else "stopped",
+        plan=Plan.of_codes(task, shortened.codes, seed=seed, planner="beam"),
+        task=task,
+        reason=_reason(reached, shortened, beam.width),
+        evaluations=0,
+        checks=checks + shortened.checks,
+        seconds=time.monotonic() - started,
+        seed=seed,
+        planner="beam",
+        max_torque=max((family.torque(stance) for stance in stances[1:]), default=0.0),
+        furthest=None if reached.found else furthest_of(task, problem, reached.codes),
+        stances=reached.stances,
+        first_length=len(reached.codes) if reached.found else None,
+    )
+
+
+def _reason(reached: Reached, shortened: Shortened, width: int) -> str:
+    if not reached.found:
+        how = "interrupted" if reached.interrupted else f"no plan in {reached.layers} layers of up to {width} stances"
+        return f"{how}; this search proves nothing"
+    cut = len(reached.codes) - len(shortened.codes)
+    then = f"; windows made it {cut} shorter" if cut else ""
+    return f"reached every goal in layer {len(reached.codes)}, {width} stances wide{then}"

@@ -1,0 +1,205 @@
+"""Shorter ways between stances of a plan as kernels: A* through a window, and the shortest way through the stances about it."""
+
+import math
+
+from ..compiled import inlined, kernel
+from .exact.records import NONE
+from .problem.family_kernels import bound, candidates, done, key, restore, step, toward
+from .stance_table import slot_of
+
+
+@kernel
+def stance_keys(p, stances, keys):
+    """Keys of stances."""
+    for i in range(stances.shape[0]):
+        key(p, stances[i], keys[i])
+
+
+@inlined
+def left(p, s, target, to_goal):
+    """Actions from a stance to the window's end at least: to the key of `target`, or to the goal."""
+    return math.ceil(bound(p, s) if to_goal else toward(p, s, target))
+
+
+@kernel
+def search_window(
+    p, plan, plan_keys, plan_table, first, last, to_goal, keys, g, closed, parent, code, entries, following, heads, table, codes,
+    stances, margins, words, state,
+):  # fmt: skip
+    """Search from stance `first` of a plan to its stance `last` for a way with fewer actions than the plan takes.
+
+    Ways that come back to the plan anywhere after `first`, or reach the goal, count too: what they save is known at once, and only ways
+    that could save more are followed from then on. With a consistent bound the result saves the most that any way to `last` can.
+
+    Args:
+        p: A family's parameters.
+        plan: Stances of the plan, start included; `plan_keys` their keys, `plan_table` the hash table of these.
+        first, last: The window.
+        to_goal: Whether the window may end in any goal stance, not only in stance `last`.
+        keys, g, closed, parent, code: Nodes, as in `kernels.search`; their number bounds the effort.
+        entries, following, heads: The open list, as there.
+        table: Hash table of the nodes.
+        codes, stances, margins, words: Scratch.
+        state: Output: nodes, actions judged, node that rejoins, stance of the plan where it does, actions saved.
+    """
+    end = plan.shape[0] - 1
+    length = last - first
+    table[:] = NONE
+    heads[: length + 1] = NONE
+    for i in range(words.shape[0]):
+        keys[0, i] = plan_keys[first, i]
+    g[0] = 0
+    closed[0] = 0
+    parent[0] = NONE
+    table[slot_of(keys[0], table, keys)] = 0
+    nodes, used, judged, saved = 1, 1, 0, 0
+    state[2], state[3] = NONE, NONE
+    lowest = int(left(p, plan[first], plan[last], to_goal))
+    if lowest < length:
+        entries[0] = 0
+        following[0] = NONE
+        heads[lowest] = 0
+    while True:
+        while lowest < length - saved and heads[lowest] < 0:
+            lowest += 1
+        if lowest >= length - saved or max(nodes, used) + codes.shape[0] > keys.shape[0]:
+            break
+        node = entries[heads[lowest]]
+        heads[lowest] = following[heads[lowest]]
+        if closed[node]:
+            continue
+        closed[node] = 1
+        restore(p, keys[node], stances[0])
+        for c in range(candidates(p, stances[0], codes)):
+            judged += 1
+            if step(p, stances[0], codes[c], stances[1], margins) >= 0:
+                continue
+            key(p, stances[1], words)
+            cost = g[node] + 1
+            slot = slot_of(words, table, keys)
+            child = table[slot]
+            if child >= 0 and (closed[child] or g[child] <= cost):
+                continue
+            f = cost + int(left(p, stances[1], plan[last], to_goal))
+            at = plan_table[slot_of(words, plan_table, plan_keys)]
+            if done(p, stances[1]):
+                at = end
+            gain = at - first - cost
+            if f >= length - saved and gain <= saved:
+                continue
+            if child < 0:
+                child = nodes
+                nodes += 1
+                table[slot] = child
+                closed[child] = 0
+                for i in range(words.shape[0]):
+                    keys[child, i] = words[i]
+            g[child] = cost
+            parent[child] = node
+            code[child] = codes[c]
+            if at > first and gain > saved:
+                saved = gain
+                state[2] = child
+                state[3] = at
+            if f < length - saved:
+                lowest = min(lowest, f)
+                entries[used] = child
+                following[used] = heads[f]
+                heads[f] = used
+                used += 1
+    state[0], state[1], state[4] = nodes, judged, saved
+
+
+@kernel
+def collect(p, plan, keys, leads, table, first_edge, edge_to, edge_code, codes, stances, margins, words, state):
+    """Expand the stances of a plan, then their children, and so on, layer by layer, until the arrays are full or the space ends.
+
+    A stance from which no plan shorter than the given one can lead to the goal is left out: its fewest actions from the start and to the
+    goal are bounded by the family's `toward` and `bound`.
+
+    Args:
+        p: A family's parameters.
+        plan: Stances of the plan, start included; the last meets the goal.
+        keys: Output: key of every node, the plan's stances first.
+        leads: Output, one byte per node: whether it meets the goal.
+        table: Empty hash table of the nodes.
+        first_edge: Output: first edge of every node, and the end; nodes that were not expanded have none.
+        edge_to, edge_code: Output: node that an edge leads to, and the action.
+        codes, stances, margins, words: Scratch.
+        state: Output: nodes, nodes expanded, actions judged.
+    """
+    length = plan.shape[0] - 1
+    nodes = 0
+    for i in range(plan.shape[0]):
+        key(p, plan[i], words)
+        slot = slot_of(words, table, keys)
+        if table[slot] < 0:
+            for w in range(words.shape[0]):
+                keys[nodes, w] = words[w]
+            leads[nodes] = 1 if done(p, plan[i]) else 0
+            table[slot] = nodes
+            nodes += 1
+    node, edges, judged = 0, 0, 0
+    while node < nodes and nodes + codes.shape[0] <= keys.shape[0] and edges + codes.shape[0] <= edge_to.shape[0]:
+        first_edge[node] = edges
+        if not leads[node]:
+            restore(p, keys[node], stances[0])
+            for c in range(candidates(p, stances[0], codes)):
+                judged += 1
+                if step(p, stances[0], codes[c], stances[1], margins) >= 0:
+                    continue
+                key(p, stances[1], words)
+                slot = slot_of(words, table, keys)
+                child = table[slot]
+                if child < 0:
+                    if math.ceil(toward(p, plan[0], stances[1])) + math.ceil(bound(p, stances[1])) >= length:
+                        continue
+                    child = nodes
+                    nodes += 1
+                    table[slot] = child
+                    leads[child] = 1 if done(p, stances[1]) else 0
+                    for w in range(words.shape[0]):
+                        keys[child, w] = words[w]
+                edge_to[edges] = child
+                edge_code[edges] = codes[c]
+                edges += 1
+        node += 1
+    first_edge[node] = edges
+    state[0], state[1], state[2] = nodes, node, judged
+
+
+@kernel
+def shortest(expanded, leads, first_edge, edge_to, edge_code, parent, code, queue):
+    """Breadth-first search from node 0 of a collected graph.
+
+    Args:
+        expanded: Nodes with edges.
+        leads, first_edge, edge_to, edge_code: As `collect` wrote them.
+        parent, code: Output: where each node was reached from, and by which action.
+        queue: Scratch, one entry per node.
+
+    Returns:
+        The goal node with the fewest actions, or -1.
+    """
+    parent[:] = NONE
+    if leads[0]:
+        return 0
+    queue[0] = 0
+    parent[0] = 0
+    head, tail = 0, 1
+    while head < tail:
+        node = queue[head]
+        head += 1
+        if node >= expanded:
+            continue
+        for e in range(first_edge[node], first_edge[node + 1]):
+            child = edge_to[e]
+            if parent[child] >= 0:
+                continue
+            parent[child] = node
+            code[child] = edge_code[e]
+            if leads[child]:
+                return child
+            queue[tail] = child
+            tail += 1
+    return NONE

@@ -1,0 +1,81 @@
+"""Names and titles of what `clamber list` shows."""
+
+from collections.abc import Callable
+from typing import Any, Final
+
+from ..extensions import outside_titles
+from ..family import BUILT_IN, family_named
+from ..files import data_names, read_toml
+from ..tasks.robots import shipped
+
+BOARD_SCHEMA: Final = "clamber-board-1"
+GROUND_SCHEMA: Final = "clamber-ground-1"
+
+
+def _documents(kind: str) -> dict[str, dict[str, Any]]:
+    """Name -> document of the files of a kind that come with the families."""
+    files = {name: data / f"{name}.toml" for data in shipped(kind) for name in data_names(data)}
+    return {name: read_toml(files[name]).data for name in sorted(files)}
+
+
+def _shipped(kind: str, schema: str | None = None) -> list[tuple[str, str]]:
+    """Name and title of the files of a kind, and of one schema if it is named."""
+    return [
+        (name, str(said.get("title", "")))
+        for name, said in _documents(kind).items()
+        if schema in (None, said["schema"])
+    ]
+
+
+def _plans() -> list[tuple[str, str]]:
+    return [
+        (name, f"{said['n_steps']} actions for {said['task']}: {said['source']}")
+        for name, said in _documents("plans").items()
+    ]
+
+
+def _planners() -> list[tuple[str, str]]:
+    from ..planning.planners import PLANNERS
+
+    return [(name, planner.title) for name, planner in PLANNERS.items()]
+
+
+def _controllers() -> list[tuple[str, str]]:
+    from ..control.law_titles import LAW_TITLES
+
+    return list(LAW_TITLES.items())
+
+
+def _checks() -> list[tuple[str, str]]:
+    checks = (check for family in BUILT_IN for check in family_named(family).checks)
+    return [(check.name, f"[{check.unit}] {check.meaning}") for check in checks]
+
+
+def _plants() -> list[tuple[str, str]]:
+    from ..sim.plant_titles import PLANT_TITLES
+
+    return list(PLANT_TITLES.items())
+
+
+def _families() -> list[tuple[str, str]]:
+    return [(name, family_named(name).title) for name in BUILT_IN]
+
+
+ENTRIES: Final[dict[str, Callable[[], list[tuple[str, str]]]]] = {
+    "families": lambda: [*_families(), *outside_titles("families")],
+    "robots": lambda: [*_shipped("robots"), *outside_titles("robots")],
+    "boards": lambda: _shipped("worlds", BOARD_SCHEMA),
+    "grounds": lambda: _shipped("worlds", GROUND_SCHEMA),
+    "tasks": lambda: _shipped("tasks"),
+    "walks": lambda: _shipped("walks"),
+    "plans": _plans,
+    "planners": lambda: [*_planners(), *outside_titles("planners")],
+    "checks": lambda: [*_checks(), *outside_titles("checks")],
+    "controllers": lambda: [*_controllers(), *outside_titles("controllers")],
+    "plants": lambda: [*_plants(), *outside_titles("plants")],
+}
+
+
+def entries(kind: str) -> list[tuple[str, str]]:
+    """Name and title of everything of one kind."""
+    return ENTRIES[kind]()

@@ -1,0 +1,128 @@
+"""What commands print: JSON or tables on stdout, everything on the way on stderr."""
+
+import json
+import sys
+import time
+from collections.abc import Collection, Iterator
+from dataclasses import fields
+from pathlib import Path
+from threading import Event, Thread
+from typing import TYPE_CHECKING, Any, Final
+
+import typer
+from rich.console import Console, ConsoleOptions, RenderableType
+from rich.padding import Padding
+from rich.segment import Segment
+from rich.text import Text
+
+from ..errors import printable
+from ..regular_files import check_target
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
+
+class PlainConsole(Console):
+    """A console on which texts from files and names of files show what is in them, and steer nothing."""
+
+    def render(self, renderable: RenderableType, options: ConsoleOptions | None = None) -> Iterator[Segment]:
+        """What is printed, piece by piece; pieces that steer are the console's own."""
+        for piece in super().render(renderable, options):
+            yield piece if piece.control or piece.text.isprintable() else Segment(printable(piece.text), piece.style)
+
+
+def stdout() -> Console:
+    """Where results go; 80 columns and no colour when piped."""
+    return PlainConsole(highlight=False, markup=False, emoji=False)
+
+
+def stderr() -> Console:
+    """Where progress and notices go."""
+    return PlainConsole(stderr=True, highlight=False, markup=False, emoji=False)
+
+
+def print_json(value: Any) -> None:
+    """One JSON value on stdout, of plain values and dataclasses."""
+    from ..json_form import plain
+
+    sys.stdout.write(json.dumps(plain(value), indent=2, allow_nan=False) + "\n")
+    sys.stdout.flush()  # so that a closed pipe shows here and not at exit
+
+
+def print_indented(console: Console, words: str, indent: int = 2) -> None:
+    """Print a paragraph whose lines all start further in."""
+    console.print(Padding(Text(words), (0, 0, 0, indent), expand=False))
+
+
+def announce_compilation(*, quiet: bool = False) -> None:
+    """Tells on stderr of kernels that are compiled while the command runs, here or in its workers, and how far that is."""
+    from .. import kernel_cache
+
+    if not quiet:
+        kernel_cache.tell_no_cache()
+        _command_ended.clear()
+        Thread(target=_tell_compilation, args=(kernel_cache.cache_folder(), stderr()), daemon=True).start()
+
+
+_command_ended: Final = Event()
+"""What tells on the way falls silent with its command, though the process may live on."""
+
+
+def fall_silent() -> None:
+    """Ends what is told on the way; a command that ends calls it."""
+    _command_ended.set()
+
+
+def _tell_compilation(folder: Path, console: Console, every: float = 10.0, ended: Event = _command_ended) -> None:
+    """Tells that kernels are compiled as soon as the first one comes into their folder, and how many there are while more come."""
+    began = told = time.monotonic()
+    seen, announced = _count_kernels(folder), False
+    while not ended.wait(0.5):
+        now, count = time.monotonic(), _count_kernels(folder)
+        if not announced and count > seen:
+            console.print("compiling the kernels, once: about a minute, two where the machine is busy")
+            announced, told = True, now
+        elif announced and now - told >= every:
+            if count > seen:
+                console.print(f"  {count} kernels compiled after {now - began:.0f} s", style="dim")
+            seen, told = count, now
+
+
+def _count_kernels(folder: Path) -> int:
+    return sum(1 for _ in folder.glob("*.nbc"))
+
+
+def tell_cuts(cuts: int) -> None:
+    """Tells on stderr of searches for a plan that `--seconds` ended."""
+    if cuts:
+        searches = "a search" if cuts == 1 else f"{cuts} searches"
+        stderr().print(
+            f"--seconds ended {searches}: another machine, or this one under another load, may plan otherwise"
+        )
+
+
+def refuse_unused(options: "DataclassInstance", unused: Collection[str], why: str) -> None:
+    """Make sure that no option is given that has no meaning.
+
+    Args:
+        options: As they came; a field that is as usual was not given.
+        unused: Fields of options that have no meaning.
+        why: For what, such as "'level-walk' is a walk".
+
+    Raises:
+        BadParameter: If one of these options is not as usual.
+    """
+    for field in fields(options):
+        if field.name in unused and getattr(options, field.name) != field.default:
+            flag = f"--{'no-' if field.default is True else ''}{field.name.replace('_', '-')}"
+            raise typer.BadParameter(f"{why}: this has no meaning for it", param_hint=flag)
+
+
+def check_writable(path: Path | None) -> None:
+    """Makes sure that a file can be written before hours are spent on what goes into it.
+
+    Raises:
+        FileError: As `check_target`.
+    """
+    if path is not None:
+        check_target(path)

@@ -1,0 +1,192 @@
+"""Many runs of one work, each with its own seed: run over workers, stored as they end."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Generic, Protocol, TypeVar
+
+from ..jobs import Executor, Kept, Outcome, look_into, map_items
+from ..planning.problem.plan import Plan
+from ..types import Json
+
+
+class Trial(Protocol):
+    """How one run ended, as a frozen dataclass of plain data."""
+
+    @property
+    def seed(self) -> int:
+        """That drew what was not as believed."""
+
+    @property
+    def done(self) -> bool:
+        """Whether it came to its end."""
+
+    @property
+    def fault(self) -> Json | None:
+        """The fault that the robot had; see `told_fault`."""
+
+
+TrialT = TypeVar("TrialT", bound=Trial)
+SetupT = TypeVar("SetupT", bound="Setup[Any, Any]")
+RunT = TypeVar("RunT")
+
+
+class Setup(ABC, Generic[RunT, TrialT]):
+    """What all trials of a work have in common, as plain as a worker needs it."""
+
+    plan: Plan | None
+    faults: tuple[str, ...]
+
+    @property
+    @abstractmethod
+    def worker(self) -> Callable[[Json], Json]:
+        """Runs one item; a function at the top of a module."""
+
+    @property
+    @abstractmethod
+    def title(self) -> str:
+        """What they are trials of, for errors about stores."""
+
+    @abstractmethod
+    def about(self) -> Json:
+        """What tells these trials from others; not how many, nor from which seed on."""
+
+    @abstractmethod
+    def item(self, seed: int) -> Json:
+        """One trial for a worker."""
+
+    @abstractmethod
+    def trial(self, result: Json, store: Path | None = None) -> TrialT:
+        """The trial that a worker returned, or that a store has.
+
+        Raises:
+            SpecError: If it is none.
+        """
+
+    @abstractmethod
+    def failed(self, seed: int, error: str) -> TrialT:
+        """A trial that raised, or whose workers died; it counts as a failure."""
+
+    @abstractmethod
+    def again(self, seed: int, kept: Json | None, step: Callable[[str, float | None], None]) -> tuple[RunT, TrialT]:
+        """One trial again, with its whole run.
+
+        Args:
+            seed: Of the trial.
+            kept: What a store has of it, so that what a clock decided comes out alike; None: nothing.
+            step: Told the action or step that begins.
+        """
+
+    def begun(self, asked: int) -> "Trials[Any, TrialT]":
+        """Trials of which none has ended; `asked`: how many there are to be."""
+        return Trials(self, asked, [])
+
+    def warm_up(self) -> None:  # most have nothing to load
+        """Load what all workers need, once and not in all of them at the same time."""
+
+    def kept(self, store: Path | None) -> Kept | None:
+        """What the store of these trials holds; None where there is no such file yet.
+
+        Raises:
+            StoreError: If the file can't be the store of these trials.
+        """
+        if store is None:
+            return None
+        return look_into(store, self.worker, about=self.about(), title=self.title)
+
+    def stored_plan(self, store: Path | None) -> Plan | None:
+        """The plan that the store of these trials was begun with; None where there is none yet."""
+        kept = self.kept(store)
+        return None if kept is None or kept.note is None else Plan.from_json(kept.note, "plan of the store")
+
+
+@dataclass(slots=True)
+class Trials(Generic[SetupT, TrialT]):
+    """Runs that ended, and how long they took."""
+
+    setup: SetupT
+    """With its plan."""
+    asked: int
+    """How many there are to be."""
+    ended: list[TrialT]
+    wall_seconds: float = 0.0
+    """All workers together, for the runs that ended."""
+
+    @property
+    def done(self) -> int:
+        """Runs that came to their end."""
+        return sum(trial.done for trial in self.ended)
+
+
+def run_trials(
+    setup: Setup[Any, TrialT],
+    seeds: Sequence[int],
+    *,
+    executor: Executor,
+    store: Path | None = None,
+    resume: bool = False,
+    told: Callable[[Any], None] | None = None,
+) -> Trials[Any, TrialT]:
+    """Run with every seed; each trial is stored, and told of, as it ends. Ctrl-C ends it early, with what there is.
+
+    Args:
+        setup: What all trials have in common, with its plan if it is carried out by one.
+        seeds: One trial each.
+        executor: Who runs them.
+        store: SQLite file that keeps plan and trials.
+        resume: Whether to go on with that file: trials in it are not run again.
+        told: Given the trials so far at each end.
+
+    Returns:
+        As `setup.begun` makes them.
+
+    Raises:
+        StoreError: If the file can't be the store of these trials.
+        ClusterError: If there is no cluster to run on, or it is lost.
+    """
+    trials = setup.begun(len(seeds))
+    kept = setup.kept(store) if resume else None
+    wanted = set(seeds)
+    if kept is not None:
+        trials.ended = [setup.trial(result, store) for result in kept.results if result.get("seed") in wanted]
+    if executor.here and len(trials.ended) < len(seeds):
+        setup.warm_up()
+
+    def take(ended: int, total: int, outcome: Outcome) -> None:
+        trials.wall_seconds += outcome.seconds
+        if outcome.result is not None:
+            trials.ended.append(setup.trial(outcome.result, store))
+        if told is not None:
+            told(trials)
+
+    with suppress(KeyboardInterrupt):
+        outcomes = map_items(
+            setup.worker,
+            [setup.item(seed) for seed in seeds],
+            executor=executor,
+            store=store,
+            about=setup.about(),
+            title=setup.title,
+            note=None if setup.plan is None else setup.plan.to_json(),
+            resume=resume,
+            progress=take,
+        )
+        trials.wall_seconds = sum(outcome.seconds for outcome in outcomes)
+        trials.ended = [
+            setup.failed(seed, outcome.error or "") if outcome.result is None else setup.trial(outcome.result, store)
+            for seed, outcome in zip(seeds, outcomes, strict=True)
+        ]
+    return trials
+
+
+def stored_result(setup: Setup[Any, Any], seed: int, store: Path | None) -> Json | None:
+    """What the store has of a seed's trial; None where it is not there.
+
+    Raises:
+        StoreError: If the file can't be the store of these trials.
+    """
+    kept = setup.kept(store)
+    results = () if kept is None else kept.results
+    return next((result for result in results if result.get("seed") == seed), None)

@@ -1,0 +1,88 @@
+"""What is carried out, by name or file: a task, a plan with its task, or what else a family can do."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Final
+
+from ..errors import SpecError
+from ..family import Family, NotOfFamilyError, families, family_of
+from ..planning.problem.plan import Plan
+from ..planning.problem.plan_source import check_name, is_plan, open_plan
+from ..tasks import load_task
+from .dynamics import Dynamics
+
+PLANT: Final = "plant."
+"""First word of settings that change the plant."""
+
+
+def split_settings(settings: Sequence[str]) -> tuple[list[str], list[str]]:
+    """Settings of the task, and those of the plant without their "plant."."""
+    plant = [text[len(PLANT) :] for text in settings if text.startswith(PLANT)]
+    return [text for text in settings if not text.startswith(PLANT)], plant
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Work:
+    """What is carried out, and how its family does it."""
+
+    family: Family
+    item: Any
+    """A task, or what else the family can carry out, such as a walk."""
+    plan: Plan | None
+    """Of the task."""
+    label: str
+    """What errors call it."""
+    plant: tuple[str, ...]
+    """Settings of the plant, such as "backlash=1deg"."""
+
+    @property
+    def dynamics(self) -> Dynamics:
+        """How it is carried out.
+
+        Raises:
+            NotOfFamilyError: If its family has no contact dynamics.
+        """
+        return dynamics_of(self.family)
+
+
+def dynamics_of(family: Family) -> Dynamics:
+    """How a family carries out what it can.
+
+    Raises:
+        NotOfFamilyError: If it has no contact dynamics.
+    """
+    if family.dynamics is None:
+        raise NotOfFamilyError(family.title, "contact dynamics")
+    return family.dynamics
+
+
+def open_work(what: str, task: str | None = None, settings: Sequence[str] = ()) -> Work:
+    """What a name or a file means.
+
+    Args:
+        what: A task's or a plan's name or file, or that of what else a family can carry out, such as a walk.
+        task: A task in place of the one that the plan names.
+        settings: Texts "key=value" for the task, and for the plant where they start with `plant.`.
+
+    Raises:
+        SpecError: If a plan's task is given beside a task.
+        UnknownNameError: If there is no such name.
+        ClamberError: As `open_plan` and `load_task`.
+    """
+    for_task, for_plant = split_settings(settings)
+    check_name(what, tuple(name for family in families() for name in family.other_names()))
+    plan = None
+    for family in families():
+        item = family.other_work(what, for_task)
+        if item is not None:
+            break
+    else:
+        if is_plan(what):
+            opened = open_plan(what, task, for_task)
+            item, plan = opened.task, opened.plan
+        else:
+            item = load_task(what, for_task)
+            if task is not None:
+                raise SpecError(what, "--task", task, "is for a plan; this is a task itself")
+        family = family_of(item)
+    return Work(family=family, item=item, plan=plan, label=what, plant=tuple(for_plant))
