@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from clamber.families.climber.execution.course import climbable
-from clamber.families.climber.pictures.climb_run import OUTCOMES, ClimbFilm, ClimbRunPicture, ClimbRunView
+from clamber.families.climber.pictures.climb_run import OUTCOMES, ClimbFilm, ClimbPicture
 from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.trials.noise import NO_NOISE, Noise, read_noise
@@ -30,7 +30,7 @@ def test_true_pegs_are_crosses_where_they_are(tmp_path: Path) -> None:
     run = climbed(read_noise(NO_NOISE, ["peg_error=5mm"]))
     places = run.task.world.positions()
     pegs = places + run.drawn.pegs
-    picture = ClimbRunPicture(ClimbRunView(run.task, run.trace, run.report.actions, pegs))
+    picture = ClimbPicture(ClimbFilm(run.task, run.trace, run.report.actions, pegs))
     crosses = [
         line for line in picture.wall.get_lines() if line.get_marker() == "x" and line.get_color() == style.ALERT
     ]
@@ -48,16 +48,15 @@ def test_what_went_wrong_is_told_and_red_in_picture_and_page() -> None:
     run = climbed(NO_NOISE)
     first = run.report.actions[0]
     missed = replace(first, first=2, last=4, kind="grab", outcome="missed", reason="the hook met nothing")
-    view = ClimbRunView(run.task, run.trace, [first, missed])
-    picture = ClimbRunPicture(view)
-    picture.show(2, view.settled(2))
+    film = ClimbFilm(run.task, run.trace, [first, missed])
+    picture = ClimbPicture(film)
+    picture.show(2, film.settled(2))
     assert picture.title_text.get_text().startswith("Action 2 of 2") and picture.title_text.get_color() == style.ALERT
     assert picture.texts[-1].get_text() == "missed: the hook met nothing (plan: step 2 to 4)"
-    film = ClimbFilm(view)
     data = panel_data(film, np.zeros(1), "run", None)
     assert data["strip"]["title"] == "What became of every action" and data["strip"]["words"] == OUTCOMES
     assert [step["grade"] for step in data["steps"]] == [3, 3, 0]
     head = data["steps"][2]["head"]
     assert "Action 2 of 2" in head and "missed" in head and "the hook met nothing" in head and style.ALERT in head
-    picture.show(1, view.settled(1))
+    picture.show(1, film.settled(1))
     assert picture.title_text.get_color() == style.INK

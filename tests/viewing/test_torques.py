@@ -2,12 +2,21 @@
 
 import pytest
 
-from clamber.families.climber.pictures.artists import show_torque
+from clamber.families.climber.pictures.artists import torque_gauges
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.tasks import load_task
 
 
 @pytest.mark.parametrize(
-    ("torque", "ounces", "words"),
-    [(-1e-4, True, "0 oz-in"), (-1e-4, False, "0.00 N m"), (-1.0, True, "-142 oz-in"), (2.345, False, "2.35 N m")],
+    ("torque", "step", "words"),
+    [
+        (-1e-4, "1in", "0 oz-in"),
+        (-1e-4, "2cm", "0.00 N m"),
+        (-1.0, "1in", "-142 oz-in"),
+        (2.345, "2cm", "2.35 N m"),
+    ],
 )
-def test_small_torques_have_no_sign(torque: float, ounces: bool, words: str) -> None:
-    assert show_torque(torque, ounces=ounces) == words
+def test_small_torques_have_no_sign(torque: float, step: str, words: str) -> None:
+    task = load_task("ladder", [f"step.length={step}"])
+    assert isinstance(task, LimbedTask)
+    assert torque_gauges(task).show(torque) == words

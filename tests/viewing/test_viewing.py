@@ -14,7 +14,6 @@ from PIL import Image
 
 from clamber.errors import ClamberError, FileError
 from clamber.families.climber.pictures.artists import arrow_ends
-from clamber.families.climber.pictures.charts import draw_history, draw_torques
 from clamber.families.climber.pictures.climb_view import ClimbView, Transition, describe_action, swung_foot
 from clamber.families.climber.pictures.geometry import body_outline, joint_angles, limb_chain, postures, stance_posture
 from clamber.families.climber.planning.problem import LimbedProblem
@@ -30,11 +29,13 @@ from clamber.planning.problem.problem import Replay
 from clamber.planning.problem.problems import yardsticks_of
 from clamber.tasks import load_task
 from clamber.viewing.animation import write_gif, write_mp4
+from clamber.viewing.film import make_frames
 from clamber.viewing.margins import all_limiting, grade
 from clamber.viewing.output import MissingExtraError, StepError, SuffixError
 from clamber.viewing.pictures import animate, draw_route, draw_stance
+from clamber.viewing.plan_curves import draw_history, draw_torques
 from clamber.viewing.style import styled
-from clamber.viewing.view import Picture, make_frames
+from clamber.viewing.view import Picture
 
 RIGHT, LEFT, BOTTOM = 0, 1, 2
 UP = pack(1, 0, 2)

@@ -47,25 +47,24 @@ def show(
     path = output or Path(f"{Path(thing).stem}.png")
     check_writable(path)
     announce_compilation()
-    from ..families.climber.planning.task import LimbedTask
     from ..planning.problem.plan_source import check_name, open_replay
+    from ..viewing.output import CANVASES
+    from ..viewing.pictures import animate, draw_route, draw_stance, pictures_of
 
     check_name(thing)
     shown, replay = open_replay(thing, task, overrides or ())
     last = len(replay.stances) - 1
     if step is not None and step > last:
         raise typer.BadParameter(f"{step} is past the last step, {last}", param_hint="--step")
-    if torques and not isinstance(shown, LimbedTask):
+    if torques and pictures_of(shown).torque_limits is None:
         family = shown.document["robot"]["family"]
         words = f"the robot of '{shown.name}' is of the family '{family}', which has no joint torques"
         raise typer.BadParameter(f"needs the plan of a limbed robot; {words}", param_hint="--torques")
     if torques and last == 0:
         raise typer.BadParameter(f"needs the plan of a limbed robot; '{thing}' has no steps", param_hint="--torques")
-    from ..families.climber.pictures.charts import draw_torques
-    from ..viewing.output import CANVASES
-    from ..viewing.pictures import animate, draw_route, draw_stance
+    if torques:
+        from ..viewing.plan_curves import draw_torques
 
-    if torques and isinstance(shown, LimbedTask):
         draw_torques(shown, {Path(thing).stem: replay}, path)
     elif path.suffix.lower() not in CANVASES:
         animate(shown, replay, path)

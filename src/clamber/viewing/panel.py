@@ -1,6 +1,6 @@
 """The panel beside a picture: bars of values between limits, strip of steps."""
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -41,10 +41,8 @@ class Gauges:
     """Shares of a bar at which a line marks a limit, each with its word."""
     calm: tuple[float, float]
     """Shares beyond which a bar turns red."""
-    show: Callable[[float], str]
-    """A value in words."""
     unit: tuple[str, float, int]
-    """The same for pages: unit, its size in SI units, decimals."""
+    """Of values for people: its name, its size in SI units, decimals."""
     group: int
     """Bars that stand close together."""
     note: str = ""
@@ -59,6 +57,11 @@ class Gauges:
     def pitch(self) -> float:
         """From bar to bar [in]."""
         return min(LINE + 0.01, 2.2 / len(self.names))
+
+    def show(self, value: float) -> str:
+        """A value in words."""
+        name, size, decimals = self.unit
+        return f"{round(value / size, decimals) + 0.0:.{decimals}f} {name}"  # never "-0"
 
     def shares(self, values: Floats) -> Floats:
         """How full the bars are [-]; the sign of a value does not count."""
@@ -116,7 +119,7 @@ class StepStrip:
     def __init__(
         self,
         axes: Axes,
-        grades: list[int],
+        grades: Sequence[int],
         place: Place,
         title: str = "Smallest margin of every step",
         words: tuple[str, str, str, str] = style.STRIP_WORDS,

@@ -18,10 +18,11 @@ from ..tasks import Task
 from ..trials.dynamics import CarriedOut
 from ..types import Floats
 from .animation import WRITERS, Animated
+from .film import View
 from .output import CANVASES, StepError, check_suffix, save_figure
 from .scene import Bounds
 from .style import styled
-from .view import Picture, View
+from .view import Picture
 
 if TYPE_CHECKING:
     from .report.run_page import RunPage

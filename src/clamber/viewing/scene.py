@@ -99,8 +99,7 @@ MOST_INCHES: Final = 480.0
 def set_axes(axes: Axes, task: Task, bounds: Bounds) -> None:
     """Set up axes of world metres with ticks in the task's unit."""
     unit, size = length_unit(task)
-    axes.set_xlim(bounds[0], bounds[1])
-    axes.set_ylim(bounds[2], bounds[3])
+    axes.set(xlim=(bounds[0], bounds[1]), ylim=(bounds[2], bounds[3]))
     axes.set_aspect("equal")
     axes.set_facecolor(style.WALL)
     span = max(bounds[1] - bounds[0], bounds[3] - bounds[2]) / size

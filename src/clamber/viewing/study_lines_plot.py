@@ -50,8 +50,7 @@ def draw_panels(
                         curve.x, curve.y, color=colours[label], lw=1.6, ls="--" if curve.dashed else "-", label=label
                     )
             axes.set_title(name, fontsize=9.5)
-            axes.grid(color=style.FAINT, lw=0.6)
-            style.bare(axes)
+            style.ruled(axes)
         for axes in grid.flat[len(panels) :]:
             axes.set_visible(False)
         for axes in grid[-1]:
@@ -76,12 +75,9 @@ def draw_angle_errors(inclined: Floats, errors: Mapping[str, Sequence[float]], p
         axes = figure.subplots()
         for (rule, found), colour, marker in zip(errors.items(), style.PARTS, ("o", "s"), strict=False):
             axes.scatter(inclined, found, s=16, color=colour, marker=marker, alpha=0.6, linewidths=0, label=rule)
-        axes.set_yscale("log")
-        axes.set_xlim(-2.0, 92.0)
-        axes.set_xticks(range(0, 91, 15))
+        axes.set(yscale="log", xlim=(-2.0, 92.0), xticks=range(0, 91, 15))
         axes.set_xlabel("inclination of the line between the two holds [deg]")
         axes.set_ylabel("RMS error of the angle [deg]")
-        axes.grid(color=style.FAINT, lw=0.6)
-        style.bare(axes)
+        style.ruled(axes)
         axes.legend(fontsize=8.5, loc="upper left")
         figure.suptitle("The body's angle from two limbs", x=0.01, ha="left", fontsize=11, fontweight="bold")

@@ -1,7 +1,7 @@
 """How every picture looks: light, calm, in colours that colour-blind readers can tell apart (after Okabe and Ito)."""
 
 from contextlib import AbstractContextManager
-from typing import Any, Final
+from typing import Any, Final, Literal
 
 from matplotlib import rc_context
 from matplotlib.axes import Axes
@@ -55,3 +55,9 @@ def styled() -> AbstractContextManager[None]:
 def bare(axes: Axes) -> None:
     """Take away the frame's top and right side."""
     axes.spines[["top", "right"]].set_visible(False)
+
+
+def ruled(axes: Axes, axis: Literal["both", "x", "y"] = "both") -> None:
+    """The same, with fine lines at the ticks of an axis or both."""
+    bare(axes)
+    axes.grid(color=FAINT, lw=0.6, axis=axis)

@@ -104,8 +104,7 @@ def _curves(sweep: Sweep) -> Figure:
             textcoords="offset points", ha="center", fontsize=8, color=style.INK, annotation_clip=False,
         )  # fmt: skip
     for axes in (upper, lower):
-        style.bare(axes)
-        axes.grid(axis="y", color=style.FAINT, lw=0.6)
+        style.ruled(axes, "y")
         axes.set_axisbelow(True)
     title = f"'{sweep.task}' over {axis.key}: {sweep.found} of {len(points)} points have a plan"
     upper.set_title(title, pad=28.0 if sweep.marks else None)
@@ -159,9 +158,7 @@ def _field(sweep: Sweep) -> Figure:
             mark.text, where, xycoords=frame, xytext=shift, textcoords="offset points", fontsize=8, color=style.INK,
             annotation_clip=False, **hold,
         )  # fmt: skip
-    axes.set_xlim(-0.5, shape[0] - 0.5)
-    axes.set_ylim(-0.5, shape[1] - 0.5)
-    axes.set_xlabel(_title(across))
+    axes.set(xlim=(-0.5, shape[0] - 0.5), ylim=(-0.5, shape[1] - 0.5), xlabel=_title(across))
     axes.set_ylabel(_title(up))
     lengths_of = "actions of the shortest plan" if sweep.planner == "exact" else "actions of the plan"
     axes.set_title(

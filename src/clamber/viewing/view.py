@@ -1,26 +1,17 @@
 """A plan or a run at any of its moments: as a figure with its world on one side and what the moment says on the other, and as frames."""
 
-from abc import ABC, abstractmethod
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any, ClassVar, Final, Generic, Protocol, TypeVar
+from typing import Final, Generic, Protocol, TypeVar
 
-import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
-from ..planning.problem.problem import Replay
-from ..planning.problem.problems import yardsticks_of
-from ..types import Floats
 from . import style
-from .margins import Limiting, all_limiting, grade
-from .panel import LINE, GaugeBars, Gauges, Place, StepStrip
+from .film import Frame, Moment, View, make_frames
+from .panel import LINE, GaugeBars, Place, StepStrip
 from .scene import Bounds
 
-Moment = TypeVar("Moment")
-"""What a family's robot looks like at one moment."""
 Shown = TypeVar("Shown", contravariant=True)
 """The same where it is only taken."""
 
@@ -81,29 +72,8 @@ class Layout:
 
     def fix_panel(self, panel: Axes) -> None:
         """Set the panel's limits, in inches; last, for the strip's image sets limits of its own."""
-        panel.set_xlim(0.0, self.panel[0])
-        panel.set_ylim(0.0, self.panel[1])
+        panel.set(xlim=(0.0, self.panel[0]), ylim=(0.0, self.panel[1]))
         panel.axis("off")
-
-
-FRAMES: Final = {
-    "move": 5, "swing": 10, "reach": 8, "release": 2, "still": 1, "slide": 3, "land": 4, "both": 3, "lift": 4,
-}  # fmt: skip
-"""Frames of a phase where there is room for all."""
-EVEN: Final = frozenset({"move", "slide"})
-"""Phases that often follow each other: they neither speed up nor slow down, and are not paused after."""
-PAUSE: Final = 2.5
-"""Frames' worth of time that a settled stance is shown."""
-
-
-@dataclass(frozen=True, slots=True)
-class Part(Generic[Moment]):
-    """One part of an action's motion."""
-
-    kind: str
-    """One of `FRAMES`."""
-    at: Callable[[float, float], Moment]
-    """The moment at a share of the part and at a share of the whole action, both in [0, 1], ends included."""
 
 
 class Robot(Protocol[Shown]):
@@ -119,115 +89,11 @@ class Robot(Protocol[Shown]):
         ...
 
 
-class View(ABC, Generic[Moment]):
-    """A replay at any moment of it, and what is to be said of that; each family draws its own world and robot."""
-
-    rows: ClassVar[tuple[str, ...]]
-    """Names of the facts in the panel; the verdict comes after them."""
-    verdict_row: ClassVar[str] = "Nearest limit"
-    noun: ClassVar[str] = "Step"
-    """What is counted."""
-    strip_title: ClassVar[str] = "Smallest margin of every step"
-    strip_words: ClassVar[tuple[str, str, str, str]] = style.STRIP_WORDS
-    """What the grades mean."""
-
-    def __init__(self, task: Any, replay: Replay, bounds: Bounds, gauges: Gauges) -> None:
-        self.task, self.replay, self.bounds, self.gauges = task, replay, bounds, gauges
-        self.title, self.yardsticks = task.title or task.name, yardsticks_of(task)
-        self.limiting: list[Limiting | None] = all_limiting(self.yardsticks, replay)
-
-    @abstractmethod
-    def draw(self, picture: "Picture[Moment]") -> Robot[Moment]:
-        """Draw the world on a picture's `wall`, what marks mean at the `key` of its `panel`, and make the robot's artists."""
-
-    @abstractmethod
-    def settled(self, step: int) -> Moment:
-        """The stance after a step; 0 is the start."""
-
-    @abstractmethod
-    def motion(self, step: int) -> list[Part[Moment]]:
-        """The parts of a step's motion, in order; at least one."""
-
-    @abstractmethod
-    def values(self, at: Moment) -> Floats:
-        """What the bars show, SI units, shape (n,)."""
-
-    @abstractmethod
-    def action(self, step: int) -> str:
-        """A step in words."""
-
-    @abstractmethod
-    def facts(self, step: int, at: Moment) -> tuple[str, ...]:
-        """A moment in words, one for each of `rows`."""
-
-    def reason(self, step: int) -> int:
-        """Number of the check that a step violates; -1: none."""
-        return int(self.replay.reasons[step - 1]) if step else -1
-
-    @property
-    def grades(self) -> list[int]:
-        """What is to be thought of every step, as indices into `style.STRIP`."""
-        return [grade(limit) for limit in self.limiting]
-
-    def verdict(self, step: int) -> str:
-        """The same of one step in words; 0 is the start."""
-        limit = self.limit(step)
-        return "not judged" if limit is None else str(limit)
-
-    def failed(self, step: int) -> bool:
-        """Whether a step went wrong."""
-        return self.reason(step) >= 0
-
-    def limit(self, step: int) -> Limiting | None:
-        """What limits the stance after a step; None if nothing has judged it."""
-        return self.limiting[step - 1] if step else None
-
-
-@dataclass(frozen=True, slots=True)
-class Frame(Generic[Moment]):
-    """One frame of an animation."""
-
-    step: int
-    """Number of the action it belongs to, from 1; 0 is the start."""
-    moment: Moment
-    length: float
-    """How long it is shown, in frame times [-]."""
-
-
-def make_frames(view: View[Moment], most: int) -> list[Frame[Moment]]:
-    """The frames of a plan, at most `most` of them: long plans get fewer per action, then not every action."""
-    steps = len(view.replay.reasons)
-    motions = [view.motion(step) for step in range(1, steps + 1)]
-    wanted = sum(FRAMES[part.kind] for parts in motions for part in parts)
-    thin = min(1.0, most / max(wanted + 1, 1))
-    frames = [Frame(0, view.settled(0), 3 * PAUSE)]
-    for step, parts in enumerate(motions, start=1):
-        frames += _step_frames(step, parts, thin)
-    frames[-1] = Frame(frames[-1].step, frames[-1].moment, 6 * PAUSE)
-    if len(frames) > most:
-        frames = [frames[k] for k in np.linspace(0, len(frames) - 1, most).round().astype(int)]
-    return frames
-
-
-def _step_frames(step: int, parts: list[Part[Moment]], thin: float) -> list[Frame[Moment]]:
-    counts = [max(1 if k == len(parts) - 1 else 0, round(thin * FRAMES[p.kind])) for k, p in enumerate(parts)]
-    total, done = sum(counts), 0
-    frames = []
-    for part, count in zip(parts, counts, strict=True):
-        for k in range(1, count + 1):
-            done += 1
-            share = k / count
-            ease = share if part.kind in EVEN else share * share * (3.0 - 2.0 * share)
-            pause = 1.0 if done < total or part.kind in EVEN else PAUSE
-            frames.append(Frame(step, part.at(ease, done / total), pause))
-    return frames
-
-
 class Picture(Generic[Moment]):
     """A figure that can be set to any moment of a view: the world with its robot, and a panel of facts, bars and strip."""
 
     def __init__(self, view: View[Moment]) -> None:
-        self.view, gauges = view, view.gauges
+        self.view, gauges = view, view.gauges[0]
         height = max(gauges.height, TEXTS) if is_wide(view.bounds) else gauges.height + TEXTS
         self.layout = Layout(view.bounds, height)
         self.figure, self.wall, self.panel, self.title_text = self.layout.figure("", view.title)
@@ -243,7 +109,7 @@ class Picture(Generic[Moment]):
         self.bars = GaugeBars(self.panel, gauges, Place(left, height if self.layout.below else text_end, PANEL_WIDTH))
         top = text_end if self.layout.below else self.bars.bottom - 0.12
         strip_place = Place(0.0, top, PANEL_WIDTH - 0.1)
-        self.strip = StepStrip(self.panel, view.grades, strip_place, view.strip_title, view.strip_words)
+        self.strip = StepStrip(self.panel, view.grades[1:], strip_place, view.strip_title, view.words)
         self.layout.fix_panel(self.panel)
         self.key = Place(0.0, top - 0.92, PANEL_WIDTH)
         self.robot = view.draw(self)
@@ -265,16 +131,16 @@ class Picture(Generic[Moment]):
             at: What the robot looks like.
         """
         view = self.view
-        steps = len(view.replay.reasons)
-        self.title_text.set_text(f"{view.noun} {step} of {steps}: {view.action(step)}" if step else "Start")
+        steps = len(view.steps) - 1
+        self.title_text.set_text(f"{view.noun} {step} of {steps}: {view.steps[step]}" if step else "Start")
         self.title_text.set_color(style.ALERT if view.failed(step) else style.INK)
-        words = (*view.facts(step, at), view.verdict(step))
+        words = (*view.lines(step, at), view.verdict(step))
         for text, line in zip(self.texts, words, strict=True):
             text.set_text(_shortened(line, 64))
             text.set_fontsize(8.5 if len(line) <= 50 else 7.0)
-        self.texts[-1].set_color((style.ALERT, "#B35900", style.INK, style.INK)[view.grades[step - 1] if step else 3])
+        self.texts[-1].set_color((style.ALERT, "#B35900", style.INK, style.INK)[view.grades[step]])
         self.robot.update(at)
-        self.bars.update(view.values(at))
+        self.bars.update(view.values(at)[0])
         self.strip.update(step)
 
 

@@ -23,7 +23,7 @@ from clamber.tasks import Task, load_task
 from clamber.viewing.browser import work_panel
 from clamber.viewing.browser.app import App, PortError, check_port
 from clamber.viewing.browser.exhibit import Planned, open_exhibit
-from clamber.viewing.browser.film import Film
+from clamber.viewing.film import Film
 
 Serve = Callable[..., App]
 

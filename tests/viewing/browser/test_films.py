@@ -27,7 +27,7 @@ from clamber.planning.planners import plan_task
 from clamber.planning.problem.plan import Plan
 from clamber.tasks import load_task
 from clamber.viewing.browser.exhibit import Exhibit, exhibit_of, open_exhibit, scenes_of
-from clamber.viewing.browser.film import Film, PlanFilm
+from clamber.viewing.film import Film, PlanView
 from clamber.viewing.scene import join
 
 
@@ -50,10 +50,9 @@ def run_film_of(run: ClimbRun) -> Film[Any]:
 
 def test_plan_rests_in_its_stances(hand: Exhibit) -> None:
     film = hand.plan_film
-    assert isinstance(film, PlanFilm)
-    view = film._view
+    assert isinstance(film, PlanView)
     for step in range(len(film.steps)):
-        at, settled = film.at(float(film.ends[step])), view.settled(step)
+        at, settled = film.at(float(film.ends[step])), film.settled(step)
         np.testing.assert_allclose(at.posture.chains, settled.posture.chains, atol=1e-9)
         np.testing.assert_allclose(at.torques, settled.torques, atol=1e-9)
 
@@ -72,7 +71,7 @@ def test_plan_moves_without_jumps(hand: Exhibit) -> None:
 
 def test_margins_of_a_step_are_those_of_the_replay(hand: Exhibit) -> None:
     film = hand.plan_film
-    assert isinstance(film, PlanFilm)
+    assert isinstance(film, PlanView)
     worst = film.worst
     assert worst is not None
     shares = []
@@ -115,7 +114,7 @@ def test_forces_of_a_climber_at_rest_carry_its_weight(climbed: ClimbRun) -> None
 def test_run_and_plan_are_shown_at_the_same_action(climbed: ClimbRun) -> None:
     exhibit = exhibit_of(climbed.task, climbed.plan)
     film, plan = run_film_of(climbed), exhibit.plan_film
-    assert isinstance(film, ClimbFilm) and isinstance(plan, PlanFilm)
+    assert isinstance(film, ClimbFilm) and isinstance(plan, PlanView)
     for k, action in enumerate(climbed.report.actions, 1):
         assert film.planned_time(float(film.starts[k]), plan) == pytest.approx(plan.starts[action.first])
         assert film.planned_time(float(film.ends[k]) - 1e-9, plan) == pytest.approx(plan.ends[action.last], abs=1e-6)

@@ -42,7 +42,7 @@ def plan(
     if words.output is not None:
         result.plan.save(words.output)
     if words.history is not None:
-        from ...families.climber.pictures.charts import draw_history
+        from ...viewing.plan_curves import draw_history
 
         draw_history(result.history, words.history, goals=[goal.name for goal in problem.goals])
     if words.as_json:

@@ -34,7 +34,7 @@ def front(task: Task, costs: str, words: PlanOptions) -> int:
             progress=line.update,
         )
     if drawn and output is not None:
-        from ...viewing.front_plot import draw_front
+        from ...viewing.plan_curves import draw_front
 
         draw_front(found, output)
     elif output is not None:

@@ -195,7 +195,7 @@ def _figure(climbs: list[PlanResult], task: LimbedTask, number: str) -> Figure:
     shown = next((climb for climb in climbs if climb.status == "found"), climbs[0])
 
     def curve(path: Path) -> None:
-        from ...families.climber.pictures.charts import draw_history
+        from ...viewing.plan_curves import draw_history
 
         draw_history(shown.history, path, goals=[goal.name for goal in task.goals])
 

@@ -215,7 +215,7 @@ def _figures(done: Replayed) -> tuple[Figure, ...]:
         draw_route(done.task, done.replay, path)
 
     def torques(path: Path) -> None:
-        from ...families.climber.pictures.charts import draw_torques
+        from ...viewing.plan_curves import draw_torques
 
         draw_torques(done.task, {done.opened.plan.planner: done.replay}, path)
 
@@ -241,7 +241,7 @@ def compare_h_torques() -> StudyResult:
     checked = ours.check()
 
     def curves(path: Path) -> None:
-        from ...families.climber.pictures.charts import draw_torques
+        from ...viewing.plan_curves import draw_torques
 
         draw_torques(hand.task, {"by hand (D.2)": hand.replay, "by the planner (2.4)": theirs.replay}, path)
 

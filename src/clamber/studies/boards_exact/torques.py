@@ -167,7 +167,7 @@ def trade_length_for_torque() -> StudyResult:
     held = above.feasible and not below.feasible
 
     def curve(path: Path) -> None:
-        from ...viewing.front_plot import draw_front
+        from ...viewing.plan_curves import draw_front
 
         draw_front(front, path)
 

@@ -3,6 +3,7 @@
 import contextlib
 import io
 import socket
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -176,7 +177,7 @@ class App:
         exhibit = exhibit_of(task, plan)
         # what was shown stays in sight, so that the world does not jump while it is edited
         seen = join(self.stage.scenery.bounds, exhibit.scenery.bounds)
-        exhibit.scenery = exhibit.scenery.with_bounds(seen)
+        exhibit.scenery = replace(exhibit.scenery, bounds=seen)
         self.exhibit = exhibit
         with self.playback.still():
             self.stage.set_scenery(exhibit.scenery)

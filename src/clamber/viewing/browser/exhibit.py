@@ -17,10 +17,9 @@ from ...planning.problem.problem import Replay
 from ...planning.progress import Listener
 from ...tasks import load_task
 from ...trials.dynamics import CarriedOut
+from ..film import Film, View
 from ..pictures import carried_out, pictures_of
 from ..scene import Bounds
-from ..view import View
-from .film import Film, PlanFilm
 from .solids import Scenery
 
 if TYPE_CHECKING:
@@ -91,8 +90,8 @@ class Scenes(ABC):
         """World and robot of a task; `bounds` is the part of the world that a plan needs."""
 
     def film(self, view: View[Any]) -> Film[Any]:
-        """A plan, carried out on paper."""
-        return PlanFilm(view)
+        """What is played of a plan."""
+        return view
 
     def exhibit(self, task: Any, plan: Plan | Replay | None, label: str = "plan") -> Exhibit:
         """A task, or other work, with a plan or its replay, violations and all; without one, its start.

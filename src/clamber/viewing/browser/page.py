@@ -14,11 +14,11 @@ import numpy as np
 from ...files import write_atomically
 from ...types import Floats, Json
 from .. import style
+from ..film import Film
 from ..output import check_suffix
 from ..panel import Gauges
 from .app import LOOPBACK, aim_camera, check_viser, guarded_server, light_scene
 from .exhibit import Exhibit
-from .film import Film
 from .own_pages import Guard
 from .panel_html import head_html, step_margins_html
 from .stage import STRIPS, Stage
@@ -28,6 +28,8 @@ PICTURES: Final = 20.0
 """Of a recording, in a second of it."""
 MOST: Final = 2400
 """Pictures of a recording, at most: longer films get fewer in a second."""
+END: Final = 0.01
+"""So long before its end a recording may stand still; at its end it begins again [s]."""
 
 
 def write_page(exhibit: Exhibit, path: Path) -> int:
@@ -94,10 +96,11 @@ def panel_data(
         return step_margins_html(film, step, plan, None if plan is None or then is None else plan.step_at(then))
 
     moments = [film.at(float(time)) for time in times]
+    last = max(film.seconds / film.speed - END, 0.0)
     return {
         "times": round_all(times / film.speed),
         "starts": round_all(film.starts / film.speed),
-        "rests": round_all(film.rest(step) / film.speed for step in range(len(film.steps))),
+        "rests": round_all(min(film.rest(step) / film.speed, last) for step in range(len(film.steps))),
         "steps": [
             {"words": words, "grade": grade, "head": head_html(film, k, film.at(film.rest(k))), "margins": margins(k)}
             for k, (words, grade) in enumerate(zip(film.steps, film.grades, strict=True))

@@ -8,8 +8,8 @@ import numpy as np
 
 from ...types import Floats
 from .. import style
+from ..film import Film, MarginRow
 from ..panel import Gauges
-from .film import Film, MarginRow
 
 CELL: Final = "padding:1px 6px 1px 0;white-space:nowrap"
 PAD: Final = "padding:0 12px"

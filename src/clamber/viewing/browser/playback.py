@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Final
 
 from .. import style
-from .film import Film
+from ..film import Film
 from .inputs import by_hand, set_input
 from .solids import colour
 

@@ -1,6 +1,8 @@
 """Worlds and figures in the viewer's space: what a family brings, and the solids that it is made of, in batches or made once."""
 
 import math
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final, Protocol
 
@@ -11,26 +13,72 @@ from matplotlib.path import Path as Outline
 from scipy.spatial import Delaunay
 
 from ...types import Floats, Ints
+from .. import style
 from ..scene import Bounds
 
 if TYPE_CHECKING:
     import viser
 
 
-class Figure(Protocol):
-    """A robot in space."""
+Mesh = tuple[Floats, Ints]
+"""Vertices, shape (n, 3) [m], and triangles, shape (m, 3)."""
+Colours = npt.NDArray[np.uint8]
+"""Shape (n, 3)."""
+Colour = tuple[int, int, int]
+"""Red, green and blue, from 0 to 255."""
 
+
+class Figure(ABC):
+    """A robot in space, that can be set to any moment.
+
+    Args:
+        server: The scene's.
+        name: In the scene's tree.
+        opacity: Of everything; a ghost has less, and shows no loads.
+    """
+
+    def __init__(self, server: "viser.ViserServer", name: str, opacity: float = 1.0) -> None:
+        self._server, self._name, self._opacity, self._ghost = server, name, opacity, opacity < 1.0
+        self._arrows: Any = None
+        self.root = server.scene.add_frame(name, show_axes=False)
+
+    @abstractmethod
     def show(self, at: Any, grade: int = 3) -> None:
         """Put everything where a moment has it, in the colours of a grade."""
-        ...
 
     def hide(self, hidden: bool = True) -> None:
         """Take the figure out of sight, or bring it back."""
-        ...
+        self.root.visible = not hidden
 
     def remove(self) -> None:
         """Take the figure away for good."""
-        ...
+        self.root.remove()
+
+    def sticks(self, part: str, colours: Sequence[Colour], radii: Sequence[float]) -> "Sticks":
+        """Sticks of the figure, one for each colour and radius [m]."""
+        paint = np.array(colours, np.uint8)
+        return Sticks(self._server, f"{self._name}/{part}", paint, np.array(radii), self._opacity)
+
+    def balls(self, part: str, colours: Sequence[Colour], radii: Sequence[float]) -> "Balls":
+        """Balls of the figure, likewise."""
+        paint = np.array(colours, np.uint8)
+        return Balls(self._server, f"{self._name}/{part}", paint, np.array(radii), self._opacity)
+
+    def make_arrows(self, shaft: float, head: float, length: float) -> None:
+        """Make what `show_forces` shows: radius of the shaft, radius and length of the head [m]; a ghost has none."""
+        if not self._ghost:
+            self._arrows = self._server.scene.add_arrows(
+                f"{self._name}/forces", np.array([[(0.0, 0.0, 0.0), (0.0, 0.0, 1e-3)]]), colour(style.FORCE),
+                shaft_radius=shaft, head_radius=head, head_length=length, visible=False,
+            )  # fmt: skip
+
+    def show_forces(self, starts: Floats, ways: Floats) -> None:
+        """Show arrows from their starts, as long as their ways, shape (n, 3) each [m]; there may be none."""
+        if self._arrows is None:
+            return
+        self._arrows.visible = bool(len(starts))
+        if len(starts):
+            self._arrows.points = np.stack((starts, starts + ways), axis=1).astype(np.float32)
 
 
 class World(Protocol):
@@ -49,29 +97,24 @@ class Camera:
     look_at: Floats
 
 
-class Scenery(Protocol):
+@dataclass(frozen=True, slots=True)
+class Scenery(ABC):
     """A task's world and robot, ready to be put into a scene."""
 
-    @property
-    def bounds(self) -> Bounds:
-        """The part of the world that is shown."""
-        ...
+    bounds: Bounds
+    """The part of the world that is shown."""
 
-    def with_bounds(self, bounds: Bounds) -> "Scenery":
-        """The same with another part shown."""
-        ...
-
+    @abstractmethod
     def world(self, server: "viser.ViserServer") -> World:
         """Put the world into the scene."""
-        ...
 
+    @abstractmethod
     def figure(self, server: "viser.ViserServer", name: str, opacity: float = 1.0) -> Figure:
         """Put the robot into the scene."""
-        ...
 
+    @abstractmethod
     def camera(self) -> Camera:
         """Where to look from at first."""
-        ...
 
 
 FOV: Final = math.radians(40.0)
@@ -81,16 +124,12 @@ NARROW: Final = 0.9
 """Least width of a picture over its height that everything fits into [-]."""
 
 
-Mesh = tuple[Floats, Ints]
-"""Vertices, shape (n, 3) [m], and triangles, shape (m, 3)."""
-Colours = npt.NDArray[np.uint8]
-"""Shape (n, 3)."""
 SIDES: Final = 20
 """Flat sides of what is round."""
 
 
-def colour(name: str) -> tuple[int, int, int]:
-    """A colour as the browser takes it, from 0 to 255 each."""
+def colour(name: str) -> Colour:
+    """A colour as the browser takes it."""
     red, green, blue = to_rgb(name)
     return round(255 * red), round(255 * green), round(255 * blue)
 
@@ -167,8 +206,8 @@ def along_z(ways: Floats) -> Floats:
     return made
 
 
-class Sticks:
-    """Straight round sticks, each with a colour and a radius of its own.
+class _Batch:
+    """Solids of one shape, each with a colour and sizes of its own.
 
     Args:
         server: The scene's.
@@ -181,43 +220,48 @@ class Sticks:
     def __init__(
         self, server: "viser.ViserServer", name: str, colours: Colours, radii: Floats, opacity: float = 1.0
     ) -> None:
-        self._radii = radii
-        n = len(radii)
+        self._colours, self._radii, n = colours, radii, len(radii)
+        self._scales = np.full((n, 3), 1e-6, np.float32)
         self.node = server.scene.add_batched_meshes_simple(
-            name, *rod(), np.tile((1.0, 0.0, 0.0, 0.0), (n, 1)), np.zeros((n, 3)), batched_scales=np.full((n, 3), 1e-6),
+            name, *self._mesh(), np.tile((1.0, 0.0, 0.0, 0.0), (n, 1)), np.zeros((n, 3)), batched_scales=self._scales,
             batched_colors=colours, opacity=None if opacity >= 1.0 else opacity, lod="off", cast_shadow=opacity >= 1.0,
         )  # fmt: skip
+
+    @staticmethod
+    def _mesh() -> Mesh:
+        raise NotImplementedError
+
+    def _place(self, at: Floats, scales: Floats, seen: npt.NDArray[np.bool_]) -> None:
+        self.node.batched_positions = np.where(seen[:, None], at, 0.0).astype(np.float32)
+        shown = np.where(seen[:, None], scales, 1e-6).astype(np.float32)
+        if not np.array_equal(shown, self._scales):
+            self._scales = shown
+            self.node.batched_scales = shown
+
+
+class Sticks(_Batch):
+    """Straight round sticks."""
+
+    _mesh = staticmethod(rod)
 
     def put(self, ends: Floats) -> None:
         """Put every stick between its ends, shape (n, 2, 3) [m]; one without length, or with an end that is NaN, is not seen."""
         ways = ends[:, 1] - ends[:, 0]
         lengths = np.linalg.norm(ways, axis=1)
         seen = np.asarray(lengths > 1e-6)  # NaN is not
-        self.node.batched_positions = np.where(seen[:, None], ends[:, 0], 0.0).astype(np.float32)
         self.node.batched_wxyzs = along_z(np.where(seen[:, None], ways, (0.0, 0.0, 1.0))).astype(np.float32)
-        scales = np.column_stack((self._radii, self._radii, lengths))
-        self.node.batched_scales = np.where(seen[:, None], scales, 1e-6).astype(np.float32)
+        self._place(ends[:, 0], np.column_stack((self._radii, self._radii, lengths)), seen)
 
 
-class Balls:
-    """Balls, each with a colour and a radius of its own; arguments as those of `Sticks`."""
+class Balls(_Batch):
+    """Balls."""
 
-    def __init__(
-        self, server: "viser.ViserServer", name: str, colours: Colours, radii: Floats, opacity: float = 1.0
-    ) -> None:
-        n = len(radii)
-        self._colours, self._scales = colours, np.repeat(radii[:, None], 3, axis=1).astype(np.float32)
-        self.node = server.scene.add_batched_meshes_simple(
-            name, *ball(), np.tile((1.0, 0.0, 0.0, 0.0), (n, 1)), np.zeros((n, 3)), batched_scales=self._scales,
-            batched_colors=colours, opacity=None if opacity >= 1.0 else opacity, lod="off", cast_shadow=opacity >= 1.0,
-        )  # fmt: skip
+    _mesh = staticmethod(ball)
 
     def put(self, centres: Floats, colours: Colours | None = None) -> None:
         """Put every ball at its centre, shape (n, 3) [m]; one with NaN is not seen. Colours stay, unless given."""
         seen = np.asarray(np.isfinite(centres).all(axis=1))
-        self.node.batched_positions = np.where(seen[:, None], centres, 0.0).astype(np.float32)
-        if not seen.all():
-            self.node.batched_scales = np.where(seen[:, None], self._scales, 1e-6).astype(np.float32)
+        self._place(centres, np.repeat(self._radii[:, None], 3, axis=1), seen)
         if colours is not None and not np.array_equal(colours, self._colours):
             self._colours = colours
             self.node.batched_colors = colours

@@ -3,7 +3,7 @@
 import time
 from typing import TYPE_CHECKING, Any, Final, Literal
 
-from .film import Film
+from ..film import Film
 from .panel_html import head_html, loads_html, step_margins_html, strip_html
 from .solids import Figure, Scenery, World
 

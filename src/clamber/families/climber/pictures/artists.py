@@ -282,20 +282,14 @@ def torque_limits(task: LimbedTask) -> Floats:
     return np.array([task.robot.torque_limit_of(joint) for joint in task.robot.joints]).reshape(-1, 2)
 
 
-def show_torque(torque: float, *, ounces: bool) -> str:
-    """A torque for people: ounce-inches beside a task in inches, else newton metres."""
-    return f"{round(torque / OZ_IN)} oz-in" if ounces else f"{round(torque, 2) + 0.0:.2f} N m"  # never "-0"
-
-
 def nice_force(weight: float) -> float:
     """A round force for the key, near half the weight [N]."""
     return next(f for f in (1000, 500, 200, 100, 50, 20, 10, 5, 2, 1, 0.5, 0.2, 0.1, 0.0) if f <= 0.6 * weight)
 
 
 def torque_gauges(task: LimbedTask) -> Gauges:
-    """One bar per shoulder and elbow: share of its torque limit, red beyond nine tenths."""
+    """One bar per shoulder and elbow: share of its torque limit, red beyond nine tenths; in ounce-inches beside a task in inches."""
     limits = torque_limits(task).ravel()
-    ounces = length_unit(task)[0] == "in"
     return Gauges(
         title="Joint torques",
         names=task.robot.joint_names,
@@ -304,8 +298,7 @@ def torque_gauges(task: LimbedTask) -> Gauges:
         high=limits,
         limits=((1.0, "limit"),),
         calm=(0.0, NEAR_LIMIT),
-        show=lambda torque: show_torque(torque, ounces=ounces),
-        unit=("oz-in", OZ_IN, 0) if ounces else ("N m", 1.0, 2),
+        unit=("oz-in", OZ_IN, 0) if length_unit(task)[0] == "in" else ("N m", 1.0, 2),
         group=2,
     )
 

@@ -37,8 +37,7 @@ def line_of(entry: BodyEntry) -> dict[str, Any]:
 
 
 def _quiet(axes: Axes) -> None:
-    style.bare(axes)
-    axes.grid(color=style.FAINT, lw=0.6)
+    style.ruled(axes)
     axes.set_axisbelow(True)
 
 
@@ -183,12 +182,10 @@ def draw_onsets(
                 if each == place:
                     values = np.maximum(found, LEAST)
                     axes.plot(gains, values, color=colours[backlash], ls=dashes[play], lw=1.5, marker="o", ms=2.5)
-            axes.set_xscale("log")
-            axes.set_yscale("log")
+            axes.set(xscale="log", yscale="log")
             axes.set_title(f"place by {place}", fontsize=9.5)
             axes.set_xlabel("Kpx")
-            style.bare(axes)
-            axes.grid(color=style.FAINT, lw=0.6)
+            style.ruled(axes)
         grid[0].set_ylabel("left to and fro along x [mm]")
         handles = [Line2D([], [], color=colour, label=f"backlash {b:g} deg") for b, colour in colours.items()]
         handles += [Line2D([], [], color=style.QUIET, ls=dash, label=f"play {p}") for p, dash in dashes.items()]
@@ -216,8 +213,7 @@ def draw_press(result: Pressed, path: str | Path) -> None:
             start = result.aim[0, k]
             body.plot(result.time, 1e3 * (result.aim[:, k] - start), color=ASKED, lw=0.9, dashes=dashes)
             body.plot(result.time, 1e3 * (result.body[:, k] - start), color=TRUE, lw=1.2, dashes=dashes, label=axis)
-        body.set_ylabel("body from its first aim [mm]")
-        body.set_xlabel("time [s]")
+        body.set(ylabel="body from its first aim [mm]", xlabel="time [s]")
         body.legend(frameon=False, loc="upper left")
         for axes in (force, body):
             bare(axes)

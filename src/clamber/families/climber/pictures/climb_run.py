@@ -1,4 +1,4 @@
-"""A climb as it truly was: at any moment, as a figure, as a film in its own time."""
+"""A climb as it truly was: a film in its own time, and its figure."""
 
 import cmath
 from dataclasses import dataclass, replace
@@ -7,27 +7,28 @@ from typing import Final
 import numpy as np
 from matplotlib.figure import Figure
 
-from ....planning.problem.problem import Replay
 from ....types import Floats
 from ....viewing import style
-from ....viewing.browser.film import Film, MarginRow
+from ....viewing.film import Film, MarginRow, Part, View
 from ....viewing.route import draw_way, label_ghost, pick_ghosts
 from ....viewing.scene import describe_pose
-from ....viewing.view import Part, Picture, View
+from ....viewing.view import Picture
 from ..control.felt_force import feel_forces
 from ..execution.climb_report import ActionReport
 from ..execution.climb_trace import ClimbTrace
 from ..execution.legs import legs_of
 from ..planning.task import LimbedTask
 from ..robot.robot import Limb
-from ..statics.checks import LIMBED_CHECKS
-from ..statics.records import STANCE
 from ..trials.run_plan import ClimbRun
 from .artists import ClimberArtists, Snapshot, draw_scene, find_bounds, torque_gauges
 from .geometry import Posture, body_outline
 
 PART_SECONDS: Final = 2.8
 """Of the climb that one part of an action shows: five frames of 0.07 s, so eight times as fast as it was [s]."""
+USUAL: Final = 8.0
+"""A climb takes minutes: it is played that much faster than it was [-]."""
+SMOOTH: Final = 0.15
+"""Torques are averaged over so much time before and after a moment [s]."""
 OUTCOMES: Final = ("failed", "stalled", "tried again", "ok")
 SHOWN: Final = 400
 """Samples that the picture's frame is made for, at most."""
@@ -41,8 +42,10 @@ class Moment(Snapshot):
     """Since its start [s]."""
 
 
-class ClimbRunView(View[Moment]):
-    """A climb that was carried out; forces of holds are not measured, so none are drawn.
+class ClimbFilm(View[Moment]):
+    """A climb that was carried out.
+
+    The forces of holds are not measured: pictures have none, and the viewer those that motors' torques and links' weights tell.
 
     Args:
         task: Robot and board.
@@ -51,11 +54,12 @@ class ClimbRunView(View[Moment]):
         pegs: Where the holds truly were, where that is not where the map says, shape (n_holds, 2) [m].
     """
 
+    speed = USUAL
     rows = ("Time", "Pose", "Holds")
     verdict_row = "Outcome"
     noun = "Action"
     strip_title = "What became of every action"
-    strip_words = OUTCOMES
+    words = OUTCOMES
 
     def __init__(
         self, task: LimbedTask, trace: ClimbTrace, actions: list[ActionReport], pegs: Floats | None = None
@@ -66,8 +70,13 @@ class ClimbRunView(View[Moment]):
         self._index = {hold.number: k for k, hold in enumerate(task.world.holds)}
         self._outline = body_outline(task.robot)
         some = np.unique(np.linspace(0, len(trace.time) - 1, SHOWN).astype(int))
-        bounds = find_bounds(task, [self.posture(int(k)) for k in some])
-        super().__init__(task, _no_replay(len(actions)), bounds, torque_gauges(task))
+        self.bounds = find_bounds(task, [self.posture(int(k)) for k in some])
+        self.title, self.gauges, self.seconds = task.title or task.name, (torque_gauges(task),), float(trace.time[-1])
+        self.steps = ("start", *(action.title for action in actions))
+        self.grades = (3, *map(_grade, actions))
+        self.starts = np.array([0.0, *(action.start for action in actions)])
+        self.ends = np.array([0.0, *(action.start + action.seconds for action in actions)])
+        self._legs = legs_of(task.robot)
 
     def draw(self, picture: Picture[Moment]) -> ClimberArtists:
         """Wall and climber, with the pegs as they truly are."""
@@ -76,16 +85,6 @@ class ClimbRunView(View[Moment]):
             x, y = self._pegs.T
             picture.wall.plot(x, y, ls="none", marker="x", ms=3.0, mew=0.7, color=style.ALERT, zorder=9)
         return ClimberArtists(picture.wall, self.task, self.bounds)
-
-    @property
-    def grades(self) -> list[int]:
-        """What became of every action, as indices into `OUTCOMES`."""
-        return [
-            (2 if action.kind == "grab" and action.tries > 1 else 3)
-            if action.outcome == "ok"
-            else int(action.outcome == "stalled")
-            for action in self.actions
-        ]
 
     def posture(self, k: int) -> Posture:
         """The posture of a sample."""
@@ -107,6 +106,27 @@ class ClimbRunView(View[Moment]):
         torques = self.trace.torques[k]
         return Moment(self.posture(k), np.zeros_like(torques), torques, float(self.trace.time[k]))
 
+    def at(self, time: float) -> Moment:
+        """See `Film`."""
+        return replace(self.at_time(time), forces=self._forces(time))
+
+    def _forces(self, time: float) -> Floats:
+        """Forces of the holds on the tips by what the motors give, as if at rest, world frame, shape (n_limbs, 2) [N]."""
+        trace = self.trace
+        k = min(int(np.searchsorted(trace.time, time)), len(trace.time) - 1)
+        first, last = np.searchsorted(trace.time, (time - SMOOTH, time + SMOOTH))
+        torques = (
+            trace.torques[first : max(last, first + 1)].mean(axis=0) if first < len(trace.time) else trace.torques[k]
+        )
+        n = len(self._legs)
+        still, forces = np.zeros((n, 2)), np.zeros((n, 2))
+        angle = float((trace.believed if trace.true_pose is None else trace.true_pose)[k, 2])
+        feel_forces(
+            self._legs, np.ones(n, np.int64), trace.angles[k], still, still.copy(), torques, angle, 1.0, 1.0,
+            np.zeros((n, 2)), forces,
+        )  # fmt: skip
+        return -forces
+
     def settled(self, step: int) -> Moment:
         """When the report's action of that number ended; 0 is the start."""
         if step == 0:
@@ -123,15 +143,11 @@ class ClimbRunView(View[Moment]):
 
         return [part(k) for k in range(count)]
 
-    def values(self, at: Moment) -> Floats:
+    def values(self, at: Moment) -> tuple[Floats, ...]:
         """Torques of shoulders and elbows [N m], shape (2 n_limbs,)."""
-        return at.torques.ravel()
+        return (at.torques.ravel(),)
 
-    def action(self, step: int) -> str:
-        """An action in words."""
-        return self.actions[step - 1].title
-
-    def facts(self, step: int, at: Moment) -> tuple[str, ...]:
+    def lines(self, step: int, at: Moment) -> tuple[str, ...]:
         """Time, pose and holds."""
         posture, names = at.posture, self.task.robot.limb_names
         numbers = [self.task.world.holds[k].number if k >= 0 else "free" for k in posture.held]
@@ -150,113 +166,9 @@ class ClimbRunView(View[Moment]):
         """Whether an action came to another end than it should."""
         return step > 0 and self.actions[step - 1].outcome != "ok"
 
-
-class ClimbRunPicture(Picture[Moment]):
-    """A figure of a climb; red crosses are pegs as they truly are."""
-
-    view: ClimbRunView
-
-    def whole(self) -> Figure:
-        """The way of the body with ghosts along it, and how it ended."""
-        view = self.view
-        trace, last = view.trace, len(view.actions)
-        poses = trace.believed if trace.true_pose is None else trace.true_pose
-        self.show(last, view.at_time(float(trace.time[-1])))
-        ends = np.searchsorted(trace.time, [0.0, *(one.start + one.seconds for one in view.actions)])
-        ends = np.minimum(ends, len(trace.time) - 1)
-        unloaded = np.zeros((len(trace.limbs), 2))
-        for k in pick_ghosts(poses[ends, :2])[:-1]:
-            ghost = ClimberArtists(self.wall, view.task, view.bounds, alpha=0.25, arrows=False)
-            ghost.update(Snapshot(view.posture(int(ends[k])), unloaded, unloaded))
-            x, y = poses[ends[k], :2].tolist()
-            label_ghost(self.wall, k, x, y, "action")
-        draw_way(self.wall, poses[:, :2])
-        return self.figure
-
-
-def run_view(run: ClimbRun) -> ClimbRunView:
-    """A climb that was just carried out."""
-    return ClimbRunView(run.task, run.trace, run.report.actions, run.true_pegs)
-
-
-def run_picture(run: ClimbRun) -> ClimbRunPicture:
-    """A figure of it."""
-    return ClimbRunPicture(run_view(run))
-
-
-def _chain(limb: Limb, origin: complex, angle: float, joints: Floats) -> list[tuple[float, float]]:
-    """Port, elbow, end of the second link and tip, world frame [m]."""
-    port = origin + complex(limb.port_x, limb.port_y) * cmath.exp(1j * angle)
-    first = angle + limb.port_angle + float(joints[0])
-    elbow = port + cmath.rect(limb.l1, first)
-    second = first + float(joints[1])
-    end, tip = elbow + cmath.rect(limb.l2, second), elbow + cmath.rect(limb.l2_effective, second + limb.hook_beta)
-    return [(point.real, point.imag) for point in (port, elbow, end, tip)]
-
-
-def _no_replay(actions: int) -> Replay:
-    """Stands for the plan's replay, for nothing of a run is judged by the checks."""
-    checks = len(LIMBED_CHECKS)
-    return Replay(np.zeros(actions + 1, STANCE), np.full((actions, checks), np.nan), np.full(actions, -1, np.int32))
-
-
-USUAL: Final = 8.0
-"""A climb takes minutes: it is played that much faster than it was [-]."""
-SMOOTH: Final = 0.15
-"""Torques are averaged over so much time before and after a moment [s]."""
-
-
-class ClimbFilm(Film[Moment]):
-    """A climb that was carried out; the forces of holds are what its motors' torques and the links' weights tell.
-
-    Args:
-        view: Of the run.
-    """
-
-    speed = USUAL
-    noun = "Action"
-    words = OUTCOMES
-
-    def __init__(self, view: ClimbRunView) -> None:
-        self._view = view
-        self.title, self.gauges = view.title, (view.gauges,)
-        self.actions, self._trace = view.actions, view.trace
-        self.seconds = float(self._trace.time[-1])
-        self.steps = ("start", *(action.title for action in self.actions))
-        self.grades = (3, *view.grades)
-        self.starts = np.array([0.0, *(action.start for action in self.actions)])
-        self.ends = np.array([0.0, *(action.start + action.seconds for action in self.actions)])
-        self._legs = legs_of(view.task.robot)
-
-    def at(self, time: float) -> Moment:
-        """See `Film`."""
-        at = self._view.at_time(time)
-        return replace(at, forces=self._forces(time))
-
-    def _forces(self, time: float) -> Floats:
-        """Forces of the holds on the tips by what the motors give, as if at rest, world frame, shape (n_limbs, 2) [N]."""
-        trace = self._trace
-        k = min(int(np.searchsorted(trace.time, time)), len(trace.time) - 1)
-        first, last = np.searchsorted(trace.time, (time - SMOOTH, time + SMOOTH))
-        torques = (
-            trace.torques[first : max(last, first + 1)].mean(axis=0) if first < len(trace.time) else trace.torques[k]
-        )
-        n = len(self._legs)
-        still, forces = np.zeros((n, 2)), np.zeros((n, 2))
-        angle = float((trace.believed if trace.true_pose is None else trace.true_pose)[k, 2])
-        feel_forces(
-            self._legs, np.ones(n, np.int64), trace.angles[k], still, still.copy(), torques, angle, 1.0, 1.0,
-            np.zeros((n, 2)), forces,
-        )  # fmt: skip
-        return -forces
-
-    def values(self, at: Moment) -> tuple[Floats, ...]:
-        """See `Film`."""
-        return (self._view.values(at),)
-
     def facts(self, step: int, at: Moment) -> tuple[tuple[str, str], ...]:
         """See `Film`: the moment, and what was reported of the step."""
-        told = list(zip(self._view.rows, self._view.facts(step, at), strict=True))
+        told = list(zip(self.rows, self.lines(step, at), strict=True))
         if step:
             action = self.actions[step - 1]
             words = [
@@ -298,6 +210,56 @@ class ClimbFilm(Film[Moment]):
     @property
     def _of_first_plan(self) -> int:
         """How many actions were of the plan that the run began with."""
-        notes = self._trace.notes or {}
+        notes = self.trace.notes or {}
         replans = notes.get("replans") or ()
         return int(replans[0]["after"]) if replans else len(self.actions)
+
+
+def _grade(action: ActionReport) -> int:
+    """What became of an action, as an index into `OUTCOMES`."""
+    if action.outcome != "ok":
+        return int(action.outcome == "stalled")
+    return 2 if action.kind == "grab" and action.tries > 1 else 3
+
+
+class ClimbPicture(Picture[Moment]):
+    """A figure of a climb; red crosses are pegs as they truly are."""
+
+    view: ClimbFilm
+
+    def whole(self) -> Figure:
+        """The way of the body with ghosts along it, and how it ended."""
+        view = self.view
+        trace, last = view.trace, len(view.actions)
+        poses = trace.believed if trace.true_pose is None else trace.true_pose
+        self.show(last, view.at_time(float(trace.time[-1])))
+        ends = np.searchsorted(trace.time, [0.0, *(one.start + one.seconds for one in view.actions)])
+        ends = np.minimum(ends, len(trace.time) - 1)
+        unloaded = np.zeros((len(trace.limbs), 2))
+        for k in pick_ghosts(poses[ends, :2])[:-1]:
+            ghost = ClimberArtists(self.wall, view.task, view.bounds, alpha=0.25, arrows=False)
+            ghost.update(Snapshot(view.posture(int(ends[k])), unloaded, unloaded))
+            x, y = poses[ends[k], :2].tolist()
+            label_ghost(self.wall, k, x, y, "action")
+        draw_way(self.wall, poses[:, :2])
+        return self.figure
+
+
+def run_film(run: ClimbRun) -> ClimbFilm:
+    """A climb that was just carried out."""
+    return ClimbFilm(run.task, run.trace, run.report.actions, run.true_pegs)
+
+
+def run_picture(run: ClimbRun) -> ClimbPicture:
+    """A figure of it."""
+    return ClimbPicture(run_film(run))
+
+
+def _chain(limb: Limb, origin: complex, angle: float, joints: Floats) -> list[tuple[float, float]]:
+    """Port, elbow, end of the second link and tip, world frame [m]."""
+    port = origin + complex(limb.port_x, limb.port_y) * cmath.exp(1j * angle)
+    first = angle + limb.port_angle + float(joints[0])
+    elbow = port + cmath.rect(limb.l1, first)
+    second = first + float(joints[1])
+    end, tip = elbow + cmath.rect(limb.l2, second), elbow + cmath.rect(limb.l2_effective, second + limb.hook_beta)
+    return [(point.real, point.imag) for point in (port, elbow, end, tip)]

@@ -12,8 +12,9 @@ from matplotlib.axes import Axes
 from ....planning.problem.problem import Replay
 from ....types import Floats
 from ....units import DEGREE
+from ....viewing.film import Part, PlanView
 from ....viewing.scene import DIRECTIONS, describe_pose, length_unit
-from ....viewing.view import Part, Picture, View
+from ....viewing.view import Picture
 from ..planning.arrays import CHECKS
 from ..planning.task import LimbedTask
 from ..robot.robot import Limb, LimbedRobot
@@ -234,7 +235,7 @@ def _moved(task: LimbedTask, before: np.void, after: np.void) -> str:
     return "stays"
 
 
-class ClimbView(View[Snapshot]):
+class ClimbView(PlanView[Snapshot]):
     """A picture of a climb that can be set to any moment of it.
 
     Forces and torques pass evenly from one stance to the next; only those of settled stances are computed.
@@ -280,16 +281,16 @@ class ClimbView(View[Snapshot]):
 
         return [part(phase) for phase in Transition(self.task.robot, self.task.world, before, after).phases()]
 
-    def values(self, at: Snapshot) -> Floats:
+    def values(self, at: Snapshot) -> tuple[Floats, ...]:
         """Torques of shoulders and elbows [N m], shape (2 n_limbs,)."""
-        return at.torques.ravel()
+        return (at.torques.ravel(),)
 
     def action(self, step: int) -> str:
         """A step in words."""
         stances = self.replay.stances
         return describe_action(self.task, stances[step - 1], stances[step], self.reason(step))
 
-    def facts(self, step: int, at: Snapshot) -> tuple[str, ...]:
+    def lines(self, step: int, at: Snapshot) -> tuple[str, ...]:
         """Pose and holds."""
         posture = at.posture
         pose = describe_pose(self.task, posture.x, posture.y, posture.angle)

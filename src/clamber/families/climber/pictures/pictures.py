@@ -18,14 +18,14 @@ from ....viewing import style
 from ....viewing.output import CANVASES, check_suffix, drawing, save_figure
 from ....viewing.pictures import Pictures
 from ....viewing.route import FACTS, ROW, draw_way, label_ghost, pick_ghosts, write_facts
-from ....viewing.scene import Bounds, length_unit
+from ....viewing.scene import Bounds
 from ....viewing.style import styled
 from ....viewing.view import PANEL_WIDTH, Layout, is_wide
 from ..execution.climb_trace import ClimbTrace
 from ..planning.task import LimbedTask
 from ..trials.run_plan import ClimbRun
-from .artists import ClimberArtists, Snapshot, draw_scene, find_bounds, show_torque, torque_limits
-from .climb_run import ClimbRunView, run_picture
+from .artists import ClimberArtists, Snapshot, draw_scene, find_bounds, torque_gauges, torque_limits
+from .climb_run import ClimbFilm, run_picture
 from .climb_view import ClimbView, Transition, draw_climb
 from .geometry import Posture, postures
 from .report import climb_page
@@ -43,7 +43,7 @@ def draw_stages(run: ClimbRun, path: str | Path) -> None:
     check_suffix(path, CANVASES)
     actions = run.report.actions
     with styled():
-        view = ClimbRunView(run.task, run.trace, actions)
+        view = ClimbFilm(run.task, run.trace, actions)
         shown = [view.settled(step) for step in range(len(actions) + 1)]
         titles = ["start", *(action.title for action in actions)]
         points = np.vstack([np.vstack([at.posture.outline, at.posture.chains.reshape(-1, 2)]) for at in shown])
@@ -78,8 +78,7 @@ def draw_body_over_time(run: ClimbRun, path: str | Path) -> None:
             axes.plot(trace.time, trace.aim[:, which] * MILLI, color=style.INK, lw=0.9, label="as aimed at")
             axes.plot(trace.time, poses[:, which] * MILLI, color=style.PARTS[0], lw=1.5, label="as it is")
             axes.set_ylabel(name)
-            style.bare(axes)
-            axes.grid(axis="y", color=style.FAINT, lw=0.6)
+            style.ruled(axes, "y")
             for number, action in enumerate(run.report.actions, 1):
                 axes.axvline(action.start, color=style.FAINT, lw=0.8, zorder=0)
                 if which == 0:
@@ -107,10 +106,8 @@ def draw_heights(traces: Mapping[str, ClimbTrace], path: str | Path) -> None:
             above = (trace.true_pose[:, 1] - trace.aim[:, 1]) * MILLI
             axes.plot(trace.time, above, color=colour, lw=1.4, label=label)
             axes.plot(trace.time[-1:], above[-1:], color=colour, marker="o", ms=4)
-        style.bare(axes)
-        axes.grid(color=style.FAINT, lw=0.6)
-        axes.set_xlabel("time [s]")
-        axes.set_ylabel("body above its aim [mm]")
+        style.ruled(axes)
+        axes.set(xlabel="time [s]", ylabel="body above its aim [mm]")
         axes.legend(fontsize=8, ncols=3)
 
 
@@ -154,9 +151,9 @@ def _draw_ghosts(wall: Axes, task: LimbedTask, shown: list[Posture], bounds: Bou
 
 
 def _facts(task: LimbedTask, replay: Replay) -> tuple[tuple[str, str], ...]:
-    ounces = length_unit(task)[0] == "in"
+    gauges = torque_gauges(task)
     torque = float(np.max(np.abs(replay.stances["torques"][:, : len(task.robot.limbs)])))
-    most, limit = (show_torque(value, ounces=ounces) for value in (torque, float(torque_limits(task).max())))
+    most, limit = map(gauges.show, (torque, float(gauges.high.max())))
     return ("Hangs", str(int(replay.stances["hangs"][-1]))), ("Largest torque", f"{most} of {limit}")
 
 

@@ -13,7 +13,7 @@ from ....planning.problem.plan import Plan
 from ....planning.progress import Listener
 from ....tasks.library import task_names
 from ....viewing.browser.exhibit import NAMED, Editor, Exhibit, Planned, Scenes
-from ....viewing.browser.solids import FOV, NARROW, Camera
+from ....viewing.browser.solids import FOV, NARROW, Camera, Scenery
 from ....viewing.scene import Bounds, join
 from ..execution.climb_report import LoggedClimb
 from ..execution.climb_trace import ClimbTrace
@@ -22,7 +22,7 @@ from ..trials.planning import plan_to_climb
 from ..trials.rehearsal import Rehearsal, rehearse
 from ..trials.run_plan import ClimbRun, climbing_flaws, climbing_task
 from .board_editor import BoardPanel
-from .climb_run import ClimbFilm, ClimbRunView, run_view
+from .climb_run import ClimbFilm, run_film
 from .space import ClimberFigure, WallScene
 
 if TYPE_CHECKING:
@@ -38,16 +38,10 @@ ROOM: Final = 1.2
 
 
 @dataclass(frozen=True, slots=True)
-class ClimbScenery:
+class ClimbScenery(Scenery):
     """A climber's task."""
 
     task: LimbedTask
-    bounds: Bounds
-    """The part of the wall that is shown."""
-
-    def with_bounds(self, bounds: Bounds) -> "ClimbScenery":
-        """See `Scenery`."""
-        return replace(self, bounds=bounds)
 
     def world(self, server: "viser.ViserServer") -> WallScene:
         """See `Scenery`."""
@@ -75,11 +69,11 @@ class ClimbScenes(Scenes):
 
     def scenery(self, task: LimbedTask, bounds: Bounds) -> ClimbScenery:
         """See `Scenes`."""
-        return ClimbScenery(task, bounds)
+        return ClimbScenery(bounds, task)
 
     def run_film(self, exhibit: Exhibit, run: ClimbRun) -> ClimbFilm:
         """See `Scenes`."""
-        return ClimbFilm(run_view(run))
+        return run_film(run)
 
     def with_log(self, exhibit: Exhibit, log: Log) -> Exhibit:
         """See `Scenes`."""
@@ -87,9 +81,9 @@ class ClimbScenes(Scenes):
         if trace.limbs != task.robot.limb_names:
             words = f"robot '{task.robot.name}' has other ones; {NAMED}"
             raise LogError(log.label, None, None, f"limbs {', '.join(trace.limbs)}", words)
-        view = ClimbRunView(task, trace, told_of(trace.notes, LoggedClimb, log.label).actions)
-        scenery = exhibit.scenery.with_bounds(join(exhibit.scenery.bounds, view.bounds))
-        return replace(exhibit, scenery=scenery, run_film=ClimbFilm(view))
+        film = ClimbFilm(task, trace, told_of(trace.notes, LoggedClimb, log.label).actions)
+        scenery = replace(exhibit.scenery, bounds=join(exhibit.scenery.bounds, film.bounds))
+        return replace(exhibit, scenery=scenery, run_film=film)
 
     def made_with(self, log: Log) -> str | None:
         """See `Scenes`."""

@@ -7,7 +7,7 @@ import numpy as np
 
 from ....types import Floats
 from ....viewing import style
-from ....viewing.browser.solids import DISC, Balls, Sticks, colour, prism
+from ....viewing.browser.solids import DISC, Figure, Sticks, colour, prism
 from ....viewing.scene import Bounds
 from ..planning.task import LimbedTask
 from ..world.board import Hold
@@ -169,65 +169,34 @@ def link_radius(task: LimbedTask) -> float:
     return max(task.robot.link_radius, 0.004)
 
 
-class ClimberFigure:
-    """A climber that can be set to any moment.
-
-    Args:
-        server: The scene's.
-        name: In the scene's tree.
-        task: Its robot is drawn, and its board's holds are what it holds.
-        opacity: Of everything; a ghost has less, and shows no loads.
-    """
+class ClimberFigure(Figure):
+    """A climber; `task` has its robot, and the board whose holds it is on."""
 
     def __init__(self, server: "viser.ViserServer", name: str, task: LimbedTask, opacity: float = 1.0) -> None:
-        robot = task.robot
-        self._task, self._ghost = task, opacity < 1.0
-        self._radius = link_radius(task)
-        self._depths = self._radius * (LIMBS + 0.5 * (np.arange(len(robot.limbs)) % 2))
+        super().__init__(server, name, opacity)
+        self._task, robot, r = task, task.robot, link_radius(task)
+        self._radius, self._grade = r, 3
+        self._depths = r * (LIMBS + 0.5 * (np.arange(len(robot.limbs)) % 2))
         self._limits = torque_limits(task).ravel()
-        self.root = server.scene.add_frame(name, show_axes=False)
         outline = body_outline(robot)
         corners = np.stack((outline.real, outline.imag), axis=-1)
         self._body = server.scene.add_mesh_simple(
-            f"{name}/body",
-            *prism(corners, BODY[0] * self._radius, BODY[1] * self._radius),
-            color=colour(GRADES[3]),
-            flat_shading=True,
-            opacity=opacity if self._ghost else None,
-            cast_shadow=not self._ghost,
-        )
-        self._grade = 3
+            f"{name}/body", *prism(corners, BODY[0] * r, BODY[1] * r), color=colour(GRADES[3]), flat_shading=True,
+            opacity=opacity if self._ghost else None, cast_shadow=not self._ghost,
+        )  # fmt: skip
         top = 0.5 * float(np.ptp(corners, axis=0).min()) * 0.5
         up = in_space(np.array([[(0.0, 0.0), (0.0, top)]]), 0.0)[..., [0, 2, 1]]
-        up[..., 2] = BODY[1] * self._radius
-        mark = Sticks(
-            server,
-            f"{name}/body/up",
-            np.array([colour(style.INK)], np.uint8),
-            np.array([0.22 * self._radius]),
-            opacity,
-        )
-        mark.put(up)
+        up[..., 2] = BODY[1] * r
+        self.sticks("body/up", [colour(style.INK)], [0.22 * r]).put(up)
         paint = [colour(style.PARTS[i % len(style.PARTS)]) for i in range(len(robot.limbs))]
-        r = self._radius
         # of each limb: both links, the way from the second to the tip, and the end effector
         sizes = [r, 0.8 * r, 0.3 * r, *([0.3 * r] * GRIP_POINTS)]
-        n = len(sizes)
-        self._links = Sticks(
-            server,
-            f"{name}/links",
-            np.repeat(np.array(paint, np.uint8), n, axis=0),
-            np.tile(sizes, len(paint)),
-            opacity,
-        )
-        joints = np.tile((1.35 * r, 1.2 * r, 0.8 * r), len(paint))
-        self._joint_colours = np.array([c for one in paint for c in (one, one, one)], np.uint8)
-        self._joints = Balls(server, f"{name}/joints", self._joint_colours, joints, opacity)
+        self._links = self.sticks("links", [one for one in paint for _ in sizes], sizes * len(paint))
+        joints = [one for one in paint for _ in range(3)]
+        self._joint_colours = np.array(joints, np.uint8)
+        self._joints = self.balls("joints", joints, [1.35 * r, 1.2 * r, 0.8 * r] * len(paint))
         self._heat = [(share, np.array(colour(shade), np.uint8)) for share, shade in HEAT]
-        self._arrows = None if self._ghost else server.scene.add_arrows(
-            f"{name}/forces", np.array([[(0.0, 0.0, 0.0), (0.0, 0.0, 1e-3)]]), colour(style.FORCE),
-            shaft_radius=0.42 * r, head_radius=1.0 * r, head_length=2.4 * r, visible=False,
-        )  # fmt: skip
+        self.make_arrows(0.42 * r, 1.0 * r, 2.4 * r)
 
     def show(self, at: Snapshot, grade: int = 3) -> None:
         """Put everything where a moment has it; the body takes the colour of a grade."""
@@ -240,16 +209,10 @@ class ClimberFigure:
         chains = self._chains(posture)
         self._links.put(np.concatenate([self._limb_sticks(i, chains[i], posture) for i in range(len(chains))]))
         self._joints.put(chains[:, :3].reshape(-1, 3), None if self._ghost else self._hot(at.torques))
-        if self._arrows is not None:
-            self._show_forces(at, chains[:, 3])
-
-    def hide(self, hidden: bool = True) -> None:
-        """Take the figure out of sight, or bring it back."""
-        self.root.visible = not hidden
-
-    def remove(self) -> None:
-        """Take the figure away for good."""
-        self.root.remove()
+        seen = np.hypot(*at.forces.T) > SMALLEST_FORCE * self._task.robot.weight
+        seen &= np.array([held >= 0 for held in posture.held]) & np.isfinite(at.forces).all(axis=1)
+        starts = chains[seen, 3] + (0.0, -3.0 * self._radius, 0.0)
+        self.show_forces(starts, in_space(at.forces[seen] * force_scale(self._task), 0.0))
 
     def _chains(self, posture: Posture) -> Floats:
         """Port, elbow, end of the second link and tip of each limb in space, shape (n_limbs, 4, 3).
@@ -288,13 +251,3 @@ class ClimberFigure:
             i, joint = divmod(k, 2)
             colours[3 * i + joint] = next(shade for least, shade in reversed(self._heat) if share >= least)
         return colours
-
-    def _show_forces(self, at: Snapshot, tips: Floats) -> None:
-        assert self._arrows is not None
-        seen = np.hypot(*at.forces.T) > SMALLEST_FORCE * self._task.robot.weight
-        seen &= np.array([held >= 0 for held in at.posture.held]) & np.isfinite(at.forces).all(axis=1)
-        self._arrows.visible = bool(seen.any())
-        if seen.any():
-            starts = tips[seen] + (0.0, -3.0 * self._radius, 0.0)
-            ways = in_space(at.forces[seen] * force_scale(self._task), 0.0)
-            self._arrows.points = np.stack((starts, starts + ways), axis=1).astype(np.float32)

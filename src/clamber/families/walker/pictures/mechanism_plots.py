@@ -111,8 +111,7 @@ def draw_areas(thetas: Sequence[float], areas: Mapping[str, Floats], path: str |
         looks = ((style.QUIET, "-"), (style.QUIET, (0, (4, 2))), (FREE, "-"), (GUARDED, "-"))
         for (name, values), (colour, dash) in zip(areas.items(), looks, strict=False):
             axes.plot(thetas, values, color=colour, ls=dash, lw=1.8, label=name)
-        axes.set_xlabel("angle of the Y-frame in the Delta-frame [deg]")
-        axes.set_ylabel("area of the region [cm²]")
+        axes.set(xlabel="angle of the Y-frame in the Delta-frame [deg]", ylabel="area of the region [cm²]")
         axes.set_ylim(bottom=0.0)
         axes.set_title("How large the region is")
         axes.legend(fontsize=8)
@@ -165,11 +164,9 @@ def draw_ditch_curves(directions: Sequence[float], curves: Mapping[float, Floats
         axes = figure.subplots()
         for (theta, widths), colour in zip(curves.items(), style.PARTS, strict=False):
             axes.plot(directions, widths, color=colour, lw=1.5, label=f"theta = {theta:g}°")
-        axes.set_xticks(range(0, 361, 30))
-        axes.set_xlim(0, 360)
+        axes.set(xticks=range(0, 361, 30), xlim=(0, 360))
         axes.set_ylim(bottom=0.0)
-        axes.set_xlabel("direction of crossing, in the Delta-frame [deg]")
-        axes.set_ylabel("widest ditch [mm]")
+        axes.set(xlabel="direction of crossing, in the Delta-frame [deg]", ylabel="widest ditch [mm]")
         axes.set_title("The widest ditch repeats every 60°")
         axes.grid(color=style.FAINT, lw=0.6)
         axes.set_axisbelow(True)

@@ -15,9 +15,9 @@ from ....planning.progress import Listener
 from ....tasks.library import task_names
 from ....types import Floats, Json
 from ....viewing.browser.exhibit import Editor, Exhibit, Planned, Scenes
-from ....viewing.browser.solids import FOV, NARROW, Camera
+from ....viewing.browser.solids import FOV, NARROW, Camera, Scenery
+from ....viewing.film import View
 from ....viewing.scene import Bounds, join
-from ....viewing.view import View
 from ..execution.walk_report import LoggedWalk
 from ..execution.walk_trace import WalkTrace
 from ..planning import Walk, walk_names
@@ -48,20 +48,14 @@ BESIDE: Final = 0.5
 
 
 @dataclass(frozen=True, slots=True)
-class WalkScenery:
+class WalkScenery(Scenery):
     """A walker on a ground."""
 
     robot: WalkerRobot
     ground: Ground
-    goals: tuple[Goal, ...]
-    bounds: Bounds
-    """The part of the ground that is shown."""
+    goals: tuple[Goal, ...] = ()
     way: Floats | None = None
     """Places that a walk's way leads along, seen from above, shape (n, 2) [m]; None: it is not known."""
-
-    def with_bounds(self, bounds: Bounds) -> "WalkScenery":
-        """See `Scenery`."""
-        return replace(self, bounds=bounds)
 
     def world(self, server: "viser.ViserServer") -> GroundScene:
         """See `Scenery`."""
@@ -118,7 +112,7 @@ class WalkScenes(Scenes):
     def scenery(self, task: WalkerTask, bounds: Bounds) -> WalkScenery:
         """See `Scenes`."""
         x0, x1, y0, y1 = bounds
-        return WalkScenery(task.robot, task.world, task.goals, (x0 - ROUND, x1 + ROUND, y0 - ROUND, y1 + ROUND))
+        return WalkScenery((x0 - ROUND, x1 + ROUND, y0 - ROUND, y1 + ROUND), task.robot, task.world, task.goals)
 
     def film(self, view: View[Any]) -> PlannedWalkFilm:
         """See `Scenes`."""
@@ -134,7 +128,7 @@ class WalkScenes(Scenes):
         if not isinstance(task, Walk):
             return super().exhibit(task, plan, label)
         way = way_poses(task)[:, :2]
-        scenery = WalkScenery(task.robot, task.ground, (), walk_bounds(way), way)
+        scenery = WalkScenery(walk_bounds(way), task.robot, task.ground, way=way)
         return Exhibit(task.title or task.name, scenery, StandingFilm(task), task=task, planned=False)
 
     def run_film(self, exhibit: Exhibit, run: WalkRun) -> WalkFilm:
@@ -150,9 +144,9 @@ class WalkScenes(Scenes):
             raise LogError(log.label, None, None, None, "tells no place of the robot")
         bounds = walk_bounds(trace.believed[:, :2])
         if isinstance(work, Walk):
-            scenery = WalkScenery(work.robot, work.ground, (), bounds)
+            scenery = WalkScenery(bounds, work.robot, work.ground)
             return Exhibit(exhibit.title, scenery, None, _logged_film(scenery, trace, exhibit.title, work.payload))
-        scenery = self.scenery(work, bounds).with_bounds(join(exhibit.scenery.bounds, bounds))
+        scenery = replace(self.scenery(work, bounds), bounds=join(exhibit.scenery.bounds, bounds))
         film = _logged_film(scenery, trace, exhibit.title, work.start.payload)
         return replace(exhibit, scenery=scenery, run_film=film)
 

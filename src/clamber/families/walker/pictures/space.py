@@ -8,7 +8,7 @@ import numpy as np
 
 from ....types import Floats
 from ....viewing import style
-from ....viewing.browser.solids import DISC, Balls, Mesh, Sticks, colour, prism
+from ....viewing.browser.solids import DISC, Figure, Mesh, colour, prism
 from ....viewing.scene import Bounds, goal_box, name_goal
 from ..planning.task import Goal
 from ..robot import WalkerRobot
@@ -181,39 +181,24 @@ class WalkMoment:
     """How far the centre of mass is inside the standing feet, from above [m]; NaN where it is not told."""
 
 
-class WalkerFigure:
-    """A walker that can be set to any moment; arguments as those of `ClimberFigure`, with the robot for the task."""
+class WalkerFigure(Figure):
+    """A walker."""
 
     def __init__(self, server: "viser.ViserServer", name: str, robot: WalkerRobot, opacity: float = 1.0) -> None:
-        r = THICK * max(robot.legs.radius_delta, robot.legs.radius_y)
-        self._size, self._radius = max(robot.legs.radius_delta, robot.legs.radius_y), r
-        self.root = server.scene.add_frame(name, show_axes=False)
-        first, second, ink, arm = (np.array(colour(shade), np.uint8) for shade in (*COLOURS, style.INK, style.QUIET))
+        super().__init__(server, name, opacity)
+        self._size = max(robot.legs.radius_delta, robot.legs.radius_y)
+        r = THICK * self._size
+        first, second, ink, arm, red = (colour(shade) for shade in (*COLOURS, style.INK, style.QUIET, style.ALERT))
         paint = [first] * 3 + [second] * 3 + [ink] * 3 + [first] * 3 + [second] * 3 + [arm] * 2
-        sizes = [r] * 6 + [0.5 * r] * 3 + [0.7 * r] * 6 + [0.8 * r] * 2
-        self._bars = Sticks(server, f"{name}/bars", np.array(paint), np.array(sizes), opacity)
-        pad = max(robot.legs.pad_radius, 1.6 * r)
+        self._bars = self.sticks("bars", paint, [r] * 6 + [0.5 * r] * 3 + [0.7 * r] * 6 + [0.8 * r] * 2)
         joints = [first] * 3 + [second] * 4 + [arm] * 2
-        self._joints = Balls(
-            server, f"{name}/joints", np.array(joints), np.array([1.3 * r] * 7 + [0.9 * r, 1.4 * r]), opacity
-        )
-        self._pads = Sticks(server, f"{name}/pads", np.array([first] * 3 + [second] * 3), np.full(6, pad), opacity)
-        self._ghost = opacity < 1.0
+        self._joints = self.balls("joints", joints, [1.3 * r] * 7 + [0.9 * r, 1.4 * r])
+        pad = max(robot.legs.pad_radius, 1.6 * r)
+        self._pads = self.sticks("pads", [first] * 3 + [second] * 3, [pad] * 6)
         self._pad_height = max(0.35 * pad, 0.004)
-        self._mass = Balls(
-            server,
-            f"{name}/centre of mass",
-            np.array([colour(style.ALERT)] * 2, np.uint8),
-            np.array([r, 0.6 * r]),
-            opacity,
-        )
-        self._plumb = Sticks(
-            server, f"{name}/plumb line", np.array([colour(style.ALERT)], np.uint8), np.array([0.15 * r]), opacity
-        )
-        self._arrows = None if self._ghost else server.scene.add_arrows(
-            f"{name}/forces", np.array([[(0.0, 0.0, 0.0), (0.0, 0.0, 1e-3)]]), colour(style.FORCE),
-            shaft_radius=0.95 * r, head_radius=1.9 * r, head_length=3.0 * r, visible=False,
-        )  # fmt: skip
+        self._mass = self.balls("centre of mass", [red] * 2, [r, 0.6 * r])
+        self._plumb = self.sticks("plumb line", [red], [0.15 * r])
+        self.make_arrows(0.95 * r, 1.9 * r, 3.0 * r)
 
     def show(self, at: WalkMoment, grade: int = 3) -> None:
         """Put everything where a moment has it; the centre of mass is red where the step is tight or worse."""
@@ -239,23 +224,6 @@ class WalkerFigure:
         below[2] = np.nanmin(soles[:, 2]) + 0.004
         self._mass.put(np.stack((shapes.centre, below)), shade)
         self._plumb.put(np.stack((shapes.centre, below))[None])
-        if self._arrows is not None:
-            self._show_forces(at, soles)
-
-    def hide(self, hidden: bool = True) -> None:
-        """Take the figure out of sight, or bring it back."""
-        self.root.visible = not hidden
-
-    def remove(self) -> None:
-        """Take the figure away for good."""
-        self.root.remove()
-
-    def _show_forces(self, at: WalkMoment, soles: Floats) -> None:
-        assert self._arrows is not None
         forces = at.forces.reshape(6, 3)
         seen = np.linalg.norm(forces, axis=1) > SMALLEST * at.weight
-        self._arrows.visible = bool(seen.any())
-        if seen.any():
-            scale = LONGEST * self._size / (at.weight / 3.0)
-            ways = forces[seen] * scale
-            self._arrows.points = np.stack((soles[seen], soles[seen] + ways), axis=1).astype(np.float32)
+        self.show_forces(soles[seen], forces[seen] * (LONGEST * self._size / (at.weight / 3.0)))

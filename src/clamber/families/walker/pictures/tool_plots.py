@@ -125,11 +125,9 @@ def _draw_over_time(upper: Axes, lower: Axes, run: FollowRun) -> None:
     upper.set_ylabel("manipulability V [-]")
     upper.set_ylim(bottom=0.0)
     lower.plot(run.time, np.linalg.norm(run.places - run.wanted, axis=1) * MILLI, color=style.ALERT, lw=1.2)
-    lower.set_ylabel("tool off its place [mm]")
-    lower.set_xlabel("time [s]")
+    lower.set(ylabel="tool off its place [mm]", xlabel="time [s]")
     for axes in (upper, lower):
-        style.bare(axes)
-        axes.grid(color=style.FAINT, lw=0.6)
+        style.ruled(axes)
         axes.axvspan(0.0, begins, color=style.WALL, zorder=0)
     upper.annotate(
         "way to its start", (0.5 * begins, 0.03), xycoords=("data", "axes fraction"), ha="center", fontsize=7.5,
@@ -185,8 +183,7 @@ def draw_motions(motions: Sequence[Motion], time: Floats, path: str | Path) -> N
                 axes.plot(time, turned, color=colour, lw=1.8, ls=dashes)
             axes.set_title(f"$\\theta_{joint}$ from its start [deg]", fontsize=9, weight="normal")
             axes.set_xlabel("time [s]")
-            axes.grid(color=style.FAINT, lw=0.6, axis="y")
-            style.bare(axes)
+            style.ruled(axes, "y")
 
 
 def draw_gains(time: Floats, courses: Mapping[float, Floats], means: Mapping[int, Floats], path: str | Path) -> None:
@@ -215,8 +212,7 @@ def draw_gains(time: Floats, courses: Mapping[float, Floats], means: Mapping[int
         right.set_xticks(range(len(means)), [f"{dof} dof" for dof in means])
         right.set_ylabel(f"mean V over that with $k_p$ = {gains[0]:g} [-]")
         for axes in (left, right):
-            style.bare(axes)
-            axes.grid(color=style.FAINT, lw=0.6, axis="y")
+            style.ruled(axes, "y")
 
 
 def draw_freedoms(means: Floats, dofs: Sequence[int], gains: Sequence[float], path: str | Path) -> None:
@@ -236,7 +232,6 @@ def draw_freedoms(means: Floats, dofs: Sequence[int], gains: Sequence[float], pa
             axes.set_xticks(range(len(dofs)), [str(dof) for dof in dofs])
             axes.set_xlabel("degrees of freedom")
             axes.set_title(f"$k_p$ = {gain:g}", fontsize=9.5)
-            style.bare(axes)
-            axes.grid(color=style.FAINT, lw=0.6, axis="y")
+            style.ruled(axes, "y")
         figure.axes[0].set_ylabel("mean V of a way [-]; median in bold")
         figure.axes[0].set_ylim(bottom=0.0)

@@ -7,7 +7,7 @@ import numpy as np
 
 from ....types import Floats, Json
 from ....units import DEGREE, GRAVITY
-from ....viewing.browser.film import Film, MarginRow, PlanFilm
+from ....viewing.film import Film, MarginRow
 from ..control.gait import lengths_at
 from ..control.track import Track, straight
 from ..control.walker_balance import mass_centre
@@ -46,7 +46,7 @@ class PlannedWalkFilm(Film[WalkMoment]):
     """
 
     def __init__(self, view: WalkerView) -> None:
-        self._film, self._task = PlanFilm(view), view.task
+        self._film, self._task = view, view.task
         self._surface = Surface(view.task.world)
         film = self._film
         self.title, self.gauges, self.seconds, self.steps = film.title, (), film.seconds, film.steps

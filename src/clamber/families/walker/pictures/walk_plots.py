@@ -141,8 +141,7 @@ def draw_levelling(
             below.axhline(0.0, color=style.ALERT, lw=0.9)
             below.set_xlabel("way of the plate [m]")
             for axes in (above, below):
-                style.bare(axes)
-                axes.grid(color=style.FAINT, lw=0.6, axis="y")
+                style.ruled(axes, "y")
         grid[0, 0].set_ylim(bottom=0.0)
         grid[0, 0].set_ylabel("tilt, level [deg]")
         grid[1, 0].set_ylabel("margin of balance [mm]")
@@ -189,8 +188,6 @@ def draw_paths(runs: Mapping[str, WalkRun], centres: Mapping[str, tuple[float, f
             if name in centres:
                 axes.plot(*centres[name], marker="+", ms=9, mew=1.6, color=colour)
         axes.set_aspect("equal", adjustable="datalim")
-        axes.set_xlabel("x [m]")
-        axes.set_ylabel("y [m]")
-        axes.grid(color=style.FAINT, lw=0.6)
-        style.bare(axes)
+        axes.set(xlabel="x [m]", ylabel="y [m]")
+        style.ruled(axes)
         figure.legend(loc="outside right upper", fontsize=8)

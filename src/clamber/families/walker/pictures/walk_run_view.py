@@ -15,9 +15,9 @@ from matplotlib.patches import Polygon
 from ....types import Floats
 from ....units import DEGREE
 from ....viewing import style
+from ....viewing.film import Frame
 from ....viewing.scene import draw_forbidden
 from ....viewing.style import bare
-from ....viewing.view import Frame
 from ..execution.true_walk import TrueWalk
 from ..robot import WalkerRobot
 from ..trials.run_walk import WalkRun
@@ -140,8 +140,7 @@ class WalkRunView:
         heights[np.isinf(heights)] = math.nan
         axes.fill_between(ways, np.nanmin(heights, axis=1), np.nanmax(heights, axis=1), color=style.FAINT, lw=0)
         axes.plot(ways, heights[:, 3], color=style.QUIET, lw=1.2)
-        axes.set_xlim(low, high)
-        axes.set_ylim(bottom, top)
+        axes.set(xlim=(low, high), ylim=(bottom, top))
         axes.set_aspect("equal")
         axes.set_ylabel("height [m]")
         axes.set_title("from the side, along its way [m]", fontsize=9, weight="normal")
@@ -179,8 +178,7 @@ class WalkRunView:
             axes.annotate("", (x + dx, y + dy), (x - dx, y - dy), arrowprops=arrow)
             words = f"up {ground.slope / DEGREE:.0f}°"
             axes.text(x, y - 0.1, words, fontsize=7.5, ha="center", va="top", color=style.QUIET)
-        axes.set_xlim(x0, x1)
-        axes.set_ylim(y0, y1)
+        axes.set(xlim=(x0, x1), ylim=(y0, y1))
         axes.set_aspect("equal")
         axes.set_title("from above [m]", fontsize=9, weight="normal")
         bare(axes)

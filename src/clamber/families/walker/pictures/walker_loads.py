@@ -134,7 +134,6 @@ def grip_gauges() -> Gauges:
         high=np.ones(6),
         limits=((1.0, "slips"),),
         calm=(0.0, NEAR_LIMIT),
-        show=lambda share: f"{100.0 * share + 0.0:.0f} %",
         unit=("%", 0.01, 0),
         group=3,
     )
@@ -169,7 +168,6 @@ def _lengths(title: str, names: tuple[str, ...], colours: tuple[str, ...], short
         high=np.full(len(names), longest),
         limits=((0.0, "shortest"), (1.0, "longest")),
         calm=(NEAR_END, 1.0 - NEAR_END),
-        show=lambda length: f"{100 * length:.1f} cm",
         unit=("cm", 0.01, 1),
         group=3,
     )
@@ -187,7 +185,6 @@ def _forces(
         high=np.full(len(names), full if limit is None else limit),
         limits=() if limit is None else ((1.0, "limit"),),
         calm=(0.0, np.inf if limit is None else NEAR_LIMIT),
-        show=lambda force: f"{round(force, decimals) + 0.0:.{decimals}f} N",
         unit=("N", 1.0, decimals),
         group=3,
         note=note if limit is None else "",

@@ -13,6 +13,7 @@ from ....planning.problem.problem import Replay
 from ....types import Floats
 from ....units import DEGREE
 from ....viewing import style
+from ....viewing.film import Part, PlanView
 from ....viewing.scene import (
     Bounds,
     describe_pose,
@@ -25,7 +26,7 @@ from ....viewing.scene import (
     name_goal,
     set_axes,
 )
-from ....viewing.view import Part, Picture, View
+from ....viewing.view import Picture
 from ..planning.task import WalkerTask
 from ..statics.checks import WALKER_CHECKS
 from ..world.ground import Block
@@ -182,7 +183,7 @@ def draw_key(panel: Axes, left: float, y: float) -> None:
         panel.text(left + x + 0.17, y, words, fontsize=7, va="center", color=quiet)
 
 
-class WalkerView(View[WalkerMoment]):
+class WalkerView(PlanView[WalkerMoment]):
     """A picture of a walk that can be set to any moment of it."""
 
     rows = NAMES
@@ -208,15 +209,15 @@ class WalkerView(View[WalkerMoment]):
         """The parts of a step's motion, in order."""
         return walker_motion(self.task, self.replay.stances[step - 1], self.replay.stances[step])
 
-    def values(self, at: WalkerMoment) -> Floats:
+    def values(self, at: WalkerMoment) -> tuple[Floats, ...]:
         """Lengths of the actuators [m], shape (3,)."""
-        return at.lengths
+        return (at.lengths,)
 
     def action(self, step: int) -> str:
         """A step in words."""
         return describe_walk(self.task, self.moments[step - 1], self.moments[step], self.reason(step))
 
-    def facts(self, step: int, at: WalkerMoment) -> tuple[str, ...]:
+    def lines(self, step: int, at: WalkerMoment) -> tuple[str, ...]:
         """Poses of the frames, and which of them stands."""
         return tuple(
             describe_pose(self.task, *pose) + f"  ({'lifted' if lift > 0.0 else 'stands'})"
