@@ -132,6 +132,17 @@ class PlannerError(ClamberError):
         return f"the {self.planner} planner can't take task '{self.task}': {self.problem}"
 
 
+class OptionError(ClamberError):
+    """What an option asks for can't be done: names the option, what is wrong, and what is allowed."""
+
+    def __init__(self, option: str, problem: str, allowed: str) -> None:
+        super().__init__(option, problem, allowed)
+        self.option, self.problem, self.allowed = option, problem, allowed
+
+    def __str__(self) -> str:
+        return f"{self.option}: {self.problem}; {self.allowed}"
+
+
 class StartError(ClamberError):
     """The start stance of a task violates a hard check."""
 

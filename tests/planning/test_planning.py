@@ -237,7 +237,7 @@ def test_a_sequence_that_leads_nowhere_is_not_learned() -> None:
 def test_search_needs_nothing_of_a_family_but_arrays() -> None:
     """The walker goes through the very same search as the climber."""
     posed = pose_problem(load_task("patch-walk"))
-    outcome = search(posed.problem, load_profile("default"), seed=0, budget=Budget(50_000), stages=1)
+    outcome = search(posed.problem, load_profile("default"), seed=0, budget=Budget(50_000))
     assert outcome.found and posed.problem.replay(outcome.codes).ok
 
 

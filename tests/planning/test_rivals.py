@@ -7,7 +7,7 @@ import pytest
 
 from clamber.benchmarks.mcts import Settings, luby, plan_mcts
 from clamber.benchmarks.rival_kernels import pop, push
-from clamber.benchmarks.rivals import plan_random
+from clamber.benchmarks.rivals import Bursts, plan_random
 from clamber.errors import PlannerError
 from clamber.planning.exact.planner import plan_exact
 from clamber.planning.genetic.planner import plan_genetic
@@ -128,7 +128,7 @@ def test_tree_search_goes_on_when_its_memory_is_full() -> None:
 def test_tree_search_needs_no_walks_and_random_walks_need_no_jumps() -> None:
     task = load_task(*SHORT)
     assert plan_mcts(task, max_checks=200_000, settings=Settings(horizon=0)).status == "found"
-    assert plan_random(task, max_checks=400_000, walks=1, length=200, patience=1).status == "found"
+    assert plan_random(task, max_checks=400_000, bursts=Bursts(walks=1, length=200, patience=1)).status == "found"
 
 
 def test_tree_search_and_random_walks_come_close_to_the_optimum_of_a_small_board() -> None:

@@ -1,16 +1,14 @@
 """Comparators for the planners: greedy best-first search, random walks, and the budget and answer that all share."""
 
-import time
 from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
 
-from ..errors import PlannerError
 from ..planning.problem.plan import Plan
 from ..planning.problem.problem import CompiledProblem
-from ..planning.problem.problems import plan_family, pose_problem
-from ..planning.progress import Listener, Trying
+from ..planning.problem.problems import listed_problem, plan_family
+from ..planning.progress import Clock, Listener, Trying
 from ..planning.result import PlanResult, Status, furthest_of
 from ..planning.stance_table import path_to, table_size
 from ..tasks import Task
@@ -56,7 +54,7 @@ class Hunt:
     seconds: float | None
     listener: Listener | None
     problem: CompiledProblem = field(init=False)
-    started: float = field(init=False)
+    clock: Clock = field(init=False)
     checks: int = 0
     codes: Ints = field(default_factory=lambda: np.zeros(0, np.int32))
     """The shortest plan; without one, the way to the stance that is worth most."""
@@ -68,18 +66,15 @@ class Hunt:
     interrupted: bool = False
 
     def __post_init__(self) -> None:
-        self.started = time.monotonic()
-        self.problem = pose_problem(self.task, threads=1).problem
-        if self.problem.incomplete is not None:
-            raise PlannerError(self.planner, self.task.name, self.problem.incomplete)
+        self.clock = Clock(self.seconds)
+        self.problem = listed_problem(self.task, self.planner, threads=1)
         if self.problem.is_done(self.problem.start):
             self.take(self.codes, 0.0, found=True)
 
     @property
     def is_over(self) -> bool:
         """Whether the budget is spent, or no shorter plan can be."""
-        late = self.seconds is not None and time.monotonic() - self.started >= self.seconds
-        return late or self.checks >= self.max_checks or self.longest <= 0
+        return self.clock.is_over or self.checks >= self.max_checks or self.longest <= 0
 
     @property
     def longest(self) -> int:
@@ -126,7 +121,7 @@ class Hunt:
             reason=reason,
             evaluations=0,
             checks=self.checks,
-            seconds=time.monotonic() - self.started,
+            seconds=self.clock.spent,
             seed=self.seed,
             planner=self.planner,
             max_torque=float(np.max([family.torque(stance) for stance in replayed.stances[1:]], initial=0.0)),
@@ -211,14 +206,18 @@ def plan_greedy(
     )
 
 
-WALKS: Final = 50
-"""Walks of a burst."""
-LENGTH: Final = 6
-"""Most actions of a walk; twice as many after a burst that came no further."""
-PATIENCE: Final = 5
-"""Bursts that come no further, before the search starts again from the start."""
-AGAIN: Final = 0.5
-"""Probability of a walk to do the same as before, where it can: runs of body moves, as in the genetic planner's fresh tails."""
+@dataclass(frozen=True, slots=True)
+class Bursts:
+    """How the walks of the planner `random` are made."""
+
+    walks: int = 50
+    """Walks of a burst."""
+    length: int = 6
+    """Most actions of a walk; twice as many after a burst that came no further."""
+    patience: int = 5
+    """Bursts that come no further, before the search starts again from the start."""
+    again: float = 0.5
+    """Probability of a walk to do the same as before, where it can: runs of body moves, as in the genetic planner's fresh tails."""
 
 
 def plan_random(
@@ -229,10 +228,7 @@ def plan_random(
     threads: int | None = None,
     max_checks: int = MAX_CHECKS,
     progress: Listener | None = None,
-    walks: int = WALKS,
-    length: int = LENGTH,
-    patience: int = PATIENCE,
-    again: float = AGAIN,
+    bursts: Bursts | None = None,
 ) -> PlanResult:
     """Walk at random, jump to where the best walk led, start again where none leads further; keep the shortest plan.
 
@@ -243,7 +239,7 @@ def plan_random(
         threads: The search runs on one.
         max_checks: Most actions to judge.
         progress: Called now and then.
-        walks, length, patience, again: See `WALKS`, `LENGTH`, `PATIENCE`, `AGAIN`.
+        bursts: How its walks are made.
 
     Returns:
         "found", or "stopped" with the furthest stance.
@@ -251,7 +247,7 @@ def plan_random(
     Raises:
         PlannerError: If the task allows actions that can't be listed one by one.
     """
-    hunt = Hunt("random", task, seed, max_checks, seconds, progress)
+    hunt, made = Hunt("random", task, seed, max_checks, seconds, progress), bursts or Bursts()
     problem = hunt.problem
     params, weights = problem.params.record, guidance(problem)
     codes, stances = np.zeros(problem.branching, np.int32), np.zeros(3, problem.start.dtype)
@@ -265,12 +261,12 @@ def plan_random(
             before = hunt.checks
             here[:] = problem.start[0]
             way, value, stale, reached = np.zeros(0, np.int32), -np.inf, 0, False
-            while not reached and stale < patience and not hunt.is_over:
-                most = min(length << stale, hunt.longest - len(way))
+            while not reached and stale < made.patience and not hunt.is_over:
+                most = min(made.length << stale, hunt.longest - len(way))
                 if most < 0:
                     break
                 actions, value, judged, reached = burst(
-                    params, here, codes, stances, margins, row, weights, again, walks, most, max_checks - hunt.checks,
+                    params, here, codes, stances, margins, row, weights, made.again, made.walks, most, max_checks - hunt.checks,
                     seed, number, trail, best, value,
                 )  # fmt: skip
                 number += 1

@@ -1,7 +1,6 @@
 """The planner that chooses a planner, by what can be known of a problem before it is searched, and says why."""
 
 import math
-import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Final
@@ -12,7 +11,7 @@ from .exact.planner import plan_exact
 from .genetic.planner import plan_genetic
 from .problem.problem import CompiledProblem
 from .problem.problems import pose_problem
-from .progress import Listener
+from .progress import Clock, Listener
 from .result import PlanResult
 from .route import plan_route
 
@@ -75,7 +74,7 @@ def plan_auto(
     Returns:
         The answer of the first planner that finds or proves something, else of the last; its reason says which were tried.
     """
-    started = time.monotonic()
+    clock = Clock(seconds)
     problem = pose_problem(task, threads=threads).problem
     choice = choose(problem)
     result: PlanResult | None = None
@@ -83,7 +82,7 @@ def plan_auto(
     model = ""
     tried = []
     for name in choice.planners:
-        left = None if seconds is None else max(0.0, seconds - (time.monotonic() - started))
+        left = clock.left
         if result is not None and left == 0.0:
             break
         options: dict[str, Any] = {"max_stances": MEMORY} if name == "exact" else {}
@@ -101,5 +100,5 @@ def plan_auto(
         planner=f"auto/{result.planner}",
         lower_bound=result.lower_bound if result.lower_bound is not None else bound,
         model=result.model or model,
-        seconds=time.monotonic() - started,
+        seconds=clock.spent,
     )

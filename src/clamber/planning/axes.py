@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from ..errors import ClamberError
+from ..errors import OptionError
 from ..json_form import Jsonable
 from ..tasks.overrides import split_override
 from ..units import split_quantity
@@ -17,15 +17,8 @@ MOST_POINTS: Final = 100_000
 """Of one sweep."""
 
 
-class SweepError(ClamberError):
+class SweepError(OptionError):
     """A sweep is asked for that can't be made."""
-
-    def __init__(self, option: str, problem: str, allowed: str) -> None:
-        super().__init__(option, problem, allowed)
-        self.option, self.problem, self.allowed = option, problem, allowed
-
-    def __str__(self) -> str:
-        return f"{self.option}: {self.problem}; {self.allowed}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

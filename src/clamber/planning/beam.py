@@ -1,15 +1,13 @@
 """The beam planner as a whole: a task in, a plan or the furthest stance out."""
 
-import time
 from dataclasses import replace
 from typing import Final
 
-from ..errors import PlannerError
 from ..tasks import Task
-from .beam_layers import LONGEST, NICHE, WIDTH, Beam, Reached, search_layers
+from .beam_layers import LONGEST, WIDTH, Beam, Reached, search_layers
 from .problem.plan import Plan
-from .problem.problems import plan_family, pose_problem
-from .progress import Layers, Listener
+from .problem.problems import listed_problem, plan_family
+from .progress import Clock, Layers, Listener
 from .result import PlanResult, furthest_of
 from .shorten import Shortened, shorten
 
@@ -24,7 +22,6 @@ def plan_beam(
     *,
     seed: int = 0,
     width: int = WIDTH,
-    niche: int = NICHE,
     longest: int = LONGEST,
     polish: int = 60_000,
     seconds: float | None = None,
@@ -40,7 +37,6 @@ def plan_beam(
         task: What to plan.
         seed: Only written down: nothing here is drawn at random.
         width: Stances kept of each layer at first.
-        niche: Most of one niche in a layer: same goals met, same contacts, nearby.
         longest: Most actions of a plan.
         polish: Most stances that windows about the plan may see afterwards (`planning.shorten`); 0 for none.
         seconds: Most wall-clock time [s].
@@ -53,29 +49,24 @@ def plan_beam(
     Raises:
         PlannerError: If the task allows actions that can't be listed one by one.
     """
-    started = time.monotonic()
-    problem = pose_problem(task, threads=threads).problem
-    if problem.incomplete is not None:
-        raise PlannerError("beam", task.name, problem.incomplete)
+    clock = Clock(seconds)
+    problem = listed_problem(task, "beam", threads=threads)
 
     def tell(layer: int, stances: int, score: float) -> None:
         if progress is not None:
             progress(Layers(layer, stances, score))
 
-    def left() -> float | None:
-        return None if seconds is None else max(0.0, seconds - (time.monotonic() - started))
-
-    beam = Beam(width=width, niche=niche, longest=longest)
+    beam = Beam(width=width, longest=longest)
     checks = 0
     for _ in range(1 + WIDENINGS):
-        reached = search_layers(problem, beam, seconds=left(), tell=tell)
+        reached = search_layers(problem, beam, seconds=clock.left, tell=tell)
         checks += reached.checks
-        if reached.found or reached.interrupted or left() == 0.0:
+        if reached.found or reached.interrupted or clock.is_over:
             break
         beam = replace(beam, width=WIDER * beam.width)
     shortened = Shortened(reached.codes, 0, 0, complete=False)
     if reached.found and polish:
-        shortened = shorten(problem, reached.codes, width=0, effort=polish, seconds=left())
+        shortened = shorten(problem, reached.codes, width=0, effort=polish, seconds=clock.left)
     family = plan_family(task)
     stances = problem.replay(shortened.codes).stances
     return PlanResult(
@@ -85,7 +76,7 @@ def plan_beam(
         reason=_reason(reached, shortened, beam.width),
         evaluations=0,
         checks=checks + shortened.checks,
-        seconds=time.monotonic() - started,
+        seconds=clock.spent,
         seed=seed,
         planner="beam",
         max_torque=max((family.torque(stance) for stance in stances[1:]), default=0.0),

@@ -1,6 +1,5 @@
 """Beam search over a `Problem`: layers of plans of equal length, the best of each layer kept, hashed and niched."""
 
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
@@ -10,6 +9,7 @@ import numpy.typing as npt
 
 from .beam_kernels import choose
 from .problem.problem import CompiledProblem, Records
+from .progress import Clock
 from .stance_table import rehash, table_size
 
 WIDTH: Final = 500
@@ -108,7 +108,7 @@ def search_layers(
     Returns:
         What was reached: same settings, same plan, on any number of threads. Ctrl-C ends it with the best so far.
     """
-    started = time.monotonic()
+    clock = Clock(seconds)
     weights = np.array([dict(beam.weights).get(name, 0.0) for name in problem.features])
     out = problem.sprouts(beam.width)
     slots = problem.branching
@@ -124,7 +124,7 @@ def search_layers(
     filled = np.arange(slots)
     try:
         while goal < 0 and len(layer) and depth < beam.longest:
-            if seconds is not None and time.monotonic() - started >= seconds:
+            if clock.is_over:
                 break
             problem.sprout(layer, weights, beam.toll, out)
             count = out.count[: len(layer)]

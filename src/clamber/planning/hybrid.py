@@ -1,12 +1,10 @@
 """The hybrid planner: a genetic plan as the upper bound of an exact search, and exact ways as what a population starts with."""
 
-import time
 from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
 
-from ..errors import PlannerError
 from ..tasks import Task
 from .exact.costs import Aim
 from .exact.explore import Exploration, explore, inform
@@ -14,8 +12,8 @@ from .genetic.planner import plan_genetic
 from .genetic.profile import Profile
 from .problem.plan import Plan
 from .problem.problem import CompiledProblem
-from .problem.problems import first_goal_only, plan_family, pose_problem
-from .progress import Exploring, Listener
+from .problem.problems import first_goal_only, listed_problem, plan_family, pose_problem
+from .progress import Clock, Exploring, Listener
 from .result import PlanResult, furthest_of
 
 MOST_STANCES: Final = 2_000_000
@@ -56,26 +54,21 @@ def plan_hybrid(
     Raises:
         PlannerError: If the task allows actions that exact search can't list one by one.
     """
-    started = time.monotonic()
-    problem = pose_problem(task, threads=threads).problem
-    if problem.incomplete is not None:
-        raise PlannerError("hybrid", task.name, problem.incomplete)
-
-    def left() -> float | None:
-        return None if seconds is None else max(0.0, seconds - (time.monotonic() - started))
+    clock = Clock(seconds)
+    problem = listed_problem(task, "hybrid", threads=threads)
 
     options: dict[str, Any] = {
         "seed": seed, "profile": profile, "max_evaluations": max_evaluations, "threads": threads, "progress": progress,
     }  # fmt: skip
-    first = plan_genetic(task, seconds=left(), seeds=_way_to_first_goal(task, threads, left()), **options)
+    first = plan_genetic(task, seconds=clock.left, seeds=_way_to_first_goal(task, threads, clock.left), **options)
     most = first.length if first.has_plan else None
-    seen = _explore(problem, most, max_stances, left(), progress)
+    seen = _explore(problem, most, max_stances, clock.left, progress)
     told = first
     if not (first.has_plan or seen.found or seen.exhausted or seen.interrupted):
         furthest = Plan.of_codes(task, seen.codes, seed=seed, planner="exact")
-        second = plan_genetic(task, seconds=left(), seeds=(furthest,), **options)
+        second = plan_genetic(task, seconds=clock.left, seeds=(furthest,), **options)
         told = replace(second, evaluations=first.evaluations + second.evaluations, checks=first.checks + second.checks)
-    return _answer(task, problem, told, seen, time.monotonic() - started)
+    return _answer(task, problem, told, seen, clock.spent)
 
 
 def _way_to_first_goal(task: Task, threads: int | None, seconds: float | None) -> tuple[Plan, ...]:

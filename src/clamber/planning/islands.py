@@ -1,6 +1,5 @@
 """Several populations of the genetic planner at once, each an item of a batch; what they found seeds their neighbours' next round."""
 
-import time
 from collections.abc import Callable
 from dataclasses import asdict, replace
 from typing import Any, Final
@@ -16,6 +15,7 @@ from .genetic.planner import plan_genetic
 from .genetic.profile import Profile, load_profile
 from .problem.plan import Plan
 from .problem.problems import pose_problem
+from .progress import Clock
 from .result import PlanResult
 
 ROUNDS: Final = 2
@@ -53,7 +53,7 @@ def plan_islands(
         PlannerError: If an island's worker died every time.
         ClusterError: If there is no cluster to run on, or it is lost.
     """
-    started = time.monotonic()
+    clock = Clock()
     settings = load_profile(profile) if isinstance(profile, str) else profile
     if executor.here and not is_compiled("rollout"):
         plan_genetic(
@@ -92,7 +92,7 @@ def plan_islands(
         max_torque=best["max_torque"],
         evaluations=evaluations,
         checks=checks,
-        seconds=time.monotonic() - started,
+        seconds=clock.spent,
         seed=best["seed"],
         furthest=None if found else result.furthest,
     )

@@ -1,9 +1,36 @@
-"""What a planner tells while it works."""
+"""What a planner tells while it works, and the time that it may take."""
 
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
 from ..units import OZ_IN
+
+
+class Clock:
+    """The time that a search has taken, and what is left of what it may take.
+
+    Args:
+        seconds: That it may take, from now on [s]; None: as long as it likes.
+    """
+
+    def __init__(self, seconds: float | None = None) -> None:
+        self._seconds, self._began = seconds, time.monotonic()
+
+    @property
+    def spent(self) -> float:
+        """Time since it began [s]."""
+        return time.monotonic() - self._began
+
+    @property
+    def left(self) -> float | None:
+        """What is left [s]; None: as long as it likes."""
+        return None if self._seconds is None else max(0.0, self._seconds - self.spent)
+
+    @property
+    def is_over(self) -> bool:
+        """Whether nothing is left."""
+        return self.left == 0.0
 
 
 @dataclass(frozen=True, slots=True)

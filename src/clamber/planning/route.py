@@ -1,6 +1,5 @@
 """Drive the greedy search: memory that grows to a stated limit, time, interrupts, and what came of it."""
 
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
@@ -13,8 +12,8 @@ from ..tasks import Task
 from .problem.arrays import WayFields
 from .problem.plan import Plan
 from .problem.problem import CompiledProblem
-from .problem.problems import plan_family, pose_problem
-from .progress import Listener, Routing
+from .problem.problems import listed_problem, plan_family
+from .progress import Clock, Listener, Routing
 from .result import PlanResult, furthest_of
 from .route_kernels import (
     BEST,
@@ -113,7 +112,7 @@ def climb(
     Returns:
         The plan, or how far it came; Ctrl-C, time and memory end it.
     """
-    started = time.monotonic()
+    clock = Clock(seconds)
     nodes = _Nodes(problem, most_stances)
     params = problem.params.record
     state = np.zeros(6, np.int64)
@@ -132,7 +131,7 @@ def climb(
         state[GOAL] = 0
     status, interrupted = FOUND if state[GOAL] == 0 else RUNNING, False
     try:
-        while status in (RUNNING, FULL) and (seconds is None or time.monotonic() - started < seconds):
+        while status in (RUNNING, FULL) and not clock.is_over:
             if status == FULL:
                 if nodes.capacity >= most_stances:
                     break
@@ -178,9 +177,6 @@ def plan_route(
     seconds: float | None = None,
     threads: int | None = None,
     max_stances: int = MOST_STANCES,
-    weights: tuple[float, ...] = WEIGHTS,
-    share: float = SHARE,
-    crowding: float = CROWDING,
     progress: Listener | None = None,
 ) -> PlanResult:
     """Find a plan over a board of any size; choose it where the way is long.
@@ -195,9 +191,6 @@ def plan_route(
         seconds: Most wall-clock time [s].
         threads: The search itself runs on one; replays take as many as given.
         max_stances: Memory: most stances kept. Running out is a result ("stopped").
-        weights: Of the way left, search by search; the first plan found gets shorter with the smaller weights behind.
-        share: Weight of the limbs' way beside the body's.
-        crowding: By how much a stance expanded at a place makes the way left from there longer [steps].
         progress: Called now and then.
 
     Returns:
@@ -206,10 +199,8 @@ def plan_route(
     Raises:
         PlannerError: If the task has no board of holds, or allows actions that can't be listed one by one.
     """
-    started = time.monotonic()
-    problem = pose_problem(task, threads=threads).problem
-    if problem.incomplete is not None:
-        raise PlannerError("route", task.name, problem.incomplete)
+    clock = Clock(seconds)
+    problem = listed_problem(task, "route", threads=threads)
     fields = problem.ways()
     if fields is None:
         raise PlannerError("route", task.name, "its world has no holds; take the genetic or the exact planner")
@@ -219,18 +210,18 @@ def plan_route(
             progress(Routing(stances, actions, 1.0 - left / whole if whole > 0.0 else 1.0))
 
     best, checks, stances, first_length, first_checks = None, 0, 0, None, None
-    for weight in weights:
-        left = None if seconds is None else max(0.0, seconds - (time.monotonic() - started))
+    for weight in WEIGHTS:
+        left = clock.left
         most = max_stances if best is None else min(max_stances, EFFORT * best.stances)
         seen = climb(
-            problem, fields, weight=weight, share=share, crowding=crowding, most_stances=most, seconds=left, tell=tell
+            problem, fields, weight=weight, share=SHARE, crowding=CROWDING, most_stances=most, seconds=left, tell=tell
         )
         checks, stances = checks + seen.checks, stances + seen.stances
         if best is None or (seen.found and len(seen.codes) < len(best.codes)):
             best = seen
         if seen.found and first_length is None:
             first_length, first_checks = len(seen.codes), checks
-        if not best.found or seen.interrupted or (left is not None and time.monotonic() - started >= (seconds or 0.0)):
+        if not best.found or seen.interrupted or clock.is_over:
             break
     assert best is not None
     family = plan_family(task)
@@ -242,7 +233,7 @@ def plan_route(
         reason=_reason(best, stances),
         evaluations=0,
         checks=checks,
-        seconds=time.monotonic() - started,
+        seconds=clock.spent,
         seed=seed,
         planner="route",
         max_torque=float(np.max([family.torque(stance) for stance in replayed.stances[1:]], initial=0.0)),

@@ -1,6 +1,5 @@
 """Make any plan shorter: a beam search about it, exact windows between its own stances, the shortest path through the stances about it."""
 
-import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Final
@@ -13,8 +12,8 @@ from ..types import Ints
 from .beam_layers import Beam, Corridor, search_layers
 from .problem.plan import Plan
 from .problem.problem import CompiledProblem
-from .problem.problems import plan_family, pose_problem
-from .progress import Listener, Shortening
+from .problem.problems import goal_step, plan_family, pose_problem
+from .progress import Clock, Listener, Shortening
 from .result import PlanResult
 from .shorten_kernels import collect, search_window, shortest, stance_keys
 from .stance_table import path_to, rehash, table_size
@@ -125,12 +124,12 @@ def shorten_by_windows(
     Returns:
         A plan that holds, reaches the goal, and is never longer.
     """
-    started = time.monotonic()
+    clock = Clock(seconds)
     search = WindowSearch(problem, most)
     length, first = SHORTEST_WINDOW, 0
     try:
         while len(codes) > 1:
-            if search.seen >= effort or (seconds is not None and time.monotonic() - started >= seconds):
+            if search.seen >= effort or clock.is_over:
                 search.complete = False
                 break
             length = min(length, len(codes))
@@ -190,10 +189,10 @@ def shorten_in_corridor(
     Returns:
         A plan that holds, reaches the goal, and is never longer; `complete` if no plan of the task is shorter.
     """
-    started = time.monotonic()
+    clock = Clock(seconds)
     size, seen, checks, complete = min(FIRST_CORRIDOR, most), 0, 0, False
     try:
-        while not complete and seen < effort and (seconds is None or time.monotonic() - started < seconds):
+        while not complete and seen < effort and not clock.is_over:
             before = len(codes)
             codes, nodes, judged, complete = _through(problem, codes, size)
             seen += nodes
@@ -304,21 +303,18 @@ def shorten(
     done = Shortened(codes, 0, 0, complete=not len(codes))
     if problem.incomplete is not None or not len(codes):
         return done
-    started = time.monotonic()
-
-    def left() -> float | None:
-        return None if seconds is None else max(0.0, seconds - (time.monotonic() - started))
+    clock = Clock(seconds)
 
     if width:
-        done = shorten_by_beam(problem, codes, width=width, seconds=left())
+        done = shorten_by_beam(problem, codes, width=width, seconds=clock.left)
         if tell is not None:
             tell(len(done.codes))
     if effort and not done.interrupted:
-        near = shorten_by_windows(problem, done.codes, most=WINDOW, effort=effort, seconds=left(), tell=tell)
+        near = shorten_by_windows(problem, done.codes, most=WINDOW, effort=effort, seconds=clock.left, tell=tell)
         done = _then(done, near)
         effort -= near.stances
     if effort > 0 and not done.interrupted:
-        wide = shorten_in_corridor(problem, done.codes, most=CORRIDOR, effort=effort, seconds=left(), tell=tell)
+        wide = shorten_in_corridor(problem, done.codes, most=CORRIDOR, effort=effort, seconds=clock.left, tell=tell)
         done = _then(done, wide)
     return done
 
@@ -352,11 +348,11 @@ def polish_plan(
     Raises:
         SpecError: If the plan breaks a hard check on its way to the goal, or does not get there.
     """
-    started = time.monotonic()
+    clock = Clock(seconds)
     problem = pose_problem(task).problem
     codes = plan.codes(task, label)
     stances = problem.replay(codes).stances
-    end = next((i for i in range(len(stances)) if problem.is_done(stances[i : i + 1])), len(codes))
+    end = goal_step(problem, codes, stances)
     if not is_plan(problem, codes[:end]):
         allowed = "must hold up to the goal and reach it; `clamber check` says where it does not"
         raise SpecError(label, "actions", f"{len(codes)} actions", allowed)
@@ -378,7 +374,7 @@ def polish_plan(
         reason=reason,
         evaluations=0,
         checks=done.checks,
-        seconds=time.monotonic() - started,
+        seconds=clock.spent,
         seed=plan.seed or 0,
         planner=made.planner,
         max_torque=max((family.torque(stance) for stance in after), default=0.0),

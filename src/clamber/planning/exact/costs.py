@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from ...errors import ClamberError, describe_choices
+from ...errors import OptionError, describe_choices
 from ...tasks import Task
 from ..problem.problems import plan_family
 
@@ -12,15 +12,8 @@ COSTS: Final = {"length": "length", "energy": "effort", "time": "effort", "torqu
 """Cost -> the feature that counts it. Every family has the length, one cost that adds up, one that is a largest value."""
 
 
-class CostError(ClamberError):
+class CostError(OptionError):
     """Costs are asked for that can't be minimized together."""
-
-    def __init__(self, option: str, problem: str, allowed: str) -> None:
-        super().__init__(option, problem, allowed)
-        self.option, self.problem, self.allowed = option, problem, allowed
-
-    def __str__(self) -> str:
-        return f"{self.option}: {self.problem}; {self.allowed}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

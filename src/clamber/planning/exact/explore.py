@@ -10,6 +10,7 @@ import numpy as np
 
 from ...types import Ints
 from ..problem.problem import CompiledProblem
+from ..progress import Clock
 from ..stance_table import rehash, table_size
 from .costs import COSTS, Aim
 from .kernels import explore_some, furthest, plant
@@ -133,12 +134,9 @@ class Exploration:
 
 def inform(problem: CompiledProblem, seconds: float | None) -> tuple[CompiledProblem, float | None]:
     """The problem with its family's best bound, as far as that can be worked out in `seconds`, and what is left of them [s]."""
-    started = time.monotonic()
+    clock = Clock(seconds)
 
-    def left() -> float | None:
-        return None if seconds is None else max(0.0, seconds - (time.monotonic() - started))
-
-    return problem.informed(lambda: left() == 0.0), left()
+    return problem.informed(lambda: clock.is_over), clock.left
 
 
 def explore(
@@ -165,7 +163,7 @@ def explore(
     Returns:
         The exploration; Ctrl-C, time and memory end it with a lower bound.
     """
-    started = time.monotonic()
+    clock = Clock(seconds)
     memory = Memory(problem, most_stances)
     params, state = problem.params.record, memory.state
     codes = np.zeros(problem.branching, np.int32)
@@ -192,7 +190,7 @@ def explore(
             if tell is not None and status != EXHAUSTED:  # nothing is open any more, so there is no least cost of it
                 tell(int(state["nodes"][0]), _reached(state, search))
             before, looked = looked, time.monotonic()
-            if seconds is not None and looked - started >= seconds:
+            if clock.is_over:
                 break
             took = looked - before
             quota = min(QUOTA, 2 * quota) if took < LOOK / 2 else max(FIRST_QUOTA, quota // 2) if took > LOOK else quota

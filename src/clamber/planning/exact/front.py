@@ -1,7 +1,6 @@
 """Every plan that no other beats in both of two costs."""
 
 import json
-import time
 from dataclasses import dataclass
 from operator import attrgetter
 from pathlib import Path
@@ -11,12 +10,12 @@ from ...files import write_atomically
 from ...json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ...tasks import Task
 from ..problem.plan import Plan
-from ..problem.problems import PlannedAction, plan_family, spent
-from ..progress import Exploring, Listener
+from ..problem.problems import PlannedAction, listed_problem, plan_family, spent
+from ..progress import Clock, Exploring, Listener
 from .costs import COSTS, Aim, check_costs
 from .explore import Exploration, Way, inform
 from .minimize import UNDER, Minimizer
-from .planner import MOST_STANCES, exact_problem
+from .planner import MOST_STANCES
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,9 +89,9 @@ def plan_front(
         PlannerError: If the task allows actions that exact search can't list one by one.
         CostError: If the family has no such cost.
     """
-    started = time.monotonic()
+    clock = Clock(seconds)
     check_costs("costs", costs, task)
-    problem, seconds = inform(exact_problem(task, threads=threads), seconds)
+    problem, seconds = inform(listed_problem(task, "exact", threads=threads), seconds)
 
     def tell(stances: int, bound: float, cost: str) -> None:
         if progress is not None:
@@ -122,7 +121,7 @@ def plan_front(
         reason=_reason(len(trades), complete, infeasible, searches.stances),
         stances=searches.stances,
         checks=searches.checks,
-        seconds=time.monotonic() - started,
+        seconds=clock.spent,
         model=family.model(task),
     )
 

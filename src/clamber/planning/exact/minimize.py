@@ -1,10 +1,10 @@
 """Exact searches in a row: the best plan in a lexicographic order of up to three costs."""
 
-import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from ..problem.problem import CompiledProblem
+from ..progress import Clock
 from .costs import COSTS, Aim
 from .explore import Exploration, explore
 
@@ -25,17 +25,16 @@ class Minimizer:
         self.checks = 0
         self.stances = 0
         """Of the largest search."""
-        self._ends = None if seconds is None else time.monotonic() + seconds
+        self._clock = Clock(seconds)
 
     def run(self, aim: Aim) -> Exploration:
         """One search."""
-        left = None if self._ends is None else max(0.0, self._ends - time.monotonic())
 
         def tell(stances: int, bound: float) -> None:
             if self.tell is not None:
                 self.tell(stances, bound, aim.first)
 
-        seen = explore(self.problem, most_stances=self.most_stances, seconds=left, tell=tell, aim=aim)
+        seen = explore(self.problem, most_stances=self.most_stances, seconds=self._clock.left, tell=tell, aim=aim)
         self.checks += seen.checks
         self.stances = max(self.stances, seen.stances)
         return seen

@@ -1,14 +1,11 @@
 """The exact planner as a whole: the best plan, or the proof that there is none, within a stated model and memory."""
 
-import time
 from collections.abc import Sequence
 
-from ...errors import PlannerError
 from ...tasks import Task
 from ..problem.plan import Plan
-from ..problem.problem import CompiledProblem
-from ..problem.problems import plan_family, pose_problem, spent
-from ..progress import Exploring, Listener
+from ..problem.problems import listed_problem, plan_family, spent
+from ..progress import Clock, Exploring, Listener
 from ..result import PlanResult, Status, furthest_of
 from .costs import COSTS, check_costs, describe_order
 from .explore import Exploration, inform
@@ -16,18 +13,6 @@ from .minimize import Minimizer
 
 MOST_STANCES = 8_000_000
 """Stances kept unless told otherwise: about 2 GB for the climber, at 250 bytes each; half as much again while it grows."""
-
-
-def exact_problem(task: Task, *, threads: int | None = None) -> CompiledProblem:
-    """A task as a problem that can be searched whole.
-
-    Raises:
-        PlannerError: If the task allows actions that can't be listed one by one.
-    """
-    problem = pose_problem(task, threads=threads).problem
-    if problem.incomplete is not None:
-        raise PlannerError("exact", task.name, problem.incomplete)
-    return problem
 
 
 def plan_exact(
@@ -58,24 +43,21 @@ def plan_exact(
         PlannerError: If the task allows actions that exact search can't list one by one.
         CostError: If the robot's family has no such cost.
     """
-    started = time.monotonic()
+    clock = Clock(seconds)
     check_costs("minimize", minimize, task)
-    plain = exact_problem(task, threads=threads)
+    plain = listed_problem(task, "exact", threads=threads)
 
     def tell(stances: int, bound: float, cost: str) -> None:
         if progress is not None:
             progress(Exploring(stances, bound, cost))
 
-    def left() -> float | None:
-        return None if seconds is None else max(0.0, seconds - (time.monotonic() - started))
-
-    informed, granted = inform(plain, left())
+    informed, granted = inform(plain, clock.left)
     searches = Minimizer(informed, most_stances=max_stances, seconds=granted, tell=tell)
     seen = searches.least(minimize)
     proved = seen
     if seen.exhausted:
         # The bound may have ruled the goal out at once. The proof stands, but what can be reached, and what stops it, is still to be seen.
-        searches = Minimizer(plain, most_stances=max_stances, seconds=left(), tell=tell)
+        searches = Minimizer(plain, most_stances=max_stances, seconds=clock.left, tell=tell)
         seen = searches.least(("length",))
     family = plan_family(task)
     status: Status = "optimal" if proved.found else "infeasible" if proved.exhausted else "bounded"
@@ -87,7 +69,7 @@ def plan_exact(
         reason=_reason(proved, seen, minimize, status),
         evaluations=0,
         checks=searches.checks,
-        seconds=time.monotonic() - started,
+        seconds=clock.spent,
         seed=seed,
         planner="exact",
         max_torque=max((family.torque(stance) for stance in stances[1:]), default=0.0),

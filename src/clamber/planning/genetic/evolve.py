@@ -1,6 +1,5 @@
 """The genetic search over any `Problem`: generations of plans until one reaches the goal (thesis 2.2.3, and what makes it strong)."""
 
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -9,6 +8,7 @@ import numpy.typing as npt
 
 from ..problem.arrays import ActionTable
 from ..problem.problem import CompiledProblem, Records
+from ..problem.problems import goal_step
 from ..progress import Listener, Progress
 from .operators import breed, random_genes, vary
 from .profile import Profile, Search
@@ -206,7 +206,7 @@ def _keep(state: Evolution, i: int, genes: int) -> None:
     state.best_fitness = float(records["best"][i])
 
 
-def tell(listener: Listener | None, problem: CompiledProblem, state: Evolution, stages: int) -> None:
+def tell(listener: Listener | None, problem: CompiledProblem, state: Evolution) -> None:
     """Report the state of a search."""
     if listener is not None:
         last = state.history[-1]
@@ -217,15 +217,10 @@ def tell(listener: Listener | None, problem: CompiledProblem, state: Evolution, 
                 last.best_fitness,
                 last.furthest,
                 last.stage,
-                stages,
+                problem.goals,
                 state.best_actions if state.found else None,
             )
         )
-
-
-def out_of_time(started: float, seconds: float | None) -> bool:
-    """Whether a search that began at `started` (monotonic clock) has used up its seconds."""
-    return seconds is not None and time.monotonic() - started >= seconds
 
 
 BATCH = 600
@@ -237,8 +232,7 @@ def spell_to_goal(problem: CompiledProblem, genes: Genes) -> Genes:
     """The codes of a plan up to the goal, holds named; a macro may go on past it."""
     codes = problem.actions.spell(genes)
     stances = problem.replay(codes).stances
-    done = next((i for i in range(len(stances)) if problem.is_done(stances[i : i + 1])), len(codes))
-    return problem.resolve(codes[:done], stances)
+    return problem.resolve(codes[: goal_step(problem, codes, stances)], stances)
 
 
 def explicit_problem(problem: CompiledProblem, genes: Genes) -> tuple[CompiledProblem, Genes]:

@@ -1,6 +1,5 @@
 """The genetic planner as a whole: a task in, a plan or the furthest stance out."""
 
-import time
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -10,7 +9,7 @@ from ...tasks import Task
 from ..problem.arrays import ActionTable
 from ..problem.plan import Plan
 from ..problem.problems import last_goal_only, plan_family, pose_problem
-from ..progress import Listener
+from ..progress import Clock, Listener
 from ..result import PlanResult, furthest_of
 from ..shorten import Shortened, shorten
 from .evolve import Genes
@@ -74,7 +73,7 @@ def plan_genetic(
     Returns:
         The plan ("found"), or the furthest stance and what stopped it ("stopped").
     """
-    started = time.monotonic()
+    clock = Clock(seconds)
     settings = load_profile(profile) if isinstance(profile, str) else profile
     aim = task if settings.search.subgoals else last_goal_only(task)
     posed = pose_problem(aim, threads=threads, filters=filters)
@@ -89,7 +88,6 @@ def plan_genetic(
         settings,
         seed=seed,
         budget=Budget(max_evaluations, seconds, max_checks),
-        stages=problem.goals,
         listener=progress,
         checkpoint=checkpoint,
         identity=identity,
@@ -97,7 +95,7 @@ def plan_genetic(
     )
     shortened = Shortened(outcome.codes, 0, 0, complete=False)
     if outcome.found and not outcome.interrupted and (settings.search.beam or settings.search.windows):
-        left = None if seconds is None else max(0.0, seconds - (time.monotonic() - started))
+        left = clock.left
         shortened = shorten(
             problem, outcome.codes, width=settings.search.beam, effort=settings.search.windows, seconds=left
         )
@@ -113,7 +111,7 @@ def plan_genetic(
         reason=_reason(outcome, shortened),
         evaluations=outcome.evaluations,
         checks=outcome.checks + shortened.checks,
-        seconds=time.monotonic() - started,
+        seconds=clock.spent,
         seed=seed,
         planner=f"genetic/{settings.name}",
         max_torque=max((family.torque(stance) for stance in replayed.stances[1:]), default=0.0),

@@ -1,8 +1,7 @@
 """One genetic search from its first generation to a polished plan, that can be stopped, resumed and watched."""
 
 import json
-import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Final
@@ -10,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from ..problem.problem import CompiledProblem
-from ..progress import Listener
+from ..progress import Clock, Listener
 from .checkpoint import Keeper, Run, with_macros
 from .evolve import (
     BATCH,
@@ -21,7 +20,6 @@ from .evolve import (
     explicit_problem,
     first_generation,
     next_generation,
-    out_of_time,
     polish,
     spell_to_goal,
     tell,
@@ -44,10 +42,10 @@ class Budget:
     checks: int | None = None
     """Most single actions to judge; a generation that has begun is finished."""
 
-    def allows(self, state: Evolution, more: int, started: float) -> bool:
-        """Whether so many more plans may be evaluated in a search that began at `started` (monotonic clock)."""
+    def allows(self, state: Evolution, more: int, clock: Clock) -> bool:
+        """Whether so many more plans may be evaluated in a search with a clock of its seconds."""
         judged = self.checks is not None and state.checks >= self.checks
-        return state.evaluations + more <= self.evaluations and not judged and not out_of_time(started, self.seconds)
+        return state.evaluations + more <= self.evaluations and not judged and not clock.is_over
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +75,6 @@ def search(
     *,
     seed: int,
     budget: Budget,
-    stages: int,
     listener: Listener | None = None,
     checkpoint: Path | None = None,
     identity: str = "",
@@ -90,7 +87,6 @@ def search(
         profile: The planner's settings.
         seed: Same seed, same plan, on any number of threads.
         budget: When to stop.
-        stages: Goals of the task, for the listener.
         listener: Called after every generation.
         checkpoint: File that the search is saved to, and resumed from if it is there.
         identity: Names task, profile, inventory and seeds; a checkpoint of another one is refused.
@@ -103,7 +99,7 @@ def search(
         FileError: If the checkpoint is none, or belongs to another search or release.
         SpecError: If something in it is none that this search can have.
     """
-    started = time.monotonic()
+    clock = Clock(budget.seconds)
     identity = f"{identity}/seed {seed}/profile {json.dumps(asdict(profile), sort_keys=True, default=str)}"
     keeper = Keeper(checkpoint, identity)
     interrupted = False
@@ -113,9 +109,14 @@ def search(
         run = Run(first_generation(problem, profile, seed, seeds), [])
     else:
         problem = with_macros(base, run.macros)
+
+    def watch() -> None:
+        keeper.save(run)
+        tell(listener, problem, run.state)
+
     try:
-        tell(listener, problem, run.state, stages)
-        while not run.state.found and budget.allows(run.state, profile.search.population, started):
+        tell(listener, problem, run.state)
+        while not run.state.found and budget.allows(run.state, profile.search.population, clock):
             if (
                 profile.search.learned_macros
                 and run.state.generation % LEARN_EVERY == LEARN_EVERY - 1
@@ -128,9 +129,8 @@ def search(
                         (len(run.state.population.genes), 1 + len(problem.actions)), -1, np.int32
                     )
             next_generation(problem, profile, run.state, seed)
-            keeper.save(run)
-            tell(listener, problem, run.state, stages)
-        _polish(problem, profile, run, seed, budget, started, keeper, listener, stages)
+            watch()
+        _polish(problem, profile, run, seed, lambda: budget.allows(run.state, BATCH, clock), watch)
     except KeyboardInterrupt:
         interrupted = True
     _note_success(run)
@@ -149,27 +149,24 @@ def _polish(
     profile: Profile,
     run: Run,
     seed: int,
-    budget: Budget,
-    started: float,
-    keeper: Keeper,
-    listener: Listener | None,
-    stages: int,
+    affords: Callable[[], bool],
+    watch: Callable[[], None],
 ) -> None:
+    """Turns of polishing as long as they are afforded and help; `watch` is called after each."""
     state = run.state
     if not state.found:
         return
     _note_success(run)
-    most = min(budget.evaluations, run.first_evaluations + profile.search.polish if run.first_evaluations else 0)
+    most = run.first_evaluations + profile.search.polish if run.first_evaluations else 0
     named, start = explicit_problem(problem, state.best)
     genes = start if run.polished is None else _entries(named, run.polished)
-    while state.evaluations + BATCH <= most and run.stale < PATIENCE and budget.allows(state, BATCH, started):
+    while state.evaluations + BATCH <= most and run.stale < PATIENCE and affords():
         genes, shorter = polish(named, profile, state, genes, seed, run.turn)
         run.polished = named.actions.spell(genes)
         run.turn += 1
         run.stale = 0 if shorter else run.stale + 1
         state.best_actions = len(genes)
-        keeper.save(run)
-        tell(listener, problem, state, stages)
+        watch()
 
 
 def _entries(problem: CompiledProblem, codes: Genes) -> Genes:

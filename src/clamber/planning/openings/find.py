@@ -1,7 +1,6 @@
 """Which single change of an infeasible task would make it feasible, and the smallest of each kind; each proved by exact search."""
 
 import os
-import time
 from dataclasses import dataclass
 from typing import Annotated, Final
 
@@ -10,7 +9,7 @@ from ...family import NotOfFamilyError, family_of
 from ...json_form import Count, Jsonable, Key, in_json
 from ...tasks import Task
 from ..problem.problems import plan_family
-from ..progress import Listener, Relaxing
+from ..progress import Clock, Listener, Relaxing
 from .trial import Trial
 
 Value = float | str | None
@@ -150,7 +149,7 @@ def find_openings(
     Raises:
         PlannerError: If the task has a plan, or allows actions that exact search can't list one by one.
     """
-    started = time.monotonic()
+    clock = Clock(seconds)
     family = family_of(task)
     relaxations, one_hold_more = family.relaxations, family.one_hold_more
     if relaxations is None:
@@ -194,7 +193,7 @@ def find_openings(
         shut=tuple(shut),
         places=places,
         searches=trial.searches,
-        seconds=time.monotonic() - started,
+        seconds=clock.spent,
         ended=ended,
     )
 

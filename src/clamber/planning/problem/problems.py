@@ -9,6 +9,7 @@ from typing import Annotated, Any, ClassVar, Final, Literal
 import numpy as np
 from pydantic import Field, StrictStr
 
+from ...errors import PlannerError
 from ...family import family_of
 from ...json_form import Count, Jsonable, in_json
 from ...specs import spec
@@ -269,6 +270,23 @@ def pose_problem(task: Task, *, threads: int | None = None, filters: bool = True
         filters: Whether the inventory's filters are applied.
     """
     return family_of(task).plans.posed(task, threads, filters)
+
+
+def goal_step(problem: CompiledProblem, codes: Ints, stances: Records) -> int:
+    """Actions of a plan up to the first of its stances that meets the goal; all of them where none does."""
+    return next((i for i in range(len(stances)) if problem.is_done(stances[i : i + 1])), len(codes))
+
+
+def listed_problem(task: Task, planner: str, *, threads: int | None = None) -> CompiledProblem:
+    """A task as a problem whose actions can be listed one by one, as every planner but the genetic one needs it.
+
+    Raises:
+        PlannerError: If the task allows actions that can't be listed.
+    """
+    problem = pose_problem(task, threads=threads).problem
+    if problem.incomplete is not None:
+        raise PlannerError(planner, task.name, problem.incomplete)
+    return problem
 
 
 NOTHING_LIMITS: Final = 1e8

@@ -1,7 +1,6 @@
 """Drive a flood over every reachable stance: layers, threads, memory that grows to a stated limit, interrupts."""
 
 import os
-import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -12,6 +11,7 @@ import numpy.typing as npt
 
 from ..problem.problem import CompiledProblem, Records
 from ..problem.problems import Yardsticks
+from ..progress import Clock
 from ..stance_table import rehash, table_size
 from .kernels import POSE, POSES, STANCES, WEIGHED, absorb, note, note_tries, plant, spread, weigh
 
@@ -179,7 +179,7 @@ def flood(
     Returns:
         The flood; memory, time and Ctrl-C end it, and then it judges and tells what was seen so far, which takes a while longer.
     """
-    started = time.monotonic()
+    clock = Clock(seconds)
     threads = max(1, threads if threads is not None else (os.cpu_count() or 1))
     size = max(1, CHILDREN // problem.branching)
     pieces = [Piece(problem, size) for _ in range(PIECES * threads if threads > 1 else 1)]
@@ -204,7 +204,7 @@ def flood(
                 done = piece.end
             if tell is not None:
                 tell(sea.seen, int(sea.state[POSES]), depth)
-            if seconds is not None and time.monotonic() - started >= seconds and done < sea.seen:
+            if clock.is_over and done < sea.seen:
                 ended = ended or "time"
     except KeyboardInterrupt:
         ended = "interrupt"

@@ -1,18 +1,18 @@
 """What a robot can ever reach: poses of its body, holds, goals, and what each place costs."""
 
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from operator import attrgetter
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal
 
-from ...errors import ClamberError, PlannerError, UnknownNameError, describe_choices
+from ...errors import ClamberError, UnknownNameError, describe_choices
 from ...family import family_of
 from ...files import write_atomically
 from ...json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ...tasks import Task
-from ..problem.problems import plan_family, pose_problem, without_hangs, yardsticks_of
+from ..problem.problems import listed_problem, plan_family, without_hangs, yardsticks_of
+from ..progress import Clock
 from .flood import Flood, flood
 from .table import Rim, Table, place_table, pose_table, rim_of
 
@@ -199,11 +199,9 @@ def find_reach(
         PlannerError: If the task allows actions that can't be listed one by one.
         StartError: If the start stance violates a hard check.
     """
-    started = time.monotonic()
+    clock = Clock(seconds)
     posed = task if hangs else without_hangs(task)
-    problem = pose_problem(posed, threads=1).problem
-    if problem.incomplete is not None:
-        raise PlannerError("reach", task.name, problem.incomplete)
+    problem = listed_problem(posed, "reach", threads=1)
     holds: tuple[Any, ...] = getattr(task.world, "holds", ())
     seen = flood(
         problem,
@@ -233,7 +231,7 @@ def find_reach(
         checks=seen.judged,
         forbidden=_ranked(problem.checks, seen.forbidden.tolist()),
         closed_by={} if seen.ended else _ranked(problem.checks, rim.forbidden.sum(axis=0).tolist()),
-        seconds=time.monotonic() - started,
+        seconds=clock.spent,
         model=plan_family(posed).model(posed),
         without_hangs=posed != task,
     )
