@@ -17,14 +17,16 @@ from clamber.limb_bench.entries import (
     DIMENSIONS,
     GAINS,
     LISTS,
+    MATCHES,
     SWITCHES,
     WORDS,
+    Match,
     make_entries,
     match_pose,
     read_law,
     reference_law,
+    tip_stiffness,
 )
-from clamber.limb_bench.matching import MATCHES, Match, tip_stiffness
 from clamber.limb_bench.scenario import circle_scenario, step_scenario
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.sim.plant_rules import PlantError

@@ -168,7 +168,7 @@ def test_encoders_and_truth_differ_by_no_more_than_half_of_the_play() -> None:
 def test_a_push_yields_by_the_force_over_the_stiffness_without_friction() -> None:
     flaws = LimbFlaws(friction=0.0)
     scenario = push_scenario(LIMB, flaws.control_rate, force=(0.0, 5.0), end=4.0, seconds=8.0)
-    from clamber.limb_bench.matching import tip_stiffness
+    from clamber.limb_bench.entries import tip_stiffness
 
     (run,) = run_contest(LIMB, scenario, [ENTRY], flaws)
     rest = run.trace.true_places()[run.trace.time < 4.0][-1, 0, :2] - np.array(LIMB.start)

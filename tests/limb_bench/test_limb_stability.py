@@ -11,8 +11,17 @@ from clamber.control.law_settings import LAWS, LawSettings
 from clamber.families.climber.sim.flaw_texts import named_flaws
 from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
 from clamber.limb_bench.scenario import step_scenario
-from clamber.limb_bench.stability import LimitError, linear_limit, loop_matrix, scaled_gains, spectral_radius
-from clamber.limb_bench.steadiness import Situation, peak_to_peak, poses, run_situations
+from clamber.limb_bench.stability import (
+    LimitError,
+    Situation,
+    linear_limit,
+    loop_matrix,
+    peak_to_peak,
+    poses,
+    run_situations,
+    scaled_gains,
+    spectral_radius,
+)
 from clamber.sim.limb_flaws import LimbFlaws
 
 

@@ -23,10 +23,9 @@ from clamber.control.recommended import (
 from clamber.errors import SpecError, UnknownNameError
 from clamber.families.climber.sim.flaw_texts import named_flaws
 from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
-from clamber.limb_bench.entries import read_law, with_recommended_gains
-from clamber.limb_bench.matching import tip_stiffness
+from clamber.limb_bench.entries import read_law, tip_stiffness, with_recommended_gains
 from clamber.limb_bench.runner import Crew
-from clamber.limb_bench.steadiness import STEADY, peak_to_peak, poses, run_situations, situations
+from clamber.limb_bench.stability import STEADY, peak_to_peak, poses, run_situations, situations
 from clamber.limb_bench.tune import (
     DAMPING_TIMES,
     OVERSHOOT,

@@ -5,8 +5,7 @@ from typing import Any, Final
 
 from ..families.climber.sim.flaw_texts import named_flaws, read_flaws
 from ..limb_bench.bench_limb import bench_limb, limbed_robot
-from ..limb_bench.entries import make_entries, match_pose, reference_law
-from ..limb_bench.matching import Match
+from ..limb_bench.entries import Match, make_entries, match_pose, reference_law
 from ..limb_bench.result import LimbResult, Matching, compare_laws
 from ..limb_bench.runner import Contest
 from ..limb_bench.scenario import MOTIONS, MotionKind

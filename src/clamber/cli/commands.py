@@ -35,7 +35,7 @@ COMMANDS: Final = {
 """Command -> module in this folder and function in it, in the order in which they are listed."""
 GROUPS: Final = {
     "limb": "limb.commands:limb",
-    "body": "body.commands:body",
+    "body": "body:body",
     "new": "new:new",
     "plant": "plant:plant",
 }

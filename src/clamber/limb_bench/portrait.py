@@ -12,9 +12,8 @@ from ..families.climber.sim.flaw_texts import SET, named_flaws
 from ..sim.limb_flaws import LimbFlaws
 from ..types import Floats, Json
 from .bench_limb import BenchLimb, bench_limb
-from .entries import GAINS, gain_unit, make_entries, with_recommended_gains
+from .entries import GAINS, Match, gain_unit, make_entries, tip_stiffness, with_recommended_gains
 from .force import force_gains, force_settings, run_force
-from .matching import Match, tip_stiffness
 from .measures import Entry, ForceMeasures, Measured, Measures, measure
 from .result import BenchResult, settings_json
 from .runner import run_contest

@@ -21,7 +21,7 @@ from ..files import write_atomically
 from ..sim.limb_flaws import LimbFlaws
 from ..types import Floats, Json
 from .bench_limb import BenchLimb
-from .matching import Match, tip_stiffness
+from .entries import Match, tip_stiffness
 from .measures import Measured, Measures, Run, components, measure, radial_error, scenario_size
 from .runner import Contest, run_contest, with_sensors
 from .scenario import Scenario

@@ -14,8 +14,7 @@ from ..sim.limb_flaws import LimbFlaws
 from ..types import Json
 from ..units import read_number, read_point
 from .bench_limb import bench_limb, limbed_robot, read_elbow
-from .entries import GAINS, reference_law, with_recommended_gains
-from .matching import Match
+from .entries import GAINS, Match, reference_law, with_recommended_gains
 from .measures import TipMeasures
 from .result import BenchResult
 from .runner import Crew

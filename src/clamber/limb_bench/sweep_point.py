@@ -16,13 +16,11 @@ from ..sim.limb_flaws import LimbFlaws
 from ..types import Json
 from ..units import read_number
 from .bench_limb import BenchLimb, bench_limb
-from .entries import make_entries, match_pose, read_law, reference_law
-from .matching import Match
+from .entries import Match, make_entries, match_pose, read_law, reference_law
 from .measures import Entry, Measures, Run, measure
 from .runner import run_contest
 from .scenario import MOTIONS, MotionKind, Scenario
-from .stability import scaled_gains
-from .steadiness import RESTING, STEADY, peak_to_peak
+from .stability import RESTING, STEADY, peak_to_peak, scaled_gains
 
 GAIN_KEYS: Final = ("kp", "kd", "gain")
 """kp and kd of the reference law, which others are matched to; gain multiplies every law's own."""

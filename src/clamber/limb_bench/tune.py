@@ -21,14 +21,12 @@ from ..jobs import Outcome, read_result
 from ..sim.limb_flaws import LimbFlaws
 from ..types import Json
 from .bench_limb import BenchLimb, bench_limb
-from .entries import read_law
-from .matching import tip_stiffness
+from .entries import read_law, tip_stiffness
 from .measures import Entry, measure
 from .result import BenchResult
 from .runner import Crew, run_contest
 from .scenario import step_scenario
-from .stability import linear_limit, scaled_gains
-from .steadiness import SECONDS, STEADY, Effort, overshoot, poses, unrest
+from .stability import SECONDS, STEADY, Effort, linear_limit, overshoot, poses, scaled_gains, unrest
 
 DAMPING_TIMES: Final = (0.01, 0.014, 0.02, 0.028, 0.04, 0.057, 0.08, 0.113, 0.16, 0.226)
 """kd/kp that are tried [s]."""

@@ -10,8 +10,7 @@ from ...benchmarks.rows import Row
 from ...errors import UnknownNameError
 from ...exports.library import Exported
 from ...families.climber.execution.log_identify import Identification
-from ...families.climber.trials.body_measures import BodyContest
-from ...families.climber.trials.body_trials import PushTrial
+from ...families.climber.trials.body_bench import BodyContest, PushTrial
 from ...families.climber.trials.lessons import LearnedPlan
 from ...families.climber.trials.press import Pressed
 from ...families.climber.trials.run_plan import ClimbRun

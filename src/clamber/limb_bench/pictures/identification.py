@@ -5,8 +5,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from ...control.identification.joint import IdentifiedJoint
-from ...control.identification.replay import model_speed
+from ...control.identification.joint import IdentifiedJoint, model_speed
 from ...families.climber.execution.log_identify import Identification
 from ...types import Floats
 from ...viewing import style

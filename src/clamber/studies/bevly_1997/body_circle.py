@@ -5,10 +5,8 @@ from pathlib import Path
 from typing import Final
 
 from ...families.climber.execution.body_gains import BodyGains
-from ...families.climber.trials.body_bench import BodyEntry, BodyRun, run_bodies
-from ...families.climber.trials.body_measures import measure_body
-from ...families.climber.trials.body_scenario import BodyScenario, circle
-from ...families.climber.trials.body_stand import bench_flaws, ladder_stand
+from ...families.climber.trials.body_bench import BodyEntry, BodyRun, measure_body, run_bodies
+from ...families.climber.trials.body_stand import BodyScenario, bench_flaws, circle, ladder_stand
 from ..result import Compared, Figure, StudyResult, Table, Value
 from . import MILLI, PAPER
 from .body_entries import MATCHED, OURS, OWN, PLANT, SCCT, judged, rivals, scct_and_transposes, transpose

@@ -10,8 +10,7 @@ import numpy as np
 from ...families.climber.execution.body_gains import BodyGains
 from ...families.climber.sim.climber_model import HookShape
 from ...families.climber.trials.body_bench import BodyEntry, run_body
-from ...families.climber.trials.body_scenario import push
-from ...families.climber.trials.body_stand import BodyStand, bench_flaws, ladder_stand
+from ...families.climber.trials.body_stand import BodyStand, bench_flaws, ladder_stand, push
 from ...sim.limb_flaws import LimbFlaws
 from ..result import Compared, Figure, StudyResult, Table, Value
 from . import MILLI, PAPER
@@ -111,7 +110,7 @@ def sweep_stiffness() -> StudyResult:
     ]
 
     def picture(path: Path) -> None:
-        from ...families.climber.pictures.body_cycle_plot import draw_onsets
+        from ...families.climber.pictures.body_plot import draw_onsets
 
         draw_onsets(
             GAINS, {case: found for case, found in swings.items() if case[0] == "on hooks"}, CYCLE * MILLI, path

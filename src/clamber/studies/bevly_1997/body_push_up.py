@@ -4,10 +4,8 @@ import math
 from pathlib import Path
 from typing import Final
 
-from ...families.climber.trials.body_bench import BodyEntry, BodyRun, run_bodies
-from ...families.climber.trials.body_measures import BodyMeasures, measure_body
-from ...families.climber.trials.body_scenario import push_up
-from ...families.climber.trials.body_stand import bench_flaws, ladder_stand
+from ...families.climber.trials.body_bench import BodyEntry, BodyMeasures, BodyRun, measure_body, run_bodies
+from ...families.climber.trials.body_stand import bench_flaws, ladder_stand, push_up
 from ..result import Compared, Figure, StudyResult, Table, Value
 from . import MILLI, PAPER
 from .body_entries import (

@@ -7,8 +7,8 @@ from typing import Final
 
 from ....control.chain import Chain
 from ....control.identification.joint import Drivetrain, IdentifiedJoint, identify_joint
-from ....control.identification.links import LinkLoad, link_loads
-from ....control.identification.motion import motion_of
+from ....control.identification.joint_fit import LinkLoad, link_loads
+from ....control.identification.samples import motion_of
 from ....errors import ClamberError, UnitError, UnknownNameError, describe_choices
 from ....execution.log import Log, LogError
 from ....execution.log_roles import LimbSamples, samples_of
