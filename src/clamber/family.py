@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from .planning.problem.plan import Plan
     from .planning.problem.plan_families import PlanFamily
     from .planning.problem.plan_source import OpenedPlan
+    from .sim.bench_limb import BenchLimb
     from .sim.lone_robot import JointBounds
     from .tasks.task_format import TaskFormat
     from .trials.run_request import RunRequest
@@ -104,6 +105,11 @@ class Family:
 
     def other_work(self, name_or_path: str) -> Any | None:
         """What can be carried out and is no task, by its name or file, such as a walk; None: it is no such thing."""
+        return None
+
+    @property
+    def bench_limb(self) -> Callable[..., BenchLimb] | None:
+        """One limb of a robot for the limb bench, by name, by its place from 1 or None: the first; `upright` says whether weight acts."""
         return None
 
     @property

@@ -9,11 +9,11 @@ import pytest
 from clamber.control.law_settings import LawSettings
 from clamber.control.records import REPORT
 from clamber.execution.trace import LimbTrace
-from clamber.families.climber.control.limb_chain import closed_branches
-from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
+from clamber.limb_bench.bench_limb import bench_limb
 from clamber.limb_bench.measures import NEVER, Entry, Measures, Run, instability, measure
 from clamber.limb_bench.runner import run_contest
 from clamber.limb_bench.scenario import Scenario, circle_scenario, push_scenario, step_scenario
+from clamber.sim.bench_limb import BenchLimb
 from clamber.sim.limb_flaws import LimbFlaws
 
 RATE = 200.0
@@ -27,7 +27,7 @@ def trace_of(limb: BenchLimb, scenario: Scenario, path: Callable[[float], tuple[
     time = np.arange(ticks) / RATE
     states = np.zeros((ticks, 1, 2, 2))
     for k, at in enumerate(time):
-        states[k, 0, 0] = closed_branches(limb.spec, *path(at))[0]
+        states[k, 0, 0] = limb.branches(*path(at))[0]
     nothing = np.zeros((ticks, 1, 2))
     return LimbTrace(
         chain=limb.chain,

@@ -8,8 +8,7 @@ import pytest
 
 from clamber.control.chain import Chain
 from clamber.control.law_settings import LAWS, LawSettings
-from clamber.families.climber.sim.flaw_texts import named_flaws
-from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
+from clamber.limb_bench.bench_limb import bench_limb
 from clamber.limb_bench.scenario import step_scenario
 from clamber.limb_bench.stability import (
     LimitError,
@@ -22,6 +21,8 @@ from clamber.limb_bench.stability import (
     scaled_gains,
     spectral_radius,
 )
+from clamber.sim.bench_limb import BenchLimb
+from clamber.sim.flaw_texts import named_flaws
 from clamber.sim.limb_flaws import LimbFlaws
 
 

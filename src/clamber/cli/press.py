@@ -31,10 +31,10 @@ def press(
     check_writable(output)
     from ..families.climber.pictures.press_plot import draw_press
     from ..families.climber.robot.robot import LimbedRobot
-    from ..families.climber.sim.flaw_texts import named_flaws, read_flaws
     from ..families.climber.trials.press import run_press
     from ..families.climber.trials.run_plan import PHYSICS_RATE
     from ..families.climber.world.library import load_board
+    from ..sim.flaw_texts import named_flaws, read_flaws
     from ..tasks.robots import load_robot
     from ..units import parse_quantity, read_point
     from ..viewing.output import CANVASES, check_suffix

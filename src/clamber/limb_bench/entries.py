@@ -19,11 +19,11 @@ from ..control.law_settings import LAWS, WEIGHTED, LawError, LawSettings, law_na
 from ..control.outside_law import controller_of
 from ..control.recommended import SHIPPED, RecommendationError, read_recommended
 from ..errors import UnitError, UnknownNameError, describe_choices
-from ..families.climber.control.limb_chain import closed_branches
-from ..families.climber.sim.flaw_texts import YES_NO
+from ..sim.bench_limb import BenchLimb
+from ..sim.flaw_texts import YES_NO
 from ..types import Floats
 from ..units import parse_quantity, si_unit
-from .bench_limb import LEAST_SIGMA, BenchLimb
+from .bench_limb import LEAST_SIGMA
 from .measures import Entry
 from .scenario import Scenario
 
@@ -218,7 +218,7 @@ def match_pose(limb: BenchLimb, scenario: Scenario) -> Floats:
     """Joint angles at which stiffnesses are made equal: at a circle's centre where the limb is regular, else at the start [rad]."""
     if scenario.centre is None:
         return limb.q0
-    branches = [np.array(q) for q in closed_branches(limb.spec, *scenario.centre)]
+    branches = [np.array(q) for q in limb.branches(*scenario.centre)]
     nearest = min(branches, key=lambda q: float(np.abs(q - limb.q0).max()), default=limb.q0)
     regular = np.linalg.svd(limb.chain.jacobian(nearest)[:2], compute_uv=False).min() > LEAST_SIGMA
     return nearest if regular else limb.q0

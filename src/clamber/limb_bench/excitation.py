@@ -14,10 +14,10 @@ from typing import Any, Final, TypeAlias
 import numpy as np
 
 from ..execution.log import Log
+from ..sim.bench_limb import BenchLimb
 from ..sim.limb_flaws import LimbFlaws
 from ..sim.mujoco_limb import MujocoLimb
 from ..types import Floats, Json
-from .bench_limb import BenchLimb
 from .scenario import ScenarioError
 
 SERVO_STIFFNESS: Final = 40.0

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
+from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
@@ -10,10 +11,10 @@ import numpy as np
 from ..control.law_settings import LawSettings
 from ..errors import UnknownNameError
 from ..execution.trace import LimbTrace
-from ..families.climber.sim.flaw_texts import plant_words
+from ..sim.bench_limb import BenchLimb
+from ..sim.flaw_texts import plant_words
 from ..sim.limb_flaws import LimbFlaws
 from ..types import Json
-from .bench_limb import BenchLimb
 from .measures import Entry, ForceMeasures, Measured, measure_force
 from .result import Comparison
 from .runner import run_contest, with_sensors
@@ -186,6 +187,12 @@ class ForceResult(Comparison):
                 for row in self.rows
             ],
         }
+
+    def draw(self, path: str | Path) -> None:
+        """Draw the force of each law over time, beside the limb at the wall."""
+        from .pictures.force import draw_force
+
+        draw_force(self, path)
 
     def traces(self) -> Iterable[tuple[str, LimbTrace]]:
         """Of each law."""

@@ -9,8 +9,8 @@ import numpy as np
 
 from ..control.law_settings import LawSettings
 from ..execution.trace import LimbTrace
+from ..sim.bench_limb import BenchLimb
 from ..types import Floats, Json
-from .bench_limb import BenchLimb
 from .scenario import ForceTask, Scenario, direction, left_of
 
 M = TypeVar("M")

@@ -8,6 +8,7 @@ part along the wanted direction for all transforms.
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass
+from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
@@ -16,11 +17,11 @@ from ..control.chain import Chain
 from ..control.controller import still_aim
 from ..errors import UnknownNameError
 from ..execution.trace import LimbTrace, empty_trace
-from ..families.climber.sim.flaw_texts import plant_words
+from ..sim.bench_limb import BenchLimb
+from ..sim.flaw_texts import plant_words
 from ..sim.limb_flaws import LimbFlaws
 from ..sim.plants import plant_maker
 from ..types import Floats, Json
-from .bench_limb import BenchLimb
 from .measures import components
 from .result import Comparison
 from .scenario import ScenarioError
@@ -232,6 +233,12 @@ class OpenLoopResult(Comparison):
                 for run in self.runs
             ],
         }
+
+    def draw(self, path: str | Path) -> None:
+        """Draw the path of the tip under each transform."""
+        from .pictures.open_loop import draw_open_loop_result
+
+        draw_open_loop_result(self, path)
 
     def traces(self) -> Iterable[tuple[str, LimbTrace]]:
         """Of each transform."""

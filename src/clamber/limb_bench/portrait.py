@@ -2,16 +2,18 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Final
 
 import numpy as np
 
 from ..control.law_settings import LAWS, LawSettings
 from ..errors import UnknownNameError
-from ..families.climber.sim.flaw_texts import SET, named_flaws
+from ..sim.bench_limb import BenchLimb
+from ..sim.flaw_texts import SET, named_flaws
 from ..sim.limb_flaws import LimbFlaws
 from ..types import Floats, Json
-from .bench_limb import BenchLimb, bench_limb
+from .bench_limb import bench_limb
 from .entries import GAINS, Match, gain_unit, make_entries, tip_stiffness, with_recommended_gains
 from .force import force_gains, force_settings, run_force
 from .measures import Entry, ForceMeasures, Measured, Measures, measure
@@ -73,6 +75,12 @@ class Portrait(BenchResult):
                 for plant, one in plants
             }
         return out
+
+    def draw(self, path: str | Path) -> None:
+        """Draw step, circle and push or wall."""
+        from .pictures.portrait import draw_portrait
+
+        draw_portrait(self, path)
 
     def gains_row(self) -> tuple[str, ...]:
         """Its line in a table: law, kp, kd with units; stiffness of the tip along x and y [N/mm]."""

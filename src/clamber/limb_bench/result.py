@@ -16,11 +16,11 @@ from ..control.law_settings import LawSettings
 from ..execution.log import Log
 from ..execution.log_trace import trace_log
 from ..execution.trace import LimbTrace
-from ..families.climber.sim.flaw_texts import plant_words
 from ..files import write_atomically
+from ..sim.bench_limb import BenchLimb
+from ..sim.flaw_texts import plant_words
 from ..sim.limb_flaws import LimbFlaws
 from ..types import Floats, Json
-from .bench_limb import BenchLimb
 from .entries import Match, tip_stiffness
 from .measures import Measured, Measures, Run, components, measure, radial_error, scenario_size
 from .runner import Contest, run_contest, with_sensors
@@ -46,6 +46,15 @@ class BenchResult:
         """Columns and lines of its CSV; an empty field is what never came."""
         raise NotImplementedError
 
+    def draw(self, path: str | Path) -> None:
+        """Draw it into a file (.png, .svg, .pdf).
+
+        Raises:
+            SuffixError: If the file's suffix names no format for still pictures.
+            FileError: If the file cannot be written.
+        """
+        raise NotImplementedError
+
     def save(self, path: str | Path) -> None:
         """Write `to_json` to a file, whole or not at all."""
         write_atomically(Path(path), json.dumps(self.to_json(), indent=2, allow_nan=False) + "\n")
@@ -69,9 +78,7 @@ class BenchResult:
         elif path.suffix.lower() == ".csv":
             self.save_table(path)
         else:
-            from .pictures.draw import draw_result  # loads Matplotlib
-
-            draw_result(self, path)
+            self.draw(path)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -263,6 +270,12 @@ class LimbResult(Comparison):
             "trials": self.trials,
             "laws": [_law(row) for row in self.rows],
         }
+
+    def draw(self, path: str | Path) -> None:
+        """Draw paths, errors over time and torques of the first trial."""
+        from .pictures.comparison import draw_comparison
+
+        draw_comparison(self, path)
 
     def traces(self) -> Iterable[tuple[str, LimbTrace]]:
         """Of the first trial of each law."""

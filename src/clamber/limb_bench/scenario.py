@@ -10,9 +10,9 @@ import numpy.typing as npt
 
 from ..control.controller import still_aim
 from ..errors import ClamberError
+from ..sim.bench_limb import BenchLimb
 from ..sim.limb_flaws import LimbFlaws, Push, Wall
 from ..types import Floats, Records
-from .bench_limb import BenchLimb
 
 LEAST_TICKS: Final = 2
 """A run has to have more: else there is nothing to measure."""
@@ -70,7 +70,7 @@ def _ticks(kind: str, seconds: float, rate: float) -> int:
 
 def _within_reach(kind: str, limb: BenchLimb, x: float, y: float) -> None:
     """By length alone: the thesis's own circle about (0.22, 0) asks for 5.6 deg more of the elbow than its printed limit."""
-    least, most = abs(limb.spec.l1 - limb.spec.l2_effective), limb.spec.length
+    least, most = limb.reach
     target = f"({x:.6g}, {y:.6g}) m"
     if not least <= math.hypot(x, y) <= most:
         raise ScenarioError(kind, "target", target, f"must be {least:.3g} to {most:.3g} m from the limb's port")
@@ -316,11 +316,9 @@ def _smooth_rate(part: Floats) -> Floats:
 def _check_reach(limb: BenchLimb, task: ForceTask) -> None:
     into = direction(task.angle)
     depth = task.gap + task.force / task.stiffness
-    least = abs(limb.spec.l1 - limb.spec.l2_effective)
+    least, most = limb.reach[0], 0.98 * limb.reach[1]
     for part in np.linspace(0.0, task.slide, 16):
         place = np.array(limb.start) + depth * into + part * left_of(into)
-        if not least < float(np.hypot(*place)) < 0.98 * limb.spec.length:
-            allowed = (
-                f"pressed in, the tip must stay {least:.3g} to {0.98 * limb.spec.length:.3g} m from the limb's port"
-            )
+        if not least < float(np.hypot(*place)) < most:
+            allowed = f"pressed in, the tip must stay {least:.3g} to {most:.3g} m from the limb's port"
             raise ScenarioError("force", "wall", f"({place[0]:.3g}, {place[1]:.3g}) m", allowed)

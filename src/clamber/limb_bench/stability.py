@@ -26,11 +26,10 @@ from ..control.law_settings import LawSettings, PerAxis
 from ..errors import ClamberError
 from ..execution.closed_loop import close_loop
 from ..execution.trace import LimbTrace
-from ..families.climber.control.limb_chain import closed_branches
+from ..sim.bench_limb import BenchLimb
 from ..sim.limb_flaws import LimbFlaws, Push
 from ..sim.mujoco_limb import MujocoLimb
 from ..types import Floats, Records
-from .bench_limb import BenchLimb
 from .scenario import Scenario, circle_scenario, step_scenario
 
 NUDGE: Final = 1e-6
@@ -232,12 +231,11 @@ class Situation:
 
 def poses(limb: BenchLimb, reaches: Sequence[float] = REACHES, bearing: float = 0.0) -> list[Floats]:
     """Joint angles at some distances from the port, on both branches of the elbow as far as the joints' limits allow [rad]."""
-    spec = limb.spec
     joints = limb.chain.joints
     out = []
     for reach in reaches:
-        distance = reach * spec.length
-        for branch in closed_branches(spec, distance * math.cos(bearing), distance * math.sin(bearing)):
+        distance = reach * limb.reach[1]
+        for branch in limb.branches(distance * math.cos(bearing), distance * math.sin(bearing)):
             q = np.array(branch)
             if (joints["lower"] <= q).all() and (q <= joints["upper"]).all():
                 out.append(q)
@@ -270,10 +268,10 @@ def situations(limb: BenchLimb, rate: float, effort: Effort) -> list[Situation]:
 
 def _circles(limb: BenchLimb, rate: float) -> list[Situation]:
     """Circles about the middle of the reach, from their outermost point, on each branch; the aim stops after `CIRCLE_SECONDS`."""
-    spec = limb.spec
-    centre = (0.7 * spec.length, 0.0)
+    length = limb.reach[1]
+    centre = (0.7 * length, 0.0)
     out = []
-    for q in poses(limb, (0.7 + CIRCLE / spec.length,)):
+    for q in poses(limb, (0.7 + CIRCLE / length,)):
         at = replace(limb, q0=q)
         for lap in LAPS:
             led = circle_scenario(at, rate, centre=centre, radius=CIRCLE, lap=lap, laps=math.ceil(SECONDS / lap))

@@ -3,17 +3,18 @@
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, fields
 from itertools import pairwise, product
+from pathlib import Path
 from typing import Any, Final
 
 from ..control.law_settings import LAWS, LawError, LawSettings
 from ..errors import UnknownNameError
-from ..families.climber.sim.flaw_texts import WHOLE, named_flaws, plant_words, read_flaws
 from ..jobs import Outcome, read_result
 from ..planning.axes import Axis, check_axes
+from ..sim.flaw_texts import WHOLE, named_flaws, plant_words, read_flaws
 from ..sim.limb_flaws import LimbFlaws
 from ..types import Json
 from ..units import read_number, read_point
-from .bench_limb import bench_limb, limbed_robot, read_elbow
+from .bench_limb import bench_limb, load_geared, read_elbow
 from .entries import GAINS, Match, reference_law, with_recommended_gains
 from .measures import TipMeasures
 from .result import BenchResult
@@ -132,6 +133,12 @@ class LimbSweep(BenchResult):
             ],
         }
 
+    def draw(self, path: str | Path) -> None:
+        """Draw curves over one axis, or a map of the best law over two."""
+        from .pictures.sweep import draw_sweep
+
+        draw_sweep(self, path)
+
     def table(self) -> tuple[list[str], list[list[Any]]]:
         """One line for each law at each point."""
         columns = [*(axis.key for axis in self.axes), "law", self.bench.measure, "peak_to_peak", "steady"]
@@ -181,7 +188,7 @@ def make_bench(texts: BenchTexts) -> Bench:
         sides = ("", "encoder.")
         known = (*(f"{each}{name}" for each in sides for name in SCENARIO_MEASURES[kind]), *RUN_MEASURES)
         raise UnknownNameError(f"measure of a {kind}", chosen, known)
-    plant = read_flaws(named_flaws(texts.flaws, limbed_robot(texts.robot)), texts.settings)
+    plant = read_flaws(named_flaws(texts.flaws, load_geared(texts.robot)[0]), texts.settings)
     law = reference_law(texts.reference, texts.kp, texts.kd)
     stated: Json
     size = read_number("radius", texts.radius, "length")

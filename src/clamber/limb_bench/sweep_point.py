@@ -10,12 +10,13 @@ from typing import Any, Final
 import numpy as np
 
 from ..errors import ClamberError, UnknownNameError
-from ..families.climber.sim.flaw_texts import DIMENSIONS as FLAWS
-from ..families.climber.sim.flaw_texts import WHOLE, read_flaw
+from ..sim.bench_limb import BenchLimb
+from ..sim.flaw_texts import DIMENSIONS as FLAWS
+from ..sim.flaw_texts import WHOLE, read_flaw
 from ..sim.limb_flaws import LimbFlaws
 from ..types import Json
 from ..units import read_number
-from .bench_limb import BenchLimb, bench_limb
+from .bench_limb import bench_limb
 from .entries import Match, make_entries, match_pose, read_law, reference_law
 from .measures import Entry, Measures, Run, measure
 from .runner import run_contest

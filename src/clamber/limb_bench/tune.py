@@ -18,9 +18,10 @@ from ..control.law_settings import LAWS, LawSettings
 from ..control.recommended import Recommended
 from ..errors import ClamberError
 from ..jobs import Outcome, read_result
+from ..sim.bench_limb import BenchLimb
 from ..sim.limb_flaws import LimbFlaws
 from ..types import Json
-from .bench_limb import BenchLimb, bench_limb
+from .bench_limb import bench_limb
 from .entries import read_law, tip_stiffness
 from .measures import Entry, measure
 from .result import BenchResult
@@ -140,6 +141,12 @@ class Tuning(BenchResult):
             "threshold": STEADY,
             "laws": [law.to_json() for law in self.laws],
         }
+
+    def draw(self, path: str | Path) -> None:
+        """Draw a panel for each law: where in kp and kd the limb comes to rest."""
+        from .pictures.tuning import draw_tuning
+
+        draw_tuning(self, path)
 
     def recommended(self) -> list[Recommended]:
         """Gains to be kept, of the laws that are steady with them."""

@@ -18,10 +18,10 @@ from .identify import identify, record
 from .sweep import portrait, sweep, tune
 
 if TYPE_CHECKING:
-    from ...limb_bench.bench_limb import BenchLimb
     from ...limb_bench.measures import Measures
     from ...limb_bench.result import LimbResult, Row
     from ...limb_bench.scenario import Scenario
+    from ...sim.bench_limb import BenchLimb
     from ...types import Floats
 
 LEAST_TRIALS: Final = 4

@@ -177,9 +177,9 @@ def write_identification(result: "Identification", path: Path) -> None:
 
         write_atomically(path, result.toml())
         return
-    from ...limb_bench.pictures.draw import draw_result
+    from ...families.climber.pictures.identification import draw_identification
 
-    draw_result(result, path)
+    draw_identification(result, path)
 
 
 @dataclass(frozen=True, slots=True)
@@ -216,9 +216,9 @@ def record(
     from ...execution.log_files import check_log_suffix, write_log
 
     check_log_suffix(output)
-    from ...families.climber.sim.flaw_texts import named_flaws, read_flaws
     from ...limb_bench.bench_limb import bench_limb
     from ...limb_bench.excitation import SensorNoise, log_summary, record_log
+    from ...sim.flaw_texts import named_flaws, read_flaws
     from ...units import parse_quantity
 
     noise = SensorNoise(

@@ -15,9 +15,9 @@ from ..options import ROBOT, AsJson, Output, Quiet
 from ..output import check_writable, plain_table, print_json, stdout
 
 if TYPE_CHECKING:
-    from ...limb_bench.bench_limb import BenchLimb
     from ...limb_bench.result import BenchResult, Comparison
     from ...limb_bench.runner import Crew
+    from ...sim.bench_limb import BenchLimb
     from ...sim.limb_flaws import LimbFlaws
 
 
@@ -95,10 +95,10 @@ class LimbWords:
 
     def build_plant(self, seed: int | None = None, *, drawn: bool = False) -> "LimbFlaws":
         """The plant's properties; checked before anything else is looked at."""
-        from ...families.climber.sim.flaw_texts import named_flaws, read_flaws
-        from ...limb_bench.bench_limb import limbed_robot
+        from ...limb_bench.bench_limb import load_geared
+        from ...sim.flaw_texts import named_flaws, read_flaws
 
-        base = named_flaws(self.flaws.value, limbed_robot(self.robot))
+        base = named_flaws(self.flaws.value, load_geared(self.robot)[0])
         return read_flaws(base, self.settings or (), seed, drawn=drawn)
 
     def build_limb(self, flaws: "LimbFlaws", start: tuple[float, float] = (0.22, 0.0)) -> "BenchLimb":

@@ -218,8 +218,8 @@ def tune(
 
 def print_tuning(console: Console, result: "Tuning") -> None:
     """Print what was found."""
-    from ...families.climber.sim.flaw_texts import plant_words
     from ...limb_bench.stability import QUIET_FROM, STEADY
+    from ...sim.flaw_texts import plant_words
 
     limb = result.limb
     console.print(f"recommended gains, {limb.robot.name}'s {limb.name} limb", style="bold")

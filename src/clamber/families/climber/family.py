@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from ...planning.problem.plan import Plan
     from ...planning.problem.plan_families import PlanFamily
     from ...planning.problem.plan_source import OpenedPlan
+    from ...sim.bench_limb import BenchLimb
     from ...sim.lone_robot import JointBounds
     from ...tasks.task_format import TaskFormat
     from ...trials.run_request import RunRequest
@@ -90,6 +91,13 @@ class Climber(Family):
         from .trials.carry_out import carry_out_climb
 
         return carry_out_climb
+
+    @property
+    def bench_limb(self) -> Callable[..., BenchLimb]:
+        """One limb, with its motors and gears."""
+        from .sim.bench_limb import limb_for_bench
+
+        return limb_for_bench
 
     @property
     def model(self) -> Callable[[Any], tuple[Any, Mapping[str, JointBounds]]]:

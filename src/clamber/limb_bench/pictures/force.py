@@ -8,11 +8,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Polygon
 
+from ...sim.bench_limb import BenchLimb
 from ...types import Floats
 from ...viewing import style
 from ...viewing.output import drawing
 from ...viewing.style import bare
-from ..bench_limb import BenchLimb
 from ..force import ForceResult
 from ..measures import ForceMeasures, Measured
 from ..scenario import direction, left_of
@@ -108,7 +108,7 @@ def _draw_forces(axes: Axes, result: ForceResult, rows: list[Pressed], law: str)
 
 def _limb_points(limb: BenchLimb, q: Floats) -> Floats:
     """Port, elbow and tip in the port frame, shape (3, 2) [m]."""
-    elbow = limb.spec.l1 * direction(float(q[0]))
+    elbow = limb.links[0] * direction(float(q[0]))
     return np.vstack([np.zeros(2), elbow, limb.chain.place(q)[:2]])
 
 

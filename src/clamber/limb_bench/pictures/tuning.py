@@ -7,7 +7,7 @@ from typing import Any, Final
 import numpy as np
 from matplotlib.axes import Axes
 
-from ...families.climber.sim.flaw_texts import plant_words
+from ...sim.flaw_texts import plant_words
 from ...viewing import style
 from ...viewing.output import drawing
 from ...viewing.style import bare

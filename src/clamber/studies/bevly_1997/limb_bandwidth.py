@@ -5,10 +5,10 @@ from typing import Final
 import numpy as np
 
 from ...control.law_settings import LawSettings
-from ...limb_bench.bench_limb import BenchLimb
 from ...limb_bench.measures import Entry
 from ...limb_bench.runner import run_contest
 from ...limb_bench.scenario import step_scenario
+from ...sim.bench_limb import BenchLimb
 from ...sim.limb_flaws import LimbFlaws
 from ...units import DEGREE
 from .limb_entries import MATCHED, SCCT, matched_transpose, scct, transpose

@@ -6,8 +6,8 @@ from typing import Final
 
 import numpy as np
 
-from ...limb_bench.bench_limb import BenchLimb
 from ...limb_bench.open_loop import FIRST, TRANSFORMS, OpenLoopRun, first_turn, run_open_loop, scaled_torques
+from ...sim.bench_limb import BenchLimb
 from ...types import Floats
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value

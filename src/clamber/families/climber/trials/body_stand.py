@@ -7,6 +7,7 @@ from typing import Final, Literal, TypeAlias
 
 import numpy as np
 
+from ....sim.flaw_texts import named_flaws, read_flaws
 from ....sim.limb_flaws import LimbFlaws
 from ....sim.plant_rules import PlantError
 from ....tasks.robots import load_robot
@@ -18,7 +19,6 @@ from ..execution.postures import postures
 from ..robot.robot import LimbedRobot
 from ..sim.climber_model import HookShape
 from ..sim.climber_plant import ClimberPlant
-from ..sim.flaw_texts import named_flaws, read_flaws
 from ..world.board import Board
 from ..world.library import load_board
 from .run_plan import PHYSICS_RATE

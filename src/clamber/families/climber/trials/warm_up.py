@@ -7,6 +7,7 @@ import numpy as np
 
 from ....execution.sequencer import Sequencer
 from ....planning.problem.plan import Plan
+from ....sim.flaw_texts import named_flaws
 from ....tasks import load_task
 from ..execution.climb_trace import TracedClimber
 from ..execution.climbing import Climbing
@@ -14,7 +15,6 @@ from ..execution.course import climbable, lay_course
 from ..planning.plans import thesis_code
 from ..planning.task import LimbedTask
 from ..sim.climber_plant import ClimberPlant
-from ..sim.flaw_texts import named_flaws
 
 FIRST_GRAB: Final = 106
 """Of the thesis's gait on the ladder, its number of the action."""
