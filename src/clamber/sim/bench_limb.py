@@ -2,9 +2,11 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
+from operator import attrgetter
+from typing import Annotated, Protocol
 
 from ..control.chain import Chain
+from ..json_form import HIDDEN, Jsonable, Key, in_json
 from ..types import Floats
 
 
@@ -49,23 +51,24 @@ class GearedRobot(Protocol):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class BenchLimb:
+class BenchLimb(Jsonable):
     """One limb of two links in a plane, at rest somewhere."""
 
-    robot: GearedRobot
+    robot: Annotated[GearedRobot, Key(get=attrgetter("name"), kind=str)]
     name: str
-    chain: Chain
+    chain: Annotated[Chain, HIDDEN]
     """As its file states it; what is unknown to the controller is the plant's."""
-    gears: Floats
+    gears: Annotated[Floats, HIDDEN]
     """Motor turns per joint turn, shape (n,)."""
-    links: tuple[float, float]
+    links: Annotated[tuple[float, float], HIDDEN]
     """From the port to the elbow, and from there to the tip [m]."""
-    branches: Callable[[float, float], tuple[tuple[float, float], ...]]
+    branches: Annotated[Callable[[float, float], tuple[tuple[float, float], ...]], HIDDEN]
     """Joint angles [rad] with the tip at a place of the port frame [m], the positive elbow first; none out of reach."""
-    q0: Floats
+    q0: Annotated[Floats, Key("angles", kind=tuple[float, float])]
     """Joint angles at the start [rad]."""
 
     @property
+    @in_json(after="name")
     def start(self) -> tuple[float, float]:
         """Tip at the start, port frame [m]."""
         place = self.chain.place(self.q0)

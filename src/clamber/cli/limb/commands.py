@@ -197,8 +197,8 @@ def print_comparison(console: Console, result: "LimbResult", *, everything: bool
         _print_gains(console, result)
     console.print()
     _print_lines(console, result)
-    for label in result.mismatches():
-        console.print(f"{label}: one gain for all directions, so '{result.match}' does not hold for it")
+    for label in result.matching.not_matched:
+        console.print(f"{label}: one gain for all directions, so '{result.matching.how}' does not hold for it")
     stops = "has" if result.flaws.joint_limits else "has no"
     for name, excess in result.beyond_limits().items():
         console.print(f"the {name} turned {math.degrees(excess):.1f} deg beyond its limit; the plant {stops} stops")
@@ -259,7 +259,7 @@ def _print_gains(console: Console, result: "LimbResult") -> None:
             *(_per_axis(gain) for gain in (settings.kp, settings.kd)),
             gain_unit(settings.law, "kp"),
             *(opt.shown(value) for value in (k[0, 0], k[0, 1], k[1, 1])),
-            "own" if row.entry.own_gains else str(result.match),
+            "own" if row.entry.own_gains else str(result.matching.how),
         ))  # fmt: skip
     opt.show_table(console, ("law", "kp", "kd", "in", "Kxx", "Kxy", "Kyy", "gains"), rows, ("law", "in", "gains"))
     console.print("kd in that unit times s; stiffness K of the tip by the law itself [N/mm]")

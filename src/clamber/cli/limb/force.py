@@ -170,7 +170,7 @@ def print_open_loop(console: Console, result: "OpenLoopResult") -> None:
             run.transform,
             " ".join(opt.shown(float(torque)) for torque in run.torques),
             opt.shown(run.turned(), degrees),
-            opt.shown(result.predicted(run), degrees),
+            opt.shown(run.predicted, degrees),
             *(opt.shown(run.stray(far), 1e3) for far in FAR),
             opt.shown(run.moved, 1e3),
         )

@@ -217,7 +217,7 @@ def record(
 
     check_log_suffix(output)
     from ...limb_bench.bench_limb import bench_limb
-    from ...limb_bench.excitation import SensorNoise, log_summary, record_log
+    from ...limb_bench.excitation import Recorded, SensorNoise, record_log
     from ...sim.flaw_texts import named_flaws, read_flaws
     from ...units import parse_quantity
 
@@ -232,10 +232,8 @@ def record(
     announce_compilation(quiet=quiet)
     log = record_log(chosen, properties, noise, output_encoder=sensors.output_encoder)
     write_log(log, output)
-    summary = log_summary(log, output)
+    summary = Recorded.of(log, output)
     if as_json:
         print_json(summary)
     else:
-        stdout().print(
-            f"{summary['file']}: {summary['rows']} samples, {summary['seconds']:.1f} s, {', '.join(log.columns)}"
-        )
+        stdout().print(f"{summary.file}: {summary.rows} samples, {summary.seconds:.1f} s, {', '.join(log.columns)}")

@@ -303,7 +303,7 @@ def portrait(
     Gains are those recommended for the limb, unless they are matched to a reference.
     """
     from ...limb_bench.entries import read_law
-    from ...limb_bench.portrait import paint_portraits, portraits_json
+    from ...limb_bench.portrait import Portraits, paint_portraits
     from ...regular_files import make_folder
 
     if folder is not None:
@@ -322,7 +322,7 @@ def portrait(
         for each in portraits:
             each.write(folder / f"{each.law}.png")
     if as_json:
-        print_json(portraits_json(portraits, words.seed))
+        print_json(Portraits(seed=words.seed, laws=tuple(portraits)))
     elif markdown:
         print_markdown(portraits)
     else:

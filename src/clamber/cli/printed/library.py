@@ -20,6 +20,13 @@ from ...families.walker.trials.cooperative.follow import FollowRun
 from ...families.walker.trials.most import MostOfWalk
 from ...families.walker.trials.run_walk import WalkRun
 from ...inspection.finding import Finding
+from ...limb_bench.excitation import Recorded
+from ...limb_bench.force import ForceResult
+from ...limb_bench.open_loop import OpenLoopResult
+from ...limb_bench.portrait import Portraits
+from ...limb_bench.result import LimbResult
+from ...limb_bench.sweep import LimbSweep
+from ...limb_bench.tune import Tuning
 from ...planning.exact.front import Front
 from ...planning.learning import Lesson
 from ...planning.problem.posed import SizedInventory
@@ -40,7 +47,6 @@ from ..show import Drawn
 from ..trials.climb import ClimbTrials, ReplayedTrial
 from ..trials.walk import PrintedWalkTrials
 from ..view import Opened, Saved
-from .limbs import Contest, Forces, LimbSweep, OpenLoop, Portraits, Recorded, Tuned
 from .schemas import STRICT, modelled
 
 
@@ -85,16 +91,16 @@ PRINTED: Final[dict[str, Any]] = {
     "plant serve": ServedPlant,
     "plant stop": PlantAnswer,
     "plant release": PlantAnswer,
-    "limb step": Contest,
-    "limb circle": Contest,
-    "limb push": Contest,
-    "limb open-loop": OpenLoop,
+    "limb step": LimbResult,
+    "limb circle": LimbResult,
+    "limb push": LimbResult,
+    "limb open-loop": OpenLoopResult,
     "limb record": Recorded,
     "limb identify": Identification,
-    "limb force": Forces,
+    "limb force": ForceResult,
     "limb portrait": Portraits,
     "limb sweep": LimbSweep,
-    "limb tune": Tuned,
+    "limb tune": Tuning,
     "body circle": BodyContest,
     "body push-up": BodyContest,
     "body push": BodyContest | dict[str, list[PushTrial]],
