@@ -243,7 +243,7 @@ class OpenLoopResult(Comparison):
 
     def draw(self, path: str | Path) -> None:
         """Draw the path of the tip under each transform."""
-        from .pictures.open_loop import draw_open_loop_result
+        from .pictures.force import draw_open_loop_result
 
         draw_open_loop_result(self, path)
 

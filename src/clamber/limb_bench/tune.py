@@ -141,7 +141,7 @@ class Tuning(BenchResult):
 
     def draw(self, path: str | Path) -> None:
         """Draw a panel for each law: where in kp and kd the limb comes to rest."""
-        from .pictures.tuning import draw_tuning
+        from .pictures.sweep import draw_tuning
 
         draw_tuning(self, path)
 

@@ -114,7 +114,7 @@ def compare_transforms() -> StudyResult:
 
 def _figures(runs: Runs, renewed: dict[str, OpenLoopRun], turns: Turns) -> tuple[Figure, ...]:
     def paths(path: Path) -> None:
-        from ...limb_bench.pictures.open_loop import Drawn, draw_open_loop
+        from ...limb_bench.pictures.force import Drawn, draw_open_loop
 
         columns = {
             branch: [
@@ -129,7 +129,7 @@ def _figures(runs: Runs, renewed: dict[str, OpenLoopRun], turns: Turns) -> tuple
         draw_open_loop(columns, SHOWN * MILLI, f"Steady torques for a motion along -y, {STRONG:g} N", path)
 
     def directions(path: Path) -> None:
-        from ...limb_bench.pictures.open_loop import draw_turns
+        from ...limb_bench.pictures.force import draw_turns
 
         draw_turns(ROUND, turns, NAMES, path)
 
