@@ -64,7 +64,7 @@ MORE: Final = {
 BLOCKS: Final = " ▁▂▃▄▅▆▇█"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class BenchWords(opt.LimbWords):
     """Options of every command that compares laws by one motion of the limb, as they came."""
 
@@ -82,17 +82,20 @@ class BenchWords(opt.LimbWords):
         return self.workers or max(1, min(os.cpu_count() or 1, self.trials // LEAST_TRIALS))
 
 
+@dataclass(frozen=True)
+class MotionWords(opt.FileWords, BenchWords, opt.LawWords):
+    """All of them but those of the motion itself: laws, limb and plant, files."""
+
+
 @takes_options
 def step(
     by: Annotated[str, typer.Option(metavar="DX,DY", help="The step, such as 0,-2cm.")] = "0,-2cm",
     seconds: Annotated[float, typer.Option(help="Length of the run [s].")] = 6.0,
     *,
-    laws: opt.LawWords,
-    words: BenchWords,
-    files: opt.FileWords,
+    words: MotionWords,
 ) -> None:
     """Let the aim jump, and compare how each law gets there: along the step, across it, at rest."""
-    files.check(".json", ".csv")
+    words.check(".json", ".csv")
     from ...limb_bench.scenario import step_scenario
     from ...units import read_point
 
@@ -100,7 +103,7 @@ def step(
         dx, dy = read_point("by", by)
         return step_scenario(limb, rate, dx=dx, dy=dy, seconds=seconds)
 
-    _compare(laws, words, files, command)
+    _compare(words, command)
 
 
 @takes_options
@@ -110,12 +113,10 @@ def circle(
     lap: Annotated[float, typer.Option(help="Time of one lap [s].")] = 6.0,
     laps: Annotated[int, typer.Option(min=1, help="Laps; the last one is measured.")] = 2,
     *,
-    laws: opt.LawWords,
-    words: BenchWords,
-    files: opt.FileWords,
+    words: MotionWords,
 ) -> None:
     """Let the aim run round a circle, and compare how far each law leaves it in the last lap."""
-    files.check(".json", ".csv")
+    words.check(".json", ".csv")
     from ...limb_bench.scenario import circle_scenario
     from ...units import read_number, read_point
 
@@ -124,7 +125,7 @@ def circle(
     def command(limb: "BenchLimb", rate: float) -> "Scenario":
         return circle_scenario(limb, rate, centre=middle, radius=size, lap=lap, laps=laps)
 
-    _compare(laws, words, files, command, (middle[0] + size, middle[1]))
+    _compare(words, command, (middle[0] + size, middle[1]))
 
 
 @takes_options
@@ -134,12 +135,10 @@ def push(
     end: Annotated[float, typer.Option("--to", help="When it ends [s].")] = 2.0,
     seconds: Annotated[float, typer.Option(help="Length of the run [s].")] = 6.0,
     *,
-    laws: opt.LawWords,
-    words: BenchWords,
-    files: opt.FileWords,
+    words: MotionWords,
 ) -> None:
     """Push the tip and let it go, and compare how far each law yields, where to, and how it comes back."""
-    files.check(".json", ".csv")
+    words.check(".json", ".csv")
     from ...limb_bench.scenario import push_scenario
     from ...units import read_point
 
@@ -147,13 +146,11 @@ def push(
         pushed = read_point("force", force, "force")
         return push_scenario(limb, rate, force=pushed, start=begin, end=end, seconds=seconds)
 
-    _compare(laws, words, files, command)
+    _compare(words, command)
 
 
 def _compare(
-    laws: opt.LawWords,
-    words: BenchWords,
-    files: opt.FileWords,
+    words: MotionWords,
     command: "Callable[[BenchLimb, float], Scenario]",
     start: tuple[float, float] = (0.22, 0.0),
 ) -> None:
@@ -165,17 +162,17 @@ def _compare(
     flaws = words.build_plant(words.seed, drawn=words.trials > 1)
     limb = words.build_limb(flaws, start)
     scenario = command(limb, flaws.control_rate)
-    announce_compilation(quiet=files.quiet)  # gains are matched by the laws themselves
-    reference, at = reference_law(laws.reference, laws.kp, laws.kd), match_pose(limb, scenario)
-    entries = make_entries(limb, laws.controllers or (), reference, laws.match.value, at)
+    announce_compilation(quiet=words.quiet)  # gains are matched by the laws themselves
+    reference, at = reference_law(words.reference, words.kp, words.kd), match_pose(limb, scenario)
+    entries = make_entries(limb, words.controllers or (), reference, words.match.value, at)
     result = compare_laws(
         Contest(limb, scenario, entries, flaws, words.plant),
         trials=words.trials,
         workers=words.crew,
-        matching=Matching(reference, laws.match.value, at),
-        progress=EndsLine(stderr(), "trials", quiet=files.quiet or words.trials == 1).update,
+        matching=Matching(reference, words.match.value, at),
+        progress=EndsLine(stderr(), "trials", quiet=words.quiet or words.trials == 1).update,
     )
-    files.tell(result, lambda console: print_comparison(console, result, everything=words.everything))
+    words.tell(result, lambda console: print_comparison(console, result, everything=words.everything))
     raise typer.Exit(0 if result.stable else 1)
 
 

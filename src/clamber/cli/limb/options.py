@@ -57,7 +57,7 @@ Seed: TypeAlias = Annotated[
 ]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class LawWords:
     """Options that name laws and how they come by their gains, as they came."""
 
@@ -80,7 +80,7 @@ class LawWords:
     ] = "scct"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class LimbWords:
     """Options that name a limb and its plant, as they came."""
 
@@ -110,14 +110,14 @@ class LimbWords:
         return bench_limb(self.robot, self.limb, at, elbow=read_elbow(self.elbow), upright=flaws.upright)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class NominalLimbWords(LimbWords):
     """The same, of a plant with the flaws of the robot's file unless others are said."""
 
     flaws: Flaws = FlawsChoice.nominal
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class FileWords:
     """How a comparison is kept and printed, as it came."""
 

@@ -1,4 +1,4 @@
-"""Forces on a wall: a panel of force over time for each law; the open loop: paths of the tip under steady torques, and their first turns."""
+"""Forces on a wall, a panel of force over time for each law; the open loop: paths of the tip and its first turns."""
 
 import math
 from collections.abc import Mapping, Sequence
