@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from .planning.problem.check import Check
     from .planning.problem.plan_source import OpenedPlan
     from .planning.problem.problems import PlanFamily
+    from .sim.bench_limb import BenchLimb
     from .sim.lone_robot import JointBounds
     from .tasks.task_format import TaskFormat
     from .trials.dynamics import Dynamics
@@ -130,6 +131,11 @@ class Family:
     def other_names(self) -> tuple[str, ...]:
         """Names of such things that come with the family."""
         return ()
+
+    @property
+    def bench_limb(self) -> Callable[..., BenchLimb] | None:
+        """One limb of a robot for the limb bench, by name, by its place from 1 or None: the first; `upright` says whether weight acts."""
+        return None
 
     @property
     def model(self) -> Callable[[Any], tuple[Any, Mapping[str, JointBounds]]] | None:

@@ -8,7 +8,8 @@ import typer
 from typer.main import get_command
 
 from clamber.cli.app import application, command_of, commands_below
-from clamber.terminal.output import plain_table, stdout
+from clamber.terminal.output import stdout
+from clamber.viewing.text_table import plain_table
 
 Clamber = Callable[..., tuple[int, str, str]]
 TEXTS = {

@@ -102,9 +102,9 @@ def test_a_field_that_no_schema_names_is_noticed() -> None:
 
 def test_fields_mean_what_they_mean_where_they_are_made_and_have_null_where_python_has_none() -> None:
     objects = schema_of("limb step")["$defs"]
-    assert objects["TipErrors"]["properties"]["lag"]["description"] == (
+    assert objects["TipMeasures"]["properties"]["lag"]["description"] == (
         "Mean angle behind the aim on a circle, last lap [rad]."
     )
-    assert objects["TipErrors"]["properties"]["on_aim"]["description"].endswith("[s]; null: never.")
+    assert objects["TipMeasures"]["properties"]["on_aim"]["description"].endswith("[s]; null: never.")
     told = [row[2] for command in PRINTED for table in tables_of(schema_of(command)) for row in table.rows]
     assert [meaning for meaning in told if re.search(r"\b(None|NaN)\b", meaning)] == []

@@ -8,7 +8,8 @@ import pytest
 from clamber.control.controller import Controller, still_aim
 from clamber.control.law_settings import LawSettings
 from clamber.execution.closed_loop import close_loop
-from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
+from clamber.limb_bench.bench_limb import bench_limb
+from clamber.sim.bench_limb import BenchLimb
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.sim.mujoco_limb import MujocoLimb
 

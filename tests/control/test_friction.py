@@ -5,7 +5,8 @@ import pytest
 
 from clamber.control.controller import Controller, still_aim
 from clamber.control.law_settings import LawSettings
-from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
+from clamber.limb_bench.bench_limb import bench_limb
+from clamber.sim.bench_limb import BenchLimb
 
 
 @pytest.fixture(scope="module")

@@ -7,10 +7,8 @@ import pytest
 
 from clamber.control.identification.amplifier import amplifier_gain
 from clamber.control.identification.joint import Drivetrain, backlash, identify_joint, rough_estimates
-from clamber.control.identification.joint_fit import JointFit, fit_joint
-from clamber.control.identification.motion import angle_noise, motion_of
-from clamber.control.identification.samples import JointSamples
-from clamber.control.identification.weak_form import _phi
+from clamber.control.identification.joint_fit import JointFit, _phi, fit_joint
+from clamber.control.identification.samples import JointSamples, angle_noise, motion_of
 
 INERTIA, DAMPING, FRICTION = 0.402, 0.7, 0.45
 PERIOD = 0.005

@@ -11,8 +11,9 @@ from clamber.benchmarks.benches import BENCHES
 from clamber.control.controller import Controller
 from clamber.control.law_settings import LAWS
 from clamber.execution.closed_loop import close_loop
-from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
+from clamber.limb_bench.bench_limb import bench_limb
 from clamber.limb_bench.scenario import step_scenario
+from clamber.sim.bench_limb import BenchLimb
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.sim.mujoco_limb import MujocoLimb
 from clamber.sim.raw_steps import RawSteps

@@ -9,23 +9,25 @@ import pytest
 from clamber.control.law_settings import LAWS, LawError, LawSettings
 from clamber.control.law_titles import LAW_TITLES
 from clamber.errors import ClamberError, UnknownNameError
-from clamber.families.climber.sim.flaw_texts import DIMENSIONS as FLAW_DIMENSIONS
-from clamber.families.climber.sim.flaw_texts import SWITCHES as FLAW_SWITCHES
-from clamber.families.climber.sim.flaw_texts import WHOLE, named_flaws, read_flaws
-from clamber.limb_bench.bench_limb import bench_limb, limbed_robot, read_elbow
+from clamber.limb_bench.bench_limb import bench_limb, load_geared, read_elbow
 from clamber.limb_bench.entries import (
     DIMENSIONS,
     GAINS,
     LISTS,
+    MATCHES,
     SWITCHES,
     WORDS,
+    Match,
     make_entries,
     match_pose,
     read_law,
     reference_law,
+    tip_stiffness,
 )
-from clamber.limb_bench.matching import MATCHES, Match, tip_stiffness
 from clamber.limb_bench.scenario import circle_scenario, step_scenario
+from clamber.sim.flaw_texts import DIMENSIONS as FLAW_DIMENSIONS
+from clamber.sim.flaw_texts import SWITCHES as FLAW_SWITCHES
+from clamber.sim.flaw_texts import WHOLE, named_flaws, read_flaws
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.sim.plant_rules import PlantError
 from clamber.units import PointError, read_point
@@ -139,11 +141,11 @@ def test_the_gains_of_the_command_go_before_those_of_the_reference() -> None:
 
 
 def test_nominal_flaws_are_those_of_the_robots_file_and_one_sample() -> None:
-    flaws = named_flaws("nominal", limbed_robot("libra"))
+    flaws = named_flaws("nominal", load_geared("libra")[0])
     assert flaws.backlash == pytest.approx(math.radians(2.0))
     assert (flaws.control_rate, flaws.encoder_counts, flaws.delay) == (200.0, 400, 1)
     with pytest.raises(UnknownNameError):
-        named_flaws("perfect", limbed_robot("libra"))
+        named_flaws("perfect", load_geared("libra")[0])
 
 
 def test_flaws_are_read_with_units_all_at_once() -> None:

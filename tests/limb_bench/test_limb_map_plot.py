@@ -6,14 +6,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from clamber.families.climber.sim.flaw_texts import named_flaws
 from clamber.limb_bench.bench_limb import bench_limb
-from clamber.limb_bench.pictures.draw import draw_result
 from clamber.limb_bench.pictures.sweep import rims
 from clamber.limb_bench.sweep import BenchTexts, Boundary, LimbSweep, make_bench
 from clamber.limb_bench.sweep_point import Cell
 from clamber.limb_bench.tune import Edge, Tuned, Tuning
 from clamber.planning.axes import range_axis
+from clamber.sim.flaw_texts import named_flaws
 from clamber.viewing.output import SuffixError
 
 
@@ -46,7 +45,7 @@ def made_sweep(*, two: bool, divided: bool = True) -> LimbSweep:
 @pytest.mark.parametrize("two", [False, True])
 def test_a_sweep_is_drawn_the_same_each_time(tmp_path: Path, two: bool) -> None:
     for name in ("one.svg", "two.svg"):
-        draw_result(made_sweep(two=two), tmp_path / name)
+        made_sweep(two=two).draw(tmp_path / name)
     first, second = ((tmp_path / name).read_bytes() for name in ("one.svg", "two.svg"))
     strip = [line for line in first.splitlines() if b"<dc:date>" not in line]
     assert strip == [line for line in second.splitlines() if b"<dc:date>" not in line]
@@ -64,7 +63,7 @@ def test_rims_lie_half_way_between_values() -> None:
 def test_a_picture_of_no_known_kind_is_refused(tmp_path: Path, draw: str) -> None:
     result: Any = made_sweep(two=False) if draw == "sweep" else made_tuning()
     with pytest.raises(SuffixError, match=r"map\.doc"):
-        draw_result(result, tmp_path / "map.doc")
+        result.draw(tmp_path / "map.doc")
     assert not list(tmp_path.iterdir())
 
 
@@ -82,5 +81,5 @@ def made_tuning() -> Tuning:
 
 
 def test_a_tuning_is_drawn(tmp_path: Path) -> None:
-    draw_result(made_tuning(), tmp_path / "tune.png")
+    made_tuning().draw(tmp_path / "tune.png")
     assert (tmp_path / "tune.png").read_bytes().startswith(b"\x89PNG")

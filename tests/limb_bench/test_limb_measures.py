@@ -9,11 +9,11 @@ import pytest
 from clamber.control.law_settings import LawSettings
 from clamber.control.records import REPORT
 from clamber.execution.trace import LimbTrace
-from clamber.families.climber.control.limb_chain import closed_branches
-from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
+from clamber.limb_bench.bench_limb import bench_limb
 from clamber.limb_bench.measures import NEVER, Entry, Measures, Run, instability, measure
 from clamber.limb_bench.runner import run_contest
 from clamber.limb_bench.scenario import Scenario, circle_scenario, push_scenario, step_scenario
+from clamber.sim.bench_limb import BenchLimb
 from clamber.sim.limb_flaws import LimbFlaws
 
 RATE = 200.0
@@ -27,7 +27,7 @@ def trace_of(limb: BenchLimb, scenario: Scenario, path: Callable[[float], tuple[
     time = np.arange(ticks) / RATE
     states = np.zeros((ticks, 1, 2, 2))
     for k, at in enumerate(time):
-        states[k, 0, 0] = closed_branches(limb.spec, *path(at))[0]
+        states[k, 0, 0] = limb.branches(*path(at))[0]
     nothing = np.zeros((ticks, 1, 2))
     return LimbTrace(
         chain=limb.chain,
@@ -168,7 +168,7 @@ def test_encoders_and_truth_differ_by_no_more_than_half_of_the_play() -> None:
 def test_a_push_yields_by_the_force_over_the_stiffness_without_friction() -> None:
     flaws = LimbFlaws(friction=0.0)
     scenario = push_scenario(LIMB, flaws.control_rate, force=(0.0, 5.0), end=4.0, seconds=8.0)
-    from clamber.limb_bench.matching import tip_stiffness
+    from clamber.limb_bench.entries import tip_stiffness
 
     (run,) = run_contest(LIMB, scenario, [ENTRY], flaws)
     rest = run.trace.true_places()[run.trace.time < 4.0][-1, 0, :2] - np.array(LIMB.start)

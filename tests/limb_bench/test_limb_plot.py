@@ -7,12 +7,12 @@ import pytest
 from matplotlib.figure import Figure
 
 from clamber.control.law_settings import LawSettings
-from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
+from clamber.limb_bench.bench_limb import bench_limb
 from clamber.limb_bench.entries import make_entries
-from clamber.limb_bench.pictures.draw import draw_result
 from clamber.limb_bench.result import LimbResult, Matching, compare_laws
 from clamber.limb_bench.runner import Contest
 from clamber.limb_bench.scenario import Scenario, circle_scenario, push_scenario, step_scenario
+from clamber.sim.bench_limb import BenchLimb
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.viewing import output
 from clamber.viewing.output import SuffixError
@@ -45,7 +45,7 @@ def test_a_picture_says_how_gains_were_matched_and_who_ran_on_what(
         drawn.append(figure)
 
     monkeypatch.setattr(output, "save_figure", keep)
-    draw_result(compared(kind, flaws=LimbFlaws(backlash=0.02, delay=1)), tmp_path / "a.png")
+    compared(kind, flaws=LimbFlaws(backlash=0.02, delay=1)).draw(tmp_path / "a.png")
     text = " ".join(each.get_text() for each in drawn[0].texts)
     assert "matched by 'mean'" in text and "backlash 1.146 deg" in text and "delay 1" in text
     names = [each.get_text() for legend in drawn[0].legends for each in legend.get_texts()]
@@ -56,10 +56,10 @@ def test_the_same_result_gives_the_same_bytes_and_an_unstable_law_is_drawn(tmp_p
     for kind in ("step", "circle"):
         result = compared(kind, "scct:kp=4000,kd=0", flaws=LimbFlaws(delay=6))
         for name in ("a.png", "b.png"):
-            draw_result(result, tmp_path / name)
+            result.draw(tmp_path / name)
         assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
 
 
 def test_a_name_without_a_picture_format_is_refused(tmp_path: Path) -> None:
     with pytest.raises(SuffixError):
-        draw_result(compared("step", flaws=LimbFlaws()), tmp_path / "a.txt")
+        compared("step", flaws=LimbFlaws()).draw(tmp_path / "a.txt")

@@ -8,7 +8,7 @@ import pytest
 from clamber.control.law_settings import LawSettings
 from clamber.control.recommended import recommended_gains
 from clamber.errors import UnknownNameError
-from clamber.limb_bench.portrait import Portrait, paint_portraits, portraits_json
+from clamber.limb_bench.portrait import Portrait, Portraits, paint_portraits
 
 REFERENCE = LawSettings(law="scct", kp=200.0, kd=10.0)
 
@@ -48,7 +48,7 @@ def test_a_law_that_goes_unstable_has_no_figures_but_a_row(painted: dict[str, Po
 
 
 def test_portraits_are_plain_data(painted: dict[str, Portrait]) -> None:
-    told = json.loads(json.dumps(portraits_json(list(painted.values()), 1), allow_nan=False))
+    told = json.loads(json.dumps(Portraits(seed=1, laws=tuple(painted.values())).to_json(), allow_nan=False))
     assert [each["law"] for each in told["laws"]] == list(painted)
     assert set(told["laws"][1]["forces"]["nominal"]) == {"none", "model"}
 

@@ -8,11 +8,21 @@ import pytest
 
 from clamber.control.chain import Chain
 from clamber.control.law_settings import LAWS, LawSettings
-from clamber.families.climber.sim.flaw_texts import named_flaws
-from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
+from clamber.limb_bench.bench_limb import bench_limb
 from clamber.limb_bench.scenario import step_scenario
-from clamber.limb_bench.stability import LimitError, linear_limit, loop_matrix, scaled_gains, spectral_radius
-from clamber.limb_bench.steadiness import Situation, peak_to_peak, poses, run_situations
+from clamber.limb_bench.stability import (
+    LimitError,
+    Situation,
+    linear_limit,
+    loop_matrix,
+    peak_to_peak,
+    poses,
+    run_situations,
+    scaled_gains,
+    spectral_radius,
+)
+from clamber.sim.bench_limb import BenchLimb
+from clamber.sim.flaw_texts import named_flaws
 from clamber.sim.limb_flaws import LimbFlaws
 
 

@@ -21,12 +21,10 @@ from clamber.control.recommended import (
     save_recommended,
 )
 from clamber.errors import SpecError, UnknownNameError
-from clamber.families.climber.sim.flaw_texts import named_flaws
-from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
-from clamber.limb_bench.entries import read_law, with_recommended_gains
-from clamber.limb_bench.matching import tip_stiffness
+from clamber.limb_bench.bench_limb import bench_limb
+from clamber.limb_bench.entries import read_law, tip_stiffness, with_recommended_gains
 from clamber.limb_bench.runner import Crew
-from clamber.limb_bench.steadiness import STEADY, peak_to_peak, poses, run_situations, situations
+from clamber.limb_bench.stability import STEADY, peak_to_peak, poses, run_situations, situations
 from clamber.limb_bench.tune import (
     DAMPING_TIMES,
     OVERSHOOT,
@@ -38,6 +36,8 @@ from clamber.limb_bench.tune import (
     rounded_down,
     tune,
 )
+from clamber.sim.bench_limb import BenchLimb
+from clamber.sim.flaw_texts import named_flaws
 from clamber.sim.limb_flaws import LimbFlaws
 from tiers import first_fast
 

@@ -7,7 +7,7 @@ import pytest
 
 from clamber.control.law_settings import LAWS, LawError, LawSettings
 from clamber.limb_bench.bench_limb import bench_limb
-from clamber.limb_bench.matching import MATCHES, match_gains, tip_stiffness
+from clamber.limb_bench.entries import MATCHES, match_gains, tip_stiffness
 from clamber.types import Floats
 
 LIMB = bench_limb()

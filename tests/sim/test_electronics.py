@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
+from clamber.limb_bench.bench_limb import bench_limb
+from clamber.sim.bench_limb import BenchLimb
 from clamber.sim.electronics import limit_torques
 from clamber.sim.limb_electronics import LimbElectronics
 from clamber.sim.limb_flaws import LimbFlaws

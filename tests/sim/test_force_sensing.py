@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
+from clamber.limb_bench.bench_limb import bench_limb
+from clamber.sim.bench_limb import BenchLimb
 from clamber.sim.limb_flaws import ForceSensor, LimbFlaws, Push, Wall
 from clamber.sim.mujoco_limb import MujocoLimb
 from clamber.sim.plant_rules import PlantError

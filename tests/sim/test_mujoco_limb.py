@@ -14,8 +14,9 @@ from clamber.control.law_settings import LawSettings
 from clamber.execution.closed_loop import close_loop
 from clamber.families.climber.control.limb_chain import chain_of_limb, closed_branches
 from clamber.families.climber.robot.robot import LimbedRobot
-from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
+from clamber.limb_bench.bench_limb import bench_limb
 from clamber.limb_bench.scenario import step_scenario
+from clamber.sim.bench_limb import BenchLimb
 from clamber.sim.limb_flaws import LimbFlaws, Push
 from clamber.sim.mujoco_limb import MujocoLimb
 from clamber.sim.plant_rules import PlantError

@@ -12,8 +12,9 @@ from clamber.control.chain import Chain, empty_chain
 from clamber.control.controller import Controller, still_aim
 from clamber.control.law_settings import LawSettings
 from clamber.execution.closed_loop import close_loop
-from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
+from clamber.limb_bench.bench_limb import bench_limb
 from clamber.sim import limb_model
+from clamber.sim.bench_limb import BenchLimb
 from clamber.sim.limb_flaws import LimbFlaws, Push, Wall
 from clamber.sim.mujoco_limb import MujocoLimb
 from clamber.sim.ode_limb import OdeLimb

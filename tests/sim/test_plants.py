@@ -7,10 +7,11 @@ from clamber.control.law_settings import LawSettings
 from clamber.errors import UnknownNameError
 from clamber.families.climber.control.limb_chain import chain_of_limb
 from clamber.families.climber.robot.robot import LimbedRobot
-from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
+from clamber.limb_bench.bench_limb import bench_limb
 from clamber.limb_bench.measures import Entry
 from clamber.limb_bench.runner import run_contest
 from clamber.limb_bench.scenario import step_scenario
+from clamber.sim.bench_limb import BenchLimb
 from clamber.sim.limb_flaws import LimbFlaws, Push
 from clamber.sim.plant_rules import PlantError
 from clamber.sim.plants import PLANTS

@@ -6,7 +6,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
+from clamber.limb_bench.bench_limb import bench_limb
+from clamber.sim.bench_limb import BenchLimb
 from clamber.sim.limb_flaws import LimbFlaws, Wall
 from clamber.sim.limb_model import limb_spec
 from clamber.sim.mujoco_limb import MujocoLimb

@@ -18,7 +18,8 @@ from clamber.execution.posture_guard import PostureGuard
 from clamber.execution.trace import LimbTrace
 from clamber.execution.wiring import Wiring
 from clamber.families.climber.execution.wiring import envelope_of, wiring_of_limb
-from clamber.limb_bench.bench_limb import BenchLimb, bench_limb
+from clamber.limb_bench.bench_limb import bench_limb
+from clamber.sim.bench_limb import BenchLimb
 from clamber.sim.limb_flaws import LimbFlaws, Push
 from clamber.sim.plants import PLANTS
 from clamber.sim.wires import LimbWires

@@ -12,9 +12,9 @@ import pytest
 
 from clamber.families.climber.execution.body_gains import BodyGains
 from clamber.families.climber.trials.body_bench import SLOT
+from clamber.families.climber.trials.body_entries import body_stiffness
 from clamber.families.climber.trials.body_rung import RungTrial, climb_rung, climb_rungs, watch_rung
 from clamber.families.climber.trials.body_stand import bench_flaws, ladder_stand
-from clamber.families.climber.trials.body_stiffness import body_stiffness
 from clamber.studies.bevly_1997 import body_table
 from clamber.studies.bevly_1997.body_climb import GaitFacts, climbed, facts_of, judge_gait, judge_steps
 from clamber.studies.bevly_1997.body_cycle import CYCLE, GAINS, find_end, find_onset, peak_to_peak

@@ -1,7 +1,7 @@
 """Every law has a colour of its own, and every matching a line."""
 
 from clamber.control.law_settings import LAWS
-from clamber.limb_bench.matching import MATCHES
+from clamber.limb_bench.entries import MATCHES
 from clamber.viewing.law_colours import LAW_COLOURS, MATCH_LINES
 
 

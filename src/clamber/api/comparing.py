@@ -3,13 +3,12 @@
 from collections.abc import Sequence
 from typing import Any, Final
 
-from ..families.climber.sim.flaw_texts import named_flaws, read_flaws
-from ..limb_bench.bench_limb import bench_limb, limbed_robot
-from ..limb_bench.entries import make_entries, match_pose, reference_law
-from ..limb_bench.matching import Match
+from ..limb_bench.bench_limb import bench_limb, load_geared
+from ..limb_bench.entries import Match, make_entries, match_pose, reference_law
 from ..limb_bench.result import LimbResult, Matching, compare_laws
 from ..limb_bench.runner import Contest
 from ..limb_bench.scenario import MOTIONS, MotionKind
+from ..sim.flaw_texts import named_flaws, read_flaws
 
 CENTRE: Final = (0.22, 0.0)
 RADIUS: Final = 0.05
@@ -61,7 +60,7 @@ def compare(
     Raises:
         ClamberError: If a law, a limb, a plant or a setting cannot be.
     """
-    properties = read_flaws(named_flaws(flaws, limbed_robot(robot)), changes, seed, drawn=trials > 1)
+    properties = read_flaws(named_flaws(flaws, load_geared(robot)[0]), changes, seed, drawn=trials > 1)
     if tip is None:
         x, y = how.get("centre", CENTRE)
         tip = (x + how.get("radius", RADIUS), y) if motion == "circle" else CENTRE

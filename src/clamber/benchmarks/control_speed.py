@@ -15,18 +15,19 @@ from ..control.controller import Controller, still_aim
 from ..control.law_settings import LAWS, LawSettings
 from ..execution.closed_loop import close_loop
 from ..families.climber.control.limb_chain import chain_of_limb, closed_branches
+from ..families.climber.robot.robot import build_limbed
 from ..families.walker.robot import TwoFrames, WalkerRobot
 from ..families.walker.robot.arcs import COLUMNS, MOST_ARCS, ROOM, outline, ray
 from ..families.walker.robot.curves import CURVE_NUMBERS, MOST_CURVES, reach_curves
 from ..families.walker.robot.ditch import Footing, ditch_map
 from ..families.walker.robot.two_frames import follow_branch
 from ..families.walker.robot.workspace import stride, workspace
-from ..limb_bench.bench_limb import limbed_robot
 from ..sim.limb_flaws import LimbFlaws, Push
 from ..sim.limb_model import limb_spec
 from ..sim.mujoco_limb import MujocoLimb
 from ..sim.ode_limb import OdeLimb
 from ..sim.raw_steps import RawSteps
+from ..tasks.robots import read_robot
 from ..types import Floats, Records
 from .rows import NOTHING, Row, Say, keep_quiet
 
@@ -131,7 +132,7 @@ class TimedLimb:
 
 def timed_limb() -> TimedLimb:
     """LIBRA's first limb with its tip at `START`."""
-    robot = limbed_robot("libra")
+    robot = build_limbed(read_robot("libra"))
     spec = robot.limbs[0]
     gears = np.array((spec.shoulder.gear, spec.elbow.gear))
     return TimedLimb(chain_of_limb(robot, robot.limb_names[0]), gears, np.array(closed_branches(spec, *START)[0]))

@@ -32,7 +32,7 @@ COMMANDS: Final = {
 """Command -> module in this folder and function in it, in the order in which they are listed."""
 GROUPS: Final = {
     "limb": "limb.commands:limb",
-    "body": "body.commands:body",
+    "body": "body:body",
     "new": "new:new",
 }
 """Commands of commands: name -> module and application in it."""

@@ -1,15 +1,15 @@
 """The limb that is put on the bench: which robot's, from where it starts, and its chain."""
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
-from ..control.chain import Chain
 from ..errors import ClamberError
-from ..families.climber.control.limb_chain import chain_of_limb, closed_branches
-from ..families.climber.robot.robot import Limb, LimbedRobot
-from ..tasks.robots import load_robot
-from ..types import Floats
+from ..family import families
+from ..sim.bench_limb import BenchLimb, GearedRobot
+from ..tasks.robots import build_robot, family_in, read_robot
 from ..units import PointError
 
 
@@ -24,46 +24,24 @@ class StartError(ClamberError):
         return f"{self.limb}: start ({self.place[0]:g}, {self.place[1]:g}) m {self.problem}"
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class BenchLimb:
-    """One limb of a climber, at rest somewhere."""
-
-    robot: LimbedRobot
-    name: str
-    chain: Chain
-    """As its file states it; what is unknown to the controller is the plant's."""
-    gears: Floats
-    """Motor turns per joint turn, shape (n,)."""
-    q0: Floats
-    """Joint angles at the start [rad]."""
-
-    @property
-    def spec(self) -> Limb:
-        """As the robot's file states it."""
-        return self.robot.limbs[self.robot.limb_index(self.name)]
-
-    @property
-    def start(self) -> tuple[float, float]:
-        """Tip at the start, port frame [m]."""
-        place = self.chain.place(self.q0)
-        return float(place[0]), float(place[1])
-
-
 LEAST_SIGMA = 0.01
 """A start whose Jacobian has a smaller singular value counts as singular [m/rad]."""
 
 
-def limbed_robot(name: str) -> LimbedRobot:
-    """A climber by name or file.
+def load_geared(name: str) -> tuple[GearedRobot, Callable[..., BenchLimb]]:
+    """A robot by name or file whose limbs the bench takes, and what makes such a limb of it.
 
     Raises:
         UnknownNameError: If there is no such robot.
-        ClamberError: If it is of another family.
+        ClamberError: If its family has no limbs for the bench.
     """
-    loaded = load_robot(name)
-    if not isinstance(loaded, LimbedRobot):
-        raise ClamberError(f"{name}: the limb bench takes robots of the family 'limbed'")
-    return loaded
+    document = read_robot(name)
+    make_limb = family_in(document).bench_limb
+    if make_limb is None:
+        known = " or ".join(f"'{family.name}'" for family in families() if family.bench_limb is not None)
+        raise ClamberError(f"{name}: the limb bench takes robots of the family {known}")
+    robot: Any = build_robot(document)
+    return robot, make_limb
 
 
 def bench_limb(
@@ -87,23 +65,14 @@ def bench_limb(
         StartError: If no pose within the joints' limits has its tip there, or only a singular one.
         UnknownNameError: If there is no such robot or limb.
     """
-    loaded = limbed_robot(robot)
-    names = loaded.limb_names
-    name = (
-        names[0]
-        if limb is None
-        else names[int(limb) - 1]
-        if limb.isdecimal() and 1 <= int(limb) <= len(names)
-        else limb
-    )
-    spec = loaded.limbs[loaded.limb_index(name)]
-    chain = chain_of_limb(loaded, name, upright=upright)
-    label = f"{loaded.name}'s {name} limb"
-    branches = closed_branches(spec, *start)
+    loaded, make_limb = load_geared(robot)
+    limb_at = make_limb(loaded, limb, upright=upright)
+    chain = limb_at.chain
+    label = f"{loaded.name}'s {limb_at.name} limb"
+    branches = limb_at.branches(*start)
     if not branches:
-        raise StartError(
-            label, start, f"is out of reach: allowed are {abs(spec.l1 - spec.l2_effective):.3g} to {spec.length:.3g} m"
-        )
+        least, most = limb_at.reach
+        raise StartError(label, start, f"is out of reach: allowed are {least:.3g} to {most:.3g} m")
     wanted = branches if elbow is None else (branches[0 if elbow > 0 else 1],)
     for q in wanted:
         inside = all(
@@ -119,8 +88,7 @@ def bench_limb(
                 start,
                 f"is singular: its Jacobian's smallest singular value is {sigma:.2g} m/rad, {LEAST_SIGMA:g} is allowed",
             )
-        gears = np.array((spec.shoulder.gear, spec.elbow.gear))
-        return BenchLimb(loaded, name, chain, gears, np.array(q))
+        return replace(limb_at, q0=np.array(q))
     raise StartError(label, start, "needs joint angles beyond the joints' limits")
 
 

@@ -1,24 +1,105 @@
-"""Laws as a user names them, such as jacobian-transpose:kp=1000,kd=100, and the usual set; gains matched unless stated."""
+r"""Laws as a user names them, such as jacobian-transpose:kp=1000,kd=100, and the usual set; gains matched unless stated.
+
+What is matched is a law's stiffness at the tip, measured from the law itself: K_theta = -d tau / d q at rest on its aim, by central
+differences of the controller's own torques, and S = J^-T K_theta J^-1 at the tip. SCCT's is J^-T K' J^-1 K_p, a full matrix even for equal
+gains, J^T's is K_p: "the same stiffness" can mean the yy entry, the mean of both, or each diagonal entry, and the choice decides who wins.
+"""
 
 import re
 from collections.abc import Sequence
 from dataclasses import fields, replace
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, Literal, TypeAlias
 
 import numpy as np
 
+from ..control.chain import Chain
+from ..control.controller import still_aim
 from ..control.law_settings import LAWS, WEIGHTED, LawError, LawSettings, law_names
+from ..control.outside_law import controller_of
 from ..control.recommended import SHIPPED, RecommendationError, read_recommended
 from ..errors import UnitError, UnknownNameError, describe_choices
-from ..families.climber.control.limb_chain import closed_branches
-from ..families.climber.sim.flaw_texts import YES_NO
+from ..sim.bench_limb import BenchLimb
+from ..sim.flaw_texts import YES_NO
 from ..types import Floats
 from ..units import parse_quantity, si_unit
-from .bench_limb import LEAST_SIGMA, BenchLimb
-from .matching import Match, match_gains
+from .bench_limb import LEAST_SIGMA
 from .measures import Entry
 from .scenario import Scenario
+
+Match: TypeAlias = Literal["yy", "mean", "diagonal", "none"]
+MATCHES: Final[tuple[Match, ...]] = ("yy", "mean", "diagonal", "none")
+NUDGE: Final = 1e-6
+"""Of a joint [rad]."""
+HELD: Final = 200
+"""Ticks that a nudge is held before its torques count: a filtered derivative has died away, what is left is the spring."""
+LEAST_PART: Final = 1e-6
+"""A stiffness smaller than this part of that along the other axis is none."""
+
+
+def tip_stiffness(chain: Chain, settings: LawSettings, q: Floats) -> Floats:
+    """Stiffness of a law at the tip in x and y, at rest on its aim, from its own torques, shape (2, 2) [N/m]."""
+    # at rest a derivative term has died away; in the tick after a nudge it has not
+    bare = settings.with_changes(feed_gravity=False, feed_friction=0.0, derivative=0.0)
+    controller = controller_of(chain, bare, period=0.005)
+    aim = still_aim(chain.place(q))
+    states = np.zeros((1, 2, chain.n))
+
+    def torques(angles: Floats) -> Floats:
+        # A law that remembers its aim in joint angles is first asked at the aim
+        controller.reset()
+        states[0, 0] = q
+        controller.command(aim, states)
+        states[0, 0] = angles
+        for _ in range(HELD):
+            out: Floats = controller.command(aim, states)[0]
+        return out.copy()
+
+    joint = np.empty((chain.n, chain.n))
+    for j, nudge in enumerate(NUDGE * np.eye(chain.n)):
+        joint[:, j] = -(torques(q + nudge) - torques(q - nudge)) / (2 * NUDGE)
+    inverse = np.linalg.pinv(chain.jacobian(q)[:2])
+    stiffness: Floats = inverse.T @ joint @ inverse
+    return stiffness
+
+
+def match_gains(chain: Chain, settings: LawSettings, reference: LawSettings, q: Floats, how: Match) -> LawSettings:
+    """`settings` with kp and kd scaled until its stiffness at `q` is that of `reference` in the sense of `how`.
+
+    kd is scaled as kp is, so the ratio of both stays that of `reference`, whose gains are the starting point.
+
+    "diagonal" goes by the axes of the task frame of `settings`; a law with one gain for all directions, as joint-pd, or with a servo gain
+    of its own, is left unmatched by it: its stiffness tells.
+
+    Raises:
+        LawError: If either law has no stiffness in that sense, as along a row that carries a force.
+    """
+    if how == "none":
+        return settings
+    start = replace(settings, kp=reference.kp, kd=reference.kd)
+    turn = settings.task_frame()[:2, :2] if how == "diagonal" else np.eye(2)
+    ours, theirs = (turn.T @ tip_stiffness(chain, law, q) @ turn for law in (start, reference))
+    for law, stiffness in ((settings, ours), (reference, theirs)):
+        if not np.diag(stiffness).min() > LEAST_PART * np.diag(stiffness).max():
+            raise LawError(
+                law.law,
+                "kp",
+                "(matched)",
+                f"has no stiffness of its own to match by '{how}': state kp and kd, or 'none'",
+            )
+    if how == "yy":
+        factors = np.full(2, theirs[1, 1] / ours[1, 1])
+    elif how == "mean":
+        factors = np.full(2, np.trace(theirs) / np.trace(ours))
+    else:
+        factors = np.diag(theirs) / np.diag(ours)
+
+    def scaled(value: float | tuple[float, ...]) -> float | tuple[float, ...]:
+        pair = np.broadcast_to(np.asarray(value, dtype=np.float64), 2) * factors
+        return float(pair[0]) if pair[0] == pair[1] else tuple(map(float, pair))
+
+    return replace(start, kp=scaled(start.kp), kd=scaled(start.kd))
+
 
 USUAL: Final = (
     "scct",
@@ -137,7 +218,7 @@ def match_pose(limb: BenchLimb, scenario: Scenario) -> Floats:
     """Joint angles at which stiffnesses are made equal: at a circle's centre where the limb is regular, else at the start [rad]."""
     if scenario.centre is None:
         return limb.q0
-    branches = [np.array(q) for q in closed_branches(limb.spec, *scenario.centre)]
+    branches = [np.array(q) for q in limb.branches(*scenario.centre)]
     nearest = min(branches, key=lambda q: float(np.abs(q - limb.q0).max()), default=limb.q0)
     regular = np.linalg.svd(limb.chain.jacobian(nearest)[:2], compute_uv=False).min() > LEAST_SIGMA
     return nearest if regular else limb.q0

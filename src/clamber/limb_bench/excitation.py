@@ -5,7 +5,7 @@ the joint's angle, so that each phase starts where it has room, whatever the fri
 """
 
 import math
-from collections.abc import Generator, Iterator
+from collections.abc import Generator, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
@@ -14,10 +14,11 @@ from typing import Any, Final, TypeAlias
 import numpy as np
 
 from ..execution.log import Log
+from ..json_form import Count, Jsonable
+from ..sim.bench_limb import BenchLimb
 from ..sim.limb_flaws import LimbFlaws
 from ..sim.mujoco_limb import MujocoLimb
-from ..types import Floats, Json
-from .bench_limb import BenchLimb
+from ..types import Floats
 from .scenario import ScenarioError
 
 SERVO_STIFFNESS: Final = 40.0
@@ -299,12 +300,17 @@ def _log_of(rows: Floats, limb: BenchLimb, flaws: LimbFlaws, noise: SensorNoise,
     return Log(columns, units, notes, "simulated log")
 
 
-def log_summary(log: Log, path: Path) -> Json:
-    """What was recorded, as plain data."""
-    return {
-        "file": str(path),
-        "rows": log.rows,
-        "seconds": float(log.columns["time"][-1]),
-        "columns": log.titles(),
-        "notes": dict(log.notes),
-    }
+@dataclass(frozen=True, slots=True)
+class Recorded(Jsonable):
+    """A log that was written."""
+
+    file: str
+    rows: Count
+    seconds: float
+    columns: tuple[str, ...]
+    notes: Mapping[str, str]
+
+    @classmethod
+    def of(cls, log: Log, path: Path) -> "Recorded":
+        """Of a log in a file."""
+        return cls(str(path), log.rows, float(log.columns["time"][-1]), tuple(log.titles()), log.notes)

@@ -3,18 +3,19 @@
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
-from typing import Any, Final
+from pathlib import Path
+from typing import Annotated, Any, Final
 
 import numpy as np
 
 from ..control.law_settings import LawSettings
 from ..errors import UnknownNameError
 from ..execution.trace import LimbTrace
-from ..families.climber.sim.flaw_texts import plant_words
+from ..json_form import HIDDEN, INLINE, Jsonable, Key, in_json
+from ..sim.bench_limb import BenchLimb
+from ..sim.flaw_texts import plant_words
 from ..sim.limb_flaws import LimbFlaws
-from ..types import Json
-from .bench_limb import BenchLimb
-from .measures import Entry, ForceMeasures, Measured, measure_force
+from .measures import Entry, ForceMeasures, LabelledRun, Measured, measure_force
 from .result import Comparison
 from .runner import run_contest, with_sensors
 from .scenario import ForceTask, Scenario, direction, force_scenario
@@ -139,15 +140,45 @@ def force_entries(
     return [Entry(f"{law} / {way}", force_settings(law, way, gains, task)) for law, way in pairs]
 
 
+@dataclass(frozen=True, slots=True)
+class LimbAtStart:
+    """The limb on the bench."""
+
+    robot: str
+    name: str
+    start: tuple[float, float]
+
+    @classmethod
+    def of(cls, limb: BenchLimb) -> "LimbAtStart":
+        """Of a limb."""
+        return cls(limb.robot.name, limb.name, limb.start)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ForceRow(Jsonable, Measured[ForceMeasures]):
+    """One law on the wall."""
+
+    run: LabelledRun
+    measures: Annotated[ForceMeasures, INLINE]
+
+
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class ForceResult(Comparison):
     """Laws on the same wall, the same limb, the same command."""
 
-    task: ForceTask
-    scenario: Scenario
-    rows: tuple[Measured[ForceMeasures], ...]
+    schema: str = SCHEMA
+    limb: Annotated[BenchLimb, Key(get=LimbAtStart.of, kind=LimbAtStart, after="task")]
+    task: Annotated[ForceTask, Key(kind=dict[str, Any], after="schema")]
+    scenario: Annotated[Scenario, HIDDEN]
+    rows: Annotated[tuple[ForceRow, ...], Key("laws", after="held")]
+
+    @in_json(after="limb", key="plant")
+    def whole_plant(self) -> dict[str, Any]:
+        """What is not ideal about it, with the wall."""
+        return asdict(self.scenario.on(self.flaws))
 
     @property
+    @in_json(after="plant")
     def held(self) -> bool:
         """Whether any law held the force."""
         return any(row.measures.held for row in self.rows)
@@ -173,19 +204,11 @@ class ForceResult(Comparison):
             told.append(f"the stiffness is {task.task_stiffness / 1e3:g} N/mm")
         return f"the laws believe that {' and '.join(told)}" if told else ""
 
-    def to_json(self) -> Json:
-        """Everything but the traces, in SI units and radians."""
-        return {
-            "schema": SCHEMA,
-            "task": asdict(self.task),
-            "limb": {"robot": self.limb.robot.name, "name": self.limb.name, "start": list(self.limb.start)},
-            "plant": asdict(self.scenario.on(self.flaws)),
-            "held": self.held,
-            "laws": [
-                {"label": row.entry.label, "settings": asdict(row.entry.settings), **row.measures.to_json()}
-                for row in self.rows
-            ],
-        }
+    def draw(self, path: str | Path) -> None:
+        """Draw the force of each law over time, beside the limb at the wall."""
+        from .pictures.force import draw_force
+
+        draw_force(self, path)
 
     def traces(self) -> Iterable[tuple[str, LimbTrace]]:
         """Of each law."""
@@ -202,5 +225,5 @@ def run_force(limb: BenchLimb, task: ForceTask, entries: Sequence[Entry], flaws:
     sensing = with_sensors(flaws, entries)
     scenario = force_scenario(limb, flaws.control_rate, task)
     runs = run_contest(limb, scenario, entries, sensing)
-    rows = tuple(Measured(run, measure_force(run, task)) for run in runs)
+    rows = tuple(ForceRow(run, measure_force(run, task)) for run in runs)
     return ForceResult(limb=limb, flaws=sensing, task=task, scenario=scenario, rows=rows)

@@ -2,15 +2,17 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, fields
-from typing import Any, Final, Generic, TypeVar
+from dataclasses import dataclass
+from operator import attrgetter
+from typing import Annotated, Any, Final, Generic, TypeAlias, TypeVar
 
 import numpy as np
 
 from ..control.law_settings import LawSettings
 from ..execution.trace import LimbTrace
-from ..types import Floats, Json
-from .bench_limb import BenchLimb
+from ..json_form import Jsonable, Key, OrNull
+from ..sim.bench_limb import BenchLimb
+from ..types import Floats
 from .scenario import ForceTask, Scenario, direction, left_of
 
 M = TypeVar("M")
@@ -26,6 +28,8 @@ SWING: Final = 0.5
 """Shortest such part [s]: it has to hold a swing of the limb."""
 NEVER: Final = math.inf
 """In place of a time that never came."""
+MayBeMissing: TypeAlias = Annotated[float | None, Key(may_be_missing=True)]
+"""A measure that not every scenario has; in JSON null is a time that never came."""
 
 
 UNITS: Final[dict[str, tuple[float, str]]] = {
@@ -82,116 +86,106 @@ class Run:
         return float(np.abs(self.trace.applied[:-1, index] * turned).sum())
 
 
+LabelledRun: TypeAlias = Annotated[
+    Run,
+    Key("label", get=attrgetter("entry.label"), kind=str),
+    Key("settings", get=attrgetter("entry.settings"), kind=dict[str, Any], meaning="Of the law, SI units and radians."),
+]
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
-class TipMeasures:
+class TipMeasures(Jsonable):
     """Errors of the tip; None where a scenario has no such measure."""
 
-    across_max: float | None = None
+    across_max: MayBeMissing = None
     """Largest distance from the line of the step or the push [m]."""
-    across_rms: float | None = None
+    across_rms: MayBeMissing = None
     """The same, root of the mean square over the run [m]."""
-    along_max: float | None = None
+    along_max: MayBeMissing = None
     """Largest yielding along a push [m]."""
-    radial_rms: float | None = None
+    radial_rms: MayBeMissing = None
     """Of the distance from a circle, last lap [m]."""
-    radial_max: float | None = None
+    radial_max: MayBeMissing = None
     """Largest distance from a circle, last lap [m]."""
-    lag: float | None = None
+    lag: MayBeMissing = None
     """Mean angle behind the aim on a circle, last lap [rad]."""
-    overshoot: float | None = None
+    overshoot: MayBeMissing = None
     """Beyond the aim of a step, over its length [-]."""
-    settling: float | None = None
+    settling: MayBeMissing = None
     """Until the tip stays within 2 % of where it comes to rest, from the step or the end of the push [s]; inf: never."""
-    on_aim: float | None = None
+    on_aim: MayBeMissing = None
     """Until it stays within 2 % of the aim itself [s]; inf: never."""
-    rest: float | None = None
+    rest: MayBeMissing = None
     """Distance from the aim over the last tenth of the run, mean [m]."""
-    iae: float | None = None
+    iae: MayBeMissing = None
     """Integral of the distance from the aim [m s]."""
-    cycle: float | None = None
+    cycle: MayBeMissing = None
     """Peak to peak of x or y after 5 s, the larger, where the aim stands still so long [m]."""
-
-    def to_json(self) -> Json:
-        """What was measured, in SI; None: never."""
-        told = {field.name: getattr(self, field.name) for field in fields(self)}
-        return {key: _json(value) for key, value in told.items() if value is not None}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Measures:
-    """What one run of one law gave."""
+class Figures(Jsonable):
+    """What the tip did, and what it cost: of one run, or the mean or worst of several."""
 
     true: TipMeasures
     """By the true joint angles."""
     encoder: TipMeasures
     """By what the encoders told, delay included."""
-    work: float
+    work: OrNull
     """Sum of what each motor gives or brakes, |torque x turn|, turned at the gear's output, rattle in the play included [J]."""
-    heat: float
+    heat: OrNull
     """Lost in the windings, (torque / (N k_t))^2 R [J]; no other loss is known."""
-    saturated: float
+    saturated: OrNull
     """Share of ticks with a joint at its motor's limit [-]."""
-    tick: float
+    tick: OrNull
     """Of one call from Python, measured on this machine: no two runs give the same [s]."""
-    unstable_at: float | None = None
-    """When the run left what can be called control [s]; its other measures say nothing then."""
-
-    def to_json(self) -> Json:
-        """All measures in SI; what is None was never reached or is not finite."""
-        costs = {key: _json(getattr(self, key)) for key in ("work", "heat", "saturated", "tick")}
-        return {
-            "true": self.true.to_json(),
-            "encoder": self.encoder.to_json(),
-            **costs,
-            "unstable_at": self.unstable_at,
-        }
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ForceMeasures:
+class Measures(Figures):
+    """What one run of one law gave."""
+
+    unstable_at: float | None = None
+    """When the run left what can be called control [s]; its other measures say nothing then."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ForceMeasures(Jsonable):
     """What one law did to the wall, by the true force, after it had time to settle. Errors are actual less wanted force."""
 
-    mean_error: float
+    mean_error: OrNull
     """[N]."""
-    worst_standing: float
+    worst_standing: OrNull
     """Largest size of the error before and after the slide [N]."""
-    worst_sliding: float
+    worst_sliding: OrNull
     """Largest size of the error during the slide; 0 without one [N]."""
-    worst: float
+    worst: OrNull
     """Largest size of all, where the slide starts and ends too [N]."""
-    contact: float
+    contact: OrNull
     """Share of ticks with the tip on the wall [-]."""
     held: bool
     """Whether the tip never left the wall and no error was beyond the tolerance."""
     bounces: int
     """How often the tip left the wall before that."""
-    peak: float
+    peak: OrNull
     """Largest force of the whole run, with the impact at the start [N]."""
-    off_line: float
+    off_line: OrNull
     """Largest error of the place along the wall, in truth [m]."""
-    work: float
+    work: OrNull
     """Sum of what each motor gives or brakes, |torque x turn| [J]."""
-
-    def to_json(self) -> Json:
-        """All measures, in SI; a law that left the finite numbers has None."""
-        return {key: value if math.isfinite(value) else None for key, value in asdict(self).items()}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Measured(Generic[M]):
     """One run of one law, with its measures."""
 
-    run: Run
+    run: LabelledRun
     measures: M
 
     @property
     def entry(self) -> Entry:
         """The law."""
         return self.run.entry
-
-
-def _json(value: float) -> float | None:
-    return float(value) if math.isfinite(value) else None
 
 
 def measure(run: Run, scenario: Scenario, limb: BenchLimb, index: int = 0) -> Measures:

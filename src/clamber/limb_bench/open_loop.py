@@ -8,7 +8,8 @@ part along the wanted direction for all transforms.
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass
-from typing import Any, Final
+from pathlib import Path
+from typing import Annotated, Any, Final
 
 import numpy as np
 
@@ -16,11 +17,12 @@ from ..control.chain import Chain
 from ..control.controller import still_aim
 from ..errors import UnknownNameError
 from ..execution.trace import LimbTrace, empty_trace
-from ..families.climber.sim.flaw_texts import plant_words
+from ..json_form import HIDDEN, Jsonable, Key, in_json
+from ..sim.bench_limb import BenchLimb
+from ..sim.flaw_texts import plant_words
 from ..sim.limb_flaws import LimbFlaws
 from ..sim.plants import plant_maker
-from ..types import Floats, Json
-from .bench_limb import BenchLimb
+from ..types import Floats
 from .measures import components
 from .result import Comparison
 from .scenario import ScenarioError
@@ -51,20 +53,22 @@ TRANSFORMS: Final[dict[str, Callable[[Chain, Floats, Floats], Floats]]] = {
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class OpenLoopRun:
+class OpenLoopRun(Jsonable):
     """Where the tip of a limb went under one transform's torques."""
 
-    transform: str
-    force: float
+    transform: Annotated[str, Key("law")]
+    force: Annotated[float, HIDDEN]
     """Part of J^-T tau along the wanted direction at the start [N]."""
-    wanted: Floats
+    wanted: Annotated[Floats, HIDDEN]
     """The wanted direction, a unit vector, shape (2,)."""
-    torques: Floats
+    torques: Annotated[Floats, Key(kind=list[float])]
     """At the start, shape (n,) [N m]."""
-    trace: LimbTrace
+    trace: Annotated[LimbTrace, HIDDEN]
     """Every step of the physics; it has no aims and no reports."""
-    places: Floats
+    places: Annotated[Floats, HIDDEN]
     """True tip from the start on, base frame, shape (steps + 1, 2) [m]."""
+    predicted: Annotated[float, Key(kind=float | None, after="turned")] = math.nan
+    """Angle of the first acceleration from the wanted direction by the dynamics without friction [rad]."""
 
     @property
     def along(self) -> Floats:
@@ -83,10 +87,12 @@ class OpenLoopRun:
         return out
 
     @property
+    @in_json(after="strays")
     def moved(self) -> float:
         """Furthest distance from the start [m]."""
         return float(self.distance.max())
 
+    @in_json(after="torques")
     def turned(self, after: float = FIRST) -> float | None:
         """Angle of the motion from the wanted direction over its first `after` metres, anticlockwise positive [rad].
 
@@ -107,6 +113,21 @@ class OpenLoopRun:
             return None
         k = int(np.argmax(along >= after))
         return float(np.interp(after, along[k - 1 : k + 1], self.across[k - 1 : k + 1]))
+
+    @in_json(after="predicted")
+    def strays(self) -> tuple["Stray", ...]:
+        """At the ways that are told."""
+        return tuple(Stray(far, self.stray(far)) for far in FAR)
+
+
+@dataclass(frozen=True, slots=True)
+class Stray:
+    """How far a tip strayed from the line of the force."""
+
+    after: float
+    """Way of the tip along it [m]."""
+    stray: float | None
+    """Way to its left [m]; None where the tip never got so far."""
 
 
 def scaled_torques(chain: Chain, q: Floats, transform: str, wanted: Floats, force: float) -> Floats:
@@ -181,18 +202,35 @@ def run_open_loop(
         stage.step()
         trace.applied[k], trace.wrenches[k] = truth.torques, truth.wrenches
     places = np.concatenate((trace.true_places()[:, 0, :2], chain.place(truth.states[0, 0])[None, :2]))
-    return OpenLoopRun(transform, force, wanted, torques, trace, places)
+    predicted = first_turn(chain, limb.q0, torques, wanted)
+    return OpenLoopRun(transform, force, wanted, torques, trace, places, predicted)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class OpenLoopResult(Comparison):
     """Paths of one limb's tip under several transforms of the same wanted direction."""
 
-    direction: float
+    schema: str = SCHEMA
+    direction: Annotated[float, Key(after="force")]
     """From the x axis of the port frame [rad]."""
-    renewed: bool
+    renewed: Annotated[bool, Key(after="direction")]
     """Whether the torques followed the pose."""
-    runs: tuple[OpenLoopRun, ...]
+    runs: Annotated[tuple[OpenLoopRun, ...], Key("transforms", after="first")]
+
+    @in_json(after="limb", key="plant")
+    def whole_plant(self) -> dict[str, Any]:
+        """What is not ideal about it."""
+        return {"name": self.plant} | asdict(self.flaws)
+
+    @in_json(after="plant")
+    def force(self) -> float:
+        """Along the wanted direction [N]."""
+        return self.runs[0].force
+
+    @in_json(after="renewed")
+    def first(self) -> float:
+        """Way over which the first direction is taken [m]."""
+        return FIRST
 
     @property
     def moved(self) -> bool:
@@ -203,35 +241,11 @@ class OpenLoopResult(Comparison):
         """The plant and what is not ideal about it, in one line."""
         return f"{self.plant}, {plant_words(self.flaws, rate=False)}"
 
-    def predicted(self, run: OpenLoopRun) -> float:
-        """Angle of the first acceleration from the wanted direction by the dynamics without friction [rad]."""
-        return first_turn(self.limb.chain, self.limb.q0, run.torques, run.wanted)
+    def draw(self, path: str | Path) -> None:
+        """Draw the path of the tip under each transform."""
+        from .pictures.force import draw_open_loop_result
 
-    def to_json(self) -> Json:
-        """Everything but the paths, in SI units and radians; `null` where the tip never got so far.
-
-        Keys are stable: schema, limb, plant, force, direction, renewed, first, transforms.
-        """
-        return {
-            "schema": SCHEMA,
-            "limb": self.limb_json(),
-            "plant": {"name": self.plant} | asdict(self.flaws),
-            "force": self.runs[0].force,
-            "direction": self.direction,
-            "renewed": self.renewed,
-            "first": FIRST,
-            "transforms": [
-                {
-                    "law": run.transform,
-                    "torques": run.torques.tolist(),
-                    "turned": run.turned(),
-                    "predicted": self.predicted(run),
-                    "strays": [{"after": far, "stray": run.stray(far)} for far in FAR],
-                    "moved": run.moved,
-                }
-                for run in self.runs
-            ],
-        }
+        draw_open_loop_result(self, path)
 
     def traces(self) -> Iterable[tuple[str, LimbTrace]]:
         """Of each transform."""

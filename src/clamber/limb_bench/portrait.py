@@ -2,21 +2,24 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Final
+from operator import attrgetter
+from pathlib import Path
+from typing import Annotated, Any, Final
 
 import numpy as np
 
 from ..control.law_settings import LAWS, LawSettings
 from ..errors import UnknownNameError
-from ..families.climber.sim.flaw_texts import SET, named_flaws
+from ..json_form import HIDDEN, Jsonable, Key, in_json
+from ..sim.bench_limb import BenchLimb
+from ..sim.flaw_texts import SET, named_flaws
 from ..sim.limb_flaws import LimbFlaws
-from ..types import Floats, Json
-from .bench_limb import BenchLimb, bench_limb
-from .entries import GAINS, gain_unit, make_entries, with_recommended_gains
-from .force import force_gains, force_settings, run_force
-from .matching import Match, tip_stiffness
+from ..types import Floats
+from .bench_limb import bench_limb
+from .entries import GAINS, Match, gain_unit, make_entries, tip_stiffness, with_recommended_gains
+from .force import ForceRow, force_gains, force_settings, run_force
 from .measures import Entry, ForceMeasures, Measured, Measures, measure
-from .result import BenchResult, settings_json
+from .result import BenchResult
 from .runner import run_contest
 from .scenario import ForceTask, Scenario, circle_scenario, push_scenario, step_scenario
 
@@ -33,19 +36,29 @@ SCENES: Final = ("step", "circle", "fed", "push")
 """Motions of a portrait; "fed" is the circle with `FEEDFORWARD`."""
 
 
+def _by_friction(forces: Mapping[str, tuple[ForceRow, ...]]) -> dict[str, dict[str, ForceMeasures]]:
+    """Plant -> way of dealing with friction -> what came of it."""
+    return {
+        plant: {row.entry.label.partition(" / ")[2]: row.measures for row in rows} for plant, rows in forces.items()
+    }
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Portrait(BenchResult):
     """One law in every scene, by plant: "ideal" and "nominal"."""
 
-    settings: LawSettings
-    stiffness: Floats
+    settings: Annotated[LawSettings, Key("law", get=attrgetter("law"), kind=str), Key(kind=dict[str, Any])]
+    stiffness: Annotated[Floats, Key(kind=list[list[float]])]
     """At the tip at `STEP_START`, shape (2, 2) [N/m]."""
-    motions: Mapping[str, Mapping[str, Measured[Measures]]]
+    motions: Annotated[Mapping[str, Mapping[str, Measured[Measures]]], HIDDEN]
     """Scene -> plant -> what happened."""
-    scenarios: Mapping[str, Scenario]
+    scenarios: Annotated[Mapping[str, Scenario], HIDDEN]
     """Scene -> what was asked for."""
-    task: ForceTask
-    forces: Mapping[str, tuple[Measured[ForceMeasures], ...]]
+    task: Annotated[ForceTask, HIDDEN]
+    forces: Annotated[
+        Mapping[str, tuple[ForceRow, ...]],
+        Key(get=_by_friction, kind=dict[str, dict[str, ForceMeasures]], after="figures"),
+    ]
     """Plant -> on the wall with joint friction left alone, then dealt with; empty of a law that holds no force."""
 
     @property
@@ -53,6 +66,7 @@ class Portrait(BenchResult):
         """Its name."""
         return self.settings.law
 
+    @in_json(after="stiffness")
     def figures(self) -> dict[str, dict[str, float | None]]:
         """Figure -> plant -> value in SI; None where the run was unstable.
 
@@ -75,6 +89,12 @@ class Portrait(BenchResult):
             }
         return out
 
+    def draw(self, path: str | Path) -> None:
+        """Draw step, circle and push or wall."""
+        from .pictures.portrait import draw_portrait
+
+        draw_portrait(self, path)
+
     def gains_row(self) -> tuple[str, ...]:
         """Its line in a table: law, kp, kd with units; stiffness of the tip along x and y [N/mm]."""
         gains = (f"{getattr(self.settings, key):.4g} {gain_unit(self.law, key)}" for key in GAINS)
@@ -95,18 +115,14 @@ class Portrait(BenchResult):
             out.append((law, way, *(f"{round(value, 2) + 0.0:.2f}" for value in errors)))
         return out
 
-    def to_json(self) -> Json:
-        """Settings, stiffness and figures in SI."""
-        return {
-            "law": self.law,
-            "settings": settings_json(self.settings),
-            "stiffness": self.stiffness.tolist(),
-            "figures": self.figures(),
-            "forces": {
-                plant: {row.entry.label.partition(" / ")[2]: row.measures.to_json() for row in rows}
-                for plant, rows in self.forces.items()
-            },
-        }
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Portraits(Jsonable):
+    """Laws, each with what it does."""
+
+    schema: str = SCHEMA
+    seed: int
+    laws: tuple[Portrait, ...]
 
 
 def paint_portraits(
@@ -182,7 +198,7 @@ def _with_feedforward(entries: Sequence[Entry]) -> list[Entry]:
 
 def _press(
     limb: BenchLimb, task: ForceTask, law: str, plants: Mapping[str, LimbFlaws]
-) -> dict[str, tuple[Measured[ForceMeasures], ...]]:
+) -> dict[str, tuple[ForceRow, ...]]:
     if law not in COMPENSATION:
         return {}
     out = {}
@@ -193,8 +209,3 @@ def _press(
         ]
         out[plant] = run_force(limb, task, entries, flaws).rows
     return out
-
-
-def portraits_json(portraits: Sequence[Portrait], seed: int) -> Json:
-    """All portraits as one value."""
-    return {"schema": SCHEMA, "seed": seed, "laws": [each.to_json() for each in portraits]}

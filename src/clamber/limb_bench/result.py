@@ -4,11 +4,11 @@ import csv
 import io
 import json
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass, replace
 from operator import attrgetter
 from pathlib import Path
-from typing import Any, Final
+from typing import Annotated, Any, Final
 
 import numpy as np
 
@@ -16,13 +16,25 @@ from ..control.law_settings import LawSettings
 from ..execution.log import Log
 from ..execution.log_trace import trace_log
 from ..execution.trace import LimbTrace
-from ..families.climber.sim.flaw_texts import plant_words
 from ..files import write_atomically
+from ..json_form import HIDDEN, Count, Jsonable, Key, in_json
+from ..sim.bench_limb import BenchLimb
+from ..sim.flaw_texts import plant_words
 from ..sim.limb_flaws import LimbFlaws
-from ..types import Floats, Json
-from .bench_limb import BenchLimb
-from .matching import Match, tip_stiffness
-from .measures import Measured, Measures, Run, components, measure, radial_error, scenario_size
+from ..types import Floats
+from .entries import Match, tip_stiffness
+from .measures import (
+    Figures,
+    LabelledRun,
+    Measured,
+    Measures,
+    Run,
+    TipMeasures,
+    components,
+    measure,
+    radial_error,
+    scenario_size,
+)
 from .runner import Contest, run_contest, with_sensors
 from .scenario import Scenario
 
@@ -33,17 +45,22 @@ MISMATCH: Final = 0.01
 """A matched stiffness that is off by more than this part is told."""
 
 
-class BenchResult:
+class BenchResult(Jsonable):
     """A result that can be kept in files."""
 
     __slots__ = ()
 
-    def to_json(self) -> Json:
-        """Plain data, in SI units and radians; `null` is what never came."""
-        raise NotImplementedError
-
     def table(self) -> tuple[list[str], list[list[Any]]]:
         """Columns and lines of its CSV; an empty field is what never came."""
+        raise NotImplementedError
+
+    def draw(self, path: str | Path) -> None:
+        """Draw it into a file (.png, .svg, .pdf).
+
+        Raises:
+            SuffixError: If the file's suffix names no format for still pictures.
+            FileError: If the file cannot be written.
+        """
         raise NotImplementedError
 
     def save(self, path: str | Path) -> None:
@@ -69,18 +86,17 @@ class BenchResult:
         elif path.suffix.lower() == ".csv":
             self.save_table(path)
         else:
-            from .pictures.draw import draw_result  # loads Matplotlib
-
-            draw_result(self, path)
+            self.draw(path)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Comparison(BenchResult):
     """Runs of one limb on one plant."""
 
+    schema: str = ""
     limb: BenchLimb
-    flaws: LimbFlaws
-    plant: str = "mujoco"
+    flaws: Annotated[LimbFlaws, HIDDEN]
+    plant: Annotated[str, HIDDEN] = "mujoco"
 
     def traces(self) -> Iterable[tuple[str, LimbTrace]]:
         """Label and trace of each run that is logged."""
@@ -96,35 +112,40 @@ class Comparison(BenchResult):
         notes = {"robot": self.limb.robot.name, "limb": self.limb.name} | upright
         return {label: trace_log(trace, notes=notes | {"law": label}) for label, trace in self.traces()}
 
-    def limb_json(self) -> Json:
-        """The limb, where it starts and its joint angles there."""
-        return {
-            "robot": self.limb.robot.name,
-            "name": self.limb.name,
-            "start": list(self.limb.start),
-            "angles": [float(q) for q in self.limb.q0],
-        }
-
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Matching:
+class Matching(Jsonable):
     """Which stiffness of which law the gains of others were matched to, and where."""
 
-    reference: LawSettings
+    reference: Annotated[LawSettings, Key(kind=dict[str, Any], after="how")]
+    """Law that the others are matched to."""
     how: Match = "none"
-    at: Floats | None = None
+    at: Annotated[Floats | None, Key(kind=list[float], after="reference")] = None
     """Joint angles [rad]; None: those at the limb's start."""
+    not_matched: tuple[str, ...] = ()
+    """Laws that were to be matched and cannot be: those with one gain for all directions."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Row(Measured[tuple[Measures, ...]]):
+class Row(Jsonable, Measured[tuple[Measures, ...]]):
     """One law and all its trials: the first one's run, and the measures of each."""
 
-    stiffness: Floats
-    """At the tip, at `LimbResult.match_at`, shape (2, 2) [N/m]."""
+    run: Annotated[
+        LabelledRun,
+        Key(
+            "own_gains",
+            get=attrgetter("entry.own_gains"),
+            kind=bool,
+            meaning="Whether its gains were given, not matched.",
+        ),
+    ]
+    measures: Annotated[tuple[Measures, ...], Key("trials", after="worst")]
+    stiffness: Annotated[Floats, Key(kind=list[list[float]])]
+    """At the tip, at `Matching.at`, shape (2, 2) [N/m]."""
 
     @property
-    def unstable(self) -> int:
+    @in_json(after="stiffness", key="unstable_trials")
+    def unstable(self) -> Count:
         """Number of trials that went unstable."""
         return sum(each.unstable_at is not None for each in self.measures)
 
@@ -133,23 +154,56 @@ class Row(Measured[tuple[Measures, ...]]):
         told = (pick(each) for each in self.measures if each.unstable_at is None)
         return [value for value in told if value is not None]
 
+    @in_json(after="unstable_trials")
+    def mean(self) -> Figures:
+        """Of the stable trials; null where one of them never came."""
+        return self._over(lambda values: float(np.mean(values)))
+
+    @in_json(after="mean")
+    def worst(self) -> Figures:
+        """Likewise the largest."""
+        return self._over(max)
+
+    def _over(self, how: Callable[[list[float]], float]) -> Figures:
+        def figure(pick: Callable[[Measures], float | None]) -> float:
+            values = self.values(pick)
+            return how(values) if values else math.inf
+
+        true, encoder = (
+            TipMeasures(
+                **{key: figure(attrgetter(f"{side}.{key}")) for key in getattr(self.measures[0], side).to_json()}
+            )
+            for side in ("true", "encoder")
+        )
+        costs = {key: figure(attrgetter(key)) for key in ("work", "heat", "saturated", "tick")}
+        return Figures(true=true, encoder=encoder, **costs)
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class LimbResult(Comparison):
     """What came out of one scenario with several laws on one plant."""
 
-    scenario: Scenario
-    match: Match
-    reference: LawSettings
-    """The law that gains were matched to."""
-    match_at: Floats
-    """Joint angles at which they were [rad]."""
-    rows: tuple[Row, ...]
+    schema: str = SCHEMA
+    scenario: Annotated[Scenario, Key(after="schema")]
+    matching: Annotated[Matching, Key("match", after="plant")]
+    rows: Annotated[tuple[Row, ...], Key("laws", after="trials")]
 
     @property
-    def trials(self) -> int:
+    @in_json(after="seed")
+    def trials(self) -> Count:
         """Trials of each law."""
         return len(self.rows[0].measures)
+
+    @in_json(after="limb", key="plant")
+    def whole_plant(self) -> dict[str, Any]:
+        """What is not ideal about it, with the scenario's push."""
+        return {"name": self.plant} | asdict(self.scenario.on(self.flaws))
+
+    @property
+    @in_json(after="beyond_limits")
+    def seed(self) -> int | None:
+        """Of the plant's draws."""
+        return self.flaws.seed
 
     @property
     def stable(self) -> bool:
@@ -190,34 +244,20 @@ class LimbResult(Comparison):
     def match_words(self) -> str:
         """What the laws' gains have in common, in one line."""
         kp, kd = (
-            "/".join(f"{one:g}" for one in np.atleast_1d(gain)) for gain in (self.reference.kp, self.reference.kd)
+            "/".join(f"{one:g}" for one in np.atleast_1d(gain))
+            for gain in (self.matching.reference.kp, self.matching.reference.kd)
         )
-        law = f"{self.reference.law} (kp {kp}, kd {kd})"
-        if self.match == "none":
+        law = f"{self.matching.reference.law} (kp {kp}, kd {kd})"
+        if self.matching.how == "none":
             return f"not matched; the numbers of {law}, whatever their unit"
-        what = {"yy": "Kyy", "mean": "mean of Kxx and Kyy", "diagonal": "Kxx and Kyy"}[self.match]
+        what = {"yy": "Kyy", "mean": "mean of Kxx and Kyy", "diagonal": "Kxx and Kyy"}[self.matching.how]
         own = sum(row.entry.own_gains for row in self.rows)
-        where = "the start" if self.match_at is self.limb.q0 else "the centre"
-        return f"matched by '{self.match}': {what} at {where} as {law}" + (f"; {own} of their own" if own else "")
+        where = "the start" if self.matching.at is self.limb.q0 else "the centre"
+        return f"matched by '{self.matching.how}': {what} at {where} as {law}" + (
+            f"; {own} of their own" if own else ""
+        )
 
-    def mismatches(self) -> list[str]:
-        """Labels of laws that were to be matched and cannot be: those with one gain for all directions."""
-        if self.match == "none":
-            return []
-        theirs = tip_stiffness(self.limb.chain, self.reference, self.match_at)
-        pick: dict[str, Callable[[Floats], Any]] = {
-            "yy": lambda s: s[1, 1],
-            "mean": np.trace,
-            "diagonal": np.diag,
-        }
-        wanted = np.atleast_1d(pick[self.match](theirs))
-        return [
-            row.entry.label
-            for row in self.rows
-            if not row.entry.own_gains
-            and np.abs(np.atleast_1d(pick[self.match](row.stiffness)) / wanted - 1.0).max() > MISMATCH
-        ]
-
+    @in_json(after="match")
     def beyond_limits(self) -> dict[str, float]:
         """Joints that any stable law turned beyond the limits of the robot's file, and how far [rad]: the plant has no stops."""
         joints = self.limb.chain.joints
@@ -232,37 +272,11 @@ class LimbResult(Comparison):
                     out[name] = max(out.get(name, 0.0), float(most))
         return out
 
-    def to_json(self) -> Json:
-        """Everything but the traces, in SI units and radians; `null` is a time that never came.
+    def draw(self, path: str | Path) -> None:
+        """Draw paths, errors over time and torques of the first trial."""
+        from .pictures.comparison import draw_comparison
 
-        Keys are stable: schema, scenario, limb, plant, match, beyond_limits, seed, trials, laws. Of `laws`, `tick` alone depends on the
-        machine.
-        """
-        scenario = self.scenario
-        return {
-            "schema": SCHEMA,
-            "scenario": {
-                "kind": scenario.kind,
-                "seconds": len(scenario.aims) * self.flaws.period,
-                "direction": list(scenario.direction),
-                "lap": scenario.lap,
-                "centre": None if scenario.centre is None else list(scenario.centre),
-                "radius": scenario.radius,
-                "aim": [float(value) for value in scenario.aims["place"][-1, 0, :2]],
-            },
-            "limb": self.limb_json(),
-            "plant": {"name": self.plant} | asdict(scenario.on(self.flaws)),
-            "match": {
-                "how": self.match,
-                "reference": settings_json(self.reference),
-                "at": self.match_at.tolist(),
-                "not_matched": self.mismatches(),
-            },
-            "beyond_limits": self.beyond_limits(),
-            "seed": self.flaws.seed,
-            "trials": self.trials,
-            "laws": [_law(row) for row in self.rows],
-        }
+        draw_comparison(self, path)
 
     def traces(self) -> Iterable[tuple[str, LimbTrace]]:
         """Of the first trial of each law."""
@@ -283,39 +297,6 @@ class LimbResult(Comparison):
                 lines.append(flat)
         columns = list(dict.fromkeys(key for line in lines for key in line))
         return columns, [[line.get(column) for column in columns] for line in lines]
-
-
-def settings_json(settings: LawSettings) -> Json:
-    """All settings of a law."""
-    return {key: list(value) if isinstance(value, tuple) else value for key, value in asdict(settings).items()}
-
-
-def _law(row: Row) -> Json:
-    return {
-        "label": row.entry.label,
-        "settings": settings_json(row.entry.settings),
-        "own_gains": row.entry.own_gains,
-        "stiffness": row.stiffness.tolist(),
-        "unstable_trials": row.unstable,
-        "mean": _over(row, lambda values: float(np.mean(values))),
-        "worst": _over(row, max),
-        "trials": [each.to_json() for each in row.measures],
-    }
-
-
-def _over(row: Row, how: Callable[[list[float]], float]) -> Json:
-    """A figure of every measure over the stable trials; None where one of them never came."""
-
-    def figure(pick: Callable[[Measures], float | None]) -> float | None:
-        values = row.values(pick)
-        value = how(values) if values else math.inf
-        return value if math.isfinite(value) else None
-
-    out: Json = {
-        side: {key: figure(attrgetter(f"{side}.{key}")) for key in getattr(row.measures[0], side).to_json()}
-        for side in ("true", "encoder")
-    }
-    return out | {key: figure(attrgetter(key)) for key in ("work", "heat", "saturated", "tick")}
 
 
 def compare_laws(
@@ -350,18 +331,32 @@ def compare_laws(
     ]
     matching = matching or Matching(LawSettings(law="scct"))
     at = limb.q0 if matching.at is None else matching.at
+    matching = replace(matching, at=at)
+    rows = tuple(
+        Row(run, measures, tip_stiffness(limb.chain, run.entry.settings, at))
+        for run, measures in zip(first, zip(*measured, strict=True), strict=True)
+    )
     return LimbResult(
         limb=limb,
         flaws=with_sensors(flaws, entries),
         plant=contest.plant,
         scenario=scenario,
-        match=matching.how,
-        reference=matching.reference,
-        match_at=at,
-        rows=tuple(
-            Row(run, measures, tip_stiffness(limb.chain, run.entry.settings, at))
-            for run, measures in zip(first, zip(*measured, strict=True), strict=True)
-        ),
+        matching=replace(matching, not_matched=_not_matched(limb, matching, rows)),
+        rows=rows,
+    )
+
+
+def _not_matched(limb: BenchLimb, matching: Matching, rows: Sequence[Row]) -> tuple[str, ...]:
+    """Labels of laws that were to be matched and are not."""
+    if matching.how == "none" or matching.at is None:
+        return ()
+    picks: dict[str, Callable[[Floats], Any]] = {"yy": lambda s: s[1, 1], "mean": np.trace, "diagonal": np.diag}
+    pick = picks[matching.how]
+    wanted = np.atleast_1d(pick(tip_stiffness(limb.chain, matching.reference, matching.at)))
+    return tuple(
+        row.entry.label
+        for row in rows
+        if not row.entry.own_gains and np.abs(np.atleast_1d(pick(row.stiffness)) / wanted - 1.0).max() > MISMATCH
     )
 
 

@@ -18,10 +18,10 @@ from ..execution.closed_loop import close_loop
 from ..execution.trace import LimbTrace
 from ..jobs import Executor, Outcome, map_items
 from ..jobs.batch import Progress
+from ..sim.bench_limb import BenchLimb
 from ..sim.limb_flaws import ForceSensor, LimbFlaws
 from ..sim.plants import plant_maker
 from ..types import Json
-from .bench_limb import BenchLimb
 from .measures import Entry, Measures, Run, measure
 from .scenario import Scenario
 

@@ -3,16 +3,17 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final, Literal, TypeAlias
+from typing import Annotated, Final, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from ..control.controller import still_aim
 from ..errors import ClamberError
+from ..json_form import HIDDEN, Jsonable, Key, in_json
+from ..sim.bench_limb import BenchLimb
 from ..sim.limb_flaws import LimbFlaws, Push, Wall
 from ..types import Floats, Records
-from .bench_limb import BenchLimb
 
 LEAST_TICKS: Final = 2
 """A run has to have more: else there is nothing to measure."""
@@ -33,25 +34,40 @@ class ScenarioError(ClamberError):
         return f"{self.scenario}: {self.key} = {self.value}: {self.allowed}"
 
 
+LAST: Final = "Place of the tip that is asked for at the end [m]."
+
+
+def _last_place(aims: Records) -> list[float]:
+    return [float(value) for value in aims["place"][-1, 0, :2]]
+
+
 @dataclass(frozen=True, slots=True, eq=False)
-class Scenario:
+class Scenario(Jsonable):
     """A command for a limb from rest at its start, with what the surroundings do."""
 
     kind: Literal["step", "circle", "push", "force"]
-    aims: Records
+    period: Annotated[float, HIDDEN]
+    """Of the control [s]."""
+    aims: Annotated[Records, Key("aim", get=_last_place, kind=tuple[float, float], meaning=LAST, after="radius")]
     """Records of `control.records.AIM`, shape (ticks, 1)."""
-    settle: float
+    settle: Annotated[float, HIDDEN]
     """Measures of what lasts count from here [s]."""
     direction: tuple[float, float]
     """Unit vector along which the motion is asked for; what happens across it is an error of coupling."""
-    start: tuple[float, float] | None = None
+    start: Annotated[tuple[float, float] | None, HIDDEN] = None
     """Where the tip is at first [m]; None: where the limb is."""
-    push: Push | None = None
-    wall: Wall | None = None
+    push: Annotated[Push | None, HIDDEN] = None
+    wall: Annotated[Wall | None, HIDDEN] = None
     lap: float | None = None
     """Period of a circle [s]."""
     centre: tuple[float, float] | None = None
     radius: float | None = None
+
+    @property
+    @in_json(after="kind")
+    def seconds(self) -> float:
+        """How long it takes [s]."""
+        return len(self.aims) * self.period
 
     def on(self, flaws: LimbFlaws) -> LimbFlaws:
         """The plant with the scenario's push and wall."""
@@ -70,7 +86,7 @@ def _ticks(kind: str, seconds: float, rate: float) -> int:
 
 def _within_reach(kind: str, limb: BenchLimb, x: float, y: float) -> None:
     """By length alone: the thesis's own circle about (0.22, 0) asks for 5.6 deg more of the elbow than its printed limit."""
-    least, most = abs(limb.spec.l1 - limb.spec.l2_effective), limb.spec.length
+    least, most = limb.reach
     target = f"({x:.6g}, {y:.6g}) m"
     if not least <= math.hypot(x, y) <= most:
         raise ScenarioError(kind, "target", target, f"must be {least:.3g} to {most:.3g} m from the limb's port")
@@ -101,7 +117,9 @@ def step_scenario(
     x, y = limb.start[0] + dx, limb.start[1] + dy
     _within_reach("step", limb, x, y)
     aims = rest_at((x, y), _ticks("step", seconds, rate))
-    return Scenario("step", aims, settle=0.75 * seconds, direction=(dx / length, dy / length), start=limb.start)
+    return Scenario(
+        "step", 1.0 / rate, aims, settle=0.75 * seconds, direction=(dx / length, dy / length), start=limb.start
+    )
 
 
 def circle_scenario(
@@ -141,7 +159,7 @@ def circle_scenario(
     aims["twist"][:, 0, 0], aims["twist"][:, 0, 1] = -turn * s, turn * c
     aims["acceleration"][:, 0, 0], aims["acceleration"][:, 0, 1] = -(turn**2) * c, -(turn**2) * s
     return Scenario(
-        "circle", aims, settle=(laps - 1) * lap, direction=(1.0, 0.0), lap=lap, centre=centre, radius=radius
+        "circle", 1.0 / rate, aims, settle=(laps - 1) * lap, direction=(1.0, 0.0), lap=lap, centre=centre, radius=radius
     )
 
 
@@ -163,7 +181,12 @@ def push_scenario(
     aims = rest_at(limb.start, _ticks("push", seconds, rate))
     direction = (force[0] / size, force[1] / size)
     return Scenario(
-        "push", aims, settle=end, direction=direction, push=Push(x=force[0], y=force[1], start=start, end=end)
+        "push",
+        1.0 / rate,
+        aims,
+        settle=end,
+        direction=direction,
+        push=Push(x=force[0], y=force[1], start=start, end=end),
     )
 
 
@@ -299,7 +322,7 @@ def force_scenario(limb: BenchLimb, rate: float, task: ForceTask) -> Scenario:
     _check_reach(limb, task)
     x, y = left_of(direction(task.angle))
     settle = task.approach + task.rise + SETTLE
-    return Scenario("force", aims, settle=settle, direction=(float(x), float(y)), wall=task.wall(limb))
+    return Scenario("force", 1.0 / rate, aims, settle=settle, direction=(float(x), float(y)), wall=task.wall(limb))
 
 
 def _smooth(part: Floats) -> Floats:
@@ -316,11 +339,9 @@ def _smooth_rate(part: Floats) -> Floats:
 def _check_reach(limb: BenchLimb, task: ForceTask) -> None:
     into = direction(task.angle)
     depth = task.gap + task.force / task.stiffness
-    least = abs(limb.spec.l1 - limb.spec.l2_effective)
+    least, most = limb.reach[0], 0.98 * limb.reach[1]
     for part in np.linspace(0.0, task.slide, 16):
         place = np.array(limb.start) + depth * into + part * left_of(into)
-        if not least < float(np.hypot(*place)) < 0.98 * limb.spec.length:
-            allowed = (
-                f"pressed in, the tip must stay {least:.3g} to {0.98 * limb.spec.length:.3g} m from the limb's port"
-            )
+        if not least < float(np.hypot(*place)) < most:
+            allowed = f"pressed in, the tip must stay {least:.3g} to {most:.3g} m from the limb's port"
             raise ScenarioError("force", "wall", f"({place[0]:.3g}, {place[1]:.3g}) m", allowed)

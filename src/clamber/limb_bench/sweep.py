@@ -3,19 +3,20 @@
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, fields
 from itertools import pairwise, product
-from typing import Any, Final
+from pathlib import Path
+from typing import Annotated, Any, Final
 
 from ..control.law_settings import LAWS, LawError, LawSettings
 from ..errors import UnknownNameError
-from ..families.climber.sim.flaw_texts import WHOLE, named_flaws, plant_words, read_flaws
 from ..jobs import Outcome, read_result
+from ..json_form import HIDDEN, Key, in_json
 from ..planning.axes import Axis, check_axes
+from ..sim.flaw_texts import WHOLE, named_flaws, plant_words, read_flaws
 from ..sim.limb_flaws import LimbFlaws
 from ..types import Json
 from ..units import read_number, read_point
-from .bench_limb import bench_limb, limbed_robot, read_elbow
-from .entries import GAINS, reference_law, with_recommended_gains
-from .matching import Match
+from .bench_limb import bench_limb, load_geared, read_elbow
+from .entries import GAINS, Match, reference_law, with_recommended_gains
 from .measures import TipMeasures
 from .result import BenchResult
 from .runner import Crew
@@ -65,17 +66,29 @@ class Boundary:
     """Whether the law is steady below it."""
 
 
+@dataclass(frozen=True, slots=True)
+class SweepPoint:
+    """One point."""
+
+    values: dict[str, str]
+    """Key to value."""
+    winner: str | None
+    """The steady law with the least measure."""
+    laws: dict[str, Cell]
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class LimbSweep(BenchResult):
     """All points of a sweep, the last axis fastest."""
 
-    bench: Bench
+    schema: str = SCHEMA
+    bench: Annotated[Bench, Key(kind=dict[str, Any])]
     axes: tuple[Axis, ...]
-    labels: tuple[str, ...]
+    labels: Annotated[tuple[str, ...], Key("laws")]
     """Of the laws, in their order."""
-    points: tuple[dict[str, Cell], ...]
-    boundaries: tuple[Boundary, ...]
-    scan: str | None
+    points: Annotated[tuple[dict[str, Cell], ...], HIDDEN]
+    boundaries: Annotated[tuple[Boundary, ...], Key(after="scan")]
+    scan: Annotated[str | None, Key(after="wins")]
     """Key of the axis along which boundaries were looked for; None where no axis can be divided."""
 
     def winner(self, index: int) -> str | None:
@@ -87,6 +100,7 @@ class LimbSweep(BenchResult):
         ]
         return min(best)[2] if best else None
 
+    @in_json(after="laws")
     def wins(self) -> dict[str, int]:
         """Points that each law wins."""
         winners = [self.winner(k) for k in range(len(self.points))]
@@ -95,6 +109,11 @@ class LimbSweep(BenchResult):
     def values(self, index: int) -> dict[str, str]:
         """Texts of a point by key."""
         return dict(zip((axis.key for axis in self.axes), _places(self.axes)[index], strict=True))
+
+    @in_json(after="boundaries", key="points")
+    def all_points(self) -> tuple[SweepPoint, ...]:
+        """Of the sweep."""
+        return tuple(SweepPoint(self.values(k), self.winner(k), point) for k, point in enumerate(self.points))
 
     def plant_words(self) -> str:
         """What does not vary of the plant, in one line."""
@@ -117,21 +136,11 @@ class LimbSweep(BenchResult):
             return f"the numbers of {bench.reference}{told}, not matched"
         return f"matched by '{bench.match}' to {bench.reference}{told}"
 
-    def to_json(self) -> Json:
-        """Plain data; measures in SI, axes and boundaries in the units of their axes."""
-        return {
-            "schema": SCHEMA,
-            "bench": self.bench.to_json(),
-            "axes": [axis.to_json() for axis in self.axes],
-            "laws": list(self.labels),
-            "wins": self.wins(),
-            "scan": self.scan,
-            "boundaries": [asdict(boundary) for boundary in self.boundaries],
-            "points": [
-                {"values": self.values(k), "winner": self.winner(k), "laws": {n: asdict(c) for n, c in point.items()}}
-                for k, point in enumerate(self.points)
-            ],
-        }
+    def draw(self, path: str | Path) -> None:
+        """Draw curves over one axis, or a map of the best law over two."""
+        from .pictures.sweep import draw_sweep
+
+        draw_sweep(self, path)
 
     def table(self) -> tuple[list[str], list[list[Any]]]:
         """One line for each law at each point."""
@@ -182,7 +191,7 @@ def make_bench(texts: BenchTexts) -> Bench:
         sides = ("", "encoder.")
         known = (*(f"{each}{name}" for each in sides for name in SCENARIO_MEASURES[kind]), *RUN_MEASURES)
         raise UnknownNameError(f"measure of a {kind}", chosen, known)
-    plant = read_flaws(named_flaws(texts.flaws, limbed_robot(texts.robot)), texts.settings)
+    plant = read_flaws(named_flaws(texts.flaws, load_geared(texts.robot)[0]), texts.settings)
     law = reference_law(texts.reference, texts.kp, texts.kd)
     stated: Json
     size = read_number("radius", texts.radius, "length")

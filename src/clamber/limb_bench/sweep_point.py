@@ -10,19 +10,18 @@ from typing import Any, Final
 import numpy as np
 
 from ..errors import ClamberError, UnknownNameError
-from ..families.climber.sim.flaw_texts import DIMENSIONS as FLAWS
-from ..families.climber.sim.flaw_texts import WHOLE, read_flaw
+from ..sim.bench_limb import BenchLimb
+from ..sim.flaw_texts import DIMENSIONS as FLAWS
+from ..sim.flaw_texts import WHOLE, read_flaw
 from ..sim.limb_flaws import LimbFlaws
 from ..types import Json
 from ..units import read_number
-from .bench_limb import BenchLimb, bench_limb
-from .entries import make_entries, match_pose, read_law, reference_law
-from .matching import Match
+from .bench_limb import bench_limb
+from .entries import Match, make_entries, match_pose, read_law, reference_law
 from .measures import Entry, Measures, Run, measure
 from .runner import run_contest
 from .scenario import MOTIONS, MotionKind, Scenario
-from .stability import scaled_gains
-from .steadiness import RESTING, STEADY, peak_to_peak
+from .stability import RESTING, STEADY, peak_to_peak, scaled_gains
 
 GAIN_KEYS: Final = ("kp", "kd", "gain")
 """kp and kd of the reference law, which others are matched to; gain multiplies every law's own."""

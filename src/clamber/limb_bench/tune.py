@@ -9,8 +9,9 @@ at other poses, directions and frictions.
 import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
+from operator import attrgetter
 from pathlib import Path
-from typing import Final
+from typing import Annotated, Any, Final
 
 import numpy as np
 
@@ -18,17 +19,17 @@ from ..control.law_settings import LAWS, LawSettings
 from ..control.recommended import Recommended
 from ..errors import ClamberError
 from ..jobs import Outcome, read_result
+from ..json_form import Jsonable, Key, in_json
+from ..sim.bench_limb import BenchLimb
 from ..sim.limb_flaws import LimbFlaws
 from ..types import Json
-from .bench_limb import BenchLimb, bench_limb
-from .entries import read_law
-from .matching import tip_stiffness
+from .bench_limb import bench_limb
+from .entries import read_law, tip_stiffness
 from .measures import Entry, measure
 from .result import BenchResult
 from .runner import Crew, run_contest
 from .scenario import step_scenario
-from .stability import linear_limit, scaled_gains
-from .steadiness import SECONDS, STEADY, Effort, overshoot, poses, unrest
+from .stability import SECONDS, STEADY, Effort, linear_limit, overshoot, poses, scaled_gains, unrest
 
 DAMPING_TIMES: Final = (0.01, 0.014, 0.02, 0.028, 0.04, 0.057, 0.08, 0.113, 0.16, 0.226)
 """kd/kp that are tried [s]."""
@@ -79,7 +80,7 @@ class Edge:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Tuned:
+class Tuned(Jsonable):
     """What was found for one law."""
 
     law: str
@@ -108,40 +109,41 @@ class Tuned:
     """Of the true tip in a step of 2 cm in -y from the limb's start, 7 s [m s]."""
 
     @property
+    @in_json()
     def steady(self) -> bool:
         """Whether the recommended gains, and less, come to rest everywhere they were tried."""
         return max(self.peak_to_peak, self.lower) <= STEADY
-
-    def to_json(self) -> Json:
-        """Plain data in SI and the law's units."""
-        return asdict(self) | {"steady": self.steady, "edges": [asdict(edge) for edge in self.edges]}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Tuning(BenchResult):
     """What was found for a limb."""
 
-    limb: BenchLimb
-    flaws: LimbFlaws
+    limb: Annotated[
+        BenchLimb,
+        Key("robot", get=attrgetter("robot.name"), kind=str),
+        Key(get=attrgetter("name"), kind=str),
+        Key("start", get=attrgetter("start"), kind=tuple[float, float]),
+    ]
+    flaws: Annotated[LimbFlaws, Key("plant", kind=dict[str, Any])]
     margin: float
-    laws: tuple[Tuned, ...]
+    laws: Annotated[tuple[Tuned, ...], Key(after="threshold")]
+
+    @in_json(after="margin")
+    def threshold(self) -> float:
+        """Peak to peak below which a tip counts as steady [m]."""
+        return STEADY
 
     @property
     def steady(self) -> bool:
         """Whether every law is steady at its recommended gains."""
         return all(law.steady for law in self.laws)
 
-    def to_json(self) -> Json:
-        """Plain data: what `clamber limb tune --json` prints."""
-        return {
-            "robot": self.limb.robot.name,
-            "limb": self.limb.name,
-            "start": list(self.limb.start),
-            "plant": asdict(self.flaws),
-            "margin": self.margin,
-            "threshold": STEADY,
-            "laws": [law.to_json() for law in self.laws],
-        }
+    def draw(self, path: str | Path) -> None:
+        """Draw a panel for each law: where in kp and kd the limb comes to rest."""
+        from .pictures.sweep import draw_tuning
+
+        draw_tuning(self, path)
 
     def recommended(self) -> list[Recommended]:
         """Gains to be kept, of the laws that are steady with them."""

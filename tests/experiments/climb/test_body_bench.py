@@ -9,13 +9,16 @@ from clamber.errors import UnknownNameError
 from clamber.families.climber.execution.body_gains import BodyGains
 from clamber.families.climber.execution.limb_task import LimbTask
 from clamber.families.climber.execution.whole_body import WholeBody
-from clamber.families.climber.trials.body_bench import ANGLES, BodyEntry, run_body
-from clamber.families.climber.trials.body_entries import CONTROLS, make_entries, read_triple
-from clamber.families.climber.trials.body_measures import measure_body
-from clamber.families.climber.trials.body_scenario import circle, push, push_up
-from clamber.families.climber.trials.body_stand import BodyStand, bench_flaws, ladder_stand
-from clamber.families.climber.trials.body_stiffness import body_stiffness, match_body, tip_wrench
-from clamber.families.climber.trials.body_trials import push_trials
+from clamber.families.climber.trials.body_bench import ANGLES, BodyEntry, measure_body, push_trials, run_body
+from clamber.families.climber.trials.body_entries import (
+    CONTROLS,
+    body_stiffness,
+    make_entries,
+    match_body,
+    read_triple,
+    tip_wrench,
+)
+from clamber.families.climber.trials.body_stand import BodyStand, bench_flaws, circle, ladder_stand, push, push_up
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.sim.plant_rules import PlantError
 from clamber.types import Floats

@@ -1,4 +1,4 @@
-"""`clamber limb identify`: a joint's inertia, friction, amplifier and play from a log."""
+"""`clamber limb identify` and `record`: a joint's inertia, friction, amplifier and play from a log; such a log from a simulated limb."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,14 +10,14 @@ from rich.console import Console
 
 from ...terminal.name_completion import names_of
 from ...terminal.option_holder import takes_options
-from ...terminal.options import AsJson
-from ...terminal.output import announce_compilation, print_json, stdout
+from ...terminal.options import ROBOT, AsJson, Flaws, FlawsChoice, Quiet, Settings
+from ...terminal.output import announce_compilation, check_writable, print_json, stdout
 from ...units import DEGREE
 from . import options as opt
 
 if TYPE_CHECKING:
-    from ...control.identification.estimate import Estimate
     from ...control.identification.joint import IdentifiedJoint
+    from ...control.identification.samples import Estimate
     from ...families.climber.execution.log_identify import Identification
 
 WIDTH = 80
@@ -177,6 +177,63 @@ def write_identification(result: "Identification", path: Path) -> None:
 
         write_atomically(path, result.toml())
         return
-    from ...limb_bench.pictures.draw import draw_result
+    from ...families.climber.pictures.identification import draw_identification
 
-    draw_result(result, path)
+    draw_identification(result, path)
+
+
+@dataclass(frozen=True, slots=True)
+class SensorWords:
+    """Options of the log's sensors, as they came."""
+
+    current_noise: Annotated[float, typer.Option(help="Standard deviation of the current sensors' noise [A].")] = 0.01
+    angle_noise: Annotated[str, typer.Option(help="Of the encoders' noise besides their steps, such as 0.01deg.")] = (
+        "0deg"
+    )
+    output_noise: Annotated[str, typer.Option(help="Of the angles behind the gears, such as 0.02deg.")] = "0.02deg"
+    output_encoder: Annotated[
+        bool, typer.Option("--output-encoder/--no-output-encoder", help="Whether angles behind the gears are measured.")
+    ] = True
+    seed: Annotated[int, typer.Option(min=0, help="Of the noise.")] = 0
+
+
+@takes_options
+def record(
+    limb: Annotated[str | None, typer.Argument(help="The limb, by name or from 1.")] = None,
+    output: Annotated[
+        Path, typer.Option("--output", "-o", metavar="FILE", help="The log to write (.csv, .mcap).")
+    ] = Path("limb.csv"),
+    robot: opt.Robot = ROBOT,
+    flaws: Flaws = FlawsChoice.nominal,
+    settings: Settings = None,
+    *,
+    sensors: SensorWords,
+    as_json: AsJson = False,
+    quiet: Quiet = False,
+) -> None:
+    """Simulate a limb whose joints are excited one by one, for `clamber limb identify`."""
+    check_writable(output)
+    from ...execution.log_files import check_log_suffix, write_log
+
+    check_log_suffix(output)
+    from ...limb_bench.bench_limb import bench_limb
+    from ...limb_bench.excitation import Recorded, SensorNoise, record_log
+    from ...sim.flaw_texts import named_flaws, read_flaws
+    from ...units import parse_quantity
+
+    noise = SensorNoise(
+        angle=parse_quantity(sensors.angle_noise, "angle"), current=sensors.current_noise,
+        output_angle=parse_quantity(sensors.output_noise, "angle"), seed=sensors.seed,
+    )  # fmt: skip
+    chosen = bench_limb(robot, limb)
+    properties = read_flaws(named_flaws(flaws.value, chosen.robot), settings or ())
+    if properties.upright:
+        chosen = bench_limb(robot, limb, upright=True)
+    announce_compilation(quiet=quiet)
+    log = record_log(chosen, properties, noise, output_encoder=sensors.output_encoder)
+    write_log(log, output)
+    summary = Recorded.of(log, output)
+    if as_json:
+        print_json(summary)
+    else:
+        stdout().print(f"{summary.file}: {summary.rows} samples, {summary.seconds:.1f} s, {', '.join(log.columns)}")

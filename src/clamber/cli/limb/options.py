@@ -16,9 +16,9 @@ from ...terminal.output import check_writable, print_json, stdout
 from ...viewing.text_table import plain_table
 
 if TYPE_CHECKING:
-    from ...limb_bench.bench_limb import BenchLimb
     from ...limb_bench.result import BenchResult, Comparison
     from ...limb_bench.runner import Crew
+    from ...sim.bench_limb import BenchLimb
     from ...sim.limb_flaws import LimbFlaws
 
 
@@ -43,7 +43,7 @@ Seed: TypeAlias = Annotated[
 ]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class LawWords:
     """Options that name laws and how they come by their gains, as they came."""
 
@@ -66,7 +66,7 @@ class LawWords:
     ] = "scct"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class LimbWords:
     """Options that name a limb and its plant, as they came."""
 
@@ -81,10 +81,10 @@ class LimbWords:
 
     def build_plant(self, seed: int | None = None, *, drawn: bool = False) -> "LimbFlaws":
         """The plant's properties; checked before anything else is looked at."""
-        from ...families.climber.sim.flaw_texts import named_flaws, read_flaws
-        from ...limb_bench.bench_limb import limbed_robot
+        from ...limb_bench.bench_limb import load_geared
+        from ...sim.flaw_texts import named_flaws, read_flaws
 
-        base = named_flaws(self.flaws.value, limbed_robot(self.robot))
+        base = named_flaws(self.flaws.value, load_geared(self.robot)[0])
         return read_flaws(base, self.settings or (), seed, drawn=drawn)
 
     def build_limb(self, flaws: "LimbFlaws", start: tuple[float, float] = (0.22, 0.0)) -> "BenchLimb":
@@ -96,14 +96,14 @@ class LimbWords:
         return bench_limb(self.robot, self.limb, at, elbow=read_elbow(self.elbow), upright=flaws.upright)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class NominalLimbWords(LimbWords):
     """The same, of a plant with the flaws of the robot's file unless others are said."""
 
     flaws: Flaws = FlawsChoice.nominal
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class FileWords:
     """How a comparison is kept and printed, as it came."""
 

@@ -1,19 +1,27 @@
-"""`clamber limb sweep`: laws over one or two properties of the plant or of the gains."""
+"""`clamber limb sweep`, `tune` and `portrait`: laws over ranges of plants and gains, their largest stable gains, all they do."""
 
+import math
+import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 from rich.console import Console
 
 from ...terminal.crew import CrewWords
+from ...terminal.name_completion import names_of
 from ...terminal.option_holder import takes_options
-from ...terminal.output import announce_compilation
+from ...terminal.options import ROBOT, AsJson, Quiet
+from ...terminal.output import announce_compilation, check_writable, print_json, stdout
 from . import options as opt
 
 if TYPE_CHECKING:
+    from ...limb_bench.portrait import Portrait
     from ...limb_bench.sweep import LimbSweep
+    from ...limb_bench.tune import Tuning
 
 MARKS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 """Of laws in a map, in their order."""
@@ -160,3 +168,188 @@ def _print_boundaries(console: Console, result: "LimbSweep") -> None:
         side = {each.steady_below for each in mine}
         what = "stable below" if side == {True} else "stable above" if side == {False} else "stable between"
         console.print(f"{label}: {what} {axis.key} = {words}{unit}")
+
+
+HEADS = {
+    "kp": "kp", "kd": "kd", "limit": "limit\nkp", "linear": "of\nlinear", "kxx": "Kxx\nN/mm", "kyy": "Kyy\nN/mm",
+    "cycle": "p-p\nmm", "over": "over\n%", "iae": "IAE\nmm s",
+}  # fmt: skip
+
+
+@takes_options
+def tune(
+    controllers: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[NAME[:KEY=VALUE,...]]...",
+            help="Laws without their gains; all of them unless given.",
+            autocompletion=names_of("controllers"),
+        ),
+    ] = None,
+    margin: Annotated[float, typer.Option(help="Largest stable gains over the recommended ones; 2 is 6 dB.")] = 2.0,
+    save: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Put the recommended gains into this TOML file; others in it stay."),
+    ] = None,
+    *,
+    limb: opt.NominalLimbWords,
+    words: CrewWords,
+) -> None:
+    """Find the largest gains at which the limb comes to rest after steps, circles and pushes, and recommend some below."""
+    words.check()
+    check_writable(save)
+    opt.check_output(words.output)
+    from ...control.recommended import read_recommended, save_recommended
+    from ...limb_bench.tune import tune as find
+    from ...regular_files import is_there
+
+    if save is not None and is_there(save):
+        read_recommended(save)
+    plant = limb.build_plant()
+    chosen = limb.build_limb(plant)
+    laws = [] if controllers in (None, ["all"]) else list(controllers or ())
+    announce_compilation(quiet=words.quiet)
+    result = find(chosen, laws, plant, robot=limb.robot, margin=margin, crew=opt.crew_of(words, "searches"))
+    if save is not None:
+        save_recommended(result.recommended(), save)
+    opt.tell_batch(result, words, lambda console: print_tuning(console, result), save)
+    raise typer.Exit(0 if result.steady else 1)
+
+
+def print_tuning(console: Console, result: "Tuning") -> None:
+    """Print what was found."""
+    from ...limb_bench.stability import QUIET_FROM, STEADY
+    from ...sim.flaw_texts import plant_words
+
+    limb = result.limb
+    console.print(f"recommended gains, {limb.robot.name}'s {limb.name} limb", style="bold")
+    console.print(f"plant: {plant_words(result.flaws)}")
+    console.print(
+        f"margin: the limb comes to rest, within {1e3 * STEADY:g} mm after {QUIET_FROM:g} s, up to {result.margin:g} times the gains"
+    )
+    console.print()
+    rows = [
+        (
+            law.law,
+            f"{law.kp:.4g}",
+            f"{law.kd:.3g}",
+            f"{law.limit_kp:.4g}",
+            f"{law.limit_kp / law.linear_kp:.2f}",
+            *(f"{value / 1e3:.1f}" for value in law.stiffness),
+            f"{1e3 * law.peak_to_peak:.2f}" if math.isfinite(law.peak_to_peak) else "lost",
+            f"{100 * law.overshoot:.0f}",
+            f"{1e3 * law.iae:.2f}",
+        )
+        for law in result.laws
+    ]
+    opt.show_table(console, ("law", *HEADS.values()), rows)
+    console.print()
+    console.print(
+        "kp, kd: N m/rad, N m s/rad; of jacobian-transpose N/m, N s/m;\n        of operational-space 1/s^2, 1/s"
+    )
+    console.print("of linear: limit kp over that of the linear loop; K: of the tip at the start")
+    console.print(
+        "p-p: true tip at rest, worst run; over: worst step of 2 cm, by encoders;\nIAE: of a step of 2 cm in -y"
+    )
+    for law in result.laws:
+        if not law.steady:
+            console.print(f"{law.law}: does not come to rest at these gains: {law.situation}", soft_wrap=True)
+
+
+GAINS: Final = ("kp", "kd", "Kxx\nN/mm", "Kyy\nN/mm")
+NUMBERS: Final = tuple(
+    f"{scene}\n{plant}" for scene in ("step", "circle", "fed", "push") for plant in ("ideal", "nom.")
+)
+ERRORS: Final = tuple(f"{plant}\n{what}" for plant in ("ideal", "nom.") for what in ("mean N", "worst N"))
+
+
+@dataclass(frozen=True, slots=True)
+class PortraitWords:
+    """The limb of the portraits and how laws come by their gains, as it came."""
+
+    reference: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME[:KEY=VALUE,...]",
+            help="Match gains to this law, such as scct:kp=200,kd=10.",
+            autocompletion=names_of("controllers"),
+        ),
+    ] = None
+    match: opt.Matched = opt.MatchChoice.yy
+    robot: opt.Robot = ROBOT
+    limb: opt.LimbName = None
+    seed: Annotated[int, typer.Option(min=0, help="Draws play and encoder phase of the nominal limb.")] = 1
+
+
+@takes_options
+def portrait(
+    laws: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="LAW...", help="Laws by name, or all.", autocompletion=names_of("controllers", besides=("all",))
+        ),
+    ],
+    folder: Annotated[
+        Path | None, typer.Option("--output", "-o", metavar="DIR", help="Write DIR/LAW.png for each law.")
+    ] = None,
+    *,
+    words: PortraitWords,
+    markdown: Annotated[bool, typer.Option("--markdown", help="Print the tables as a page has them.")] = False,
+    as_json: AsJson = False,
+    quiet: Quiet = False,
+) -> None:
+    """Show what each law does: a step, a circle, a push, forces on a wall; ideal and nominal limb.
+
+    Gains are those recommended for the limb, unless they are matched to a reference.
+    """
+    from ...limb_bench.entries import read_law
+    from ...limb_bench.portrait import Portraits, paint_portraits
+    from ...regular_files import make_folder
+
+    if folder is not None:
+        make_folder(folder)
+    announce_compilation(quiet=quiet)
+    matched = None if words.reference is None else read_law(words.reference)
+    portraits = paint_portraits(
+        () if laws == ["all"] else laws,
+        robot=words.robot,
+        limb=words.limb,
+        matched=matched,
+        match=words.match.value,
+        seed=words.seed,
+    )
+    if folder is not None:
+        for each in portraits:
+            each.write(folder / f"{each.law}.png")
+    if as_json:
+        print_json(Portraits(seed=words.seed, laws=tuple(portraits)))
+    elif markdown:
+        print_markdown(portraits)
+    else:
+        print_portraits(stdout(), portraits, folder)
+
+
+def print_markdown(portraits: "Sequence[Portrait]") -> None:
+    """Print the rows of motions, and after an empty line those of forces, as docs/controllers.md has them."""
+    rows = ["| " + " | ".join(each.row()) + " |" for each in portraits]
+    forces = ["| " + " | ".join(row) + " |" for each in portraits for row in each.force_rows()]
+    sys.stdout.write("\n".join([*rows, *(["", *forces] if forces else [])]) + "\n")
+
+
+def print_portraits(console: Console, portraits: "Sequence[Portrait]", folder: Path | None = None) -> None:
+    """Print the figures of every law."""
+    opt.show_table(console, ("law", *GAINS), [each.gains_row() for each in portraits])
+    console.print()
+    opt.show_table(console, ("law", *NUMBERS), [each.row() for each in portraits])
+    console.print()
+    console.print("ideal: friction alone; nom.: backlash, encoders, delay too; all in truth, in mm")
+    console.print("step: most across, of 2 cm; circle: radial RMS, last lap of 3 s; fed: with the")
+    console.print("aim's acceleration and friction fed forward; push: yielding along 10 N")
+    rows = [row for each in portraits for row in each.force_rows()]
+    if rows:
+        console.print()
+        opt.show_table(console, ("law", "joint friction", *ERRORS), rows, ("law", "joint friction"))
+        console.print()
+        console.print(f"errors of {portraits[0].task.force:g} N on a wall, standing and sliding")
+    if folder is not None:
+        console.print(f"pictures written to {folder}", soft_wrap=True)

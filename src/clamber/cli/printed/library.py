@@ -11,6 +11,13 @@ from ...errors import UnknownNameError
 from ...exports.library import Exported
 from ...family import families
 from ...inspection.finding import Finding
+from ...limb_bench.excitation import Recorded
+from ...limb_bench.force import ForceResult
+from ...limb_bench.open_loop import OpenLoopResult
+from ...limb_bench.portrait import Portraits
+from ...limb_bench.result import LimbResult
+from ...limb_bench.sweep import LimbSweep
+from ...limb_bench.tune import Tuning
 from ...planning.exact.front import Front
 from ...planning.learning import Lesson
 from ...planning.problem.problems import SizedInventory
@@ -27,7 +34,6 @@ from ..new_files import NewBoard
 from ..plan.openings import NoStart, Planned
 from ..show import Drawn
 from ..view import Opened, Saved
-from .limbs import Contest, Forces, LimbSweep, OpenLoop, Portraits, Recorded, Tuned
 from .schemas import STRICT, modelled
 
 
@@ -61,15 +67,15 @@ OURS: Final[dict[str, Any]] = {
     "new board": NewBoard,
     "new robot": NewRobot,
     "new task": NewTask,
-    "limb step": Contest,
-    "limb circle": Contest,
-    "limb push": Contest,
-    "limb open-loop": OpenLoop,
+    "limb step": LimbResult,
+    "limb circle": LimbResult,
+    "limb push": LimbResult,
+    "limb open-loop": OpenLoopResult,
     "limb record": Recorded,
-    "limb force": Forces,
+    "limb force": ForceResult,
     "limb portrait": Portraits,
     "limb sweep": LimbSweep,
-    "limb tune": Tuned,
+    "limb tune": Tuning,
 }
 """Words of a command after `clamber` -> what it prints, whatever the robot."""
 

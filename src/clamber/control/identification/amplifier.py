@@ -6,9 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...types import Floats
-from .estimate import Estimate
-from .motion import Motion
-from .samples import JointSamples
+from .samples import Estimate, JointSamples, Motion
 
 Mask: TypeAlias = npt.NDArray[np.bool_]
 NEEDS: Final = "command voltage and current (or sensed torque), at two or more voltages"

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from ...planning.problem.check import Check
     from ...planning.problem.plan_source import OpenedPlan
     from ...planning.problem.problems import PlanFamily
+    from ...sim.bench_limb import BenchLimb
     from ...sim.lone_robot import JointBounds
     from ...tasks.task_format import TaskFormat
     from ...trials.dynamics import Dynamics
@@ -120,6 +121,13 @@ class Climber(Family):
         from .dynamics import DYNAMICS
 
         return DYNAMICS
+
+    @property
+    def bench_limb(self) -> Callable[..., BenchLimb]:
+        """One limb, with its motors and gears."""
+        from .sim.bench_limb import limb_for_bench
+
+        return limb_for_bench
 
     @property
     def model(self) -> Callable[[Any], tuple[Any, Mapping[str, JointBounds]]]:

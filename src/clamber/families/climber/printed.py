@@ -5,8 +5,7 @@ from typing import Any, Final
 from .cli.plant import PlantAnswer, ServedPlant
 from .dynamics import ReplayedClimb, TrialedClimb
 from .execution.log_identify import Identification
-from .trials.body_measures import BodyContest
-from .trials.body_trials import PushTrial
+from .trials.body_bench import BodyContest, PushTrial
 from .trials.lessons import LearnedPlan
 from .trials.press import Pressed
 from .trials.run_plan import ClimbRun

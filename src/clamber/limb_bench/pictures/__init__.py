@@ -1,1 +1,1 @@
-"""Pictures of the limb bench: `draw.draw_result` draws any result; pictures of single studies are functions of their own."""
+"""Pictures of the limb bench: what its results draw themselves by; pictures of single studies are functions of their own."""

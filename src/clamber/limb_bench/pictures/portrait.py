@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...control.law_settings import LawSettings
-from ...families.climber.sim.flaw_texts import SET
+from ...sim.flaw_texts import SET
 from ...viewing import style
 from ...viewing.law_colours import LAW_COLOURS
 from ...viewing.output import CANVASES, check_suffix, save_figure

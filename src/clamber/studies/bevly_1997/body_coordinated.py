@@ -10,8 +10,7 @@ import numpy as np
 from ...families.climber.execution.body_gains import BodyGains
 from ...families.climber.trials.body_bench import SLOT, BodyEntry, BodyRun, run_body
 from ...families.climber.trials.body_entries import COORDINATED, read_gains
-from ...families.climber.trials.body_scenario import push
-from ...families.climber.trials.body_stand import BodyStand, bench_flaws, ladder_stand
+from ...families.climber.trials.body_stand import BodyStand, bench_flaws, ladder_stand, push
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import MILLI

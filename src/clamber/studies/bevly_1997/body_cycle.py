@@ -10,8 +10,7 @@ import numpy as np
 from ...families.climber.execution.body_gains import BodyGains
 from ...families.climber.sim.climber_model import HookShape
 from ...families.climber.trials.body_bench import BodyEntry, run_body
-from ...families.climber.trials.body_scenario import push
-from ...families.climber.trials.body_stand import BodyStand, bench_flaws, ladder_stand
+from ...families.climber.trials.body_stand import BodyStand, bench_flaws, ladder_stand, push
 from ...sim.limb_flaws import LimbFlaws
 from ..result import Compared, Figure, StudyResult, Table, Value
 from . import MILLI

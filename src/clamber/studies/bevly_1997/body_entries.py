@@ -6,9 +6,8 @@ from typing import Final
 
 from ...families.climber.execution.body_gains import BodyGains
 from ...families.climber.trials.body_bench import BodyEntry
-from ...families.climber.trials.body_entries import COORDINATED, read_gains
+from ...families.climber.trials.body_entries import COORDINATED, BodyMatch, read_gains
 from ...families.climber.trials.body_stand import BodyStand
-from ...families.climber.trials.body_stiffness import BodyMatch
 from ..result import Verdict
 
 SCCT: Final = "SCCT"

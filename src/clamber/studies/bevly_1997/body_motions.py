@@ -5,10 +5,8 @@ from pathlib import Path
 from typing import Final
 
 from ...families.climber.execution.body_gains import BodyGains
-from ...families.climber.trials.body_bench import BodyEntry, BodyRun, run_bodies
-from ...families.climber.trials.body_measures import BodyMeasures, measure_body
-from ...families.climber.trials.body_scenario import BodyScenario, circle, push_up
-from ...families.climber.trials.body_stand import bench_flaws, ladder_stand
+from ...families.climber.trials.body_bench import BodyEntry, BodyMeasures, BodyRun, measure_body, run_bodies
+from ...families.climber.trials.body_stand import BodyScenario, bench_flaws, circle, ladder_stand, push_up
 from ..result import Compared, Figure, StudyResult, Table, Value
 from . import MILLI
 from .body_entries import (

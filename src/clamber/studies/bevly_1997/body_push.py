@@ -7,12 +7,17 @@ from typing import Final
 import numpy as np
 
 from ...families.climber.execution.body_gains import BodyGains, usual_alpha
-from ...families.climber.trials.body_bench import BodyEntry, BodyRun, run_bodies, run_body
-from ...families.climber.trials.body_measures import measure_body
-from ...families.climber.trials.body_scenario import push
-from ...families.climber.trials.body_stand import BodyStand, bench_flaws, ladder_stand
-from ...families.climber.trials.body_stiffness import body_stiffness
-from ...families.climber.trials.body_trials import PushTrial, push_trials
+from ...families.climber.trials.body_bench import (
+    BodyEntry,
+    BodyRun,
+    PushTrial,
+    measure_body,
+    push_trials,
+    run_bodies,
+    run_body,
+)
+from ...families.climber.trials.body_entries import body_stiffness
+from ...families.climber.trials.body_stand import BodyStand, bench_flaws, ladder_stand, push
 from ...sim.limb_flaws import LimbFlaws
 from ..result import Compared, Figure, StudyResult, Table, Value
 from . import MILLI

@@ -8,8 +8,8 @@ import numpy as np
 
 from ...control.controller import Controller, still_aim
 from ...control.law_settings import LawSettings
-from ...limb_bench.bench_limb import BenchLimb
 from ...limb_bench.stability import loop_matrix
+from ...sim.bench_limb import BenchLimb
 from ..result import Compared, StudyResult, Table, Value, Verdict
 from .limb_entries import GAINS, PLANT, SMOOTH, leg_1, scct
 

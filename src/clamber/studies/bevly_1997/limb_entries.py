@@ -8,9 +8,10 @@ import numpy as np
 
 from ...control.chain import Chain
 from ...control.law_settings import LawSettings, PerAxis
-from ...limb_bench.bench_limb import BenchLimb, bench_limb
-from ...limb_bench.matching import MATCHES, Match, match_gains, tip_stiffness
+from ...limb_bench.bench_limb import bench_limb
+from ...limb_bench.entries import MATCHES, Match, match_gains, tip_stiffness
 from ...limb_bench.measures import Entry
+from ...sim.bench_limb import BenchLimb
 from ...sim.limb_flaws import LimbFlaws
 from ...types import Floats
 from ..result import Compared, Verdict

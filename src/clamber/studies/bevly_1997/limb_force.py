@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from ...limb_bench.bench_limb import BenchLimb
 from ...limb_bench.force import ForceResult, force_entries, run_force
 from ...limb_bench.scenario import ForceTask
+from ...sim.bench_limb import BenchLimb
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import MILLI

@@ -10,9 +10,10 @@ import numpy as np
 
 from ...control.chain import Chain
 from ...families.climber.control.limb_chain import chain_of_limb
-from ...limb_bench.bench_limb import limbed_robot
+from ...families.climber.robot.robot import build_limbed
 from ...sim.limb_flaws import LimbFlaws
 from ...sim.plants import plant_maker
+from ...tasks.robots import read_robot
 from ...types import Floats
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value
@@ -73,7 +74,7 @@ def drive_joint(number: int) -> JointDrive:
     Args:
         number: As in Table 3.1, from 1.
     """
-    robot = limbed_robot("libra")
+    robot = build_limbed(read_robot("libra"))
     limb, joint = JOINTS[number - 1]
     chain = chain_of_limb(robot, robot.limb_names[limb])
     spec = robot.limbs[limb]

@@ -6,8 +6,8 @@ from typing import Final
 
 import numpy as np
 
-from ...limb_bench.bench_limb import BenchLimb
 from ...limb_bench.open_loop import FIRST, TRANSFORMS, OpenLoopRun, first_turn, run_open_loop, scaled_torques
+from ...sim.bench_limb import BenchLimb
 from ...types import Floats
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value
@@ -112,7 +112,7 @@ def compare_transforms() -> StudyResult:
 
 def _figures(runs: Runs, renewed: dict[str, OpenLoopRun], turns: Turns) -> tuple[Figure, ...]:
     def paths(path: Path) -> None:
-        from ...limb_bench.pictures.open_loop import Drawn, draw_open_loop
+        from ...limb_bench.pictures.force import Drawn, draw_open_loop
 
         columns = {
             branch: [
@@ -127,7 +127,7 @@ def _figures(runs: Runs, renewed: dict[str, OpenLoopRun], turns: Turns) -> tuple
         draw_open_loop(columns, SHOWN * MILLI, f"Steady torques for a motion along -y, {STRONG:g} N", path)
 
     def directions(path: Path) -> None:
-        from ...limb_bench.pictures.open_loop import draw_turns
+        from ...limb_bench.pictures.force import draw_turns
 
         draw_turns(ROUND, turns, NAMES, path)
 

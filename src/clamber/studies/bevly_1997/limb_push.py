@@ -7,11 +7,11 @@ from typing import Final
 import numpy as np
 
 from ...control.law_settings import LawSettings
-from ...limb_bench.bench_limb import BenchLimb
-from ...limb_bench.matching import tip_stiffness
+from ...limb_bench.entries import tip_stiffness
 from ...limb_bench.measures import Entry, Run
 from ...limb_bench.runner import run_contest
 from ...limb_bench.scenario import Scenario, push_scenario, step_scenario
+from ...sim.bench_limb import BenchLimb
 from ...sim.limb_flaws import LimbFlaws
 from ...types import Floats
 from ...units import DEGREE

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...control.chain import Chain
 from ...control.law_settings import LawSettings
-from ...limb_bench.matching import Match
+from ...limb_bench.entries import Match
 from ...limb_bench.measures import Entry, Run
 from ...limb_bench.runner import run_contest
 from ...limb_bench.scenario import Scenario, circle_scenario, step_scenario

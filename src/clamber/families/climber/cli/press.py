@@ -29,12 +29,12 @@ def press(
     The file of `-o` is a picture of force and body over time (.png, .svg, .pdf).
     """
     check_writable(output)
+    from ....sim.flaw_texts import named_flaws, read_flaws
     from ....tasks.robots import load_robot
     from ....units import parse_quantity, read_point
     from ....viewing.output import CANVASES, check_suffix
     from ..pictures.body_plots import draw_press
     from ..robot.robot import LimbedRobot
-    from ..sim.flaw_texts import named_flaws, read_flaws
     from ..trials.press import run_press
     from ..trials.run_plan import PHYSICS_RATE
     from ..world.library import load_board

@@ -38,6 +38,19 @@ def chain_of_limb(robot: LimbedRobot, name: str, *, basis: ShareBasis = "inertia
     return chain.with_shares(basis)
 
 
+def chosen_limb(robot: LimbedRobot, limb: str) -> str:
+    """Name of a limb that is called by its name or by its place from 1.
+
+    Raises:
+        UnknownNameError: If there is no such limb.
+    """
+    names = robot.limb_names
+    if limb.isdecimal() and 1 <= int(limb) <= len(names):
+        return names[int(limb) - 1]
+    robot.limb_index(limb)
+    return limb
+
+
 def _fill_joint(record: Records, joint: Joint, robot: LimbedRobot) -> None:
     record["rotor"], record["damping"], record["friction"] = joint.inertia, joint.damping, joint.friction
     record["limit"] = robot.torque_limit_of(joint)

@@ -7,8 +7,8 @@ from typing import Final
 
 from ....control.chain import Chain
 from ....control.identification.joint import Drivetrain, IdentifiedJoint, identify_joint
-from ....control.identification.links import LinkLoad, link_loads
-from ....control.identification.motion import motion_of
+from ....control.identification.joint_fit import LinkLoad, link_loads
+from ....control.identification.samples import motion_of
 from ....errors import ClamberError, UnitError, UnknownNameError, describe_choices
 from ....execution.log import Log, LogError
 from ....execution.log_roles import LimbSamples, samples_of
@@ -16,7 +16,7 @@ from ....json_form import Jsonable
 from ....tasks.robots import load_robot
 from ....toml_text import toml_value
 from ....units import parse_quantity
-from ..control.limb_chain import chain_of_limb
+from ..control.limb_chain import chain_of_limb, chosen_limb
 from ..robot.robot import Joint, LimbedRobot
 
 CLEAR: Final = 5.0
@@ -199,10 +199,7 @@ def _limb_of(robot: str, limb: str | None, found: LimbSamples) -> tuple[LimbedRo
         if len(named) != 1:
             raise UnknownNameError(f"limb of {loaded.name} (state --limb)", "", loaded.limb_names)
         return loaded, named[0]
-    if limb.isdecimal() and 1 <= int(limb) <= len(loaded.limb_names):
-        return loaded, loaded.limb_names[int(limb) - 1]
-    loaded.limb_index(limb)
-    return loaded, limb
+    return loaded, chosen_limb(loaded, limb)
 
 
 def _drivetrains(robot: LimbedRobot, limb: str, chain: Chain) -> dict[str, Drivetrain]:

@@ -13,7 +13,7 @@ from ....viewing.law_colours import LAW_COLOURS, MATCH_LINES, WANTED
 from ....viewing.output import drawing
 from ....viewing.style import bare
 from ..trials.body_bench import SLOT, BodyEntry, BodyRun
-from ..trials.body_scenario import BodyScenario
+from ..trials.body_stand import BodyScenario
 from ..trials.press import Pressed
 
 MILLI: Final = 1e3

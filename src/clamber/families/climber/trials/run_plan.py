@@ -17,6 +17,7 @@ from ....execution.sequencer import Sequencer
 from ....json_form import HIDDEN, INLINE, Jsonable, Key
 from ....planning.problem.plan import Plan
 from ....planning.problem.plan_source import is_plan, open_plan
+from ....sim.flaw_texts import named_flaws, read_flaws
 from ....sim.limb_flaws import LimbFlaws
 from ....tasks import Task, load_task
 from ....trials.work import split_settings
@@ -27,7 +28,6 @@ from ..execution.climb_trace import TOPIC, ClimbTrace, TracedClimber, limb_notes
 from ..execution.climbing import Climbing, Progress, Replan
 from ..execution.course import climbable, lay_course
 from ..planning.task import LimbedTask
-from ..sim.flaw_texts import named_flaws, read_flaws
 from .faults import failing_body
 from .noise import NO_NOISE, Drawn, Noise, assumed_backlash, check_noise, draw_for, true_places
 from .plants import climbing_plant, drawn_plant, truth_of

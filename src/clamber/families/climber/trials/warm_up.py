@@ -8,6 +8,7 @@ import numpy as np
 from ....execution.sequencer import Sequencer
 from ....kernel_cache import Use
 from ....planning.problem.plan import Plan
+from ....sim.flaw_texts import named_flaws
 from ....tasks import load_task
 from ..execution.climb_trace import TracedClimber
 from ..execution.climbing import Climbing
@@ -15,7 +16,6 @@ from ..execution.course import climbable, lay_course
 from ..planning.plans import thesis_code
 from ..planning.task import LimbedTask
 from ..sim.climber_plant import ClimberPlant
-from ..sim.flaw_texts import named_flaws
 
 CLIMBING: Final = Use("clamber.families.climber.trials.warm_up:warm_up_beside_planning", "command_tick")
 FIRST_GRAB: Final = 106

@@ -5,11 +5,11 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any, Final
 
-from ....errors import UnitError, UnknownNameError, describe_choices
-from ....sim.limb_flaws import ForceSensor, LimbFlaws
-from ....sim.plant_rules import PlantError
-from ....units import parse_quantity
-from ..robot.robot import LimbedRobot
+from ..errors import UnitError, UnknownNameError, describe_choices
+from ..units import parse_quantity
+from .bench_limb import GearedRobot
+from .limb_flaws import ForceSensor, LimbFlaws
+from .plant_rules import PlantError
 
 DIMENSIONS: Final[dict[str, str]] = {
     "backlash": "angle",
@@ -42,7 +42,7 @@ YES_NO: Final = {
 }
 
 
-def named_flaws(name: str, robot: LimbedRobot) -> LimbFlaws:
+def named_flaws(name: str, robot: GearedRobot) -> LimbFlaws:
     """A set of flaws by name: "ideal", with friction alone, or "nominal", as the robot's file has its motors, with a sample of delay.
 
     Raises:

@@ -5,13 +5,11 @@ from typing import Any, Final
 
 import numpy as np
 
-from ...control.identification.joint import IdentifiedJoint
-from ...control.identification.replay import model_speed
-from ...families.climber.execution.log_identify import Identification
-from ...types import Floats
-from ...viewing import style
-from ...viewing.output import drawing
-from .panels import dress
+from ....control.identification.joint import IdentifiedJoint, model_speed
+from ....types import Floats
+from ....viewing import style
+from ....viewing.output import drawing
+from ..execution.log_identify import Identification
 
 SHOWN: Final = 20.0
 """Longest piece of a log that is drawn over time [s]."""
@@ -36,7 +34,9 @@ def _draw_joint(part: Any, joint: IdentifiedJoint) -> None:
     _draw_left_over(left, joint, span)
     _draw_curve(curve, joint)
     for axes in (speeds, left, curve):
-        dress(axes, grid=0.6)
+        style.bare(axes)
+        axes.grid(color=style.FAINT, lw=0.6)
+        axes.set_axisbelow(True)
     for axes in (speeds, left):
         axes.set_xlim(span)
     speeds.tick_params(labelbottom=False)

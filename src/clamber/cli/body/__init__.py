@@ -1,1 +1,0 @@
-"""`clamber body`: one file per command, what it prints beside it."""
