@@ -10,7 +10,8 @@ from threading import Event
 import pytest
 
 import clamber
-from clamber.cli import main, output
+from clamber.cli import main
+from clamber.terminal import output
 
 
 def run(cache: Path, *words: str) -> subprocess.CompletedProcess[str]:
