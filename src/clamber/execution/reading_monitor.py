@@ -86,7 +86,7 @@ class ReadingMonitor:
         self.free = np.ones(n, np.bool_)
         """Whether what moves a reading is free to move: the joints of a limb that holds on are not, shape (n,)."""
         self.silent = np.zeros(n, np.bool_)
-        """Whether a reading stays the same whatever its motor does; of a joint that is not free, that alone is no fault, shape (n,)."""
+        """Whether a reading stays the same now whatever its motor does; of a joint that is not free, that alone is no fault, shape (n,)."""
         self._bounds, self._memory = np.zeros((BOUNDS, n)), np.zeros((MEMORY, n))
         for k, channel in enumerate(self.channels):
             self._bounds[FASTEST, k], self._bounds[SLOW, k] = channel.fastest, FOLLOWS * channel.fastest
@@ -138,6 +138,12 @@ class ReadingMonitor:
         usual: Floats = self._memory[MEAN]
         return usual
 
+    @property
+    def unchanged(self) -> Floats:
+        """Ticks for which each reading has not changed by a count, shape (n,)."""
+        ticks: Floats = self._memory[SAME]
+        return ticks
+
     def see(self, number: int = -1) -> None:
         """Take in a tick's `values`, `speeds` and `commands`.
 
@@ -156,6 +162,7 @@ class ReadingMonitor:
             self.clear = 0 if self._verdicts.any() else self.clear + 1
             self._look()
         else:
+            self.silent[:] = False
             self.clear += 1
         if elapsed > 1:
             self.clear = 0
