@@ -79,6 +79,17 @@ def test_a_limb_that_is_lifted_off_neither_looks_like_a_weak_motor_nor_strikes_i
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("seed", [1_000_002_068, 1_000_002_141])
+def test_tips_that_wandered_before_a_joint_stood_still_do_not_make_its_sensor_a_stuck_one(
+    task: LimbedTask, plan: Plan, seed: int
+) -> None:
+    """Nor does a joint that stood still once, 15 s and 34 s before, and has turned since."""
+    setup = TrialSetup(task=task, noise=named_noise("usual"), plan=plan, replan=False)
+    trial = climb_once(setup, seed)[1]
+    assert trial.done, trial.reason
+
+
+@pytest.mark.slow
 def test_the_saved_plan_is_what_the_planner_finds(task: LimbedTask, plan: Plan) -> None:
     result = plan_beam(cautious(task, HANGING[0]), seed=0)
     assert result.plan is not None

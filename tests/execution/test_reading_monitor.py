@@ -99,6 +99,23 @@ def test_a_stuck_sensor_is_told_once_its_motor_is_driven_otherwise() -> None:
     assert never == -1  # a joint that is not driven may stand still
 
 
+def test_a_joint_of_a_limb_that_holds_is_silent_only_while_it_stands_still() -> None:
+    """The squeeze between two holds may change without a count; later the body moves, and the joint has never failed."""
+    watch = monitor()
+    watch.free[0] = False
+    still = sway(0)[0][0]
+    silent = []
+    for k in range(200):
+        values, speeds = sway(k)
+        stands = k < 100
+        values[0], speeds[0] = (still, 0.0) if stands else (still + 1e-3 * (k - 99), 0.2)
+        see(watch, values, speeds, np.array((0.1 * k, 0.0)))
+        silent.append(bool(watch.silent[0]))
+        assert watch.unchanged[0] == (k if stands else 0)
+    assert silent[99]
+    assert not any(silent[100:])
+
+
 def test_a_joint_that_gives_way_to_a_full_command_is_told() -> None:
     watch, ticks = ticks_to_an_end(
         lambda k, q, qd: (q, qd),

@@ -90,7 +90,7 @@ class ReadingMonitor:
         self.free = np.ones(n, np.bool_)
         """Whether what moves a reading is free to move: the joints of a limb that holds on are not, shape (n,)."""
         self.silent = np.zeros(n, np.bool_)
-        """Whether a reading stays the same whatever its motor does; of a joint that is not free, that alone is no fault, shape (n,)."""
+        """Whether a reading stays the same now whatever its motor does; of a joint that is not free, that alone is no fault, shape (n,)."""
         self._bounds, self._memory = np.zeros((BOUNDS, n)), np.zeros((MEMORY, n))
         for k, channel in enumerate(self.channels):
             self._bounds[FASTEST, k], self._bounds[SLOW, k] = channel.fastest, FOLLOWS * channel.fastest
@@ -142,6 +142,12 @@ class ReadingMonitor:
         """With what the motors were driven lately, shape (n,)."""
         usual: Floats = self._memory[MEAN]
         return usual
+
+    @property
+    def unchanged(self) -> Floats:
+        """Ticks for which each reading has not changed by a count, shape (n,)."""
+        ticks: Floats = self._memory[SAME]
+        return ticks
 
     def see(self, number: int = -1) -> None:
         """Take in a tick's `values`, `speeds` and `commands`.

@@ -29,9 +29,9 @@ WANDERED: Final = 0.06
 """Two tips on their holds that have moved by this part of the longest limb against each other since they came there are there no more, or a
 sensor drifts [-]: the play of the joints and the slots makes less than half of it."""
 SILENT: Final = 0.03
-"""Two tips have moved by this part of the longest limb against each other on their holds, so that a joint of theirs which answers no torque
-is at fault [-]: more than the play of joints and slots makes, which is an angle times the limb's length (half a degree a joint in climbs of
-LIBRA)."""
+"""Two tips have moved by this part of the longest limb against each other on their holds since the reading of a joint of theirs, which
+answers no torque, changed last, so that it is at fault [-]: more than the play of joints makes meanwhile, an angle times the limb's length
+(half a degree a joint in climbs of LIBRA). What they moved before does not count: a sensor that sticks is right at first."""
 LOOKED_AT: Final = 0.05
 """Time between two looks at that [s]."""
 WANDERING: Final = 1.0
@@ -87,6 +87,8 @@ class SelfWatch:
         """Limbs told to have their hooks beside their holds."""
         self._came: dict[tuple[int, int], tuple[tuple[int, int], Floats]] = {}
         """Pair -> its holds, and how its tips lay to each other when both had come there, by the encoders and with the play counted [m]."""
+        self._lay: dict[tuple[int, int], Floats] = {}
+        """Pair -> how its tips lay, likewise, when the reading of each of its joints changed last since then, shape (4, 4) [m]."""
         self._turning, self._angle = 0, math.nan
         self._lines: dict[tuple[int, int], tuple[tuple[int, int], tuple[float, float]]] = {}
         """Pair -> its holds, and how its line lay, likewise, when the body's encoder changed last or the pair began to hold [rad]."""
@@ -206,14 +208,11 @@ class SelfWatch:
             )
             known = self._came.get(pair)
             if known is None or known[0] != (one.hold, other.hold):
-                self._came[pair] = (one.hold, other.hold), between
+                self._came[pair], self._lay[pair] = ((one.hold, other.hold), between), np.tile(between, (4, 1))
                 continue
+            self._look_at_silent(pair, between)
             moved = between - known[1]
-            size = min(math.hypot(*moved[:2]), math.hypot(*moved[2:]))
-            if size > self._silent:
-                for c in (2 * a, 2 * a + 1, 2 * b, 2 * b + 1):
-                    if self._monitor.silent[c]:
-                        self._monitor.tell_silent(c)
+            size = _size(moved)
             if size > self._wandered_off:
                 wandered.append((pair, moved[:2], size))
         self._wandered = self._wandered + 1 if wandered else 0
@@ -226,6 +225,15 @@ class SelfWatch:
         if self._wandered * LOOKED_AT > WANDERING:
             self._tell_sensor(*wandered[0])
         return None
+
+    def _look_at_silent(self, pair: tuple[int, int], between: Floats) -> None:
+        """Whether the tips of a pair have moved against each other while a joint of theirs answered no torque."""
+        lay = self._lay[pair]
+        for row, c in enumerate(2 * i + k for i in pair for k in range(2)):
+            if self._monitor.unchanged[c] < self._every:
+                lay[row] = between
+            elif self._monitor.silent[c] and _size(between - lay[row]) > self._silent:
+                self._monitor.tell_silent(c)
 
     def _dragged_limb(self, pairs: Sequence[tuple[int, int]]) -> int | None:
         """The limb that carries nothing and has moved against all that hold, which have not moved against each other."""
@@ -249,6 +257,11 @@ class SelfWatch:
         names = " and ".join(f"'{body.robot.limbs[i].name}'" for i in pair)
         why = f"sensor drifts, or a hook slides: the tips of {names} have moved {1e3 * size:.0f} mm against each other on their holds"
         self._monitor.fail("drift", self._monitor.channels[sensor].name, why)
+
+
+def _size(moved: Floats) -> float:
+    """How far a tip has moved at least, by the encoders or with the play counted, shape (4,) [m]."""
+    return min(math.hypot(*moved[:2]), math.hypot(*moved[2:]))
 
 
 def _direction(tips: Floats, pair: tuple[int, int]) -> float:
