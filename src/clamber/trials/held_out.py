@@ -5,9 +5,9 @@ from typing import Final
 
 from ..errors import ClamberError
 
-FIRST_HELD_OUT: Final = 1_000_003_000
-"""From here on. Every seed below is a training seed, whether it has been used or not; the three thousand from 1 000 000 000 on
-were held out until false alarms of fault detection were found among the first 300 of each and mended."""
+FIRST_HELD_OUT: Final = 1_000_004_000
+"""From here on. Every seed below is a training seed, whether it has been used or not; the four thousand from 1 000 000 000 on
+were held out until false alarms of fault detection were found among the first of each and mended."""
 
 
 class HeldOutError(ClamberError):
