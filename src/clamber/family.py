@@ -95,19 +95,25 @@ class Family:
         return None
 
     @property
-    def pictures(self) -> Pictures | None:
-        """How stances, plans and runs are drawn."""
-        return None
+    def pictures(self) -> Pictures:
+        """How stances, plans and runs are drawn; usually a body with lines to its holds."""
+        from .viewing.plain import PICTURES
+
+        return PICTURES
 
     @property
-    def scenes(self) -> Scenes | None:
-        """How its robots are shown in the viewer, and what is offered there."""
-        return None
+    def scenes(self) -> Scenes:
+        """How its robots are shown in the viewer, and what is offered there; usually the same in space."""
+        from .viewing.plain import SCENES
+
+        return SCENES
 
     @property
-    def trajectories(self) -> Trajectories | None:
-        """Joint trajectories of plans and of runs."""
-        return None
+    def trajectories(self) -> Trajectories:
+        """Joint trajectories of plans and of runs; usually the body's of plans."""
+        from .exports.joint_trajectory import BODY
+
+        return BODY
 
     @property
     def inspection(self) -> Inspection | None:

@@ -141,26 +141,6 @@ def test_a_joint_that_a_full_command_does_not_move_is_told_later() -> None:
     assert never == -1
 
 
-def test_a_joint_of_a_limb_that_holds_is_silent_only_while_it_stands_still() -> None:
-    """Its stillness is no fault by itself, and once it has moved nothing is left of it."""
-    watch = monitor()
-    watch.free[:] = False
-    for k in range(600):
-        still = k < 300
-        see(
-            watch,
-            np.array((0.0 if still else 1e-3 * (k - 300), 0.0)),
-            np.zeros(2),
-            np.array((0.02 * LIMIT * (k % 50), 0.0)),
-            k,
-        )
-        if k == 299:
-            assert watch.silent[0]
-        if k > 300:
-            assert not watch.silent[0], k
-    assert not watch.findings
-
-
 @pytest.mark.parametrize(
     ("numbers", "kind", "ends"),
     [

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..errors import SpecError
 from ..execution.log import Log
+from ..family import NotOfFamilyError, family_of
 from ..planning.problem.problem import Replay
 from ..types import Floats, Json
 
@@ -123,3 +124,19 @@ class Trajectories:
     """That only logs of its runs have."""
     run: Callable[[Log], JointTrajectory]
     """Of a log."""
+
+
+def _body_over_plan(task: Any, replay: Replay) -> JointTrajectory:
+    """The body's place and angle after each action; an action takes a second where the model has no time."""
+    plans = family_of(task).plans
+    poses = np.array([plans.pose(stance) for stance in replay.stances])
+    time = np.arange(len(poses), dtype=np.float64) * (plans.duration(task) or 1.0)
+    return resting(("body_x", "body_y", "body_angle"), (True, True, False), time, poses, None)
+
+
+def _no_runs(log: Log) -> JointTrajectory:
+    raise NotOfFamilyError("robot of this log", "joint trajectories")
+
+
+BODY: Final = Trajectories(_body_over_plan, "", _no_runs)
+"""Of families that say nothing of joints."""

@@ -10,7 +10,7 @@ from ..errors import ClamberError, SpecError, UnknownNameError, describe_choices
 from ..execution.log import LogError
 from ..execution.log_files import SUFFIXES as LOGS
 from ..execution.log_files import read_log
-from ..family import NotOfFamilyError, families, family_of
+from ..family import families, family_of
 from ..files import is_path, write_atomically
 from ..json_form import Count, Key, in_json
 from ..planning.problem.plan_source import OpenedPlan, is_plan, open_plan, plan_names
@@ -82,7 +82,7 @@ def run_trajectory(path: Path) -> JointTrajectory:
     log = read_log(path, None)
     for family in families():
         trajectories = family.trajectories
-        if trajectories is not None and trajectories.note in log.notes:
+        if trajectories.note in log.notes:
             return trajectories.run(log)
     raise LogError(log.label, None, None, None, "is no log of a run; `clamber run PLAN -o run.mcap` writes one")
 
@@ -98,10 +98,7 @@ def plan_trajectory(opened: OpenedPlan) -> JointTrajectory:
     task = opened.task
     codes = opened.plan.codes(task, opened.label)
     replay = plan_family(task).problem(task).replay(codes, go_on=True)
-    trajectories = family_of(task).trajectories
-    if trajectories is None:
-        raise NotOfFamilyError(family_of(task).title, "joint trajectories")
-    return trajectories.plan(task, replay)
+    return family_of(task).trajectories.plan(task, replay)
 
 
 Kind: TypeAlias = Literal["robot", "plan", "run"]

@@ -137,10 +137,6 @@ class Shuttles(Family):
     scenes = RideScenes()
 
 
-class Unseen(Shuttles):
-    pictures = scenes = None  # type: ignore[assignment]
-
-
 @pytest.fixture(params=[Shuttles()])
 def task(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Ride:
     """A task of a family that was added by its name."""
@@ -175,11 +171,3 @@ def test_its_viewer_offers_no_editor_and_says_what_it_cannot_do(task: Any, tmp_p
         draw_run(ran, tmp_path / "run.png")
     with pytest.raises(SuffixError):
         check_run_suffix("run.txt")
-
-
-@pytest.mark.parametrize("task", [Unseen()], indirect=True)
-def test_a_family_without_scenes_is_told_of(task: Any, tmp_path: Path) -> None:
-    with pytest.raises(NotOfFamilyError, match="a shuttle on a rail has no scenes for the viewer"):
-        exhibit_of(task, task.replay())
-    with pytest.raises(NotOfFamilyError, match="a shuttle on a rail has no pictures"):
-        draw_stance(task, task.replay(), 0, tmp_path / "stance.png")

@@ -26,7 +26,7 @@ from clamber.family import family_of
 from clamber.planning.planners import plan_task
 from clamber.planning.problem.plan import Plan
 from clamber.tasks import load_task
-from clamber.viewing.browser.exhibit import Exhibit, exhibit_of, open_exhibit, scenes_of
+from clamber.viewing.browser.exhibit import Exhibit, exhibit_of, open_exhibit
 from clamber.viewing.film import Film, PlanView
 from clamber.viewing.scene import join
 
@@ -45,7 +45,7 @@ def hand() -> Exhibit:
 
 
 def run_film_of(run: ClimbRun) -> Film[Any]:
-    return scenes_of(family_of(run.task)).run_film(exhibit_of(run.task), run)
+    return family_of(run.task).scenes.run_film(exhibit_of(run.task), run)
 
 
 def test_plan_rests_in_its_stances(hand: Exhibit) -> None:

@@ -13,7 +13,7 @@ from ...planning.problem.plan import Plan
 from ...tasks.task_format import task_files
 from .. import style
 from ..scene import join
-from .exhibit import Editor, Exhibit, exhibit_of, scenes_of
+from .exhibit import Editor, Exhibit, exhibit_of
 from .inputs import by_hand, set_input
 from .own_pages import Guard, UnguardedError, check_guarded, guarded
 from .playback import Playback
@@ -149,7 +149,7 @@ class App:
         self.editor: Editor | None = None
         self.saving: SavePanel | None = None
         if exhibit.task is not None:
-            scenes = scenes_of(family_of(exhibit.task))
+            scenes = family_of(exhibit.task).scenes
             with tabs.add_tab(scenes.tab, viser.Icon.EDIT):
                 self.editor = scenes.editor(server, exhibit.task, self.stage, self.show_task)
                 self.work = WorkPanel(
@@ -186,7 +186,7 @@ class App:
 
     def show_run(self, run: Any) -> None:
         """Play a run beside its plan."""
-        self.exhibit.run_film = scenes_of(family_of(self.exhibit.task)).run_film(self.exhibit, run)
+        self.exhibit.run_film = family_of(self.exhibit.task).scenes.run_film(self.exhibit, run)
         with self.playback.still():
             self.stage.set_film("run", self.exhibit.run_film)
             self.choose("both")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final, Protocol
 from ...errors import SpecError
 from ...execution.log import Log, LogError
 from ...execution.log_files import SUFFIXES, read_log
-from ...family import Family, NotOfFamilyError, families, family_of
+from ...family import NotOfFamilyError, families, family_of
 from ...planning.planners import plan_task
 from ...planning.problem.plan import Plan
 from ...planning.problem.plan_source import check_name, is_plan, open_plan
@@ -162,17 +162,6 @@ class _Fixed:
         return self.made
 
 
-def scenes_of(family: Family) -> Scenes:
-    """How a family is shown.
-
-    Raises:
-        NotOfFamilyError: If it is not.
-    """
-    if family.scenes is None:
-        raise NotOfFamilyError(family.title, "scenes for the viewer")
-    return family.scenes
-
-
 def open_exhibit(things: Sequence[str], task: str | None = None, overrides: Sequence[str] = ()) -> Exhibit:
     """What some names and files mean together.
 
@@ -197,7 +186,7 @@ def open_exhibit(things: Sequence[str], task: str | None = None, overrides: Sequ
     if what is None:
         raise SpecError("clamber view", "nothing to show", "", "name a task, a plan, a walk or a log of a run")
     exhibit = _opened(what, task, overrides)
-    return exhibit if log is None else scenes_of(family_of(exhibit.task)).with_log(exhibit, log)
+    return exhibit if log is None else family_of(exhibit.task).scenes.with_log(exhibit, log)
 
 
 def _opened(what: str, task: str | None, overrides: Sequence[str]) -> Exhibit:
@@ -213,12 +202,12 @@ def _opened(what: str, task: str | None, overrides: Sequence[str]) -> Exhibit:
 
 def exhibit_of(task: Any, plan: Plan | Replay | None = None, label: str = "plan") -> Exhibit:
     """A task, or what else a family can carry out, with a plan if there is one; see `Scenes.exhibit`."""
-    return scenes_of(family_of(task)).exhibit(task, plan, label)
+    return family_of(task).scenes.exhibit(task, plan, label)
 
 
 def run_exhibit(run: CarriedOut) -> Exhibit:
     """What was just carried out, beside its plan where it has one."""
-    scenes = scenes_of(family_of(run.work))
+    scenes = family_of(run.work).scenes
     exhibit = scenes.exhibit(run.work, getattr(run, "plan", None))
     exhibit.run_film = scenes.run_film(exhibit, run)
     return exhibit
@@ -227,7 +216,7 @@ def run_exhibit(run: CarriedOut) -> Exhibit:
 def _made_with(log: Log) -> str:
     """The name of the task or other work that a log was made with, if it comes with Clamber."""
     for family in families():
-        found = None if family.scenes is None else family.scenes.made_with(log)
+        found = family.scenes.made_with(log)
         if found:
             return found
     raise LogError(log.label, None, None, None, f"does not say what it was made with; {NAMED}")

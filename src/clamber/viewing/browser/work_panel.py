@@ -15,7 +15,7 @@ from ...planning.progress import Moment, Routing, progress_text
 from ...trials.dynamics import RunEvents, RunRequest
 from ...trials.work import dynamics_of
 from .. import style
-from .exhibit import Planned, Scenes, scenes_of
+from .exhibit import Planned, Scenes
 from .inputs import set_input
 from .panel_html import message_html
 from .solids import colour
@@ -111,7 +111,7 @@ def make_plan(task: Any, planner: str, seconds: float, tell: Tell, *, reserves: 
     Raises:
         ClamberError: If the planner cannot work on the task, or the start violates a hard check.
     """
-    scenes, listener = scenes_of(family_of(task)), _Listener(tell)
+    scenes, listener = family_of(task).scenes, _Listener(tell)
     tell(f"planning: looking for any plan{_unless_compiled(scenes)}")
     if reserves:
         return scenes.plan_with_reserves(task, planner, seconds, listener, tell)
@@ -126,7 +126,7 @@ def carry_out(task: Any, plan: Plan | None, tell: Tell) -> Any:
     """
     family = family_of(task)
     dynamics = dynamics_of(family)
-    tell(f"making the robot ready{_unless_compiled(scenes_of(family))}")
+    tell(f"making the robot ready{_unless_compiled(family.scenes)}")
     return dynamics.run(task, plan, RunRequest(plan_seconds=SECONDS), RunEvents(step=tell))
 
 
