@@ -90,6 +90,15 @@ def test_tips_that_wandered_before_a_joint_stood_still_do_not_make_its_sensor_a_
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("seed", [1_000_002_007, 1_000_002_242])
+def test_a_robot_that_friction_or_a_straight_limb_bears_has_not_fallen(task: LimbedTask, plan: Plan, seed: int) -> None:
+    """As a hook is drawn off, at steps 54 and 103: the bottom limb stands almost straight on its hold, and its joints do not turn."""
+    setup = TrialSetup(task=task, noise=named_noise("usual"), plan=plan, replan=False)
+    trial = climb_once(setup, seed)[1]
+    assert trial.done, trial.reason
+
+
+@pytest.mark.slow
 def test_the_saved_plan_is_what_the_planner_finds(task: LimbedTask, plan: Plan) -> None:
     result = plan_beam(cautious(task, HANGING[0]), seed=0)
     assert result.plan is not None

@@ -1,10 +1,11 @@
 """A fall told before the body is seen to leave: motors and encoders say when nothing carries the robot any more."""
 
+import math
 from typing import Final
 
 import numpy as np
 
-from ..control.felt_force import feel_forces
+from ..control.felt_force import SLOW, feel_forces
 from .whole_body import WholeBody
 
 BORNE: Final = 0.45
@@ -26,7 +27,8 @@ class FallWatch:
 
     What holds is taken for granted by the estimate of the body: with every hook off its hold the estimate stays where it was, while the
     robot drops. The sum of the forces that the tips feel drops at once. A limb that is stretched or folded feels nothing along itself;
-    while one that holds is, nothing is told. Nor is it while all stand still: a link that lies on a hold carries, too.
+    while one that holds is, nothing is told. Nor is it while all stand still: a link that lies on a hold carries, too. What the friction of
+    joints at rest may bear besides counts as borne: that of a nearly straight limb may bear the robot.
 
     Args:
         body: What knows the limbs and their tasks.
@@ -68,4 +70,18 @@ class FallWatch:
             return False
         hangs = any(task.doing == "hang" for task in body.tasks)
         drops = hangs and self.carried < WEIGHTLESS[0] * body.robot.weight and self._fastest > WEIGHTLESS[1]
-        return drops or rate > MOVES
+        return drops or (rate > MOVES and self.carried + self._hidden() < self._least)
+
+    def _hidden(self) -> float:
+        """What limbs on holds may bear unfelt by the friction of joints at rest [N]; infinite where one is stretched or folded."""
+        body, hidden = self._body, 0.0
+        for i, task in enumerate(body.tasks):
+            if not task.hold:
+                continue
+            if not math.isfinite(self.forces[i, 0]):
+                return math.inf
+            dry = np.array((body.legs[i]["friction1"], body.legs[i]["friction2"]))
+            unknown = dry * np.maximum(0.0, 1.0 - np.abs(body.qd[i]) / SLOW)
+            by_shoulder, by_elbow = np.linalg.inv(body.turned_by_joints(i)) * unknown[:, None]
+            hidden += max(math.hypot(*(by_shoulder + by_elbow)), math.hypot(*(by_shoulder - by_elbow)))
+        return hidden
