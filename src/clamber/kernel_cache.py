@@ -19,6 +19,7 @@ from typing import Any, Final
 import llvmlite
 import numba
 import numpy as np
+from numba.core import types
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile, _CacheLocator
 
 from .sealed import DAMAGED as DAMAGED
@@ -242,7 +243,7 @@ class _KernelCacheFile(IndexDataCacheFile):  # type: ignore[misc]
 
 def _record_of(kind: Any) -> Any:
     """The element type of an array, or the type itself."""
-    return getattr(kind, "dtype", kind)
+    return kind.dtype if isinstance(kind, types.Array) else kind
 
 
 class KernelCache(FunctionCache):  # type: ignore[misc]

