@@ -207,13 +207,12 @@ OTHER_WAYS = {
     "sources.py": "reads the package itself",
     "viewing/report/pages.py": "reads the package itself",
     "cli/commands.py": "reads the package itself",
-    "cli/printed/meanings.py": "reads the package itself",
     "benchmarks/starts.py": "asks the system for its processor",
     "jobs/store.py": "locks a file whose name was checked",
     "jobs/cluster.py": "opens the null device",
     "execution/link/token.py": "keeps a secret in a folder that only its user can reach",
     "turns.py": "locks a file in the cache",
-    "viewing/video.py": "reads the film that ffmpeg wrote into a folder of ours",
+    "viewing/animation.py": "reads the film that ffmpeg wrote into a folder of ours",
     "execution/log_stream.py": "renames what it wrote by the one way",
 }
 

@@ -10,10 +10,10 @@ LONG = 400
 MANY = 8
 """Parameters of a function."""
 CEILINGS = {
-    "lines": 96_099,
-    "files": 812,
+    "lines": 94_971,
+    "files": 686,
     f"files above {LONG} lines": 0,
-    f"functions with more than {MANY} parameters": 101,
+    f"functions with more than {MANY} parameters": 96,
     "median length of a line": 40,
     "90th percentile of the length of a line": 98,
 }

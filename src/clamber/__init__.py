@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 _PLACES = {
     "ClamberError": "errors",
-    "OutsideCheck": "planning.problem.outside_checks",
+    "OutsideCheck": "planning.problem.verdict",
     "Plan": "planning.problem.plan",
     "PlanResult": "planning.result",
     "Verdict": "planning.problem.verdict",

@@ -25,7 +25,7 @@ from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataC
 from .sealed import DAMAGED as DAMAGED
 from .sealed import FOREIGN as FOREIGN
 from .sealed import SealError, access_problem, read_sealed, write_sealed
-from .sources import PACKAGE, kernel_sources_hash, package_hash
+from .sources import PACKAGE, kernel_sources_hash, outside_hash, package_hash
 from .turns import Turns
 
 FINE: Final = "fine"
@@ -176,16 +176,6 @@ def made_outside(kind: Any, kernels: Iterable[Any]) -> None:
             _outside_types[kind] = file
 
 
-@cache
-def _outside_hash(file: Path) -> str:
-    """SHA-256 of the sources of the package that a file outside ours belongs to, in hex."""
-    top = file.parent
-    while (top.parent / "__init__.py").exists():
-        top = top.parent
-    sources = sorted(top.rglob("*.py")) if (file.parent / "__init__.py").exists() else [file]
-    return hashlib.sha256(b"\0".join(path.read_bytes() for path in sources)).hexdigest()
-
-
 class _KernelLocator(_CacheLocator):  # type: ignore[misc]
     """Puts every kernel's machine code into the one folder of `cache_folder`."""
 
@@ -267,7 +257,7 @@ class KernelCache(FunctionCache):  # type: ignore[misc]
         own = Path(self._py_func.__code__.co_filename)
         if PACKAGE not in own.parents:
             files.add(own)
-        return (*super()._index_key(sig, codegen), *sorted(map(_outside_hash, files)))
+        return (*super()._index_key(sig, codegen), *sorted(map(outside_hash, files)))
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """The machine code for some types, or None; then it is this process's turn to compile it."""

@@ -55,6 +55,16 @@ def kernel_sources_hash(package: Path = PACKAGE) -> str:
     return digest.hexdigest()
 
 
+@cache
+def outside_hash(file: Path) -> str:
+    """SHA-256 of the sources of the package that a file outside ours belongs to, in hex."""
+    top = file.parent
+    while (top.parent / "__init__.py").exists():
+        top = top.parent
+    sources = sorted(top.rglob("*.py")) if (file.parent / "__init__.py").exists() else [file]
+    return hashlib.sha256(b"\0".join(path.read_bytes() for path in sources)).hexdigest()
+
+
 def _hash_of(package: Path, files: Iterable[Path]) -> str:
     digest = hashlib.sha256()
     for path in files:

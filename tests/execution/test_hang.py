@@ -8,6 +8,7 @@ from itertools import pairwise
 import mujoco
 import numpy as np
 import pytest
+from hanging_by_hand import hang_up, one_peg, push_while_hanging
 
 from clamber.execution.sequencer import Sequencer
 from clamber.families.climber.execution.climb_trace import TracedClimber
@@ -21,7 +22,6 @@ from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.robot.robot import LimbedRobot
 from clamber.families.climber.sim.climber_model import HookShape, climber_spec
 from clamber.families.climber.sim.climber_plant import ClimberPlant
-from clamber.families.climber.trials.hanging import hang_up, one_peg, push_while_hanging
 from clamber.families.climber.trials.planning import plan_to_climb
 from clamber.planning.planners import find_planner
 from clamber.planning.problem.plan import Plan

@@ -28,11 +28,13 @@ class BodyOptions:
     controllers: Annotated[
         list[str] | None,
         typer.Option(
-            "--controller", "-c", metavar="NAME",
+            "--controller",
+            "-c",
+            metavar="NAME",
             help="A law, leg-by-leg:LAW, coordinated, or climber; scct and jacobian-transpose unless given.",
             autocompletion=names_of(besides=("scct", "jacobian-transpose", "coordinated", "climber")),
         ),
-    ] = None  # fmt: skip
+    ] = None
     kp: Annotated[str, typer.Option(metavar="X,Y,THETA", help="Of the body, for scct; Table 4.1's.")] = "100,50,10"
     kd: Annotated[str | None, typer.Option(metavar="X,Y,THETA", help="A tenth of --kp unless given.")] = None
     match: Annotated[MatchChoice, typer.Option(help="Other laws hold the body as stiffly as scct in this sense.")] = (
@@ -47,7 +49,7 @@ class BodyOptions:
             metavar="NAME",
             help="Of the hooks' pulls: none, thesis, counted, shared, feasible; where they are fixed none, else thesis.",
         ),
-    ] = None  # fmt: skip
+    ] = None
     alpha: Annotated[
         float | None,
         typer.Option(

@@ -229,9 +229,12 @@ def gl(run: Callable[..., Any] = subprocess.run) -> str | None:
     for way in (said,) if said else GL_WAYS:
         try:
             ended = run(
-                [sys.executable, "-c", GL_PROBE], env=os.environ | {"MUJOCO_GL": way}, capture_output=True,
-                timeout=GL_SECONDS, check=False,
-            )  # fmt: skip
+                [sys.executable, "-c", GL_PROBE],
+                env=os.environ | {"MUJOCO_GL": way},
+                capture_output=True,
+                timeout=GL_SECONDS,
+                check=False,
+            )
         except (OSError, subprocess.TimeoutExpired):
             continue
         if ended.returncode == 0:

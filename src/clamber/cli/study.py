@@ -122,9 +122,12 @@ def _repeat(paper: str, result: str, words: StudyOptions, *, seeded: bool) -> "S
     if not (seeded and result in SEEDED):
         return STUDIES[paper][result]()
     return SEEDED[result](
-        **({} if words.seeds is None else {"seeds": words.seeds}), executor=executor_of(None, words.workers), store=words.store,
-        resume=words.resume and words.store is not None, progress=EndsLine(stderr(), "trials", quiet=words.quiet).update,
-    )  # fmt: skip
+        **({} if words.seeds is None else {"seeds": words.seeds}),
+        executor=executor_of(None, words.workers),
+        store=words.store,
+        resume=words.resume and words.store is not None,
+        progress=EndsLine(stderr(), "trials", quiet=words.quiet).update,
+    )
 
 
 def _open_site(report: Path | None) -> "StudySite | None":

@@ -32,9 +32,10 @@ def are_held_out(seeds: Sequence[int]) -> bool:
     held = sum(seed >= FIRST_HELD_OUT for seed in (min(seeds), max(seeds)))
     if held == 1:
         raise HeldOutError(
-            min(seeds), max(seeds),
+            min(seeds),
+            max(seeds),
             f"are partly held out: take them all below {FIRST_HELD_OUT} (training) or all from there on (held out)",
-        )  # fmt: skip
+        )
     return held == 2
 
 
@@ -46,9 +47,10 @@ def check_training(seeds: Sequence[int]) -> None:
     """
     if any(seed >= FIRST_HELD_OUT for seed in seeds):
         raise HeldOutError(
-            min(seeds), max(seeds),
+            min(seeds),
+            max(seeds),
             f"are held out for rates, and nothing may be tuned on them: take seeds below {FIRST_HELD_OUT}",
-        )  # fmt: skip
+        )
 
 
 def seeds_in_words(seeds: Sequence[int]) -> str:

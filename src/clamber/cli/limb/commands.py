@@ -251,13 +251,15 @@ def _print_gains(console: Console, result: "LimbResult") -> None:
     rows = []
     for row in result.rows:
         settings, k = row.entry.settings, row.stiffness / 1e3
-        rows.append((
-            row.entry.label,
-            *(_per_axis(gain) for gain in (settings.kp, settings.kd)),
-            gain_unit(settings.law, "kp"),
-            *(opt.shown(value) for value in (k[0, 0], k[0, 1], k[1, 1])),
-            "own" if row.entry.own_gains else str(result.matching.how),
-        ))  # fmt: skip
+        rows.append(
+            (
+                row.entry.label,
+                *(_per_axis(gain) for gain in (settings.kp, settings.kd)),
+                gain_unit(settings.law, "kp"),
+                *(opt.shown(value) for value in (k[0, 0], k[0, 1], k[1, 1])),
+                "own" if row.entry.own_gains else str(result.matching.how),
+            )
+        )
     opt.show_table(console, ("law", "kp", "kd", "in", "Kxx", "Kxy", "Kyy", "gains"), rows, ("law", "in", "gains"))
     console.print("kd in that unit times s; stiffness K of the tip by the law itself [N/mm]")
 

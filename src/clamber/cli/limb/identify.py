@@ -78,9 +78,13 @@ class IdentifyWords:
         from ...execution.log_columns import read_mapping
 
         chosen = {
-            "time": self.time, "angle": self.angle, "torque": self.torque, "current": self.current, "command": self.command,
+            "time": self.time,
+            "angle": self.angle,
+            "torque": self.torque,
+            "current": self.current,
+            "command": self.command,
             "output angle": self.output_angle,
-        }  # fmt: skip
+        }
         return read_mapping(self.columns or (), chosen)
 
 
@@ -222,9 +226,11 @@ def record(
     from ...units import parse_quantity
 
     noise = SensorNoise(
-        angle=parse_quantity(sensors.angle_noise, "angle"), current=sensors.current_noise,
-        output_angle=parse_quantity(sensors.output_noise, "angle"), seed=sensors.seed,
-    )  # fmt: skip
+        angle=parse_quantity(sensors.angle_noise, "angle"),
+        current=sensors.current_noise,
+        output_angle=parse_quantity(sensors.output_noise, "angle"),
+        seed=sensors.seed,
+    )
     chosen = bench_limb(robot, limb)
     properties = read_flaws(named_flaws(flaws.value, chosen.robot), settings or ())
     if properties.upright:

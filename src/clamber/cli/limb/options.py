@@ -50,11 +50,13 @@ class LawWords:
     controllers: Annotated[
         list[str] | None,
         typer.Option(
-            "--controller", "-c", metavar="NAME[:KEY=VALUE,...]",
+            "--controller",
+            "-c",
+            metavar="NAME[:KEY=VALUE,...]",
             help="A law, such as scct or jacobian-transpose:kp=1000,kd=100; repeat it. A usual set unless given.",
             autocompletion=names_of("controllers"),
         ),
-    ] = None  # fmt: skip
+    ] = None
     kp: Annotated[float | None, typer.Option(help="Stiffness of the reference law, in its unit.")] = None
     kd: Annotated[float | None, typer.Option(help="Damping of the reference law, in its unit.")] = None
     match: Matched = MatchChoice.yy

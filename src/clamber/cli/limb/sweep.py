@@ -82,12 +82,28 @@ def sweep(
     from ...planning.axes import range_axis
 
     axes = [range_axis(text) for text in vary]
-    bench = make_bench(BenchTexts(
-        kind=command.scenario.value, measure=command.measure, by=command.by, radius=command.radius, lap=command.lap,
-        force=command.force, laws=laws.controllers or (), kp=laws.kp, kd=laws.kd, match=laws.match.value, reference=laws.reference,
-        robot=limb.robot, limb=limb.limb, start=limb.start, elbow=limb.elbow, flaws=limb.flaws.value,
-        settings=limb.settings or (), recommended=gains is GainsChoice.recommended,
-    ))  # fmt: skip
+    bench = make_bench(
+        BenchTexts(
+            kind=command.scenario.value,
+            measure=command.measure,
+            by=command.by,
+            radius=command.radius,
+            lap=command.lap,
+            force=command.force,
+            laws=laws.controllers or (),
+            kp=laws.kp,
+            kd=laws.kd,
+            match=laws.match.value,
+            reference=laws.reference,
+            robot=limb.robot,
+            limb=limb.limb,
+            start=limb.start,
+            elbow=limb.elbow,
+            flaws=limb.flaws.value,
+            settings=limb.settings or (),
+            recommended=gains is GainsChoice.recommended,
+        )
+    )
     announce_compilation(quiet=words.quiet)
     result = run_limb_sweep(bench, axes, opt.crew_of(words, "points"))
     opt.tell_batch(result, words, lambda console: print_limb_sweep(console, result))
@@ -171,9 +187,16 @@ def _print_boundaries(console: Console, result: "LimbSweep") -> None:
 
 
 HEADS = {
-    "kp": "kp", "kd": "kd", "limit": "limit\nkp", "linear": "of\nlinear", "kxx": "Kxx\nN/mm", "kyy": "Kyy\nN/mm",
-    "cycle": "p-p\nmm", "over": "over\n%", "iae": "IAE\nmm s",
-}  # fmt: skip
+    "kp": "kp",
+    "kd": "kd",
+    "limit": "limit\nkp",
+    "linear": "of\nlinear",
+    "kxx": "Kxx\nN/mm",
+    "kyy": "Kyy\nN/mm",
+    "cycle": "p-p\nmm",
+    "over": "over\n%",
+    "iae": "IAE\nmm s",
+}
 
 
 @takes_options

@@ -59,9 +59,7 @@ def _search(task: "Task", words: PlanOptions, seeker: "Seeker") -> "PlanResult":
     """Search as was asked for: on islands, or by one planner, whose trouble with the start is told with what would allow it."""
     options = words.planner_options(task)
     if words.islands is not None:
-        return islands_result(
-            task, words.planner, options, words.islands, words.workers, words.ray, quiet=words.quiet
-        )  # fmt: skip
+        return islands_result(task, words.planner, options, words.islands, words.workers, words.ray, quiet=words.quiet)
     from ...planning.planners import plan_task
     from .text import ProgressLine
 

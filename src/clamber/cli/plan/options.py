@@ -79,9 +79,12 @@ class PlanOptions:
         from ...planning.planners import accepts
 
         usual = {
-            "seed": self.seed, "seconds": self.seconds, "threads": self.threads,
-            "profile": self.profile, "max_evaluations": self.evaluations,
-        }  # fmt: skip
+            "seed": self.seed,
+            "seconds": self.seconds,
+            "threads": self.threads,
+            "profile": self.profile,
+            "max_evaluations": self.evaluations,
+        }
         stated = {
             "--checks": ("max_checks", self.checks),
             "--checkpoint": ("checkpoint", self.checkpoint),

@@ -35,9 +35,16 @@ def carry_out(work: Work, words: RunOptions, command: str) -> None:
     noise = (*(words.noise or ()), *peg_error)
     with LiveLine(stderr(), quiet=words.quiet) as line:
         asked = RunRequest(
-            planner=words.planner, plan_seconds=words.seconds, noise=noise, plant=work.plant, seed=words.seed,
-            replan=words.replan, force=words.force, motors=words.plant, log=words.log(line.say),
-        )  # fmt: skip
+            planner=words.planner,
+            plan_seconds=words.seconds,
+            noise=noise,
+            plant=work.plant,
+            seed=words.seed,
+            replan=words.replan,
+            force=words.force,
+            motors=words.plant,
+            log=words.log(line.say),
+        )
         dynamics.check(work.item, asked)
         if words.report is not None:
             open_report(words.report, dynamics.kind)

@@ -37,9 +37,14 @@ def try_out(work: Work, asked: TrialsOptions, words: CrewWords) -> None:
         (dynamics.check_picture if asked.replay is None else check_run_suffix)(words.output)
     find_planner(asked.planner)
     request = TrialsRequest(
-        planner=asked.planner, plan_seconds=asked.seconds, noise=tuple(asked.noise or ()), plant=work.plant,
-        replan=asked.replan, force=asked.force, faults=tuple(asked.fault or ()),
-    )  # fmt: skip
+        planner=asked.planner,
+        plan_seconds=asked.seconds,
+        noise=tuple(asked.noise or ()),
+        plant=work.plant,
+        replan=asked.replan,
+        force=asked.force,
+        faults=tuple(asked.fault or ()),
+    )
     dynamics.check(work.item, request)
     if asked.replay is None:
         words.executor.check()  # before a minute is spent on a plan
@@ -50,9 +55,13 @@ def try_out(work: Work, asked: TrialsOptions, words: CrewWords) -> None:
         if asked.replay is not None:
             raise typer.Exit(_replay(work, setup, asked.replay, words, line))
         trials = run_trials(
-            setup, asked.seeds, executor=words.executor, store=words.store, resume=words.resume,
+            setup,
+            asked.seeds,
+            executor=words.executor,
+            store=words.store,
+            resume=words.resume,
             told=lambda trials: line.show(_so_far(trials, dynamics.past)),
-        )  # fmt: skip
+        )
     if words.output is not None:
         dynamics.draw_trials(trials, words.output)
     if words.as_json:

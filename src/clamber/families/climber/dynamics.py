@@ -74,10 +74,18 @@ class ClimberDynamics(Dynamics):
                 raise no_plan(asked.planner, task)
             events.planned(plan)
         return run_plan(
-            task, plan, flaws, noise=_noise(asked), seed=asked.seed, force=asked.force,
+            task,
+            plan,
+            flaws,
+            noise=_noise(asked),
+            seed=asked.seed,
+            force=asked.force,
             replan=replanner(asked.planner, **search) if asked.replan else None,
-            progress=lambda *action: events.step(*action_told(*action)), label=label, log=asked.log, plant=asked.motors,
-        )  # fmt: skip
+            progress=lambda *action: events.step(*action_told(*action)),
+            label=label,
+            log=asked.log,
+            plant=asked.motors,
+        )
 
     def print_run(self, console: "Console", run: ClimbRun) -> None:
         """How it ended, a row for each kind of action."""
@@ -96,9 +104,16 @@ class ClimberDynamics(Dynamics):
     ) -> TrialSetup:
         """What all climbs have in common."""
         setup = TrialSetup(
-            task=climbing_task(work), noise=_noise(asked), plan=plan, plant=asked.plant, planner=asked.planner,
-            seconds=asked.plan_seconds, replan=asked.replan, force=asked.force, faults=asked.faults,
-        )  # fmt: skip
+            task=climbing_task(work),
+            noise=_noise(asked),
+            plan=plan,
+            plant=asked.plant,
+            planner=asked.planner,
+            seconds=asked.plan_seconds,
+            replan=asked.replan,
+            force=asked.force,
+            faults=asked.faults,
+        )
         return with_plan(setup, store, label, events)
 
     def trials_json(self, trials: ClimbTrials, held_out: bool) -> TrialedClimb:

@@ -71,9 +71,14 @@ class WalkerDynamics(Dynamics):
             lay = lay_plan(work, plan, label)
         walk = _walk_of(work)
         run = run_walk(
-            walk, walk_flaws(walk, asked.plant), noise=_noise(asked), seed=asked.seed, lay=lay, log=asked.log,
+            walk,
+            walk_flaws(walk, asked.plant),
+            noise=_noise(asked),
+            seed=asked.seed,
+            lay=lay,
+            log=asked.log,
             progress=lambda *step: events.step(*step_told(*step)),
-        )  # fmt: skip
+        )
         return replace(run, plan=plan)
 
     def print_run(self, console: "Console", run: WalkRun) -> None:

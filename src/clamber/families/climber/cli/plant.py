@@ -151,9 +151,15 @@ def _server_of(
 
     def serve_at(listener: "socket.socket") -> "PlantServer":
         return climb_server(
-            chosen, moved, listener, say=words.say, real_time=words.real_time, pace=words.pace, once=words.once,
+            chosen,
+            moved,
+            listener,
+            say=words.say,
+            real_time=words.real_time,
+            pace=words.pace,
+            once=words.once,
             dac_bits=words.dac_bits,
-        )  # fmt: skip
+        )
 
     return serve_at
 

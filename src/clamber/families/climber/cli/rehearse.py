@@ -41,9 +41,12 @@ def _print_lessons(
         table = plain_table("grab", "change", "actions", "climbed", "", right=("grab", "actions", "climbed"))
         for lesson in tried:
             table.add_row(
-                str(lesson.step), lesson.what, str(lesson.length), f"{lesson.climbed} of {lesson.tried}",
+                str(lesson.step),
+                lesson.what,
+                str(lesson.length),
+                f"{lesson.climbed} of {lesson.tried}",
                 "taken" if lesson.taken else "",
-            )  # fmt: skip
+            )
         console.print(table)
     for step, seeds in best.faults.items():
         where = f"step {step}, {best.plan.actions[step - 1].title}" if step else "before the first grab"
@@ -107,9 +110,14 @@ def rehearse(
         interrupted = False
         try:
             learn(
-                opened, asked, climbs_with(setup, executor), range(seed, seed + n),
-                lessons=lessons, seconds=seconds, told=tell,
-            )  # fmt: skip
+                opened,
+                asked,
+                climbs_with(setup, executor),
+                range(seed, seed + n),
+                lessons=lessons,
+                seconds=seconds,
+                told=tell,
+            )
         except KeyboardInterrupt:
             interrupted = True
     if told:

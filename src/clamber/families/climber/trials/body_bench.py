@@ -264,9 +264,11 @@ def push_trials(
         pose = stand.pose + np.array((0.0, draw.uniform(-HEIGHT, HEIGHT), 0.0))
         scenario = push(pose, flaws.period, force=(side * strength * force[0], strength * force[1]), seconds=seconds)
         run = run_body(
-            replace(stand, pose=pose, weight=weight), scenario, entry,
+            replace(stand, pose=pose, weight=weight),
+            scenario,
+            entry,
             flaws.with_changes(friction=flaws.friction * friction),
-        )  # fmt: skip
+        )
         out.append(PushTrial(k, side, measure_body(run, scenario)))
         if progress is not None:
             progress(k - seed + 1, trials)

@@ -126,9 +126,14 @@ def _climb_on(
     plant = ClimberPlant(replace(task.robot, weight=weight * task.robot.weight), task.world, flaws, pegs=pegs)
     numbers = [hold.number for hold in task.world.holds]
     climber = WatchedClimber(
-        task.robot, task.world, plant, gains=gains, map_error=map_error,
-        pegs=dict(zip(numbers, pegs, strict=True)), truth=plant.truth,
-    )  # fmt: skip
+        task.robot,
+        task.world,
+        plant,
+        gains=gains,
+        map_error=map_error,
+        pegs=dict(zip(numbers, pegs, strict=True)),
+        truth=plant.truth,
+    )
     reason = _climb(climber)
     return RungTrial(not reason, climber.lost, reason, climber.time), climber
 
@@ -184,9 +189,15 @@ def climb_rungs(
     pairs = [(label, seed) for label in controls for seed in seeds]
     items: list[Json] = [{"gains": asdict(controls[label]), "seed": seed} for label, seed in pairs]
     ends = map_items(
-        run_item, items, executor=executor, store=store, about={"items": items}, resume=resume, progress=progress,
+        run_item,
+        items,
+        executor=executor,
+        store=store,
+        about={"items": items},
+        resume=resume,
+        progress=progress,
         title=f"{len(seeds)} rungs with each of {', '.join(controls)}",
-    )  # fmt: skip
+    )
     told: dict[str, list[RungTrial]] = {label: [] for label in controls}
     for (label, seed), end in zip(pairs, ends, strict=True):
         if end.result is None:

@@ -105,9 +105,14 @@ def ladder_stand(*, fixed: bool = False, below: float = 0.6 * INCH, hanging: boo
         return BodyStand(robot=robot, board=board, pose=pose, holds={"left": 3}, elbows={"left": 1}, rest=rest)
     pose = np.array(((pegs[3][0] + pegs[4][0]) / 2, pegs[3][1] - below, 0.0))
     return BodyStand(
-        robot=robot, board=board, pose=pose, holds={"right": 4, "left": 3}, elbows={"right": -1, "left": 1},
-        rest=folded, fixed=fixed,
-    )  # fmt: skip
+        robot=robot,
+        board=board,
+        pose=pose,
+        holds={"right": 4, "left": 3},
+        elbows={"right": -1, "left": 1},
+        rest=folded,
+        fixed=fixed,
+    )
 
 
 def bench_flaws(name: str, settings: Sequence[str] = ()) -> LimbFlaws:

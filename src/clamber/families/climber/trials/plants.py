@@ -135,9 +135,16 @@ def climb_server(
     wiring = wiring_of(task.robot, plant.flaws.encoder_counts)
     hardware = ClimberWires(plant, wiring, dac_bits=dac_bits)
     about = About(
-        task.robot.name, task.world.name, wiring.n_commands, wiring.n_readings, 3 + wiring.n_joints,
-        len(hardware.truth()), real_time, hardware.period, pace,
-    )  # fmt: skip
+        task.robot.name,
+        task.world.name,
+        wiring.n_commands,
+        wiring.n_readings,
+        3 + wiring.n_joints,
+        len(hardware.truth()),
+        real_time,
+        hardware.period,
+        pace,
+    )
     guard = guard_of(task.robot, wiring, hardware.period)
     envelope = envelope_of(task.robot, wiring, hardware.period)
     return PlantServer(hardware, about, guard, envelope, listener, say=say, once=once)

@@ -85,9 +85,22 @@ def trial_of(told: Json, store: Path | None = None) -> ClimbTrial:
 def error_trial(seed: int, error: str) -> ClimbTrial:
     """A trial without an answer; it counts as a climb that failed."""
     return ClimbTrial(
-        seed=seed, done=False, outcome=ERROR, step=0, kind="", limb="", reason=error, seconds=0.0, short=0.0, pushes=0,
-        grabs=0, stalled=0, replans=0, recovered=0, drawn={},
-    )  # fmt: skip
+        seed=seed,
+        done=False,
+        outcome=ERROR,
+        step=0,
+        kind="",
+        limb="",
+        reason=error,
+        seconds=0.0,
+        short=0.0,
+        pushes=0,
+        grabs=0,
+        stalled=0,
+        replans=0,
+        recovered=0,
+        drawn={},
+    )
 
 
 def run_trial(item: Json) -> Json:
@@ -216,9 +229,13 @@ def with_plan(
     plan = setup.plan or stored
     if plan is None:
         plan = plan_to_climb(
-            setup.task, setup.planner, seconds=setup.seconds, seed=PLAN_SEED, events=events,
+            setup.task,
+            setup.planner,
+            seconds=setup.seconds,
+            seed=PLAN_SEED,
+            events=events,
             rehearse=lambda task, plan: rehearse(task, plan, flaws),
-        )  # fmt: skip
+        )
     if plan is None:
         raise no_plan(setup.planner, setup.task)
     course = lay_course(setup.task, plan, label)
@@ -266,9 +283,16 @@ def climb_once(
     way = PlansOnTheWay(planner, plans, [])
     fault = draw_fault(setup.faults, seed, failing_of(setup.task, setup.plan), BEGINS) if setup.faults else None
     run = run_plan(
-        setup.task, setup.plan, climbing_flaws(setup.task, setup.plant), noise=setup.noise, seed=seed,
-        force=setup.force, replan=way if setup.replan else None, progress=progress, fault=fault,
-    )  # fmt: skip
+        setup.task,
+        setup.plan,
+        climbing_flaws(setup.task, setup.plant),
+        noise=setup.noise,
+        seed=seed,
+        force=setup.force,
+        replan=way if setup.replan else None,
+        progress=progress,
+        fault=fault,
+    )
     return run, _judged(setup, seed, run, way.told), way.told
 
 

@@ -158,11 +158,17 @@ def _causes(trials: ClimbTrials) -> tuple[Cause, ...]:
         alike.setdefault((trial.outcome, trial.kind, trial.limb), []).append(k)
     causes = [
         Cause(
-            outcome=outcome, kind=kind, limb=limb, n=len(which), of=len(trials.ended), reason=failed[which[0]].reason,
-            steps=tuple(sorted({failed[k].step for k in which})), seeds=tuple(sorted(failed[k].seed for k in which)),
+            outcome=outcome,
+            kind=kind,
+            limb=limb,
+            n=len(which),
+            of=len(trials.ended),
+            reason=failed[which[0]].reason,
+            steps=tuple(sorted({failed[k].step for k in which})),
+            seeds=tuple(sorted(failed[k].seed for k in which)),
         )
         for (outcome, kind, limb), which in alike.items()
-    ]  # fmt: skip
+    ]
     return tuple(sorted(causes, key=lambda cause: (-cause.n, cause.words)))
 
 

@@ -31,9 +31,12 @@ def calibrate(
     from ..robot.calibration import HOSHINO_1995, Published, fit_families
 
     published = Published(
-        least=parse_quantity(least, "angle"), most=parse_quantity(most, "angle"), step=parse_quantity(step, "length"),
-        direction=parse_quantity(direction, "angle"), stroke=parse_quantity(stroke, "length"),
-    )  # fmt: skip
+        least=parse_quantity(least, "angle"),
+        most=parse_quantity(most, "angle"),
+        step=parse_quantity(step, "length"),
+        direction=parse_quantity(direction, "angle"),
+        stroke=parse_quantity(stroke, "length"),
+    )
     if not published.least < 0.0 < published.most:
         raise typer.BadParameter("must be on either side of 0 deg", param_hint="--least, --most")
     if published.step <= 0.0 or published.stroke <= 0.0:
@@ -45,9 +48,18 @@ def calibrate(
         return
     console = stdout()
     table = plain_table(
-        "free", "R [mm]", "R_y [mm]", "offset", "drawn in", "least", "most", "step", "misfit", "seeds",
+        "free",
+        "R [mm]",
+        "R_y [mm]",
+        "offset",
+        "drawn in",
+        "least",
+        "most",
+        "step",
+        "misfit",
+        "seeds",
         right=("R [mm]", "R_y [mm]", "offset", "drawn in", "least", "most", "step", "misfit", "seeds"),
-    )  # fmt: skip
+    )
     for number, rivals in enumerate(found, 1):
         for k, fit in enumerate(rivals.fits):
             counted = f"{rivals.good}/{rivals.seeds}" if k == 0 else ""
@@ -68,7 +80,12 @@ def _numbers(fit: "Fit") -> tuple[str, ...]:
 
     sizes, mm = fit.sizes, 1e3
     return (
-        f"{sizes.radius * mm:.1f}", f"{sizes.radius * sizes.ratio * mm:.1f}", f"{sizes.offset / DEGREE:.1f}",
-        f"{sizes.shortest * mm:.1f}", f"{fit.least / DEGREE:.2f}", f"{fit.most / DEGREE:.2f}", f"{fit.step * mm:.2f}",
+        f"{sizes.radius * mm:.1f}",
+        f"{sizes.radius * sizes.ratio * mm:.1f}",
+        f"{sizes.offset / DEGREE:.1f}",
+        f"{sizes.shortest * mm:.1f}",
+        f"{fit.least / DEGREE:.2f}",
+        f"{fit.most / DEGREE:.2f}",
+        f"{fit.step * mm:.2f}",
         f"{fit.misfit:.2f}",
-    )  # fmt: skip
+    )

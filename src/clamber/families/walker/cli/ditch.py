@@ -71,10 +71,14 @@ def ditch(
         _tell_widest(footing, not straight, as_json, output)
         return
     found = cross_ditch(
-        footing, parse_quantity(width, "length"), before=parse_quantity(before, "length"),
-        heading=parse_quantity(heading, "angle"), theta=parse_quantity(theta, "angle"),
-        reserve=parse_quantity(reserve, "length"), aside=not straight,
-    )  # fmt: skip
+        footing,
+        parse_quantity(width, "length"),
+        before=parse_quantity(before, "length"),
+        heading=parse_quantity(heading, "angle"),
+        theta=parse_quantity(theta, "angle"),
+        reserve=parse_quantity(reserve, "length"),
+        aside=not straight,
+    )
     if output is not None and found.status == "found":
         from ..pictures.mechanism_plots import draw_crossing
 
@@ -114,14 +118,19 @@ def _tell_widest(footing: "Footing", aside: bool, as_json: bool, output: Output)
         print_json(rows)
         return
     table = plain_table(
-        "theta [deg]", "widest [mm]", "along [deg]", "least of all directions [mm]",
+        "theta [deg]",
+        "widest [mm]",
+        "along [deg]",
+        "least of all directions [mm]",
         right=("theta [deg]", "widest [mm]", "along [deg]", "least of all directions [mm]"),
-    )  # fmt: skip
+    )
     for row in rows:
         table.add_row(
-            f"{row.theta_deg:g}", f"{row.widest_m * MM:.1f}", f"{row.direction_deg:g}",
+            f"{row.theta_deg:g}",
+            f"{row.widest_m * MM:.1f}",
+            f"{row.direction_deg:g}",
             f"{row.least_over_directions_m * MM:.1f}",
-        )  # fmt: skip
+        )
     stdout().print(table)
 
 
@@ -138,8 +147,15 @@ def _tell_crossing(found: "Crossing") -> None:
     for k, (slide, margins) in enumerate(zip(found.slides, found.replay(), strict=True), 1):
         x, y, angle = slide.way[-1]
         table.add_row(
-            str(k), ("Delta", "Y")[slide.frame], f"{round(x * MM, 1) + 0.0:.1f}", f"{round(y * MM, 1) + 0.0:.1f}", f"{angle / DEGREE:.2f}",
-            f"{margins.stroke * MM:.1f}", f"{margins.singular:.3f}", f"{margins.balance * MM:.1f}", f"{margins.foothold * MM:.1f}",
-        )  # fmt: skip
+            str(k),
+            ("Delta", "Y")[slide.frame],
+            f"{round(x * MM, 1) + 0.0:.1f}",
+            f"{round(y * MM, 1) + 0.0:.1f}",
+            f"{angle / DEGREE:.2f}",
+            f"{margins.stroke * MM:.1f}",
+            f"{margins.singular:.3f}",
+            f"{margins.balance * MM:.1f}",
+            f"{margins.foothold * MM:.1f}",
+        )
     console.print(table)
     console.print("x across the ditch from its near edge; the last four columns are margins, the worst of each slide.")

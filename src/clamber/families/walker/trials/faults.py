@@ -19,8 +19,11 @@ def failing_of(robot: WalkerRobot) -> Failing:
     weight = GRAVITY * weight_of(robot).total
     arm = () if robot.arm is None else zip(robot.arm.lowest, robot.arm.highest, strict=True)
     spans = (
-        *[robot.mechanism.stroke] * 3, *[robot.legs.stroke] * 6, *[weight] * 6, *[math.pi / 2] * 2,
+        *[robot.mechanism.stroke] * 3,
+        *[robot.legs.stroke] * 6,
+        *[weight] * 6,
+        *[math.pi / 2] * 2,
         *(high - low for low, high in arm),
-    )  # fmt: skip
+    )
     motors = [name for k, name in enumerate(names) if k < FORCES.start or k >= INCLINES.stop]
     return Failing(sensors=dict(zip(names, spans, strict=True)), motors=motors, weight=weight)

@@ -104,10 +104,20 @@ def judged(seed: int, run: WalkRun) -> WalkTrial:
     off, turned = (None, None) if report.missed is None else report.missed
     way, error = (None, None) if run.held is None else (run.held.part.way, run.held.largest)
     return WalkTrial(
-        seed=seed, done=run.done, reason=run.reason, seconds=report.seconds, steps=len(report.steps),
-        tilt=run.tilt, margin=margin if np.isfinite(margin) else None, off=off, turned=turned, kicks=report.kicks,
-        held_way=way, held_error=error, fault=told_fault(run.fault, run.done, report),
-    )  # fmt: skip
+        seed=seed,
+        done=run.done,
+        reason=run.reason,
+        seconds=report.seconds,
+        steps=len(report.steps),
+        tilt=run.tilt,
+        margin=margin if np.isfinite(margin) else None,
+        off=off,
+        turned=turned,
+        kicks=report.kicks,
+        held_way=way,
+        held_error=error,
+        fault=told_fault(run.fault, run.done, report),
+    )
 
 
 def run_walk_trial(item: Json) -> Json:
@@ -181,9 +191,17 @@ class WalkSetup(Setup[WalkRun, WalkTrial]):
     def failed(self, seed: int, error: str) -> WalkTrial:
         """A walk that raised."""
         return WalkTrial(
-            seed=seed, done=False, reason=f"{ERROR}: {error}", seconds=0.0, steps=0, tilt=0.0, margin=None, off=None,
-            turned=None, kicks=0,
-        )  # fmt: skip
+            seed=seed,
+            done=False,
+            reason=f"{ERROR}: {error}",
+            seconds=0.0,
+            steps=0,
+            tilt=0.0,
+            margin=None,
+            off=None,
+            turned=None,
+            kicks=0,
+        )
 
     def again(
         self, seed: int, kept: Json | None, step: Callable[[str, float | None], None]
@@ -256,11 +274,15 @@ class WalkTrials(Trials[WalkSetup, WalkTrial], Jsonable):
             found.setdefault(cause_of(trial.reason), []).append(trial)
         return tuple(
             WalkCause(
-                words, len(alike), wilson_interval(len(alike), len(self.ended)), tuple(sorted({each.steps for each in alike})),
-                tuple(each.seed for each in alike), alike[0].reason,
+                words,
+                len(alike),
+                wilson_interval(len(alike), len(self.ended)),
+                tuple(sorted({each.steps for each in alike})),
+                tuple(each.seed for each in alike),
+                alike[0].reason,
             )
             for words, alike in sorted(found.items(), key=lambda pair: -len(pair[1]))
-        )  # fmt: skip
+        )
 
     @in_json(after="causes")
     def faults(self) -> tuple[FaultRow, ...]:

@@ -6,16 +6,16 @@ from typing import Final
 
 import numpy as np
 
-from ....files import Document
-from ....sim.limb_flaws import LimbFlaws
-from ....types import Floats
-from ..execution.climber import Climber, FallenError
-from ..execution.hang import DAMPING, Hang
-from ..execution.limb_task import LimbTask
-from ..execution.pendulum import Pendulum
-from ..robot.robot import LimbedRobot
-from ..sim.climber_plant import ClimberPlant
-from ..world.board import Board, build_board
+from clamber.families.climber.execution.climber import Climber, FallenError
+from clamber.families.climber.execution.hang import DAMPING, Hang
+from clamber.families.climber.execution.limb_task import LimbTask
+from clamber.families.climber.execution.pendulum import Pendulum
+from clamber.families.climber.robot.robot import LimbedRobot
+from clamber.families.climber.sim.climber_plant import ClimberPlant
+from clamber.families.climber.world.board import Board, build_board
+from clamber.files import Document
+from clamber.sim.limb_flaws import LimbFlaws
+from clamber.types import Floats
 
 PEG: Final = 1
 """Number of the only peg."""
