@@ -216,3 +216,18 @@ def test_a_debug_build_checks_every_index_and_keeps_its_code_apart(tmp_path: Pat
         said.append(done.stdout.split()[-1])
     assert said == ["checked", "unchecked", "checked", "unchecked"]
     assert len(list((tmp_path / "cache").glob("kernels-*"))) == 2
+
+
+def test_a_kernel_whose_source_is_no_file_is_compiled_and_never_taken_for_another(tmp_path: Path) -> None:
+    """As in a notebook's cell: what a kernel of its name did in another process cannot be asked."""
+    answers = []
+    for number in (1, 2):
+        cell = (
+            f"from clamber.compiled import kernel\n@kernel\ndef more(x):\n    return x + {number}.0\nprint(more(4.0))"
+        )
+        words = [sys.executable, "-c", f"exec(compile({cell!r}, '<cell 1>', 'exec'))"]
+        environment = os.environ | {"CLAMBER_CACHE": str(tmp_path / "cache")}
+        answers.append(
+            subprocess.run(words, env=environment, capture_output=True, text=True, check=True).stdout.strip()
+        )
+    assert answers == ["5.0", "6.0"]

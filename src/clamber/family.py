@@ -72,7 +72,7 @@ class Family:
     @property
     def checks(self) -> tuple[Check, ...]:
         """The checks of its stances, in the order of a replay's margins."""
-        raise NotImplementedError
+        return self.plans.checks
 
     @property
     def plans(self) -> PlanFamily:

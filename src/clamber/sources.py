@@ -10,6 +10,7 @@ import __future__
 import ast
 import hashlib
 import re
+import secrets
 from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
@@ -57,7 +58,12 @@ def kernel_sources_hash(package: Path = PACKAGE) -> str:
 
 @cache
 def outside_hash(file: Path) -> str:
-    """SHA-256 of the sources of the package that a file outside ours belongs to, in hex."""
+    """SHA-256 of the sources of the package that a file outside ours belongs to, in hex.
+
+    Of sources that are no file, such as a notebook's cell, it is another one in every process: what they were cannot be asked later.
+    """
+    if not file.is_file():
+        return secrets.token_hex(32)
     top = file.parent
     while (top.parent / "__init__.py").exists():
         top = top.parent

@@ -46,4 +46,4 @@ def test_what_only_climbs_have_is_refused(command: str, what: str, option: tuple
 def test_trials_of_walks_have_no_picture(clamber: Run) -> None:
     code, out, err = clamber("trials", "level-walk", "--output", "trials.png")
     assert (code, out) == (2, "")
-    assert "a two-frame walker has no picture of trials" in err
+    assert "a walk has no picture of trials" in err

@@ -10,10 +10,11 @@ from clamber.families.climber.execution.postures import postures
 from clamber.families.climber.robot.robot import LimbedRobot
 from clamber.families.climber.sim.climber_plant import ClimberPlant
 from clamber.families.climber.trials.noise import named_noise
-from clamber.families.climber.trials.run_plan import climbing_flaws, open_climb, run_plan
+from clamber.families.climber.trials.run_plan import climbing_flaws, climbing_task, run_plan
 from clamber.families.climber.world.board import Board, Hold
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.tasks.robots import load_robot
+from clamber.trials.work import open_work
 
 FLAWS = LimbFlaws(physics_rate=1000.0)
 RIGHT = 0
@@ -101,7 +102,8 @@ def test_a_hold_gives_way_to_a_pull_outside_its_direction(lean: float, breaks: b
 
 def test_a_climb_on_a_hold_that_is_too_weak_ends_with_its_cause() -> None:
     """Once a robot of 40 N climbed past a hold of 1 N."""
-    task, plan, _ = open_climb("ladder-hand", None, ())
+    work = open_work("ladder-hand")
+    task, plan = climbing_task(work.item), work.plan
     assert plan is not None
     grabbed = next(action.hold for action in plan.actions if action.hold is not None)
     holds = tuple(replace(hold, strength=1.0) if hold.number == grabbed else hold for hold in task.world.holds)

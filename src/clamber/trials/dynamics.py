@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Protocol, runtime_checkable
 from ..errors import PlannerError
 from ..execution.log_stream import LogGap, WantedLog
 from ..execution.run_report import RunReport
+from ..family import NotOfFamilyError
 from ..kernel_cache import Use
 from ..planning.problem.plan import Plan
 from ..planning.progress import Listener
@@ -194,15 +195,15 @@ class Dynamics(ABC):
     def print_trials(self, console: Console, trials: Any, seeds: Sequence[int]) -> None:
         """Print how often runs came to their end, why others did not, and the spread of what was measured."""
 
-    @abstractmethod
     def check_picture(self, file: Path) -> None:
-        """Make sure that `draw_trials` can write such a file.
+        """Make sure that `draw_trials` can write such a file; usually there is no picture of trials.
 
         Raises:
-            NotOfFamilyError: If the family has no picture of trials.
+            NotOfFamilyError: If there is none.
             SuffixError: If it cannot.
         """
+        raise NotOfFamilyError(self.kind, "picture of trials")
 
-    @abstractmethod
     def draw_trials(self, trials: Any, file: Path) -> None:
         """Draw what trials say together."""
+        self.check_picture(file)

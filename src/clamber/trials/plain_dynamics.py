@@ -274,11 +274,3 @@ class PlainDynamics(Dynamics):
         for trial in trials.ended:
             if not trial.done:
                 console.print(f"seed {trial.seed}: {trial.reason}")
-
-    def check_picture(self, file: Path) -> None:
-        """There is none."""
-        raise SpecError("--output", "file", str(file), "trials of this family have no picture")
-
-    def draw_trials(self, trials: Any, file: Path) -> None:
-        """There is none."""
-        self.check_picture(file)

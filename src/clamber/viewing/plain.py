@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 
 BODY: Final = 0.02
 """Radius of the body's ball, of the larger side of what is shown [-]."""
+MOST_NUMBERED: Final = 200
+"""Worlds with more holds show them without their numbers."""
 FACTS_HEIGHT: Final = 0.6
 """Of the panel beside a whole plan [in]."""
 
@@ -50,9 +52,9 @@ def holds_of(task: Any) -> dict[int, tuple[float, float]]:
     return {hold.number: (hold.x, hold.y) for hold in getattr(task.world, "holds", ())}
 
 
-def moment_of(task: Any, stance: np.void, shares: Floats) -> Moment:
-    """The moment of a stance."""
-    plans, places = family_of(task).plans, holds_of(task)
+def moment_of(task: Any, stance: np.void, shares: Floats, places: dict[int, tuple[float, float]]) -> Moment:
+    """The moment of a stance; `places` are the world's `holds_of`."""
+    plans = family_of(task).plans
     held = tuple(plans.holds(task, stance).values())
     tips = np.array([places.get(number, (math.nan, math.nan)) for number in held]).reshape(-1, 2)
     return Moment(np.array(plans.pose(stance)), tips, held, shares)
@@ -71,7 +73,8 @@ class PlainView(PlanView[Moment]):
         widths = np.array([sizes[plans.checks[k].name] for k in self.checks])
         nothing = np.full((1, len(self.checks)), math.nan)
         shares = np.vstack([nothing, replay.margins[:, self.checks] / widths])
-        self.moments = [moment_of(task, stance, row) for stance, row in zip(replay.stances, shares, strict=True)]
+        places, rows = holds_of(task), zip(replay.stances, shares, strict=True)
+        self.moments = [moment_of(task, stance, row, places) for stance, row in rows]
         names = tuple(plans.checks[k].name for k in self.checks)
         gauges = Gauges(
             title="Margins", names=names, colours=tuple(style.PARTS[k % len(style.PARTS)] for k in range(len(names))),
@@ -152,23 +155,34 @@ def draw_world(axes: Axes, task: Any, bounds: Bounds) -> None:
         corners = goal_box(goal, bounds)
         if corners is not None:
             draw_region(axes, corners, last=k == len(task.goals) - 1)
-    for number, (x, y) in holds_of(task).items():
-        axes.plot([x], [y], marker="o", ms=5, color=style.HOLD, ls="", zorder=2)
+    holds = holds_of(task)
+    if holds:
+        axes.plot(*zip(*holds.values(), strict=True), marker="o", ms=5, color=style.HOLD, ls="", zorder=2)
+    if len(holds) > MOST_NUMBERED:
+        return
+    for number, place in holds.items():
         axes.annotate(
-            str(number), (x, y), (0, -9), textcoords="offset points", ha="center", fontsize=6.5, color=style.QUIET
+            str(number),
+            place,
+            (0, -9),
+            textcoords="offset points",
+            ha="center",
+            fontsize=6.5,
+            color=style.QUIET,
         )
 
 
 def draw_stance(task: Any, stance: np.void, axes: Axes) -> None:
     """One stance in its world."""
-    at = moment_of(task, stance, np.zeros(0))
+    at = moment_of(task, stance, np.zeros(0), holds_of(task))
     draw_world(axes, task, bounds_of(task, [at]))
     PlainArtists(axes, len(at.holds)).update(at)
 
 
 def draw_route(task: Any, replay: Replay) -> Figure:
     """A whole plan: the way of the body, first and last stance."""
-    moments = [moment_of(task, stance, np.zeros(0)) for stance in replay.stances]
+    places = holds_of(task)
+    moments = [moment_of(task, stance, np.zeros(0), places) for stance in replay.stances]
     bounds = bounds_of(task, moments)
     layout = Layout(bounds, FACTS_HEIGHT)
     figure, wall, panel, _ = layout.figure(

@@ -273,7 +273,7 @@ class ShuttleRuns(PlainDynamics):
 
 class ShuttleFamily(Family):
     name, title, data = "shuttle", "shuttle", DATA
-    checks, plans, dynamics = CHECKS, Plans(), ShuttleRuns()
+    plans, dynamics = Plans(), ShuttleRuns()
     relaxations = staticmethod(relaxations)
     inspection = Inspection(robot=inspect, kinds={})
     files = TaskFormat(

@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final, TypeAlias
 
 from ...execution.fault import check_faults
-from ...family import NotOfFamilyError
 from ...json_form import INLINE
 from ...planning.planners import plan_task
 from ...planning.problem.plan import Plan
@@ -119,14 +118,6 @@ class WalkerDynamics(Dynamics):
         from .pictures.walk_text import print_walk_trials
 
         print_walk_trials(console, trials, seeds)
-
-    def check_picture(self, file: Path) -> None:
-        """There is none."""
-        raise NotOfFamilyError("two-frame walker", "picture of trials")
-
-    def draw_trials(self, trials: WalkTrials, file: Path) -> None:
-        """There is none."""
-        self.check_picture(file)
 
 
 def _walk_of(work: Work) -> Walk:

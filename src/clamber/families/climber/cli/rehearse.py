@@ -86,13 +86,15 @@ def rehearse(
     from ..trials.warm_up import CLIMBING
 
     compile_ahead(CLIMBING)
+    from ....trials.work import open_work
     from ..trials.lessons import LearnedPlan, climbs_with, learn
     from ..trials.noise import named_noise, read_noise
-    from ..trials.run_plan import open_climb
+    from ..trials.run_plan import climbing_task
     from ..trials.trial import TrialSetup, with_plan
 
     widths = read_noise(named_noise("usual"), noise or ())
-    opened, asked, plant = open_climb(plan, task, overrides or ())
+    work = open_work(plan, task, overrides or ())
+    opened, asked, plant = climbing_task(work.item), work.plan, work.plant
     if asked is None:
         raise typer.BadParameter(f"'{plan}' is a task; `clamber plan` makes a plan for it", param_hint="PLAN")
     setup = with_plan(TrialSetup(task=opened, noise=widths, plan=asked, plant=plant, replan=False), label=plan)

@@ -16,11 +16,9 @@ from ....execution.plant import BodyPlant
 from ....execution.sequencer import Sequencer
 from ....json_form import HIDDEN, INLINE, Jsonable, Key
 from ....planning.problem.plan import Plan
-from ....planning.problem.plan_source import is_plan, open_plan
 from ....sim.flaw_texts import named_flaws, read_flaws
 from ....sim.limb_flaws import LimbFlaws
-from ....tasks import Task, load_task
-from ....trials.work import split_settings
+from ....tasks import Task
 from ....types import Floats
 from ..execution.body_gains import USUAL, BodyGains
 from ..execution.climb_report import ClimbReport
@@ -81,30 +79,6 @@ class ClimbRun(Jsonable):
 def action_told(step: int, steps: int, title: str, time: float) -> tuple[str, float]:
     """The action that begins, `time` [s] after the start, in words, and the share of the plan that is done [-]."""
     return f"action {step} of {steps}: {title}, at {time:.0f} s", (step - 1) / max(steps, 1)
-
-
-def open_climb(what: str, task: str | None, settings: Sequence[str]) -> tuple[LimbedTask, Plan | None, tuple[str, ...]]:
-    """A task, or a plan and its task, that can be carried out, and settings of its plant.
-
-    Args:
-        what: A task's name or file, or a plan's.
-        task: A task in place of the one that the plan names.
-        settings: Texts "key=value" for task and plant.
-
-    Returns:
-        The task under the rules that can be carried out, the plan if `what` is one, and settings of the plant such as "backlash=1deg".
-
-    Raises:
-        SpecError: If the task is none of a limbed climber, or a plan's task is given beside a task.
-        ClamberError: As `open_plan` and `load_task`.
-    """
-    for_task, for_plant = split_settings(settings)
-    if is_plan(what):
-        opened = open_plan(what, task, for_task)
-        return climbing_task(opened.task), opened.plan, tuple(for_plant)
-    if task is not None:
-        raise SpecError(what, "--task", task, "is for a plan; this is a task itself")
-    return climbing_task(load_task(what, for_task)), None, tuple(for_plant)
 
 
 def climbing_task(task: Task) -> LimbedTask:
