@@ -77,7 +77,7 @@ class PlainView(PlanView[Moment]):
         self.moments = [moment_of(task, stance, row, places) for stance, row in rows]
         names = tuple(plans.checks[k].name for k in self.checks)
         gauges = Gauges(
-            title="Margins", names=names, colours=tuple(style.PARTS[k % len(style.PARTS)] for k in range(len(names))),
+            title="Share of each limit that is left", names=names, colours=tuple(style.PARTS[k % len(style.PARTS)] for k in range(len(names))),
             low=np.zeros(len(names)), high=np.ones(len(names)), limits=(), calm=(0.0, math.inf),
             unit=("%", 0.01, 0), group=1,
         )  # fmt: skip
