@@ -10,6 +10,7 @@ import urllib.request
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 from urllib.parse import urlsplit
 
 import pytest
@@ -115,13 +116,22 @@ def test_where_the_library_takes_no_guard_nothing_is_served(clamber: Clamber, mo
 
     class Changed(viser.ViserServer):  # a release that gets its server elsewhere
         def __init__(self, **options: Any) -> None:
-            monkeypatch.setattr(websockets.asyncio.server, "serve", plain)
-            super().__init__(**options)
+            with patch.object(websockets.asyncio.server, "serve", plain):
+                super().__init__(**options)
 
     monkeypatch.setattr(viser, "ViserServer", Changed)
     code, out, err = clamber("view", "ladder", "--no-browser", "--seconds", "0")
     assert code == 2 and not out
     assert "the viewer is not started, for its page is answered without a token" in err
+    assert websockets.asyncio.server.serve is plain, "all later viewers would be answered by the guard of this one"
+
+
+def test_a_guard_that_refuses_its_own_page_is_told_before_it_is_opened() -> None:
+    from clamber.viewing.browser.app import guarded_server
+    from clamber.viewing.browser.own_pages import Guard, UnguardedError, guarded
+
+    with guarded(Guard(0)), pytest.raises(UnguardedError, match="its page is not answered with its token"):
+        guarded_server("127.0.0.1", Guard(0))  # what another one guards, too
 
 
 def test_exposing_is_warned_of(clamber: Clamber) -> None:

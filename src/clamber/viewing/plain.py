@@ -76,8 +76,9 @@ class PlainView(PlanView[Moment]):
         places, rows = holds_of(task), zip(replay.stances, shares, strict=True)
         self.moments = [moment_of(task, stance, row, places) for stance, row in rows]
         names = tuple(plans.checks[k].name for k in self.checks)
+        colours = tuple(style.PARTS[k % len(style.PARTS)] for k in range(len(names)))
         gauges = Gauges(
-            title="Share of each limit that is left", names=names, colours=tuple(style.PARTS[k % len(style.PARTS)] for k in range(len(names))),
+            title="Share of each limit that is left", names=names, colours=colours,
             low=np.zeros(len(names)), high=np.ones(len(names)), limits=(), calm=(0.0, math.inf),
             unit=("%", 0.01, 0), group=1,
         )  # fmt: skip

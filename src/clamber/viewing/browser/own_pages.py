@@ -18,7 +18,7 @@ PATIENCE: Final = 10.0
 
 
 class UnguardedError(ClamberError):
-    """The viewer's server would answer anybody: viser or websockets have changed."""
+    """The viewer's server would answer anybody, or nobody: viser or websockets have changed."""
 
     def __init__(self, why: str) -> None:
         super().__init__(why)
@@ -110,7 +110,7 @@ def guarded(guard: Guard) -> Iterator[None]:
 
 
 def check_guarded(host: str, port: int, guard: Guard) -> None:
-    """Make sure that a server refuses who has no token, and pages of others.
+    """Make sure that a server answers who has its token, and refuses all others.
 
     Args:
         host: Where it listens.
@@ -118,7 +118,7 @@ def check_guarded(host: str, port: int, guard: Guard) -> None:
         guard: Its guard.
 
     Raises:
-        UnguardedError: If it answers them.
+        UnguardedError: If it does not.
     """
     near = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(host, host)
     named = f"[{near}]:{port}" if ":" in near else f"{near}:{port}"
@@ -129,11 +129,13 @@ def check_guarded(host: str, port: int, guard: Guard) -> None:
         "Sec-WebSocket-Version: 13",
     ]
     foreign = [*socket_words, "Origin: http://example.invalid"]
-    for path, words, what in (
-        ("/", [], "its page is answered without a token"),
-        ("/", [*socket_words, f"Origin: http://{named}"], "its websocket is answered without a token"),
-        (f"/?token={guard.token}", socket_words, "its websocket is answered without an origin"),
-        (f"/?token={guard.token}", foreign, "its websocket is answered to a page of others"),
+    own = f"/?token={guard.token}"
+    for path, words, status, what in (
+        ("/", [], 403, "its page is answered without a token"),
+        ("/", [*socket_words, f"Origin: http://{named}"], 403, "its websocket is answered without a token"),
+        (own, socket_words, 403, "its websocket is answered without an origin"),
+        (own, foreign, 403, "its websocket is answered to a page of others"),
+        (own, [], 200, "its page is not answered with its token"),
     ):
         try:
             with socket.create_connection((near, port), timeout=PATIENCE) as line:
@@ -141,5 +143,5 @@ def check_guarded(host: str, port: int, guard: Guard) -> None:
                 answer = line.recv(1000)
         except OSError as error:
             raise UnguardedError(f"its server does not answer ({error.strerror or error})") from None
-        if not answer.startswith(b"HTTP/1.1 403 "):
+        if not answer.startswith(f"HTTP/1.1 {status} ".encode()):
             raise UnguardedError(what)
