@@ -1,0 +1,98 @@
+"""Gaps between links as capsules, and between links and the base's box."""
+
+import math
+
+from ....compiled import kernel
+from ....planning.problem.check import UNLIMITED
+
+SHORTEST = 1e-14
+"""Square of a segment that counts as a point [m^2]."""
+NARROWINGS = 24
+"""Steps of the golden section that finds the nearest point of a segment to a box: a 1e-5th of the segment."""
+GOLDEN = 0.6180339887498949
+
+
+@kernel
+def segment_gap(a, b, c, d):
+    """Distance of the segments a-b and c-d [m] (Ericson, Real-Time Collision Detection, 5.1.9)."""
+    u0, u1, u2 = b[0] - a[0], b[1] - a[1], b[2] - a[2]
+    v0, v1, v2 = d[0] - c[0], d[1] - c[1], d[2] - c[2]
+    w0, w1, w2 = a[0] - c[0], a[1] - c[1], a[2] - c[2]
+    uu, uv, vv = u0 * u0 + u1 * u1 + u2 * u2, u0 * v0 + u1 * v1 + u2 * v2, v0 * v0 + v1 * v1 + v2 * v2
+    uw, vw = u0 * w0 + u1 * w1 + u2 * w2, v0 * w0 + v1 * w1 + v2 * w2
+    s, t = 0.0, 0.0
+    if vv <= SHORTEST:
+        s = min(1.0, max(0.0, -uw / uu)) if uu > SHORTEST else 0.0
+    else:
+        if uu > SHORTEST:
+            parallel = uu * vv - uv * uv
+            if parallel > SHORTEST * uu * vv:
+                s = min(1.0, max(0.0, (uv * vw - vv * uw) / parallel))
+        t = (uv * s + vw) / vv
+        if t < 0.0 or t > 1.0:
+            t = min(1.0, max(0.0, t))
+            s = min(1.0, max(0.0, (uv * t - uw) / uu)) if uu > SHORTEST else 0.0
+    x, y, z = w0 + s * u0 - t * v0, w1 + s * u1 - t * v1, w2 + s * u2 - t * v2
+    return math.sqrt(x * x + y * y + z * z)
+
+
+@kernel
+def box_distance(a, b, t, half):
+    """Distance of a point of the segment a-b from a box about the origin [m]; inside, minus the way out."""
+    x = abs(a[0] + t * (b[0] - a[0])) - half[0]
+    y = abs(a[1] + t * (b[1] - a[1])) - half[1]
+    z = abs(a[2] + t * (b[2] - a[2])) - half[2]
+    outer = math.sqrt(max(x, 0.0) ** 2 + max(y, 0.0) ** 2 + max(z, 0.0) ** 2)
+    return outer + min(max(x, y, z), 0.0)
+
+
+@kernel
+def box_gap(a, b, half):
+    """Distance of the segment a-b from a box about the origin [m], negative inside: the distance is convex along the segment."""
+    low, high = 0.0, 1.0
+    t0, t1 = 1.0 - GOLDEN, GOLDEN
+    f0, f1 = box_distance(a, b, t0, half), box_distance(a, b, t1, half)
+    best = min(box_distance(a, b, 0.0, half), box_distance(a, b, 1.0, half))
+    for _ in range(NARROWINGS):
+        if f0 < f1:
+            high = t1
+            t1, f1 = t0, f0
+            t0 = high - GOLDEN * (high - low)
+            f0 = box_distance(a, b, t0, half)
+        else:
+            low = t0
+            t0, f0 = t1, f1
+            t1 = low + GOLDEN * (high - low)
+            f1 = box_distance(a, b, t1, half)
+    return min(best, f0, f1)
+
+
+@kernel
+def limbs_gap(robot, work):
+    """Smallest gap between links of different limbs [m]; first links, which lie side by side at the base, are left out."""
+    gap = UNLIMITED
+    for i in range(robot.n_limbs):
+        for j in range(i):
+            for k in range(1, robot.n_joints[i]):
+                for h in range(1, robot.n_joints[j]):
+                    p, q = work.origin[i], work.origin[j]
+                    between = segment_gap(p[k], p[k + 1], q[h], q[h + 1])
+                    gap = min(gap, between - robot.radius[i, k] - robot.radius[j, h])
+    return gap
+
+
+@kernel
+def body_gap(robot, work):
+    """Smallest gap between the base's box and links but the first two, which are fixed to it and beside it [m]."""
+    gap = UNLIMITED
+    half = robot.base_half
+    for i in range(robot.n_limbs):
+        for k in range(2, robot.n_joints[i]):
+            p = work.origin[i]
+            a, b = p[k], p[k + 1]
+            if gap < UNLIMITED:  # two spheres first: most links are far away
+                reach = math.sqrt((b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2 + (b[2] - a[2]) ** 2)
+                if box_distance(a, b, 0.0, half) - reach - robot.radius[i, k] > gap:
+                    continue
+            gap = min(gap, box_gap(a, b, half) - robot.radius[i, k])
+    return gap

@@ -1,0 +1,241 @@
+"""Judging a stance: posture of every limb, and the signed margin of every check."""
+
+import math
+
+from ....compiled import inlined, kernel
+from ....planning.problem.check import TOLERANCE, UNLIMITED
+from .alignment_kernels import reach_aligned
+from .checks import EQUILIBRIUM, JOINT, JUMP, LIMB_BODY, LIMB_LIMB, REACH, TILT
+from .collision_kernels import body_gap, limbs_gap
+from .equilibrium_kernels import balance_forces, contact_frame
+from .gravity_kernels import base_weight, limb_weight
+from .kinematics_kernels import reach_point
+from .records import CHECKS_OF_STANCE
+from .seeds_kernels import postures, seed_index
+
+NEAR = 1e-6
+"""Where searches of postures end, per size of the robot."""
+PATH_POINTS = 7
+"""Of a lifted path that are solved."""
+PATH_JUMP = 1.0
+"""Largest change of a joint from one of them to the next [rad] or [m]."""
+PATH_NEAR = 1e-4
+PATH_REACHED = 1e-3
+"""Per size of the robot."""
+
+
+@inlined
+def into_base(rotation, x, y, z, to):
+    """A world vector in the base frame."""
+    to[0] = rotation[0] * x + rotation[3] * y + rotation[6] * z
+    to[1] = rotation[1] * x + rotation[4] * y + rotation[7] * z
+    to[2] = rotation[2] * x + rotation[5] * y + rotation[8] * z
+
+
+@kernel
+def aim_limb(body, place, normal, limb, work):
+    """Target and normal of a limb in the base frame, from the world's."""
+    x, y, z = place[0] - body.place[0], place[1] - body.place[1], place[2] - body.place[2]
+    into_base(body.rotation, x, y, z, work.target[limb])
+    into_base(body.rotation, normal[0], normal[1], normal[2], work.normal[limb])
+
+
+@kernel
+def solve_limb(robot, tables, limb, work):
+    """Posture of a limb for its target in `work`, from the table's seed alone.
+
+    Returns:
+        Error left [m] (`reach_point`, `reach_aligned`); infinity where the table has no seed.
+    """
+    index = seed_index(robot, tables, limb, work)
+    if index < 0:
+        return math.inf
+    for k in range(robot.n_joints[limb]):
+        work.posture[limb, k] = postures(tables)[index, k]
+    if robot.aligned[limb]:
+        return reach_aligned(robot, limb, work, NEAR * robot.size)
+    return reach_point(robot, limb, work, NEAR * robot.size)
+
+
+@kernel
+def tilt_of(limb, work):
+    """Angle of a limb's end effector from the inward normal [rad]."""
+    end = work.tip_turn[limb]
+    normal = work.normal[limb]
+    cosine = -(end[2] * normal[0] + end[5] * normal[1] + end[8] * normal[2])
+    return math.acos(min(1.0, max(-1.0, cosine)))
+
+
+@kernel
+def place_in_world(robot, body, work, out):
+    """Origins of all joints and tips in the world frame (`origin` of `out`), after the limbs were solved."""
+    r = body.rotation
+    for limb in range(robot.n_limbs):
+        for k in range(robot.n_joints[limb] + 1):
+            p = work.origin[limb, k]
+            to = out.origin[limb, k]
+            for a in range(3):
+                to[a] = body.place[a] + r[3 * a] * p[0] + r[3 * a + 1] * p[1] + r[3 * a + 2] * p[2]
+
+
+@inlined
+def violated(rules, margins, check):
+    """Whether a hard check is violated."""
+    return rules.hard >> check & 1 == 1 and not margins[check] >= -TOLERANCE
+
+
+@kernel
+def judge_postures(robot, tables, body, contacts, before, rules, out, work):
+    """Solve all limbs: margins `reach`, `joint`, `tilt` and `jump`; false as soon as a limb does not reach its hold."""
+    margins = out.margins
+    reach, joint, tilt, jump = UNLIMITED, UNLIMITED, UNLIMITED, UNLIMITED
+    for limb in range(robot.n_limbs):
+        contact = contacts[limb]
+        aim_limb(body, contact.place, contact.normal, limb, work)
+        error = solve_limb(robot, tables, limb, work)
+        reach = min(reach, rules.reach * robot.size - error)
+        if reach < -TOLERANCE:
+            margins[REACH] = max(reach, -UNLIMITED)
+            return False
+        most = rules.jump_moved if contact.moved else rules.jump
+        for k in range(robot.n_joints[limb]):
+            q = work.posture[limb, k]
+            out.posture[limb, k] = q
+            joint = min(joint, q - robot.lower[limb, k], robot.upper[limb, k] - q)
+            if before.judged:
+                jump = min(jump, most - abs(q - before.posture[limb, k]))
+        bears = contact.bears
+        work.bears[limb] = bears
+        if bears:
+            work.friction[limb] = min(robot.friction[limb], contact.friction)
+            pull = robot.pull[limb]
+            if robot.tilt[limb] < math.inf or robot.tilt_loss[limb] > 0.0:
+                angle = tilt_of(limb, work)
+                tilt = min(tilt, robot.tilt[limb] - angle)
+                pull *= max(0.0, 1.0 - robot.tilt_loss[limb] * angle)
+            work.pull[limb] = min(pull, contact.strength)
+            contact_frame(robot, contact, body.rotation, limb, work)
+    margins[REACH] = reach
+    margins[JOINT] = joint - rules.joint_room
+    margins[TILT] = tilt
+    margins[JUMP] = jump
+    return True
+
+
+@kernel
+def judge(robot, tables, body, contacts, before, rules, out, work):
+    """All margins of a stance. The posture depends on the stance alone, not on how the robot came there.
+
+    Args:
+        robot: Record of `ROBOT`.
+        tables: Record of `SEEDS`.
+        body: Record of `BODY`.
+        contacts: Records of `CONTACT`, shape (n_limbs,).
+        before: Record of `JUDGED`: the stance before; `judged` is 0 if there is none.
+        rules: Record of `RULES`.
+        out: Record of `JUDGED` that is written. Margins behind the check that ended the judging are NaN.
+        work: Record of `WORK`.
+
+    Returns:
+        Number of the first hard check that is violated (`checks.STANCE_CHECKS`), -1 if none is. With `exact` rules all margins are
+        written, unless a limb does not reach its hold.
+    """
+    margins = out.margins
+    for check in range(CHECKS_OF_STANCE):
+        margins[check] = math.nan
+    out.judged = 0
+    out.s = math.nan
+    if not judge_postures(robot, tables, body, contacts, before, rules, out, work):
+        return REACH
+    first = -1
+    for check in range(JOINT, LIMB_LIMB):
+        if violated(rules, margins, check) and first < 0:
+            first = check
+    if first >= 0 and not rules.exact:
+        return first
+    margins[LIMB_LIMB] = limbs_gap(robot, work) - rules.limb_room
+    if violated(rules, margins, LIMB_LIMB) and first < 0:
+        first = LIMB_LIMB
+        if not rules.exact:
+            return first
+    margins[LIMB_BODY] = body_gap(robot, work) - rules.limb_room
+    if violated(rules, margins, LIMB_BODY) and first < 0:
+        first = LIMB_BODY
+        if not rules.exact:
+            return first
+    into_base(body.rotation, body.gravity[0], body.gravity[1], body.gravity[2], work.gravity)
+    w = body.wrench
+    into_base(body.rotation, w[0], w[1], w[2], work.wrench[:3])
+    into_base(body.rotation, w[3], w[4], w[5], work.wrench[3:])
+    base_weight(robot, work)
+    for limb in range(robot.n_limbs):
+        limb_weight(robot, limb, work)
+    balance_forces(robot, work, rules, out)
+    for check in range(EQUILIBRIUM, CHECKS_OF_STANCE):
+        if violated(rules, margins, check) and first < 0:
+            first = check
+    place_in_world(robot, body, work, out)
+    r = body.rotation
+    m = work.moments
+    for a in range(3):
+        out.centre[a] = body.place[a] + (r[3 * a] * m[1] + r[3 * a + 1] * m[2] + r[3 * a + 2] * m[3]) / m[0]
+    out.judged = 1
+    return first
+
+
+@inlined
+def smooth(u):
+    """Quintic from 0 to 1 with no speed and no acceleration at its ends."""
+    u = min(1.0, max(0.0, u))
+    return u * u * u * (10.0 - 15.0 * u + 6.0 * u * u)
+
+
+@kernel
+def path_point(start, end, lift, u, to):
+    """Place of a lifted tip [m] at the share u of its way between two contacts (`CONTACT`): off along the normals first, on last."""
+    along = smooth((u - 0.15) / 0.7)
+    height = smooth((u if u < 0.5 else 1.0 - u) / 0.4) * lift
+    for a in range(3):
+        to[a] = start.place[a] + along * (end.place[a] - start.place[a])
+        to[a] += height * 0.5 * (start.normal[a] + end.normal[a])
+
+
+@kernel
+def swing_reach(robot, body, limb, swing, before, lift, work):
+    """How well a limb's tip follows the lifted path between two contacts with small changes of its joints, from the posture before.
+
+    Args:
+        robot: Record of `ROBOT`.
+        body: Record of `BODY`.
+        limb: Index of the limb.
+        swing: Two records of `CONTACT`: where it is and where it goes.
+        before: Record of `JUDGED` with the limb's posture at the first.
+        lift: Height of the path [m].
+        work: Record of `WORK`; afterwards it describes the limb at the second contact.
+
+    Returns:
+        Distance that counts as reached less the largest error of the points [m]; negative where the path is out of reach or a joint
+        would have to jump.
+    """
+    n = robot.n_joints[limb]
+    for k in range(n):
+        work.posture[limb, k] = before.posture[limb, k]
+    room = PATH_REACHED * robot.size
+    place = work.full[:3]
+    normal = work.entering[:3]
+    last = work.price[:n]
+    for point in range(1, PATH_POINTS + 1):
+        u = point / PATH_POINTS
+        path_point(swing[0], swing[1], lift, u, place)
+        for a in range(3):
+            normal[a] = swing[0].normal[a] + smooth(u) * (swing[1].normal[a] - swing[0].normal[a])
+        aim_limb(body, place, normal, limb, work)
+        for k in range(n):
+            last[k] = work.posture[limb, k]
+        error = reach_point(robot, limb, work, PATH_NEAR * robot.size)
+        room = min(room, PATH_REACHED * robot.size - error)
+        for k in range(n):
+            room = min(room, PATH_JUMP - abs(work.posture[limb, k] - last[k]))
+        if room < 0.0:
+            return room
+    return room
