@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from .exports.joint_trajectory import Trajectories
+    from .files import Document
     from .inspection.finding import Inspection
     from .planning.openings.relaxations import Relaxation
     from .planning.problem.check import Check
@@ -129,6 +130,10 @@ class Family:
     def dynamics(self) -> Dynamics | None:
         """How its tasks and plans, and what else it can do, are carried out in contact dynamics."""
         return None
+
+    def whole_robot(self, document: Document) -> Document:
+        """A robot's document with what it takes from other files, so that it can be built where those are not."""
+        return document
 
     def other_work(self, name_or_path: str, overrides: Sequence[str] = ()) -> Any | None:
         """What can be carried out and is no task, by its name or file, such as a walk; None: it is no such thing."""

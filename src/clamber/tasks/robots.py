@@ -47,13 +47,19 @@ def read_robot(name_or_path: str, folder: Path | None = None) -> Document:
     names = robot_names()
     if is_path(name_or_path) or name_or_path in names:
         path, label = find_data("robot", name_or_path, shipped("robots"), folder)
-        return read_toml(path, label)
+        return _whole(read_toml(path, label))
     theirs = outside("robots")
     if name_or_path not in theirs:
         raise UnknownNameError("robot", name_or_path, (*names, *theirs))
     found = load_outside("robots", name_or_path)
     with blamed("robots", name_or_path):
-        return read_toml(Path(found() if callable(found) else found))
+        return _whole(read_toml(Path(found() if callable(found) else found)))
+
+
+def _whole(document: Document) -> Document:
+    """A robot's document with what its family takes from other files."""
+    family = named_family(document.data.get("family"))
+    return document if family is None else family.whole_robot(document)
 
 
 def family_in(document: Document) -> Family:

@@ -1,0 +1,364 @@
+"""A limbed robot in space: its file names a model, the limbs of it, and what the model does not say."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, replace
+from pathlib import Path
+from typing import Annotated, ClassVar, Final, NamedTuple
+
+import numpy as np
+from pydantic import Field, GetCoreSchemaHandler, StrictStr
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+from ....errors import UnitError, describe_choices
+from ....files import Document, check_schema
+from ....regular_files import user_path
+from ....specs import Name, Provenance, build_spec, collect_sources, spec
+from ....types import Json
+from ....units import DEGREE, Length, NonNegativeAngle, NonNegativeLength, NonNegativeMass, Quantity, read_quantity
+from .assembly import Choice, LimbChoice, axis_frame, chains_of
+from .chains import Chains
+from .model import read_model
+from .tree import Frame, Joint, Tree, rooted_at
+
+SCHEMA: Final = "clamber-robot-1"
+FAMILY: Final = "spatial"
+MAX_LIMBS: Final = 8
+"""Limb slots of a stance."""
+
+
+class Reading(NamedTuple):
+    """A quantity whose dimension the joint decides that it is said of."""
+
+    value: float
+    """[rad], [m], [N m] or [N]."""
+    dimension: str
+
+
+class _OneOf:
+    """A quantity of one of two dimensions: that of a turning joint, and that of a sliding one."""
+
+    def __init__(self, turning: str, sliding: str) -> None:
+        self.dimensions = (turning, sliding)
+
+    def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self._read)
+
+    def _read(self, raw: object) -> Reading:
+        told = []
+        for dimension in self.dimensions:
+            try:
+                return Reading(read_quantity(raw, dimension), dimension)
+            except UnitError as error:
+                told.append(f"{error.problem}; {error.allowed}")
+        raise PydanticCustomError("quantity", "{text}", {"text": told[0]})
+
+
+Position = Annotated[Reading, _OneOf("angle", "length")]
+"""Of a joint: an angle, or a length where it slides."""
+Load = Annotated[Reading, _OneOf("torque", "force")]
+"""Of a motor: a torque, or a force where its joint slides."""
+Share = Annotated[float, Quantity("ratio", above=0.0, at_most=1.0)]
+Direction = tuple[float, float, float]
+
+
+@spec
+class LimbSpec:
+    """One limb: what it ends with, and what the model does not say of its joints."""
+
+    name: Name
+    """Unique within the robot."""
+    tip: StrictStr
+    """Site or link of the model at its end."""
+    offset: tuple[Length, Length, Length] = (0.0, 0.0, 0.0)
+    """From there to the tip, in that frame [m]."""
+    out: Direction | None = None
+    """Direction out of the limb, towards what it touches, in that frame; None: a site's z, of a link from the last joint to the tip."""
+    contact: StrictStr
+    """What it holds on with: the name of a contact, or the path of its file."""
+    nominal: tuple[Position, ...] | None = None
+    """Posture that searches begin at, from the base to the tip; None: the middle of the limits."""
+    limits: Mapping[StrictStr, tuple[Position, Position]] = field(default_factory=dict)
+    """Joint -> least and largest position, in place of the model's."""
+    torques: Mapping[StrictStr, Load] = field(default_factory=dict)
+    """Joint -> largest torque or force of its motor, in place of the model's."""
+    radius: NonNegativeLength | None = None
+    """Of its links' capsules [m]; None: as thick as their shapes."""
+
+
+@spec
+class Payload:
+    """What the base carries."""
+
+    mass: NonNegativeMass
+    """[kg]."""
+    at: tuple[Length, Length, Length] = (0.0, 0.0, 0.0)
+    """Its centre of mass, base frame [m]."""
+
+
+@spec
+class RobotSpec:
+    """A robot file of the family."""
+
+    name: Name
+    title: StrictStr
+    model: StrictStr
+    """MJCF or URDF file, from where this file lies."""
+    base: StrictStr
+    """Link that floats; its frame is the robot's."""
+    trunk: Mapping[StrictStr, Position] = field(default_factory=dict)
+    """Joint that no limb has -> position at which it is held; 0, or what the model couples it to, where it is not named."""
+    torque_share: Share = 1.0
+    """Part of each motor's largest torque that may be used [-]."""
+    joint_room: NonNegativeAngle = 0.0
+    """Turning joints stay so far inside their limits [rad]."""
+    payload: Payload | None = None
+    half: tuple[NonNegativeLength, NonNegativeLength, NonNegativeLength] | None = None
+    """Half extents of the box that stands for the base's body [m]; None: as large as its shapes."""
+    limb: Annotated[tuple[LimbSpec, ...], Field(min_length=1, max_length=MAX_LIMBS)]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SpatialRobot:
+    """A robot as its file and its model describe it."""
+
+    family: ClassVar[str] = FAMILY
+
+    spec: RobotSpec
+    tree: Tree = field(repr=False)
+    """The model, with the base as its root."""
+    chains: Chains = field(repr=False)
+    model_path: Path | None
+    """None: the robot comes from a stored plan, which holds what statics needs of the model."""
+    sources: Mapping[str, Provenance]
+    """Dotted key of the file -> the number as written and its source."""
+
+    @property
+    def name(self) -> str:
+        """Short name."""
+        return self.spec.name
+
+    @property
+    def title(self) -> str:
+        """In one line."""
+        return self.spec.title
+
+    @property
+    def limbs(self) -> tuple[LimbSpec, ...]:
+        """As the file has them."""
+        return self.spec.limb
+
+    @property
+    def limb_names(self) -> tuple[str, ...]:
+        """Names of the limbs, in order."""
+        return self.chains.limb_names
+
+    @property
+    def model_sha256(self) -> str:
+        """Of the model file."""
+        return self.tree.sha256
+
+
+def whole_document(document: Document) -> Document:
+    """A robot's document with what it takes from its model file, so that it can be built where that file is not.
+
+    Raises:
+        SpecError: If it names no model.
+        FileError: If the model can't be read.
+    """
+    if "parts" in document.data:
+        return document
+    tree = read_model(model_path(document)).tree
+    return replace(document, data=document.data | {"parts": _plain(tree)})
+
+
+def model_path(document: Document) -> Path:
+    """Where a robot's model file is.
+
+    Raises:
+        SpecError: If it names none.
+    """
+    said = document.data.get("model")
+    if not isinstance(said, str) or not said:
+        raise document.problem("model", "must be the path of an MJCF or URDF file, from where this file lies")
+    path = user_path(said)
+    return path if document.folder is None else document.folder / path
+
+
+def build_robot(document: Document) -> SpatialRobot:
+    """The robot of a document.
+
+    Raises:
+        SpecError: If the document breaks a rule of the format, or names what the model does not have.
+        FileError: If the model can't be read.
+    """
+    check_schema(document, SCHEMA)
+    whole = whole_document(document)
+    robot = build_spec(RobotSpec, whole, without=("schema", "family", "parts"))
+    tree = build_spec(Tree, whole.section("parts", f"{document.label} [parts]"))
+    path = None if "parts" in document.data and document.folder is None else model_path(document)
+    return _built(robot, tree, whole, path)
+
+
+def _plain(value: object) -> Json:
+    """A spec as plain data."""
+    made: Json = asdict(value)  # type: ignore[call-overload]
+    return made
+
+
+def _built(robot: RobotSpec, tree: Tree, document: Document, path: Path | None) -> SpatialRobot:
+    links = tuple(link.name for link in tree.links)
+    if robot.base not in links:
+        raise document.problem("base", f"the model has no such link; it has {describe_choices(robot.base, links)}")
+    for index, limb in enumerate(robot.limb):
+        if limb.name in [other.name for other in robot.limb[:index]]:
+            raise document.problem(f"limb.{index}.name", "names of limbs must differ")
+    tree = rooted_at(tree, robot.base)
+    joints = {joint.name: joint for joint in tree.joints}
+    for name, reading in robot.trunk.items():
+        _check_joint(document, f"trunk.{name}", name, joints)
+        _check_dimension(document, f"trunk.{name}", joints[name], reading)
+    fixed = {joint.name for joint in tree.joints if joint.held is not None} | set(robot.trunk)
+    tips = {limb.name: _tip_link(document, limb, tree) for limb in robot.limb}
+    paths = {
+        name: [joint for link in tree.path(link_name) for joint in tree.joints_of(link)]
+        for name, link_name in tips.items()
+    }
+    passed = [joint.name for path_ in paths.values() for joint in path_]
+    own = {
+        name: tuple(joint for joint in path_ if joint.name not in fixed and passed.count(joint.name) == 1)
+        for name, path_ in paths.items()
+    }
+    limbs = tuple(_limb(document, robot, limb, own[limb.name], tree, tips[limb.name]) for limb in robot.limb)
+    moving = {joint.name for limb in limbs for joint in limb.joints}
+    held = {
+        name: robot.trunk[name].value if name in robot.trunk else joint.held or 0.0
+        for name, joint in joints.items()
+        if name not in moving
+    }
+    payload = robot.payload or Payload(mass=0.0)
+    choice = Choice(limbs=limbs, held=held, payload=payload.mass, payload_at=payload.at, half=robot.half)
+    chains = chains_of(robot.name, tree, choice)
+    if not chains.base_mass >= 0.0 or chains.total_mass <= 0.0:
+        raise document.problem("model", "must have links with a mass")
+    return SpatialRobot(spec=robot, tree=tree, chains=chains, model_path=path, sources=collect_sources(document.data))
+
+
+def _tip_link(document: Document, limb: LimbSpec, tree: Tree) -> str:
+    """The link that a limb's tip is on."""
+    sites = {site.name: site.link for site in tree.sites}
+    links = {link.name for link in tree.links}
+    if limb.tip in sites:
+        return sites[limb.tip]
+    if limb.tip in links:
+        return limb.tip
+    known = describe_choices(limb.tip, (*sites, *(link.name for link in tree.links)))
+    raise document.problem(f"limb.{limb.name}.tip", f"the model has no such site or link; it has {known}")
+
+
+def _limb(
+    document: Document, robot: RobotSpec, limb: LimbSpec, joints: tuple[Joint, ...], tree: Tree, tip_link: str
+) -> LimbChoice:
+    key = f"limb.{limb.name}"
+    if not joints:
+        told = f"no joint is this limb's alone between the base '{robot.base}' and it; name a site or link behind one"
+        raise document.problem(f"{key}.tip", told)
+    own = {joint.name: joint for joint in joints}
+    for word, stated in (("limits", limb.limits), ("torques", limb.torques)):
+        for name in stated:
+            _check_joint(document, f"{key}.{word}.{name}", name, own)
+    bounds = [_bounds(document, robot, limb, joint) for joint in joints]
+    torque = [_torque(document, robot, limb, joint) for joint in joints]
+    nominal = [(lower + upper) / 2 for lower, upper in bounds]
+    if limb.nominal is not None:
+        if len(limb.nominal) != len(joints):
+            raise document.problem(f"{key}.nominal", f"must have {len(joints)} positions, of {', '.join(own)}")
+        for joint, reading in zip(joints, limb.nominal, strict=True):
+            _check_dimension(document, f"{key}.nominal", joint, reading)
+        nominal = [reading.value for reading in limb.nominal]
+        for joint, value, (lower, upper) in zip(joints, nominal, bounds, strict=True):
+            if not lower <= value <= upper:
+                told = f"that of {joint.name} must be {_shown(joint, lower)} to {_shown(joint, upper)}"
+                raise document.problem(f"{key}.nominal", told + ", its limits less 'joint_room'")
+    return LimbChoice(
+        name=limb.name,
+        joints=joints,
+        lower=tuple(lower for lower, _ in bounds),
+        upper=tuple(upper for _, upper in bounds),
+        torque=tuple(torque),
+        nominal=tuple(nominal),
+        tip_link=tip_link,
+        tip=_tip(document, limb, tree, joints[-1]),
+        radius=limb.radius,
+    )
+
+
+def _bounds(document: Document, robot: RobotSpec, limb: LimbSpec, joint: Joint) -> tuple[float, float]:
+    """Positions of a joint that may be used [rad] or [m]."""
+    key = f"limb.{limb.name}.limits.{joint.name}"
+    room = 0.0 if joint.sliding else robot.joint_room
+    if joint.name in limb.limits:
+        readings = limb.limits[joint.name]
+        for reading in readings:
+            _check_dimension(document, key, joint, reading)
+        lower, upper = (reading.value for reading in readings)
+    elif joint.limits is not None:
+        lower, upper = joint.limits
+    else:
+        raise document.problem(
+            key, "must be given, as the model has no limits of this joint, such as ['-180 deg', '180 deg']"
+        )
+    if not lower + room < upper - room:
+        told = "the least position must be below the largest" + (", both moved inwards by 'joint_room'" if room else "")
+        raise document.problem(key, f"{told}; here {_shown(joint, lower + room)} to {_shown(joint, upper - room)}")
+    return lower + room, upper - room
+
+
+def _torque(document: Document, robot: RobotSpec, limb: LimbSpec, joint: Joint) -> float:
+    """Torque [N m] or force [N] of a joint's motor that may be used."""
+    key = f"limb.{limb.name}.torques.{joint.name}"
+    if joint.name not in limb.torques:
+        if joint.torque is None:
+            raise document.problem(key, "must be given, as the model states no torque of this joint, such as '10 N m'")
+        return robot.torque_share * joint.torque
+    reading = limb.torques[joint.name]
+    _check_dimension(document, key, joint, reading)
+    if not reading.value > 0.0:
+        raise document.problem(key, "must be more than 0")
+    return robot.torque_share * reading.value
+
+
+def _tip(document: Document, limb: LimbSpec, tree: Tree, last: Joint) -> Frame:
+    """The tip in the frame of its link, z out of the limb."""
+    site = next((site for site in tree.sites if site.name == limb.tip), None)
+    link = tree.link(limb.tip if site is None else site.link)
+    frame = Frame(np.zeros(3), np.eye(3)) if site is None else Frame(np.array(site.place), np.array(site.axes))
+    place = frame.at(limb.offset)
+    if limb.out is not None:
+        out = np.array(limb.out)
+        if not (math.isfinite(length := float(np.linalg.norm(out))) and length > 1e-9):
+            raise document.problem(f"limb.{limb.name}.out", "must be a direction: three numbers that are not all 0")
+        return Frame(place, frame.axes @ axis_frame(out / length))
+    if site is not None:
+        return Frame(place, frame.axes)
+    at = Frame(np.array(link.place), np.array(link.axes))
+    away = place - at.within(np.array(last.anchor))
+    if not (length := float(np.linalg.norm(away))) > 1e-6:
+        raise document.problem(f"limb.{limb.name}.out", "must be given, as the tip is on the last joint's axis")
+    return Frame(place, axis_frame(away / length))
+
+
+def _check_joint(document: Document, key: str, name: str, joints: Mapping[str, Joint]) -> None:
+    if name not in joints:
+        raise document.problem(key, f"no such joint; there are {describe_choices(name, tuple(joints))}")
+
+
+def _check_dimension(document: Document, key: str, joint: Joint, reading: Reading) -> None:
+    """Makes sure that a turning joint has an angle or a torque, and a sliding one a length or a force."""
+    if (reading.dimension in ("length", "force")) != joint.sliding:
+        what = "slides: state a length or a force" if joint.sliding else "turns: state an angle or a torque"
+        raise document.problem(key, f"joint {joint.name} {what}")
+
+
+def _shown(joint: Joint, position: float) -> str:
+    return f"{position:.4g} m" if joint.sliding else f"{position / DEGREE:.4g} deg"
