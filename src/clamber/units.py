@@ -31,6 +31,7 @@ UNITS: Final[dict[str, dict[str, float]]] = {
     "angle": {"rad": 1.0, "deg": DEGREE, "turn": math.tau},
     "torque": {"N m": 1.0, "mN m": 1e-3, "oz-in": OZ_IN, "lbf-in": 16 * OZ_IN, "lbf-ft": 192 * OZ_IN},
     "force": {"N": 1.0, "kN": 1e3, "ozf": OUNCE_FORCE, "lbf": 16 * OUNCE_FORCE, "kgf": GRAVITY},
+    "pressure": {"Pa": 1.0, "kPa": 1e3, "mbar": 100.0, "bar": 1e5},
     "mass": {"kg": 1.0, "g": 1e-3, "oz": OUNCE, "lb": 16 * OUNCE},
     "inertia": {"kg m^2": 1.0, "g cm^2": 1e-7, "kg cm^2": 1e-4},
     "damping": {"N m s/rad": 1.0, "N m s": 1.0, "mN m s/rad": 1e-3},
@@ -280,6 +281,7 @@ PositiveTorque = Annotated[float, Quantity("torque", above=0.0)]
 NonNegativeTorque = Annotated[float, Quantity("torque", at_least=0.0)]
 PositiveForce = Annotated[float, Quantity("force", above=0.0)]
 NonNegativeForce = Annotated[float, Quantity("force", at_least=0.0)]
+PositivePressure = Annotated[float, Quantity("pressure", above=0.0)]
 NonNegativeMass = Annotated[float, Quantity("mass", at_least=0.0)]
 PositiveMass = Annotated[float, Quantity("mass", above=0.0)]
 NonNegativeInertia = Annotated[float, Quantity("inertia", at_least=0.0)]

@@ -6,7 +6,7 @@ forces [N], then moments about the contact's point [N m]. A row says `coefficien
 """
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -20,6 +20,11 @@ SLIP, GRIP, MOMENT = range(3)
 """Margins that a row counts for."""
 
 _NONE = (0.0,) * 6
+
+
+def line(**components: float) -> tuple[float, ...]:
+    """Six coefficients of a wrench by name: `n`, `f1`, `f2`, `mn`, `m1`, `m2`; the others are 0."""
+    return tuple(components.get(name, 0.0) for name in ("n", "f1", "f2", "mn", "m1", "m2"))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,8 +61,6 @@ class Contact:
     """Largest angle of the end effector's z from the inward normal [rad]."""
     tilt_loss: float = 0.0
     """Share of the pull that a radian of tilt costs [1/rad]."""
-    exact: dict[str, float] = field(default_factory=dict)
-    """Numbers of the body that the polytope lies in, for tests and pages."""
 
     def polytope(self, friction: float, pull: float) -> tuple[Floats, Floats]:
         """`A`, `b` of `A wrench <= b` at a hold of such friction and strength, shapes (rows, 6) and (rows,)."""
@@ -67,19 +70,120 @@ class Contact:
         return matrix, np.array([float(np.dot(row.limit, terms)) for row in self.rows])
 
 
-def cone(facets: int = FACETS, *, pulls: bool = False) -> tuple[Row, ...]:
-    """Rows of a friction cone `|tangent| <= mu (normal + pull)` and of `normal >= -pull`, inscribed; without `pulls`, pull counts as 0."""
+def cone(facets: int = FACETS) -> tuple[Row, ...]:
+    """Rows of a friction cone `|tangent| <= mu (normal + pull)` and of `normal >= -pull`, inscribed."""
     inside = math.cos(math.pi / facets)
     sides = tuple(
         Row(
-            coefficients=(0.0, math.cos(angle), math.sin(angle), 0.0, 0.0, 0.0),
-            per_friction=(-inside, 0.0, 0.0, 0.0, 0.0, 0.0),
-            limit=(0.0, 0.0, inside if pulls else 0.0),
+            coefficients=line(f1=math.cos(angle), f2=math.sin(angle)),
+            per_friction=line(n=-inside),
+            limit=(0.0, 0.0, inside),
         )
         for angle in (math.tau * k / facets for k in range(facets))
     )
-    least = Row(coefficients=(-1.0, 0.0, 0.0, 0.0, 0.0, 0.0), limit=(0.0, 1.0 if pulls else 0.0, 0.0), margin=GRIP)
-    return (*sides, least)
+    return (*sides, Row(coefficients=line(n=-1.0), limit=(0.0, 1.0, 0.0), margin=GRIP))
+
+
+def at_most(press: float) -> tuple[Row, ...]:
+    """The row that no more than `press` [N] pushes; none where nothing limits it."""
+    if press == math.inf:
+        return ()
+    return (Row(coefficients=line(n=1.0), limit=(press, 0.0, 0.0), margin=GRIP),)
+
+
+def moments(bending: float, twisting: float, facets: int = FACETS) -> tuple[Row, ...]:
+    """Rows of moments across the normal of at most `bending` in any direction, inscribed, and about it of at most `twisting` [N m]."""
+    inside = bending * math.cos(math.pi / facets)
+    bends = tuple(
+        Row(
+            coefficients=line(m1=math.cos(angle), m2=math.sin(angle)),
+            limit=(inside, 0.0, 0.0),
+            slack=(0.0, inside),
+            margin=MOMENT,
+        )
+        for angle in (math.tau * k / facets for k in range(facets))
+    )
+    twists = tuple(
+        Row(coefficients=line(mn=sign), limit=(twisting, 0.0, 0.0), slack=(0.0, twisting), margin=MOMENT)
+        for sign in (1.0, -1.0)
+    )
+    return (*bends, *twists)
+
+
+def pad(half1: float, half2: float) -> tuple[Row, ...]:
+    """Rows of a rectangle that pushes, rubs and pulls all over, half as long along the tangents as `half1` and `half2` [m].
+
+    What its surface feels is the wrench with the pull added to the normal force: any pressure and friction within the rectangle. For
+    friction pyramids of four sides these rows are exact (Caron, Pham and Nakamura 2015, "Stability of Surface Contacts for Humanoid Robots:
+    Closed-Form Formulae of the Contact Wrench Cone for Rectangular Support Areas"); the pyramid lies in the cone.
+    """
+    inside = math.sqrt(0.5)
+    around = inside * (half1 + half2)
+    signs = (1.0, -1.0)
+    slides = [
+        Row(coefficients=tangent, per_friction=line(n=-inside), limit=(0.0, 0.0, inside))
+        for sign in signs
+        for tangent in (line(f1=sign), line(f2=sign))
+    ]
+    tips = [
+        Row(coefficients=moment, limit=(0.0, half, 0.0), slack=(half, 0.0), margin=MOMENT)
+        for sign in signs
+        for half, moment in ((half2, line(n=-half2, m1=sign)), (half1, line(n=-half1, m2=sign)))
+    ]
+    twists = [
+        Row(
+            coefficients=line(mn=turn, f1=a * half2, f2=b * half1),
+            per_friction=line(n=-around, m1=turn * a * inside, m2=turn * b * inside),
+            limit=(0.0, 0.0, around),
+            slack=(0.5 * around, 0.0),
+            margin=MOMENT,
+        )
+        for turn in signs
+        for a in signs
+        for b in signs
+    ]
+    return (*slides, *tips, *twists, Row(coefficients=line(n=-1.0), limit=(0.0, 1.0, 0.0), margin=GRIP))
+
+
+def hook_rows(opening: float, friction: float, facets: int = 2 * FACETS) -> tuple[Row, ...]:
+    """Rows of a hook over a bar (first tangent along the bar, normal out of what it hangs on).
+
+    It slides along the bar by friction, leaves its bed beyond the half angle `opening` [rad] across it, and bears the pull as its strength.
+    """
+    inside = math.cos(math.pi / facets)
+    across = math.tan(opening)
+    strength = inside / math.hypot(1.0, friction)  # the force along the bar is at most mu times the normal one
+    slides = [Row(coefficients=line(f1=sign), per_friction=line(n=-1.0)) for sign in (1.0, -1.0)]
+    leaves = [Row(coefficients=line(f2=sign, n=-across), margin=GRIP) for sign in (1.0, -1.0)]
+    breaks = [
+        Row(
+            coefficients=line(n=math.cos(angle), f2=math.sin(angle)),
+            limit=(0.0, strength, 0.0),
+            margin=GRIP,
+        )
+        for angle in (math.tau * k / facets for k in range(-(facets // 4), facets // 4 + 1))
+        if abs(angle) <= opening + math.pi / facets
+    ]
+    return (*slides, *leaves, *breaks)
+
+
+def spine_rows(angle: float, facets: int = FACETS) -> tuple[Row, ...]:
+    """Rows of spines that hook into roughness when they are drawn along the first tangent (the force on them is along it).
+
+    Drawn, they also pull, up to `tan(angle)` times the draw, and bear the pull as their strength along the tangent; else they rub.
+    """
+    hold = math.tan(angle)
+    inside = math.cos(math.pi / facets)
+    drawn = [
+        Row(coefficients=line(n=-1.0, f1=-hold), margin=GRIP),
+        Row(coefficients=line(f1=1.0), limit=(0.0, 1.0, 0.0), margin=GRIP),
+    ]
+    aside = [Row(coefficients=line(f2=sign), per_friction=line(n=-inside, f1=-inside * hold)) for sign in (1.0, -1.0)]
+    back = [
+        Row(coefficients=line(f1=math.cos(turn), f2=math.sin(turn)), per_friction=line(n=-inside))
+        for turn in (math.tau * k / facets for k in range(facets // 4 + 1, facets - facets // 4))
+    ]
+    return (*drawn, *aside, *back)
 
 
 def point_foot(friction: float, facets: int = FACETS) -> Contact:
@@ -89,4 +193,4 @@ def point_foot(friction: float, facets: int = FACETS) -> Contact:
 
 def gripper(friction: float, pull: float, facets: int = FACETS) -> Contact:
     """A gripper on a hold as a point that also pulls: a friction cone whose apex lies at the pull-off force [N]."""
-    return Contact(kind="gripper", rows=cone(facets, pulls=True), friction=friction, pull=pull)
+    return Contact(kind="gripper", rows=cone(facets), friction=friction, pull=pull)
