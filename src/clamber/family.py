@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 
 BUILT_IN: Final = {
     "limbed": "clamber.families.climber.family:CLIMBER",
+    "spatial": "clamber.families.spatial.family:SPATIAL",
     "walker": "clamber.families.walker.family:WALKER",
 }
 """Name in robot files -> module and name of the object, imported when the family is asked for."""

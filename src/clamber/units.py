@@ -41,6 +41,7 @@ UNITS: Final[dict[str, dict[str, float]]] = {
     "resistance": {"ohm": 1.0, "kohm": 1e3},
     "torque constant": {"N m/A": 1.0, "mN m/A": 1e-3, "oz-in/A": OZ_IN},
     "amplifier gain": {"A/V": 1.0},
+    "acceleration": {"m/s^2": 1.0, "cm/s^2": 0.01, "gal": 0.01},
     "speed": {"m/s": 1.0, "cm/s": 0.01, "mm/s": 0.001, "in/s": INCH},
     "angular speed": {"rad/s": 1.0, "deg/s": DEGREE, "rpm": math.tau / 60.0},
     "voltage": {"V": 1.0, "mV": 1e-3},
@@ -275,6 +276,7 @@ PositiveLength = Annotated[float, Quantity("length", above=0.0)]
 NonNegativeLength = Annotated[float, Quantity("length", at_least=0.0)]
 Angle = Annotated[float, Quantity("angle")]
 NonNegativeAngle = Annotated[float, Quantity("angle", at_least=0.0)]
+PositiveAngle = Annotated[float, Quantity("angle", above=0.0)]
 ConeAngle = Annotated[float, Quantity("angle", above=0.0, at_most=math.pi / 2)]
 """Half angle of a cone [rad], over 0 and at most a right angle."""
 PositiveTorque = Annotated[float, Quantity("torque", above=0.0)]
@@ -305,5 +307,7 @@ Count = Annotated[int, _Count()]
 """A whole number, 0 or more; in a file also `{ value, source }`."""
 Point = tuple[Length, Length]
 """x, y [m]."""
+Place = tuple[Length, Length, Length]
+"""x, y, z [m]."""
 Polygon = tuple[Point, ...]
 """Corners in order [m]; at least three."""

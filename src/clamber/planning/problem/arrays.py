@@ -20,7 +20,7 @@ class Params:
 
         Args:
             record: Array of one record, its other fields filled.
-            **arrays: C-ordered arrays by name; `work`, if a family has one, is scratch.
+            **arrays: C-ordered arrays by name; those whose names begin with `work` are scratch.
         """
         self._record = record
         self._arrays = {name: np.ascontiguousarray(array) for name, array in arrays.items()}
@@ -48,7 +48,7 @@ class Params:
 
     def for_thread(self) -> "Params":
         """The same parameters with scratch of their own."""
-        own = {"work": np.zeros_like(self._arrays["work"])} if "work" in self._arrays else {}
+        own = {name: array.copy() for name, array in self._arrays.items() if name.startswith("work")}
         return Params(self._record.copy(), **{**self._arrays, **own})
 
     def with_fields(self, **fields: int) -> "Params":

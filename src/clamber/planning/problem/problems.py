@@ -22,6 +22,10 @@ from .problem import CompiledProblem, Records
 Finite = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 
 
+POSE_AXES: Final = {3: ("x", "y", "theta"), 6: ("along", "across", "height", "yaw", "pitch", "roll")}
+"""Number of a body pose's coordinates -> their names."""
+
+
 @spec
 class PlannedAction(Jsonable):
     """What the robot is told to do in one step, every choice made."""
@@ -31,8 +35,8 @@ class PlannedAction(Jsonable):
     """Name of the limb or frame; None where the action has none."""
     hold: Annotated[int, Field(strict=True, ge=1)] | None = None
     """Number of the hold that a grab takes; None for a grab that found no hold."""
-    delta: tuple[Finite, Finite, Finite] | None = None
-    """A move's change of x [m], y [m] and angle [rad], world frame."""
+    delta: tuple[Finite, Finite, Finite] | tuple[Finite, Finite, Finite, Finite, Finite, Finite] | None = None
+    """A move's change of the body's pose: x, y [m], angle [rad] in a plane; along, across, height [m], yaw, pitch, roll [rad] in space."""
     code: Annotated[int, Field(strict=True, ge=0)] | None = None
     """The thesis's number (0, 1..6, N00, NXX) with the hold that was taken; None where it has no number for this."""
     gene: StrictStr | None = None
@@ -44,7 +48,7 @@ class PlannedAction(Jsonable):
         if self.kind == "none":
             return "none"
         if self.kind == "move" and self.delta is not None:
-            axes = zip(("x", "y", "theta"), self.delta, strict=True)
+            axes = zip(POSE_AXES[len(self.delta)], self.delta, strict=True)
             way = " ".join(f"{'+' if part > 0 else '-'}{axis}" for axis, part in axes if part)
             return f"{self.limb} {way}" if self.limb else way
         if self.kind == "grab":

@@ -197,9 +197,9 @@ def hold_code(task: LimbedTask, limb: int, number: int) -> int:
     return pack(HOLD, limb, index)
 
 
-def _axis(task: LimbedTask, delta: tuple[float, float, float] | None) -> int:
+def _axis(task: LimbedTask, delta: tuple[float, ...] | None) -> int:
     length, angle = task.step.length, task.step.angle
-    if delta is not None:
+    if delta is not None and len(delta) == 3:
         for argument in range(6):
             meant = move_delta(task, argument)
             sizes = (length, length, angle)

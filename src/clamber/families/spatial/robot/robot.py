@@ -18,6 +18,8 @@ from ....types import Json
 from ....units import DEGREE, Length, NonNegativeAngle, NonNegativeLength, NonNegativeMass, Quantity, read_quantity
 from .assembly import Choice, LimbChoice, axis_frame, chains_of
 from .chains import Chains
+from .contact_kinds import build_contact, read_contact
+from .contacts import Contact
 from .model import read_model
 from .tree import Frame, Joint, Tree, rooted_at
 
@@ -128,6 +130,8 @@ class SpatialRobot:
     tree: Tree = field(repr=False)
     """The model, with the base as its root."""
     chains: Chains = field(repr=False)
+    contacts: tuple[Contact, ...] = field(repr=False)
+    """What each limb holds on with."""
     model_path: Path | None
     """None: the robot comes from a stored plan, which holds what statics needs of the model."""
     sources: Mapping[str, Provenance]
@@ -160,16 +164,20 @@ class SpatialRobot:
 
 
 def whole_document(document: Document) -> Document:
-    """A robot's document with what it takes from its model file, so that it can be built where that file is not.
+    """A robot's document with what it takes from the files of its model and its contacts, so that it can be built where those are not.
 
     Raises:
         SpecError: If it names no model.
-        FileError: If the model can't be read.
+        UnknownNameError: If no contact has a name that it states.
+        FileError: If a file can't be read.
     """
     if "parts" in document.data:
         return document
     tree = read_model(model_path(document)).tree
-    return replace(document, data=document.data | {"parts": _plain(tree)})
+    limbs = document.data.get("limb")
+    named = [limb.get("contact") for limb in limbs if isinstance(limb, dict)] if isinstance(limbs, list) else []
+    contacts = {name: read_contact(name, document.folder).data for name in named if isinstance(name, str)}
+    return replace(document, data=document.data | {"parts": _plain(tree), "contacts": contacts})
 
 
 def model_path(document: Document) -> Path:
@@ -194,7 +202,7 @@ def build_robot(document: Document) -> SpatialRobot:
     """
     check_schema(document, SCHEMA)
     whole = whole_document(document)
-    robot = build_spec(RobotSpec, whole, without=("schema", "family", "parts"))
+    robot = build_spec(RobotSpec, whole, without=("schema", "family", "parts", "contacts"))
     tree = build_spec(Tree, whole.section("parts", f"{document.label} [parts]"))
     path = None if "parts" in document.data and document.folder is None else model_path(document)
     return _built(robot, tree, whole, path)
@@ -241,7 +249,23 @@ def _built(robot: RobotSpec, tree: Tree, document: Document, path: Path | None) 
     chains = chains_of(robot.name, tree, choice)
     if not chains.base_mass >= 0.0 or chains.total_mass <= 0.0:
         raise document.problem("model", "must have links with a mass")
-    return SpatialRobot(spec=robot, tree=tree, chains=chains, model_path=path, sources=collect_sources(document.data))
+    return SpatialRobot(
+        spec=robot,
+        tree=tree,
+        chains=chains,
+        contacts=tuple(_contact(document, limb) for limb in robot.limb),
+        model_path=path,
+        sources=collect_sources(document.data),
+    )
+
+
+def _contact(document: Document, limb: LimbSpec) -> Contact:
+    """What a limb holds on with."""
+    contacts = document.data.get("contacts")
+    stated = contacts.get(limb.contact) if isinstance(contacts, dict) else None
+    if not isinstance(stated, dict):
+        raise document.problem(f"limb.{limb.name}.contact", "must name a contact that stands under 'contacts'")
+    return build_contact(Document(f"contact '{limb.contact}' of {document.label}", stated)).contact()
 
 
 def _tip_link(document: Document, limb: LimbSpec, tree: Tree) -> str:

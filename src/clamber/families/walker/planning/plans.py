@@ -103,10 +103,14 @@ def _delta(task: WalkerTask, argument: int) -> tuple[float, float, float]:
     return delta[0], delta[1], delta[2]
 
 
-def _axis(task: WalkerTask, delta: tuple[float, float, float] | None) -> int:
+def _axis(task: WalkerTask, delta: tuple[float, ...] | None) -> int:
     sizes = np.array([task.step.length, task.step.length, task.step.angle])
     for argument in range(6):
-        if delta is not None and np.all(np.abs(np.subtract(delta, _delta(task, argument))) <= SAME * sizes):
+        if (
+            delta is not None
+            and len(delta) == 3
+            and np.all(np.abs(np.subtract(delta, _delta(task, argument))) <= SAME * sizes)
+        ):
             return argument
     allowed = f"must be one step along one axis: {sizes[0]:.6g} m in x or y, or {sizes[2]:.6g} rad, either way"
     raise ActionError("delta", allowed)

@@ -1,0 +1,161 @@
+"""Plans of robots in space: packed codes as named actions and back."""
+
+import math
+from collections.abc import Mapping
+from typing import Final
+
+import numpy as np
+
+from ....errors import describe_choices
+from ....planning.problem.code_limits import CodeLimits
+from ....planning.problem.codes import HOLD, MOVE, NONE, Code, pack
+from ....planning.problem.problems import ActionError, PlanCost, PlanFamily, PlannedAction, Posed
+from ....types import Floats
+from .checks import SPATIAL_CHECKS
+from .problem import MOVE_NAMES, SpatialProblem, code_limits
+from .records import AXES
+from .robot_arrays import robot_arrays
+from .task import SpatialTask
+
+SAME: Final = 1e-6
+"""Moves that differ from a step by less than this part of it are that step."""
+NEAR_MOVES: Final = 2 * AXES
+"""Moves of one step along each axis, either way; those behind them are the far ones."""
+
+
+class SpatialPlans(PlanFamily):
+    """How plans of robots in space are named, replayed and reported."""
+
+    checks = SPATIAL_CHECKS
+
+    def posed(self, task: SpatialTask, threads: int | None, filters: bool) -> Posed:
+        """The task as a problem with the hard checks alone."""
+        problem = SpatialProblem(task, threads)
+        return Posed(problem, len(problem.actions))
+
+    def problem(self, task: SpatialTask) -> SpatialProblem:
+        """The task with every check evaluated, for replays."""
+        return SpatialProblem(task, 1, exact=True)
+
+    def limits(self, task: SpatialTask) -> CodeLimits:
+        """The codes that are actions of a task, and the indices that its stances may have."""
+        return code_limits(task)
+
+    def sizes(self, task: SpatialTask) -> Mapping[str, float]:
+        """What each margin is a share of: half a joint's range, the largest jump, the torque limit, the weight, the limb's length."""
+        chains = task.robot.chains
+        used = np.arange(chains.lower.shape[1]) < chains.n_joints[:, None]
+        weight = chains.total_mass * float(np.linalg.norm(task.world.gravity)) or chains.total_mass
+        size = float(robot_arrays(task.robot).robot["size"][0])
+        return {
+            "joint": 0.5 * float((chains.upper - chains.lower)[used].min()),
+            "jump": task.rules.jump,
+            "limb_limb": 0.1 * size,
+            "equilibrium": 1.0,
+            "torque": float(chains.torque[used].max()),
+            "slip": weight,
+            "grip": weight,
+            "moment": weight * size,
+            "clearance": 0.1 * size,
+        }
+
+    def hard(self, task: SpatialTask) -> tuple[str, ...]:
+        """Names of the checks that forbid an action."""
+        return task.rules.hard
+
+    def model(self, task: SpatialTask) -> str:
+        """The lattice, and how many holds a limb chooses from, that a proof holds for."""
+        step = task.step
+        lattice = (
+            f"poses in steps of {1e3 * step.length:g} mm along and across, {1e3 * step.height:g} mm of height (up to {step.heights} either "
+            f"way), {math.degrees(step.angle):g} deg of yaw"
+        )
+        if step.tilt:
+            lattice += f", {math.degrees(step.tilt):g} deg of pitch and roll (up to {step.tilts} either way)"
+        return f"{super().model(task)}; {lattice}; the {step.nearest} nearest holds of each limb"
+
+    def action(self, task: SpatialTask, code: int, after: np.void, gene: str | None) -> PlannedAction:
+        """A packed code as a named action, its hold read from the stance that it led to."""
+        opened = Code.of(code)
+        if opened.kind == "move":
+            return PlannedAction(kind="move", delta=tuple(move_delta(task, opened.argument).tolist()), gene=gene)
+        if opened.kind == "none":
+            return PlannedAction(kind="none", gene=gene)
+        return PlannedAction(
+            kind="grab",
+            limb=task.robot.chains.limb_names[opened.limb],
+            hold=int(after["hold"][opened.limb]) + 1,
+            gene=gene or (f"nearest {opened.argument + 1}" if opened.kind == "nearest" else None),
+        )
+
+    def code(self, task: SpatialTask, action: PlannedAction) -> int:
+        """The packed code of a named action.
+
+        Raises:
+            ActionError: If the robot has no such action.
+        """
+        names = task.robot.chains.limb_names
+        if action.kind == "none":
+            return pack(NONE)
+        if action.kind == "move":
+            return pack(MOVE, 0, _argument(task, action.delta))
+        if action.kind == "grab":
+            if action.limb not in names:
+                raise ActionError("limb", f"must be a limb: {describe_choices(str(action.limb), names)}")
+            if action.hold is None or action.hold > len(task.world.holds):
+                raise ActionError("hold", f"must be 1 to {len(task.world.holds)}, a hold of the world")
+            return pack(HOLD, names.index(action.limb), action.hold - 1)
+        raise ActionError("kind", "actions of a robot in space are none, move and grab")
+
+    def module(self, task: SpatialTask, code: int) -> str:
+        """Name of a code: the move, or the limb with its choice."""
+        opened = Code.of(code)
+        if opened.kind == "move":
+            return MOVE_NAMES[opened.argument]
+        limb = task.robot.chains.limb_names[opened.limb]
+        return f"{limb} {'nearest' if opened.kind == 'nearest' else 'to'} {opened.argument + 1}"
+
+    def pose(self, stance: np.void) -> tuple[float, float, float]:
+        """Along and across the guide [m], and yaw [rad]."""
+        return float(stance["x"]), float(stance["y"]), float(stance["angle"])
+
+    def holds(self, task: SpatialTask, stance: np.void) -> dict[str, int]:
+        """Limb name -> number of its hold."""
+        names = task.robot.chains.limb_names
+        return {name: int(hold) + 1 for name, hold in zip(names, stance["hold"][: len(names)], strict=True)}
+
+    def torque(self, stance: np.void) -> float:
+        """Largest joint torque in the solution with the most reserve [N m]."""
+        return float(stance["torque"])
+
+    def costs(self, task: SpatialTask) -> Mapping[str, PlanCost]:
+        """How much of strengths and torques the worst stance uses."""
+        return {"strain": PlanCost(feature="peak", title="uses at most", unit="%", per_unit=0.01, digits=0)}
+
+
+def move_delta(task: SpatialTask, argument: int) -> Floats:
+    """What the move of an argument changes: along, across, height [m], yaw, pitch, roll [rad]."""
+    step, delta = task.step, np.zeros(AXES)
+    times = 1 if argument < NEAR_MOVES else step.far
+    axis = argument % NEAR_MOVES >> 1
+    size = (step.length, step.length, step.height, step.angle, step.tilt, step.tilt)[axis]
+    delta[axis] = (1 - 2 * (argument & 1)) * times * size
+    return delta
+
+
+def _argument(task: SpatialTask, delta: tuple[float, ...] | None) -> int:
+    step = task.step
+    sizes = np.array([step.length, step.length, step.height, step.angle, step.tilt or 1.0, step.tilt or 1.0])
+    if delta is not None and len(delta) == AXES and any(delta):
+        for argument in range(len(MOVE_NAMES)):
+            if np.all(np.abs(np.subtract(delta, move_delta(task, argument))) <= SAME * sizes):
+                return argument
+    tilts = f", {step.tilt:.6g} rad of pitch or roll" if step.tilt else ""
+    allowed = (
+        f"must be along, across, height, yaw, pitch, roll with one step along one axis: {step.length:.6g} m or {step.far} times that "
+        f"along or across, {step.height:.6g} m of height, {step.angle:.6g} rad of yaw{tilts}, either way"
+    )
+    raise ActionError("delta", allowed)
+
+
+PLANS: Final = SpatialPlans()

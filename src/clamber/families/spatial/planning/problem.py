@@ -1,0 +1,242 @@
+"""A task of a robot in space as planners see it."""
+
+import math
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+from ....errors import SpecError
+from ....planning.problem.arrays import ActionTable, Params, WayFields
+from ....planning.problem.check import TICKS
+from ....planning.problem.code_limits import CodeLimits
+from ....planning.problem.codes import HOLD, MOVE, NEAREST, NONE, Code, pack
+from ....planning.problem.problem import CompiledProblem, Records
+from ....types import Floats
+from ..statics.judging import REACHED
+from ..statics.records import BODY, CONTACT, JUDGED, LIMBS, RULES, WORK
+from . import search_kernels as search_kernels  # its module registers the family's kernels
+from .checks import SPATIAL_CHECKS
+from .judging_kernels import SCRATCH
+from .records import GOAL, PARAMS
+from .records import HOLD as HOLD_RECORD
+from .robot_arrays import robot_arrays
+from .start import find_start
+from .step_kernels import MOVES
+from .surface import fit_surface, on_guide, span_along
+from .task import CHECK_NAMES, SpatialTask
+
+FEATURES: Final = ("body", "limbs", "effort", "stages", "length", "unstable", "peak")
+KINDS: Final = (0, 0, 1, 0, 1, 1, 2)
+"""How an action's features add up to a plan's: the last, the sum, or the largest."""
+MOVE_NAMES: Final = tuple(
+    f"{sign}{axis}" for axis in ("along", "across", "height", "yaw", "pitch", "roll") for sign in "+-"
+) + tuple(f"{sign}{axis} far" for axis in ("along", "across") for sign in "+-")
+"""By argument of a move."""
+
+
+class SpatialProblem(CompiledProblem):
+    """Poses on a guide, holds of the world, all checks."""
+
+    key_words, spot_words = 6, 3 + LIMBS
+
+    def __init__(self, task: SpatialTask, threads: int | None = None, *, exact: bool = False) -> None:
+        """Pose a task.
+
+        Args:
+            task: What is planned.
+            threads: For batches; None: one a core.
+            exact: Whether every margin is worked out to its end, as replays ask for it.
+
+        Raises:
+            SpecError: If the robot cannot stand at the start.
+        """
+        self.task = task
+        params = problem_params(task, exact)
+        super().__init__(
+            params,
+            find_start(task, params),
+            ActionTable.build([(name, [pack(MOVE, 0, k)], True) for k, name in enumerate(MOVE_NAMES)] + _choices(task)),
+            CHECK_NAMES,
+            FEATURES,
+            threads,
+        )
+
+    @property
+    def limits(self) -> CodeLimits:
+        """Codes and indices of the task."""
+        return code_limits(self.task)
+
+    @property
+    def landmarks(self) -> int:
+        """Holds."""
+        return len(self.task.world.holds)
+
+    @property
+    def branching(self) -> int:
+        """Moves, and the nearest holds of each limb."""
+        return MOVES + len(self.task.robot.chains.limb_names) * self.task.step.nearest
+
+    @property
+    def way(self) -> float:
+        """Distance to the last goal from the start, by way of the goals between [m]."""
+        return float(self.params.record["base"])
+
+    @property
+    def estimated_stances(self) -> float:
+        """Poses of the lattice about the way, times holds that each limb may have there."""
+        step, chains = self.task.step, self.task.robot.chains
+        size = float(self.params.record["reach"])
+        poses = (self.way / step.length + 1.0) * (2.0 * size / step.length) * (2 * step.heights + 1)
+        poses *= (2 * step.tilts + 1) ** 2 if step.tilt else 1
+        per_limb = max(2.0, min(step.nearest, self.landmarks / len(chains.limb_names)))
+        return poses * per_limb ** len(chains.limb_names)
+
+    def ways(self) -> WayFields:
+        """Steps along and across to each goal, straight."""
+        task, step = self.task, self.task.step
+        goals: Any = self.params.array("goals")
+        holds: Any = self.params.array("holds")
+        spread = float(self.params.record["reach"])
+        ends_u = np.concatenate((holds["along"], [task.start.along]))
+        ends_v = np.concatenate((holds["across"], [task.start.across]))
+        u = np.arange(ends_u.min() - spread, ends_u.max() + spread, step.length)
+        v = np.arange(ends_v.min() - spread, ends_v.max() + spread, step.length)
+        fields = np.array([_away(goal, u[None, :], v[:, None]) for goal in goals]) / (step.far * step.length)
+        at_holds = np.array([_away(goal, holds["along"], holds["across"]) for goal in goals])
+        after = np.zeros(len(goals))
+        for k in range(len(goals) - 2, -1, -1):
+            after[k] = after[k + 1] + _between(goals[k], goals[k + 1]) / (step.far * step.length)
+        return WayFields(np.array((u[0], v[0], step.length)), fields, at_holds / (step.far * step.length), after)
+
+    def resolve(self, codes: npt.NDArray[np.int32], stances: Records) -> npt.NDArray[np.int32]:
+        """Codes that name the hold which each choice of the nearest came to."""
+        named = codes.copy()
+        for i, code in enumerate(codes.tolist()):
+            opened = Code.of(code)
+            if opened.kind == "nearest":
+                named[i] = pack(HOLD, opened.limb, int(stances["hold"][i + 1, opened.limb]))
+        return named
+
+    def is_done(self, stance: Records) -> bool:
+        """Whether every goal is met."""
+        return bool(stance["stage"][0] >= self.goals)
+
+
+def _choices(task: SpatialTask) -> list[tuple[str, list[int], bool]]:
+    return [
+        (f"{name} nearest {rank + 1}", [pack(NEAREST, limb, rank)], False)
+        for limb, name in enumerate(task.robot.chains.limb_names)
+        for rank in range(task.step.nearest)
+    ]
+
+
+def code_limits(task: SpatialTask) -> CodeLimits:
+    """The codes that are actions of a task, and the indices that its stances may have."""
+    holds, limbs = len(task.world.holds), len(task.robot.chains.limb_names)
+    kinds = {
+        NONE: (1, 0, 0),
+        MOVE: (1, 0, MOVES - 1),
+        NEAREST: (limbs, 0, task.step.nearest - 1),
+        HOLD: (limbs, 0, holds - 1),
+    }
+    return CodeLimits(f"task '{task.name}'", kinds, {"hold": (0, holds - 1, limbs), "stage": (0, len(task.goals), 1)})
+
+
+def _away(goal: Any, along: Any, across: Any) -> Floats:
+    beside = [
+        np.maximum(0.0, np.maximum(goal[f"{axis}_min"] - at, at - goal[f"{axis}_max"]))
+        for axis, at in (("along", along), ("across", across))
+    ]
+    made: Floats = np.hypot(*beside)
+    return made
+
+
+def _between(first: Any, then: Any) -> float:
+    """Distance of two goals' boxes [m]."""
+    gaps = [
+        max(0.0, float(then[f"{axis}_min"] - first[f"{axis}_max"]), float(first[f"{axis}_min"] - then[f"{axis}_max"]))
+        for axis in ("along", "across")
+    ]
+    return math.hypot(*gaps)
+
+
+def goal_records(task: SpatialTask) -> Records:
+    """Goals in order, records of `GOAL`."""
+    rows = np.zeros(len(task.goals), GOAL)
+    for row, goal in zip(rows, task.goals, strict=True):
+        row["along_min"], row["along_max"], row["across_min"], row["across_max"] = goal.box
+        low, high = goal.yaw_min, goal.yaw_max
+        row["yaw_min"], row["yaw_width"] = (0.0, ANY_YAW) if low is None or high is None else (low, high - low)
+    return rows
+
+
+def hold_records(task: SpatialTask) -> Records:
+    """Holds in order, records of `records.HOLD`."""
+    world = task.world
+    rows = np.zeros(len(world.holds), HOLD_RECORD)
+    rows["place"], rows["normal"] = world.places, world.normals
+    rows["friction"] = [math.inf if hold.friction is None else hold.friction for hold in world.holds]
+    rows["strength"] = [math.inf if hold.strength is None else hold.strength for hold in world.holds]
+    rows["radius"] = [hold.radius for hold in world.holds]
+    on = on_guide(world.frames, world.places)
+    rows["along"], rows["across"], rows["height"] = on[:, 0], on[:, 1], on[:, 2]
+    return rows
+
+
+def problem_params(task: SpatialTask, exact: bool) -> Params:
+    """The parameters of a task for its kernels."""
+    robot, world, step, rules, start = task.robot, task.world, task.step, task.rules, task.start
+    if not world.holds:
+        raise SpecError(f"world '{world.name}'", "holds", [], "must be one or more: limbs stand on holds")
+    holds, record = hold_records(task), np.zeros(1, PARAMS)
+    row = record[0]
+    row["along"], row["across"], row["height"], row["yaw"] = start.along, start.across, start.height, start.yaw
+    row["length"], row["rise"], row["angle"], row["tilt"] = step.length, step.height, step.angle, step.tilt
+    row["heights"], row["tilts"], row["far"], row["nearest"] = step.heights, step.tilts, step.far, step.nearest
+    row["turns"] = round(math.tau / step.angle)
+    row["turn_ticks"] = TICKS * int(row["turns"])
+    row["n_limbs"], row["kinds"][: len(KINDS)] = len(robot.chains.limb_names), KINDS
+    row["hard"] = sum(1 << k for k, check in enumerate(SPATIAL_CHECKS) if check.name in rules.hard)
+    row["lift"], row["clearance"] = rules.lift, rules.clearance
+    arrays = robot_arrays(robot)
+    reach = arrays.reach
+    row["reach"] = float(reach.max())
+    aloft = abs(start.height) + step.heights * step.height + float(abs(holds["height"]).max())
+    spans = np.zeros(LIMBS)
+    spans[: len(reach)] = [span_along(world.frames, float(most), aloft) for most in reach]
+    follow, corner = np.zeros((0, 0, 3)), (0.0, 0.0)
+    if step.follow:
+        on = np.column_stack((holds["along"], holds["across"], holds["height"]))
+        radius = 0.5 * float(reach.max())
+        follow, corner = fit_surface(on, 0.25 * radius, radius)
+        row["follow_grain"] = 0.25 * radius
+    row["follow_along"], row["follow_across"] = corner
+    row["n_rows"], row["n_columns"] = follow.shape[:2]
+    rows = np.zeros(1, RULES)
+    rows["need"], rows["jump"], rows["jump_moved"] = rules.need, rules.jump, MOVED * rules.jump
+    rows["reach"], rows["exact"] = REACHED, int(exact)
+    rows["hard"] = row["hard"]
+    body = np.zeros(1, BODY)
+    body["gravity"], body["wrench"][0, :3] = world.gravity, rules.push
+    goals = goal_records(task)
+    row["base"] = _way(task, goals)
+    return Params(
+        record, robot=arrays.robot, seeds=arrays.seeds, rules=rows, goals=goals, holds=holds, frames=world.frames, follow=follow,
+        solids=world.solid_records, spans=spans, tips=arrays.tips,
+        work=np.zeros(SCRATCH), work_body=body,
+        work_contacts=np.zeros(LIMBS + 2, CONTACT), work_judged=np.zeros(2, JUDGED), work_statics=np.zeros(1, WORK),
+    )  # fmt: skip
+
+
+ANY_YAW: Final = 7.0
+"""Width of a goal's range of yaw that takes all of them: more than a turn [rad]."""
+MOVED: Final = 2.5
+"""How much farther a joint of a limb that takes another hold may move than one of a limb that stays, of `rules.jump` [-]."""
+
+
+def _way(task: SpatialTask, goals: Records) -> float:
+    total, at = 0.0, (task.start.along, task.start.across)
+    for k, goal in enumerate(goals):
+        total += float(_away(goal, *at)) if k == 0 else _between(goals[k - 1], goal)
+    return total

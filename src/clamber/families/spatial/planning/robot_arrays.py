@@ -1,0 +1,54 @@
+"""What kernels need of a robot besides its task, made once a robot: its record, seeds of postures, nominal tips, reach of each limb."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ....types import Floats, Records
+from ..robot.robot import SpatialRobot
+from ..statics.kinematics_kernels import limb_frames
+from ..statics.records import WORK, robot_record
+from ..statics.seeds import SeedTable, seed_table
+
+
+@dataclass(frozen=True, slots=True)
+class RobotArrays:
+    """A robot as kernels read it."""
+
+    robot: Records
+    """One record of `ROBOT`."""
+    table: SeedTable
+    """Keeps what `seeds` points at."""
+    tips: Floats
+    """Of the nominal postures, base frame [m], shape (limbs, 3)."""
+    reach: Floats
+    """Largest distance of each tip from the base's origin [m], at most, shape (limbs,)."""
+
+    @property
+    def seeds(self) -> Records:
+        """One record of `SEEDS`."""
+        return self.table.records
+
+
+def robot_arrays(robot: SpatialRobot) -> RobotArrays:
+    """The arrays of a robot."""
+    records = robot_record(robot.chains, robot.contacts)
+    work = np.zeros(1, WORK)
+    limbs = len(robot.chains.limb_names)
+    most = robot.chains.nominal.shape[1]
+    work["posture"][0, :limbs, :most] = robot.chains.nominal
+    for limb in range(limbs):
+        limb_frames(records[0], limb, work[0])
+    n = robot.chains.n_joints
+    tips = np.array([work["origin"][0, limb, n[limb]] for limb in range(limbs)])
+    return RobotArrays(records, seed_table(records), tips, _reach(robot))
+
+
+def _reach(robot: SpatialRobot) -> Floats:
+    """From the base's origin to a limb's first joint, and on along links that no joint bends, slides run out [m]."""
+    chains = robot.chains
+    made = np.linalg.norm(chains.offset, axis=2)
+    slides = chains.sliding * np.maximum(abs(chains.lower), abs(chains.upper))
+    used = np.arange(made.shape[1]) <= chains.n_joints[:, None]
+    total: Floats = (made * used).sum(axis=1) + (slides * used[:, :-1]).sum(axis=1)
+    return total

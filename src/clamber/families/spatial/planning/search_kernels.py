@@ -1,0 +1,156 @@
+"""What searches ask of a task in space: actions from a stance, its key, its features, what is left at least."""
+
+import math
+
+import numpy as np
+
+from ....compiled import carray, inlined, kernel, pointer
+from ....planning.problem.check import TICKS
+from ....planning.problem.codes import MOVE, pack_code
+from ....planning.problem.family_kernels import family_kernels
+from ..statics.records import BODY, CONTACT, JOINTS, LIMBS, SEEDS, WORK
+from ..statics.stance_kernels import aim_limb, solve_limb
+from .judging_kernels import robot_of, scratch_of, set_contacts
+from .poses_kernels import away_from, goals_of, holds_of, meets, outside, place_body, yaw_missing
+from .records import ACROSS, ALONG, HEIGHT, PARAMS, PITCH, ROLL, YAW
+from .step_kernels import MOVES, NEAR, RANKED, holds_near, step
+
+
+@kernel
+def candidates(p, s, codes):
+    """Moves of the body, and the nearest holds of every limb."""
+    n = 0
+    for argument in range(MOVES):
+        axis = (argument % NEAR) >> 1
+        if axis in (PITCH, ROLL) and (p.tilt == 0.0 or p.tilts == 0):
+            continue
+        codes[n] = pack_code(MOVE, 0, argument)
+        n += 1
+    for limb in range(p.n_limbs):
+        n += holds_near(p, s, limb, codes[n:], scratch_of(p)[RANKED : RANKED + p.nearest])
+    return n
+
+
+@kernel
+def key(p, s, words):
+    """Along, across and yaw in ticks; then height, pitch, roll and stage; then the holds, 16 bits each."""
+    words[0], words[1], words[2] = s.pose[ALONG] * TICKS, s.pose[ACROSS] * TICKS, s.pose[YAW] * TICKS
+    words[3] = (
+        s.stage << 48 | (s.pose[HEIGHT] & 0xFFFF) << 32 | (s.pose[PITCH] & 0xFFFF) << 16 | (s.pose[ROLL] & 0xFFFF)
+    )
+    words[4] = 0
+    words[5] = 0
+    for i in range(p.n_limbs):
+        words[4 + (i >> 2)] |= (s.hold[i] & 0xFFFF) << 16 * (i & 3)
+
+
+@inlined
+def signed(word):
+    """A number of 16 bits with its sign."""
+    return ((word & 0xFFFF) ^ 0x8000) - 0x8000
+
+
+@kernel
+def restore(p, words, s):
+    """The stance of a key, with its posture."""
+    s.pose[ALONG], s.pose[ACROSS], s.pose[YAW] = words[0] // TICKS, words[1] // TICKS, words[2] // TICKS
+    s.pose[HEIGHT], s.pose[PITCH], s.pose[ROLL] = signed(words[3] >> 32), signed(words[3] >> 16), signed(words[3])
+    s.stage = words[3] >> 48 & 0xFFFF
+    for i in range(LIMBS):
+        s.hold[i] = words[4 + (i >> 2)] >> 16 * (i & 3) & 0xFFFF if i < p.n_limbs else -1
+    s.count = 0
+    place_body(p, s, scratch_of(p))
+    set_contacts(p, s, -1, -1)
+    robot = robot_of(p)
+    seeds = carray(pointer(p.seeds_at), 1, SEEDS)[0]
+    body = carray(pointer(p.work_body_at), 1, BODY)[0]
+    contacts = carray(pointer(p.work_contacts_at), LIMBS, CONTACT)
+    work = carray(pointer(p.work_statics_at), 1, WORK)[0]
+    for i in range(p.n_limbs):
+        aim_limb(body, contacts[i].place, contacts[i].normal, i, work)
+        solve_limb(robot, seeds, i, work)
+        for k in range(JOINTS):
+            s.q[i, k] = work.posture[i, k]
+    s.postured = 1
+
+
+@kernel
+def measure(p, s, row):
+    """Progress of body and limbs [m], one action, goals met, length, nothing unstable, share of all limits that is used."""
+    goals, holds = goals_of(p), holds_of(p)
+    goal = goals[min(s.stage, p.n_goals - 1)]
+    later = 0.0
+    for k in range(s.stage + 1, p.n_goals):
+        along = max(0.0, max(goals[k].along_min - goals[k - 1].along_max, goals[k - 1].along_min - goals[k].along_max))
+        across = max(
+            0.0, max(goals[k].across_min - goals[k - 1].across_max, goals[k - 1].across_min - goals[k].across_max)
+        )
+        later += math.sqrt(along * along + across * across)
+    done = p.base - later
+    row[0] = done - away_from(s.x, s.y, goal) - p.reach * yaw_missing(p, s.angle, goal)
+    tips = carray(pointer(p.tips_at), (p.n_limbs, 3), np.float64)
+    row[1] = 0.0
+    cosine, sine = math.cos(s.angle), math.sin(s.angle)
+    for i in range(p.n_limbs):
+        hold = holds[s.hold[i]]
+        along = hold.along - cosine * tips[i, 0] + sine * tips[i, 1]
+        across = hold.across - sine * tips[i, 0] - cosine * tips[i, 1]
+        row[1] += done - away_from(along, across, goal)
+    row[2] = 0.0
+    row[3] = s.stage
+    row[4] = 1.0
+    row[5] = 0.0
+    row[6] = 1.0 - s.share
+
+
+@kernel
+def bound(p, s):
+    """Moves that the body needs at least, and times that each limb must take another hold to come along."""
+    if s.stage >= p.n_goals:
+        return 0.0
+    goal, holds = goals_of(p)[s.stage], holds_of(p)
+    spans = carray(pointer(p.spans_at), LIMBS, np.float64)
+    stride = p.far * p.length
+    count = math.ceil(outside(s.x, goal.along_min, goal.along_max) / stride - 1e-6)
+    count += math.ceil(outside(s.y, goal.across_min, goal.across_max) / stride - 1e-6)
+    count += math.ceil(yaw_missing(p, s.angle, goal) / p.angle - 1e-6)
+    for i in range(p.n_limbs):
+        short = outside(holds[s.hold[i]].along, goal.along_min, goal.along_max) - spans[i]
+        if short > 0.0:
+            count += math.ceil(short / (2.0 * spans[i]) - 1e-6)
+    return float(count)
+
+
+@kernel
+def done(p, s):
+    """Whether every goal has been met."""
+    return s.stage >= p.n_goals
+
+
+@kernel
+def cell(p, s):
+    """Stage, holds, and every other step of the pose along and across, for niching."""
+    value = (s.stage * 1000003 + (s.pose[ALONG] >> 1)) * 1000003 + (s.pose[ACROSS] >> 1)
+    for i in range(p.n_limbs):
+        value = (value * 1000003 + s.hold[i]) & 0x3FFFFFFFFFFFFFFF
+    return value
+
+
+@kernel
+def spot(p, s, words):
+    """Along, across and yaw in ticks, then the hold of each limb."""
+    words[0], words[1], words[2] = s.pose[ALONG] * TICKS, s.pose[ACROSS] * TICKS, s.pose[YAW] * TICKS
+    for i in range(LIMBS):
+        words[3 + i] = s.hold[i]
+
+
+@kernel
+def aims(p, s, k):
+    """Whether the body is where goal k asks for."""
+    return meets(p, s, goals_of(p)[k])
+
+
+family_kernels(
+    PARAMS, step=step, candidates=candidates, key=key, restore=restore, measure=measure, bound=bound, done=done, cell=cell, spot=spot,
+    aims=aims,
+)  # fmt: skip

@@ -1,0 +1,97 @@
+"""Solid things of a world in space that links must not enter, each with its signed distance: planes, boxes, cylinders, tubes, bars."""
+
+from typing import Annotated, Final, Literal
+
+import numpy as np
+from pydantic import Field
+
+from ....specs import spec
+from ....types import Floats
+from ....units import Place, PositiveLength, Ratio
+
+PLANE, BOX, CYLINDER, TUBE, BAR = 0, 1, 2, 3, 4
+SOLID: Final = np.dtype(
+    [
+        ("kind", "i8"),
+        ("centre", "f8", (3,)),  # world frame [m]
+        ("axes", "f8", (3, 3)),  # of its own frame, as rows, world frame
+        ("size", "f8", (3,)),  # half extents of a box; radius and half length of the others [m]
+    ],
+    align=True,
+)
+Direction = tuple[Ratio, Ratio, Ratio]
+"""x, y, z of a vector whose length does not matter."""
+
+
+@spec
+class Plane:
+    """All that lies behind a plane."""
+
+    kind: Literal["plane"]
+    at: Place
+    """A point of it."""
+    normal: Direction
+    """Out of the solid."""
+
+
+@spec
+class Box:
+    """A box."""
+
+    kind: Literal["box"]
+    at: Place
+    """Its centre."""
+    size: tuple[PositiveLength, PositiveLength, PositiveLength]
+    """Along its own x, y and z."""
+    x: Direction = (1.0, 0.0, 0.0)
+    """World direction of its own x."""
+    z: Direction = (0.0, 0.0, 1.0)
+    """World direction of its own z, or nearly: it is made square to x."""
+
+
+@spec
+class Round:
+    """A solid cylinder, the solid about a cylindrical hole ("tube"), or a bar with round ends."""
+
+    kind: Literal["cylinder", "tube", "bar"]
+    at: Place
+    """One end of its axis."""
+    to: Place
+    """The other end; of a tube, which has no ends, another point of its axis."""
+    radius: PositiveLength
+
+
+Solid = Annotated[Plane | Box | Round, Field(discriminator="kind")]
+
+
+def unit(vector: tuple[float, float, float] | Floats) -> Floats:
+    """A vector made as long as one."""
+    given = np.asarray(vector, np.float64)
+    made: Floats = given / np.linalg.norm(given)
+    return made
+
+
+def frame_about(z: Floats, x: Floats | None = None) -> Floats:
+    """A right-handed frame whose z is a unit vector and whose x is as near as can be to another: its axes as rows, shape (3, 3)."""
+    near = x if x is not None else np.eye(3)[int(np.argmin(np.abs(z)))]
+    across = unit(np.cross(z, near))
+    return np.stack((np.cross(across, z), across, z))
+
+
+def solid_record(solid: Plane | Box | Round) -> np.void:
+    """A solid as kernels read it, a record of `SOLID`."""
+    row: np.void = np.zeros(1, SOLID)[0]
+    if isinstance(solid, Plane):
+        row["kind"], row["centre"], row["axes"] = PLANE, solid.at, frame_about(unit(solid.normal))
+        return row
+    if isinstance(solid, Box):
+        x = unit(solid.x)
+        z = np.asarray(solid.z) - float(np.dot(solid.z, x)) * x
+        row["kind"], row["centre"], row["axes"] = BOX, solid.at, frame_about(unit(z), x)
+        row["size"] = np.array(solid.size) / 2.0
+        return row
+    ends = np.array((solid.at, solid.to))
+    row["kind"] = {"cylinder": CYLINDER, "tube": TUBE, "bar": BAR}[solid.kind]
+    row["centre"], row["axes"] = ends.mean(axis=0), frame_about(unit(ends[1] - ends[0]))
+    row["size"][:2] = solid.radius, float(np.linalg.norm(ends[1] - ends[0])) / 2.0
+    return row

@@ -1,0 +1,172 @@
+"""A world in space: holds as points with normals, solid things that links must miss, gravity, and a guide that bodies go along."""
+
+import math
+from typing import Annotated, Any, Final, Literal
+
+import numpy as np
+from pydantic import Field, StrictStr
+
+from ....errors import UnknownHoldError
+from ....files import Document, check_schema
+from ....specs import Name, build_spec, spec
+from ....types import Floats, Records
+from ....units import (
+    GRAVITY,
+    NonNegativeRatio,
+    Place,
+    PositiveForce,
+    Quantity,
+)
+from .guide import Waypoint, guide_frames
+from .patterns import Pattern
+from .solids import SOLID, Direction, Solid, solid_record, unit
+
+SCHEMA: Final = "clamber-world-1"
+MOST_HOLDS: Final = 60_000
+"""Of a world: keys of stances keep a hold's index in 16 bits."""
+BODIES: Final = {"earth": GRAVITY, "moon": 1.625, "mars": 3.728, "none": 0.0}
+"""Free fall at the surface [m/s^2]: standard gravity; Moon and Mars after NASA's fact sheets; weightless."""
+Acceleration = Annotated[float, Quantity("acceleration")]
+Ends = Annotated[float, Quantity("length", at_least=1e-4)]
+
+
+@spec
+class Hold:
+    """A place that an end effector can take."""
+
+    number: Annotated[int, Field(strict=True, ge=1, le=MOST_HOLDS)]
+    """Its name in plans."""
+    at: Place
+    """World frame."""
+    normal: Direction
+    """Out of the surface."""
+    friction: NonNegativeRatio | None = None
+    """Coefficient of the surface; None: that of the end effector's data sheet. The smaller of both counts."""
+    strength: PositiveForce | None = None
+    """Largest force of any direction that the hold bears [N]; None: any."""
+    radius: Ends = 0.01
+    """Of the patch about its place that can be taken [m]."""
+
+    @property
+    def x(self) -> float:
+        """World frame [m]."""
+        return self.at[0]
+
+    @property
+    def y(self) -> float:
+        """World frame [m]."""
+        return self.at[1]
+
+    @property
+    def z(self) -> float:
+        """World frame [m]."""
+        return self.at[2]
+
+
+@spec
+class WorldSpec:
+    """What a world's file says."""
+
+    name: Name
+    title: StrictStr = ""
+    source: StrictStr = ""
+    gravity: Literal["earth", "moon", "mars", "none"] | tuple[Acceleration, Acceleration, Acceleration] = "earth"
+    """Of a body, straight down along z; or a vector, such as that of a tilted wall."""
+    holds: tuple[Hold, ...] = ()
+    patterns: tuple[Pattern, ...] = ()
+    """Holds that are generated, numbered after those that are listed."""
+    solids: tuple[Solid, ...] = ()
+    guide: tuple[Waypoint, ...]
+    """Corners of the path that bodies go along."""
+
+
+@spec
+class World:
+    """A world with everything resolved, SI, world frame."""
+
+    name: str
+    title: str
+    gravity: tuple[float, float, float]
+    """Acceleration of free fall [m/s^2]."""
+    holds: tuple[Hold, ...]
+    """By number, from 1 without a gap."""
+    solids: tuple[Any, ...]
+    frames: Any
+    """Of the guide, every `guide.GRAIN` of its length, shape (n, 12)."""
+
+    def by_number(self, number: int) -> Hold:
+        """The hold of a number.
+
+        Raises:
+            UnknownHoldError: If there is none.
+        """
+        if 1 <= number <= len(self.holds):
+            return self.holds[number - 1]
+        raise UnknownHoldError(number, self.name, tuple(range(1, len(self.holds) + 1)))
+
+    @property
+    def places(self) -> Floats:
+        """Of the holds [m], shape (n, 3)."""
+        return np.array([hold.at for hold in self.holds], np.float64).reshape(-1, 3)
+
+    @property
+    def normals(self) -> Floats:
+        """Of the holds, shape (n, 3)."""
+        return np.array([unit(hold.normal) for hold in self.holds], np.float64).reshape(-1, 3)
+
+    @property
+    def solid_records(self) -> Records:
+        """Records of `solids.SOLID`."""
+        rows = np.zeros(len(self.solids), SOLID)
+        for k, solid in enumerate(self.solids):
+            rows[k] = solid_record(solid)
+        return rows
+
+
+def build_world(document: Document) -> World:
+    """The world of a document.
+
+    Raises:
+        SpecError: If the document says something that cannot be used.
+    """
+    check_schema(document, SCHEMA)
+    stated = build_spec(WorldSpec, document, without=("schema",))
+    if len(stated.guide) < 2:
+        raise document.problem("guide", "must have two points or more")
+    frames = guide_frames(stated.guide, document)
+    holds = list(stated.holds)
+    for k, hold in enumerate(holds):
+        if hold.number != k + 1:
+            raise document.problem(f"holds.{k}.number", f"must be {k + 1}: holds are numbered in order, from 1")
+        if not np.linalg.norm(hold.normal) > 0.0:
+            raise document.problem(f"holds.{k}.normal", "must not be zero")
+    for pattern in stated.patterns:
+        for place, normal in pattern.points(frames):
+            holds.append(
+                Hold(
+                    number=len(holds) + 1, at=tuple(place), normal=tuple(normal),
+                    friction=pattern.friction, strength=pattern.strength, radius=pattern.radius,
+                )
+            )  # fmt: skip
+            if len(holds) > MOST_HOLDS:
+                raise document.problem("patterns", f"make more than {MOST_HOLDS} holds, the most that a world may have")
+    for k, solid in enumerate(stated.solids):
+        _check_solid(solid, f"solids.{k}", document)
+    gravity = stated.gravity
+    return World(
+        name=stated.name,
+        title=stated.title,
+        gravity=(0.0, 0.0, -BODIES[gravity]) if isinstance(gravity, str) else gravity,
+        holds=tuple(holds),
+        solids=stated.solids,
+        frames=frames,
+    )
+
+
+def _check_solid(solid: Any, key: str, document: Document) -> None:
+    if solid.kind == "plane" and not np.linalg.norm(solid.normal) > 0.0:
+        raise document.problem(f"{key}.normal", "must not be zero")
+    if solid.kind in ("cylinder", "tube", "bar") and not math.dist(solid.at, solid.to) > 0.0:
+        raise document.problem(f"{key}.to", "must differ from 'at'")
+    if solid.kind == "box" and not np.linalg.norm(np.cross(solid.x, solid.z)) > 0.0:
+        raise document.problem(f"{key}.z", "must not lie along x")

@@ -1,0 +1,164 @@
+"""Plans of robots in space: every planner, replays, keys, bounds, and an independent calculation of every stance."""
+
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+from spatial_again import bounds_of, keys_of, restored
+
+import plain_spatial as plain
+from clamber.errors import SpecError
+from clamber.families.spatial.planning.checks import SPATIAL_CHECKS
+from clamber.families.spatial.planning.problem import SpatialProblem
+from clamber.families.spatial.planning.task import SpatialTask
+from clamber.planning.beam import plan_beam
+from clamber.planning.exact.planner import plan_exact
+from clamber.planning.genetic.planner import plan_genetic
+from clamber.planning.problem.plan import Plan
+from clamber.planning.problem.verdict import check_plan
+from clamber.planning.route import plan_route
+from clamber.tasks import load_task, task_from_document
+
+SHORT = ["goal={ along_min = '0.4 m' }"]
+TASKS = ("wall-gripper", "stones-quadruped")
+
+
+@cache
+def task(name: str, *overrides: str) -> SpatialTask:
+    loaded: Any = load_task(name, [*SHORT, *overrides])
+    return loaded  # type: ignore[no-any-return]
+
+
+@cache
+def planned(name: str) -> Plan:
+    found = plan_beam(task(name), width=30, threads=1)
+    assert found.has_plan, found.reason
+    return found.plan
+
+
+def posture_frames(problem: SpatialProblem, stance: np.void) -> Any:
+    base = np.eye(4)
+    base[:3, :3], base[:3, 3] = stance["turn"].reshape(3, 3), stance["place"]
+    return base
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_a_plan_passes_every_check_and_comes_to_the_goal(name: str) -> None:
+    verdict = check_plan(task(name), planned(name))
+    assert verdict.ok and verdict.goals_met == 1
+    least = {
+        check.name: min(step.margins[check.name] for step in verdict.per_step if step.margins[check.name] is not None)
+        for check in SPATIAL_CHECKS
+        if any(step.margins[check.name] is not None for step in verdict.per_step)
+    }
+    assert {"reach", "joint", "jump", "equilibrium", "torque", "slip", "grip", "swing"} <= set(least)
+    assert min(least.values()) >= 0.0
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_every_stance_of_a_plan_stands_by_an_independent_calculation(name: str) -> None:
+    """Tips are on their holds, and HiGHS finds forces with the reserve that the task asks for."""
+    it, plan = task(name), planned(name)
+    problem = SpatialProblem(it, 1, exact=True)
+    stances = problem.replay(plan.codes(it)).stances
+    chains, world = it.robot.chains, it.world
+    for stance in stances:
+        base = posture_frames(problem, stance)
+        holds = stance["hold"][: len(chains.limb_names)]
+        places, normals = world.places[holds], world.normals[holds]
+        for limb, place in enumerate(places):
+            tip = plain.tip(chains, limb, stance["q"][limb], base)
+            assert np.linalg.norm(tip - place) < 1e-4 * float(problem.params.array("robot")["size"][0])  # type: ignore[call-overload]
+        frames = np.zeros((len(holds), 3, 3))
+        for limb, normal in enumerate(normals):
+            first = plain.frames(chains, limb, stance["q"][limb], base)[-1][:3, 0]
+            first = first - (first @ normal) * normal
+            first /= np.linalg.norm(first)
+            frames[limb] = normal, first, np.cross(normal, first)
+        still = plain.PlainStance(
+            base=base, gravity=np.array(world.gravity), wrench=np.zeros(6), posture=stance["q"], places=places, frames=frames,
+            bears=[True] * len(holds), strength=np.full(len(holds), np.inf), friction=np.full(len(holds), np.inf),
+        )  # fmt: skip
+        s = plain.solve_forces(chains, list(it.robot.contacts), still).s
+        assert s == pytest.approx(stance["share"], abs=1e-6) and s >= it.rules.need - 1e-9
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_wrenches_of_a_stance_bear_the_weight(name: str) -> None:
+    it = task(name)
+    stances = SpatialProblem(it, 1, exact=True).replay(planned(name).codes(it)).stances
+    weight = it.robot.chains.total_mass * np.array(it.world.gravity)
+    for stance in stances:
+        assert stance["wrench"][:, :3].sum(axis=0) == pytest.approx(-weight, abs=1e-6 * np.linalg.norm(weight))
+
+
+def test_threads_do_not_change_a_plan() -> None:
+    it = task("wall-gripper")
+    assert plan_beam(it, width=30, threads=2).plan == planned("wall-gripper")
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_a_key_makes_its_stance_again(name: str) -> None:
+    it = task(name)
+    problem = SpatialProblem(it, 1)
+    stances = problem.replay(planned(name).codes(it)).stances
+    words = keys_of(problem, stances)
+    assert len({tuple(row) for row in words.tolist()}) >= len(stances) - 2
+    again = restored(problem, words)
+    for field in ("pose", "hold", "place", "turn", "q", "stage"):
+        assert np.array_equal(again[field], stances[field]), field
+
+
+def test_a_bound_is_never_above_what_is_left_of_a_plan() -> None:
+    for name in TASKS:
+        it = task(name)
+        problem = SpatialProblem(it, 1)
+        codes = planned(name).codes(it)
+        stances = problem.replay(codes).stances
+        left = len(codes) - np.arange(len(stances))
+        assert np.all(bounds_of(problem, stances) <= left)
+
+
+@pytest.mark.parametrize("planner", [plan_genetic, plan_route])
+def test_other_planners_plan_in_space(planner: Any) -> None:
+    found = planner(task("wall-gripper", "goal={ along_min = '0.1 m' }"), seed=1, seconds=60.0, threads=1)
+    assert found.has_plan, found.reason
+    assert found.check().ok
+
+
+def test_exact_search_names_lattice_and_choice_of_holds() -> None:
+    near = task(
+        "wall-gripper", "goal={ along_min = '0.06 m' }", "step.nearest=2", "step.heights=0", "step.angle='360 deg'"
+    )
+    found = plan_exact(near, threads=1, seconds=100.0)
+    assert found.status == "optimal", found.reason
+    assert "30 mm along and across" in found.model and "2 nearest holds" in found.model
+    assert found.check().ok
+
+
+def test_a_stored_plan_is_checked_where_the_robots_files_are_not(tmp_path: Any) -> None:
+    it, plan = task("wall-gripper"), planned("wall-gripper")
+    again = task_from_document(plan.document, "stored")
+    assert again.hashes == it.hashes
+    assert check_plan(again, plan).ok
+
+
+@pytest.mark.parametrize(
+    ("override", "words"),
+    [
+        ("start.along='9 m'", "the nearest hold to the tip of"),
+        ("start.holds={ LF = 1 }", "every limb begins on a hold"),
+        ("start.holds={ LF = 1, LH = 2, RF = 3, XX = 4 }", "unknown limb"),
+        ("start.holds={ LF = 1, LH = 1, RH = 2, RF = 3 }", "names a hold twice"),
+        ("start.holds={ LF = 1, LH = 2, RH = 3, RF = 90000 }", "must be 1 to"),
+        ("start.holds={ LF = 1, LH = 2, RH = 3, RF = 4 }", "violates the hard check 'reach'"),
+        ("goal={ }", "asks for nothing"),
+        ("goal={ along_min = '2 m', along_max = '1 m' }", "must be at most along_max"),
+        ("rules.hard=['grip', 'flight']", "unknown check 'flight'"),
+        ("step.angle='7 deg'", "must divide a turn"),
+    ],
+)  # fmt: skip
+def test_a_task_that_cannot_be_is_refused_by_its_key(override: str, words: str) -> None:
+    with pytest.raises(SpecError, match=words):
+        SpatialProblem(task("wall-gripper", override), 1)
