@@ -13,7 +13,7 @@ from .copy_rows import BASE, SIZE, SOURCE, copy_rows
 from .joint_hold import JointHold
 from .plant import LimbPlant, Sensed
 from .reading_monitor import Channel, ReadingMonitor
-from .run_ends import FaultError
+from .run_report import FaultError
 from .trace import LimbTrace, empty_trace
 
 Rows: TypeAlias = Floats | Records

@@ -6,7 +6,7 @@ import typer
 
 from ...terminal.crew import CrewWords
 from ...terminal.name_completion import names_of
-from ...terminal.option_holder import takes_options
+from ...terminal.options import takes_options
 from .options import TrialsOptions
 
 

@@ -9,8 +9,7 @@ import numpy as np
 from ....types import Floats, Ints, Records
 from ..control.hook_forces import MOST_CUTS, pair_forces
 from ..control.swing_path import clearance
-from ..robot.hooks import HOOK_AHEAD, HOOK_WAY, HOOK_WIDTH
-from ..robot.robot import LimbedRobot
+from ..robot.robot import HOOK_AHEAD, HOOK_WAY, HOOK_WIDTH, LimbedRobot
 from ..statics.elbows import has_assignment
 from ..statics.interference import hook_gap
 from ..world.board import Board
