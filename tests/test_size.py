@@ -10,8 +10,8 @@ LONG = 400
 MANY = 8
 """Parameters of a function."""
 CEILINGS = {
-    "lines": 94_776,
-    "files": 658,
+    "lines": 94_685,
+    "files": 646,
     f"files above {LONG} lines": 0,
     f"functions with more than {MANY} parameters": 96,
     "median length of a line": 40,

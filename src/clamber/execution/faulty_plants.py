@@ -7,9 +7,8 @@ import numpy as np
 from ..types import Floats, Ints
 from .fault import Fault, Injector
 from .hardware import Hardware, Reading
-from .joint_hold import JointHold
 from .plant import BodyPlant, BodySensed, BodyTruth, LimbPlant, Sensed, Truth
-from .posture_guard import PostureGuard
+from .posture_guard import JointHold, PostureGuard
 from .wiring import LOST_COUNT
 
 

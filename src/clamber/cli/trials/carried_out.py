@@ -15,7 +15,7 @@ from ...trials.fault_trials import fault_rows
 from ...trials.trial_runs import Setup, Trials, run_trials, stored_result, wilson_interval
 from ...trials.work import Work
 from ...viewing.trials_text import any_error, percent
-from .options import TrialsOptions
+from .command import TrialsOptions
 
 
 def try_out(work: Work, asked: TrialsOptions, words: CrewWords) -> None:

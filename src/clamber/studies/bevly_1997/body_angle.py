@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from ...families.climber.control.body_estimate import LINE, SECOND_TIP, estimate_body
-from ...families.climber.execution.legs import legs_of
+from ...families.climber.control.limb_chain import legs_of
 from ...families.climber.execution.postures import postures
 from ...types import Floats
 from ...units import DEGREE
