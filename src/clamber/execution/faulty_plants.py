@@ -97,9 +97,13 @@ class FaultyBody:
             packet, number = injector.read(np.concatenate((values, speeds)), sensed.number)
             values, speeds = packet[:n], packet[n:]
         return BodySensed(
-            values[:-1].reshape(-1, 2), speeds[:-1].reshape(-1, 2), float(values[-1]), float(speeds[-1]), sensed.gripped,
+            values[:-1].reshape(-1, 2),
+            speeds[:-1].reshape(-1, 2),
+            float(values[-1]),
+            float(speeds[-1]),
+            sensed.gripped,
             number,
-        )  # fmt: skip
+        )
 
     def actuate(self, torques: Floats, grips: Ints) -> None:
         """See `BodyPlant`."""

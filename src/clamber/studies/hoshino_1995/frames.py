@@ -86,9 +86,15 @@ def _table(frames: TwoFrames) -> Table:
         parts = len(workspace(frames, theta * DEGREE).parts)
         rows.append((theta, *(round(one, 2) for one in _areas(frames, theta)), parts, *steps))
     titles = (
-        "theta [deg]", "strokes [cm^2]", "around the centre [cm^2]", "short of singular [cm^2]", f"{_guard(frames)} [cm^2]", "parts",
-        "longest step [mm]", "guarded [mm]",
-    )  # fmt: skip
+        "theta [deg]",
+        "strokes [cm^2]",
+        "around the centre [cm^2]",
+        "short of singular [cm^2]",
+        f"{_guard(frames)} [cm^2]",
+        "parts",
+        "longest step [mm]",
+        "guarded [mm]",
+    )
     return Table(titles, tuple(rows))
 
 
