@@ -10,7 +10,7 @@ from ..control.records import AXES
 from ..execution.plant import Sensed, Truth
 from ..types import Floats
 from .limb_flaws import ForceSensor, LimbFlaws
-from .turning import turn_wrenches
+from .limb_kernels import turn_wrenches
 
 
 class WrenchReader:

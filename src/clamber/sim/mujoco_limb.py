@@ -12,9 +12,8 @@ from ..types import Floats
 from .force_sensing import ForceSensing, has_hand
 from .limb_electronics import Chances, LimbElectronics
 from .limb_flaws import LimbFlaws
+from .limb_kernels import look_behind_gears, push_tips
 from .limb_model import limb_spec
-from .output_side import look_behind_gears
-from .tip_push import push_tips
 
 
 class MujocoLimb:
