@@ -16,8 +16,7 @@ from clamber.families.climber.world.board import BoardSpec
 from clamber.families.climber.world.library import load_board
 from clamber.families.walker.planning.task import WalkerTaskSpec
 from clamber.families.walker.robot import WalkerRobot
-from clamber.families.walker.world.ground import Ground
-from clamber.families.walker.world.library import read_ground
+from clamber.families.walker.world.ground import Ground, read_ground
 from clamber.spec_text import LEFT_OUT, allowed, keys_of, spec_text
 from clamber.tasks import load_task
 from clamber.tasks.robots import load_robot, read_robot

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from .errors import ClamberError as ClamberError
     from .families.climber.world.library import load_board as load_board
     from .families.walker.planning.walks import load_walk as load_walk
-    from .families.walker.world.library import load_ground as load_ground
+    from .families.walker.world.ground import load_ground as load_ground
     from .planning.problem.plan import Plan as Plan
     from .planning.problem.problems import pose_problem as pose_problem
     from .planning.problem.verdict import OutsideCheck as OutsideCheck

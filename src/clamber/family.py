@@ -11,7 +11,7 @@ from functools import cache
 from importlib import import_module
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar, Final
+from typing import TYPE_CHECKING, Any, ClassVar, Final, Generic, TypeVar, cast
 
 from .errors import ClamberError, describe_choices
 from .extensions import ExtensionError, blamed, load_outside, outside
@@ -52,6 +52,33 @@ class NotOfFamilyError(ClamberError):
         return f"a {self.title} has no {self.thing}"
 
 
+Thing = TypeVar("Thing")
+
+
+class Part(Generic[Thing]):
+    """A part of a family as an attribute, imported when it is asked for from where `Family.parts` says.
+
+    Args:
+        usual: Of families that do not say, like a value of `Family.parts`; None: they have no such thing.
+    """
+
+    def __init__(self, usual: str | None = None) -> None:
+        self._usual = usual
+
+    def __set_name__(self, owner: type[Any], name: str) -> None:
+        self._name = name
+
+    def __get__(self, family: Family, owner: type[Any]) -> Thing:
+        path = family.parts.get(self._name, self._usual)
+        return cast(Thing, None if path is None else _named(path))
+
+
+def _named(path: str) -> Any:
+    """What stands in a module under a name, by their path."""
+    module, _, name = path.partition(":")
+    return getattr(import_module(module), name)
+
+
 class Family:
     """One kind of robot. Each part is imported when it is asked for; None: the family has no such thing."""
 
@@ -65,72 +92,39 @@ class Family:
     """Commands that only it has: name -> module and function in it, such as "package.module:function"."""
     groups: ClassVar[Mapping[str, str]] = MappingProxyType({})
     """The same for commands of commands: name -> module and Typer application in it."""
-
-    @property
-    def files(self) -> TaskFormat:
-        """How its robots, worlds and tasks are read."""
-        raise NotImplementedError
+    parts: ClassVar[Mapping[str, str]] = MappingProxyType({})
+    """Which of the following it has, and where: name -> module and what it is called there, such as "package.module:FILES"."""
+    files: Part[TaskFormat] = Part()
+    """How its robots, worlds and tasks are read; every family says that."""
+    plans: Part[PlanFamily] = Part()
+    """How tasks become problems, and how plans are named, judged and reported; every family says that, too."""
+    relaxations: Part[Callable[[Any], Iterator[Relaxation]] | None] = Part()
+    """What can be relaxed in a task, to explain why there is no plan."""
+    one_hold_more: Part[Callable[..., Any] | None] = Part()
+    """Where one hold more would open a task."""
+    printed_plan: Part[Callable[[Path, str | None, tuple[str, ...]], OpenedPlan] | None] = Part()
+    """How plans in TOML are read, in place of the JSON that all families write."""
+    pictures: Part[Pictures] = Part("clamber.viewing.plain:PICTURES")
+    """How stances, plans and runs are drawn; usually a body with lines to its holds."""
+    scenes: Part[Scenes] = Part("clamber.viewing.plain:SCENES")
+    """How its robots are shown in the viewer, and what is offered there; usually the same in space."""
+    trajectories: Part[Trajectories] = Part("clamber.exports.joint_trajectory:BODY")
+    """Joint trajectories of plans and of runs; usually the body's of plans."""
+    inspection: Part[Inspection | None] = Part()
+    """What is told of its robots, worlds and tasks, and what is odd about them."""
+    printed: Part[Mapping[str, Any] | None] = Part()
+    """What commands print with `--json` about it: words of a command -> dataclasses."""
+    dynamics: Part[Dynamics | None] = Part()
+    """How its tasks and plans, and what else it can do, are carried out in contact dynamics."""
+    bench_limb: Part[Callable[..., BenchLimb] | None] = Part()
+    """One limb of a robot for the limb bench, by name, by its place from 1 or None: the first; `upright` says whether weight acts."""
+    model: Part[Callable[[Any], tuple[Any, Mapping[str, JointBounds]]] | None] = Part()
+    """The robot alone as an `MjSpec`, and the bounds of its joints."""
 
     @property
     def checks(self) -> tuple[Check, ...]:
         """The checks of its stances, in the order of a replay's margins."""
         return self.plans.checks
-
-    @property
-    def plans(self) -> PlanFamily:
-        """How tasks become problems, and how plans are named, judged and reported."""
-        raise NotImplementedError
-
-    @property
-    def relaxations(self) -> Callable[[Any], Iterator[Relaxation]] | None:
-        """What can be relaxed in a task, to explain why there is no plan."""
-        return None
-
-    @property
-    def one_hold_more(self) -> Callable[..., Any] | None:
-        """Where one hold more would open a task."""
-        return None
-
-    @property
-    def printed_plan(self) -> Callable[[Path, str | None, tuple[str, ...]], OpenedPlan] | None:
-        """How plans in TOML are read, in place of the JSON that all families write."""
-        return None
-
-    @property
-    def pictures(self) -> Pictures:
-        """How stances, plans and runs are drawn; usually a body with lines to its holds."""
-        from .viewing.plain import PICTURES
-
-        return PICTURES
-
-    @property
-    def scenes(self) -> Scenes:
-        """How its robots are shown in the viewer, and what is offered there; usually the same in space."""
-        from .viewing.plain import SCENES
-
-        return SCENES
-
-    @property
-    def trajectories(self) -> Trajectories:
-        """Joint trajectories of plans and of runs; usually the body's of plans."""
-        from .exports.joint_trajectory import BODY
-
-        return BODY
-
-    @property
-    def inspection(self) -> Inspection | None:
-        """What is told of its robots, worlds and tasks, and what is odd about them."""
-        return None
-
-    @property
-    def printed(self) -> Mapping[str, Any]:
-        """What commands print with `--json` about it: words of a command -> dataclasses."""
-        return {}
-
-    @property
-    def dynamics(self) -> Dynamics | None:
-        """How its tasks and plans, and what else it can do, are carried out in contact dynamics."""
-        return None
 
     def whole_robot(self, document: Document) -> Document:
         """A robot's document with what it takes from other files, so that it can be built where those are not."""
@@ -143,16 +137,6 @@ class Family:
     def other_names(self) -> tuple[str, ...]:
         """Names of such things that come with the family."""
         return ()
-
-    @property
-    def bench_limb(self) -> Callable[..., BenchLimb] | None:
-        """One limb of a robot for the limb bench, by name, by its place from 1 or None: the first; `upright` says whether weight acts."""
-        return None
-
-    @property
-    def model(self) -> Callable[[Any], tuple[Any, Mapping[str, JointBounds]]] | None:
-        """The robot alone as an `MjSpec`, and the bounds of its joints."""
-        return None
 
 
 def family_names() -> tuple[str, ...]:
@@ -169,8 +153,7 @@ def family_named(name: str) -> Family:
         ExtensionError: If another package's cannot be loaded.
     """
     if name in BUILT_IN:
-        module, _, attribute = BUILT_IN[name].partition(":")
-        made: Family = getattr(import_module(module), attribute)
+        made: Family = _named(BUILT_IN[name])
         return made
     if name not in outside("families"):
         raise KeyError(name)

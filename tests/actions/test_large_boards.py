@@ -23,15 +23,20 @@ from clamber.families.climber.planning.problem import LimbedProblem
 from clamber.families.climber.planning.random_task import random_task
 from clamber.families.climber.planning.step import find_hold
 from clamber.families.climber.statics.records import STANCE
-from clamber.families.climber.world.board import RandomSpec
-from clamber.families.climber.world.random_board import random_board
+from clamber.families.climber.world.board import Board, RandomSpec, build_board
+from clamber.families.climber.world.random_board import random_board_data
 from clamber.families.climber.world.scatter import MOST_PACKED
+from clamber.files import Document
 from clamber.planning.problem.problems import pose_problem
 from clamber.planning.route import plan_route
 from clamber.tasks import load_task
 from clamber.toml_text import toml_text
 
 SEEDS = st.integers(0, 2**63 - 1)
+
+
+def random_board(holds: int, density: float, seed: int = 0, **more: float) -> Board:
+    return build_board(Document("random board", random_board_data(holds, density, seed, **more)))  # type: ignore[arg-type]
 
 
 @given(st.integers(1, 300), st.floats(1.0, 500.0), st.floats(0.05, 1.0), st.floats(0.2, 5.0), SEEDS)

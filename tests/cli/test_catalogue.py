@@ -8,14 +8,13 @@ from pathlib import Path
 import clamber
 from clamber.families.climber.world.library import board_names
 from clamber.families.walker.planning.walks import walk_names
-from clamber.families.walker.world.library import ground_names
+from clamber.families.walker.world.ground import ground_names
 from clamber.planning.planners import PLANNERS, find_planner
 from clamber.planning.problem.plan_source import plan_names
-from clamber.sim.plant_titles import PLANT_TITLES
 from clamber.sim.plants import PLANTS
 from clamber.tasks import task_names
 from clamber.tasks.robots import robot_names
-from clamber.terminal.catalogue import entries
+from clamber.terminal.catalogue import PLANT_TITLES, entries
 
 
 def first_line(thing: object) -> str:

@@ -7,7 +7,7 @@ from typing import TypeAlias
 import pytest
 
 from clamber.cli.run.options import RunOptions
-from clamber.cli.trials.options import TrialsOptions
+from clamber.cli.trials.command import TrialsOptions
 from clamber.family import family_named
 from clamber.tasks import load_task
 from clamber.terminal.crew import CrewWords

@@ -15,7 +15,7 @@ from clamber.families.climber.control.hook_forces import (
     best_within,
     pair_forces,
 )
-from clamber.families.climber.execution.legs import legs_of
+from clamber.families.climber.control.limb_chain import legs_of
 from clamber.families.climber.execution.postures import postures
 from clamber.families.climber.robot.robot import LimbedRobot
 from clamber.tasks.robots import load_robot

@@ -23,8 +23,8 @@ from scipy.spatial.transform import Rotation
 from clamber.control.chain import Chain
 from clamber.control.controller import Controller, still_aim
 from clamber.control.law_settings import AXIS_NAMES, LAWS, LawSettings
-from clamber.control.law_titles import LAW_TITLES
 from clamber.families.climber.control.limb_chain import closed_branches
+from clamber.terminal.catalogue import LAW_TITLES
 from clamber.types import Floats
 
 CHAINS = {

@@ -9,7 +9,7 @@ from typing import cast
 import numpy as np
 import pytest
 
-from clamber.families.climber.execution import actor, hook, hook_back, hook_seat
+from clamber.families.climber.execution import actor, hook
 from clamber.families.climber.execution.approach import Approach
 from clamber.families.climber.execution.climber import Climber, FallenError, Grabbed
 from clamber.families.climber.execution.course import lay_course
@@ -441,15 +441,13 @@ def test_a_nearly_straight_limb_draws_its_hook_straight_back(degrees: float) -> 
         where.append(plant.truth().tips[BOTTOM] - start)
 
     climber.tick = watched  # type: ignore[method-assign]
-    assert hook_back._comes_to(climber, BOTTOM, climber.body.tip(BOTTOM) - 0.05 * down)
+    assert hook._comes_to(climber, BOTTOM, climber.body.tip(BOTTOM) - 0.05 * down)
     climber.tick = tick  # type: ignore[method-assign]
     way = np.array(where)
     along, aside = -way @ down, way @ np.array((-down[1], down[0]))
     assert along.max() < 0.06 and along[-1] > 0.04
     assert np.abs(aside).max() < 0.015
-    assert (
-        np.diff(along).max() / plant.period < 2.0 * hook_back.BACK_SPEED
-    )  # of the tip's law; the joints could thrice that
+    assert np.diff(along).max() / plant.period < 2.0 * hook.BACK_SPEED  # of the tip's law; the joints could thrice that
 
 
 @pytest.mark.parametrize("way", (0.02, 0.04, 0.06))
@@ -471,7 +469,7 @@ def test_a_hook_that_its_joints_draw_back_and_something_holds_gives_way_before_o
 
     climber.tick = watched  # type: ignore[method-assign]
     place = body.tip(BOTTOM) + way * body.grab_direction(BOTTOM)
-    assert not hook_back._comes_by_joints(climber, BOTTOM, place)
+    assert not hook._comes_by_joints(climber, BOTTOM, place)
     climber.wait(0.3)
     assert max(pushed) < 0.009 and max(off) < 0.002
 
@@ -518,7 +516,7 @@ def test_where_a_hook_stops_tells_whether_it_is_on_its_hold(
 ) -> None:
     """One that came there before, pushed on from elsewhere, may be farther off; but not where its limb is straight or on another hold."""
     monkeypatch.setattr(hook, "move_tip", lambda *_: True)
-    monkeypatch.setattr(hook_seat, "push_on", lambda *_: True)
+    monkeypatch.setattr(hook, "push_on", lambda *_: True)
     g = np.array((0.0, -1.0))
     tip = -short * g + np.array((aside, 0.0))
     body = SimpleNamespace(q=np.radians(((0.0, elbow),)), tip=lambda i: tip)
@@ -550,7 +548,7 @@ def test_a_hook_that_has_come_farther_in_an_earlier_try_is_not_home(
     monkeypatch: pytest.MonkeyPatch, farther: float, aside: float, seated: bool
 ) -> None:
     monkeypatch.setattr(hook, "move_tip", lambda *_: True)
-    monkeypatch.setattr(hook_seat, "push_on", lambda *_: True)
+    monkeypatch.setattr(hook, "push_on", lambda *_: True)
     g, hold, tip = np.array((0.0, -1.0)), np.zeros(2), np.array((0.0, -0.002))
     body = SimpleNamespace(q=np.ones((1, 2)), tip=lambda i: tip)
     climber = SimpleNamespace(body=body, holds={1: hold}, hangs=False)

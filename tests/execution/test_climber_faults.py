@@ -17,10 +17,9 @@ from clamber.families.climber.execution.climbing import Climbing
 from clamber.families.climber.execution.course import lay_course
 from clamber.families.climber.execution.wiring import guard_of, wiring_of
 from clamber.families.climber.sim.climber_plant import ClimberPlant
-from clamber.families.climber.trials.faults import failing_of
 from clamber.families.climber.trials.noise import named_noise
 from clamber.families.climber.trials.plants import truth_of
-from clamber.families.climber.trials.run_plan import ClimbRun, climbing_flaws, run_plan
+from clamber.families.climber.trials.run_plan import ClimbRun, climbing_flaws, failing_of, run_plan
 from clamber.planning.problem.plan import Plan
 from clamber.sim.wires import ClimberWires
 from clamber.trials.fault_trials import ENDINGS, ending_of_run

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from clamber.families.climber.execution import actor as actor_module
-from clamber.families.climber.execution import hook, hook_back, hook_seat
+from clamber.families.climber.execution import hook
 from clamber.families.climber.execution.actor import Actor
 from clamber.families.climber.execution.approach import Approach
 from clamber.families.climber.execution.climb_trace import TracedClimber
@@ -173,8 +173,8 @@ def test_a_hook_that_missed_goes_back_the_way_it_came(
         places.append(place)
         return True
 
-    monkeypatch.setattr(hook_back, "_comes_to", comes_to)
-    monkeypatch.setattr(hook_back, "stand_off_of", lambda climber, i, doubt: 0.05)
+    monkeypatch.setattr(hook, "_comes_to", comes_to)
+    monkeypatch.setattr(hook, "stand_off_of", lambda climber, i, doubt: 0.05)
     climber = SimpleNamespace(body=SimpleNamespace(tip=cast("Callable[[int], Floats]", lambda i: places[-1])))
     found = Approach(np.zeros(2), np.zeros((1, 2)), g, 0.05)
     hook.back_off(cast(Climber, climber), LEFT, hold, 0.004, found)
@@ -212,8 +212,8 @@ def test_a_hook_whose_flare_catches_on_its_way_back_goes_aside_and_back_from_the
             places.append(place)
         return bool(free)
 
-    monkeypatch.setattr(hook_back, "_comes_to", comes_to)
-    monkeypatch.setattr(hook_back, "stand_off_of", lambda climber, i, doubt: 0.05)
+    monkeypatch.setattr(hook, "_comes_to", comes_to)
+    monkeypatch.setattr(hook, "stand_off_of", lambda climber, i, doubt: 0.05)
     climber = SimpleNamespace(body=SimpleNamespace(tip=cast("Callable[[int], Floats]", lambda i: places[-1])))
     found = Approach(np.zeros(2), np.zeros((1, 2)), g, 0.05)
     hook.back_off(cast(Climber, climber), LEFT, hold, 0.004, found)
@@ -240,8 +240,8 @@ def test_a_tip_goes_straight_to_a_place_and_stops_pulling_where_it_is_held(
     climber = SimpleNamespace(
         body=body, plant=SimpleNamespace(period=0.005), tick=tick, hangs=False, holding=lambda: [1, 2], fall=None
     )
-    monkeypatch.setattr(hook_back, "PushedBody", lambda _: SimpleNamespace(gives_way=lambda i: False))
-    there = hook_back._comes_to(cast(Climber, climber), 0, start + 0.1 * way)
+    monkeypatch.setattr(hook, "PushedBody", lambda _: SimpleNamespace(gives_way=lambda i: False))
+    there = hook._comes_to(cast(Climber, climber), 0, start + 0.1 * way)
     assert there == (wall > 0.1)
     assert (tip - start) @ way == pytest.approx(min(wall, 0.1), abs=0.011)
     assert farthest < 0.03  # [m], by which its limb pulls: 15 N
@@ -261,7 +261,7 @@ def test_a_hook_that_stops_short_is_seated_where_it_stops_there_again_or_the_bod
     tip = hold - short * g
     monkeypatch.setattr(hook, "move_tip", lambda climber, i, place, seconds: True)
     pushed: list[float] = []
-    monkeypatch.setattr(hook_seat, "push_on", lambda climber, i, place, g, room: not pushed.append(room))
+    monkeypatch.setattr(hook, "push_on", lambda climber, i, place, g, room: not pushed.append(room))
     faded: list[int] = []
     monkeypatch.setattr(hook, "_fade", lambda climber, i: faded.append(i))
     body = SimpleNamespace(tip=cast("Callable[[int], Floats]", lambda i: tip), q=np.ones((3, 2)))

@@ -6,7 +6,7 @@ import pytest
 from clamber.control.law_settings import LawSettings
 from clamber.execution.log import LogError
 from clamber.execution.log_files import read_log, write_log
-from clamber.execution.log_trace import log_trace, trace_log
+from clamber.execution.trace import log_trace, trace_log
 from clamber.limb_bench.bench_limb import bench_limb
 from clamber.limb_bench.measures import Entry
 from clamber.limb_bench.runner import run_contest

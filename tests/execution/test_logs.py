@@ -17,10 +17,9 @@ from mcap.writer import CompressionType, Writer
 
 from clamber.errors import ClamberError, FileError
 from clamber.execution.log import Log, LogError
-from clamber.execution.log_columns import read_mapping
 from clamber.execution.log_files import csv_text, parse_csv, read_log, write_log
 from clamber.execution.log_mcap import MAGIC, MOST_INFLATED, mcap_bytes, parse_mcap
-from clamber.execution.log_roles import role_of, samples_of
+from clamber.execution.log_roles import read_mapping, role_of, samples_of
 from clamber.units import DEGREE
 
 NAMES = st.text(string.ascii_letters + " _.-", min_size=1, max_size=12).map(str.strip).filter(bool)

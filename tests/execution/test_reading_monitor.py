@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from clamber.execution.reading_monitor import BRIDGED, FULLY_DRIVEN, UNMOVED, YIELDS, Channel, ReadingMonitor
-from clamber.execution.run_ends import FaultError
+from clamber.execution.run_report import FaultError
 from clamber.types import Floats
 
 PERIOD = 0.005

@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 
 from clamber.benchmarks.climb_speed import two_rungs
 from clamber.execution.plant import PlantStoppedError
-from clamber.execution.run_ends import FallenError, FaultError, RefusedError, StuckError
-from clamber.execution.run_report import Ending, Outcome, RunReport
+from clamber.execution.run_report import Ending, FallenError, FaultError, Outcome, RefusedError, RunReport, StuckError
 from clamber.execution.sequencer import MOST_RECOVERIES, MOST_REPLANS, Attempt, Performer, Sequencer
 from clamber.families.climber.execution.climb_trace import TracedClimber
 from clamber.families.climber.execution.climbing import Climbing

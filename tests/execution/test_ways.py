@@ -6,6 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from clamber.families.climber.control.limb_chain import legs_of
 from clamber.families.climber.control.swing_path import BESIDE, find_way
 from clamber.families.climber.execution.approach import (
     CELLS,
@@ -16,7 +17,6 @@ from clamber.families.climber.execution.approach import (
     discs_near,
     wall_of,
 )
-from clamber.families.climber.execution.legs import legs_of
 from clamber.families.climber.execution.limb_task import LimbTask
 from clamber.families.climber.execution.parking import SPARE, TIGHT, park, passes, poses_between
 from clamber.families.climber.execution.postures import postures

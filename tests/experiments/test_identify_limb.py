@@ -8,7 +8,7 @@ from clamber.control.law_settings import LawSettings
 from clamber.execution.log import Log
 from clamber.execution.log_files import read_log, write_log
 from clamber.execution.log_roles import samples_of
-from clamber.execution.log_trace import trace_log
+from clamber.execution.trace import trace_log
 from clamber.families.climber.execution.log_identify import Identification, Known, identify_log
 from clamber.limb_bench.bench_limb import bench_limb
 from clamber.limb_bench.excitation import SensorNoise, record_log

@@ -2,7 +2,7 @@
 
 import pytest
 
-from clamber.trials.intervals import wilson_interval
+from clamber.trials.trial_runs import wilson_interval
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ from clamber.families.climber.robot.robot import LimbedRobot
 from clamber.families.climber.world.board import Board, Hold
 from clamber.families.walker.inspection import inspect_ground, inspect_walker
 from clamber.families.walker.robot import WalkerRobot
-from clamber.families.walker.world.library import load_ground
+from clamber.families.walker.world.ground import load_ground
 from clamber.inspection.open_file import inspect_file, inspect_task
 from clamber.tasks import load_task
 from clamber.tasks.robots import load_robot

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from clamber.control.law_settings import LAWS, LawError, LawSettings
-from clamber.control.law_titles import LAW_TITLES
 from clamber.errors import ClamberError, UnknownNameError
 from clamber.limb_bench.bench_limb import bench_limb, load_geared, read_elbow
 from clamber.limb_bench.entries import (
@@ -30,6 +29,7 @@ from clamber.sim.flaw_texts import SWITCHES as FLAW_SWITCHES
 from clamber.sim.flaw_texts import WHOLE, named_flaws, read_flaws
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.sim.plant_rules import PlantError
+from clamber.terminal.catalogue import LAW_TITLES
 from clamber.units import PointError, read_point
 
 LIMB = bench_limb()

@@ -17,7 +17,6 @@ from clamber.control.recommended import (
     RecommendationError,
     Recommended,
     read_recommended,
-    recommended_gains,
     save_recommended,
 )
 from clamber.errors import SpecError, UnknownNameError
@@ -53,7 +52,7 @@ def flaws(limb: BenchLimb) -> LimbFlaws:
 
 
 def stored(law: str) -> tuple[LawSettings, Recommended]:
-    found = recommended_gains("libra", "right", law)
+    (found,) = (one for one in read_recommended() if (one.robot, one.limb, one.law) == ("libra", "right", law))
     return replace(read_law(law), kp=found.kp, kd=found.kd), found
 
 
@@ -156,13 +155,6 @@ def test_laws_take_the_gains_recommended_for_them(limb: BenchLimb) -> None:
 def test_a_law_with_another_loop_has_no_recommended_gains(limb: BenchLimb, text: str) -> None:
     with pytest.raises(RecommendationError, match="no gains of scct"):
         with_recommended_gains(limb, [text])
-
-
-def test_gains_that_nobody_found_name_what_there_is() -> None:
-    with pytest.raises(RecommendationError, match=r"no gains of nosuch for libra's right limb; there are .*scct"):
-        recommended_gains("libra", "right", "nosuch")
-    with pytest.raises(RecommendationError, match=r"none for this limb; find them by `clamber limb tune`"):
-        recommended_gains("nobody", "right", "scct")
 
 
 @pytest.mark.parametrize(

@@ -17,8 +17,7 @@ from clamber.compiled import kernel
 from clamber.planning.exact.costs import Aim, CostError, read_costs
 from clamber.planning.exact.explore import Exploration, explore
 from clamber.planning.exact.front import plan_front
-from clamber.planning.exact.minimize import Minimizer
-from clamber.planning.exact.planner import plan_exact
+from clamber.planning.exact.planner import Minimizer, plan_exact
 from clamber.planning.problem.family_kernels import reflect
 from clamber.planning.problem.problem import CompiledProblem
 from clamber.planning.problem.problems import pose_problem

@@ -13,9 +13,8 @@ from clamber.families.climber.planning.inventory import make_inventory
 from clamber.families.climber.planning.problem import LimbedProblem
 from clamber.jobs import LocalProcesses
 from clamber.planning.genetic.learning import learn
-from clamber.planning.genetic.planner import plan_genetic
+from clamber.planning.genetic.planner import Budget, plan_genetic, search
 from clamber.planning.genetic.profile import load_profile, profile_names
-from clamber.planning.genetic.search import Budget, search
 from clamber.planning.islands import plan_islands
 from clamber.planning.learning import learn_macros, load_macros
 from clamber.planning.planners import PLANNERS, find_planner

@@ -7,7 +7,7 @@ import pytest
 
 from clamber.limb_bench.bench_limb import bench_limb
 from clamber.limb_bench.runner import MISBELIEVED, believed_chain
-from clamber.sim.chances import Chances
+from clamber.sim.limb_electronics import Chances
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.sim.mujoco_limb import MujocoLimb
 from clamber.sim.plant_rules import PlantError

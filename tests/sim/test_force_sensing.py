@@ -7,10 +7,10 @@ import pytest
 
 from clamber.limb_bench.bench_limb import bench_limb
 from clamber.sim.bench_limb import BenchLimb
+from clamber.sim.force_sensing import WrenchReader
 from clamber.sim.limb_flaws import ForceSensor, LimbFlaws, Push, Wall
 from clamber.sim.mujoco_limb import MujocoLimb
 from clamber.sim.plant_rules import PlantError
-from clamber.sim.wrench_reader import WrenchReader
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,7 @@ import pytest
 from clamber.families.climber.execution.postures import postures
 from clamber.families.climber.robot.robot import LimbedRobot
 from clamber.families.climber.sim.climber_plant import ClimberPlant
-from clamber.families.climber.sim.gripper_model import capture_radius
+from clamber.families.climber.sim.grippers import capture_radius
 from clamber.families.climber.world.library import load_board
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.tasks.robots import load_robot

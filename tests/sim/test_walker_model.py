@@ -8,9 +8,8 @@ import pytest
 from scipy.optimize import minimize
 from walker_by_hand import LEVEL, hoshino, legs_with, lengths, let_pass, standing
 
-from clamber.families.walker.sim.walker_build import WalkerBuild
 from clamber.families.walker.sim.walker_flaws import WalkerFlaws
-from clamber.families.walker.sim.walker_model import walker_spec
+from clamber.families.walker.sim.walker_model import WalkerBuild, walker_spec
 from clamber.families.walker.world.ground import Ground
 from clamber.units import GRAVITY
 

@@ -9,10 +9,9 @@ import pytest
 from clamber.limb_bench.bench_limb import bench_limb
 from clamber.sim.bench_limb import BenchLimb
 from clamber.sim.limb_flaws import LimbFlaws, Wall
-from clamber.sim.limb_model import limb_spec
+from clamber.sim.limb_model import limb_spec, plate_mass
 from clamber.sim.mujoco_limb import MujocoLimb
 from clamber.sim.plant_rules import PlantError
-from clamber.sim.wall_model import plate_mass
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,7 @@ import pytest
 
 from clamber.families.climber.planning.problem import LimbedProblem
 from clamber.families.climber.planning.task import LimbedTask
-from clamber.families.climber.robot.hooks import HOOK_AHEAD, HOOK_WIDTH
+from clamber.families.climber.robot.robot import HOOK_AHEAD, HOOK_WIDTH
 from clamber.families.climber.sim.climber_model import HookShape
 from clamber.families.climber.statics.checks import LIMBED_CHECKS
 from clamber.families.climber.statics.interference import hook_gap

@@ -12,9 +12,8 @@ from clamber.planning.problem.problems import pose_problem
 from clamber.studies.bevly_1997.printed_plans import limbed_task
 from clamber.studies.boards_exact.hook_cones import bisect_cone, holds_at, hooked
 from clamber.studies.boards_exact.no_rotation import forbid_rotation_with
-from clamber.studies.boards_exact.optima import BARE_H, COARSE
 from clamber.studies.boards_exact.peg_spacing import vary_spacing_over
-from clamber.studies.boards_exact.proofs import BOARDS, MODEL, prove
+from clamber.studies.boards_exact.proofs import BARE_H, BOARDS, COARSE, MODEL, prove
 from clamber.studies.boards_exact.torques import (
     joined,
     limit,

@@ -7,8 +7,7 @@ from pathlib import Path
 import pytest
 
 from clamber.families.walker.robot import TwoFrames
-from clamber.families.walker.robot.slide_time import slide_seconds
-from clamber.studies.hoshino_1995.printed_numbers import PRINTED, SIXTHS, judge_numbers
+from clamber.studies.hoshino_1995.printed_numbers import PRINTED, SIXTHS, judge_numbers, slide_seconds
 from clamber.studies.hoshino_1995.walker import hoshino
 from clamber.studies.library import OF_FRAMES, STUDIES
 from clamber.studies.markdown import write_markdown

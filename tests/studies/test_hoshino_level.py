@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from clamber.families.walker.control.posture import slope_of
-from clamber.studies.hoshino_1995.fig_7 import ANGLE, DIRECTIONS, incline
-from clamber.studies.hoshino_1995.fig_9 import compare_directions, equation_6, steepest
+from clamber.studies.hoshino_1995.levelling import ANGLE, DIRECTIONS, compare_directions, equation_6, incline, steepest
 from clamber.studies.library import OF_LEVELLING, STUDIES
 from clamber.units import DEGREE
 

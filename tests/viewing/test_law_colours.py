@@ -2,7 +2,7 @@
 
 from clamber.control.law_settings import LAWS
 from clamber.limb_bench.entries import MATCHES
-from clamber.viewing.law_colours import LAW_COLOURS, MATCH_LINES
+from clamber.viewing.style import LAW_COLOURS, MATCH_LINES
 
 
 def test_every_law_has_a_colour_of_its_own() -> None:

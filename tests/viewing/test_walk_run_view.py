@@ -14,8 +14,7 @@ from clamber.families.walker.pictures.walker_motion import plate_axes, shapes_at
 from clamber.families.walker.robot import WalkerRobot
 from clamber.families.walker.sim.walker_flaws import WalkerFlaws
 from clamber.families.walker.sim.walker_plant import WalkerSim
-from clamber.families.walker.world.ground import Ground
-from clamber.families.walker.world.library import load_ground
+from clamber.families.walker.world.ground import Ground, load_ground
 from clamber.tasks.robots import load_robot
 from clamber.viewing.output import SuffixError
 from clamber.viewing.pictures import write_run_picture

@@ -10,9 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from clamber.errors import SpecError
-from clamber.families.walker.sim.ground_model import add_ground
-from clamber.families.walker.world.ground import Block, Ground, Rough, build_ground
-from clamber.families.walker.world.library import ground_names, load_ground
+from clamber.families.walker.sim.walker_model import add_ground
+from clamber.families.walker.world.ground import Block, Ground, Rough, build_ground, ground_names, load_ground
 from clamber.files import Document
 
 RECTANGLES = st.lists(

@@ -214,10 +214,13 @@ def bench_gaps(
         parts = [length / proof.length for length in lengths] if len(lengths) == len(seeds) else [NOTHING]
         rows += [
             Row(f"{board}, 1 in, no hangs: proved optimum", proof.length, "actions"),
-            Row(f"{board}: polished genetic plans, mean over the optimum, {len(lengths)} of {len(seeds)} found",
-                sum(parts) / len(parts), "1"),
+            Row(
+                f"{board}: polished genetic plans, mean over the optimum, {len(lengths)} of {len(seeds)} found",
+                sum(parts) / len(parts),
+                "1",
+            ),
             Row(f"{board}: polished genetic plans, longest over the optimum", max(parts), "1", "at most 1.1"),
-        ]  # fmt: skip
+        ]
     return rows
 
 

@@ -9,6 +9,8 @@ from pathlib import Path
 from statistics import median
 from typing import Any, Final
 
+import numpy as np
+
 from ..execution.sequencer import Sequencer
 from ..families.climber.execution.climb_trace import TracedClimber
 from ..families.climber.execution.climbing import Climbing
@@ -16,7 +18,6 @@ from ..families.climber.execution.course import lay_course
 from ..families.climber.planning.plans import thesis_code
 from ..families.climber.planning.task import LimbedTask
 from ..families.climber.sim.climber_plant import ClimberPlant
-from ..families.climber.sim.raw_climb import TapedClimberPlant
 from ..families.climber.trials.noise import NO_NOISE, read_noise
 from ..families.climber.trials.run_plan import climbing_flaws, climbing_task, run_plan
 from ..families.climber.trials.warm_up import warm_up
@@ -24,10 +25,52 @@ from ..jobs import LocalProcesses
 from ..planning.problem.plan import Plan
 from ..sim.limb_flaws import LimbFlaws
 from ..tasks import load_task
-from ..types import Json
+from ..types import Floats, Json
 from .batches import run_batch
 from .control_speed import round_times
 from .rows import Row, Say, keep_quiet
+
+
+class TapedClimberPlant(ClimberPlant):
+    """A climber's plant that writes down what goes into its physics since its reset, and can do it again without anybody else."""
+
+    def __init__(self, *args: Any, **options: Any) -> None:
+        super().__init__(*args, **options)
+        self._tape: list[tuple[Floats, Floats, int]] = []
+        self._start: tuple[Floats, Floats] | None = None
+        self._raw_step, self._step = self._step, self._taped
+
+    @property
+    def steps(self) -> int:
+        """Physics steps written down."""
+        return sum(n for _, _, n in self._tape)
+
+    @property
+    def coordinates(self) -> Floats:
+        """Of the model now, shape (nq,)."""
+        out: Floats = self._qpos.copy()
+        return out
+
+    def reset(self, pose: Floats, q: Floats) -> None:
+        """As a plant's, with nothing written down."""
+        super().reset(pose, q)
+        self._tape.clear()
+        self._start = np.array(pose, float), np.array(q, float)
+
+    def replay(self) -> None:
+        """Start again and step through all that is written down, as fast as MuJoCo goes from Python."""
+        assert self._start is not None
+        super().reset(*self._start)
+        step, model, data, ctrl, pushed = self._raw_step, self.model, self._data, self._ctrl, self._pushed
+        for torques, push, n in self._tape:
+            ctrl[:] = torques
+            pushed[:] = push
+            step(model, data, n)
+
+    def _taped(self, model: Any, data: Any, n: int) -> None:
+        self._tape.append((self._ctrl.copy(), self._pushed.copy(), n))
+        self._raw_step(model, data, n)
+
 
 RUNGS = (106, 301, 205, 300, 3, 3, 304, 108, 303, 207, 300, 3, 3)
 """Two rungs of the ladder by the gait of the thesis, its numbers of actions."""

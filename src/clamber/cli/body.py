@@ -10,8 +10,7 @@ from rich.console import Console
 
 from ..terminal.crew import EndsLine
 from ..terminal.name_completion import names_of
-from ..terminal.option_holder import takes_options
-from ..terminal.options import AsJson, FlawsChoice, Output, Quiet
+from ..terminal.options import AsJson, FlawsChoice, Output, Quiet, takes_options
 from ..terminal.output import announce_compilation, print_json, stderr, stdout
 from .limb.options import MatchChoice, check_output, show_table, tell_written
 

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Final, TypeAlias
 import typer
 
 from ..terminal.name_completion import names_of
-from ..terminal.option_holder import takes_options
-from ..terminal.options import BOARD, ROBOT, AsJson
+from ..terminal.options import BOARD, ROBOT, AsJson, takes_options
 from ..terminal.output import announce_compilation, check_writable, print_json, stdout
 
 if TYPE_CHECKING:

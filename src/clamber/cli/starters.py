@@ -11,7 +11,7 @@ from ..families.climber.robot.starter import starter_robot
 from ..families.climber.world.board import SCHEMA as BOARD
 from ..families.climber.world.board import BoardSpec
 from ..families.climber.world.library import load_board, read_board
-from ..families.climber.world.starter import starter_board
+from ..families.climber.world.random_board import starter_board
 from ..family import Family, families
 from ..files import Document, check_schema, find_data, is_path, read_toml
 from ..regular_files import user_path

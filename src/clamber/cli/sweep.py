@@ -8,8 +8,7 @@ import typer
 from rich.console import Console
 
 from ..terminal.crew import CrewWords
-from ..terminal.option_holder import takes_options
-from ..terminal.options import Overrides, PlannerName, TaskName
+from ..terminal.options import Overrides, PlannerName, TaskName, takes_options
 from ..terminal.output import announce_compilation, print_json, stdout
 from ..viewing.text_table import plain_table
 

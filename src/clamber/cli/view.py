@@ -9,8 +9,7 @@ import typer
 
 from ..json_form import Count, Key
 from ..terminal.name_completion import names_of
-from ..terminal.option_holder import takes_options
-from ..terminal.options import AsJson, Overrides
+from ..terminal.options import AsJson, Overrides, takes_options
 from ..terminal.output import announce_compilation, check_writable, print_json, stderr, stdout
 
 if TYPE_CHECKING:

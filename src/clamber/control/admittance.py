@@ -14,8 +14,10 @@ from .moment import ERROR, FELT, GRAM, SHARE, SPARE, SQUARE, TASK, TORQUE, WANTE
 
 
 @kernel
-def admittance(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report):
+def admittance(joints, root, settings, aim, state, memory, room, report):
     """Torques of admittance control into `lines[TORQUE]`; arguments as in `drive`. Memory: by row offset z, then its speed v."""
+    lines, squares = room.lines, room.squares
+    qd = state[1]
     n = joints.size
     rows = settings.n_rows
     task = squares[TASK]

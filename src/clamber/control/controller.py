@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ..errors import ClamberError
 from ..types import Floats, Records
 from .chain import Chain
-from .desk import ARRAYS, DESK, JOINTS, LAWS, LENGTH, MEMORY, SIDE, drive_at
+from .drive import ARRAYS, DESK, JOINTS, LAWS, LENGTH, MEMORY, SIDE, drive_at
 from .kinematics import FRAME
 from .law_settings import LawError, LawSettings
 from .moment import LINES, SQUARES, line_length

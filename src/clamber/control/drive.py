@@ -2,7 +2,9 @@
 
 import math
 
-from ..compiled import inlined, kernel
+import numpy as np
+
+from ..compiled import carray, inlined, kernel, pointer
 from .admittance import admittance
 from .friction import feed_friction
 from .hybrid import hybrid
@@ -11,28 +13,32 @@ from .implicit_force import implicit_force
 from .inverse_motion import invert_motion
 from .jacobian_transpose import jacobian_transpose
 from .joint_pd import joint_pd
-from .kinematics import accelerate
+from .kinematics import FRAME, accelerate
 from .moment import (
     BIAS,
     DRIFT,
     ERROR,
     FELT,
+    LINES,
     LINK,
     REST,
     SHARE,
     SPARE,
     SQUARE,
+    SQUARES,
     TASK,
     TIP,
     TORQUE,
     WANTED_ACCELERATION,
     WANTED_FORCE,
+    Room,
     fill_moment,
     into_task,
     lean,
     pull_back,
 )
 from .operational_space import operational_space
+from .records import JOINT, REPORT, ROOT, SETTINGS
 from .resolved_rate import resolved_rate, resolved_rate_plain
 from .scct import scct
 from .torque_loop import AT_BASE, AT_WRIST, NOWHERE, add_friction_felt, link_torques_by_wrist, read_mount, sum_up
@@ -50,31 +56,31 @@ IMPLICIT_FORCE = 10
 
 
 @inlined
-def _follow(law, joints, root, settings, aim, q, qd, memory, frames, lines, squares, report):
+def _follow(law, joints, root, settings, aim, state, memory, room, report):
     if law == SCCT:
-        scct(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report)
+        scct(joints, root, settings, aim, state, memory, room, report)
     elif law == JACOBIAN_TRANSPOSE:
-        jacobian_transpose(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report)
+        jacobian_transpose(joints, root, settings, aim, state, memory, room, report)
     elif law == OPERATIONAL_SPACE:
-        operational_space(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report)
+        operational_space(joints, root, settings, aim, state, memory, room, report)
     elif law == RESOLVED_RATE:
-        resolved_rate(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report)
+        resolved_rate(joints, root, settings, aim, state, memory, room, report)
     elif law == RESOLVED_RATE_PLAIN:
-        resolved_rate_plain(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report)
+        resolved_rate_plain(joints, root, settings, aim, state, memory, room, report)
     elif law == ADMITTANCE:
-        admittance(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report)
+        admittance(joints, root, settings, aim, state, memory, room, report)
     elif law == JOINT_PD:
-        joint_pd(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report)
+        joint_pd(joints, root, settings, aim, state, memory, room, report)
     elif law == IMPLICIT_ADMITTANCE:
-        implicit_admittance(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report)
+        implicit_admittance(joints, root, settings, aim, state, memory, room, report)
     elif law == HYBRID:
-        hybrid(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report)
+        hybrid(joints, root, settings, aim, state, memory, room, report)
     else:
-        implicit_force(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report)
+        implicit_force(joints, root, settings, aim, state, memory, room, report)
 
 
 @kernel
-def drive(joints, root, settings, aims, states, wrenches, mounts, memory, frames, lines, squares, torques, reports):
+def drive(joints, root, settings, aims, sensed, memory, room, told):
     """Torques of a batch of limbs of one chain, one tick.
 
     Args:
@@ -82,19 +88,19 @@ def drive(joints, root, settings, aims, states, wrenches, mounts, memory, frames
         root: One record of `ROOT`, shape (1,).
         settings: Records of `SETTINGS`, shape (1,) for all or (batch,).
         aims: Records of `AIM`, shape (1,) or (batch,).
-        states: Sensed joint angles [rad] and speeds [rad/s], shape (batch, 2, n).
-        wrenches: Sensed wrench of each limb on what it touches, base frame [N], [N m], shape (batch, 6).
-        mounts: Sensed wrench of each limb on its mount, about the base frame's origin, shape (batch, 6).
+        sensed: Joint angles [rad] and speeds [rad/s], shape (batch, 2, n); wrench of each limb on what it touches, base frame [N], [N m],
+            shape (batch, 6); wrench of each limb on its mount, about the base frame's origin, shape (batch, 6).
         memory: What the laws remember, zero at the start, shape (batch, `memory_length`).
-        frames: Scratch, shape (2 n, FRAME).
-        lines, squares: Scratch, see `moment`.
-        torques: Filled with joint torques within the motors' limits, shape (batch, n) [N m].
-        reports: Filled, records of `REPORT`, shape (batch,).
+        room: Scratch, see `moment`.
+        told: Filled: joint torques within the motors' limits, shape (batch, n) [N m]; records of `REPORT`, shape (batch,).
 
     Returns:
         Index of the first limb with a measurement or an aim that is not finite, -1 where there is none. Its torques are 0, its memory is
         left alone.
     """
+    states, wrenches, mounts = sensed
+    torques, reports = told
+    frames, lines, squares = room.frames, room.lines, room.squares
     n = joints.size
     bad = -1
     last = memory.shape[1]
@@ -117,7 +123,7 @@ def drive(joints, root, settings, aims, states, wrenches, mounts, memory, frames
             if bad < 0:
                 bad = b
             continue
-        fill_moment(joints, root, chosen, aim, q, qd, wrenches[b], frames, lines, squares)
+        fill_moment(joints, root, chosen, aim, states[b], wrenches[b], room)
         for k in range(3):
             report.place[k] = lines[TIP, k]
         for i in range(chosen.n_rows):
@@ -143,7 +149,7 @@ def drive(joints, root, settings, aims, states, wrenches, mounts, memory, frames
         if chosen.torque_sensor == AT_BASE:
             read_mount(joints, root, frames, lines[TIP], mounts[b], lines[LINK], lines[SPARE])
             into_task(chosen, lines[SPARE], lines[FELT])
-        _follow(chosen.law, joints, root, chosen, aim, q, qd, memory[b], frames, lines, squares, report)
+        _follow(chosen.law, joints, root, chosen, aim, states[b], memory[b], room, report)
         _feed_forward(joints, chosen, q, qd, lines, squares, report)
         feed_friction(joints, chosen, qd, memory[b, last - n : last], lines, squares, report)
         sums = memory[b, last - 2 * n : last - n]
@@ -251,3 +257,42 @@ def _limit(joints, settings, qd, wanted, out):
             value = part * wanted[j]
             out[j] = min(max(value, _least_torque(joints[j], qd[j])), -_least_torque(joints[j], -qd[j]))
     return count
+
+
+ARRAYS = 9
+"""Addresses in a desk: joints, root, settings, memory, frames, lines, squares, torques, reports; sizes follow."""
+DESK_TORQUES = 7
+"""The torques among them."""
+JOINTS = 9
+"""Number of joints."""
+LAWS = 10
+"""Records of settings."""
+MEMORY = 11
+"""Numbers that a limb's law remembers."""
+LENGTH = 12
+"""Of a line of scratch."""
+SIDE = 13
+"""Of a square of scratch."""
+DESK = 14
+
+
+@kernel
+def drive_at(desk, aims, states, wrenches, mounts):
+    """`drive` with the arrays whose addresses are in `desk`; their owner keeps them alive."""
+    n = desk[JOINTS]
+    batch = states.shape[0]
+    side = desk[SIDE]
+    return drive(
+        carray(pointer(desk[0]), n, JOINT),
+        carray(pointer(desk[1]), 1, ROOT),
+        carray(pointer(desk[2]), desk[LAWS], SETTINGS),
+        aims,
+        (states, wrenches, mounts),
+        carray(pointer(desk[3]), (batch, desk[MEMORY]), np.float64),
+        Room(
+            carray(pointer(desk[4]), (2 * n, FRAME), np.float64),
+            carray(pointer(desk[5]), (LINES, desk[LENGTH]), np.float64),
+            carray(pointer(desk[6]), (SQUARES, side, side), np.float64),
+        ),
+        (carray(pointer(desk[7]), (batch, n), np.float64), carray(pointer(desk[8]), batch, REPORT)),
+    )

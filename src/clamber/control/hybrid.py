@@ -30,8 +30,9 @@ TOUCHING = 0.1
 
 
 @kernel
-def hybrid(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report):
+def hybrid(joints, root, settings, aim, state, memory, room, report):
     """Torques of hybrid control into `lines[TORQUE]`; arguments as in `drive`. Memory: by row the integral of the error of force."""
+    lines, squares = room.lines, room.squares
     n = joints.size
     rows = settings.n_rows
     task = squares[TASK]

@@ -12,11 +12,12 @@ from .moment import ERROR, GRAM, RATE, SHARE, SPARE, SQUARE, TASK, TORQUE, WANTE
 
 
 @kernel
-def implicit_admittance(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report):
+def implicit_admittance(joints, root, settings, aim, state, memory, room, report):
     """Torques of the implicit admittance form into `lines[TORQUE]`; arguments as in `drive`.
 
     Memory: started, then by joint the command at the tick before, then its filtered derivative.
     """
+    lines, squares = room.lines, room.squares
     n = joints.size
     rows = settings.n_rows
     task = squares[TASK]

@@ -12,8 +12,9 @@ from .moment import ERROR, GRAM, RATE, SPARE, TASK, TORQUE, WANTED_RATE, pull_ba
 
 
 @kernel
-def jacobian_transpose(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report):
+def jacobian_transpose(joints, root, settings, aim, state, memory, room, report):
     """Torques of the Jacobian transpose into `lines[TORQUE]`; arguments as in `drive`."""
+    lines, squares = room.lines, room.squares
     n = joints.size
     rows = settings.n_rows
     task = squares[TASK]

@@ -29,11 +29,13 @@ MORE_CARE = 16.0
 
 
 @kernel
-def joint_pd(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report):
+def joint_pd(joints, root, settings, aim, state, memory, room, report):
     """Torques of joint PD control into `lines[TORQUE]`; arguments as in `drive`.
 
     Memory: started, then the joint angles of the aim. Uses the second half of `frames`.
     """
+    frames, lines, squares = room.frames, room.lines, room.squares
+    q, qd = state[0], state[1]
     n = joints.size
     rows = settings.n_rows
     task = squares[TASK]

@@ -1,12 +1,14 @@
 """What a law knows at one tick, in scratch arrays that the loop fills: the task Jacobian, errors and rates by row, and room to work.
 
-`lines` holds vectors, one name a row; `squares` holds matrices. A law reads the filled ones, may use the scratch ones, and leaves its
-torques in `lines[TORQUE]`.
+In a `Room` the `lines` hold vectors, one name a row, and the `squares` matrices. A law reads the filled ones, may use the scratch ones,
+and leaves its torques in `lines[TORQUE]`.
 """
 
 import math
+from typing import NamedTuple
 
 from ..compiled import inlined, kernel
+from ..types import Floats
 from .kinematics import fill_jacobian, place_chain
 from .records import AXES
 
@@ -46,6 +48,17 @@ SQUARE = 3
 GRAM = 4
 OTHER = 5
 SQUARES = 6
+
+
+class Room(NamedTuple):
+    """Where laws work."""
+
+    frames: Floats
+    """Shape (2 n, FRAME)."""
+    lines: Floats
+    """Shape (LINES, `line_length`)."""
+    squares: Floats
+    """Shape (SQUARES, side, side)."""
 
 
 @inlined
@@ -144,7 +157,7 @@ def fill_task(settings, jacobian, n, task):
 
 
 @kernel
-def fill_moment(joints, root, settings, aim, q, qd, felt, frames, lines, squares):
+def fill_moment(joints, root, settings, aim, state, felt, room):
     """Fill what every law reads.
 
     Args:
@@ -152,11 +165,12 @@ def fill_moment(joints, root, settings, aim, q, qd, felt, frames, lines, squares
         root: One record of `ROOT`, shape (1,).
         settings: A record of `SETTINGS`.
         aim: A record of `AIM`.
-        q, qd: Joint angles and speeds, shape (n,).
+        state: Joint angles and speeds, shape (2, n).
         felt: Sensed wrench of the limb on what it touches, base frame, shape (6,).
-        frames: Scratch, shape (at least n, FRAME).
-        lines, squares: Filled, see above.
+        room: Filled, see above.
     """
+    frames, lines, squares = room.frames, room.lines, room.squares
+    q, qd = state[0], state[1]
     n = joints.size
     tip = lines[TIP]
     place_chain(joints, root, q, frames, tip)

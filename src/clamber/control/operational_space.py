@@ -32,8 +32,10 @@ from .moment import (
 
 
 @kernel
-def operational_space(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report):
+def operational_space(joints, root, settings, aim, state, memory, room, report):
     """Torques of operational space control, without h and g, into `lines[TORQUE]`; arguments as in `drive`."""
+    frames, lines, squares = room.frames, room.lines, room.squares
+    q, qd = state[0], state[1]
     n = joints.size
     rows = settings.n_rows
     task = squares[TASK]
@@ -65,14 +67,15 @@ def operational_space(joints, root, settings, aim, q, qd, memory, frames, lines,
         posture[j] = 0.0
     if rows < n:
         lean(joints, settings, q, qd, posture)
-    _through_inertia(task, rows, n, inertia, lambda2, wanted, posture, squares, lines[SPARE + 2], torque)
+    _through_inertia(rows, n, lambda2, wanted, posture, room)
 
 
 @kernel
-def _through_inertia(task, rows, n, inertia, lambda2, wanted, posture, squares, held, torque):
+def _through_inertia(rows, n, lambda2, wanted, posture, room):
     """Torque = p + T^T (T M^-1 T^T + lambda^2)^-1 (a - T M^-1 p), the damping in units of the largest inertia; M and `wanted` are spent."""
-    square = squares[SQUARE]
-    through = squares[OTHER]
+    task, inertia = room.squares[TASK], room.squares[INERTIA]
+    square, through = room.squares[SQUARE], room.squares[OTHER]
+    held, torque = room.lines[SPARE + 2], room.lines[TORQUE]
     largest = 0.0
     for j in range(n):
         largest = max(largest, inertia[j, j])

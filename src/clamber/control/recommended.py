@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from ..errors import ClamberError, describe_choices
+from ..errors import ClamberError
 from ..files import check_schema, read_toml, write_atomically
 from ..json_form import Jsonable
 from ..regular_files import is_there
@@ -84,30 +84,6 @@ def _recommended(entry: dict[str, Any]) -> Recommended:
         margin=float(entry["margin"]),
         stiffness=(float(x), float(y)),
         plant=dict(entry["plant"]),
-    )
-
-
-def recommended_gains(robot: str, limb: str, law: str, path: Path = SHIPPED) -> Recommended:
-    """The gains found for one law on one limb.
-
-    Args:
-        robot: Its name.
-        limb: The limb's name.
-        law: The law's name, with its settings if it was tuned with some.
-        path: A file that `clamber limb tune --save` wrote.
-
-    Raises:
-        RecommendationError: If nobody tuned that law on that limb.
-    """
-    known = [entry for entry in read_recommended(path) if (entry.robot, entry.limb) == (robot, limb)]
-    for entry in known:
-        if entry.law == law:
-            return entry
-    there = describe_choices(law, [entry.law for entry in known]) if known else "none for this limb"
-    raise RecommendationError(
-        path.name,
-        f"no gains of {law} for {robot}'s {limb} limb",
-        f"there are {there}; find them by `clamber limb tune`",
     )
 
 

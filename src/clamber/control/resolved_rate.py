@@ -21,8 +21,10 @@ from .moment import ERROR, GRAM, SHARE, SPARE, SQUARE, TASK, TIP, TORQUE, WANTED
 
 
 @kernel
-def resolved_rate(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report):
+def resolved_rate(joints, root, settings, aim, state, memory, room, report):
     """Torques of resolved rate control with the Cartesian gain into `lines[TORQUE]`; arguments as in `drive`."""
+    lines, squares = room.lines, room.squares
+    qd = state[1]
     n = joints.size
     rows = settings.n_rows
     task = squares[TASK]
@@ -38,11 +40,13 @@ def resolved_rate(joints, root, settings, aim, q, qd, memory, frames, lines, squ
 
 
 @kernel
-def resolved_rate_plain(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report):
+def resolved_rate_plain(joints, root, settings, aim, state, memory, room, report):
     """Torques of plain resolved rate control into `lines[TORQUE]`; arguments as in `drive`.
 
     Memory: started, then the joint angles asked for, then where the aim was: place and turn, twelve numbers like those of a tip.
     """
+    lines, squares = room.lines, room.squares
+    q, qd = state[0], state[1]
     n = joints.size
     rows = settings.n_rows
     task = squares[TASK]

@@ -12,8 +12,9 @@ from .moment import ERROR, GRAM, RATE, SHARE, SPARE, SQUARE, TASK, TORQUE, WANTE
 
 
 @kernel
-def scct(joints, root, settings, aim, q, qd, memory, frames, lines, squares, report):
+def scct(joints, root, settings, aim, state, memory, room, report):
     """Torques of SCCT into `lines[TORQUE]`; arguments as in `drive`."""
+    lines, squares = room.lines, room.squares
     n = joints.size
     rows = settings.n_rows
     task = squares[TASK]

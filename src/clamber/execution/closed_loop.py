@@ -10,10 +10,10 @@ from ..control.controller import MeasurementError
 from ..control.outside_law import LoopController
 from ..types import Floats, Records
 from .copy_rows import BASE, SIZE, SOURCE, copy_rows
-from .joint_hold import JointHold
 from .plant import LimbPlant, Sensed
+from .posture_guard import JointHold
 from .reading_monitor import Channel, ReadingMonitor
-from .run_ends import FaultError
+from .run_report import FaultError
 from .trace import LimbTrace, empty_trace
 
 Rows: TypeAlias = Floats | Records

@@ -7,9 +7,8 @@ import numpy as np
 from ..types import Floats, Ints
 from .fault import Fault, Injector
 from .hardware import Hardware, Reading
-from .joint_hold import JointHold
 from .plant import BodyPlant, BodySensed, BodyTruth, LimbPlant, Sensed, Truth
-from .posture_guard import PostureGuard
+from .posture_guard import JointHold, PostureGuard
 from .wiring import LOST_COUNT
 
 
@@ -98,9 +97,13 @@ class FaultyBody:
             packet, number = injector.read(np.concatenate((values, speeds)), sensed.number)
             values, speeds = packet[:n], packet[n:]
         return BodySensed(
-            values[:-1].reshape(-1, 2), speeds[:-1].reshape(-1, 2), float(values[-1]), float(speeds[-1]), sensed.gripped,
+            values[:-1].reshape(-1, 2),
+            speeds[:-1].reshape(-1, 2),
+            float(values[-1]),
+            float(speeds[-1]),
+            sensed.gripped,
             number,
-        )  # fmt: skip
+        )
 
     def actuate(self, torques: Floats, grips: Ints) -> None:
         """See `BodyPlant`."""

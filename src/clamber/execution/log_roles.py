@@ -1,7 +1,7 @@
 """Which column of a log is what: "shoulder angle [rad]", "q1", "tau_2" or a mapping that is stated; numbers leave in SI units."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Final
 
@@ -12,6 +12,31 @@ from ..errors import UnitError, describe_choices
 from ..types import Floats
 from ..units import UNITS, convert, si_unit, split_title
 from .log import Log, LogError
+
+
+def read_mapping(texts: Iterable[str], chosen: Mapping[str, str | None]) -> dict[str, str]:
+    """Column -> role, from texts such as "pos_3=left elbow angle [deg]" and from columns chosen for the roles of one joint.
+
+    Args:
+        texts: COLUMN=ROLE; a column's name may hold "=" itself, the last one counts.
+        chosen: Role -> column, None where none is chosen.
+
+    Raises:
+        LogError: If a text lacks a part, or a column is named twice.
+    """
+    out: dict[str, str] = {}
+    pairs = [(column, role) for role, column in chosen.items() if column is not None]
+    for text in texts:
+        column, equals, role = text.rpartition("=")
+        if not equals or not column.strip() or not role.strip():
+            raise LogError("--column", None, None, repr(text), "must be COLUMN=ROLE, such as 'q1=shoulder angle [deg]'")
+        pairs.insert(0, (column.strip(), role.strip()))
+    for column, role in pairs:
+        if column in out:
+            raise LogError("--column", column, None, repr(role), f"is '{out[column]}' already")
+        out[column] = role
+    return out
+
 
 ROLES: Final[dict[str, tuple[str, str]]] = {
     "time": ("time", "time"),

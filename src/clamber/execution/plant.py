@@ -7,7 +7,7 @@ import numpy as np
 
 from ..json_form import Jsonable
 from ..types import Floats, Ints
-from .run_ends import RunEndedError
+from .run_report import RunEndedError
 
 SensedT_co = TypeVar("SensedT_co", covariant=True)
 TruthT_co = TypeVar("TruthT_co", covariant=True)

@@ -28,8 +28,7 @@ from ..control.check_readings import (
     check_readings,
 )
 from ..types import Floats
-from .findings import Finding
-from .run_ends import FaultError
+from .run_report import FaultError, Finding
 
 BRIDGED: Final = 0.05
 """Readings that fail for longer are no longer bridged [s]: a joint under load may have turned by a tenth of a radian."""

@@ -1,12 +1,31 @@
 """What is told of a run, of whatever robot: what may become of an action, and how the whole ended."""
 
+import math
 from dataclasses import dataclass, field
-from typing import Annotated, Final, Literal, TypeAlias
+from typing import Annotated, ClassVar, Final, Literal, TypeAlias
 
 from pydantic import Field
 
 from ..json_form import Jsonable
-from .findings import Finding
+
+
+@dataclass(frozen=True, slots=True)
+class Finding(Jsonable):
+    """A fault as the robot has noticed it."""
+
+    kind: str
+    """Such as "no number", "jump", "no answer", "unbalanced", "drift", "no reading", "late readings"."""
+    where: str
+    """Sensor or joint; empty for the link."""
+    time: float
+    """When it was noticed first [s]."""
+    why: str
+    """In words, with its numbers."""
+
+    def __str__(self) -> str:
+        at = f"{self.where}: " if self.where else ""
+        return f"{at}{self.kind}: {self.why}"
+
 
 Outcome: TypeAlias = Literal[
     "ok", "stalled", "moved", "missed", "no ground", "not supported", "refused", "stuck", "fell", "fault", "stopped",
@@ -61,3 +80,46 @@ class RunReport(Jsonable):
     """Faults that the robot noticed in itself, whether they ended the run or were bridged."""
     ending: Ending = ""
     """What became of it where one of them ended the run."""
+
+
+class RunEndedError(Exception):
+    """The run ends here, with this reason. Never a user's mistake."""
+
+    word: ClassVar[Outcome]
+    """Outcome of the action that it ended, and first word of the run's reason."""
+
+
+class FallenError(RunEndedError):
+    """The robot has fallen."""
+
+    word = "fell"
+
+
+class StuckError(RunEndedError):
+    """The robot stands, and nothing that it may do brings it on."""
+
+    word = "stuck"
+
+
+class FaultError(RunEndedError):
+    """The robot has noticed a fault in itself and is to stop safely."""
+
+    word = "fault"
+
+
+class RefusedError(RunEndedError):
+    """A motion would break a rule of the robot: it is not begun, or stops where it is.
+
+    Args:
+        reason: Which rule.
+        margin: By how much it would be kept, negative [m]; NaN where that has no number.
+    """
+
+    word = "refused"
+
+    def __init__(self, reason: str, margin: float = math.nan) -> None:
+        super().__init__(reason, margin)
+        self.reason, self.margin = reason, margin
+
+    def __str__(self) -> str:
+        return self.reason

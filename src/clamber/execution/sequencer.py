@@ -5,8 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, Final, Generic, TypeVar, TypeVarTuple
 
-from .run_ends import FallenError, FaultError, RefusedError, RunEndedError
-from .run_report import Ending, Outcome, RunReport
+from .run_report import Ending, FallenError, FaultError, Outcome, RefusedError, RunEndedError, RunReport
 
 MOST_RECOVERIES: Final = 3
 """Of one action."""

@@ -1,12 +1,16 @@
 """What happened, tick by tick: aims, measurements, torques, truth, as arrays with a time axis first."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
+from typing import Any, Final
 
 import numpy as np
 
 from ..control.chain import Chain
-from ..control.records import AXES, REPORT
+from ..control.controller import still_aim
+from ..control.records import AIM, AXES, REPORT
 from ..types import Floats, Records
+from .log import Log, LogError
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -76,3 +80,104 @@ def empty_trace(chain: Chain, aims: Records, period: float, batch: int) -> LimbT
         wrenches=np.full((ticks, batch, AXES), np.nan),
         reports=np.zeros((ticks, batch), REPORT),
     )
+
+
+_AXES: Final = ("x", "y", "z", "about x", "about y", "about z")
+_STATES: Final = (("sensed", 0, "angle", "rad"), ("sensed", 1, "speed", "rad/s"), ("true", 0, "output angle", "rad"),
+                  ("true", 1, "output speed", "rad/s"))  # fmt: skip
+_TORQUES: Final = (("commanded", "torque commanded"), ("applied", "torque"))
+
+
+def trace_log(trace: LimbTrace, item: int = 0, notes: Mapping[str, str] | None = None) -> Log:
+    """One limb of a trace as a log, up to where it left the finite numbers, if it did.
+
+    Columns of aims, wrenches and reports that never leave their rest are left out.
+
+    Args:
+        trace: What happened.
+        item: Which of the batch, from 0.
+        notes: To be kept in the file, such as robot and limb.
+
+    Raises:
+        LogError: If not even the first tick is finite.
+    """
+    trace = _finite(trace, item)
+    columns: dict[str, Floats] = {"time": trace.time.copy()}
+    units = {"time": "s"}
+    for j, joint in enumerate(trace.chain.joint_names):
+        for key, which, word, unit in _STATES:
+            columns[f"{joint} {word}"] = getattr(trace, key)[:, item, which, j].copy()
+            units[f"{joint} {word}"] = unit
+        for key, word in _TORQUES:
+            columns[f"{joint} {word}"] = getattr(trace, key)[:, item, j].copy()
+            units[f"{joint} {word}"] = "N m"
+    aims = trace.aims[:, min(item, trace.aims.shape[1] - 1)]
+    for name, values, rest in (
+        *_cells("aim", aims, still_aim((0.0, 0.0))[0]),
+        *_cells("report", trace.reports[:, item], np.zeros(1, REPORT)[0]),
+        *((f"wrench {axis}", trace.wrenches[:, item, k], 0.0) for k, axis in enumerate(_AXES)),
+    ):
+        if np.any(values != rest):
+            columns[name] = np.array(values, dtype=np.float64)
+    return Log(columns, units, dict(notes or {}), "trace")
+
+
+def _finite(trace: LimbTrace, item: int) -> LimbTrace:
+    """The trace up to the first tick of which something is not finite."""
+    parts = (getattr(trace, key)[:, item] for key in ("sensed", "true", "commanded", "applied", "wrenches"))
+    bad = [~np.isfinite(part.reshape(len(part), -1)).all(axis=1) for part in parts]
+    odd = np.flatnonzero(np.any(bad, axis=0))
+    return trace.first(int(odd[0])) if odd.size else trace
+
+
+def log_trace(log: Log, chain: Chain) -> LimbTrace:
+    """The trace that `trace_log` made a log of, with a batch of one.
+
+    Raises:
+        LogError: If the log lacks a column of one of the chain's joints.
+    """
+    ticks = log.rows
+    aims, reports = np.empty((ticks, 1), AIM), np.zeros((ticks, 1), REPORT)
+    aims[:] = still_aim((0.0, 0.0))
+    _fill(log, "aim", aims[:, 0])
+    _fill(log, "report", reports[:, 0])
+    parts: dict[str, Floats] = {key: np.empty((ticks, 1, 2, chain.n)) for key in ("sensed", "true")}
+    parts |= {key: np.empty((ticks, 1, chain.n)) for key, _ in _TORQUES}
+    for j, joint in enumerate(chain.joint_names):
+        for key, which, word, _ in _STATES:
+            parts[key][:, 0, which, j] = log.column(f"{joint} {word}")
+        for key, word in _TORQUES:
+            parts[key][:, 0, j] = log.column(f"{joint} {word}")
+    wrenches = np.zeros((ticks, 1, AXES))
+    for k, axis in enumerate(_AXES):
+        if f"wrench {axis}" in log.columns:
+            wrenches[:, 0, k] = log.columns[f"wrench {axis}"]
+    time = np.asarray(log.column("time"), dtype=np.float64)
+    return LimbTrace(chain=chain, time=time, aims=aims, wrenches=wrenches, reports=reports, **parts)
+
+
+def _cells(label: str, records: Records, rest: Any) -> list[tuple[str, Any, float]]:
+    """Every number of a list of records: its column's name, its values, what it is at rest."""
+    out = []
+    for field in records.dtype.names or ():
+        shape = records.dtype[field].shape
+        for place in np.ndindex(*shape):
+            name = " ".join((label, field, *map(str, place)))
+            out.append(
+                (name, records[field][(slice(None), *place)], float(rest[field][place] if shape else rest[field]))
+            )
+    return out
+
+
+def _fill(log: Log, label: str, records: Records) -> None:
+    for name, values, _ in _cells(label, records, records[0]):
+        if name in log.columns:
+            if records.dtype.names and np.issubdtype(values.dtype, np.integer):
+                _check_whole(log, name)
+            values[:] = log.columns[name]
+
+
+def _check_whole(log: Log, name: str) -> None:
+    odd = np.flatnonzero(log.columns[name] != np.round(log.columns[name]))
+    if odd.size:
+        raise LogError(log.label, name, int(odd[0]) + 1, log.columns[name][odd[0]], "must be a whole number")

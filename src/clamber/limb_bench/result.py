@@ -14,8 +14,7 @@ import numpy as np
 
 from ..control.law_settings import LawSettings
 from ..execution.log import Log
-from ..execution.log_trace import trace_log
-from ..execution.trace import LimbTrace
+from ..execution.trace import LimbTrace, trace_log
 from ..files import write_atomically
 from ..json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ..sim.bench_limb import BenchLimb

@@ -208,10 +208,20 @@ def make_bench(texts: BenchTexts) -> Bench:
         chosen_limb = bench_limb(texts.robot, texts.limb, where, elbow=read_elbow(texts.elbow), upright=plant.upright)
         laws = tuple(with_recommended_gains(chosen_limb, laws or tuple(LAWS)))
     return Bench(
-        robot=texts.robot, limb=texts.limb, start=where, elbow=read_elbow(texts.elbow),
-        kind=kind, command=stated, laws=laws, reference=law.law, kp=_one(law, "kp"), kd=_one(law, "kd"), match=texts.match,
-        measure=chosen, flaws=asdict(plant),
-    )  # fmt: skip
+        robot=texts.robot,
+        limb=texts.limb,
+        start=where,
+        elbow=read_elbow(texts.elbow),
+        kind=kind,
+        command=stated,
+        laws=laws,
+        reference=law.law,
+        kp=_one(law, "kp"),
+        kd=_one(law, "kd"),
+        match=texts.match,
+        measure=chosen,
+        flaws=asdict(plant),
+    )
 
 
 def _one(law: LawSettings, key: str) -> float:

@@ -9,13 +9,11 @@ from ..control.kinematics import FRAME
 from ..control.records import AXES
 from ..execution.plant import Sensed, Truth
 from ..types import Floats
-from .chances import Chances
 from .force_sensing import ForceSensing, has_hand
-from .limb_electronics import LimbElectronics
+from .limb_electronics import Chances, LimbElectronics
 from .limb_flaws import LimbFlaws
+from .limb_kernels import look_behind_gears, push_tips
 from .limb_model import limb_spec
-from .output_side import look_behind_gears
-from .tip_push import push_tips
 
 
 class MujocoLimb:

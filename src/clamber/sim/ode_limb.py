@@ -7,8 +7,7 @@ from ..control.kinematics import FRAME
 from ..control.records import AXES
 from ..execution.plant import Sensed, Truth
 from ..types import Floats
-from .chances import Chances
-from .limb_electronics import LimbElectronics
+from .limb_electronics import Chances, LimbElectronics
 from .limb_flaws import LimbFlaws
 from .ode_steps import step_limbs
 from .plant_rules import PlantError

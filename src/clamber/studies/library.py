@@ -115,17 +115,17 @@ OF_FRAMES: Final = _of(
     HOSHINO,
     {
         "table": "printed_numbers:compare_numbers",
-        "fig-4": "regions:draw_figure_4",
-        "fig-5": "ditches:draw_figure_5",
+        "fig-4": "frames:draw_figure_4",
+        "fig-5": "frames:draw_figure_5",
     },
 )
 """Sections 2 and 3 of Hoshino 1995: geometry of the two frames."""
 OF_LEVELLING: Final = _of(
     HOSHINO,
     {
-        "fig-7": "fig_7:compare_inclinations",
-        "fig-8": "fig_8:walk_level",
-        "fig-9": "fig_9:compare_directions",
+        "fig-7": "levelling:compare_inclinations",
+        "fig-8": "levelling:walk_level",
+        "fig-9": "levelling:compare_directions",
     },
 )
 """Sections 4 and 5: the upper surface inclined by its legs, and kept level on a slope."""
@@ -141,10 +141,10 @@ OF_WALKING: Final = _of(
 OF_ARM_AND_BODY: Final = _of(
     HOSHINO,
     {
-        "fig-10": "fig_10:compare_freedoms",
-        "fig-11": "manipulability:vary_gain",
-        "section-6-2": "manipulability:count_freedoms",
-        "equation-19": "manipulability:check_second_term",
+        "fig-10": "freedoms:compare_freedoms",
+        "fig-11": "freedoms:vary_gain",
+        "section-6-2": "freedoms:count_freedoms",
+        "equation-19": "freedoms:check_second_term",
         "tool-experiment": "tool_runs:follow_in_dynamics",
     },
 )
@@ -154,7 +154,7 @@ STUDIES: Final[dict[str, dict[str, Repeat]]] = {
     BOARDS_EXACT: _of(
         BOARDS_EXACT,
         {
-            "optima": "optima:prove_optima",
+            "optima": "proofs:prove_optima",
             "h-torque-front": "torques:trade_length_for_torque",
             "least-torque": "torques:find_least_torques",
             "no-rotation": "no_rotation:forbid_rotation",

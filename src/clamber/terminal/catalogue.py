@@ -8,6 +8,25 @@ from ..family import BUILT_IN, family_named
 from ..files import data_names, read_toml
 from ..tasks.robots import shipped
 
+PLANT_TITLES: Final[dict[str, str]] = {
+    "mujoco": "A batch of equal limbs in MuJoCo, with the sensors and motors of `flaws`. A `Plant`.",
+    "ode": "A batch of equal limbs by the ODE of `ode_steps`, with the sensors and motors of `flaws`. A `Plant`.",
+}
+"""Plant -> the first line of its docstring."""
+LAW_TITLES: Final[dict[str, str]] = {
+    "jacobian-transpose": "spring and damper at the tip, J^T F (Bevly 1997, 3.2)",
+    "operational-space": "computed torque of the tip's motion (Khatib 1985; 3.13)",
+    "resolved-rate": "joint speeds that the error asks for (Whitney 1969; 3.2.3)",
+    "resolved-rate-plain": "joint speeds of the aim summed up, no error of the tip",
+    "admittance": "a felt force moves the aim (Whitney 1977; 3.2.4)",
+    "joint-pd": "each joint held at the angle of inverse kinematics",
+    "scct": "simplified Cartesian computed torque, K' J^-1 F (3.16)",
+    "implicit-admittance": "SCCT as a speed for a joint servo (3.25)",
+    "hybrid": "force by J^T in some directions, SCCT in the others (3.5)",
+    "implicit-force": "force by a place inside a surface of known stiffness (3.5)",
+}
+"""Law -> what it does, with where Bevly's thesis has it."""
+
 BOARD_SCHEMA: Final = "clamber-board-1"
 GROUND_SCHEMA: Final = "clamber-ground-1"
 
@@ -41,8 +60,6 @@ def _planners() -> list[tuple[str, str]]:
 
 
 def _controllers() -> list[tuple[str, str]]:
-    from ..control.law_titles import LAW_TITLES
-
     return list(LAW_TITLES.items())
 
 
@@ -52,8 +69,6 @@ def _checks() -> list[tuple[str, str]]:
 
 
 def _plants() -> list[tuple[str, str]]:
-    from ..sim.plant_titles import PLANT_TITLES
-
     return list(PLANT_TITLES.items())
 
 

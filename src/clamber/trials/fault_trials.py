@@ -9,12 +9,11 @@ from typing import Annotated, Final, Literal, Protocol, TypeAlias, get_args
 from pydantic import Field
 
 from ..execution.fault import Fault
-from ..execution.findings import Finding
-from ..execution.run_report import RunReport
+from ..execution.run_report import Finding, RunReport
 from ..jobs import read_result
 from ..json_form import INLINE, Count, Jsonable, in_json
 from ..types import Json
-from .intervals import wilson_interval
+from .trial_runs import wilson_interval
 
 Ending: TypeAlias = Literal["recovered", "held", "stopped safely", "fell", "error"]
 ENDINGS: Final[tuple[Ending, ...]] = get_args(Ending)

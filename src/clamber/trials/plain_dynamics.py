@@ -21,9 +21,8 @@ from ..tasks import Task, task_from_document
 from ..types import Json
 from .dynamics import Conditions, Dynamics, NoPlanError, RunEvents, RunRequest, TrialsRequest
 from .held_out import seeds_in_words
-from .intervals import wilson_interval
 from .noise import NoiseKind, read_widths
-from .trial_runs import Setup, Trials
+from .trial_runs import Setup, Trials, wilson_interval
 
 if TYPE_CHECKING:
     from rich.console import Console

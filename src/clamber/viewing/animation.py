@@ -124,9 +124,16 @@ def write_gif(picture: Animated[Any], path: Path, most: int = MOST_FRAMES[".gif"
     content = BytesIO()
     durations = [10 * round(FRAME_MS * frame.length / 10) for frame in frames]
     images[0].save(
-        content, "GIF", save_all=True, append_images=images[1:], duration=durations, loop=0, disposal=1,
-        transparency=COLOURS, optimize=False,
-    )  # fmt: skip
+        content,
+        "GIF",
+        save_all=True,
+        append_images=images[1:],
+        duration=durations,
+        loop=0,
+        disposal=1,
+        transparency=COLOURS,
+        optimize=False,
+    )
     write_atomically(path, content.getvalue())
 
 

@@ -138,9 +138,12 @@ class StepStrip:
         height, top = 0.15, place.top - 0.28
         cells = np.array([[int(style.STRIP[g][k : k + 2], 16) for k in (1, 3, 5)] for g in grades or [3]], np.uint8)
         axes.imshow(
-            cells[None], extent=(place.left, place.left + place.width, top - height, top), aspect="auto",
-            interpolation="nearest", zorder=1,
-        )  # fmt: skip
+            cells[None],
+            extent=(place.left, place.left + place.width, top - height, top),
+            aspect="auto",
+            interpolation="nearest",
+            zorder=1,
+        )
         for k, (colour, word) in enumerate(zip(style.STRIP, words, strict=True)):
             x = place.left + k * place.width / 4
             axes.add_patch(Rectangle((x, top - height - 0.25), 0.11, 0.11, fc=colour, lw=0))

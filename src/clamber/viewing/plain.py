@@ -78,10 +78,16 @@ class PlainView(PlanView[Moment]):
         names = tuple(plans.checks[k].name for k in self.checks)
         colours = tuple(style.PARTS[k % len(style.PARTS)] for k in range(len(names)))
         gauges = Gauges(
-            title="Share of each limit that is left", names=names, colours=colours,
-            low=np.zeros(len(names)), high=np.ones(len(names)), limits=(), calm=(0.0, math.inf),
-            unit=("%", 0.01, 0), group=1,
-        )  # fmt: skip
+            title="Share of each limit that is left",
+            names=names,
+            colours=colours,
+            low=np.zeros(len(names)),
+            high=np.ones(len(names)),
+            limits=(),
+            calm=(0.0, math.inf),
+            unit=("%", 0.01, 0),
+            group=1,
+        )
         super().__init__(task, replay, bounds_of(task, self.moments), gauges)
 
     def settled(self, step: int) -> Moment:

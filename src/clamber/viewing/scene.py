@@ -49,8 +49,11 @@ def fit_bounds(points: Floats, goals: Iterable[GoalBox]) -> Bounds:
     room = 2 * pad
     for goal in goals:  # an edge of a goal must be seen, with some of what lies beyond
         for edge, along_x, sign in (
-            (goal.x_min, True, 1), (goal.x_max, True, -1), (goal.y_min, False, 1), (goal.y_max, False, -1)
-        ):  # fmt: skip
+            (goal.x_min, True, 1),
+            (goal.x_max, True, -1),
+            (goal.y_min, False, 1),
+            (goal.y_max, False, -1),
+        ):
             if edge is None or not math.isfinite(edge):
                 continue
             if along_x:
@@ -143,7 +146,14 @@ def label_region(axes: Axes, corners: Floats, words: str, bounds: Bounds, font: 
     left = float(corners[:, 0].min()) <= 0.5 * (bounds[0] + bounds[1])
     x = float(corners[:, 0].min() if left else corners[:, 0].max())
     axes.annotate(
-        words, (x, float(corners[:, 1].max())), xytext=(2 if left else -2, 2), textcoords="offset points",
-        ha="left" if left else "right", va="bottom", fontsize=font + 0.5, color=GOAL_WORDS, zorder=9,
+        words,
+        (x, float(corners[:, 1].max())),
+        xytext=(2 if left else -2, 2),
+        textcoords="offset points",
+        ha="left" if left else "right",
+        va="bottom",
+        fontsize=font + 0.5,
+        color=GOAL_WORDS,
+        zorder=9,
         path_effects=[halo()],
-    )  # fmt: skip
+    )

@@ -155,9 +155,16 @@ def _field(sweep: Sweep) -> Figure:
             where, shift, hold = (1.0, (low + high) / 2.0), (3.0, 0.0), UPRIGHT
             frame = axes.get_yaxis_transform()
         axes.annotate(
-            mark.text, where, xycoords=frame, xytext=shift, textcoords="offset points", fontsize=8, color=style.INK,
-            annotation_clip=False, **hold,
-        )  # fmt: skip
+            mark.text,
+            where,
+            xycoords=frame,
+            xytext=shift,
+            textcoords="offset points",
+            fontsize=8,
+            color=style.INK,
+            annotation_clip=False,
+            **hold,
+        )
     axes.set(xlim=(-0.5, shape[0] - 0.5), ylim=(-0.5, shape[1] - 0.5), xlabel=_title(across))
     axes.set_ylabel(_title(up))
     lengths_of = "actions of the shortest plan" if sweep.planner == "exact" else "actions of the plan"

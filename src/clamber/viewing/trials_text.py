@@ -7,7 +7,7 @@ from rich.console import Console
 
 from ..execution.fault import FAULTS
 from ..trials.fault_trials import ENDINGS, FaultRow
-from ..trials.intervals import wilson_interval
+from ..trials.trial_runs import wilson_interval
 from .text_table import plain_table
 
 MOST_NAMED: Final = 6

@@ -5,8 +5,7 @@ import pinocchio
 import pytest
 from walkers import ROBOTS, differences, hoshino, random_q
 
-from clamber.families.walker.control.cooperative.arm_moment import arm_moment
-from clamber.families.walker.control.cooperative.limits import chain_of
+from clamber.families.walker.control.cooperative.limits import arm_moment, chain_of
 from clamber.families.walker.control.cooperative.scratch import Scratch, make_scratch, see_tool
 from clamber.families.walker.robot import WalkerRobot
 from clamber.types import Floats

@@ -13,8 +13,8 @@ from clamber.families.walker.execution.settings import WalkSettings
 from clamber.families.walker.execution.true_walk import TracedPlant
 from clamber.families.walker.execution.walker import RefusedError, Walker
 from clamber.families.walker.execution.walking import KEPT, proof_strain, prove
-from clamber.families.walker.sim.walker_build import WalkerBuild
 from clamber.families.walker.sim.walker_flaws import WalkerFlaws
+from clamber.families.walker.sim.walker_model import WalkerBuild
 from clamber.families.walker.sim.walker_plant import WalkerSim
 from clamber.families.walker.world.ground import Block, Ground
 

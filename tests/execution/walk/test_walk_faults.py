@@ -4,9 +4,9 @@ import pytest
 
 from clamber.execution.fault import FAULTS, Fault, draw_fault
 from clamber.families.walker.planning import load_walk
-from clamber.families.walker.trials.faults import failing_of
 from clamber.families.walker.trials.noise import named_walk_noise
 from clamber.families.walker.trials.run_walk import WalkRun, run_walk, walk_flaws
+from clamber.families.walker.trials.trials import failing_of
 from clamber.trials.fault_trials import ENDINGS, ending_of_run
 from tiers import first_fast
 

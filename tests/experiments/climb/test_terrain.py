@@ -5,8 +5,14 @@ import pytest
 
 from clamber.families.climber.execution.hold_map import HoldMap, TipDifference
 from clamber.families.climber.planning.task import LimbedTask
-from clamber.families.climber.trials.noise import NO_NOISE, draw_for, read_noise, true_places
-from clamber.families.climber.trials.terrain import centre_of, terrain_covariance
+from clamber.families.climber.trials.noise import (
+    NO_NOISE,
+    centre_of,
+    draw_for,
+    read_noise,
+    terrain_covariance,
+    true_places,
+)
 from clamber.tasks import load_task
 from clamber.types import Floats
 

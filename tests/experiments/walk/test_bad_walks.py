@@ -8,7 +8,7 @@ import pytest
 from clamber.errors import SpecError
 from clamber.families.walker.execution.true_walk import hull_margins
 from clamber.families.walker.planning import load_walk
-from clamber.families.walker.planning.standing import start_margin
+from clamber.families.walker.planning.walk import start_margin
 from clamber.families.walker.sim.walker_plant import WalkerSim
 from clamber.families.walker.trials.run_walk import WalkRun, run_walk, walk_flaws
 

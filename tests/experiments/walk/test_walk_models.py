@@ -10,7 +10,7 @@ from clamber.families.walker.execution.walk_trace import TracedWalker
 from clamber.families.walker.execution.walker import Walker
 from clamber.families.walker.execution.walking import Walking
 from clamber.families.walker.planning import Walk, load_walk
-from clamber.families.walker.sim import ground_model
+from clamber.families.walker.sim import walker_model
 from clamber.families.walker.sim.walker_flaws import WalkerFlaws
 from clamber.families.walker.sim.walker_plant import WalkerSim
 from clamber.families.walker.trials.run_walk import own_way
@@ -44,7 +44,7 @@ def test_a_walk_up_a_slope_goes_too_far_as_feet_sink_in_along_its_normal(monkeyp
     reckoned = true_walk(walk, rate=1000.0).pose[-1, 0] - 0.5
     monkeypatch.setattr(Walker, "_settle_in", lambda walker, share: None)
     for solref in ((0.01, 1.0), (0.005, 1.0)):
-        monkeypatch.setattr(ground_model, "SOLREF", solref)
+        monkeypatch.setattr(walker_model, "SOLREF", solref)
         true = true_walk(walk, rate=1000.0)
         drifts.append(true.pose[-1, 0] - 0.5)
         standing = true.feet[50]

@@ -16,8 +16,7 @@ from clamber.families.walker.trials.trials import WalkSetup, WalkTrial, WalkTria
 from clamber.jobs import LocalProcesses, StoreError
 from clamber.planning.planners import plan_task
 from clamber.tasks import load_task
-from clamber.trials.intervals import wilson_interval
-from clamber.trials.trial_runs import run_trials
+from clamber.trials.trial_runs import run_trials, wilson_interval
 
 SHORT = "way.0.distance=3cm"
 

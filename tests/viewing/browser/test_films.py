@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 from clamber.errors import ClamberError, SpecError
 from clamber.execution.log import LogError
 from clamber.execution.log_files import write_log
+from clamber.families.climber.control.limb_chain import legs_of
 from clamber.families.climber.execution.climb_trace import TOPIC
 from clamber.families.climber.execution.course import climbable
-from clamber.families.climber.execution.legs import legs_of
 from clamber.families.climber.pictures.climb_run import ClimbFilm
 from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.planning.task import LimbedTask

@@ -54,9 +54,13 @@ def _solved(axes: Axes, contest: Contest, truths: dict[str, Truth], order: Seque
         most = max(most, int(costs.max(initial=0)))
         share = 100.0 * np.arange(len(costs) + 1) / max(1, len(trials))
         axes.step(
-            [*costs[:1], *costs, FAR], [*share, share[-1]] if len(costs) else [0.0],
-            where="post", lw=1.8, label=one.contender, **looks[one.contender],
-        )  # fmt: skip
+            [*costs[:1], *costs, FAR],
+            [*share, share[-1]] if len(costs) else [0.0],
+            where="post",
+            lw=1.8,
+            label=one.contender,
+            **looks[one.contender],
+        )
     axes.axvline(contest.allowance.checks, color=style.QUIET, lw=0.8, ls=(0, (4, 3)))
     axes.annotate(
         "allowance", (contest.allowance.checks, 1.0), xycoords=("data", "axes fraction"), xytext=(0, 3),

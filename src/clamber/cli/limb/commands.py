@@ -10,7 +10,7 @@ import typer
 from rich.console import Console
 
 from ...terminal.crew import EndsLine
-from ...terminal.option_holder import takes_options
+from ...terminal.options import takes_options
 from ...terminal.output import announce_compilation, stderr
 from . import options as opt
 from .force import force, open_loop

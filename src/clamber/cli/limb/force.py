@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.console import Console
 
-from ...terminal.option_holder import takes_options
+from ...terminal.options import takes_options
 from ...terminal.output import announce_compilation
 from . import options as opt
 

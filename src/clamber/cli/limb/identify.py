@@ -9,8 +9,7 @@ import typer
 from rich.console import Console
 
 from ...terminal.name_completion import names_of
-from ...terminal.option_holder import takes_options
-from ...terminal.options import ROBOT, AsJson, Flaws, FlawsChoice, Quiet, Settings
+from ...terminal.options import ROBOT, AsJson, Flaws, FlawsChoice, Quiet, Settings, takes_options
 from ...terminal.output import announce_compilation, check_writable, print_json, stdout
 from ...units import DEGREE
 from . import options as opt
@@ -75,7 +74,7 @@ class IdentifyWords:
 
     def mapping(self) -> dict[str, str]:
         """Which columns of the log are what."""
-        from ...execution.log_columns import read_mapping
+        from ...execution.log_roles import read_mapping
 
         chosen = {
             "time": self.time,

@@ -13,8 +13,7 @@ from rich.console import Console
 
 from ...terminal.crew import CrewWords
 from ...terminal.name_completion import names_of
-from ...terminal.option_holder import takes_options
-from ...terminal.options import ROBOT, AsJson, Quiet
+from ...terminal.options import ROBOT, AsJson, Quiet, takes_options
 from ...terminal.output import announce_compilation, check_writable, print_json, stdout
 from . import options as opt
 

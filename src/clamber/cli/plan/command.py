@@ -5,8 +5,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from ...terminal.crew import EndsLine, executor_of
-from ...terminal.option_holder import takes_options
-from ...terminal.options import TaskName
+from ...terminal.options import TaskName, takes_options
 from ...terminal.output import announce_compilation, print_json, stderr, stdout
 from .options import PlanOptions
 

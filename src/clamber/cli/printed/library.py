@@ -83,7 +83,7 @@ OURS: Final[dict[str, Any]] = {
 def _with_families() -> dict[str, Any]:
     found = dict(OURS)
     for family in families():
-        for words, kind in family.printed.items():
+        for words, kind in (family.printed or {}).items():
             found[words] = found[words] | kind if words in found else kind
     return found
 

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from ...terminal.name_completion import names_of
-from ...terminal.option_holder import takes_options
+from ...terminal.options import takes_options
 from .options import RunOptions
 
 NOT_REPEATED = ("output", "save_plan", "report", "as_json", "quiet")

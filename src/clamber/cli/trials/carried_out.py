@@ -12,11 +12,10 @@ from ...terminal.live_line import LiveLine
 from ...terminal.output import announce_compilation, print_json, refuse_unused, stderr, stdout, tell_cuts
 from ...trials.dynamics import NoPlanError, RunEvents, TrialsRequest
 from ...trials.fault_trials import fault_rows
-from ...trials.intervals import wilson_interval
-from ...trials.trial_runs import Setup, Trials, run_trials, stored_result
+from ...trials.trial_runs import Setup, Trials, run_trials, stored_result, wilson_interval
 from ...trials.work import Work
 from ...viewing.trials_text import any_error, percent
-from .options import TrialsOptions
+from .command import TrialsOptions
 
 
 def try_out(work: Work, asked: TrialsOptions, words: CrewWords) -> None:

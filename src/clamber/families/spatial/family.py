@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from ...family import Family
@@ -10,8 +11,6 @@ from ...family import Family
 if TYPE_CHECKING:
     from ...files import Document
     from ...planning.problem.check import Check
-    from ...planning.problem.problems import PlanFamily
-    from ...tasks.task_format import TaskFormat
 
 
 class Spatial(Family):
@@ -20,30 +19,22 @@ class Spatial(Family):
     name = "spatial"
     title = "robot in space"
     data = Path(__file__).parent / "data"
-
-    @property
-    def files(self) -> TaskFormat:
-        """Robots, worlds and tasks."""
-        from .planning.task import FILES
-
-        return FILES
+    parts = MappingProxyType(
+        {
+            "files": "clamber.families.spatial.planning.task:FILES",
+            "plans": "clamber.families.spatial.planning.plans:PLANS",
+        }
+    )
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """Of its stances and actions."""
+        """Of its stances and actions, without all that plans need."""
         from .planning.checks import SPATIAL_CHECKS
 
         return SPATIAL_CHECKS
 
-    @property
-    def plans(self) -> PlanFamily:
-        """Problems, plans and verdicts."""
-        from .planning.plans import PLANS
-
-        return PLANS
-
     def whole_robot(self, document: Document) -> Document:
-        """With what statics needs of the model file."""
+        """With what statics needs of the model file and of the contacts."""
         from .robot.robot import whole_document
 
         return whole_document(document)

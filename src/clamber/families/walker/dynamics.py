@@ -12,11 +12,10 @@ from ...planning.problem.plan import Plan
 from ...trials.dynamics import Conditions, Dynamics, NoPlanError, RunEvents, RunRequest, TrialsRequest
 from .planning import Walk
 from .planning.task import WalkerTask
-from .trials.faults import failing_of
 from .trials.noise import WalkNoise, named_walk_noise, read_walk_noise
 from .trials.planned import careful, lay_plan, walk_of
 from .trials.run_walk import WalkRun, run_walk, step_told, walk_flaws
-from .trials.trials import WalkSetup, WalkTrial, WalkTrials
+from .trials.trials import WalkSetup, WalkTrial, WalkTrials, failing_of
 
 if TYPE_CHECKING:
     from rich.console import Console

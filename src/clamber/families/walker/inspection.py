@@ -11,8 +11,7 @@ from .planning import Walk, load_walk, walk_names
 from .planning.walk import SCHEMA as WALK_SCHEMA
 from .robot import WalkerRobot
 from .world.ground import SCHEMA as GROUND_SCHEMA
-from .world.ground import Ground
-from .world.library import ground_names, load_ground
+from .world.ground import Ground, ground_names, load_ground
 
 TWISTS: Final = np.linspace(-math.pi / 3, math.pi / 3, 241)
 """A walker's frames repeat after a third of a turn [rad]."""

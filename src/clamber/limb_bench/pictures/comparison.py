@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 
 from ...types import Floats
 from ...viewing import style
-from ...viewing.law_colours import LAW_COLOURS, OUTSIDE
 from ...viewing.output import drawing
+from ...viewing.style import LAW_COLOURS, OUTSIDE
 from ..measures import components, radial_error
 from ..result import LimbResult, Row
 from .panels import DASHED, LINES, MM, dress, head, legend_below

@@ -12,9 +12,8 @@ from matplotlib.patches import Polygon
 from ...sim.bench_limb import BenchLimb
 from ...types import Floats
 from ...viewing import style
-from ...viewing.law_colours import LAW_COLOURS, WANTED
 from ...viewing.output import drawing
-from ...viewing.style import bare
+from ...viewing.style import LAW_COLOURS, WANTED, bare
 from ..force import ForceResult
 from ..measures import ForceMeasures, Measured
 from ..open_loop import OpenLoopResult, OpenLoopRun

@@ -11,9 +11,8 @@ from matplotlib.figure import Figure
 from ...control.law_settings import LawSettings
 from ...sim.flaw_texts import SET
 from ...viewing import style
-from ...viewing.law_colours import LAW_COLOURS
 from ...viewing.output import CANVASES, check_suffix, save_figure
-from ...viewing.style import styled
+from ...viewing.style import LAW_COLOURS, styled
 from ..entries import gain_unit
 from ..measures import ForceMeasures, Measured, Measures, components, radial_error
 from ..portrait import Portrait

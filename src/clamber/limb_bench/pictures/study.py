@@ -11,8 +11,8 @@ from matplotlib.lines import Line2D
 
 from ...types import Floats
 from ...viewing import style
-from ...viewing.law_colours import LAW_COLOURS, MATCH_LINES, WANTED
 from ...viewing.output import drawing
+from ...viewing.style import LAW_COLOURS, MATCH_LINES, WANTED
 from ..measures import Entry, Run
 from .panels import MM, dress, legend_below, study_title
 

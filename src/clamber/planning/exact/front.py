@@ -14,8 +14,7 @@ from ..problem.problems import PlannedAction, listed_problem, plan_family, spent
 from ..progress import Clock, Exploring, Listener
 from .costs import COSTS, Aim, check_costs
 from .explore import Exploration, Way, inform
-from .minimize import UNDER, Minimizer
-from .planner import MOST_STANCES
+from .planner import MOST_STANCES, UNDER, Minimizer
 
 
 @dataclass(frozen=True, slots=True)

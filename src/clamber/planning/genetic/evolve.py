@@ -262,9 +262,16 @@ def polish(
     children = np.zeros((BATCH, len(genes) + 1), np.int32)
     lengths = np.zeros(BATCH, np.int32)
     vary(
-        genes, len(genes), children, lengths, len(problem.actions), problem.actions.runs,
-        profile.search.run_length, seed, turn,
-    )  # fmt: skip
+        genes,
+        len(genes),
+        children,
+        lengths,
+        len(problem.actions),
+        problem.actions.runs,
+        profile.search.run_length,
+        seed,
+        turn,
+    )
     weights = np.zeros(len(problem.features))
     records = problem.rollout(children, lengths, weights, profile.search.longest)
     state.evaluations += BATCH

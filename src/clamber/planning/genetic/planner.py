@@ -1,21 +1,200 @@
 """The genetic planner as a whole: a task in, a plan or the furthest stance out."""
 
-from collections.abc import Sequence
+import json
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Final
 
 import numpy as np
 
 from ...tasks import Task
 from ..problem.arrays import ActionTable
 from ..problem.plan import Plan
+from ..problem.problem import CompiledProblem
 from ..problem.problems import last_goal_only, plan_family, pose_problem
 from ..progress import Clock, Listener
 from ..result import PlanResult, furthest_of
 from ..shorten import Shortened, shorten
-from .evolve import Genes
-from .learning import Macro
+from .checkpoint import Keeper, Run, with_macros
+from .evolve import (
+    BATCH,
+    PATIENCE,
+    Evolution,
+    Generation,
+    Genes,
+    explicit_problem,
+    first_generation,
+    next_generation,
+    polish,
+    spell_to_goal,
+    tell,
+)
+from .learning import Macro, learn_while_searching
 from .profile import Profile, load_profile
-from .search import Budget, Outcome, search
+
+LEARN_EVERY: Final = 10
+"""Generations between looks for a repeated sequence."""
+
+
+@dataclass(frozen=True, slots=True)
+class Budget:
+    """When a search stops."""
+
+    evaluations: int
+    """Most plans to evaluate, polishing included; the first generation is always evaluated."""
+    seconds: float | None = None
+    """Most wall-clock time [s]; a search that it ends is not repeatable."""
+    checks: int | None = None
+    """Most single actions to judge; a generation that has begun is finished."""
+
+    def allows(self, state: Evolution, more: int, clock: Clock) -> bool:
+        """Whether so many more plans may be evaluated in a search with a clock of its seconds."""
+        judged = self.checks is not None and state.checks >= self.checks
+        return state.evaluations + more <= self.evaluations and not judged and not clock.is_over
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What a search came to: codes (holds resolved) of the best plan, and how it got there."""
+
+    codes: Genes
+    found: bool
+    interrupted: bool
+    first_length: int | None
+    """Actions of the first plan that reached the goal, before polishing."""
+    first_evaluations: int | None
+    """Plans evaluated up to it."""
+    first_checks: int | None
+    """Single actions judged up to it."""
+    evaluations: int
+    checks: int
+    history: tuple[Generation, ...]
+    macros: tuple[Macro, ...]
+    names: tuple[str, ...]
+    """What the inventory called each gene of the plan; empty after polishing, which names holds instead."""
+
+
+def search(
+    problem: CompiledProblem,
+    profile: Profile,
+    *,
+    seed: int,
+    budget: Budget,
+    listener: Listener | None = None,
+    checkpoint: Path | None = None,
+    identity: str = "",
+    seeds: Sequence[Genes] = (),
+) -> Outcome:
+    """Search for a plan, then make it shorter.
+
+    Args:
+        problem: What to plan.
+        profile: The planner's settings.
+        seed: Same seed, same plan, on any number of threads.
+        budget: When to stop.
+        listener: Called after every generation.
+        checkpoint: File that the search is saved to, and resumed from if it is there.
+        identity: Names task, profile, inventory and seeds; a checkpoint of another one is refused.
+        seeds: Genes of plans, or beginnings of plans, that the first generation holds.
+
+    Returns:
+        The outcome; Ctrl-C ends the search with the best so far.
+
+    Raises:
+        FileError: If the checkpoint is none, or belongs to another search or release.
+        SpecError: If something in it is none that this search can have.
+    """
+    clock = Clock(budget.seconds)
+    identity = f"{identity}/seed {seed}/profile {json.dumps(asdict(profile), sort_keys=True, default=str)}"
+    keeper = Keeper(checkpoint, identity)
+    interrupted = False
+    run = keeper.load(problem, profile.search.population, profile.search.longest)
+    base = problem
+    if run is None:
+        run = Run(first_generation(problem, profile, seed, seeds), [])
+    else:
+        problem = with_macros(base, run.macros)
+
+    def watch() -> None:
+        keeper.save(run)
+        tell(listener, problem, run.state)
+
+    try:
+        tell(listener, problem, run.state)
+        while not run.state.found and budget.allows(run.state, profile.search.population, clock):
+            if (
+                profile.search.learned_macros
+                and run.state.generation % LEARN_EVERY == LEARN_EVERY - 1
+                and not run.macros
+            ):
+                run.macros = learn_while_searching(problem, run.state)
+                if run.macros:
+                    problem = with_macros(base, run.macros)
+                    run.state.population.follow = np.full(
+                        (len(run.state.population.genes), 1 + len(problem.actions)), -1, np.int32
+                    )
+            next_generation(problem, profile, run.state, seed)
+            watch()
+        _polish(problem, profile, run, seed, lambda: budget.allows(run.state, BATCH, clock), watch)
+    except KeyboardInterrupt:
+        interrupted = True
+    _note_success(run)
+    keeper.save(run, now=True)
+    return _outcome(problem, run, interrupted)
+
+
+def _note_success(run: Run) -> None:
+    if run.state.found and run.first_length is None:
+        run.first_length, run.first_evaluations = run.state.best_actions, run.state.evaluations
+        run.first_checks = run.state.checks
+
+
+def _polish(
+    problem: CompiledProblem,
+    profile: Profile,
+    run: Run,
+    seed: int,
+    affords: Callable[[], bool],
+    watch: Callable[[], None],
+) -> None:
+    """Turns of polishing as long as they are afforded and help; `watch` is called after each."""
+    state = run.state
+    if not state.found:
+        return
+    _note_success(run)
+    most = run.first_evaluations + profile.search.polish if run.first_evaluations else 0
+    named, start = explicit_problem(problem, state.best)
+    genes = start if run.polished is None else _entries(named, run.polished)
+    while state.evaluations + BATCH <= most and run.stale < PATIENCE and affords():
+        genes, shorter = polish(named, profile, state, genes, seed, run.turn)
+        run.polished = named.actions.spell(genes)
+        run.turn += 1
+        run.stale = 0 if shorter else run.stale + 1
+        state.best_actions = len(genes)
+        watch()
+
+
+def _entries(problem: CompiledProblem, codes: Genes) -> Genes:
+    """Table entries of single codes."""
+    index = {int(code): i for i, code in enumerate(problem.actions.codes)}
+    return np.array([index[int(code)] for code in codes], np.int32)
+
+
+def _outcome(problem: CompiledProblem, run: Run, interrupted: bool) -> Outcome:
+    state = run.state
+    names: tuple[str, ...] = ()
+    codes = spell_to_goal(problem, state.best) if run.polished is None else run.polished
+    if run.polished is None:
+        names = tuple(
+            problem.actions.names[g]
+            for g in state.best
+            for _ in range(problem.actions.offsets[g + 1] - problem.actions.offsets[g])
+        )[: len(codes)]
+    return Outcome(
+        codes, state.found, interrupted, run.first_length, run.first_evaluations, run.first_checks,
+        state.evaluations, state.checks, tuple(state.history), tuple(run.macros), names,
+    )  # fmt: skip
 
 
 def with_seeds(table: ActionTable, plans: Sequence[Genes]) -> tuple[ActionTable, list[Genes]]:

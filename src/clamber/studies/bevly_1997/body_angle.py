@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from ...families.climber.control.body_estimate import LINE, SECOND_TIP, estimate_body
-from ...families.climber.execution.legs import legs_of
+from ...families.climber.control.limb_chain import legs_of
 from ...families.climber.execution.postures import postures
 from ...types import Floats
 from ...units import DEGREE
@@ -64,8 +64,10 @@ def find_poses() -> StudyResult:
         for plan, held in found.items()
     }
     ratio = {plan: printed / line for plan, (printed, line) in rms.items()}
-    lost = {plan: [sum(int((np.abs(errors[:, 2]) > LOST).sum()) for errors in ways) for ways in _both(held)]
-            for plan, held in found.items()}  # fmt: skip
+    lost = {
+        plan: [sum(int((np.abs(errors[:, 2]) > LOST).sum()) for errors in ways) for ways in _both(held)]
+        for plan, held in found.items()
+    }
     everything = [one for held in found.values() for one in held]
     return StudyResult(
         claim="Section 4.4.3: with two legs on known pegs the body's place follows from the first, its angle from turning the body about "

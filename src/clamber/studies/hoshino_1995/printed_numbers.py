@@ -6,15 +6,35 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+import numpy.typing as npt
 
 from ...families.walker.robot import TwoFrames
-from ...families.walker.robot.slide_time import slide_seconds
 from ...families.walker.robot.turning import turning_range
 from ...families.walker.robot.workspace import best_directions, stride
+from ...types import Floats
 from ...units import DEGREE
 from ..result import Compared, StudyResult, Table, Value, Verdict
 from . import CALIBRATED, SIGNS
 from .walker import MM, hoshino
+
+PIECES = 400
+
+
+def slide_seconds(frames: TwoFrames, speed: float, start: npt.ArrayLike, end: npt.ArrayLike) -> float:
+    """Least time of a straight slide, which may turn evenly on its way: at every place the busiest actuator runs at full speed [s].
+
+    Starting and stopping take no time here.
+
+    Args:
+        frames: The mechanism.
+        speed: Of the actuators [m/s].
+        start, end: Poses of the Y-frame in the Delta-frame, shape (3,) [m], [rad].
+    """
+    begin = np.asarray(start, np.float64)
+    change = np.asarray(end, np.float64) - begin
+    lengths: Floats = np.array([frames.lengths(begin + share * change) for share in np.linspace(0.0, 1.0, PIECES + 1)])
+    return float(abs(np.diff(lengths, axis=0)).max(axis=1).sum() / speed)
+
 
 MINUTE: Final = 60.0
 PRINTED: Final = (-48.0, 18.0, 160.0, 130.0, 150.0)

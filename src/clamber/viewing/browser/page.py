@@ -120,10 +120,17 @@ def round_all(values: Iterable[float]) -> list[float]:
 def block_data(gauges: Gauges) -> Json:
     """A block of bars for the page's panel."""
     return {
-        "title": gauges.title, "names": gauges.names, "colours": gauges.colours, "low": gauges.low.tolist(),
-        "high": gauges.high.tolist(), "limits": gauges.limits, "calm": [gauges.calm[0], min(gauges.calm[1], 1e9)],
-        "unit": gauges.unit, "note": gauges.note, "alert": style.ALERT,
-    }  # fmt: skip
+        "title": gauges.title,
+        "names": gauges.names,
+        "colours": gauges.colours,
+        "low": gauges.low.tolist(),
+        "high": gauges.high.tolist(),
+        "limits": gauges.limits,
+        "calm": [gauges.calm[0], min(gauges.calm[1], 1e9)],
+        "unit": gauges.unit,
+        "note": gauges.note,
+        "alert": style.ALERT,
+    }
 
 
 def _numbers(blocks: tuple[Floats, ...]) -> list[float | None]:

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Self
 import typer
 
 from ....terminal.name_completion import names_of
-from ....terminal.option_holder import takes_options
-from ....terminal.options import AsJson, NoiseTexts, Overrides, Quiet
+from ....terminal.options import AsJson, NoiseTexts, Overrides, Quiet, takes_options
 from ....terminal.output import print_json, stderr
 
 if TYPE_CHECKING:

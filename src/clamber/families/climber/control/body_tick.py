@@ -9,7 +9,7 @@ import math
 import numpy as np
 
 from ....compiled import carray, inlined, kernel, pointer
-from ....control.desk import DESK, DESK_TORQUES, drive_at
+from ....control.drive import DESK, DESK_TORQUES, drive_at
 from ....control.records import AIM, AXES
 from .body import WRENCH, command_tips, drag_tips
 from .body_estimate import estimate_body

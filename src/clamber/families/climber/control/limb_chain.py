@@ -1,4 +1,4 @@
-"""A limb of a climber as a chain."""
+"""The limbs of a climber as the laws know them: each as a chain, and all as records of the body's control."""
 
 import numpy as np
 
@@ -6,6 +6,7 @@ from ....control.chain import Chain, ShareBasis, _wrapped, empty_chain, rotation
 from ....types import Records
 from ....units import GRAVITY
 from ..robot.robot import Joint, Limb, LimbedRobot
+from .leg import LEG
 
 
 def chain_of_limb(robot: LimbedRobot, name: str, *, basis: ShareBasis = "inertia", upright: bool = False) -> Chain:
@@ -73,3 +74,22 @@ def closed_branches(limb: Limb, x: float, y: float) -> tuple[tuple[float, float]
         theta1 = np.arctan2(y, x) - np.arctan2(l2 * np.sin(inner), l1 + l2 * np.cos(inner))
         out.append((float(_wrapped(theta1)), float(_wrapped(theta2))))
     return tuple(out)
+
+
+def legs_of(robot: LimbedRobot) -> Records:
+    """Records of `control.leg.LEG`, shape (limbs,)."""
+    legs = np.zeros(len(robot.limbs), LEG)
+    for i, limb in enumerate(robot.limbs):
+        joints = chain_of_limb(robot, limb.name).joints
+        masses, centres = joints["mass"], joints["centre"][:, 0]
+        legs[i] = (
+            *(limb.port_x, limb.port_y, limb.port_angle, limb.l1, limb.l2_effective, limb.hook_beta),
+            *(limb.end.angle, limb.end.kind == "hook", *joints["share"]),
+            *(GRAVITY * (masses[0] * centres[0] + masses[1] * limb.l1), GRAVITY * masses[1] * centres[1]),
+            GRAVITY * masses.sum(),
+            *joints["rotor"],
+            *joints["friction"],
+            *joints["damping"],
+            *joints["limit"],
+        )
+    return legs

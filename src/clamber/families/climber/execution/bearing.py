@@ -6,9 +6,9 @@ import numpy as np
 
 from ....types import Floats, Ints, Records
 from ..control.hook_forces import MOST_CUTS, pair_forces
+from ..control.limb_chain import legs_of
 from ..control.play import weight_moment
 from ..robot.robot import LimbedRobot
-from .legs import legs_of
 from .postures import postures
 
 

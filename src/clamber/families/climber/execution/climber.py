@@ -7,11 +7,11 @@ from typing import Final
 
 import numpy as np
 
-from ....execution.joint_hold import JointHold
 from ....execution.plant import BodyPlant, BodySensed
+from ....execution.posture_guard import JointHold
 from ....execution.reading_monitor import ReadingMonitor
-from ....execution.run_ends import FallenError as FallenError
-from ....execution.run_ends import FaultError
+from ....execution.run_report import FallenError as FallenError
+from ....execution.run_report import FaultError
 from ....types import Floats, Ints
 from ..robot.robot import LimbedRobot
 from ..world.board import Board

@@ -8,14 +8,13 @@ import numpy as np
 
 from ....types import Floats, Ints, Records
 from ..control.hook_forces import MOST_CUTS, pair_forces
+from ..control.limb_chain import legs_of
 from ..control.swing_path import clearance
-from ..robot.hooks import HOOK_AHEAD, HOOK_WAY, HOOK_WIDTH
-from ..robot.robot import LimbedRobot
+from ..robot.robot import HOOK_AHEAD, HOOK_WAY, HOOK_WIDTH, LimbedRobot
 from ..statics.elbows import has_assignment
 from ..statics.interference import hook_gap
 from ..world.board import Board
 from .approach import discs_near, wall_of
-from .legs import legs_of
 from .postures import Posture, postures
 
 CHANGE: Final = 0.4

@@ -9,11 +9,153 @@ import numpy as np
 from ....types import Floats
 from .approach import Approach
 from .climber import Climber
-from .hook_back import back_off as back_off
+from .hook_push import push_on
 from .hook_release import release as release
 from .hook_release import stand_off_of
-from .hook_seat import comes_home
-from .motions import may_move, move_body, move_tip
+from .motions import JOINT_SPEED, follow, may_move, move_body, move_tip
+from .postures import postures
+from .pushed_body import PushedBody
+
+SLACK: Final = 0.008
+"""Beyond its doubt, how far a seated hook may be from where it should be: play and backlash [m]."""
+SHALLOW: Final = (0.010, 0.015)
+"""A hook that stops the first of these before its hold may rest on its flare against it, however hard it is pushed, and slip off later:
+it counts as seated where it comes to the same place once more, pushed on from elsewhere; at the second it doesn't at all [m]."""
+FAR_OFF: Final = (0.006, 0.012)
+"""Likewise one that stops, beyond what the hold is in doubt by, the first of these off it, or the second in all, any way: it may lie on
+it with the outer end of its flare [m]."""
+PASSED: Final = 0.013
+"""One that stops beyond its hold, so far off in all: it may have passed it by, and lean on it with the limb [m]."""
+DEEPER: Final = 0.004
+"""Likewise one that has come so much farther in an earlier try: nothing goes farther onto its hold than a hook that is home [m]."""
+FROM_A_HANG: Final = (0.0115, 0.0125)
+"""From a body that hangs one that stops less than the first before its hold, and where that may be, is home: taken off to be tried again, a
+hook that was sets the body swinging, and few were not. At the second it isn't, even where it comes there again [m]."""
+AT_FULL_REACH: Final = (math.radians(25.0), 0.006, 0.003)
+"""A limb whose elbow is straighter than the first may have stopped at the end of its reach, not on its hold: it has if it stops the second
+before, and may have where it stops so far off, or the third before [m]."""
+SAME: Final = 0.003
+"""Two places that are so near to each other are the same [m]."""
+
+
+def comes_home(
+    climber: Climber, i: int, hold: Floats, doubt: float, g: Floats, place: Floats, before: Sequence[Floats]
+) -> bool:
+    """Push a hook on at a place along its grab direction, and judge by where it stopped whether it is on its hold.
+
+    Args:
+        climber: The robot.
+        i: Index of the limb.
+        hold: Where the hold is believed to be, world frame, shape (2,) [m].
+        doubt: How far it may be from there, either way [m].
+        g: Grab direction, world frame, shape (2,) [-].
+        place: At which it is pushed on, world frame, shape (2,) [m].
+        before: Where the tip ended in earlier tries at this hold, world frame [m].
+
+    Raises:
+        FallenError: If the robot falls.
+    """
+    room = SLACK + doubt
+    stopped = push_on(climber, i, place, g, room)
+    tip = climber.body.tip(i)
+    short = float((hold - tip) @ g)
+    off = math.dist(tip, hold)
+    again = any(math.dist(tip, end) < SAME for end in before)
+    shallow = FROM_A_HANG if climber.hangs else SHALLOW
+    if not stopped or off > (SHALLOW[1] if again else room) or short > shallow[1]:
+        return False
+    # twins are nearer to each other than the doubt
+    if any(math.dist(tip, other) < off for other in climber.holds.values()):
+        return False
+    # a body that hangs is drawn near until the limb is straight
+    straight = abs(climber.body.q.item(i, 1)) < AT_FULL_REACH[0] and not climber.hangs
+    if straight and short > AT_FULL_REACH[1]:
+        return False
+    home = short < shallow[0]
+    if straight:
+        home = off < AT_FULL_REACH[1] and short < AT_FULL_REACH[2]
+    elif not climber.hangs:
+        home = home and off < min(FAR_OFF[0] + doubt, FAR_OFF[1] if short > 0.0 else PASSED)
+    farther = any(float((end - tip) @ g) > DEEPER and math.dist(end, hold) < room for end in before)
+    return (home and not farther) or again
+
+
+CLEAR: Final = 0.02
+"""So far aside a hook that lies beside its hold comes off it without its flare, 15 mm either way, catching there [m]."""
+CAUGHT: Final = 0.01
+"""A hook that stays so far from where it is to be is caught [m] ..."""
+NO_WAY: Final = (0.002, 0.15)
+"""... when it has come no farther than the first of these for the second [m], [s]."""
+STEP: Final = 0.01
+"""Between postures on the way of a hook that its joints bring straight back [m]."""
+BACK_SPEED: Final = 0.05
+"""Of a hook on its way back: slow, for what it is caught on it pulls at no harder then [m/s]."""
+
+
+def back_off(climber: Climber, i: int, hold: Floats, doubt: float, found: Approach) -> None:
+    """Bring the hook off where it missed: back the way it came, for the hold may be beside it by now, then to before the hold.
+
+    Where a lip of its flare catches below the hold, it goes to the one side first, then to the other; so does one that has passed the hold
+    by, before it goes back: on its way there it had not caught, but hooks catch on their way back.
+    """
+    away, g, tip = stand_off_of(climber, i, doubt), found.grab, climber.body.tip(i)
+    across = np.array((-g[1], g[0]))
+    deep = float((tip - hold) @ g) + away
+    side = math.copysign(CLEAR, float((tip - hold) @ across))  # the hold is more likely on the other one
+    passed = deep - away > SLACK + doubt
+    sides = (side, 0.0, -side) if passed else (0.0, side, -side)
+    for aside in sides if deep > 0.0 else ():
+        start = tip + aside * across
+        if aside:
+            _comes_to(climber, i, start)
+        if _comes_to(climber, i, start - deep * g):
+            break
+    _comes_to(climber, i, hold - away * g)
+
+
+def _comes_to(climber: Climber, i: int, place: Floats) -> bool:
+    """Bring a tip straight to a place, or to where something holds it: pulled on, other hooks come off; whether it comes there."""
+    if climber.hangs or abs(climber.body.q.item(i, 1)) < AT_FULL_REACH[0]:
+        return _comes_by_joints(climber, i, place)
+    body, period = climber.body, climber.plant.period
+    task, start = body.tasks[i], body.tip(i)
+    length = math.dist(start, place)
+    way = (place - start) / max(length, 1e-9)
+    task.doing, gone, mark, stands = "tip", 0.0, 0.0, 0.0
+    watch = PushedBody(climber)
+    while stands < NO_WAY[1]:
+        gone = min(gone + BACK_SPEED * period, length)
+        task.place, task.speed = start + gone * way, (BACK_SPEED if gone < length else 0.0) * way
+        climber.tick()
+        if watch.gives_way(i):
+            return False
+        if math.dist(body.tip(i), place) < CAUGHT:
+            break
+        come = float((body.tip(i) - start) @ way)
+        behind = gone - come > CAUGHT or gone == length
+        mark, stands = (come, 0.0) if come > mark + NO_WAY[0] or not behind else (mark, stands + period)
+    there = math.dist(body.tip(i), place) < CAUGHT
+    task.place, task.speed = place if there else body.tip(i), np.zeros(2)
+    return there
+
+
+def _comes_by_joints(climber: Climber, i: int, place: Floats) -> bool:
+    """The same along the postures between: a nearly straight elbow that is to bend at once is thrown by its tip's law.
+
+    From a hang as fast as joints go: there is no other hook to pull off.
+    """
+    body, task, limb = climber.body, climber.body.tasks[i], climber.robot.limbs[i]
+    start, way = body.tip(i), [body.q[i] - body.play[i]]
+    side = task.side or math.copysign(1.0, way[0][1])
+    for part in np.linspace(0.0, 1.0, max(2, math.ceil(math.dist(start, place) / STEP)) + 1)[1:]:
+        fit = postures(limb, body.settled, start + part * (place - start))
+        way += [one.angles for one in fit if one.inside and one.angles[1] * side > 0.0][:1]
+    if len(way) == 1:
+        return False
+    turned = float(np.abs(np.diff(way, axis=0)).max(axis=1).sum())
+    most = JOINT_SPEED if climber.hangs else min(JOINT_SPEED, BACK_SPEED * turned / max(math.dist(start, place), STEP))
+    return follow(climber, i, np.array(way), most=most) and math.dist(body.tip(i), place) < CAUGHT
+
 
 NEAR: Final = 0.022
 """From here on, and the hold's doubt farther off, the hook is pushed, not placed: nearer, its flare would meet the hold sideways [m]."""

@@ -17,8 +17,7 @@ import numpy as np
 from ....types import Floats
 from ....units import GRAVITY
 from ..control.limb_chain import chain_of_limb
-from ..robot.masses import body_inertia, body_mass
-from ..robot.robot import LimbedRobot
+from ..robot.robot import LimbedRobot, body_inertia, body_mass
 
 DIFFERENCE: Final = 1e-5
 """Step of the joints over which slopes are taken [rad]."""

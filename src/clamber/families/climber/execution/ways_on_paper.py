@@ -6,12 +6,12 @@ from typing import Final
 import numpy as np
 
 from ....types import Floats
+from ..control.limb_chain import legs_of
 from .approach import Approach, Approaches
 from .bearing import borne
 from .course import Course
 from .hook import NEAR
 from .hook_release import AWAY, stand_off
-from .legs import legs_of
 from .motions import WEAKER
 from .parking import park, poses_between
 from .postures import postures

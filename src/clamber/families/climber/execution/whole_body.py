@@ -14,13 +14,12 @@ from ..control import body_tick as at
 from ..control.body_estimate import ENCODER
 from ..control.body_tick import JOB, TABLE, command_tick, see_tick
 from ..control.hook_forces import MOST_CUTS, pair_forces
-from ..control.limb_chain import chain_of_limb
+from ..control.limb_chain import chain_of_limb, legs_of
 from ..control.play import weight_moment
 from ..control.virtual_potential import repel_limbs
 from ..robot.robot import LimbedRobot
 from .body_gains import USUAL, BodyGains, records_of
 from .body_schemes import SCHEMES
-from .legs import legs_of
 from .limb_task import DOING, LimbTask
 from .postures import postures
 

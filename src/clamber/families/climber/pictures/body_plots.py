@@ -9,9 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from ....viewing import style
-from ....viewing.law_colours import LAW_COLOURS, MATCH_LINES, WANTED
 from ....viewing.output import drawing
-from ....viewing.style import bare
+from ....viewing.style import LAW_COLOURS, MATCH_LINES, WANTED, bare
 from ..trials.body_bench import SLOT, BodyEntry, BodyRun
 from ..trials.body_stand import BodyScenario
 from ..trials.press import Pressed

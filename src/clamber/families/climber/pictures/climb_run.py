@@ -14,9 +14,9 @@ from ....viewing.route import draw_way, label_ghost, pick_ghosts
 from ....viewing.scene import describe_pose
 from ....viewing.view import Picture
 from ..control.felt_force import feel_forces
+from ..control.limb_chain import legs_of
 from ..execution.climb_report import ActionReport
 from ..execution.climb_trace import ClimbTrace
-from ..execution.legs import legs_of
 from ..planning.task import LimbedTask
 from ..robot.robot import Limb
 from ..trials.run_plan import ClimbRun

@@ -22,14 +22,12 @@ from ..statics.elbows import EVERY
 from ..statics.records import PARAMS, STANCE
 from .arrays import CHECKS, limbed_params
 from .cost_to_go import BURDENS, aims, burden, spot
-from .dominating import freer
 from .goals import FEATURES, done, measure
-from .heuristic import toward
 from .inventory import most_in_reach, whole_kinds
 from .keys import bound, candidates, cell, key, key_length, restore
-from .mirror import reflect
 from .place_costs import way_fields
 from .relaxed import with_bound
+from .stance_pairs import freer, reflect, toward
 from .step import step
 from .symmetry import mirrored_code, with_mirror
 from .task import LimbedTask

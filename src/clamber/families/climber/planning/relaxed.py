@@ -16,9 +16,8 @@ from ....planning.problem.check import TICKS
 from ..statics.elbows import EVERY
 from ..statics.records import STANCE
 from ..statics.stance import HANGS, REACH
-from .relaxed_goals import mark_goals, sort_sources
 from .relaxed_places import SECTORS, UNREACHED, find_grips, number_states
-from .relaxed_sweep import find_beside, sweep_back
+from .relaxed_sweep import find_beside, mark_goals, sort_sources, sweep_back
 
 MOST_BYTES: Final = 192 << 20
 """Of the table; a larger one costs more than it saves: then rotation is free in it, and if that is too large too, there is none."""

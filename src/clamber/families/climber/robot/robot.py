@@ -38,6 +38,14 @@ from ....units import (
     PositiveTorqueConstant,
 )
 
+HOOK_WIDTH: Final = 0.0287
+"""Across, from lip to lip [m]."""
+HOOK_AHEAD: Final = 0.0161
+"""From the seated hold's centre along the grab direction to the end of the lips [m]."""
+HOOK_WAY: Final = 0.042
+"""Least distance from a hold at which a hook that opens along its link turns towards it: nearer, its flare knocks the hold [m]."""
+
+
 SCHEMA: Final = "clamber-robot-1"
 MAX_LIMBS: Final = 8
 """Limb slots of a stance; more would make every stance larger."""
@@ -289,3 +297,20 @@ def _hull(points: Iterable[tuple[float, float]]) -> Floats:
 
 def _turn(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float]) -> float:
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+
+def body_mass(robot: LimbedRobot) -> float:
+    """Mass of the body without its limbs [kg]."""
+    return robot.weight / GRAVITY - sum(sum(limb.link_masses) for limb in robot.limbs)
+
+
+def body_inertia(robot: LimbedRobot) -> float:
+    """Inertia of the body without its limbs about its origin [kg m^2]: an even plate over the triangle, or polygon, of its ports."""
+    ports = sorted(((limb.port_x, limb.port_y) for limb in robot.limbs), key=lambda p: math.atan2(p[1], p[0]))
+    area = second = 0.0
+    for (x0, y0), (x1, y1) in zip(ports, ports[1:] + ports[:1], strict=True):
+        cross = x0 * y1 - x1 * y0
+        area += cross / 2
+        second += cross * (x0 * x0 + x0 * x1 + x1 * x1 + y0 * y0 + y0 * y1 + y1 * y1) / 12
+    per_mass = second / area if area > 0.0 else max(x * x + y * y for x, y in ports) / 2
+    return body_mass(robot) * per_mass

@@ -13,16 +13,14 @@ import numpy as np
 
 from ....sim.force_sensing import add_sensor
 from ....sim.limb_flaws import LimbFlaws
-from ....sim.limb_model import add_link
+from ....sim.limb_model import add_link, add_wall
 from ....sim.lone_robot import JointBounds
-from ....sim.wall_model import add_wall
 from ....types import Floats
 from ....units import GRAVITY, INCH
 from ..control.limb_chain import chain_of_limb
-from ..robot.masses import body_inertia, body_mass
-from ..robot.robot import Limb, LimbedRobot
+from ..robot.robot import Limb, LimbedRobot, body_inertia, body_mass
 from ..world.board import Board
-from .gripper_model import add_gripper
+from .grippers import add_gripper
 
 PEG_SOLREF: Final = (0.004, 1.0)
 PEG_SOLIMP: Final = (0.95, 0.99, 0.0005, 0.5, 2.0)

@@ -6,8 +6,8 @@ from typing import Any, Final
 import numpy as np
 
 from ....execution.plant import BodySensed, BodyTruth
+from ....sim.force_sensing import WrenchReader
 from ....sim.limb_flaws import ForceSensor, LimbFlaws
-from ....sim.wrench_reader import WrenchReader
 from ....types import Floats, Ints
 from ..control.limb_chain import chain_of_limb
 from ..execution.postures import postures

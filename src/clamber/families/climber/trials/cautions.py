@@ -9,7 +9,7 @@ from ....types import Json
 from ....units import DEGREE, INCH
 from ..execution.here import GENERATORS, hold_document
 from ..planning.task import LimbedTask
-from ..robot.hooks import HOOK_AHEAD, HOOK_WAY, HOOK_WIDTH
+from ..robot.robot import HOOK_AHEAD, HOOK_WAY, HOOK_WIDTH
 from ..world.board import Hold
 
 MM: Final = 1e-3

@@ -1,16 +1,18 @@
 """One plan carried out in contact dynamics: the plant with its flaws, pegs that are not where the map says, and what came out."""
 
+import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from operator import attrgetter
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Final
 
 import numpy as np
 
 from ....errors import SpecError
-from ....execution.fault import Fault
+from ....execution.fault import Failing, Fault
+from ....execution.faulty_plants import FaultyBody
 from ....execution.log_stream import LogGap, WantedLog, growing_log
 from ....execution.plant import BodyPlant
 from ....execution.sequencer import Sequencer
@@ -26,11 +28,31 @@ from ..execution.climb_trace import TOPIC, ClimbTrace, TracedClimber, limb_notes
 from ..execution.climbing import Climbing, Progress, Replan
 from ..execution.course import climbable, lay_course
 from ..planning.task import LimbedTask
-from .faults import failing_body
-from .noise import NO_NOISE, Drawn, Noise, assumed_backlash, check_noise, draw_for, true_places
+from ..robot.robot import LimbedRobot
+from .noise import NO_NOISE, Drawn, Noise, assumed_backlash, check_noise, draw_for, terrain_covariance, true_places
 from .plants import climbing_plant, drawn_plant, truth_of
-from .terrain import terrain_covariance
 from .warm_up import warm_up
+
+BEGINS: Final = (1.0, 20.0)
+"""First and last time at which a fault of a trial begins [s]: early, so that what comes of it is soon known."""
+GRABS: Final = 6
+"""A hold that is too weak is one of so many that are held at the start or grabbed first."""
+
+
+def failing_of(task: LimbedTask, plan: Plan) -> Failing:
+    """Encoders, motors, and the holds that the plan comes to first."""
+    robot = task.robot
+    names, spans = robot.joint_names, [joint.upper - joint.lower for joint in robot.joints]
+    taken = [*task.start.holds.values(), *(action.hold for action in plan.actions if action.hold is not None)]
+    holds = tuple(dict.fromkeys(hold for hold in taken if hold))[:GRABS]
+    sensors = dict(zip(names, spans, strict=True)) | {"body": math.tau}
+    return Failing(sensors=sensors, motors=names, holds=holds, weight=robot.weight)
+
+
+def failing_body(robot: LimbedRobot, plant: BodyPlant, fault: Fault) -> FaultyBody:
+    """The plant with a fault."""
+    return FaultyBody(plant, fault, np.array([joint.inertia for joint in robot.joints]))
+
 
 PHYSICS_RATE: float = 1000.0
 """Of the contact dynamics [Hz]."""

@@ -8,7 +8,7 @@ from typing import Annotated, Final
 import numpy as np
 
 from ....json_form import Count, Jsonable, Key, OrNull, in_json
-from ....trials.intervals import wilson_interval
+from ....trials.trial_runs import wilson_interval
 from .noise import NOISE
 from .trial import ClimbTrial
 

@@ -20,11 +20,10 @@ from ....types import Json
 from ..execution.climbing import Progress, Replan
 from ..execution.course import lay_course
 from ..planning.task import LimbedTask
-from .faults import BEGINS, failing_of
 from .noise import NOISE, Noise, check_noise, noise_of
 from .planning import QUIET, no_plan, plan_to_climb, replanner
 from .rehearsal import rehearse
-from .run_plan import ClimbRun, action_told, climbing_flaws, run_plan
+from .run_plan import BEGINS, ClimbRun, action_told, climbing_flaws, failing_of, run_plan
 from .warm_up import warm_up
 
 PLAN_SEED: Final = 0

@@ -8,7 +8,7 @@ import numpy as np
 
 from ....json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ....trials.fault_trials import FaultRow, fault_rows
-from ....trials.intervals import wilson_interval
+from ....trials.trial_runs import wilson_interval
 from ....units import INCH
 from ..execution.course import Course, lay_course, names_of
 from .sensitivity import Effect, find_effects

@@ -1,10 +1,32 @@
-"""Random boards as files and values: the document that `clamber new board --random` writes, and the board that it describes."""
+"""Boards to begin with, as documents: what `clamber new board` writes, a grid of holds or, with `--random`, how to scatter them."""
 
 from typing import Final
 
-from ....files import Document
 from ....types import Json
-from .board import SCHEMA, Board, build_board
+from .board import SCHEMA
+
+COLUMNS: Final = 5
+ROWS: Final = 8
+SPACING: Final = 15
+"""Of neighbours [cm]."""
+
+
+def starter_board(name: str) -> Json:
+    """The document of a wall of `COLUMNS` x `ROWS` holds, every second row half a spacing to the right."""
+    places = [
+        (SPACING * column + SPACING / 2 * (row % 2), SPACING * row) for row in range(ROWS) for column in range(COLUMNS)
+    ]
+    return {
+        "schema": SCHEMA,
+        "name": name,
+        "title": f"Wall of {len(places)} holds",
+        "source": "made up",
+        "hold_radius": {"value": 8, "unit": "mm", "source": "made up"},
+        "holds": [
+            {"number": number, "x": f"{x:g} cm", "y": f"{y:g} cm"} for number, (x, y) in enumerate(places, start=1)
+        ],
+    }
+
 
 RADIUS: Final = "5 mm"
 """Of every hold of a random board, unless told otherwise."""
@@ -44,21 +66,3 @@ def random_board_data(
         "hold_radius": radius,
         "random": {**scattered, "seed": seed},
     }
-
-
-def random_board(
-    holds: int,
-    density: float,
-    seed: int = 0,
-    *,
-    width: float | None = None,
-    least_gap: float | None = None,
-    name: str = "random-wall",
-) -> Board:
-    """A random board; arguments as those of `random_board_data`.
-
-    Raises:
-        SpecError: If there are no holds, or they don't find room at that density and gap.
-    """
-    data = random_board_data(holds, density, seed, width=width, least_gap=least_gap, name=name)
-    return build_board(Document("random board", data))

@@ -22,7 +22,7 @@ from ..control.gait import (
     slide_seconds,
 )
 from ..control.track import seen_from
-from ..robot.legs import Legs
+from ..robot.robot import Legs
 from .brake import OVER, Brake
 from .falls import LIGHT
 from .plate_room import ARRIVED, open_share

@@ -29,9 +29,32 @@ from . import motions
 from .arm_swing import check_swing
 from .plate_room import ARRIVED
 from .rehearsed_heights import Heights, rehearse
-from .tool_line import ToolLine, along
 from .walker import GENTLY as GENTLY_UP
 from .walker import RefusedError, Walker
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ToolLine:
+    """Straight pieces, evenly with the plate's way: the tool waits while the plate stands, and slides along with it."""
+
+    points: Floats
+    """World, shape (n, 3) [m]."""
+    first: float
+    """Way of the plate at which the tool is at the first of them [m] ..."""
+    last: float
+    """... and at the last."""
+
+    def at(self, way: float) -> Floats:
+        """Where the tool is to be when the plate has come so far [m], shape (3,) [m]."""
+        whole = self.last - self.first
+        return along(self.points, min(1.0, max(0.0, (way - self.first) / whole)) if whole > 0.0 else 0.0)
+
+
+def along(points: Floats, share: float) -> Floats:
+    """The place at a share of the length of straight pieces through points, shape (3,) [m]."""
+    ends = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    return np.array([np.interp(share * ends[-1], ends, column) for column in points.T])
+
 
 Served = Literal["arm", "height"]
 """What the tool has: the arm alone, or the height of the plate too, while frames slide."""

@@ -8,8 +8,8 @@ import numpy as np
 from ....control.load_shares import over_share
 from ....control.loads import plane_slope, sink_together, sink_unevenly
 from ....control.support import support_margin
-from ....execution.run_ends import FallenError as FallenError
-from ....execution.run_ends import RefusedError as RefusedError
+from ....execution.run_report import FallenError as FallenError
+from ....execution.run_report import RefusedError as RefusedError
 from ....types import Floats, Ints
 from ....units import GRAVITY
 from ..control.dead_reckoning import leg_places, reckon, soles_in_world

@@ -14,8 +14,7 @@ from typing import Final, TypeAlias
 import numpy as np
 
 from ....control.loads import strain_of
-from ....execution.run_ends import RefusedError, StuckError
-from ....execution.run_report import BRACED, SETTLED, Ending, Outcome, ending_of
+from ....execution.run_report import BRACED, SETTLED, Ending, Outcome, RefusedError, StuckError, ending_of
 from ....execution.sequencer import Attempt, Performer
 from ....types import Floats
 from ..control.gait import DELTA, PhaseTimes, Step, Y, lengths_at

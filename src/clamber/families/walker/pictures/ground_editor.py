@@ -43,8 +43,10 @@ KINDS: Final = (STEP, DITCH, PATCH)
 AHEAD: Final = 0.5
 """Before the start is where something new is put, along the robot's heading [m]."""
 NEW: Final[dict[str, tuple[float, float, float]]] = {
-    STEP: (0.4, 0.8, 0.03), DITCH: (0.08, 0.8, -0.3), PATCH: (0.1, 0.1, 0.0),
-}  # fmt: skip
+    STEP: (0.4, 0.8, 0.03),
+    DITCH: (0.08, 0.8, -0.3),
+    PATCH: (0.1, 0.1, 0.0),
+}
 """Length, width and height of something new [m]."""
 Piece = Block | Rectangle | tuple[tuple[float, float], ...]
 """A step or a ditch, or a patch: a rectangle, or the corners of a polygon."""

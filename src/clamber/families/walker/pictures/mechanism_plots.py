@@ -56,8 +56,11 @@ def draw_regions(frames: TwoFrames, thetas: Sequence[float], path: str | Path) -
         figure.legend(handles=handles, loc="outside lower center", ncols=4, fontsize=8)
         figure.suptitle(
             "Where the Y-frame's origin can be in the Delta-frame, by the angle between the frames",
-            x=0.01, ha="left", fontsize=11, weight="bold",
-        )  # fmt: skip
+            x=0.01,
+            ha="left",
+            fontsize=11,
+            weight="bold",
+        )
 
 
 def _panel(axes: Axes, frames: TwoFrames, theta: float) -> None:
@@ -205,8 +208,11 @@ def draw_crossing(crossing: Crossing, path: str | Path) -> None:
         figure.suptitle(
             f"A ditch of {crossing.width * MM:g} mm: {crossing.pivots} pivots, "
             f"{len(crossing.slides) - crossing.pivots} slides (blue: Delta-frame, orange: Y-frame, dot: centre of mass)",
-            x=0.01, ha="left", fontsize=10, weight="bold",
-        )  # fmt: skip
+            x=0.01,
+            ha="left",
+            fontsize=10,
+            weight="bold",
+        )
 
 
 def _stance(axes: Axes, crossing: Crossing, frame: int, poses: Floats) -> None:

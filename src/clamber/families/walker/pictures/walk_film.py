@@ -237,9 +237,11 @@ class WalkFilm(Film[WalkMoment]):
         if step == 0:
             return []
         rows, least = self._rows_of(step), self._least[step - 1]
-        told = [] if math.isnan(least) else [
-            MarginRow("balance", f"{1e3 * least:+.0f} mm", least / self._size, True, True, BALANCE)
-        ]  # fmt: skip
+        told = (
+            []
+            if math.isnan(least)
+            else [MarginRow("balance", f"{1e3 * least:+.0f} mm", least / self._size, True, True, BALANCE)]
+        )
         left = self._loads.left(rows)
         return [*told, *(MarginRow(one.name, one.value, one.share, False, False, one.meaning) for one in left)]
 

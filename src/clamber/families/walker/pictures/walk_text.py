@@ -7,7 +7,7 @@ from rich.console import Console
 
 from ....trials.fault_trials import fault_rows
 from ....trials.held_out import seeds_in_words
-from ....trials.intervals import wilson_interval
+from ....trials.trial_runs import wilson_interval
 from ....units import DEGREE
 from ....viewing.text_table import plain_table
 from ....viewing.trials_text import print_faults, share_range, some

@@ -128,10 +128,11 @@ class WalkerArtists:
                 axes.add_patch(circle)
             self.feet.append(circles)
         self.mass = [
-            axes.add_line(Line2D([], [], marker=marker, ms=size, mfc=face, mec=style.INK, mew=1.4, alpha=alpha, ls="",
-                                 zorder=8))
+            axes.add_line(
+                Line2D([], [], marker=marker, ms=size, mfc=face, mec=style.INK, mew=1.4, alpha=alpha, ls="", zorder=8)
+            )
             for marker, size, face in (("o", 9.0, style.PAPER), ("+", 9.0, style.INK))
-        ]  # fmt: skip
+        ]
 
     @property
     def artists(self) -> list[Artist]:

@@ -16,8 +16,7 @@ from ....types import Json
 from ....units import Angle, Length, NonNegativeLength, NonNegativeMass, Point, Quantity
 from ..robot import WalkerRobot, build_walker
 from ..statics.checks import WALKER_CHECKS
-from ..world.ground import Ground, build_ground
-from ..world.library import read_ground
+from ..world.ground import Ground, build_ground, read_ground
 
 CHECK_NAMES: Final = tuple(check.name for check in WALKER_CHECKS)
 

@@ -14,9 +14,8 @@ from ....tasks.parts import Naming
 from ....tasks.robots import family_in, read_robot
 from ....types import Json
 from ....units import convert, split_title
-from ..world.library import read_ground
-from .standing import check_mechanism
-from .walk import SCHEMA, Walk, build_walk, walk_keys
+from ..world.ground import read_ground
+from .walk import SCHEMA, Walk, build_walk, check_mechanism, walk_keys
 
 COLUMNS: Final = {"x": "length", "y": "length", "heading": "angle"}
 """Name -> dimension; the last one may be missing."""

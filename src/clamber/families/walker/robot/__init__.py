@@ -1,12 +1,12 @@
 """Two-frame walkers: what their files state, and what follows from it by geometry."""
 
-from .arm import Arm as Arm
 from .geometry import Followed as Followed
 from .geometry import PoseError as PoseError
 from .geometry import TwoFrames as TwoFrames
-from .legs import Legs as Legs
-from .mass import Mass as Mass
 from .mechanism import Mechanism as Mechanism
 from .robot import FRAMES as FRAMES
+from .robot import Arm as Arm
+from .robot import Legs as Legs
+from .robot import Mass as Mass
 from .robot import WalkerRobot as WalkerRobot
 from .robot import build_walker as build_walker

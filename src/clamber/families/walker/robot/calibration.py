@@ -143,8 +143,11 @@ FAMILIES: Final = (
 )
 """The rivals; the first is the one that the robot file states."""
 RANGES: Final = {
-    "radius": (0.05, 1.0), "ratio": (0.3, 3.0), "offset": (-math.pi, 0.0), "shortest": (0.0, 1.0),
-}  # fmt: skip
+    "radius": (0.05, 1.0),
+    "ratio": (0.3, 3.0),
+    "offset": (-math.pi, 0.0),
+    "shortest": (0.0, 1.0),
+}
 """Where free sizes are looked for."""
 
 

@@ -1,18 +1,121 @@
-"""The two-frame walker: a Delta-frame and a Y-frame of three legs each, joined in a plane by three linear actuators."""
+"""The two-frame walker, as a robot file states it: two frames of three legs, joined in a plane by three linear actuators, an arm."""
 
 from collections.abc import Mapping
 from dataclasses import field, replace
-from typing import ClassVar, Final
+from typing import Annotated, ClassVar, Final
 
 from pydantic import StrictStr
 
 from ....files import Document, check_schema
 from ....specs import Name, Provenance, build_spec, collect_sources, spec
 from ....types import Floats
-from .arm import Arm, check_arm
-from .legs import Legs
-from .mass import Mass
+from ....units import (
+    Angle,
+    Length,
+    NonNegativeLength,
+    NonNegativeMass,
+    PositiveAngularSpeed,
+    PositiveForce,
+    PositiveLength,
+    PositiveMass,
+    PositiveSpeed,
+    Quantity,
+)
 from .mechanism import Mechanism, check_mechanism
+
+
+@spec
+class Arm:
+    """An arm of one turning and n pitching joints (Hoshino and others, equation 8).
+
+    Joint 0 turns about the plate's normal. Joints 1 to n pitch in the arm's plane, upwards positive; with all at zero the arm points
+    straight out. The tool point is the end of the last link.
+    """
+
+    links: tuple[PositiveLength, ...]
+    """Lengths of the pitching links, L1 to Ln [m], shape (n,)."""
+    masses: tuple[NonNegativeMass, ...]
+    """Their masses, each at its middle [kg], shape (n,)."""
+    out: Length
+    """From the axis of joint 0 to that of joint 1, outwards, X1 [m]."""
+    up: Length
+    """From the plate to the axis of joint 1, Z1 [m]."""
+    lowest: tuple[Angle, ...]
+    """Lower ends of the joints' ranges [rad], shape (n + 1,)."""
+    highest: tuple[Angle, ...]
+    """Upper ends [rad], shape (n + 1,)."""
+    fastest: tuple[PositiveAngularSpeed, ...]
+    """Largest joint speeds [rad/s], shape (n + 1,)."""
+    rest: tuple[Angle, ...]
+    """Joint angles while the robot walks, unless a task says otherwise [rad], shape (n + 1,)."""
+
+    @property
+    def n_joints(self) -> int:
+        """How many joints it has."""
+        return len(self.links) + 1
+
+
+def check_arm(arm: Arm, document: Document) -> None:
+    """Raises `SpecError` if the lists of an arm do not belong together."""
+    if not arm.links:
+        raise document.problem("arm.links", "must name one link or more")
+    if len(arm.masses) != len(arm.links):
+        raise document.problem("arm.masses", f"must have {len(arm.links)} entries, one for each link")
+    for key in ("lowest", "highest", "fastest", "rest"):
+        if len(getattr(arm, key)) != arm.n_joints:
+            raise document.problem(
+                f"arm.{key}",
+                f"must have {arm.n_joints} entries, one for each joint: the turning one and one for each link",
+            )
+    for joint, (low, high) in enumerate(zip(arm.lowest, arm.highest, strict=True)):
+        if not low < high:
+            raise document.problem(f"arm.lowest.{joint}", "must be less than its entry of highest")
+        if not low <= arm.rest[joint] <= high:
+            raise document.problem(f"arm.rest.{joint}", f"must be in the joint's range, {low:.6g} to {high:.6g} rad")
+
+
+@spec
+class Legs:
+    """Three legs on each frame, in the directions of its attachments; a leg extends along the normal of the plate."""
+
+    radius_delta: PositiveLength
+    """Circle of the Delta-frame's feet [m]."""
+    radius_y: PositiveLength
+    """Circle of the Y-frame's feet [m]."""
+    pad_radius: NonNegativeLength
+    """Radius of a foot [m]."""
+    shortest: PositiveLength
+    """Length of a leg that is drawn in, from the plate to the sole [m]."""
+    stroke: PositiveLength
+    """By how much a leg extends [m]."""
+    nominal: PositiveLength
+    """Length of a standing leg on level ground [m]."""
+    lift: PositiveLength
+    """By how much a lifted foot clears the ground [m]."""
+    speed: PositiveSpeed
+    """Fastest that a leg extends or draws in [m/s]."""
+    resolution: PositiveLength
+    """One step of a leg's motor [m]."""
+    force: PositiveForce | None = None
+    """Most that a leg's motor pushes or pulls with [N]; None: no limit is known."""
+
+    @property
+    def longest(self) -> float:
+        """Length of an extended leg [m]."""
+        return self.shortest + self.stroke
+
+
+@spec
+class Mass:
+    """The robot's mass without its arm: a share at each frame's origin, all at one height above the plate."""
+
+    frames: PositiveMass
+    """Both frames and all legs [kg]."""
+    share_delta: Annotated[float, Quantity("ratio", at_least=0.0, at_most=1.0)]
+    """Share of it on the Delta-frame; the rest is on the Y-frame, each at its origin [-]."""
+    height: Length
+    """Centre of mass above the plate [m]."""
+
 
 SCHEMA: Final = "clamber-robot-1"
 FRAMES: Final = ("delta", "y")

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ....types import Floats
-from .arm import Arm
-from .robot import WalkerRobot
+from .robot import Arm, WalkerRobot
 
 
 @dataclass(frozen=True, slots=True)

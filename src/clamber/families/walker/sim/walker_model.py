@@ -7,6 +7,7 @@ period, without a word from outside.
 """
 
 import math
+from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
@@ -16,9 +17,84 @@ from ....types import Floats
 from ....units import GRAVITY
 from ..robot import FRAMES, WalkerRobot
 from ..world.ground import Ground
-from .ground_model import FEET, GROUND, add_ground, touch
-from .walker_build import Servo, WalkerBuild
 from .walker_flaws import WalkerFlaws
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Servo:
+    """A motor that holds its place like a spring and a damper."""
+
+    stiffness: float
+    """[N/m] or [N m/rad]."""
+    damping: float
+    """[N s/m] or [N m s/rad]."""
+    armature: float = 0.0
+    """What the motor's own inertia is worth at its output [kg] or [kg m^2]."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WalkerBuild:
+    """The parts that the dynamics need and the file does not have."""
+
+    actuator: Servo = Servo(stiffness=1e6, damping=1e4)  # frozen
+    """Of the three that slide the frames."""
+    leg: Servo = Servo(stiffness=5e5, damping=2e4, armature=20.0)  # frozen
+    joint: Servo = Servo(stiffness=1e5, damping=5e3, armature=5.0)  # frozen
+    """Of the arm."""
+    foot_stiffness: float = 3e4
+    """Of a foot, to the sides: legs that are normal to a plate that tilts change the distance of their feet [N/m]. Physics steps of 2 ms
+    carry up to 5e4; with 1e5 feet hum until they slip."""
+    foot_damping: float = 1e3
+    """To the sides [N s/m]; with three feet down the robot's sway along the ground is damped at a half of critical."""
+    foot_radius: float = 0.005
+    """Of the ball that a foot is, where its file says that feet are points [m]."""
+    foot_mass: float = 0.5
+    """Taken out of the frame's [kg]."""
+    leg_mass: float = 0.5
+    """Of the moving part, taken out of the frame's [kg]."""
+    frame_height: float = 0.1
+    """Frames have the inertia of discs of this height on the circle of their feet [m]."""
+
+
+GROUND, FEET = 1, 2
+"""Bits of what may touch what."""
+SOLREF: Final = (0.01, 1.0)
+
+
+def touch(friction: float, contype: int, conaffinity: int) -> dict[str, Any]:
+    """How a foot and the ground touch, as `add_geom` takes it."""
+    return {
+        "solref": SOLREF,
+        "condim": 3,
+        "friction": (friction, 0.0, 0.0),
+        "contype": contype,
+        "conaffinity": conaffinity,
+    }
+
+
+def add_ground(mujoco: Any, spec: Any, ground: Ground, friction: float) -> None:
+    """Put the ground into the world.
+
+    Args:
+        mujoco: The module.
+        spec: An `MjSpec`.
+        ground: Its bricks become boxes "tile NUMBER".
+        friction: Coefficient of feet on it [-].
+    """
+    quat = np.zeros(4)
+    mujoco.mju_mat2Quat(quat, ground.axes().ravel())
+    body = spec.worldbody.add_body(name="ground", quat=quat)
+    for i, (x_min, x_max, y_min, y_max, top) in enumerate(ground.tiles()):
+        low, high = np.array((x_min, y_min, -ground.depth)), np.array((x_max, y_max, top))
+        body.add_geom(
+            name=f"tile {i}",
+            type=mujoco.mjtGeom.mjGEOM_BOX,
+            pos=(low + high) / 2,
+            size=(high - low) / 2,
+            mass=0.0,
+            **touch(friction, GROUND, FEET),
+        )
+
 
 IMPRATIO: Final = 100.0
 NOSLIP: Final = 5
@@ -63,7 +139,7 @@ def walker_spec(
     ground: Ground | None,
     flaws: WalkerFlaws,
     *,
-    build: WalkerBuild = WalkerBuild(),  # noqa: B008  # frozen
+    build: WalkerBuild = WalkerBuild(),  # frozen
     struts: bool = False,
 ) -> Any:
     """An `MjSpec` of the robot on the ground.

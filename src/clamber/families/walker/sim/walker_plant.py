@@ -12,10 +12,10 @@ from ....units import GRAVITY
 from ..execution.plant import WalkerSensed, WalkerTruth
 from ..robot import WalkerRobot
 from ..world.ground import Ground, Surface
-from .walker_build import WalkerBuild
 from .walker_flaws import Inclinometers, WalkerFlaws
 from .walker_model import (
     PLACE,
+    WalkerBuild,
     actuator_names,
     arm_names,
     foot_names,

@@ -13,7 +13,7 @@ import numpy as np
 from ....errors import UnitError, describe_choices
 from ....execution.fault import Fault
 from ....execution.log_stream import LogGap, WantedLog, growing_log
-from ....execution.run_ends import RunEndedError
+from ....execution.run_report import RunEndedError
 from ....execution.sequencer import Sequencer
 from ....json_form import HIDDEN, INLINE, Jsonable, Key, OrNull, in_json
 from ....planning.problem.plan import Plan
@@ -32,7 +32,7 @@ from ..execution.walk_trace import TOPIC, TracedWalker, WalkTrace, walker_notes
 from ..execution.walker import RefusedError
 from ..execution.walking import Lay, Progress, Walking
 from ..planning import Walk
-from ..planning.standing import why_it_tips
+from ..planning.walk import why_it_tips
 from ..robot.ditch import Footing
 from ..robot.ditch_plan import Crossing, cross_ditch
 from ..robot.weight import weight_of

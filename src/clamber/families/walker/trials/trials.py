@@ -1,5 +1,6 @@
 """Many walks of one kind, each with its own seed: run over workers, stored as they end, and what they say together."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from operator import attrgetter
@@ -8,23 +9,44 @@ from typing import Annotated, Final
 
 import numpy as np
 
-from ....execution.fault import draw_fault
+from ....execution.fault import Failing, draw_fault
 from ....jobs import read_result
 from ....json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ....planning.problem.plan import Plan
 from ....tasks import task_from_document
 from ....trials.fault_trials import FaultRow, TriedFault, check_told, fault_rows, told_fault
-from ....trials.intervals import wilson_interval
-from ....trials.trial_runs import Setup, Trials
+from ....trials.trial_runs import Setup, Trials, wilson_interval
 from ....types import Floats, Json
-from ....units import DEGREE
+from ....units import DEGREE, GRAVITY
+from ..execution.own_sensors import FORCES, INCLINES, channels_of
 from ..planning import Walk
 from ..planning.task import WalkerTask
 from ..planning.walks import walk_from_document
-from .faults import BEGINS, failing_of
+from ..robot import WalkerRobot
+from ..robot.weight import weight_of
 from .noise import WalkNoise
 from .planned import lay_plan, walk_of
 from .run_walk import WalkRun, run_walk, step_told, walk_flaws
+
+BEGINS: Final = (1.0, 100.0)
+"""First and last time at which a fault of a trial begins [s]: while the robot levels, and in its first steps."""
+
+
+def failing_of(robot: WalkerRobot) -> Failing:
+    """Sensors of lengths, forces, inclines and joints; motors of lengths and joints."""
+    names = [channel.name for channel in channels_of(robot)]
+    weight = GRAVITY * weight_of(robot).total
+    arm = () if robot.arm is None else zip(robot.arm.lowest, robot.arm.highest, strict=True)
+    spans = (
+        *[robot.mechanism.stroke] * 3,
+        *[robot.legs.stroke] * 6,
+        *[weight] * 6,
+        *[math.pi / 2] * 2,
+        *(high - low for low, high in arm),
+    )
+    motors = [name for k, name in enumerate(names) if k < FORCES.start or k >= INCLINES.stop]
+    return Failing(sensors=dict(zip(names, spans, strict=True)), motors=motors, weight=weight)
+
 
 LEVEL: Final = 0.1 * DEGREE
 """A plate counts as level within this [rad]: what the paper's robot levels itself to."""

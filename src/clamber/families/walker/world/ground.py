@@ -1,12 +1,13 @@
 """A ground to walk on: a slope with blocks, ditches, rough parts and forbidden patches on it, seen as an exact height above every place."""
 
+from pathlib import Path
 from typing import Annotated, Final
 
 import numpy as np
 import numpy.typing as npt
 from pydantic import Field, StrictInt, StrictStr
 
-from ....files import Document, check_schema
+from ....files import Document, check_schema, data_names, find_data, read_toml
 from ....specs import Name, build_spec, spec
 from ....tasks.regions import check_polygon
 from ....types import Floats
@@ -233,3 +234,28 @@ def build_ground(document: Document) -> Ground:
         if n > MOST_TILES:
             raise document.problem(f"rough.{i}.tile", f"makes {n:.0f} tiles; at most {MOST_TILES}")
     return ground
+
+
+DATA: Final = Path(__file__).parents[1] / "data" / "worlds"
+
+
+def ground_names() -> tuple[str, ...]:
+    """Names of the grounds that come with Clamber."""
+    return data_names(DATA)
+
+
+def read_ground(name_or_path: str, folder: Path | None = None) -> Document:
+    """The document of a ground, shipped or the user's own (a path, relative to `folder`)."""
+    path, label = find_data("ground", name_or_path, (DATA,), folder)
+    return read_toml(path, label)
+
+
+def load_ground(name_or_path: str) -> Ground:
+    """A ground by its shipped name, such as "slope", or from the user's TOML file.
+
+    Raises:
+        UnknownNameError: If no shipped ground has that name.
+        FileError: If the file cannot be read.
+        SpecError: If the file says something that cannot be used.
+    """
+    return build_ground(read_ground(name_or_path))

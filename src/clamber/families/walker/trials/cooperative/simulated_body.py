@@ -14,7 +14,7 @@ from ...robot import WalkerRobot
 from ...robot.geometry import TwoFrames
 from ...sim.walker_flaws import WalkerFlaws
 from ...sim.walker_plant import WalkerSim
-from ...world.library import load_ground
+from ...world.ground import load_ground
 
 
 class FeltBody:
