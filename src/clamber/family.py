@@ -28,10 +28,14 @@ if TYPE_CHECKING:
     from .planning.problem.problems import PlanFamily
     from .sim.bench_limb import BenchLimb
     from .sim.lone_robot import JointBounds
+    from .tasks.imported import ImportedRobot
     from .tasks.task_format import TaskFormat
     from .trials.dynamics import Dynamics
     from .viewing.browser.exhibit import Scenes
     from .viewing.pictures import Pictures
+
+    Import = Callable[[Path, Path, str], ImportedRobot]
+    """Of a model file, the robot file that is to be written, and the robot's name."""
 
 BUILT_IN: Final = {
     "limbed": "clamber.families.climber.family:CLIMBER",
@@ -130,6 +134,11 @@ class Family:
     def dynamics(self) -> Dynamics | None:
         """How its tasks and plans, and what else it can do, are carried out in contact dynamics."""
         return None
+
+    @property
+    def imports(self) -> Mapping[str, Import]:
+        """Suffix of another program's model file, such as ".urdf" -> what makes a robot of one."""
+        return {}
 
     def whole_robot(self, document: Document) -> Document:
         """A robot's document with what it takes from other files, so that it can be built where those are not."""
