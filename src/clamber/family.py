@@ -28,10 +28,14 @@ if TYPE_CHECKING:
     from .planning.problem.problems import PlanFamily
     from .sim.bench_limb import BenchLimb
     from .sim.lone_robot import JointBounds
+    from .tasks.imported import ImportedRobot
     from .tasks.task_format import TaskFormat
     from .trials.dynamics import Dynamics
     from .viewing.browser.exhibit import Scenes
     from .viewing.pictures import Pictures
+
+    Import = Callable[[Path, Path, str], ImportedRobot]
+    """Of a model file, the robot file that is to be written, and the robot's name."""
 
 BUILT_IN: Final = {
     "limbed": "clamber.families.climber.family:CLIMBER",
@@ -120,6 +124,8 @@ class Family:
     """One limb of a robot for the limb bench, by name, by its place from 1 or None: the first; `upright` says whether weight acts."""
     model: Part[Callable[[Any], tuple[Any, Mapping[str, JointBounds]]] | None] = Part()
     """The robot alone as an `MjSpec`, and the bounds of its joints."""
+    imports: Part[Mapping[str, Import] | None] = Part()
+    """Suffix of another program's model file, such as ".urdf" -> what makes a robot of one."""
 
     @property
     def checks(self) -> tuple[Check, ...]:

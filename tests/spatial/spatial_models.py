@@ -82,14 +82,12 @@ LOOP = Case(
     },
 )
 
-_INERTIA = '<inertia ixx="0.010" iyy="0.020" izz="0.015" ixy="0.001" ixz="0.002" iyz="0.0005"/>'
-
 
 def _link(name: str, mass: float, rest: str = "") -> str:
-    return (
-        f'<link name="{name}"><inertial><origin xyz="0.03 -0.02 0.1" rpy="0.3 0.2 0.1"/><mass value="{mass}"/>{_INERTIA}</inertial>'
-        f"{rest}</link>"
-    )
+    terms = {"ixx": 0.002, "iyy": 0.004, "izz": 0.003, "ixy": 0.0002, "ixz": 0.0004, "iyz": 0.0001}
+    inertia = " ".join(f'{key}="{value * mass}"' for key, value in terms.items())
+    origin = '<origin xyz="0.03 -0.02 0.1" rpy="0.3 0.2 0.1"/>'
+    return f'<link name="{name}"><inertial>{origin}<mass value="{mass}"/><inertia {inertia}/></inertial>{rest}</link>'
 
 
 def _joint(name: str, kind: str, parent: str, child: str, xyz: str, axis: str = "0 1 0", rest: str = "") -> str:

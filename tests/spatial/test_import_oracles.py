@@ -1,5 +1,6 @@
 """Robots from model files against MuJoCo, which reads the same file by itself, and against Pinocchio."""
 
+import tempfile
 from pathlib import Path
 
 import chain_kinematics as ours
@@ -7,10 +8,13 @@ import mujoco as mj
 import numpy as np
 import pinocchio as pin
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from spatial_models import FOUR_JOINTS, LOOP, TWO_ARMS, robot_of
 
 import clamber.families.spatial as family
 from clamber.families.spatial.robot.robot import SpatialRobot, build_robot
+from clamber.families.spatial.robot.tree import Posture, rooted_at
 from clamber.files import read_toml
 from clamber.types import Floats
 
@@ -132,3 +136,44 @@ def test_a_urdf_with_turned_inertias_fixed_and_coupled_joints_is_as_pinocchio_ha
             if base == "pelvis":  # with another base the tree turns round, and what moves is the rest of the robot
                 assert near(ours.jacobian(chains, limb, of_limb), whole[:, columns])
                 assert near(ours.gravity_torques(chains, limb, of_limb, GRAVITY), torques[columns])
+
+
+def test_inertias_of_a_urdf_are_those_that_pinocchio_has(tmp_path: Path) -> None:
+    robot = robot_of(tmp_path, TWO_ARMS)
+    model = pin.buildModelFromXML(TWO_ARMS.text, pin.JointModelFreeFlyer())
+    data, random = model.createData(), np.random.default_rng(5)
+    for _ in range(TIMES):
+        q, positions = pin.neutral(model), {}
+        for joint in robot.tree.joints:
+            value = positions[joint.name] = float(random.uniform(-1.0, 1.0))
+            theirs = model.joints[model.getJointId(joint.name)]
+            q[theirs.idx_q : theirs.idx_q + theirs.nq] = value if theirs.nq == 1 else (np.cos(value), np.sin(value))
+        posture = Posture.of(robot.tree, positions)
+        frames = [posture.frame(link) for link in robot.tree.links]
+        centre = sum(link.mass * frame.at(link.centre) for link, frame in zip(robot.tree.links, frames, strict=True))
+        centre = centre / robot.tree.mass
+        inertia = np.zeros((3, 3))
+        for link, frame in zip(robot.tree.links, frames, strict=True):
+            away = frame.at(link.centre) - centre
+            inertia += frame.axes @ np.array(link.inertia) @ frame.axes.T
+            inertia += link.mass * (away @ away * np.eye(3) - np.outer(away, away))
+        pin.ccrba(model, data, q, np.zeros(model.nv))
+        assert near(inertia, data.Ig.inertia)
+
+
+@given(
+    st.sampled_from(["pelvis", "chest", "l1", "r2", "g2", "lf"]), st.lists(st.floats(-1.0, 1.0), min_size=8, max_size=8)
+)
+def test_a_tree_with_another_root_is_the_same_robot(base: str, values: list[float]) -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        tree = robot_of(Path(folder), TWO_ARMS).tree
+    positions = {joint.name: value for joint, value in zip(tree.joints, values, strict=True)}
+    turned = rooted_at(tree, base)
+    before, after = Posture.of(tree, positions), Posture.of(turned, positions)
+    assert turned.links[0].name == base and turned.mass == tree.mass
+    origin = [posture.frame(posture.tree.link("pelvis")) for posture in (before, after)]
+    for link in tree.links:
+        seen = [
+            at.within(posture.frame(link).at(link.centre)) for at, posture in zip(origin, (before, after), strict=True)
+        ]
+        np.testing.assert_allclose(seen[0], seen[1], atol=1e-12)

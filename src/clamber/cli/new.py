@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Final, TypeAlias
 
 import typer
 
+from ..json_form import Key
+from ..tasks.imported import ImportedLimb
 from ..terminal.name_completion import names_of
 from ..terminal.options import BOARD, ROBOT, AsJson, takes_options
 from ..terminal.output import announce_compilation, check_writable, print_json, stdout
@@ -97,6 +99,14 @@ class NewRobot:
     written: dict[str, str]
     """robot, to the file."""
     name: str
+    mass: Annotated[float | None, Key("mass_kg", may_be_missing=True)] = None
+    """With `--from` [kg]."""
+    limbs: Annotated[tuple[ImportedLimb, ...] | None, Key(may_be_missing=True)] = None
+    """With `--from`: limbs that were found."""
+    repaired: Annotated[tuple[str, ...] | None, Key(may_be_missing=True)] = None
+    """With `--from`: what was changed or guessed, in sentences."""
+    dropped: Annotated[tuple[str, ...] | None, Key(may_be_missing=True)] = None
+    """With `--from`: what was left out, in sentences."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,17 +129,31 @@ def _kinds() -> None:
 def robot(
     limbs: Annotated[int | None, typer.Option(min=2, max=8, help="How many limbs; 4 unless given.")] = None,
     like: Annotated[str | None, typer.Option(metavar="NAME|FILE", help=LIKE, autocompletion=names_of("robots"))] = None,
+    model: Annotated[
+        Path | None, typer.Option("--from", metavar="FILE", help="Start from the limbs of this MJCF or URDF model.")
+    ] = None,
     force: Force = False,
     output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="File to write.")] = Path("robot.toml"),
     as_json: AsJson = False,
 ) -> None:
     """Write a robot whose file tells of every key: what it means, its unit, what is allowed."""
-    if limbs is not None and like is not None:
-        raise typer.BadParameter("is for a made-up robot; take --limbs or --like", param_hint="--limbs")
+    if limbs is not None and (like or model):
+        raise typer.BadParameter("is for a made-up robot; take --limbs, --like or --from", param_hint="--limbs")
+    if like is not None and model is not None:
+        raise typer.BadParameter("are different robots to start from; take one", param_hint="--like, --from")
     _check_new(output, force)
     from ..files import write_atomically
-    from .starters import robot_starter
+    from .starters import imported_robot, robot_starter
 
+    if model is not None:
+        found = imported_robot(model, output)
+        write_atomically(output, found.text)
+        new = NewRobot({"robot": str(output)}, found.name, found.mass, found.limbs, found.repaired, found.dropped)
+        lines = [f"robot '{found.name}' of {len(found.limbs)} limbs, {found.mass:.4g} kg"]
+        lines += [f"limb {limb.name}: {', '.join(limb.joints)}; tip {limb.tip}" for limb in found.limbs]
+        lines += [f"repaired: {line}" for line in found.repaired] + [f"dropped: {line}" for line in found.dropped]
+        _tell(new, "\n".join(lines), f"look at each 'guess' in {output}; clamber check {output}", as_json)
+        return
     made = robot_starter(output, limbs, like)
     write_atomically(output, made.text)
     told = f"robot '{made.data['name']}'"

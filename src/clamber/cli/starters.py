@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
+from ..errors import OptionError
 from ..families.climber.family import CLIMBER
 from ..families.climber.robot.robot import SCHEMA as ROBOT
 from ..families.climber.robot.starter import starter_robot
@@ -16,6 +17,7 @@ from ..family import Family, families
 from ..files import Document, check_schema, find_data, is_path, read_toml
 from ..regular_files import user_path
 from ..spec_text import spec_text
+from ..tasks.imported import ImportedRobot
 from ..tasks.library import load_task
 from ..tasks.robots import family_in, load_robot, read_robot, shipped
 from ..types import Json
@@ -55,6 +57,19 @@ def robot_starter(path: Path, limbs: int | None, like: str | None) -> Starter:
     )
     title = f"A robot ({family.name}); `clamber check {path.name}` says what is wrong or odd with it.\n{HOW}"
     return Starter(data, spec_text(family.files.robot_spec, data, header=title, lead=lead, examples=EXAMPLES))
+
+
+def imported_robot(model: Path, path: Path) -> ImportedRobot:
+    """What the family that reads such model files makes of one, for a robot file at `path`.
+
+    Raises:
+        OptionError: If none reads files of that name.
+        ClamberError: If the model can't be used.
+    """
+    makers = {suffix: make for family in families() for suffix, make in (family.imports or {}).items()}
+    if model.suffix.lower() not in makers:
+        raise OptionError("--from", f"{model.name} is no model that can be read", f"names end in {', '.join(makers)}")
+    return makers[model.suffix.lower()](model, path, name_of(path, "robot"))
 
 
 def board_starter(path: Path, like: str | None) -> Starter:

@@ -23,6 +23,7 @@ class Spatial(Family):
         {
             "files": "clamber.families.spatial.planning.task:FILES",
             "plans": "clamber.families.spatial.planning.plans:PLANS",
+            "imports": "clamber.families.spatial.robot.starter:IMPORTS",
         }
     )
 

@@ -23,8 +23,10 @@ NO_MASS: Final = 1e-12
 """MuJoCo takes no moving link of less [kg], so links without mass get this and are read back as massless; also the inertia [kg m^2]."""
 BULKY: Final = 4.0
 """An inertia above this many times mass times squared size belongs to something larger than the link [-]."""
-BLIND: Final = 10.0
-"""The same where the link has no shape, and its size is that from its centre of mass to its joints [-]."""
+SLIGHT: Final = 1e-5
+"""The inertia of a link of less than this part of the robot's mass is let be [-]."""
+UNSEEN: Final = 0.1
+"""A link without a shape counts as at least this part of the robot's size [-]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,11 +64,12 @@ def read_model(path: Path) -> Model:
         facts, held = {}, _coupled(spec, notes)
     else:
         raise FileError(str(path), f"begins with <{root.tag}>", "a URDF begins with <robot>, an MJCF with <mujoco>")
-    reader = _Reader(_usable(spec, path, notes), notes, facts, held)
+    compiled = _usable(spec, path, notes)
+    if compiled.nbody < 2:
+        raise FileError(str(path), "has no body beside the world", "a robot has at least one link")
+    reader = _Reader(compiled, notes, facts, held)
     sha256 = content_hash(read_bytes(path, MOST_MODEL))
     tree = reader.tree(root.get("name") or root.get("model") or path.stem, sha256)
-    if not tree.links:
-        raise FileError(str(path), "has no body beside the world", "a robot has at least one link")
     return Model(tree, notes, spec, reader.home(), reader.passive())
 
 
@@ -161,7 +164,7 @@ def _mend_inertias(spec: Any, path: Path, notes: Notes) -> None:
         if not is_of_a_body(stated):
             bent.append(body.name)
             _make_round(body, float(np.abs(np.linalg.eigvalsh(stated)).mean()))
-        elif not np.isnan(body.fullinertia[0]):
+        elif not np.isnan(body.fullinertia[0]) and np.linalg.eigvalsh(stated)[0] <= 0.0:
             body.fullinertia = [*(np.diag(stated) + NO_MASS), *body.fullinertia[3:]]
     told = (
         "no body has such an inertia, for each principal moment is at most the sum of the others; it counts as a ball's"
@@ -202,31 +205,30 @@ def _shrink_inertias(spec: Any, model: Any, notes: Notes) -> bool:
 
     data = mj.MjData(model)
     mj.mj_kinematics(model, data)
-    found = False
+    large: dict[str, float] = {}
     for body in range(1, model.nbody):
-        mass, most = model.body_mass[body], model.body_inertia[body].max()
-        size, factor = _size(model, data, body)
-        if mass <= 2 * NO_MASS or size <= 0.0 or most <= factor * mass * size**2:
-            continue
-        made, times = 0.4 * mass * size**2, most / (mass * size**2)
-        told = (
-            f"its inertia of {most:.3g} kg m^2 is {times:.0f} times mass times squared size ({mass:.3g} kg, {size:.3g} m), "
-            f"as if of another unit; it counts as a ball's, {made:.3g} kg m^2"
-        )
-        notes.repair("link", [model.body(body).name], told)
-        _make_round(spec.body(model.body(body).name), made)
-        found = True
-    return found
+        mass, most, size = model.body_mass[body], model.body_inertia[body].max(), _size(model, data, body)
+        if mass > SLIGHT * model.body_mass.sum() and most > BULKY * mass * size**2:
+            large[model.body(body).name] = most / (mass * size**2)
+            _make_round(spec.body(model.body(body).name), 0.4 * mass * size**2)
+    told = f"its inertia is {_span(large)} times mass times squared size, as if of another unit; it counts as a ball's of that size"
+    notes.repair("link", list(large), told)
+    return bool(large)
 
 
-def _size(model: Any, data: Any, body: int) -> tuple[float, float]:
-    """Largest distance of a link's shapes and joints from its centre of mass [m], and how many times its square an inertia may be."""
+def _span(values: Mapping[str, float]) -> str:
+    low, high = min(values.values(), default=0.0), max(values.values(), default=0.0)
+    return f"{low:.3g}" if high < 1.01 * low else f"{low:.3g} to {high:.3g}"
+
+
+def _size(model: Any, data: Any, body: int) -> float:
+    """Largest distance of a link's shapes and joints from its centre of mass [m]; without shapes also a part of the robot's size."""
     centre, moved = data.xipos[body], model.jnt_bodyid
     joints = [joint for joint in range(model.njnt) if body in (moved[joint], model.body_parentid[moved[joint]])]
     geoms = range(model.body_geomadr[body], model.body_geomadr[body] + model.body_geomnum[body])
     sizes = [float(np.linalg.norm(data.geom_xpos[geom] - centre) + model.geom_rbound[geom]) for geom in geoms]
     sizes += [float(np.linalg.norm(data.xanchor[joint] - centre)) for joint in joints]
-    return max(sizes, default=0.0), BULKY if len(geoms) else BLIND
+    return max(sizes) if len(geoms) else max([*sizes, UNSEEN * model.stat.extent])
 
 
 class _Reader:
@@ -261,8 +263,6 @@ class _Reader:
         trees: dict[int, list[int]] = {}
         for body in range(1, model.nbody):
             trees.setdefault(int(model.body_rootid[body]), []).append(body)
-        if not trees:
-            return []
         best = max(trees, key=lambda root: (sum(model.body_jntnum[body] for body in trees[root]), len(trees[root])))
         others = [model.body(root).name or f"body-{root}" for root in trees if root != best]
         self.notes.drop("body", others, "stands in the model beside the robot")

@@ -95,52 +95,42 @@ def _check_tree(root: ElementTree.Element, links: set[str], path: Path) -> None:
 
 def _joints(root: ElementTree.Element, path: Path, notes: Notes) -> dict[str, JointFacts]:
     found: dict[str, JointFacts] = {}
-    loose: list[str] = []
-    swapped: list[str] = []
-    closed: list[str] = []
+    odd: dict[str, list[str]] = {"kind": [], "swapped": [], "unstated": [], "closed": []}
+    followers: dict[tuple[str, float], list[str]] = {}
     for joint in root.findall("joint"):
         name, kind = _name(joint, "joint", path), joint.get("type", "fixed")
         if kind not in (*MOVING, "fixed"):
-            loose.append(f"{name} ({kind})")
+            odd["kind"].append(f"{name} ({kind})")
             joint.set("type", "fixed")
         if kind not in MOVING:
             continue
         limit = joint.find("limit")
-        lower = upper = torque = speed = 0.0
-        if limit is not None:
-            lower, upper, torque, speed = (
-                _number(limit, key, path) for key in ("lower", "upper", "effort", "velocity")
-            )
+        if limit is None:
+            limit = ElementTree.SubElement(joint, "limit")
+        lower, upper, torque, speed = (_number(limit, key, path) for key in ("lower", "upper", "effort", "velocity"))
         if lower > upper:
-            swapped.append(name)
+            odd["swapped"].append(name)
             lower, upper = upper, lower
-            assert limit is not None
-            limit.set("lower", repr(lower))
-            limit.set("upper", repr(upper))
-        if limit is not None and kind != "continuous" and lower == upper and limit.get("lower") is not None:
-            closed.append(name)
-        held = _follows(joint, name, path, notes)
-        if held is None and name in closed:
-            held = lower
-        limited = kind != "continuous" and lower < upper
+        held, limited = None, kind != "continuous" and lower < upper
+        if kind != "continuous" and lower == upper:
+            odd["closed" if lower else "unstated"].append(name)
+            held = lower or None
+        for key, value in (("lower", lower if limited else -1.0), ("upper", upper if limited else 1.0)):
+            limit.set(key, repr(value))
+        if (mimic := joint.find("mimic")) is not None:
+            held = _number(mimic, "offset", path)
+            followers.setdefault((mimic.get("joint", ""), held), []).append(name)
+            joint.remove(mimic)
         found[name] = JointFacts(abs(torque) or None, abs(speed) or None, limited, held)
-    notes.drop("joint", loose, "its kind has no word here; it is held where it is, and a base floats in any case")
-    notes.repair("joint", swapped, "its lower limit was above the upper one; they were exchanged")
-    notes.repair("joint", closed, "its limits leave it a single position; it is held there")
-    return found
-
-
-def _follows(joint: ElementTree.Element, name: str, path: Path, notes: Notes) -> float | None:
-    """Where a joint stays that mimics another; None: it mimics none."""
-    mimic = joint.find("mimic")
-    if mimic is None:
-        return None
-    offset = _number(mimic, "offset", path)
+    notes.drop("joint", odd["kind"], "its kind has no word here; it is held where it is, and a base floats in any case")
+    notes.repair("joint", odd["swapped"], "its lower limit was above the upper one; they were exchanged")
     notes.repair(
-        "joint", [name], f"mimics joint {mimic.get('joint')}; it is held at {offset:.4g}, where that one's 0 puts it"
+        "joint", odd["unstated"], "its limits are both 0, as if they were not stated; it counts as one without limits"
     )
-    joint.remove(mimic)
-    return offset
+    notes.repair("joint", odd["closed"], "its limits leave it a single position; it is held there")
+    for (leader, offset), names in followers.items():
+        notes.repair("joint", names, f"mimics joint {leader}; it is held at {offset:.4g}, where that one's 0 puts it")
+    return found
 
 
 def _meshes(root: ElementTree.Element, path: Path, notes: Notes) -> dict[str, bytes]:
