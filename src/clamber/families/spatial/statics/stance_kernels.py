@@ -11,10 +11,12 @@ from .equilibrium_kernels import balance_forces, contact_frame
 from .gravity_kernels import base_weight, limb_weight
 from .kinematics_kernels import reach_point
 from .records import CHECKS_OF_STANCE
-from .seeds_kernels import postures, seed_index
+from .seeds_kernels import seed_beside, seed_index, take_seed
 
 NEAR = 1e-6
 """Where searches of postures end, per size of the robot."""
+OTHER_SEEDS = 6
+"""Seeds of the cells beside that a limb that has to be aligned is tried from where its own fails."""
 PATH_POINTS = 7
 """Of a lifted path that are solved."""
 PATH_JUMP = 1.0
@@ -50,11 +52,19 @@ def solve_limb(robot, tables, limb, work):
     index = seed_index(robot, tables, limb, work)
     if index < 0:
         return math.inf
-    for k in range(robot.n_joints[limb]):
-        work.posture[limb, k] = postures(tables)[index, k]
-    if robot.aligned[limb]:
-        return reach_aligned(robot, limb, work, NEAR * robot.size)
-    return reach_point(robot, limb, work, NEAR * robot.size)
+    near = NEAR * robot.size
+    take_seed(robot, tables, limb, index, work)
+    if not robot.aligned[limb]:
+        return reach_point(robot, limb, work, near)
+    error = reach_aligned(robot, limb, work, near)
+    for side in range(1, 1 + OTHER_SEEDS):  # most often a wrist at its limit, which has another branch beside it
+        if error < near:
+            break
+        other = seed_beside(tables, limb, index, side)
+        if other >= 0:
+            take_seed(robot, tables, limb, other, work)
+            error = reach_aligned(robot, limb, work, near)
+    return error
 
 
 @kernel
