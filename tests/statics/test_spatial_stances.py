@@ -13,7 +13,7 @@ from clamber.families.spatial.robot.contacts import Contact, gripper, point_foot
 from clamber.families.spatial.statics.checks import STANCE_CHECK, STANCE_CHECKS
 from clamber.families.spatial.statics.collision_kernels import box_gap, segment_gap
 from clamber.families.spatial.statics.judging import Statics, rules_record
-from clamber.families.spatial.statics.records import JUDGED, WORK
+from clamber.families.spatial.statics.records import WORK
 from clamber.families.spatial.statics.stance_kernels import swing_reach
 from clamber.types import Floats, Records
 from plain_spatial import frames
@@ -227,16 +227,28 @@ def test_gaps_of_a_box_are_those_of_dense_points(seed: int) -> None:
     assert box_gap(a, b, half) == pytest.approx(float((outside + np.minimum(over.max(axis=1), 0.0)).min()), abs=1e-4)
 
 
-def test_a_lifted_path_within_reach_is_followed_and_one_beyond_is_not() -> None:
-    statics, bodies, contacts = stance("grippers", 16)
+def path_rooms(machine: str, seed: int, shift: Floats, lift: float) -> tuple[float, Records, Statics]:
+    """Room along the lifted path of limb 0 from its hold to one shifted along the base's axes, and the scratch afterwards."""
+    statics, bodies, contacts = stance(machine, seed)
     judged, _ = statics.judge(bodies, contacts)
     assert judged["judged"][0]
-    before: Records = judged.astype(JUDGED)
-    near, far = contacts[0, :2].copy(), contacts[0, :2].copy()
-    for swing, shift in ((near, 0.02), (far, 0.5)):
-        swing["place"][:] = contacts["place"][0, 0]
-        swing["normal"][:] = contacts["normal"][0, 0]
-        swing["place"][1, 0] += shift
+    swing = np.repeat(contacts[0, :1], 2)
+    swing["place"][1] += bodies["rotation"][0].reshape(3, 3) @ shift
     work = np.zeros(1, WORK)
-    rooms = [swing_reach(statics.robot[0], bodies[0], 0, swing, before[0], 0.02, work[0]) for swing in (near, far)]
-    assert rooms[0] > 0.0 > rooms[1] and math.isfinite(rooms[1])
+    return swing_reach(statics.robot[0], bodies[0], 0, swing, judged[0], lift, work[0]), work, statics
+
+
+@pytest.mark.parametrize(("machine", "seed"), [("grippers", 16), ("feet", 17), ("clamps", 18)])
+def test_a_lifted_path_within_reach_is_followed_and_one_beyond_is_not(machine: str, seed: int) -> None:
+    near, work, statics = path_rooms(machine, seed, np.array([-0.01, 0.01, 0.0]), 0.02)
+    far, _, _ = path_rooms(machine, seed, np.array([0.0, 0.0, -2.0]), 0.02)
+    assert near > 0.0 > far > -math.inf
+    end = work["origin"][0, 0, statics.robot["n_joints"][0, 0]]
+    assert end == pytest.approx(work["target"][0, 0], abs=2e-3 * float(statics.robot["size"][0]))
+    if statics.robot["aligned"][0, 0]:
+        assert work["tip_turn"][0, 0, [2, 5, 8]] @ work["normal"][0, 0] == pytest.approx(-1.0, abs=1e-4)
+
+
+def test_a_path_that_is_lifted_out_of_reach_says_so_though_its_ends_are_in_reach() -> None:
+    shift = np.array([0.005, 0.005, 0.0])
+    assert path_rooms("grippers", 16, shift, 0.01)[0] > 0.0 > path_rooms("grippers", 16, shift, 0.5)[0]
