@@ -1,9 +1,10 @@
 """Statics of a limbed robot in space a second time: matrices, potential energy and HiGHS; slow, obvious, nothing shared."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import linprog
+from scipy.optimize import linprog, lsq_linear
 
 from clamber.families.spatial.robot.chains import Chains
 from clamber.families.spatial.robot.contacts import Contact
@@ -71,25 +72,73 @@ class PlainStance:
     posture: Floats
     places: Floats
     """Of the contacts, shape (limbs, 3), world frame."""
-    frames: Floats
-    """Rows normal, tangent, tangent of each contact, world frame, shape (limbs, 3, 3)."""
+    normals: Floats
+    along: Floats
+    """Of bars and the like; zeros where the end effector's x is the first tangent."""
     bears: list[bool]
     strength: Floats
     friction: Floats
 
 
-@dataclass(frozen=True)
-class PlainForces:
-    """Largest s, and the rows that it was found with."""
-
-    s: float
-    matrix: Floats
-    bound: Floats
-    balance: Floats
-    wanted: Floats
+def contact_axes(end: Floats, normal: Floats, along: Floats) -> Floats:
+    """Rows normal, tangent, tangent of a contact, world frame, by Gram and Schmidt."""
+    first = along if along.any() else end[:3, 0] if abs(end[:3, 0] @ normal) <= 0.9 else end[:3, 1]
+    first = first - (first @ normal) * normal
+    first = first / np.linalg.norm(first)
+    return np.array([normal, first, np.cross(normal, first)])
 
 
-def solve_forces(chains: Chains, contacts: list[Contact], stance: PlainStance) -> PlainForces:
+def gap_of_segments(first: Floats, second: Floats) -> float:
+    """Distance of two segments, each of shape (2, 3), by bounded least squares."""
+    across = np.column_stack([first[1] - first[0], second[0] - second[1]])
+    found = lsq_linear(across, second[0] - first[0], (0.0, 1.0), tol=1e-14)
+    return float(np.sqrt(2.0 * found.cost))
+
+
+def depth_in_box(points: Floats, half: Floats) -> Floats:
+    """Signed distance of points from a box about the origin, shape (n,)."""
+    over = np.abs(points) - half
+    found: Floats = np.linalg.norm(np.maximum(over, 0.0), axis=1) + np.minimum(over.max(axis=1), 0.0)
+    return found
+
+
+def plain_margins(chains: Chains, contacts: list[Contact], stance: PlainStance) -> dict[str, float]:
+    """Margins of a stance in the posture that it states, without any room or need that rules ask for: distances are signed."""
+    limbs = range(len(contacts))
+    placed = [frames(chains, limb, stance.posture[limb], stance.base) for limb in limbs]
+    reach = max(float(np.linalg.norm(placed[limb][-1][:3, 3] - stance.places[limb])) for limb in limbs)
+    joint, tilt, limb_limb, limb_body = math.inf, math.inf, math.inf, math.inf
+    inverse = np.linalg.inv(stance.base)
+    for limb in limbs:
+        n = chains.n_joints[limb]
+        q = stance.posture[limb, :n]
+        joint = min(joint, *(q - chains.lower[limb, :n]), *(chains.upper[limb, :n] - q))
+        if stance.bears[limb]:
+            cosine = float(np.clip(-placed[limb][-1][:3, 2] @ stance.normals[limb], -1.0, 1.0))
+            tilt = min(tilt, contacts[limb].tilt - math.acos(cosine))
+        mine = np.array([frame[:3, 3] for frame in placed[limb]])
+        for other in range(limb):
+            theirs = np.array([frame[:3, 3] for frame in placed[other]])
+            for k in range(1, n):
+                for h in range(1, chains.n_joints[other]):
+                    gap = gap_of_segments(mine[k : k + 2], theirs[h : h + 2])
+                    limb_limb = min(limb_limb, gap - chains.radius[limb, k] - chains.radius[other, h])
+        own = mine @ inverse[:3, :3].T + inverse[:3, 3]
+        for k in range(2, n):
+            points = own[k] + np.linspace(0.0, 1.0, 2001)[:, None] * (own[k + 1] - own[k])
+            limb_body = min(limb_body, float(depth_in_box(points, chains.base_half).min()) - chains.radius[limb, k])
+    s = solve_forces(chains, contacts, stance)
+    return {
+        "reach": -reach,
+        "joint": joint,
+        "tilt": tilt,
+        "limb_limb": limb_limb,
+        "limb_body": limb_body,
+        "equilibrium": s,
+    }
+
+
+def solve_forces(chains: Chains, contacts: list[Contact], stance: PlainStance) -> float:
     """Largest s of the stance by HiGHS; minus infinity if no forces balance. Unknowns are forces and moments in newtons, world frame."""
     limbs = len(contacts)
     size = max(stretch(chains, limb) for limb in range(limbs))
@@ -118,15 +167,19 @@ def solve_forces(chains: Chains, contacts: list[Contact], stance: PlainStance) -
         if stance.bears[limb]:
             at = slice(starts[limb], starts[limb + 1])
             arm = stance.places[limb] - origin
+            axes = contact_axes(frame_list[-1], stance.normals[limb], stance.along[limb])
             for c in range(wide[limb]):
                 unit = np.eye(3)[c % 3]
                 column = np.concatenate([unit, np.cross(arm, unit)] if c < 3 else [np.zeros(3), unit])
                 balance[:, starts[limb] + c] = column
-            matrix, limit = contacts[limb].polytope(float(stance.friction[limb]), float(stance.strength[limb]))
+            cosine = float(np.clip(-frame_list[-1][:3, 2] @ stance.normals[limb], -1.0, 1.0))
+            kind = contacts[limb]
+            kept = kind.pull * max(0.0, 1.0 - kind.tilt_loss * math.acos(cosine)) if kind.tilt_loss else kind.pull
+            matrix, limit = kind.polytope(float(stance.friction[limb]), min(kept, float(stance.strength[limb])))
             for row, (coefficients, most) in enumerate(zip(matrix, limit, strict=True)):
                 slack = contacts[limb].rows[row].slack
                 line = np.zeros(n + 1)
-                world = np.concatenate([coefficients[:3] @ stance.frames[limb], coefficients[3:] @ stance.frames[limb]])
+                world = np.concatenate([coefficients[:3] @ axes, coefficients[3:] @ axes])
                 line[at] = world[: wide[limb]]
                 line[-1] = slack[0] * weight + slack[1]
                 rows.append(line)
@@ -164,5 +217,4 @@ def solve_forces(chains: Chains, contacts: list[Contact], stance: PlainStance) -
     goal = wanted / weight
     goal[3:] /= size
     found = linprog(cost, scaled, limits, equations, goal, (None, None), method="highs")
-    s = float(found.x[-1]) if found.status == 0 else -np.inf
-    return PlainForces(s, scaled, limits, equations, goal)
+    return float(found.x[-1]) if found.status == 0 else -math.inf

@@ -1,15 +1,17 @@
 """Forces of stances in space against HiGHS, which gets the same stance by other words (`plain_spatial`)."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from clamber.families.spatial.robot.chains import Chains
-from clamber.families.spatial.robot.contact_kinds import build_contact, read_contact
+from clamber.families.spatial.robot.contact_kinds import Magnet, build_contact, read_contact
 from clamber.families.spatial.robot.contacts import Contact, gripper, point_foot
 from clamber.families.spatial.statics.checks import STANCE_CHECK
 from clamber.families.spatial.statics.judging import Statics, rules_record
 from clamber.types import Records
-from plain_spatial import PlainStance, solve_forces
+from plain_spatial import PlainStance, plain_margins, solve_forces
 from spatial_machines import arms, random_stances, spider
 
 
@@ -17,6 +19,9 @@ def shipped(name: str) -> Contact:
     return build_contact(read_contact(name)).contact()
 
 
+MAGNET = build_contact(read_contact("magnet"))
+assert isinstance(MAGNET, Magnet)
+TILTED = replace(MAGNET, pull=40.0, ankle=False, half_tilt=1.0, tilt=2.0).contact()
 MACHINES: dict[str, tuple[Chains, Contact]] = {
     "four grippers": (spider(4), gripper(0.8, 9.0)),
     "weak grippers": (spider(4, torque=0.8), gripper(0.5, 4.0)),
@@ -28,21 +33,23 @@ MACHINES: dict[str, tuple[Chains, Contact]] = {
     "two clamps": (arms(2, 7, torque=150.0), shipped("clamp")),
     "slides and clamps": (arms(3, slide=True), shipped("clamp")),
     "flat feet": (arms(3, torque=90.0), shipped("area")),
+    "tilted magnets": (spider(4), TILTED),
+    "hooks on bars": (spider(4), shipped("hook")),
 }
 
 
-def plain(statics: Statics, body: np.void, contacts: Records, judged: np.void) -> PlainStance:
-    """A judged stance for the plain evaluator."""
+def plain(body: np.void, contacts: Records, judged: np.void) -> PlainStance:
+    """A judged stance for the plain evaluator, which takes the posture alone from what was judged."""
     base = np.eye(4)
     base[:3, :3], base[:3, 3] = body["rotation"].reshape(3, 3), body["place"]
-    frames = judged["frame"][: statics.n_limbs].reshape(-1, 3, 3) @ base[:3, :3].T
     return PlainStance(
         base=base,
         gravity=body["gravity"],
         wrench=body["wrench"],
         posture=judged["posture"],
         places=contacts["place"],
-        frames=frames,
+        normals=contacts["normal"],
+        along=contacts["along"],
         bears=[bool(bears) for bears in contacts["bears"]],
         strength=contacts["strength"],
         friction=contacts["friction"],
@@ -60,6 +67,9 @@ def test_no_verdict_differs_from_that_of_another_solver(machine: str, n: int) ->
     contacts["friction"] = rng.uniform(0.3, 1.0, contacts.shape)
     weight = 9.81 * chains.total_mass
     contacts["strength"] = rng.uniform(0.02, 0.6, contacts.shape) * weight
+    if kind.kind == "hook":
+        contacts["along"] = np.cross(contacts["normal"], rng.normal(size=(*contacts.shape, 3)))
+        contacts["strength"] *= 5.0  # a hook bears the weight as a push
     contacts["bears"] = rng.uniform(size=contacts.shape) < 0.85
     bodies["wrench"] = rng.normal(size=(n, 6)) * weight * [0.05, 0.05, 0.05, 0.005, 0.005, 0.005]
     exact, _ = statics.judge(bodies, contacts)
@@ -70,7 +80,7 @@ def test_no_verdict_differs_from_that_of_another_solver(machine: str, n: int) ->
     assert len(judged) > 0.9 * n
     feasible = 0
     for i in judged:
-        found = solve_forces(chains, [kind] * limbs, plain(statics, bodies[i], contacts[i], exact[i])).s
+        found = solve_forces(chains, [kind] * limbs, plain(bodies[i], contacts[i], exact[i]))
         feasible += found >= 0.05
         if found < -0.9:  # no forces balance, or only very wrong ones
             assert exact["s"][i] < -0.8
@@ -78,4 +88,24 @@ def test_no_verdict_differs_from_that_of_another_solver(machine: str, n: int) ->
             assert exact["s"][i] == pytest.approx(found, abs=1e-6)
         if abs(found - 0.05) > 1e-7:
             assert (reasons[i] < 0) == (found >= 0.05)
-    assert 0.03 * n < feasible < 0.97 * n
+    assert 0.02 * n < feasible < 0.98 * n
+
+
+@pytest.mark.parametrize("machine", MACHINES)
+def test_margins_are_those_of_the_plain_evaluator(machine: str) -> None:
+    chains, kind = MACHINES[machine]
+    limbs = len(chains.limb_names)
+    statics = Statics(chains, [kind] * limbs)
+    bodies, contacts = random_stances(statics, chains, 15, np.random.default_rng(21), spread=0.6)
+    rules = rules_record()
+    judged, _ = statics.judge(bodies, contacts, rules)
+    size = float(statics.robot["size"][0])
+    for i in np.flatnonzero(judged["judged"]):
+        expected = plain_margins(chains, [kind] * limbs, plain(bodies[i], contacts[i], judged[i]))
+        margins = {name: float(judged["margins"][i, number]) for name, number in STANCE_CHECK.items()}
+        assert margins["reach"] - rules["reach"][0] * size == pytest.approx(expected["reach"], abs=1e-6 * size)
+        assert margins["joint"] == pytest.approx(expected["joint"], abs=1e-9)
+        assert min(margins["tilt"], 1e9) == pytest.approx(min(expected["tilt"], 1e9), abs=1e-7)
+        assert margins["limb_limb"] == pytest.approx(expected["limb_limb"], abs=1e-7)
+        assert margins["limb_body"] == pytest.approx(expected["limb_body"], abs=1e-4)
+        assert margins["equilibrium"] == pytest.approx(max(expected["equilibrium"], -1.0), abs=1e-6)

@@ -1,5 +1,6 @@
-"""Kinematics of limbs in space: frames and weights against matrices and energies, Jacobians against differences."""
+"""Kinematics of limbs in space: frames and weights against matrices, energies and MuJoCo, Jacobians against differences."""
 
+import mujoco
 import numpy as np
 import pytest
 
@@ -91,6 +92,53 @@ def test_weights_are_slopes_of_the_potential_energy(machine: str) -> None:
                 moment = moment + chains.mass[limb, k] * (frame @ np.append(chains.centre[limb, k], 1.0))[:3]
         assert work["moments"][0, 0] == pytest.approx(chains.total_mass)
         assert work["moments"][0, 1:] == pytest.approx(moment, abs=1e-12)
+
+
+def in_mujoco(chains: Chains) -> mujoco.MjModel:
+    """The same robot with its base fixed to the world."""
+    spec = mujoco.MjSpec()
+    for limb, n in enumerate(chains.n_joints):
+        parent = spec.worldbody
+        for k in range(n):
+            turn = np.zeros(4)
+            mujoco.mju_mat2Quat(turn, chains.rotation[limb, k].reshape(-1))
+            parent = parent.add_body(
+                pos=chains.offset[limb, k],
+                quat=turn,
+                mass=chains.mass[limb, k],
+                ipos=chains.centre[limb, k],
+                inertia=[1e-3, 1e-3, 1e-3],
+                explicitinertial=True,
+            )
+            kind = mujoco.mjtJoint.mjJNT_SLIDE if chains.sliding[limb, k] else mujoco.mjtJoint.mjJNT_HINGE
+            parent.add_joint(type=kind, axis=[0, 0, 1])
+        parent.add_site(name=f"tip{limb}", pos=chains.offset[limb, n])
+    return spec.compile()
+
+
+@pytest.mark.parametrize("machine", MACHINES)
+def test_tips_jacobians_and_weights_are_those_of_mujoco(machine: str) -> None:
+    chains = MACHINES[machine]
+    model = in_mujoco(chains)
+    data = mujoco.MjData(model)
+    rng = np.random.default_rng(13)
+    joints = int(chains.n_joints[0])
+    for posture in random_postures(chains, 20, 1.0, rng):
+        gravity = rng.normal(size=3) * 9.81
+        model.opt.gravity[:] = gravity
+        data.qpos[:] = posture.reshape(-1)
+        mujoco.mj_forward(model, data)
+        statics, work = solved(chains, posture)
+        work["gravity"][0] = gravity
+        for limb in range(statics.n_limbs):
+            limb_weight(statics.robot[0], limb, work[0])
+            own = slice(limb * joints, (limb + 1) * joints)
+            site = model.site(f"tip{limb}").id
+            place, turn = np.zeros((3, model.nv)), np.zeros((3, model.nv))
+            mujoco.mj_jacSite(model, data, place, turn, site)
+            assert work["origin"][0, limb, joints] == pytest.approx(data.site_xpos[site], abs=1e-13)
+            assert work["jacobian"][0, limb, :joints] == pytest.approx(place[:, own].T, abs=1e-13)
+            assert work["load"][0, limb, :joints] == pytest.approx(-data.qfrc_bias[own], rel=1e-9, abs=1e-11)
 
 
 @pytest.mark.parametrize("machine", MACHINES)

@@ -2,7 +2,8 @@
 
 Unknown are the wrenches of the contacts, each in its own frame, forces per weight and moments per weight times size of the robot. Six
 equations balance the robot; rows keep every contact within its polytope and every motor within its torque, with s to spare:
-`|torque| <= (1 - s) limit`, and contacts with `s` times the weight (or what their rows say) left.
+`|torque| <= (1 - s) limit`, and contacts with `s` times the weight (or what their rows say) left. So a contact that bears has to do so
+with s to spare, a foot with a share of the weight on it: a limb that is not needed may be said to bear nothing.
 """
 
 import math

@@ -7,7 +7,7 @@ import numpy as np
 
 from ....types import Floats, Records
 from .records import JOINTS, SEEDS, WORK
-from .seeds_kernels import TURNS, UNREACHED, refine_seeds, sample_seeds
+from .seeds_kernels import TURNS, UNREACHED, refine_seeds, sample_seeds, widen_seeds
 
 CELLS: Final = 24
 """Cells along the longest side of a limb's reach."""
@@ -61,6 +61,7 @@ class SeedTable:
             aligned = bool(robot["aligned"][0, limb])
             sample_seeds(moved[0], row, limb, work[0], SAMPLES_ALIGNED if aligned else SAMPLES)
             refine_seeds(moved[0], row, limb, work[0], SWEEPS)
+            widen_seeds(moved[0], row, limb)
 
     @property
     def records(self) -> Records:

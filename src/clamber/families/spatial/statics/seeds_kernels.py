@@ -14,7 +14,9 @@ TURNS = 24
 """Directions told apart of limbs that are aligned: a cube's faces, four quarters each."""
 UNREACHED = 1e9
 """Score of a cell without a seed."""
-NEAR_LIMIT = 0.03
+BORROWED = 100.0
+"""What a seed that is a neighbour's scores besides: more than any of its own."""
+NEAR_LIMIT = 0.08
 """Of a joint's range; postures that close to a limit are taken where there is no other."""
 LIMIT_SCORE = 0.2
 SEED = 24
@@ -81,6 +83,13 @@ def seed_index(robot, seeds, limb, work):
 
 
 @kernel
+def take_seed(robot, seeds, limb, index, work):
+    """Put a seed into `posture` of a limb."""
+    for k in range(robot.n_joints[limb]):
+        work.posture[limb, k] = postures(seeds)[index, k]
+
+
+@kernel
 def posture_score(robot, limb, work):
     """Distance of the posture in `work` from the nominal one, by ranges of the joints, more if next to a limit [-]."""
     total = 0.0
@@ -137,6 +146,19 @@ def aim_at_turn(turn, normal):
 
 
 @kernel
+def neighbour(seeds, limb, cell, side):
+    """Cell beside a cell of a limb's grid, by the number of the side from 1 to 6; 0 is the cell itself, -1: outside the grid."""
+    count = seeds.count[limb]
+    i, j, k = cell // (count[1] * count[2]), cell // count[2] % count[1], cell % count[2]
+    i += 1 if side == 1 else -1 if side == 2 else 0
+    j += 1 if side == 3 else -1 if side == 4 else 0
+    k += 1 if side == 5 else -1 if side == 6 else 0
+    if i < 0 or j < 0 or k < 0 or i >= count[0] or j >= count[1] or k >= count[2]:
+        return -1
+    return (i * count[1] + j) * count[2] + k
+
+
+@kernel
 def refine_cell(robot, seeds, limb, work, cell):
     """Solve the middle of a cell from its own seeds and those of its neighbours, and keep the best of them.
 
@@ -159,22 +181,50 @@ def refine_cell(robot, seeds, limb, work, cell):
         if turns > 1:
             aim_at_turn(turn, work.normal[limb])
         for side in range(7):
-            a = i + (1 if side == 1 else -1 if side == 2 else 0)
-            b = j + (1 if side == 3 else -1 if side == 4 else 0)
-            c = k + (1 if side == 5 else -1 if side == 6 else 0)
-            if a < 0 or b < 0 or c < 0 or a >= count[0] or b >= count[1] or c >= count[2]:
+            beside = neighbour(seeds, limb, cell, side)
+            if beside < 0:
                 continue
-            other = seeds.start[limb] + ((a * count[1] + b) * count[2] + c) * turns + turn
+            other = seeds.start[limb] + beside * turns + turn
             if scores(seeds)[other] >= UNREACHED or (side > 0 and scores(seeds)[other] > 0.9 * before):
                 continue
-            for h in range(robot.n_joints[limb]):
-                work.posture[limb, h] = postures(seeds)[other, h]
+            take_seed(robot, seeds, limb, other, work)
             error = reach_aligned(robot, limb, work, near) if turns > 1 else reach_point(robot, limb, work, near)
             if error < near:
                 keep_better(robot, seeds, limb, work, index)
         if scores(seeds)[index] < before:
             better += 1
     return better
+
+
+@kernel
+def seed_beside(seeds, limb, index, side):
+    """Index of the seed of the cell beside that of a seed (`neighbour`), for the same direction; -1 if there is none."""
+    turns = seeds.turns[limb]
+    beside = neighbour(seeds, limb, (index - seeds.start[limb]) // turns, side)
+    if beside < 0:
+        return -1
+    other = seeds.start[limb] + beside * turns + (index - seeds.start[limb]) % turns
+    return other if scores(seeds)[other] < UNREACHED else -1
+
+
+@kernel
+def widen_seeds(robot, seeds, limb):
+    """Give cells without a seed that of the best cell beside them: a place near their edge may still be in reach."""
+    turns = seeds.turns[limb]
+    for cell in range(seeds.count[limb, 0] * seeds.count[limb, 1] * seeds.count[limb, 2]):
+        for turn in range(turns):
+            index = seeds.start[limb] + cell * turns + turn
+            if scores(seeds)[index] < UNREACHED:
+                continue
+            best, least = -1, BORROWED
+            for side in range(1, 7):
+                other = seed_beside(seeds, limb, index, side)
+                if other >= 0 and scores(seeds)[other] < least:
+                    best, least = other, scores(seeds)[other]
+            if best >= 0:
+                scores(seeds)[index] = BORROWED + least
+                for k in range(robot.n_joints[limb]):
+                    postures(seeds)[index, k] = postures(seeds)[best, k]
 
 
 @kernel

@@ -11,10 +11,12 @@ from .equilibrium_kernels import balance_forces, contact_frame
 from .gravity_kernels import base_weight, limb_weight
 from .kinematics_kernels import reach_point
 from .records import CHECKS_OF_STANCE
-from .seeds_kernels import postures, seed_index
+from .seeds_kernels import seed_beside, seed_index, take_seed
 
 NEAR = 1e-6
 """Where searches of postures end, per size of the robot."""
+OTHER_SEEDS = 6
+"""Seeds of the cells beside that a limb that has to be aligned is tried from where its own fails."""
 PATH_POINTS = 7
 """Of a lifted path that are solved."""
 PATH_JUMP = 1.0
@@ -50,11 +52,19 @@ def solve_limb(robot, tables, limb, work):
     index = seed_index(robot, tables, limb, work)
     if index < 0:
         return math.inf
-    for k in range(robot.n_joints[limb]):
-        work.posture[limb, k] = postures(tables)[index, k]
-    if robot.aligned[limb]:
-        return reach_aligned(robot, limb, work, NEAR * robot.size)
-    return reach_point(robot, limb, work, NEAR * robot.size)
+    near = NEAR * robot.size
+    take_seed(robot, tables, limb, index, work)
+    if not robot.aligned[limb]:
+        return reach_point(robot, limb, work, near)
+    error = reach_aligned(robot, limb, work, near)
+    for side in range(1, 1 + OTHER_SEEDS):  # most often a wrist at its limit, which has another branch beside it
+        if error < near:
+            break
+        other = seed_beside(tables, limb, index, side)
+        if other >= 0:
+            take_seed(robot, tables, limb, other, work)
+            error = reach_aligned(robot, limb, work, near)
+    return error
 
 
 @kernel
@@ -131,7 +141,7 @@ def judge(robot, tables, body, contacts, before, rules, out, work):
         tables: Record of `SEEDS`.
         body: Record of `BODY`.
         contacts: Records of `CONTACT`, shape (n_limbs,).
-        before: Record of `JUDGED`: the stance before; `judged` is 0 if there is none.
+        before: Record of `JUDGED`, or any with such a `posture` and `judged`: the stance before; `judged` is 0 if there is none.
         rules: Record of `RULES`.
         out: Record of `JUDGED` that is written. Margins behind the check that ended the judging are NaN.
         work: Record of `WORK`.
@@ -201,6 +211,39 @@ def path_point(start, end, lift, u, to):
 
 
 @kernel
+def follow_path(robot, body, limb, swing, lift, u, work):
+    """Solve a limb at one point of the lifted path between two contacts (`path_point`), from the posture in `work`, which it replaces.
+
+    An aligned limb also turns its end effector from the one inward normal to the other.
+
+    Args:
+        robot: Record of `ROBOT`.
+        body: Record of `BODY`.
+        limb: Index of the limb.
+        swing: Two records of `CONTACT`: where it is and where it goes.
+        lift: Height of the path [m].
+        u: Share of the path from 0 to 1.
+        work: Record of `WORK`; afterwards `origin` has the limb's joints in the base frame.
+
+    Returns:
+        Error left [m].
+    """
+    place = work.full[:3]
+    normal = work.entering[:3]
+    path_point(swing[0], swing[1], lift, u, place)
+    square = 0.0
+    for a in range(3):
+        normal[a] = swing[0].normal[a] + smooth(u) * (swing[1].normal[a] - swing[0].normal[a])
+        square += normal[a] * normal[a]
+    scale = 1.0 / math.sqrt(square) if square > 1e-12 else 0.0
+    for a in range(3):
+        normal[a] = normal[a] * scale if scale > 0.0 else swing[0].normal[a]
+    aim_limb(body, place, normal, limb, work)
+    near = PATH_NEAR * robot.size
+    return reach_aligned(robot, limb, work, near) if robot.aligned[limb] else reach_point(robot, limb, work, near)
+
+
+@kernel
 def swing_reach(robot, body, limb, swing, before, lift, work):
     """How well a limb's tip follows the lifted path between two contacts with small changes of its joints, from the posture before.
 
@@ -209,30 +252,23 @@ def swing_reach(robot, body, limb, swing, before, lift, work):
         body: Record of `BODY`.
         limb: Index of the limb.
         swing: Two records of `CONTACT`: where it is and where it goes.
-        before: Record of `JUDGED` with the limb's posture at the first.
+        before: Record of `JUDGED`, or any with such a `posture`: the limb's at the first contact.
         lift: Height of the path [m].
-        work: Record of `WORK`; afterwards it describes the limb at the second contact.
+        work: Record of `WORK`; afterwards it describes the limb at the last point that was solved.
 
     Returns:
-        Distance that counts as reached less the largest error of the points [m]; negative where the path is out of reach or a joint
-        would have to jump.
+        Distance that counts as reached less the largest error of the points [m]; where a joint would have to jump, what is missing of
+        `PATH_JUMP`, negative. The points behind a violated one are not looked at.
     """
     n = robot.n_joints[limb]
     for k in range(n):
         work.posture[limb, k] = before.posture[limb, k]
     room = PATH_REACHED * robot.size
-    place = work.full[:3]
-    normal = work.entering[:3]
-    last = work.price[:n]
+    last = work.price
     for point in range(1, PATH_POINTS + 1):
-        u = point / PATH_POINTS
-        path_point(swing[0], swing[1], lift, u, place)
-        for a in range(3):
-            normal[a] = swing[0].normal[a] + smooth(u) * (swing[1].normal[a] - swing[0].normal[a])
-        aim_limb(body, place, normal, limb, work)
         for k in range(n):
             last[k] = work.posture[limb, k]
-        error = reach_point(robot, limb, work, PATH_NEAR * robot.size)
+        error = follow_path(robot, body, limb, swing, lift, point / PATH_POINTS, work)
         room = min(room, PATH_REACHED * robot.size - error)
         for k in range(n):
             room = min(room, PATH_JUMP - abs(work.posture[limb, k] - last[k]))
