@@ -69,6 +69,17 @@ def test_nobody_loses_a_file_that_is_there(run: Run, tmp_path: Path) -> None:
     assert (tmp_path / "robot.toml").read_text().startswith("# A robot (limbed)")
 
 
+@pytest.mark.parametrize("there", ["mine.toml", "mine-board.toml"])
+def test_no_random_board_is_written_over_a_file_that_is_there(run: Run, tmp_path: Path, there: str) -> None:
+    (tmp_path / there).write_text("mine")
+    words = ("new", "board", "--random", "--holds", "40", "--task", "-o", "mine.toml")
+    code, _, err = run(*words)
+    assert code == 2 and f"{there}: is there already" in err and "--force" in err
+    assert {path.name: path.read_text() for path in tmp_path.iterdir()} == {there: "mine"}
+    assert run(*words, "--force")[0] == 0
+    assert "mine" != (tmp_path / there).read_text()
+
+
 def test_a_walker_and_its_task_can_be_started_from(run: Run) -> None:
     assert run("new", "robot", "--like", "hoshino", "-o", "six.toml")[0] == 0
     assert run("new", "task", "--like", "terrace-walk", "-o", "over.toml")[0] == 0
