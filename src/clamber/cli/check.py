@@ -101,6 +101,8 @@ def _print_finding(finding: "Finding") -> None:
     else:
         nothing = "nothing is odd" if not finding.odd else f"{len(finding.odd)} odd"
         start = "; the start holds" if finding.margins else ""
+        reported = [margin.check for margin in finding.margins if not margin.holds]
+        start += f", but violates {', '.join(reported)} (only reported)" if reported else ""
         console.print(f"OK: it follows its format{start}; {nothing}", style="bold green")
 
 
