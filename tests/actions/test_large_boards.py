@@ -97,7 +97,7 @@ def test_a_board_that_cannot_be_is_refused_by_name(
 
 def test_new_writes_a_board_and_a_task_that_load_and_start(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "wall.toml"
-    for extra in ((), ("--listed",)):
+    for extra in ((), ("--listed", "--force")):
         words = ["new", "board", "--random", "--holds", "120", "--seed", "4", "--task", *extra]
         with pytest.raises(SystemExit) as left:
             main([*words, "-o", str(path), "--json"])

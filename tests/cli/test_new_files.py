@@ -11,6 +11,7 @@ import pytest
 
 from clamber.cli import main
 from clamber.families.climber.world.library import load_board
+from clamber.tasks import load_task
 
 Run = Callable[..., tuple[int, str, str]]
 
@@ -49,6 +50,39 @@ def test_from_nothing_to_a_plan_in_five_commands(run: Run, tmp_path: Path) -> No
     assert code == 0 and verdict["kind"] == "plan" and verdict["reached"]
 
 
+@pytest.mark.parametrize("limbs", [2, 3, 4, 6, 8])
+def test_a_new_task_starts_where_every_check_likes_it_in_units_of_the_robot(run: Run, limbs: int) -> None:
+    assert run("new", "robot", "--limbs", str(limbs), "-o", "mine.toml")[0] == 0
+    assert run("new", "board", "-o", "wall.toml")[0] == 0
+    assert run("new", "task", "--robot", "mine.toml", "--board", "wall.toml", "-o", "climb.toml")[0] == 0
+    code, out, _ = run("check", "climb.toml", "--json")
+    found = json.loads(out)
+    assert code == 0 and found["odd"] == []
+    margins = {margin["check"]: margin["margin"] for margin in found["margins"]}
+    assert all(margin["holds"] for margin in found["margins"])
+    assert margins["clearance"] > 0.04  # the body's origin is on no peg
+    assert margins["support"] == limbs - 1  # one must hold, and all do
+    text = Path("climb.toml").read_text()
+    assert 'length = "7.5 cm"' in text and 'theta = "0 deg"' in text and ' in"' not in text
+
+
+def test_a_new_task_for_a_robot_in_inches_is_in_inches(run: Run) -> None:
+    assert run("new", "robot", "-o", "mine.toml")[0] == 0
+    robot, metric = Path("mine.toml"), re.compile(r'value = ([-\d.]+), unit = "cm"')
+    robot.write_text(metric.sub(lambda one: f'value = {float(one[1]) / 2.54:.9g}, unit = "in"', robot.read_text()))
+    assert run("new", "board", "-o", "wall.toml")[0] == 0
+    assert run("new", "task", "--robot", "mine.toml", "--board", "wall.toml", "-o", "climb.toml")[0] == 0
+    said = load_task("climb.toml").document
+    assert said["step"]["length"] == "3 in"
+    assert said["start"]["x"].endswith(" in") and said["goal"]["y_min"].endswith(" in")
+
+
+def test_what_a_start_violates_is_named_where_it_is_called_all_right(run: Run) -> None:
+    code, out, _ = run("check", "ladder")
+    assert code == 0
+    assert "the start holds, but violates limb_limb (only reported); nothing is odd" in " ".join(out.split())
+
+
 def test_files_made_beside_each_other_can_be_moved_together(run: Run, tmp_path: Path) -> None:
     (tmp_path / "here").mkdir()
     for words in (
@@ -67,6 +101,17 @@ def test_nobody_loses_a_file_that_is_there(run: Run, tmp_path: Path) -> None:
     assert code == 2 and "is there already" in err and (tmp_path / "robot.toml").read_text() == "mine"
     assert run("new", "robot", "--force")[0] == 0
     assert (tmp_path / "robot.toml").read_text().startswith("# A robot (limbed)")
+
+
+@pytest.mark.parametrize("there", ["mine.toml", "mine-board.toml"])
+def test_no_random_board_is_written_over_a_file_that_is_there(run: Run, tmp_path: Path, there: str) -> None:
+    (tmp_path / there).write_text("mine")
+    words = ("new", "board", "--random", "--holds", "40", "--task", "-o", "mine.toml")
+    code, _, err = run(*words)
+    assert code == 2 and f"{there}: is there already" in err and "--force" in err
+    assert {path.name: path.read_text() for path in tmp_path.iterdir()} == {there: "mine"}
+    assert run(*words, "--force")[0] == 0
+    assert (tmp_path / there).read_text() != "mine"
 
 
 def test_a_walker_and_its_task_can_be_started_from(run: Run) -> None:

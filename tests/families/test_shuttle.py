@@ -124,6 +124,8 @@ def test_it_is_drawn_shown_and_exported(clamber: Run, plan: Path) -> None:
 
 def test_it_runs_and_is_tried_out(clamber: Run, plan: Path) -> None:
     assert told(clamber, "run", "shuttle-line", "-q")["done"]
+    assert told(clamber, "plan", "shuttle-line", "--to-run", "-q", "-o", "made.json")["to_run"]["ok"]
+    assert told(clamber, "run", "made.json", "-q")["done"]
     slipped = told(clamber, "run", str(plan), "-q", "--noise", "slip=1mm", "--seed", "3")
     assert slipped["done"] and 0.0 < abs(slipped["drawn"]["slip"]) <= 1e-3
     code, out, _ = clamber("trials", str(plan), "-n", "6", "--noise", "slip=20mm", "--workers", "1", "--json", "-q")

@@ -59,12 +59,16 @@ def _check_plan(what: str, task: str | None, overrides: list[str], everything: b
     announce_compilation()
     from ..planning.problem.plan_source import open_plan
     from ..planning.problem.verdict import CheckedPlan
+    from ..trials.work import to_run
+    from .plan.text import print_to_run
 
-    verdict = open_plan(what, task, overrides).check(go_on=everything)
+    opened = open_plan(what, task, overrides)
+    verdict, judged = opened.check(go_on=everything), to_run(opened.task, opened.plan, opened.label)
     if as_json:
-        print_json(CheckedPlan(verdict=verdict))
+        print_json(CheckedPlan(verdict=verdict, to_run=judged))
     else:
         _print_verdict(stdout(), verdict, every_step=everything)
+        print_to_run(stdout(), judged)
     raise typer.Exit(0 if verdict.ok else 1)
 
 
@@ -97,6 +101,8 @@ def _print_finding(finding: "Finding") -> None:
     else:
         nothing = "nothing is odd" if not finding.odd else f"{len(finding.odd)} odd"
         start = "; the start holds" if finding.margins else ""
+        reported = [margin.check for margin in finding.margins if not margin.holds]
+        start += f", but violates {', '.join(reported)} (only reported)" if reported else ""
         console.print(f"OK: it follows its format{start}; {nothing}", style="bold green")
 
 

@@ -167,7 +167,7 @@ def board(*, words: BoardOptions) -> None:
     words.check()
     board_file = words.board_file
     for path in (words.output, board_file):
-        _check_new(path, words.force or words.random)
+        _check_new(path, words.force)
     from .new_files import points_data, random_data
     from .starters import board_starter, board_text
 

@@ -103,7 +103,7 @@ def task_data(board: Json, label: str, path: Path, overrides: Sequence[str], rob
     """
     from ..families.climber.planning.random_task import climb_data
 
-    data, _ = climb_data(board, label, name=name_of(path), robot=robot, overrides=overrides)
+    data, _ = climb_data(board, label, name=name_of(path), robot=robot, overrides=overrides, to_edit=True)
     words = list(data.items())
     return dict([*words[:4], ("board", Path(label).name), *words[4:]])
 

@@ -81,9 +81,9 @@ class PlanResult(Jsonable):
     max_torque: Annotated[float, Key("max_torque_Nm"), Key("max_torque_oz_in", per=OZ_IN)]
     """Largest joint torque of the plan; 0 for robots without joint torques."""
     evaluations: Count
-    """Whole plans evaluated."""
+    """Whole plans evaluated; 0 where none are counted."""
     checks: Count
-    """Single actions judged."""
+    """Single actions judged; 0 where none are counted."""
     seconds: float
     """Wall-clock time."""
     seed: int

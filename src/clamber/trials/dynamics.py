@@ -14,6 +14,7 @@ from ..execution.run_report import RunReport
 from ..family import NotOfFamilyError
 from ..kernel_cache import Use
 from ..planning.problem.plan import Plan
+from ..planning.problem.verdict import check_plan
 from ..planning.progress import Listener
 
 if TYPE_CHECKING:  # loads what only commands need
@@ -144,6 +145,25 @@ class Dynamics(ABC):
         """
 
     @abstractmethod
+    def plan(self, task: Any, asked: RunRequest, events: RunEvents) -> Plan:
+        """The plan by which `run` carries a task out that has none, with room for what the dynamics do.
+
+        Raises:
+            NoPlanError: If there is none.
+        """
+
+    def objection(self, task: Any, plan: Plan, label: str = "plan") -> str | None:
+        """Why `run` refuses a plan, unless it is forced: the step and the limit; None where nothing speaks against it.
+
+        Here: the first violation of a hard check.
+
+        Raises:
+            ClamberError: If an action is none that the task's robot and world have.
+        """
+        violated = check_plan(task, plan, label=label).first_violation
+        return None if violated is None else f"step {violated.step}: {violated.reason}"
+
+    @abstractmethod
     def run(
         self, work: Any, plan: Plan | None, asked: RunRequest, events: RunEvents, label: str = "plan"
     ) -> CarriedOut:
@@ -151,7 +171,7 @@ class Dynamics(ABC):
 
         Args:
             work: A task, or what else the family can carry out.
-            plan: Its plan; None: it is planned first, with room for what the dynamics do.
+            plan: Its plan; None: that of `self.plan`.
             asked: How.
             events: Called on the way.
             label: What errors call the plan.

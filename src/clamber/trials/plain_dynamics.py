@@ -217,19 +217,27 @@ class PlainDynamics(Dynamics):
     def _planned(
         self, task: Any, plan: Plan | None, asked: Conditions, events: RunEvents, seed: int, label: str
     ) -> Plan:
-        """The plan if nothing speaks against it, or the one that is found."""
+        """The plan if nothing speaks against it, or the one that is found, and told."""
         if plan is None:
-            result = plan_task(task, asked.planner, seed=seed, seconds=asked.plan_seconds, progress=events.search)
-            if not result.has_plan:
-                raise NoPlanError(asked.planner, task.name, f"was found: {result.reason}")
-            events.planned(result.plan)
-            return result.plan
+            plan = self._found(task, asked, events, seed)
+            events.planned(plan)
+            return plan
         violated = None if asked.force else check_plan(task, plan, label=label).first_violation
         if violated is not None:
             raise SpecError(
                 label, f"actions.{violated.step}", str(violated.asked), f"{violated.reason}; nothing has moved"
             )
         return plan
+
+    def _found(self, task: Any, asked: Conditions, events: RunEvents, seed: int) -> Plan:
+        result = plan_task(task, asked.planner, seed=seed, seconds=asked.plan_seconds, progress=events.search)
+        if not result.has_plan:
+            raise NoPlanError(asked.planner, task.name, f"was found: {result.reason}")
+        return result.plan
+
+    def plan(self, task: Any, asked: RunRequest, events: RunEvents) -> Plan:
+        """As any plan of the task: what is simulated keeps to its checks."""
+        return self._found(task, asked, events, asked.seed)
 
     def print_run(self, console: "Console", run: PlainRun) -> None:
         """How it ended, and when."""

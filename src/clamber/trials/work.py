@@ -8,7 +8,8 @@ from ..errors import SpecError
 from ..family import Family, NotOfFamilyError, families, family_of
 from ..planning.problem.plan import Plan
 from ..planning.problem.plan_source import check_name, is_plan, open_plan
-from ..tasks import load_task
+from ..planning.problem.verdict import ToRun
+from ..tasks import Task, load_task, task_names
 from .dynamics import Dynamics
 
 PLANT: Final = "plant."
@@ -54,6 +55,30 @@ def dynamics_of(family: Family) -> Dynamics:
     if family.dynamics is None:
         raise NotOfFamilyError(family.title, "contact dynamics")
     return family.dynamics
+
+
+def to_run(task: Task, plan: Plan, label: str = "plan") -> ToRun | None:
+    """Whether `clamber run` would carry a plan out; None where the task's family has no contact dynamics.
+
+    Args:
+        task: In which it is to be carried out.
+        plan: The plan.
+        label: What errors call it.
+
+    Raises:
+        ClamberError: If the task's start violates a hard check, or an action is none that its robot and world have.
+    """
+    dynamics = family_of(task).dynamics
+    if dynamics is None:
+        return None
+    why = dynamics.objection(task, plan, label)
+    return ToRun(why is None, why, None if why is None else f"clamber plan {_as_typed(task)} --to-run")
+
+
+def _as_typed(task: Task) -> str:
+    """The name of a task that comes with Clamber as it is here; of others only they know their file."""
+    known = task.name in task_names() and load_task(task.name).hashes == task.hashes
+    return task.name if known else "TASK"
 
 
 def open_work(what: str, task: str | None = None, settings: Sequence[str] = ()) -> Work:

@@ -29,27 +29,36 @@ def plan(
     from ...planning.planners import PROVERS, find_planner
     from .openings import Seeker
 
-    find_planner(words.planner)
+    find_planner(words.search)
     announce_compilation(quiet=words.quiet)
     if words.pareto is not None:
         from .front import front
 
         raise typer.Exit(front(problem, words.pareto, words))
-    sought = words.openings_seconds if words.openings and words.planner in PROVERS else None
+    sought = words.openings_seconds if words.openings and words.search in PROVERS and not words.to_run else None
     seeker = Seeker(problem, sought, words.threads, words.as_json, words.quiet)
-    result = _search(problem, words, seeker)
-    if words.output is not None:
+    if words.to_run:
+        from .to_run import plan_to_run
+
+        result = plan_to_run(problem, words)
+    else:
+        result = _search(problem, words, seeker)
+    if words.output is not None and (result.has_plan or not words.to_run):
         result.plan.save(words.output)
     if words.history is not None:
         from ...viewing.plan_curves import draw_history
 
         draw_history(result.history, words.history, goals=[goal.name for goal in problem.goals])
+    from ...trials.work import to_run
+
+    judged = to_run(result.task, result.plan) if result.has_plan else None
     if words.as_json:
-        print_json(seeker.with_openings(result))
+        print_json(seeker.with_openings(result, judged))
     else:
-        from .text import print_result
+        from .text import print_result, print_to_run
 
         print_result(stdout(), result, words.output)
+        print_to_run(stdout(), judged, "this command with --to-run")
         seeker.print(result)
     raise typer.Exit(0 if result.has_plan else 1)
 
@@ -58,12 +67,12 @@ def _search(task: "Task", words: PlanOptions, seeker: "Seeker") -> "PlanResult":
     """Search as was asked for: on islands, or by one planner, whose trouble with the start is told with what would allow it."""
     options = words.planner_options(task)
     if words.islands is not None:
-        return islands_result(task, words.planner, options, words.islands, words.workers, words.ray, quiet=words.quiet)
+        return islands_result(task, words.search, options, words.islands, words.workers, words.ray, quiet=words.quiet)
     from ...planning.planners import plan_task
     from .text import ProgressLine
 
     with seeker.told_of_start(), ProgressLine(stderr(), quiet=words.quiet) as line:
-        return plan_task(task, words.planner, progress=line.update, **options)
+        return plan_task(task, words.search, progress=line.update, **options)
 
 
 TAKEN = ("seed", "profile", "max_evaluations")

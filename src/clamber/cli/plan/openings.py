@@ -10,6 +10,7 @@ from rich.console import Console
 from ...errors import SpecError, StartError
 from ...json_form import INLINE
 from ...planning.openings.find import Openings, Places, find_openings, shown
+from ...planning.problem.verdict import ToRun
 from ...planning.result import PlanResult
 from ...tasks import Task
 from ...terminal.output import print_json, stderr, stdout
@@ -24,6 +25,8 @@ class Planned:
     result: Annotated[PlanResult, INLINE]
     openings: Openings | None
     """What would open the task; None where there is a plan, or nothing was proved or looked for."""
+    to_run: ToRun | None
+    """None where there is no plan, or its robots have no contact dynamics."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,9 +61,9 @@ class Seeker:
                     print_openings(stdout(), found)
             raise
 
-    def with_openings(self, result: PlanResult) -> "Planned":
-        """A planner's answer with the openings of an infeasible task."""
-        return Planned(result, self._find() if result.status == "infeasible" else None)
+    def with_openings(self, result: PlanResult, to_run: ToRun | None) -> "Planned":
+        """A planner's answer with the openings of an infeasible task, and whether its plan would be run."""
+        return Planned(result, self._find() if result.status == "infeasible" else None, to_run)
 
     def print(self, result: PlanResult) -> None:
         """Print them, if no plan is proved."""

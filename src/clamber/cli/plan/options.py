@@ -2,22 +2,36 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Final
 
 import typer
 
-from ...terminal.options import AsJson, Output, Overrides, PlannerName, Quiet, Ray, Workers
+from ...terminal.name_completion import names_of
+from ...terminal.options import AsJson, Output, Overrides, Quiet, Ray, Workers
 from ...terminal.output import check_writable
 
 if TYPE_CHECKING:
     from ...tasks import Task
+
+PLANNER: Final = "genetic"
+RUN_PLANNER: Final = "auto"
+"""As of `clamber run`."""
 
 
 @dataclass(frozen=True, slots=True)
 class PlanOptions:
     """Options of `clamber plan`, as they came."""
 
-    planner: PlannerName = "genetic"
+    planner: Annotated[
+        str | None,
+        typer.Option(
+            help=f"How to search (`clamber list planners`); {PLANNER}, with --to-run {RUN_PLANNER}, unless given.",
+            autocompletion=names_of("planners"),
+        ),
+    ] = None
+    to_run: Annotated[
+        bool, typer.Option("--to-run", help="Plan as `clamber run` does: with room for what happens on the way.")
+    ] = False
     profile: Annotated[str, typer.Option(help="The planner's settings: default, or thesis.")] = "default"
     overrides: Overrides = None
     seed: Annotated[int, typer.Option(min=0, help="Same seed, same plan, on any number of threads.")] = 0
@@ -63,6 +77,11 @@ class PlanOptions:
     as_json: AsJson = False
     quiet: Quiet = False
 
+    @property
+    def search(self) -> str:
+        """The planner's name."""
+        return self.planner or (RUN_PLANNER if self.to_run else PLANNER)
+
     def check(self) -> None:
         """Make sure that files can be written before anything runs."""
         for file in (self.output, self.checkpoint, self.history):
@@ -93,14 +112,14 @@ class PlanOptions:
             "--stances": ("max_stances", self.stances),
             "--width": ("width", self.width),
         }
-        options: dict[str, Any] = {name: value for name, value in usual.items() if accepts(self.planner, name)}
+        options: dict[str, Any] = {name: value for name, value in usual.items() if accepts(self.search, name)}
         for flag, (name, value) in stated.items():
             if value is None:
                 continue
-            if not accepts(self.planner, name):
-                raise typer.BadParameter(f"the {self.planner} planner does not take it", param_hint=flag)
+            if not accepts(self.search, name):
+                raise typer.BadParameter(f"the {self.search} planner does not take it", param_hint=flag)
             options[name] = value
-        if self.history is not None and self.planner != "genetic":
+        if self.history is not None and self.search != "genetic":
             raise typer.BadParameter("only the genetic planner has one", param_hint="--history")
         if self.islands is None and (self.workers or self.ray):
             raise typer.BadParameter("are for --islands", param_hint="--workers, --ray")

@@ -9,6 +9,7 @@ from ...planning.genetic.learning import Macro
 from ...planning.learning import Lesson
 from ...planning.problem.plan import Plan
 from ...planning.problem.problems import plan_family
+from ...planning.problem.verdict import ToRun
 from ...planning.progress import Moment, progress_text
 from ...planning.result import Furthest, PlanResult
 from ...tasks import Task
@@ -43,12 +44,24 @@ def print_result(console: Console, result: PlanResult, output: Path | None) -> N
         console.print(result.reason)
     effort = f"{result.evaluations} plans, " if result.evaluations else ""
     effort = effort if result.stances is None else f"{result.stances} stances, "
-    console.print(f"{effort}{result.checks} actions judged, {result.seconds:.1f} s, seed {result.seed}")
+    effort += f"{result.checks} actions judged, " if result.checks else ""
+    console.print(f"{effort}{result.seconds:.1f} s, seed {result.seed}")
     if found:
         console.print(_spelled(result.plan))
     if output is not None:
         what = "the plan" if found else "the actions that lead furthest"
         console.print(f"{what}: {output}", soft_wrap=True)
+
+
+def print_to_run(console: Console, judged: ToRun | None, command: str | None = None) -> None:
+    """Print whether `clamber run` would carry a plan out, and what makes one that it would; None: nothing."""
+    if judged is None:
+        return
+    if judged.ok:
+        console.print("to run: nothing speaks against it")
+    else:
+        console.print(f"to run: refused, {judged.objection}", style="yellow")
+        console.print(f"for one that can be carried out: {command or judged.command}")
 
 
 def print_lesson(console: Console, task: Task, lesson: Lesson, output: Path | None) -> None:

@@ -10,6 +10,7 @@ from ...execution.fault import FAULTS, check_faults
 from ...json_form import INLINE
 from ...planning.problem.plan import Plan
 from ...trials.dynamics import Conditions, Dynamics, RunEvents, RunRequest, TrialsRequest
+from .execution.course import climbable, objections_to
 from .planning.task import LimbedTask
 from .trials.noise import NO_NOISE, Noise, check_noise, named_noise, read_noise
 from .trials.planning import no_plan, plan_to_climb, replanner
@@ -61,17 +62,30 @@ class ClimberDynamics(Dynamics):
             check_faults(asked.faults, tuple(FAULTS))
         check_noise(_noise(asked), work.robot, flaws)
 
+    def plan(self, task: LimbedTask, asked: RunRequest, events: RunEvents) -> Plan:
+        """Found with something kept back, and rehearsed."""
+        task = climbing_task(task)
+        flaws = climbing_flaws(task, asked.plant)
+        plan = plan_to_climb(
+            task, asked.planner, rehearse=lambda task, plan: rehearse(task, plan, flaws), **_search(asked, events)
+        )
+        if plan is None:
+            raise no_plan(asked.planner, task)
+        return plan
+
+    def objection(self, task: LimbedTask, plan: Plan, label: str = "plan") -> str | None:
+        """By the task under the rules that can be carried out."""
+        found = objections_to(climbable(task), plan, label)
+        return found[0].in_words if found else None
+
     def run(
         self, work: LimbedTask, plan: Plan | None, asked: RunRequest, events: RunEvents, label: str = "plan"
     ) -> ClimbRun:
         """One climb."""
         task = climbing_task(work)
         flaws = climbing_flaws(task, asked.plant)
-        search: dict[str, Any] = {"seconds": asked.plan_seconds, "seed": asked.seed, "events": events}
         if plan is None:
-            plan = plan_to_climb(task, asked.planner, rehearse=lambda task, plan: rehearse(task, plan, flaws), **search)
-            if plan is None:
-                raise no_plan(asked.planner, task)
+            plan = self.plan(task, asked, events)
             events.planned(plan)
         return run_plan(
             task,
@@ -80,7 +94,7 @@ class ClimberDynamics(Dynamics):
             noise=_noise(asked),
             seed=asked.seed,
             force=asked.force,
-            replan=replanner(asked.planner, **search) if asked.replan else None,
+            replan=replanner(asked.planner, **_search(asked, events)) if asked.replan else None,
             progress=lambda *action: events.step(*action_told(*action)),
             label=label,
             log=asked.log,
@@ -141,6 +155,11 @@ class ClimberDynamics(Dynamics):
         from .pictures.charts import draw_trials
 
         draw_trials(sum_up(trials), file)
+
+
+def _search(asked: RunRequest, events: RunEvents) -> dict[str, Any]:
+    """What every search for a plan is given."""
+    return {"seconds": asked.plan_seconds, "seed": asked.seed, "events": events}
 
 
 def _noise(asked: Conditions) -> Noise:

@@ -61,6 +61,10 @@ class WalkerDynamics(Dynamics):
         if isinstance(asked, TrialsRequest):
             check_faults(asked.faults, failing_of(work.robot).kinds)
 
+    def plan(self, task: WalkerTask, asked: RunRequest, events: RunEvents) -> Plan:
+        """Found with more room than the checks ask for."""
+        return _found(careful(task), asked, events, asked.seed)
+
     def run(self, work: Work, plan: Plan | None, asked: RunRequest, events: RunEvents, label: str = "plan") -> WalkRun:
         """One walk."""
         lay = None
@@ -130,11 +134,16 @@ def _planned(
     if plan is not None:
         return task, plan
     task = careful(task)
+    plan = _found(task, asked, events, seed)
+    events.planned(plan)
+    return task, plan
+
+
+def _found(task: WalkerTask, asked: Conditions, events: RunEvents, seed: int) -> Plan:
     result = plan_task(task, asked.planner, seed=seed, seconds=asked.plan_seconds, progress=events.search)
     if not result.has_plan:
         raise NoPlanError(asked.planner, task.name, f"that can bear to be walked: {result.reason}")
-    events.planned(result.plan)
-    return task, result.plan
+    return result.plan
 
 
 def _noise(asked: Conditions) -> WalkNoise:

@@ -237,12 +237,25 @@ class Verdict(Jsonable):
         return None if agree is None else NearestRule(*agree)
 
 
+@dataclass(frozen=True, slots=True)
+class ToRun:
+    """Whether `clamber run` would carry a plan out: it asks for more than a task's checks may."""
+
+    ok: bool
+    objection: str | None
+    """Why it would not: the first step and its limit."""
+    command: str | None
+    """What makes a plan that can be carried out; TASK stands for the task's file where it has no name."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CheckedPlan:
     """What came out when a plan was carried out again."""
 
     kind: Literal["plan"] = "plan"
     verdict: Annotated[Verdict, INLINE]
+    to_run: ToRun | None
+    """None where its robots have no contact dynamics."""
 
 
 def check_plan(

@@ -8,6 +8,7 @@ import numpy as np
 
 from ....errors import ClamberError
 from ....planning.problem.plan import Plan
+from ....planning.problem.problem import Replay
 from ....planning.problem.problems import PlannedAction, plan_family
 from ....tasks.library import change_task
 from ....types import Floats, Ints, Records
@@ -32,9 +33,17 @@ class PlanRefusedError(ClamberError):
         super().__init__(plan, step, reason)
         self.plan, self.step, self.reason = plan, step, reason
 
+    @property
+    def in_words(self) -> str:
+        """What speaks against the plan, without its name."""
+        return self.reason if self.step is None else f"step {self.step}: {self.reason}"
+
     def __str__(self) -> str:
-        where = "" if self.step is None else f", step {self.step}"
-        return f"{self.plan}{where}: {self.reason}; nothing has moved (--force carries it out all the same)"
+        where = ": " if self.step is None else ", "
+        return (
+            f"{self.plan}{where}{self.in_words}; nothing has moved (`clamber plan TASK --to-run` makes a plan that "
+            "can be carried out; --force carries this one out all the same)"
+        )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -138,13 +147,37 @@ def lay_course(task: LimbedTask, plan: Plan, label: str = "plan") -> Course:
         StartError: If the start violates a hard check.
     """
     strict = climbable(task)
+    replay = _replayed(strict, plan, label)
+    elbows, against = choose_elbows(task.robot, task.world, replay.stances)
+    return Course(strict, plan.actions, replay.stances, elbows, against, _objections(strict, plan, replay, label))
+
+
+def objections_to(task: LimbedTask, plan: Plan, label: str = "plan") -> tuple[PlanRefusedError, ...]:
+    """What speaks against carrying a plan out, the first step first.
+
+    Args:
+        task: Under the rules that can be carried out.
+        plan: The plan.
+        label: What errors call it.
+
+    Raises:
+        SpecError: If an action is none that the task's robot and board have.
+        StartError: If the start violates a hard check.
+    """
+    return _objections(task, plan, _replayed(task, plan, label), label)
+
+
+def _replayed(task: LimbedTask, plan: Plan, label: str) -> Replay:
+    return plan_family(task).problem(task).replay(plan.codes(task, label), go_on=True)
+
+
+def _objections(task: LimbedTask, plan: Plan, replay: Replay, label: str) -> tuple[PlanRefusedError, ...]:
     objections = [
         PlanRefusedError(label, None, f"the plan is for another {part} than that of task '{task.name}'")
         for part in PARTS
         if plan.hashes.get(part) != task.hashes[part]
     ]
-    family = plan_family(strict)
-    replay = family.problem(strict).replay(plan.codes(strict, label), go_on=True)
+    family = plan_family(task)
     for step, reason in enumerate(replay.reasons, 1):
         if reason >= 0:
             check = family.checks[int(reason)]
@@ -152,8 +185,7 @@ def lay_course(task: LimbedTask, plan: Plan, label: str = "plan") -> Course:
             unit = "" if check.unit == "1" else f" {check.unit}"
             words = f"{plan.actions[step - 1].title}: {check.name} is {margin:.4g}{unit} ({check.meaning})"
             objections.append(PlanRefusedError(label, step, words))
-    elbows, against = choose_elbows(task.robot, task.world, replay.stances)
-    return Course(strict, plan.actions, replay.stances, elbows, against, tuple(objections))
+    return tuple(objections)
 
 
 def swings(course: Course, step: int) -> bool:

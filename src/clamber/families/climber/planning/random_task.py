@@ -1,5 +1,8 @@
 """Tasks on random boards: a robot starts near the bottom, where it can stand, and is to climb to the top."""
 
+import json
+import math
+import re
 from collections.abc import Sequence
 from typing import Any, Final
 
@@ -10,21 +13,32 @@ from ....tasks.overrides import apply_overrides, split_override
 from ....tasks.robots import read_robot
 from ....tasks.task_format import SCHEMA
 from ....types import Json
+from ....units import DEGREE, UNITS
 from ..robot.robot import build_limbed
 from ..world.board import build_board
 from ..world.random_board import random_board_data
-from .first_stance import first_stance
+from .first_stance import first_stance, liked_stance
 from .task import LimbedTask, TaskSpec
 from .task_file import build_limbed_task
 
 ROBOT: Final = "libra"
 HARD: Final = ("reach", "joint", "support", "hangs", "torque", "power", "clearance", "swing", "keep_out")
+STEP: Final = 0.2
+"""A step of the body, of the robot's reach, about: LIBRA's 3 in [-]."""
+ROUND: Final = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 7.5)
+"""First digits of steps."""
 TOP: Final = 0.6
 """The goal lies this share of the robot's reach below the highest hold [-]."""
 
 
 def climb_data(
-    board: Json, board_label: str, *, name: str, robot: str = ROBOT, overrides: Sequence[str] = ()
+    board: Json,
+    board_label: str,
+    *,
+    name: str,
+    robot: str = ROBOT,
+    overrides: Sequence[str] = (),
+    to_edit: bool = False,
 ) -> tuple[Json, Json]:
     """What a task file says that sends a robot up a board; its start is the lowest stance that the rules allow.
 
@@ -34,6 +48,7 @@ def climb_data(
         name: What the task is called.
         robot: Name or file of a limbed robot.
         overrides: Texts "key=value" on keys of the task or `robot=...`, such as "rules.max_hangs=0" or "step.length=1in".
+        to_edit: Whether a person starts from it: with a start that every check likes, in units of the robot's file.
 
     Returns:
         The task file without its board, and the robot's document.
@@ -46,7 +61,7 @@ def climb_data(
     robot = robots[-1] if robots else robot
     robot_document = read_robot(robot)
     climber, wall = build_limbed(robot_document), build_board(Document(board_label, board))
-    points = wall.positions()
+    points, unit = wall.positions(), length_unit(robot_document.data)
     (left, bottom), (right, top) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
     data: Json = {
         "schema": SCHEMA,
@@ -54,7 +69,7 @@ def climb_data(
         "title": f"{climber.name.upper()} climbs {len(points)} holds",
         "robot": robot,
         "start": {"x": f"{left!r} m", "y": f"{bottom!r} m", "holds": {climber.limbs[0].name: wall.holds[0].number}},
-        "step": {"length": "3 in", "angle": "15 deg"},
+        "step": {"length": step_for(climber.longest_reach, unit) if to_edit else "3 in", "angle": "15 deg"},
         "goal": {
             "name": "top",
             "x_min": f"{left!r} m",
@@ -65,12 +80,40 @@ def climb_data(
     }
     keys = (*field_names(TaskSpec), "robot")
     data = apply_overrides(Document(name, data), rest, keys, (), {}).data
-    found = first_stance(_built(data, board, board_label, robot_document))
+    found = (liked_stance if to_edit else first_stance)(_built(data, board, board_label, robot_document))
     if found is None:
         allowed = f"robot '{climber.name}' has no stance on two holds that the hard checks allow; take a denser board"
         raise SpecError(board_label, "start", MISSING, allowed)
     stated = {key: value for key, value in data["start"].items() if key in {"in_use", "feet"}}
-    return {**data, "start": {**found, **stated}}, robot_document.data
+    data = {**data, "start": {**found, **stated}}
+    return _in_unit(data, unit) if to_edit else data, robot_document.data
+
+
+def length_unit(robot: Json) -> str:
+    """The unit in which a robot's file states most lengths, inches where it states them so; else cm."""
+    texts = re.findall(r"""['"](?:[-+\d.e]+ ?)?(m|cm|mm|in|ft)['"]""", json.dumps(robot))
+    return max(sorted(set(texts)), key=texts.count, default="cm")
+
+
+def step_for(reach: float, unit: str) -> str:
+    """A step of the body that suits a robot's reach [m], in round numbers of a unit."""
+    size, wished = UNITS["length"][unit], STEP * reach
+    steps = [round_number * 10.0**power for power in range(-3, 4) for round_number in ROUND]
+    return f"{min(steps, key=lambda step: abs(math.log(step * size / wished))):g} {unit}"
+
+
+def _in_unit(data: Json, unit: str) -> Json:
+    """A task's start and goal with lengths in a unit, and angles in degrees."""
+    size = UNITS["length"][unit]
+
+    def stated(value: Any) -> Any:
+        if not isinstance(value, str) or not value.endswith((" m", " rad")):
+            return value
+        number, own = float(value.split()[0]), value.split()[1]
+        return f"{round(number / size, 6):g} {unit}" if own == "m" else f"{round(number / DEGREE, 6):g} deg"
+
+    parts = {part: {key: stated(value) for key, value in data[part].items()} for part in ("start", "goal")}
+    return {**data, **parts}
 
 
 def random_task(

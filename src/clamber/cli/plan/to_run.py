@@ -1,0 +1,58 @@
+"""`clamber plan --to-run`: the plan by which `clamber run` would carry the task out."""
+
+from dataclasses import replace
+from typing import Final
+
+from ...family import family_of
+from ...planning.problem.plan import Plan
+from ...planning.problem.verdict import check_plan
+from ...planning.progress import Clock, progress_text
+from ...planning.result import PlanResult
+from ...tasks import Task
+from ...terminal.compile_ahead import compile_ahead
+from ...terminal.live_line import LiveLine
+from ...terminal.output import refuse_unused, stderr, tell_cuts
+from ...trials.dynamics import NoPlanError, RunEvents, RunRequest
+from ...trials.work import dynamics_of
+from .options import PlanOptions
+
+TAKEN: Final = frozenset({"to_run", "planner", "overrides", "seed", "seconds", "output", "as_json", "quiet"})
+"""Options that it takes."""
+
+
+def plan_to_run(task: Task, words: PlanOptions) -> PlanResult:
+    """Plan as `run` plans for itself; the answer counts neither plans nor actions.
+
+    Raises:
+        NotOfFamilyError: If the robots of the task's family are never carried out.
+        BadParameter: If an option is given that has no meaning here.
+    """
+    dynamics, clock = dynamics_of(family_of(task)), Clock()
+    unused = PlanOptions.__dataclass_fields__.keys() - TAKEN
+    refuse_unused(words, unused, "--to-run plans as `clamber run` does")
+    asked = RunRequest(planner=words.search, seed=words.seed)
+    asked = asked if words.seconds is None else replace(asked, plan_seconds=words.seconds)
+    dynamics.check(task, asked)
+    compile_ahead(*dynamics.compiled)
+    cuts: list[None] = []
+    plan, why = Plan.of_codes(task, []), ""
+    with LiveLine(stderr(), quiet=words.quiet) as line:
+        events = RunEvents(search=lambda moment: line.show(progress_text(moment)), cut=lambda: cuts.append(None))
+        try:
+            plan = dynamics.plan(task, asked, events)
+        except NoPlanError as none:
+            why = str(none)
+    tell_cuts(len(cuts))
+    solved = plan.rebuild_task()
+    return PlanResult(
+        status="stopped" if why else "found",
+        task=solved,
+        reason=why or f"made to be run: with room for what happens in a {dynamics.kind}",
+        plan=plan,
+        max_torque=check_plan(solved, plan).max_torque,
+        evaluations=0,
+        checks=0,
+        seconds=clock.spent,
+        seed=words.seed,
+        planner=plan.planner or words.search,
+    )

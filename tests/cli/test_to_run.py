@@ -1,0 +1,81 @@
+"""Plans that can be carried out: `clamber plan --to-run`, and what `plan` and `check` say of plans that `clamber run` refuses."""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import TypeAlias
+
+import pytest
+from jsonschema import Draft202012Validator
+
+from clamber.cli.printed.library import schema_of
+from clamber.tasks import load_task, task_names
+
+Run: TypeAlias = Callable[..., tuple[int, str, str]]
+HOPELESS = "rules.max_hangs=0"
+"""Leaves `gap` without a plan."""
+
+
+def test_plan_and_check_name_the_limit_that_stops_a_run_and_what_makes_a_plan_without(
+    clamber: Run, tmp_path: Path
+) -> None:
+    plan = str(tmp_path / "p.json")
+    code, out, _ = clamber("plan", "ladder", "-o", plan, "-q")
+    assert code == 0
+    assert "to run: refused, step 18: left grabs 15: hook is -8.879 N" in out
+    assert "for one that can be carried out: this command with --to-run" in out
+    code, out, _ = clamber("check", plan)
+    assert code == 0
+    assert "to run: refused, step 18" in out
+    assert "for one that can be carried out: clamber plan ladder --to-run" in out
+    code, _, err = clamber("run", plan, "-q")
+    assert code == 2
+    assert "step 18: left grabs 15: hook is -8.879 N" in err and "clamber plan TASK --to-run" in err
+
+
+@pytest.mark.parametrize("task", ["gap", "patch-walk"])
+def test_a_plan_made_to_run_is_carried_out(clamber: Run, tmp_path: Path, task: str) -> None:
+    plan = str(tmp_path / "p.json")
+    code, out, _ = clamber("plan", task, "--to-run", "-o", plan, "-q")
+    assert code == 0, out
+    assert "to run: nothing speaks against it" in out
+    said = json.loads(clamber("check", plan, "--json")[1])
+    assert said["ok"] and said["to_run"] == {"ok": True, "objection": None, "command": None}
+    code, out, _ = clamber("run", plan, "-q")
+    assert code == 0, out
+
+
+def test_json_says_whether_a_run_would_be_refused(clamber: Run, tmp_path: Path) -> None:
+    plan = str(tmp_path / "p.json")
+    code, out, _ = clamber("plan", "ladder", "--set", "step.length=2.5in", "-o", plan, "-q", "--json")
+    assert code == 0
+    Draft202012Validator(schema_of("plan")).validate(json.loads(out))
+    checked = json.loads(clamber("check", plan, "--json")[1])["to_run"]
+    assert checked == json.loads(out)["to_run"]
+    assert checked["ok"] is (checked["objection"] is None)
+
+
+def test_without_a_plan_that_can_be_carried_out_nothing_is_written(clamber: Run, tmp_path: Path) -> None:
+    plan = tmp_path / "p.json"
+    code, out, _ = clamber("plan", "gap", "--set", HOPELESS, "--to-run", "-o", str(plan), "-q")
+    assert code == 1
+    assert "no plan" in out and "to run:" not in out
+    assert not plan.exists()
+
+
+def test_it_plans_as_run_does_with_no_options_of_other_searches(clamber: Run) -> None:
+    code, _, err = clamber("plan", "gap", "--to-run", "--width", "10")
+    assert code == 2
+    assert "--width" in err and "as `clamber run` does" in err
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("task", task_names())
+def test_no_shipped_task_is_planned_to_run_and_refused(clamber: Run, tmp_path: Path, task: str) -> None:
+    plan = str(tmp_path / "p.json")
+    planned, said, _ = clamber("plan", task, "--to-run", "-o", plan, "-q")
+    assert planned in (0, 1), said
+    if planned == 0:
+        code, out, err = clamber("run", plan, "-q")
+        assert code in (0, 1), err
+        assert Path(plan).is_file() and load_task(task).name in out
