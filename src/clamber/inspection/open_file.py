@@ -6,9 +6,9 @@ from typing import Final
 
 import numpy as np
 
-from ..errors import SpecError, UnknownNameError, describe_choices
+from ..errors import SpecError, describe_choices
 from ..family import NotOfFamilyError, families, family_of
-from ..files import Document, is_path, read_toml
+from ..files import Document, is_path, read_toml, unknown_name
 from ..planning.problem.check import UNLIMITED
 from ..planning.problem.codes import pack
 from ..planning.problem.plan_source import is_plan, plan_names
@@ -110,7 +110,7 @@ def kind_of(name_or_path: str) -> Kind:
             if name_or_path in names:
                 return kind
         known = dict.fromkeys(name for names in shipped.values() for name in names)
-        raise UnknownNameError("thing", name_or_path, tuple(known))
+        raise unknown_name(f"{', '.join(list(shipped)[:-1])} or {list(shipped)[-1]}", name_or_path, tuple(known))
     path = user_path(name_or_path)
     kinds = file_kinds()
     for kind, files in kinds.items():

@@ -53,8 +53,10 @@ def hold_radius(task: LimbedTask, bounds: Bounds) -> float:
 
 
 def spacing(task: LimbedTask) -> float:
-    """About how far apart the holds are [m]: the root of the area that each has."""
+    """About how far apart the holds are [m]: the root of the area that each has; infinite for fewer than two."""
     points = task.world.positions()
+    if len(points) < 2:
+        return math.inf
     width, height = np.maximum(points.max(axis=0) - points.min(axis=0), 1e-3)
     return math.sqrt(width * height / len(points))
 
