@@ -132,7 +132,7 @@ def test_check_reads_well_in_80_columns_without_colour(run: Any) -> None:
         assert answer.code == 1
         assert "\x1b" not in answer.out
         assert max(map(len, answer.out.splitlines())) <= 80
-        assert "VIOLATED at step 120 of 120 (3): reach is short by" in answer.out
+        assert "VIOLATED at step 120 of 120 (+y): reach is short by 0.04142 in" in answer.out
         assert "32 of 32 grabs" in answer.out
         assert "step sizes as the plan file says" in answer.out
         assert "limb_peg: 10 steps" in answer.out

@@ -50,7 +50,7 @@ def plan(
     else:
         from .text import print_result
 
-        print_result(stdout(), result, words.output)
+        print_result(stdout(), result, words.output, codes=words.codes)
         seeker.print(result)
     raise typer.Exit(0 if result.has_plan else 1)
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from ...shown_units import units_of
 from ...tasks import Task
 from ..problem.plan import Plan
 from ..problem.problems import listed_problem, plan_family, spent
@@ -49,7 +50,7 @@ def plan_exact(
 
     def tell(stances: int, bound: float, cost: str) -> None:
         if progress is not None:
-            progress(Exploring(stances, bound, cost))
+            progress(Exploring(stances, bound, cost, units_of(task.document).torque))
 
     informed, granted = inform(plain, clock.left)
     searches = Minimizer(informed, most_stances=max_stances, seconds=granted, tell=tell)
