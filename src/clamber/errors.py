@@ -146,12 +146,13 @@ class OptionError(ClamberError):
 class StartError(ClamberError):
     """The start stance of a task violates a hard check."""
 
-    def __init__(self, task: str, check: str, margin: float, meaning: str) -> None:
-        super().__init__(task, check, margin, meaning)
-        self.task, self.check, self.margin, self.meaning = task, check, margin, meaning
+    def __init__(self, task: str, check: str, margin: float, meaning: str, short: str) -> None:
+        """Bind it; `short` is by how much, with its unit."""
+        super().__init__(task, check, margin, meaning, short)
+        self.task, self.check, self.margin, self.meaning, self.short = task, check, margin, meaning, short
 
     def __str__(self) -> str:
         return (
             f"task '{self.task}', key 'start': the start stance violates the hard check '{self.check}' "
-            f"({self.meaning}) by {-self.margin:.4g}; move the body or the holds, or take '{self.check}' out of 'rules.hard'"
+            f"({self.meaning}) by {self.short}; move the body or the holds, or take '{self.check}' out of 'rules.hard'"
         )

@@ -16,8 +16,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from .errors import MISSING, FileError, SpecError, UnknownNameError
-from .regular_files import read_bytes, user_path
+from .errors import MISSING, ClamberError, FileError, SpecError, UnknownNameError, describe_choices
+from .regular_files import is_file, read_bytes, user_path
 from .regular_files import write_atomically as write_atomically
 from .types import Json
 
@@ -147,12 +147,54 @@ def parse_toml(text: str) -> Json:
         raise ValueError("it is nested too deeply") from None
 
 
+_TO_ROBOT: Final = "`clamber new robot --from {path} -o {stem}.toml` makes a robot file of it"
+_TO_BOARD: Final = (
+    "worlds are holds or level ground: `clamber new board --csv holds.csv` makes a board of a table of holds"
+)
+_TO_TOML: Final = "Clamber reads TOML: `clamber new robot`, `new board` and `new task` write files to start from"
+OTHER_FILES: Final = {
+    ".urdf": ("a URDF robot model", _TO_ROBOT),
+    ".mjcf": ("a MuJoCo model (MJCF)", _TO_ROBOT),
+    ".xml": ("a robot model (MJCF or URDF)", _TO_ROBOT),
+    ".xacro": ("a xacro macro file", "`xacro {path} -o {stem}.urdf` makes a URDF of it, which `clamber new robot --from` takes"),
+    ".sdf": ("an SDF model", "Clamber reads URDF and MJCF (`clamber new robot --from`), so convert it first"),
+    **dict.fromkeys((".stl", ".obj", ".dae", ".ply", ".glb", ".gltf", ".step", ".stp"), ("a mesh", _TO_BOARD)),
+    **dict.fromkeys((".yaml", ".yml"), ("YAML", _TO_TOML)),
+    ".mcap": ("a log of a run", "`clamber view {path}` plays it, `clamber export {path}` writes it for other programs"),
+}  # fmt: skip
+"""Suffix of files that no task, plan, robot or world is read from -> what they are, and what to do with them."""
+
+
+def other_file(name_or_path: str | Path) -> FileError | None:
+    """The error about a folder, or about a file of another program by its suffix, with what to do with it; None: it is neither."""
+    text = str(name_or_path)
+    path = user_path(text)
+    if path.is_dir():
+        found = sorted(one.name for one in path.glob("*.toml"))
+        words = f"name a file in it, such as {', '.join(found[:5])}" if found else "it has no TOML files; name a file"
+        return FileError(text, "is a folder", words)
+    if (kind := OTHER_FILES.get(path.suffix.lower())) is None or not is_file(path):
+        return None
+    return FileError(text, f"is {kind[0]}", kind[1].format(path=text, stem=path.stem))
+
+
+def unknown_name(kind: str, name: str, known: tuple[str, ...]) -> ClamberError:
+    """The error about a name that nothing of a kind has, or about the file or the folder that it is in truth."""
+    if (other := other_file(name)) is not None:
+        return other
+    if Path(name).suffix.lower() in OTHER_FILES:
+        return FileError(name, "does not exist", f"or name one of these: {describe_choices(name, known)}")
+    return UnknownNameError(kind, name, known)
+
+
 def read_toml(path: Path, label: str | None = None) -> Document:
     """A TOML file as a document.
 
     Raises:
-        FileError: If it cannot be read or is no TOML; the error gives the line.
+        FileError: If it cannot be read or is no TOML; the error gives the line, or what to do with a file of another program.
     """
+    if (other := other_file(path)) is not None:
+        raise other
     text = read_text(path)
     try:
         data = parse_toml(text)
@@ -190,7 +232,16 @@ def check_schema(document: Document, schema: str) -> None:
         SpecError: If it names another, or none.
     """
     if document.data.get("schema") != schema:
-        raise document.problem("schema", f'the file must say schema = "{schema}"')
+        stated = document.data.get("schema")
+        kind, stated_kind = (str(one).removeprefix("clamber-").rpartition("-")[0] for one in (schema, stated))
+        shown = (
+            f"; `clamber show {document.label}` draws a {stated_kind}"
+            if stated_kind in ("robot", "board", "ground")
+            else ""
+        )
+        raise document.problem(
+            "schema", f'the file must say schema = "{schema}"{f": it must be a {kind}{shown}" if shown else ""}'
+        )
 
 
 def content_hash(content: object) -> str:
@@ -229,4 +280,4 @@ def find_data(kind: str, name_or_path: str, folders: Sequence[Path], folder: Pat
     for data in folders:
         if name_or_path in data_names(data):
             return data / f"{name_or_path}.toml", f"{data.name}/{name_or_path}.toml"
-    raise UnknownNameError(kind, name_or_path, tuple(sorted(name for data in folders for name in data_names(data))))
+    raise unknown_name(kind, name_or_path, tuple(sorted(name for data in folders for name in data_names(data))))

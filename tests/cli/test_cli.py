@@ -132,7 +132,7 @@ def test_check_reads_well_in_80_columns_without_colour(run: Any) -> None:
         assert answer.code == 1
         assert "\x1b" not in answer.out
         assert max(map(len, answer.out.splitlines())) <= 80
-        assert "VIOLATED at step 120 of 120 (3): reach is short by" in answer.out
+        assert "VIOLATED at step 120 of 120 (+y): reach is short by 0.04142 in" in answer.out
         assert "32 of 32 grabs" in answer.out
         assert "step sizes as the plan file says" in answer.out
         assert "limb_peg: 10 steps" in answer.out
@@ -156,7 +156,7 @@ def test_check_reads_well_in_80_columns_without_colour(run: Any) -> None:
         (("plan", "ladder", "-o", "no/such/folder/plan.json"), "does not exist"),
         (("plan", "ladder", "--seed", "-1"), "--seed"),
         (("plan", "ladder", "--evaluations", "0"), "--evaluations"),
-        (("show", "leiter"), "no task or plan is called 'leiter'"),
+        (("show", "leiter"), "no plan, task, walk, robot, board or ground is called 'leiter'"),
         (("show", "ladder-hans"), "did you mean 'ladder-hand'"),
         (("run", "slope-wak"), "no task, plan or walk is called 'slope-wak'"),
         (("trials", "slope-wak"), "did you mean 'slope-walk'"),

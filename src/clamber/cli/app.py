@@ -16,6 +16,7 @@ from typer.core import TyperCommand, TyperGroup
 from .. import __version__
 from ..errors import ClamberError, printable
 from ..terminal.command_end import until_command_ends
+from ..terminal.options import UnitsChoice
 from ..terminal.output import fall_silent
 from .commands import add_commands
 
@@ -72,6 +73,31 @@ def _checked(before: Any, most: float, why: str) -> Any:
     return check
 
 
+SHOWS_UNITS: Final = ("check", "plan", "polish", "reach", "rehearse", "run", "show", "sweep", "trials", "view")
+"""Commands that print or draw quantities of a task."""
+
+
+def _choose_units(system: UnitsChoice | None) -> None:
+    from ..shown_units import choose
+
+    choose(None if system is None else system.value)
+
+
+def _units_option() -> Any:
+    """`--units`, which no command has to know of, as Typer makes it of a command that has nothing else."""
+    help_text = "Units of what is shown; those of the files unless given."
+    made = Annotated[
+        UnitsChoice | None, typer.Option("--units", callback=_choose_units, expose_value=False, help=help_text)
+    ]
+
+    def nothing(units: made = None) -> None:
+        """Carries the option."""
+
+    carrier = typer.Typer(add_completion=False)
+    carrier.command()(nothing)
+    return typer.main.get_command(carrier).params[0]
+
+
 Command: TypeAlias = TyperCommand | TyperGroup
 
 
@@ -80,6 +106,8 @@ def command_of(app: typer.Typer) -> Command:
     top = typer.main.get_command(app)
     assert isinstance(top, Command)
     for path, command in commands_below(top):
+        if path[:1] and path[0] in SHOWS_UNITS:
+            command.params.append(_units_option())
         limit_numbers(command, path)
         if command.rich_markup_mode == "rich":  # a plain terminal prints no markup, so none is to be escaped
             for told in (command, *command.params):

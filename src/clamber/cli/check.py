@@ -86,7 +86,7 @@ def _print_finding(finding: "Finding") -> None:
         console.print()
         table = plain_table("check of the start", "", "margin", "", right=("margin",))
         for margin in finding.margins:
-            size = "unlimited" if margin.margin is None else _margin_text(margin.unit, margin.margin)
+            size = "unlimited" if margin.margin is None else finding.units.signed(margin.margin, margin.unit)
             kind, state = "hard" if margin.hard else "reports", "" if margin.holds else "VIOLATED"
             bad = margin.hard and not margin.holds
             table.add_row(margin.check, kind, size, state, style="bold red" if bad else None)
@@ -112,8 +112,9 @@ def _print_verdict(console: Console, verdict: "Verdict", *, every_step: bool) ->
     if first is None:
         console.print(f"OK: all {verdict.length} actions hold", style="bold green")
     else:
+        action = first.action.title
         console.print(
-            f"VIOLATED at step {first.step} of {verdict.length} ({_action(first)}): {first.reason}", style="bold red"
+            f"VIOLATED at step {first.step} of {verdict.length} ({action}): {_why(verdict, first)}", style="bold red"
         )
     for note in verdict.notes:
         console.print(f"note: {note}")
@@ -138,24 +139,34 @@ def _print_verdict(console: Console, verdict: "Verdict", *, every_step: bool) ->
         console.print(f"the rule 'nearest' takes the printed peg in {agree[0]} of {agree[1]} grabs{where}")
 
 
+def _why(verdict: "Verdict", first: "StepVerdict") -> str:
+    """What a violated check is short of, in the units of the task."""
+    check = next((check for check in verdict.checks if check.name == first.check), None)
+    margin = None if check is None else first.margins[check.name]
+    if check is None or margin is None:
+        return first.reason or "it is not allowed"
+    return f"{check.name} is short by {verdict.units.signed(-margin, check.unit).removeprefix('+')} ({check.meaning})"
+
+
 def _differs(row: "StepVerdict") -> bool:
     return row.nearest is not None and row.nearest != row.hold
 
 
 def _summary(verdict: "Verdict") -> str:
-    from ..units import DEGREE, INCH, OZ_IN
+    from ..units import DEGREE
 
-    x, y, theta = verdict.pose
+    units, (x, y, theta) = verdict.units, verdict.pose
+    unit, size, digits = units.torque
     held = ", ".join(f"{limb} {hold or 'free'}" for limb, hold in verdict.holds.items())
     loaded = any(check.name == "torque" for check in verdict.checks)
     held = f"; holds: {held}" if held else ""
     reached = "goal reached" if verdict.reached else "goal not reached"
-    torque = f"largest torque {verdict.max_torque / OZ_IN:.0f} oz-in, power {verdict.max_power:.1f} W, "
+    torque = f"largest torque {verdict.max_torque / size:.{digits}f} {unit}, power {verdict.max_power:.1f} W, "
     return (
         f"{verdict.steps} of {verdict.length} actions of '{verdict.task}' hold; "
         f"{reached} ({verdict.goals_met} of {verdict.goals})\n"
         f"{f'{torque}energy {verdict.energy:.0f} J' + chr(10) if loaded else ''}"
-        f"end: x {x / INCH:.2f} in, y {y / INCH:.2f} in, theta {theta / DEGREE:.1f} deg{held}"
+        f"end: x {units.length(x)}, y {units.length(y)}, theta {theta / DEGREE + 0.0:.1f} deg{held}"
     )
 
 
@@ -167,25 +178,31 @@ def _print_tightest(console: Console, verdict: "Verdict") -> None:
             margin, step = tightest[check.name]
             kind = "hard" if check.name in verdict.hard else "reports"
             table.add_row(
-                check.name, kind, _margin_text(check.unit, margin), str(step), _action(verdict.per_step[step - 1])
+                check.name,
+                kind,
+                verdict.units.signed(margin, check.unit),
+                str(step),
+                verdict.per_step[step - 1].action.title,
             )
     console.print(table)
 
 
 def _print_steps(console: Console, verdict: "Verdict") -> None:
-    from ..units import OZ_IN
-
+    unit, size, digits = verdict.units.torque
     names = [name for name in ("reach", "joint", "torque", "clearance") if name in verdict.tightest()]
     checks = {check.name: check for check in verdict.checks}
-    table = plain_table("step", "action", "oz-in", *names, "violated", right=("step", "oz-in", *names))
+    table = plain_table("step", "action", unit, *names, "violated", right=("step", unit, *names))
     for row in verdict.per_step:
         margins = (row.margins[name] for name in names)
         violated = (*((row.check.upper(),) if row.check else ()), *row.reported)
         table.add_row(
             str(row.step),
             _action(row),
-            "-" if row.max_torque is None else f"{row.max_torque / OZ_IN:.0f}",
-            *("-" if m is None else _margin_text(checks[n].unit, m) for n, m in zip(names, margins, strict=True)),
+            "-" if row.max_torque is None else f"{row.max_torque / size:.{digits}f}",
+            *(
+                "-" if m is None else verdict.units.signed(m, checks[n].unit)
+                for n, m in zip(names, margins, strict=True)
+            ),
             " ".join(violated),
             style="bold red" if not row.ok else None,
         )
@@ -195,12 +212,3 @@ def _print_steps(console: Console, verdict: "Verdict") -> None:
 def _action(row: "StepVerdict") -> str:
     text = str(row.asked)
     return text if row.hold is None or text.endswith(f"{row.hold:02d}") else f"{text} -> {row.hold}"
-
-
-def _margin_text(unit: str, margin: float) -> str:
-    """A margin, given in an SI unit, with a unit that people read."""
-    from ..units import DEGREE
-
-    shown = {"m": (1000.0, "mm"), "rad": (1.0 / DEGREE, "deg"), "1": (1.0, "")}
-    factor, unit = shown.get(unit, (1.0, unit))
-    return f"{margin * factor:+.4g} {unit}".rstrip()

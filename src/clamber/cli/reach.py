@@ -8,6 +8,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
+from ..shown_units import ShownUnits, units_of
 from ..terminal.live_line import LiveLine
 from ..terminal.options import AsJson, Output, Overrides, Quiet, TaskName
 from ..terminal.output import announce_compilation, check_writable, print_json, stderr, stdout
@@ -105,23 +106,24 @@ def _layer_table(reach: "Reach", layer: str) -> Table:
 
     from ..planning.reach.reach import LAYERS
 
-    shown = LAYERS[layer]
+    shown, units = LAYERS[layer], units_of(reach.task.document)
+    heads = tuple(f"{axis} [{units.place[0]}]" for axis in "xy")
     values = reach.places.floats(shown.column)
     order = np.argsort(values if shown.good else -values, kind="stable")
     order = order[~np.isnan(values[order])]
-    table = plain_table(shown.title, "", "x [m]", "y [m]", right=("", "x [m]", "y [m]"))
+    table = plain_table(shown.title, "", *heads, right=("", *heads))
     rows = (("hardest place", 0), ("middle", len(order) // 2), ("easiest place", -1)) if len(order) else ()
     for words, rank in rows:
         at = order[rank]
-        place = [f"{reach.places.floats(name)[at]:.3f}" for name in ("x_m", "y_m")]
-        table.add_row(words, _value(float(values[at]), shown.column), *(place if words != "middle" else ("", "")))
+        place = [f"{reach.places.floats(name)[at] / units.place[1] + 0.0:.1f}" for name in ("x_m", "y_m")]
+        table.add_row(
+            words, _value(float(values[at]), shown.column, units), *(place if words != "middle" else ("", ""))
+        )
     return table
 
 
-def _value(value: float, column: str) -> str:
+def _value(value: float, column: str, units: ShownUnits) -> str:
     """A value of a column, in its unit."""
-    from ..units import OZ_IN
-
     if column == "margin":
         return f"{100 * value + 0.0:.0f} %"
     if column == "first_step":
@@ -129,5 +131,6 @@ def _value(value: float, column: str) -> str:
     if not math.isfinite(value):
         return "no limit" if value > 0 else "-"
     if column.endswith("_Nm"):
-        return f"{value:.2f} N m ({value / OZ_IN:.0f} oz-in)"
+        unit, size, digits = units.torque
+        return f"{value / size:.{digits}f} {unit}"
     return f"{value:.4g} {column.rpartition('_')[2]}"

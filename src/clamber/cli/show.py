@@ -1,4 +1,4 @@
-"""`clamber show`: a picture or an animation of a task or a plan."""
+"""`clamber show`: a picture or an animation of a task or a plan, or a picture of a robot or a board alone."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,6 +19,7 @@ class Drawn:
     written: Annotated[Path, Key(kind=str)]
     """The file."""
     task: str
+    """Its name, or that of the robot or the world that is drawn alone."""
     steps: Count
     """Actions that it shows."""
     bytes: Count
@@ -28,9 +29,9 @@ def show(
     thing: Annotated[
         str,
         typer.Argument(
-            metavar="TASK|PLAN",
-            help="A task's name or file, or a plan's file.",
-            autocompletion=names_of("tasks", "plans"),
+            metavar="TASK|PLAN|ROBOT|BOARD",
+            help="A task, a plan, a robot, a board or a ground: its name or file.",
+            autocompletion=names_of("tasks", "plans", "robots", "boards", "grounds"),
         ),
     ],
     output: Output = None,
@@ -43,15 +44,31 @@ def show(
     overrides: Overrides = None,
     as_json: AsJson = False,
 ) -> None:
-    """Draw a task, a plan or one step of it (png, svg, pdf), or a plan in motion (gif, html, mp4)."""
+    """Draw a task, a plan or one step of it, a robot, a board or a ground (png, svg, pdf), or a plan in motion (gif, html, mp4)."""
     path = output or Path(f"{Path(thing).stem}.png")
     check_writable(path)
     announce_compilation()
-    from ..planning.problem.plan_source import check_name, open_replay
-    from ..viewing.output import CANVASES
-    from ..viewing.pictures import animate, draw_route, draw_stance, pictures_of
+    from ..inspection.open_file import kind_of
+    from ..planning.problem.plan_source import open_replay
+    from ..viewing.alone import draw_alone, open_alone, shown_alone
+    from ..viewing.output import CANVASES, check_suffix
+    from ..viewing.pictures import ANIMATIONS, animate, draw_route, draw_stance, pictures_of
 
-    check_name(thing)
+    kind = kind_of(thing)
+    check_suffix(path, CANVASES if shown_alone(kind) else (*CANVASES, *ANIMATIONS))
+    if shown_alone(kind):
+        given = {"--step": step is not None, "--torques": torques, "--task": task is not None, "--set": bool(overrides)}
+        if unused := [flag for flag, value in given.items() if value]:
+            raise typer.BadParameter(f"is for tasks and plans; '{thing}' is a {kind}", param_hint=", ".join(unused))
+        shown_one = open_alone(thing, kind)
+        draw_alone(shown_one, path)
+        _tell(Drawn(path, shown_one.finding.name, 0, path.stat().st_size), as_json)
+        return
+    if kind == "walk":
+        words = (
+            f"'{thing}' is a walk, drawn as it is carried out: clamber run {thing} -o walk.png, or clamber view {thing}"
+        )
+        raise typer.BadParameter(words, param_hint="TASK|PLAN|ROBOT|BOARD")
     shown, replay = open_replay(thing, task, overrides or ())
     last = len(replay.stances) - 1
     if step is not None and step > last:
@@ -72,7 +89,11 @@ def show(
         draw_route(shown, replay, path)
     else:
         draw_stance(shown, replay, step or 0, path)
+    _tell(Drawn(path, shown.name, last, path.stat().st_size), as_json)
+
+
+def _tell(drawn: Drawn, as_json: bool) -> None:
     if as_json:
-        print_json(Drawn(path, shown.name, last, path.stat().st_size))
+        print_json(drawn)
         return
-    stdout().print(f"written to {path}", soft_wrap=True)
+    stdout().print(f"written to {drawn.written}", soft_wrap=True)

@@ -85,8 +85,7 @@ def sweep(
 
 def _print_sweep(console: Console, sweep: "Sweep", output: Path | None) -> None:
     """Print the points as a table, and the reasons of those without a plan, once each."""
-    from ..units import OZ_IN
-
+    unit, size, digits = sweep.units.torque
     numbers = ("actions", "torque", "least", "s")
     keys = [axis.key for axis in sweep.axes]
     table = plain_table(*keys, *(("",) if sweep.marks else ()), "status", *numbers, right=(*keys, *numbers))
@@ -97,11 +96,11 @@ def _print_sweep(console: Console, sweep: "Sweep", output: Path | None) -> None:
             *(("*" if sweep.marked(k) else "",) if sweep.marks else ()),
             point.status,
             "-" if point.length is None else str(point.length),
-            *("-" if torque is None else f"{torque / OZ_IN:.0f}" for torque in torques),
+            *("-" if torque is None else f"{torque / size:.{digits}f}" for torque in torques),
             f"{point.seconds:.1f}",
         )
     console.print(table)
-    console.print("torque: largest of the plan's joints [oz-in]; least: the least that it can be in any plan, proved")
+    console.print(f"torque: largest of the plan's joints [{unit}]; least: the least that it can be in any plan, proved")
     if sweep.marks:
         console.print(f"* marked: {' and '.join(f'{mark.key} = {mark.text}' for mark in sweep.marks)}")
     console.print(f"{sweep.found} of {len(sweep.points)} points of '{sweep.task}' have a plan ({sweep.planner})")

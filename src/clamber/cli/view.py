@@ -67,9 +67,9 @@ def view(
     things: Annotated[
         list[str],
         typer.Argument(
-            metavar="TASK|PLAN|WALK|LOG...",
-            help="A task, a plan, a walk or a log of a run (.mcap, .csv), by name or file; or a log and what it was made with.",
-            autocompletion=names_of("tasks", "plans", "walks"),
+            metavar="TASK|PLAN|WALK|LOG|ROBOT|BOARD...",
+            help="A task, plan, walk, robot, board, ground or log (.mcap, .csv), by name or file; or a log and what it was made with.",
+            autocompletion=names_of("tasks", "plans", "walks", "robots", "boards", "grounds"),
         ),
     ],
     *,

@@ -6,12 +6,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal, TypeAlias
 
-from ..errors import ClamberError, SpecError, UnknownNameError, describe_choices
+from ..errors import ClamberError, SpecError, describe_choices
 from ..execution.log import LogError
 from ..execution.log_files import SUFFIXES as LOGS
 from ..execution.log_files import read_log
 from ..family import families, family_of
-from ..files import is_path, write_atomically
+from ..files import is_path, unknown_name, write_atomically
 from ..json_form import Count, Key, in_json
 from ..planning.problem.plan_source import OpenedPlan, is_plan, open_plan, plan_names
 from ..planning.problem.problems import plan_family, yardsticks_of
@@ -214,7 +214,7 @@ def kind_of(thing: str) -> Kind:
         return "plan"
     if thing in robot_names() or is_path(thing):
         return "robot"
-    raise UnknownNameError("robot, plan or log", thing, (*robot_names(), *plan_names()))
+    raise unknown_name("robot, plan or log", thing, (*robot_names(), *plan_names()))
 
 
 def export(thing: str, path: Path, task: str | None = None, overrides: Sequence[str] = ()) -> Exported:

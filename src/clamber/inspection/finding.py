@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import Annotated, Any, TypeAlias
 
 from ..json_form import HIDDEN, Jsonable, in_json
+from ..shown_units import SI, ShownUnits
 
 Kind: TypeAlias = str
 """What a file is: "robot", "task", "plan", or one of the kinds of a family, such as "board"."""
@@ -42,6 +43,8 @@ class Finding(Jsonable):
     """What is allowed and yet most likely not meant, in sentences."""
     margins: tuple[Margin, ...] = field(default=())
     """Of a task's start stance, in the order of its checks."""
+    units: Annotated[ShownUnits, HIDDEN] = SI
+    """In which margins are printed."""
 
     @property
     @in_json(after="kind")
@@ -60,7 +63,7 @@ class FileKind:
     """Of those that come with Clamber."""
     load: Callable[[str], Any]
     """By name or path, with all checks."""
-    inspect: Callable[[Any], Finding]
+    inspect: Callable[[Any, ShownUnits], Finding]
     suffixes: tuple[str, ...] = ()
     """Of files that say no schema."""
 
@@ -73,7 +76,7 @@ def _nothing(task: Any, hard: Set[str]) -> Iterator[str]:
 class Inspection:
     """What is told of a family's files, and what is odd about them."""
 
-    robot: Callable[[Any], Finding]
+    robot: Callable[[Any, ShownUnits], Finding]
     kinds: Mapping[str, FileKind]
     """Kind -> how its files are read and inspected."""
     odd_task: Callable[[Any, Set[str]], Iterator[str]] = _nothing

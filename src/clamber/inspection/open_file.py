@@ -6,17 +6,19 @@ from typing import Final
 
 import numpy as np
 
-from ..errors import SpecError, UnknownNameError, describe_choices
+from ..errors import SpecError, describe_choices
 from ..family import NotOfFamilyError, families, family_of
-from ..files import Document, is_path, read_toml
+from ..files import Document, is_path, read_toml, unknown_name
 from ..planning.problem.check import UNLIMITED
 from ..planning.problem.codes import pack
 from ..planning.problem.plan_source import is_plan, plan_names
 from ..planning.problem.problems import plan_family
 from ..regular_files import user_path
+from ..shown_units import units_of
 from ..tasks import Task, load_task, task_names
 from ..tasks.library import change_task
 from ..tasks.robots import family_in, read_robot, robot_names
+from ..types import Json
 from .finding import FileKind, Finding, Kind, Margin
 
 
@@ -41,17 +43,17 @@ def start_margins(task: Task) -> tuple[Margin, ...]:
 def inspect_task(task: Task) -> Finding:
     """Facts of a task, whether its start holds and by how much, and what is odd about it."""
     margins = start_margins(task)
-    x, y, theta = task.start.x, task.start.y, task.start.theta
+    x, y, theta, units = task.start.x, task.start.y, task.start.theta, units_of(task.document)
     facts = {
         "robot": task.robot.name,
         "world": task.world.name,
-        "start": f"x {x:.4g} m, y {y:.4g} m, theta {math.degrees(theta):.4g} deg",
+        "start": f"x {units.length(x)}, y {units.length(y)}, theta {math.degrees(theta):.4g} deg",
         "goals": ", ".join(goal.name or "unnamed" for goal in task.goals),
         "hard checks": ", ".join(margin.check for margin in margins if margin.hard) or "none",
     }
     return Finding(
-        kind="task", name=task.name, title=task.title, facts=facts, odd=tuple(_odd(task, margins)), margins=margins
-    )
+        kind="task", name=task.name, title=task.title, facts=facts, odd=tuple(_odd(task, margins)), margins=margins, units=units
+    )  # fmt: skip
 
 
 def _odd(task: Task, margins: tuple[Margin, ...]) -> Iterator[str]:
@@ -91,7 +93,7 @@ def _inspect_robot(document: Document) -> Finding:
     family = family_in(document)
     if family.inspection is None:
         raise NotOfFamilyError(family.title, "facts to tell of a robot")
-    return family.inspection.robot(family.files.build_robot(document))
+    return family.inspection.robot(family.files.build_robot(document), units_of(document.data))
 
 
 def kind_of(name_or_path: str) -> Kind:
@@ -110,7 +112,7 @@ def kind_of(name_or_path: str) -> Kind:
             if name_or_path in names:
                 return kind
         known = dict.fromkeys(name for names in shipped.values() for name in names)
-        raise UnknownNameError("thing", name_or_path, tuple(known))
+        raise unknown_name(f"{', '.join(list(shipped)[:-1])} or {list(shipped)[-1]}", name_or_path, tuple(known))
     path = user_path(name_or_path)
     kinds = file_kinds()
     for kind, files in kinds.items():
@@ -122,6 +124,12 @@ def kind_of(name_or_path: str) -> Kind:
     if not isinstance(schema, str) or schema not in schemas:
         raise document.problem("schema", f"must be one of {describe_choices(str(schema), schemas)}")
     return schemas[schema]
+
+
+def _document(name_or_path: str, kind: Kind) -> Json:
+    """What the file of a family's world says; empty for other kinds, whose quantities are shown in SI."""
+    reads = (family.files.read_world for family in families() if family.files.world_key == kind)
+    return next((read(name_or_path, None).data for read in reads), {})
 
 
 def inspect_file(name_or_path: str, kind: Kind | None = None, overrides: Sequence[str] = ()) -> Finding:
@@ -141,7 +149,7 @@ def inspect_file(name_or_path: str, kind: Kind | None = None, overrides: Sequenc
     if found == "robot":
         return _inspect_robot(read_robot(name_or_path))
     if found in kinds:
-        return kinds[found].inspect(kinds[found].load(name_or_path))
+        return kinds[found].inspect(kinds[found].load(name_or_path), units_of(_document(name_or_path, found)))
     raise SpecError(
         name_or_path, "schema", found, f"must be one of {', '.join(('robot', 'task', *kinds))}; a plan is replayed"
     )

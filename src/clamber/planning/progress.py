@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from ..units import OZ_IN
+from ..shown_units import SI, Unit
 
 
 class Clock:
@@ -60,6 +60,8 @@ class Exploring:
     """No plan has less of what is minimized, in the unit of its feature: actions, N m, W summed over actions."""
     cost: str = "length"
     """What is minimized now."""
+    torque: Unit = SI.torque
+    """How torques are shown."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,7 +147,8 @@ def _bound_text(progress: Exploring) -> str:
     if progress.cost == "length":
         return f"no plan has fewer than {progress.lower_bound:.0f} actions"
     if progress.cost == "torque":
-        return f"no plan has less than {progress.lower_bound / OZ_IN:.0f} oz-in"
+        unit, size, decimals = progress.torque
+        return f"no plan has less than {progress.lower_bound / size:.{decimals}f} {unit}"
     if progress.cost == "energy":
         return f"no plan's powers add up to less than {progress.lower_bound:.1f} W"
     return f"no plan has less {progress.cost} than {progress.lower_bound:.4g}"

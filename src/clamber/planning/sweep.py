@@ -14,6 +14,7 @@ from ..files import write_atomically
 from ..jobs import Executor, Outcome, map_items, read_result
 from ..json_form import HIDDEN, INLINE, Count, Jsonable, Key, in_json
 from ..kernel_cache import is_compiled
+from ..shown_units import SI, ShownUnits, units_of
 from ..tasks import Task, load_task, task_from_document
 from ..types import Json
 from ..units import OZ_IN
@@ -82,6 +83,8 @@ class Sweep(Jsonable):
     marks: tuple[Mark, ...] = ()
     points: Annotated[tuple[Point, ...], HIDDEN]
     """The last axis fastest."""
+    units: Annotated[ShownUnits, HIDDEN] = SI
+    """In which it is printed and drawn."""
 
     def marked(self, index: int) -> bool:
         """Whether a point lies in the marks of every axis that has some."""
@@ -183,7 +186,8 @@ def run_sweep(
         else _point(values, next(outcomes), store)
         for values, task in zip(places, loaded, strict=True)
     )
-    return Sweep(task=name, planner=planner, axes=tuple(axes), points=points, marks=tuple(marks))
+    units = units_of(tasks[0].document)
+    return Sweep(task=name, planner=planner, axes=tuple(axes), points=points, marks=tuple(marks), units=units)
 
 
 def plan_point(item: Json) -> Json:

@@ -4,11 +4,12 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Protocol, runtime_checkable
 
 from ..family import Family, families
-from ..files import Document, data_names, find_data, read_toml
+from ..files import Document, check_schema, data_names, find_data, read_toml
 from ..types import Json
 from .overrides import apply_overrides
 from .parts import Naming
 from .robots import family_in, read_robot, shipped
+from .task_format import SCHEMA
 
 
 @runtime_checkable
@@ -73,6 +74,7 @@ def load_task(name_or_path: str, overrides: Sequence[str] = ()) -> Task:
     """
     path, label = find_data("task", name_or_path, shipped("tasks"))
     document = read_toml(path, label)
+    check_schema(document, SCHEMA)
     merged, rest = _merge(document, overrides)
     return _overridden(merged, rest, merged.data["labels"]["robot"])
 

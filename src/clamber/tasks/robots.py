@@ -3,10 +3,9 @@
 from pathlib import Path
 from typing import Protocol
 
-from ..errors import UnknownNameError
 from ..extensions import blamed, load_outside, outside
 from ..family import Family, families, known_families, named_family
-from ..files import Document, data_names, find_data, is_path, read_toml
+from ..files import Document, data_names, find_data, is_path, read_toml, unknown_name
 
 
 class Robot(Protocol):
@@ -50,7 +49,7 @@ def read_robot(name_or_path: str, folder: Path | None = None) -> Document:
         return _whole(read_toml(path, label))
     theirs = outside("robots")
     if name_or_path not in theirs:
-        raise UnknownNameError("robot", name_or_path, (*names, *theirs))
+        raise unknown_name("robot", name_or_path, (*names, *theirs))
     found = load_outside("robots", name_or_path)
     with blamed("robots", name_or_path):
         return _whole(read_toml(Path(found() if callable(found) else found)))

@@ -66,6 +66,13 @@ class FlawsChoice(StrEnum):
     nominal = "nominal"
 
 
+class UnitsChoice(StrEnum):
+    """Systems of units that answers may be shown in."""
+
+    si = "si"
+    imperial = "imperial"
+
+
 TaskName: TypeAlias = Annotated[
     str,
     typer.Argument(

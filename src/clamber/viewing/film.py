@@ -252,7 +252,7 @@ class PlanView(View[Moment]):
             if not abs(margin) < NOTHING_LIMITS or (size <= 0.0 and margin >= 0.0):
                 continue
             share = margin / size if size > 0.0 else min(margin, 0.0)
-            shown = Limiting(check, margin, share)
+            shown = Limiting(check, margin, share, yardsticks.units)
             at_worst = worst is not None and worst.check.name == check.name
             rows.append(
                 MarginRow(check.name, shown.value, share, check.name in yardsticks.hard, at_worst, check.meaning)

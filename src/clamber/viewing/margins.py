@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from ..planning.problem.check import Check
 from ..planning.problem.problem import Replay
 from ..planning.problem.problems import NOTHING_LIMITS, Yardsticks
+from ..shown_units import SI, ShownUnits
 from ..types import Floats
-from ..units import DEGREE
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,15 +20,12 @@ class Limiting:
     """In the check's own unit."""
     share: float
     """Margin over the size of what is limited [-]; negative: violated."""
+    units: ShownUnits = SI
 
     @property
     def value(self) -> str:
         """The margin for people, with its sign and unit."""
-        unit = self.check.unit
-        value, shown = {"m": (100 * self.margin, "cm"), "rad": (self.margin / DEGREE, "deg")}.get(
-            unit, (self.margin, "" if unit == "1" else unit)
-        )
-        return f"{value:+.3g} {shown}".strip()
+        return self.units.signed(self.margin, self.check.unit, 3)
 
     def __str__(self) -> str:
         name = self.check.name.replace("_", "-")
@@ -47,14 +44,14 @@ def limiting(yardsticks: Yardsticks, margins: Floats, reason: int) -> Limiting |
     sizes = yardsticks.sizes
     if reason >= 0:
         check, margin = yardsticks.checks[reason], float(margins[reason])
-        return Limiting(check, margin, min(margin / sizes.get(check.name, 1.0), 0.0))
+        return Limiting(check, margin, min(margin / sizes.get(check.name, 1.0), 0.0), yardsticks.units)
     found: Limiting | None = None
     for check, margin in zip(yardsticks.checks, margins.tolist(), strict=True):
         if check.name not in sizes or check.name not in yardsticks.hard or not abs(margin) < NOTHING_LIMITS:
             continue
         share = min(margin / sizes[check.name], 1.0) if sizes[check.name] > 0.0 else 1.0
         if found is None or share < found.share:
-            found = Limiting(check, margin, share)
+            found = Limiting(check, margin, share, yardsticks.units)
     return found
 
 
@@ -67,7 +64,7 @@ def named_limits(yardsticks: Yardsticks, margins: Mapping[str, float | None]) ->
     """
     sizes = {name: size for name, size in yardsticks.sizes.items() if 0.0 < size < math.inf}
     found = [
-        Limiting(check, margin, min(margin / sizes[check.name], 1.0))
+        Limiting(check, margin, min(margin / sizes[check.name], 1.0), yardsticks.units)
         for check in yardsticks.checks
         if check.name in sizes and check.name in yardsticks.hard and (margin := margins.get(check.name)) is not None
     ]

@@ -17,6 +17,7 @@ from ..planning.problem.problem import Replay
 from ..tasks import Task
 from ..trials.dynamics import CarriedOut
 from ..types import Floats
+from .alone import DrawsAlone
 from .animation import WRITERS, Animated
 from .film import View
 from .output import CANVASES, StepError, check_suffix, save_figure
@@ -57,6 +58,10 @@ class Pictures:
     """What was carried out; None: it is not drawn."""
     report: Callable[[Any], "RunPage"] | None = None
     """What a report says of a run; None: there are none."""
+    robot_alone: DrawsAlone | None = None
+    """A robot without a task; None: it is not drawn."""
+    world_alone: DrawsAlone | None = None
+    """A world without a task; None: it is not drawn."""
 
 
 def pictures_of(task: Task) -> Pictures:

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Final, Protocol
+from typing import Final, Protocol
 
 import numpy as np
 from matplotlib.ticker import MaxNLocator
@@ -11,8 +11,8 @@ from ..family import NotOfFamilyError, family_of
 from ..planning.exact.front import Front
 from ..planning.problem.problem import Replay
 from ..planning.problem.problems import PlanCost, plan_family
+from ..shown_units import units_of
 from ..tasks import Task
-from ..units import OZ_IN
 from . import style
 from .output import drawing
 from .pictures import pictures_of
@@ -82,14 +82,6 @@ def draw_history(history: Sequence[Generation], path: str | Path, *, goals: Sequ
             axes.set_axisbelow(True)
 
 
-def _from_ounces(torque: Any) -> Any:
-    return torque * OZ_IN
-
-
-def _to_ounces(torque: Any) -> Any:
-    return torque / OZ_IN
-
-
 def draw_torques(task: Task, replays: Mapping[str, Replay], path: str | Path) -> None:
     """Draw the largest joint torque of every step of one or more plans, as figure 2.18 of Bevly's thesis does for two.
 
@@ -105,34 +97,31 @@ def draw_torques(task: Task, replays: Mapping[str, Replay], path: str | Path) ->
     if limits is None:
         raise NotOfFamilyError(family_of(task).title, "joint torques")
     limit, plans = float(limits(task).min()), family_of(task).plans
+    unit, size, digits = units_of(task.document).torque
     with drawing(path, (7.6, 4.0)) as figure:
         axes = figure.subplots()
         most = limit
         for k, (label, replay) in enumerate(replays.items()):
             torques = np.array([plans.torque(stance) for stance in replay.stances[1:]])
             most = max(most, float(torques.max(initial=0.0)))
-            peak = f"{label}: largest {torques.max(initial=0.0) / OZ_IN:.0f} oz-in ({torques.max(initial=0.0):.2f} N m)"
+            peak = f"{label}: largest {torques.max(initial=0.0) / size:.{digits}f} {unit}"
             steps = np.arange(1, len(torques) + 1)
             line = ("-", (0, (4, 1.5)), (0, (1, 1)), (0, (6, 1.5, 1, 1.5)))[k % 4]
-            axes.plot(steps, torques / OZ_IN, color=style.PARTS[k % 8], lw=1.5, ls=line, label=peak)
+            axes.plot(steps, torques / size, color=style.PARTS[k % 8], lw=1.5, ls=line, label=peak)
             top = int(np.argmax(torques)) if len(torques) else 0
             if len(torques):
-                axes.plot(steps[top], torques[top] / OZ_IN, marker="o", ms=5, color=style.PARTS[k % 8])
-        axes.axhline(limit / OZ_IN, color=style.ALERT, lw=1.0)
-        words = f"limit {limit / OZ_IN:.0f} oz-in"
+                axes.plot(steps[top], torques[top] / size, marker="o", ms=5, color=style.PARTS[k % 8])
+        axes.axhline(limit / size, color=style.ALERT, lw=1.0)
+        words = f"limit {limit / size:.{digits}f} {unit}"
         axes.annotate(
-            words, (1.0, limit / OZ_IN), xycoords=("axes fraction", "data"), xytext=(-3, 3), textcoords="offset points",
+            words, (1.0, limit / size), xycoords=("axes fraction", "data"), xytext=(-3, 3), textcoords="offset points",
             ha="right", fontsize=8, color=style.ALERT,
         )  # fmt: skip
-        axes.set_ylim(0.0, 1.12 * most / OZ_IN)
+        axes.set_ylim(0.0, 1.12 * most / size)
         axes.set_xlim(left=0.0)
-        axes.set(xlabel="step", ylabel="largest joint torque [oz-in]")
-        metric = axes.secondary_yaxis("right", functions=(_from_ounces, _to_ounces))
-        metric.set_ylabel("[N m]")
-        metric.spines["right"].set_color(style.FAINT)
+        axes.set(xlabel="step", ylabel=f"largest joint torque [{unit}]")
         axes.set_title("Largest joint torque of every step")
-        axes.spines["top"].set_visible(False)
-        axes.grid(axis="y", color=style.FAINT, lw=0.6)
+        style.ruled(axes, "y")
         axes.set_axisbelow(True)
         figure.legend(loc="outside lower center", ncols=2 if len(replays) > 1 else 1, fontsize=8)
 

@@ -15,12 +15,12 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from ..planning.reach.reach import LAYERS, Reach
+from ..shown_units import units_of
 from ..types import Floats
-from ..units import OZ_IN
 from . import style
 from .output import CANVASES, check_suffix, save_figure
 from .pictures import pictures_of
-from .scene import fit_bounds, halo, length_unit
+from .scene import fit_bounds, halo
 from .style import styled
 
 WIDEST, HIGHEST, NARROWEST = 7.4, 6.4, 4.9
@@ -106,13 +106,13 @@ def _shown(reach: Reach, layer: str) -> tuple[Floats, str, str]:
     """Values of the places, the unit that people read them in, and its name on the colour bar."""
     column = LAYERS[layer].column
     values = reach.places.floats(column)
-    ounces = length_unit(reach.task)[0] == "in"
-    if column.endswith("_Nm") and ounces:
-        return values / OZ_IN, "oz-in", "torque [oz-in]"
+    if column.endswith("_Nm"):
+        unit, size, _ = units_of(reach.task.document).torque
+        return values / size, unit, f"torque [{unit}]"
     if column == "margin":
         return 100.0 * values, "%", "margin [% of what is limited]"
     name, _, unit = column.partition("_")[2].rpartition("_")
-    unit = {"Nm": "N m", "step": ""}.get(unit, unit)
+    unit = "" if unit == "step" else unit
     return values, unit, f"{name.replace('_', ' ')} [{unit}]" if unit else "actions from the start"
 
 
@@ -195,7 +195,7 @@ def _marks(axes: Axes, reach: Reach) -> list[Artist]:
 
 def _colour_bar(figure: Figure, axes: Axes, shown: AxesImage, reach: Reach, layer: str) -> None:
     """A bar in the layer's unit; torques with their limit, where all joints have the same."""
-    values, unit, words = _shown(reach, layer)
+    values, _, words = _shown(reach, layer)
     beyond = bool(np.any(values > shown.get_clim()[1] * (1.0 + 1e-12)))
     bar = figure.colorbar(shown, cax=axes, extend="max" if beyond else "neither")
     bar.outline.set_visible(False)
@@ -206,5 +206,5 @@ def _colour_bar(figure: Figure, axes: Axes, shown: AxesImage, reach: Reach, laye
     if layer == "force" and torque_limits is not None:
         limits = torque_limits(reach.task)
         if np.ptp(limits) == 0.0:
-            limit = float(limits.flat[0]) / (OZ_IN if unit == "oz-in" else 1.0)
+            limit = float(limits.flat[0]) / units_of(reach.task.document).torque[1]
             bar.set_label(f"{words[:-1]}; limit {limit:.4g}]", fontsize=8)

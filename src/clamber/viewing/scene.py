@@ -10,19 +10,19 @@ from matplotlib.patches import Polygon
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FuncFormatter, MultipleLocator
 
+from ..shown_units import units_of
 from ..tasks import Task
 from ..tasks.regions import GoalBox
 from ..types import Floats
-from ..units import DEGREE, INCH
+from ..units import DEGREE
 from . import style
 
 DIRECTIONS: Final = (("right", 1.0 + 0j), ("left", -1.0 + 0j), ("up", 1j), ("down", -1j))
 
 
 def length_unit(task: Task) -> tuple[str, float]:
-    """Unit of length for people, and its size [m]: inches where the task steps by quarter inches, else centimetres."""
-    quarters = 4.0 * task.step.length / INCH
-    return ("in", INCH) if abs(quarters - round(quarters)) < 1e-6 else ("cm", 0.01)
+    """Unit of length for people, and its size [m]: as the task's files are written, or as was chosen."""
+    return units_of(task.document).place[:2]
 
 
 def describe_pose(task: Task, x: float, y: float, angle: float) -> str:

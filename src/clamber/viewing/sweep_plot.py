@@ -11,7 +11,6 @@ from matplotlib.ticker import MaxNLocator
 from ..planning.axes import Axis, Mark
 from ..planning.sweep import NO_START, SUCCESS, Sweep
 from ..types import Floats
-from ..units import OZ_IN
 from . import style
 from .output import CANVASES, check_suffix, save_figure
 from .style import styled
@@ -67,6 +66,7 @@ def _draw_mark(axes: Any, low: float, high: float, *, across: bool) -> None:
 def _curves(sweep: Sweep) -> Figure:
     figure = Figure(figsize=(7.2, 5.0), layout="constrained")
     upper, lower = figure.subplots(2, 1, sharex=True)
+    unit, size, _ = sweep.units.torque
     axis = sweep.axes[0]
     named = axis.numbers is None
     at = np.arange(len(axis.values)) if axis.numbers is None else np.array(axis.numbers)
@@ -83,8 +83,8 @@ def _curves(sweep: Sweep) -> Figure:
         ("least of any plan", _numbers([point.least_torque for point in points]), style.PARTS[2]),
     ):
         if not np.all(np.isnan(values)):
-            lower.plot(at, values / OZ_IN, color=colour, lw=1.8, ls=line, marker="o", ms=4.5, label=name)
-    lower.set_ylabel("largest joint torque [oz-in]")
+            lower.plot(at, values / size, color=colour, lw=1.8, ls=line, marker="o", ms=4.5, label=name)
+    lower.set_ylabel(f"largest joint torque [{unit}]")
     lower.set_ylim(bottom=0.0)
     lower.set_xlabel(_title(axis))
     without = np.array([point.status not in SUCCESS for point in points])

@@ -57,7 +57,7 @@ def plan(
     else:
         from .text import print_result, print_to_run
 
-        print_result(stdout(), result, words.output)
+        print_result(stdout(), result, words.output, codes=words.codes)
         print_to_run(stdout(), judged, "this command with --to-run")
         seeker.print(result)
     raise typer.Exit(0 if result.has_plan else 1)

@@ -73,6 +73,9 @@ class PlanOptions:
         bool, typer.Option(help="Where no plan is proved: look for the smallest changes of the task that open it.")
     ] = True
     openings_seconds: Annotated[float, typer.Option(min=0.0, help="Most time for that.")] = 60.0
+    codes: Annotated[
+        bool, typer.Option("--codes", help="Print all of the plan, in the thesis's numbers where it has some.")
+    ] = False
     output: Output = None
     as_json: AsJson = False
     quiet: Quiet = False

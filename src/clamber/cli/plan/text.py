@@ -2,6 +2,7 @@
 
 from itertools import groupby
 from pathlib import Path
+from typing import Final
 
 from rich.console import Console
 
@@ -25,8 +26,8 @@ class ProgressLine(LiveLine):
         self.show(progress_text(progress))
 
 
-def print_result(console: Console, result: PlanResult, output: Path | None) -> None:
-    """Print what a search found, or how far it came and what stopped it."""
+def print_result(console: Console, result: PlanResult, output: Path | None, *, codes: bool = False) -> None:
+    """Print what a search found, its actions in words or as `codes`, or how far it came and what stopped it."""
     found = result.has_plan
     if found:
         gap = "" if not result.gap else f", at most {result.gap} more than the shortest plan"
@@ -47,7 +48,7 @@ def print_result(console: Console, result: PlanResult, output: Path | None) -> N
     effort += f"{result.checks} actions judged, " if result.checks else ""
     console.print(f"{effort}{result.seconds:.1f} s, seed {result.seed}")
     if found:
-        console.print(_spelled(result.plan))
+        console.print(_spelled(result.plan, codes))
     if output is not None:
         what = "the plan" if found else "the actions that lead furthest"
         console.print(f"{what}: {output}", soft_wrap=True)
@@ -97,10 +98,22 @@ def _print_furthest(console: Console, furthest: Furthest) -> None:
     console.print(f"there, actions that each check forbids: {stops or 'none'}")
 
 
-def _spelled(plan: Plan) -> str:
-    """The plan in the thesis's numbers, or in words where it has none."""
-    numbers = plan.numbers()
+MOST_RUNS: Final = 40
+"""Runs of equal actions that are printed of a plan; of longer ones the first, the last and the number between."""
+
+
+def _spelled(plan: Plan, codes: bool) -> str:
+    """The plan in words, cut where it is long, or whole in the thesis's numbers if `codes` are asked for and it has some."""
+    numbers = plan.numbers() if codes else None
     if numbers is not None:
         return " ".join(map(str, numbers))
     runs = [(title, len(list(run))) for title, run in groupby(action.title for action in plan.actions)]
-    return "; ".join(title if times == 1 else f"{title} x{times}" for title, times in runs)
+    words = [title if times == 1 else f"{title} x{times}" for title, times in runs]
+    if len(words) > MOST_RUNS + 10 and not codes:
+        left = sum(times for _, times in runs[MOST_RUNS - 5 : -5])
+        words = [
+            *words[: MOST_RUNS - 5],
+            f"... {left} actions more (-o FILE keeps all, --codes prints them) ...",
+            *words[-5:],
+        ]
+    return "; ".join(words)

@@ -140,9 +140,10 @@ class ClimberDynamics(Dynamics):
 
     def print_trials(self, console: "Console", trials: ClimbTrials, seeds: Sequence[int]) -> None:
         """Success, causes, times, and what of the noise matters."""
+        from ...shown_units import units_of
         from .pictures.climb_text import print_trials
 
-        print_trials(console, sum_up(trials), seeds)
+        print_trials(console, sum_up(trials), seeds, units_of(trials.setup.task.document))
 
     def check_picture(self, file: Path) -> None:
         """A picture."""

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...inspection.finding import FileKind, Finding, Inspection
+from ...shown_units import SI, ShownUnits, Unit
 from ...types import Floats
 from ...units import DEGREE, GRAVITY
 from .planning.task import LimbedTask
@@ -38,22 +39,23 @@ def reach_of(limb: Limb) -> tuple[float, float]:
     return min(distances), max(distances)
 
 
-def _limbed_facts(robot: LimbedRobot) -> dict[str, str]:
+def _limbed_facts(robot: LimbedRobot, units: ShownUnits) -> dict[str, str]:
     nearest, farthest = zip(*(reach_of(limb) for limb in robot.limbs), strict=True)
     torques = [robot.torque_limit_of(joint) for joint in robot.joints]
     made_up = sum(each.source == "made up" for each in robot.sources.values())
     return {
         "family": "limbed climber",
         "limbs": ", ".join(f"{limb.name} ({limb.end.kind})" for limb in robot.limbs),
-        "weight": f"{robot.weight:.4g} N",
-        "limbs reach": f"{min(nearest):.4g} to {max(farthest):.4g} m from their ports",
-        "joint torque": _span(torques, "N m"),
+        "weight": f"{robot.weight / units.force[1]:.4g} {units.force[0]}",
+        "limbs reach": f"{_span([min(nearest), max(farthest)], units.place)} from their ports",
+        "joint torque": _span(torques, units.torque),
         "numbers": f"{len(robot.sources)} with a source, {made_up} of them made up",
     }
 
 
-def _span(values: list[float], unit: str) -> str:
-    low, high = min(values), max(values)
+def _span(values: list[float], shown: Unit) -> str:
+    unit, size, _ = shown
+    low, high = min(values) / size, max(values) / size
     return f"{low:.4g} {unit}" if high - low < 1e-9 else f"{low:.4g} to {high:.4g} {unit}"
 
 
@@ -123,21 +125,22 @@ NAMED: Final = 5
 """So many holds are named, the others counted."""
 
 
-def inspect_board(board: Board) -> Finding:
+def inspect_board(board: Board, units: ShownUnits = SI) -> Finding:
     """Facts of a board, and what is odd about it."""
     points = board.positions()
     width, height = np.ptp(points, axis=0)
+    (x, y), (unit, size, _) = points.min(axis=0), units.place
     away = nearest(points)
     directed = sum(hold.direction is not None for hold in board.holds)
     facts = {
         "holds": str(len(points)),
         "numbers": f"{board.holds[0].number} to {board.holds[-1].number}",
-        "size": f"{width:.4g} x {height:.4g} m, from ({points[:, 0].min():.4g}, {points[:, 1].min():.4g}) m",
+        "size": f"{width / size:.4g} x {height / size:.4g} {unit}, from ({x / size + 0.0:.4g}, {y / size + 0.0:.4g}) {unit}",
         "with a direction": str(directed),
         "keep-out regions": str(len(board.keep_out)),
     }
     if len(points) > 1:
-        facts["nearest two"] = f"{away.min():.4g} m"
+        facts["nearest two"] = units.length(float(away.min()))
     odd = (*_lonely(board, away), *_covered(board, points))
     return Finding(kind="board", name=board.name, title=board.title, facts=facts, odd=odd)
 
@@ -189,10 +192,10 @@ def _holds(numbers: list[int]) -> str:
     return f"hold {shown} lies" if len(numbers) == 1 else f"{len(numbers)} holds ({shown}) lie"
 
 
-def inspect_climber(robot: LimbedRobot) -> Finding:
+def inspect_climber(robot: LimbedRobot, units: ShownUnits = SI) -> Finding:
     """Facts of a climber, and what is odd about it."""
     odd = (*_odd_limbs(robot), *_odd_body(robot))
-    return Finding(kind="robot", name=robot.name, title=robot.title, facts=_limbed_facts(robot), odd=odd)
+    return Finding(kind="robot", name=robot.name, title=robot.title, facts=_limbed_facts(robot, units), odd=odd)
 
 
 def odd_task(task: LimbedTask, hard: Set[str]) -> Iterator[str]:

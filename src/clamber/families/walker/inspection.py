@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 
 from ...inspection.finding import FileKind, Finding, Inspection
+from ...shown_units import SI, ShownUnits
 from .planning import Walk, load_walk, walk_names
 from .planning.walk import SCHEMA as WALK_SCHEMA
 from .robot import WalkerRobot
@@ -17,13 +18,13 @@ TWISTS: Final = np.linspace(-math.pi / 3, math.pi / 3, 241)
 """A walker's frames repeat after a third of a turn [rad]."""
 
 
-def _walker_facts(robot: WalkerRobot) -> dict[str, str]:
+def _walker_facts(robot: WalkerRobot, units: ShownUnits) -> dict[str, str]:
     mechanism, legs = robot.mechanism, robot.legs
     return {
         "family": "two-frame walker",
-        "actuators": f"{mechanism.shortest:.4g} to {mechanism.longest:.4g} m",
-        "legs": f"{legs.shortest:.4g} to {legs.longest:.4g} m",
-        "feet": f"circles of {legs.radius_delta:.4g} and {legs.radius_y:.4g} m",
+        "actuators": f"{units.length(mechanism.shortest)} to {units.length(mechanism.longest)}",
+        "legs": f"{units.length(legs.shortest)} to {units.length(legs.longest)}",
+        "feet": f"circles of {units.length(legs.radius_delta)} and {units.length(legs.radius_y)}",
         "arm": "none" if robot.arm is None else f"{robot.arm.n_joints} joints",
     }
 
@@ -45,11 +46,11 @@ def _odd_frames(robot: WalkerRobot) -> Iterator[str]:
         )
 
 
-def inspect_ground(ground: Ground) -> Finding:
+def inspect_ground(ground: Ground, units: ShownUnits = SI) -> Finding:
     """Facts of a ground, and what is odd about it."""
     facts = {
         "slope": f"{np.degrees(ground.slope):.4g} deg, rising towards {np.degrees(ground.uphill):.4g} deg",
-        "size": f"{ground.x_max - ground.x_min:.4g} x {ground.y_max - ground.y_min:.4g} m",
+        "size": f"{units.length(ground.x_max - ground.x_min)} x {units.length(ground.y_max - ground.y_min)}",
         "friction": f"{ground.friction:.3g}",
         "blocks": str(len(ground.blocks)),
         "rough parts": str(len(ground.rough)),
@@ -76,7 +77,7 @@ def _odd_ground(ground: Ground) -> Iterator[str]:
             yield f"{key} lies beyond the ends of the ground, where there is nothing"
 
 
-def inspect_walk(walk: Walk) -> Finding:
+def inspect_walk(walk: Walk, units: ShownUnits = SI) -> Finding:
     """Facts of a walk."""
     straight = sum(piece.distance or 0.0 for piece in walk.way)
     turned = sum(abs(piece.turn or 0.0) for piece in walk.way)
@@ -85,17 +86,17 @@ def inspect_walk(walk: Walk) -> Finding:
     facts = {
         "robot": walk.robot.name,
         "ground": walk.ground.name,
-        "way": f"{len(walk.way)} pieces: {straight:.4g} m straight, {math.degrees(turned):.4g} deg turned, {places} to a place",
+        "way": f"{len(walk.way)} pieces: {units.length(straight)} straight, {math.degrees(turned):.4g} deg turned, {places} to a place",
         "plate": "kept level" if walk.level else "as it stands at the start",
-        "legs at the start": f"{1e3 * legs.min():.0f} to {1e3 * legs.max():.0f} mm",
+        "legs at the start": f"{units.small(legs.min())} to {units.small(legs.max())}",
     }
     return Finding(kind="walk", name=walk.name, title=walk.title, facts=facts)
 
 
-def inspect_walker(robot: WalkerRobot) -> Finding:
+def inspect_walker(robot: WalkerRobot, units: ShownUnits = SI) -> Finding:
     """Facts of a walker, and what is odd about it."""
     odd = tuple(_odd_frames(robot))
-    return Finding(kind="robot", name=robot.name, title=robot.title, facts=_walker_facts(robot), odd=odd)
+    return Finding(kind="robot", name=robot.name, title=robot.title, facts=_walker_facts(robot, units), odd=odd)
 
 
 INSPECTION: Final = Inspection(

@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 
 from ...files import write_atomically
 from ...json_form import HIDDEN, Count, Jsonable, Key, in_json
+from ...shown_units import units_of
 from ...tasks import Task
 from ..problem.plan import Plan
 from ..problem.problems import PlannedAction, listed_problem, plan_family, spent
@@ -94,7 +95,7 @@ def plan_front(
 
     def tell(stances: int, bound: float, cost: str) -> None:
         if progress is not None:
-            progress(Exploring(stances, bound, cost))
+            progress(Exploring(stances, bound, cost, units_of(task.document).torque))
 
     searches = Minimizer(problem, most_stances=max_stances, seconds=seconds, tell=tell)
     names = set(costs)

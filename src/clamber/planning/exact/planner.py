@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
+from ...shown_units import units_of
 from ...tasks import Task
 from ..problem.plan import Plan
 from ..problem.problem import CompiledProblem
@@ -135,7 +136,7 @@ def plan_exact(
 
     def tell(stances: int, bound: float, cost: str) -> None:
         if progress is not None:
-            progress(Exploring(stances, bound, cost))
+            progress(Exploring(stances, bound, cost, units_of(task.document).torque))
 
     informed, granted = inform(plain, clock.left)
     searches = Minimizer(informed, most_stances=max_stances, seconds=granted, tell=tell)

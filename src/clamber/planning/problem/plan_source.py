@@ -6,9 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ...errors import UnknownNameError
 from ...family import families
-from ...files import Document, data_names, find_data, is_path, read_toml
+from ...files import Document, data_names, find_data, is_path, read_toml, unknown_name
 from ...regular_files import is_file
 from ...tasks import Task, load_task, task_names
 from ...tasks.overrides import apply_overrides
@@ -63,7 +62,7 @@ def check_name(what: str, walks: tuple[str, ...] = ()) -> None:
     """
     known = (*task_names(), *plan_names(), *walks)
     if not is_path(what) and not is_plan(what) and what not in known:
-        raise UnknownNameError("task, plan or walk" if walks else "task or plan", what, known)
+        raise unknown_name("task, plan or walk" if walks else "task or plan", what, known)
 
 
 def open_plan(name_or_path: str | Path, task: str | None = None, overrides: Sequence[str] = ()) -> OpenedPlan:

@@ -12,6 +12,7 @@ from pydantic import Field, StrictStr
 from ...errors import PlannerError
 from ...family import family_of
 from ...json_form import Count, Jsonable, in_json
+from ...shown_units import SI, ShownUnits, units_of
 from ...specs import spec
 from ...tasks import Task
 from ...types import Ints
@@ -174,6 +175,9 @@ class PlanFamily(ABC):
     def sizes(self, task: Any) -> Mapping[str, float]:
         """Check -> the size that its margin is a share of, in its own unit; counts have none, for they are never tight."""
 
+    units: ShownUnits = SI
+    """In which margins are shown."""
+
     @abstractmethod
     def problem(self, task: Any) -> CompiledProblem:
         """The task with every check evaluated, for replays."""
@@ -307,9 +311,11 @@ class Yardsticks:
     """Names of the checks that forbid an action."""
     sizes: Mapping[str, float]
     """Check -> the size that its margin is a share of, in its own unit; counts have none, for they are never tight."""
+    units: ShownUnits = SI
+    """In which margins are shown."""
 
 
 def yardsticks_of(task: Task) -> Yardsticks:
     """The yardsticks of a task."""
     plans = family_of(task).plans
-    return Yardsticks(plans.checks, plans.hard(task), plans.sizes(task))
+    return Yardsticks(plans.checks, plans.hard(task), plans.sizes(task), units_of(task.document))

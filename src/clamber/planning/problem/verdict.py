@@ -9,6 +9,7 @@ import numpy as np
 
 from ...extensions import ExtensionError, blamed, failure, load_outside, outside
 from ...json_form import HIDDEN, INLINE, Count, Jsonable, Key, in_json
+from ...shown_units import SI, ShownUnits, units_of
 from ...tasks import Task
 from ...types import Ints
 from ...units import DEGREE, INCH, OZ_IN
@@ -178,6 +179,8 @@ class Verdict(Jsonable):
     """Names of the checks that forbid an action; the others report."""
     notes: tuple[str, ...] = ()
     """What was read in a way that the reader should know of, such as a step size taken from the plan."""
+    units: Annotated[ShownUnits, HIDDEN] = SI
+    """In which it is printed."""
     per_step: tuple[StepVerdict, ...]
     """As far as the replay went; the violating step is the last where it did not go on."""
 
@@ -311,6 +314,7 @@ def check_plan(
         checks=(*family.checks, *theirs.checks),
         hard=hard,
         notes=(*notes, *theirs.notes),
+        units=units_of(task.document),
     )
 
 

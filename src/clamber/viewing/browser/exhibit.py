@@ -10,17 +10,19 @@ from ...errors import SpecError
 from ...execution.log import Log, LogError
 from ...execution.log_files import SUFFIXES, read_log
 from ...family import NotOfFamilyError, families, family_of
+from ...inspection.open_file import kind_of
 from ...planning.planners import plan_task
 from ...planning.problem.plan import Plan
-from ...planning.problem.plan_source import check_name, is_plan, open_plan
+from ...planning.problem.plan_source import open_plan
 from ...planning.problem.problem import Replay
 from ...planning.progress import Listener
 from ...tasks import load_task
 from ...trials.dynamics import CarriedOut
+from ..alone import Alone, ShownAlone, StillFilm, open_alone, shown_alone
 from ..film import Film, View
 from ..pictures import carried_out, pictures_of
 from ..scene import Bounds
-from .solids import Scenery
+from .solids import LoneScenery, Scenery
 
 if TYPE_CHECKING:
     import viser
@@ -146,6 +148,10 @@ class Scenes(ABC):
         """The same for a plan that keeps something back, so that it can be carried out; it takes longer."""
         return self.plan(task, planner, seconds, progress)
 
+    def still(self, alone: Alone) -> Any:
+        """The moment of a robot that is shown alone."""
+        return alone.at
+
     def outcome(self, run: Any) -> str:
         """How a run went, in words."""
         return "done" if run.done else f"not done: {run.reason}"
@@ -166,7 +172,7 @@ def open_exhibit(things: Sequence[str], task: str | None = None, overrides: Sequ
     """What some names and files mean together.
 
     Args:
-        things: A task, a plan or a walk by name or file, a log of a run, or a log and what it was made with, in any order.
+        things: A task, a plan, a walk, a robot, a world or a log of a run, or a log and what it was made with, in any order.
         task: Name or path of a task in place of the one that the plan names.
         overrides: Texts "key=value" that change the task.
 
@@ -184,20 +190,40 @@ def open_exhibit(things: Sequence[str], task: str | None = None, overrides: Sequ
     log = read_log(Path(logs[0])) if logs else None
     what = others[0] if others else _made_with(log) if log is not None else None
     if what is None:
-        raise SpecError("clamber view", "nothing to show", "", "name a task, a plan, a walk or a log of a run")
+        raise SpecError(
+            "clamber view",
+            "nothing to show",
+            "",
+            "name a task, a plan, a walk, a robot, a board, a ground or a log of a run",
+        )
     exhibit = _opened(what, task, overrides)
-    return exhibit if log is None else family_of(exhibit.task).scenes.with_log(exhibit, log)
+    if log is None:
+        return exhibit
+    if exhibit.task is None:
+        raise SpecError("clamber view", what, exhibit.title, f"was not made with a log: {NAMED}")
+    return family_of(exhibit.task).scenes.with_log(exhibit, log)
 
 
 def _opened(what: str, task: str | None, overrides: Sequence[str]) -> Exhibit:
     other = next((made for family in families() if (made := family.other_work(what, overrides)) is not None), None)
     if other is not None:
         return exhibit_of(other)
-    check_name(what, tuple(name for family in families() for name in family.other_names()))
-    if not is_plan(what):
+    if shown_alone(kind := kind_of(what)):
+        return _alone_exhibit(open_alone(what, kind))
+    if kind != "plan":
         return exhibit_of(load_task(what, overrides))
     opened = open_plan(what, task, overrides)
     return exhibit_of(opened.task, opened.plan, what)
+
+
+def _alone_exhibit(shown: ShownAlone) -> Exhibit:
+    """A robot or a world alone: nothing is edited, planned or run."""
+    alone, film = shown.alone, StillFilm(None, shown.finding)
+    scenes = family_of(alone.task).scenes
+    if alone.at is not None:
+        film = StillFilm(scenes.still(alone), shown.finding)
+    whole = scenes.scenery(alone.task, alone.bounds)
+    return Exhibit(film.title, LoneScenery(alone.bounds, whole, robot=alone.at is not None), film)
 
 
 def exhibit_of(task: Any, plan: Plan | Replay | None = None, label: str = "plan") -> Exhibit:

@@ -135,7 +135,7 @@ def block_data(gauges: Gauges) -> Json:
 
 def _numbers(blocks: tuple[Floats, ...]) -> list[float | None]:
     """Values of all blocks in a row, those that are not told as None."""
-    flat = np.concatenate(blocks)
+    flat = np.concatenate((*blocks, ()))
     return [
         number if known else None
         for number, known in zip(round_all(np.nan_to_num(flat)), np.isfinite(flat), strict=True)

@@ -21,7 +21,9 @@ FAIR: Final = 0.15
 def head_html(film: Film[Any], step: int, moment: Any) -> str:
     """The step and what is to be said of the moment."""
     last = len(film.steps) - 1
-    title = f"{film.noun} {step} of {last}: {film.steps[step]}" if step else "Start"
+    title = (
+        f"{film.noun} {step} of {last}: {film.steps[step]}" if step else film.steps[0][:1].upper() + film.steps[0][1:]
+    )
     ink = style.ALERT if step and film.grades[step] == 0 else style.INK
     rows = "".join(
         f'<tr><td style="{CELL};color:{style.QUIET};vertical-align:top">{escape(name)}</td><td>{escape(words)}</td></tr>'

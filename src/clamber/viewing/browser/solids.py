@@ -117,6 +117,34 @@ class Scenery(ABC):
         """Where to look from at first."""
 
 
+class _Nothing(Figure):
+    """A world without its robot, or a robot without its world."""
+
+    def show(self, at: Any, grade: int = 3) -> None:
+        """See `Figure`."""
+
+
+@dataclass(frozen=True, slots=True)
+class LoneScenery(Scenery):
+    """A world or a robot alone, of a scenery of both."""
+
+    whole: Scenery
+    robot: bool
+    """Whether the robot is shown, and not the world."""
+
+    def world(self, server: "viser.ViserServer") -> World:
+        """See `Scenery`."""
+        return _Nothing(server, "/nothing") if self.robot else self.whole.world(server)
+
+    def figure(self, server: "viser.ViserServer", name: str, opacity: float = 1.0) -> Figure:
+        """See `Scenery`."""
+        return self.whole.figure(server, name, opacity) if self.robot else _Nothing(server, name, opacity)
+
+    def camera(self) -> Camera:
+        """See `Scenery`."""
+        return self.whole.camera()
+
+
 FOV: Final = math.radians(40.0)
 """Of the camera, from the bottom to the top of the picture [rad]."""
 

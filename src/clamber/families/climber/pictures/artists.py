@@ -12,8 +12,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, FancyArrowPatch, Polygon, Wedge
 from matplotlib.text import Annotation
 
+from ....shown_units import units_of
 from ....types import Floats
-from ....units import DEGREE, OZ_IN
+from ....units import DEGREE
 from ....viewing import style
 from ....viewing.panel import Gauges, Place
 from ....viewing.scene import (
@@ -24,7 +25,6 @@ from ....viewing.scene import (
     goal_box,
     halo,
     label_region,
-    length_unit,
     name_goal,
     set_axes,
 )
@@ -53,8 +53,10 @@ def hold_radius(task: LimbedTask, bounds: Bounds) -> float:
 
 
 def spacing(task: LimbedTask) -> float:
-    """About how far apart the holds are [m]: the root of the area that each has."""
+    """About how far apart the holds are [m]: the root of the area that each has; infinite for fewer than two."""
     points = task.world.positions()
+    if len(points) < 2:
+        return math.inf
     width, height = np.maximum(points.max(axis=0) - points.min(axis=0), 1e-3)
     return math.sqrt(width * height / len(points))
 
@@ -288,7 +290,7 @@ def nice_force(weight: float) -> float:
 
 
 def torque_gauges(task: LimbedTask) -> Gauges:
-    """One bar per shoulder and elbow: share of its torque limit, red beyond nine tenths; in ounce-inches beside a task in inches."""
+    """One bar per shoulder and elbow: share of its torque limit, red beyond nine tenths."""
     limits = torque_limits(task).ravel()
     return Gauges(
         title="Joint torques",
@@ -298,7 +300,7 @@ def torque_gauges(task: LimbedTask) -> Gauges:
         high=limits,
         limits=((1.0, "limit"),),
         calm=(0.0, NEAR_LIMIT),
-        unit=("oz-in", OZ_IN, 0) if length_unit(task)[0] == "in" else ("N m", 1.0, 2),
+        unit=units_of(task.document).torque,
         group=2,
     )
 

@@ -24,6 +24,7 @@ from ....viewing.view import PANEL_WIDTH, Layout, is_wide
 from ..execution.climb_trace import ClimbTrace
 from ..planning.task import LimbedTask
 from ..trials.run_plan import ClimbRun
+from .alone import board_alone, climber_alone
 from .artists import ClimberArtists, Snapshot, draw_scene, find_bounds, torque_gauges, torque_limits
 from .climb_run import ClimbFilm, run_picture
 from .climb_view import ClimbView, Transition, draw_climb
@@ -217,5 +218,6 @@ def wall_points(task: LimbedTask) -> Floats:
 
 
 PICTURES: Final = Pictures(
-    ClimbView, draw_climb, climb_route, wall_points, draw_scene, torque_limits, run_picture, climb_page
-)
+    ClimbView, draw_climb, climb_route, wall_points, draw_scene, torque_limits, run_picture, climb_page,
+    robot_alone=climber_alone, world_alone=board_alone,
+)  # fmt: skip

@@ -79,7 +79,7 @@ class WallScene:
         self.depth = PEGS * link_radius(task)
         """How far pegs stand out of the wall [m]."""
         self._least = hold_radius(task, bounds)
-        away = min(0.12 * spacing(task), 0.03) if len(task.world.holds) > 1 else 0.02
+        away = min(0.12 * spacing(task), 0.03)
         self._aside = np.array((-away, away))
         for k, polygon in enumerate(task.world.keep_out):
             server.scene.add_mesh_simple(

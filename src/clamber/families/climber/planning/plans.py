@@ -15,8 +15,8 @@ from ....planning.problem.code_limits import CodeLimits
 from ....planning.problem.codes import HOLD, MOVE, NEAREST, NONE, RANDOM, RELEASE, Code, pack
 from ....planning.problem.problem import CompiledProblem, Records
 from ....planning.problem.problems import ActionError, PlanCost, PlanFamily, PlannedAction, Posed
+from ....shown_units import units_of
 from ....types import Ints
-from ....units import OZ_IN
 from ..statics.checks import LIMBED_CHECKS
 from .inventory import make_inventory, module_name
 from .problem import LimbedProblem, limbed_limits
@@ -144,8 +144,9 @@ class LimbedPlans(PlanFamily):
 
     def costs(self, task: LimbedTask) -> Mapping[str, PlanCost]:
         """Energy of holding, and the largest joint torque."""
+        unit, size, digits = units_of(task.document).torque
         return {
-            "torque": PlanCost(feature="peak", title="largest torque", unit="oz-in", per_unit=OZ_IN),
+            "torque": PlanCost(feature="peak", title="largest torque", unit=unit, per_unit=size, digits=digits),
             "energy": PlanCost(feature="effort", title="holding energy", size=self.duration(task), unit="J"),
         }
 

@@ -17,6 +17,7 @@ from ....planning.problem.codes import HOLD as HOLD_KIND
 from ....planning.problem.family_kernels import family_kernels
 from ....planning.problem.loops import replay
 from ....planning.problem.problem import CompiledProblem, Records
+from ....shown_units import units_of
 from ..statics.checks import LIMBED_CHECKS
 from ..statics.elbows import EVERY
 from ..statics.records import PARAMS, STANCE
@@ -246,6 +247,8 @@ def start_stance(task: LimbedTask, params: Params) -> Records:
     replay(params.record, start, np.array([pack(0)], np.int32), True, stances, margins, reasons)
     reason = int(reasons[0])
     if reason >= 0:
-        raise StartError(task.name, CHECKS[reason], float(margins[0, reason]), LIMBED_CHECKS[reason].meaning)
+        check, margin = LIMBED_CHECKS[reason], float(margins[0, reason])
+        short = units_of(task.document).signed(-margin, check.unit).removeprefix("+")
+        raise StartError(task.name, CHECKS[reason], margin, check.meaning, short)
     stances["count"] = 0
     return stances[1:]

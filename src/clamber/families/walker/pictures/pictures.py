@@ -16,6 +16,7 @@ from ....viewing.route import FACTS, draw_way, label_ghost, pick_ghosts, write_f
 from ....viewing.scene import Bounds, length_unit
 from ....viewing.view import Layout
 from ..planning.task import WalkerTask
+from .alone import ground_alone, walker_alone
 from .report import walk_page
 from .walk_run_view import run_picture
 from .walker_motion import COLOURS, NAMES, WalkerMoment, settled_moment
@@ -71,5 +72,6 @@ def start_point(task: WalkerTask) -> Floats:
 
 
 PICTURES: Final = Pictures(
-    WalkerView, draw_walk, walker_route, start_point, draw_ground, run=run_picture, report=walk_page
-)
+    WalkerView, draw_walk, walker_route, start_point, draw_ground, run=run_picture, report=walk_page,
+    robot_alone=walker_alone, world_alone=ground_alone,
+)  # fmt: skip

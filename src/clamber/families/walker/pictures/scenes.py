@@ -14,6 +14,7 @@ from ....planning.problem.problem import Replay
 from ....planning.progress import Listener
 from ....tasks.library import task_names
 from ....types import Floats, Json
+from ....viewing.alone import Alone
 from ....viewing.browser.exhibit import Editor, Exhibit, Planned, Scenes
 from ....viewing.browser.solids import FOV, NARROW, Camera, Scenery
 from ....viewing.film import View
@@ -171,6 +172,10 @@ class WalkScenes(Scenes):
     ) -> Planned:
         """See `Scenes`."""
         return self.plan(careful(task), planner, seconds, progress)
+
+    def still(self, alone: Alone) -> Any:
+        """See `Scenes`: on level ground."""
+        return super().exhibit(alone.task, None).main.at(0.0)
 
     def outcome(self, run: WalkRun) -> str:
         """See `Scenes`."""

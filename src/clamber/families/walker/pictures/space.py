@@ -99,8 +99,8 @@ class GroundScene:
             heights = self._surface.heights(line)
             points = np.column_stack((line, heights + 0.0015))
             joined = np.stack((points[:-1], points[1:]), axis=1)
-            good = np.isfinite(joined).all(axis=(1, 2)) & (np.abs(np.diff(joined[:, :, 2], axis=1)[:, 0]) < 0.5 * fine)
-            pieces.append(joined[good])
+            joined = joined[np.isfinite(joined).all(axis=(1, 2))]  # beyond its ends the ground is infinitely deep
+            pieces.append(joined[np.abs(np.diff(joined[:, :, 2], axis=1)[:, 0]) < 0.5 * fine])
         every = np.concatenate(pieces)
         there = every @ self._axes  # in the ground's frame, whose bricks end at the bounds
         every = every[((there[..., :2] >= (x0, y0)) & (there[..., :2] <= (x1, y1))).all(axis=(1, 2))]

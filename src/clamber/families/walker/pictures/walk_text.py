@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from rich.console import Console
 
+from ....shown_units import ShownUnits, units_of
 from ....trials.fault_trials import fault_rows
 from ....trials.held_out import seeds_in_words
 from ....trials.trial_runs import wilson_interval
@@ -25,15 +26,18 @@ def print_walk(console: Console, run: WalkRun) -> None:
     else:
         console.print(f"not walked: '{run.walk.name}'", style="bold red")
         console.print(run.reason)
-    console.print(_steps(report))
+    units = units_of(run.walk.document)
+    console.print(_steps(report, units))
     speed = report.seconds / run.wall_seconds if run.wall_seconds > 0.0 else 0.0
     console.print(f"{report.seconds:.0f} s in {run.wall_seconds:.1f} s ({speed:.0f} times as fast as it happens)")
     x, y, z, alpha = (report.true_pose or report.pose)[:4]
-    console.print(f"plate at x {x:.3f} m, y {y:.3f} m, z {z:.3f} m, heading {alpha / DEGREE:.1f} deg")
+    console.print(
+        f"plate at x {units.length(x)}, y {units.length(y)}, z {units.length(z)}, heading {alpha / DEGREE:.1f} deg"
+    )
     if report.missed is not None:
         off, turned = report.missed
-        console.print(f"{1e3 * off:.1f} mm and {turned / DEGREE:.2f} deg from where the way ends")
-    console.print(f"largest tilt while walking {run.tilt / DEGREE:.3f} deg, least margin {_millimetres(run.margin)}")
+        console.print(f"{units.small(off, 1)} and {turned / DEGREE:.2f} deg from where the way ends")
+    console.print(f"largest tilt while walking {run.tilt / DEGREE:.3f} deg, least margin {_margin(run.margin, units)}")
     if run.held is not None:
         for line in held_lines(run.held):
             console.print(line)
@@ -62,19 +66,20 @@ def held_lines(held: HeldPoint) -> list[str]:
     return lines
 
 
-def _steps(report: WalkReport) -> object:
-    table = plain_table("step", "frame", "way [m]", "outcome", "from [s]", "off [mm]", "reckoned margin",
-                        right=("step", "way [m]", "from [s]", "off [mm]", "reckoned margin"))  # fmt: skip
+def _steps(report: WalkReport, units: ShownUnits) -> object:
+    way, off_by = (f"{word} [{shown[0]}]" for word, shown in (("way", units.place), ("off", units.gap)))
+    table = plain_table("step", "frame", way, "outcome", "from [s]", off_by, "reckoned margin",
+                        right=("step", way, "from [s]", off_by, "reckoned margin"))  # fmt: skip
     for step in report.steps:
-        off = f"{1e3 * step.off:.1f}" if np.isfinite(step.off) else ""
-        table.add_row(
-            str(step.number), step.frame, f"{step.way:.3f}", step.outcome, f"{step.start:.0f}", off, _millimetres(step.balance)
-        )  # fmt: skip
+        off = f"{step.off / units.gap[1]:.{units.gap[2] or 1}f}" if np.isfinite(step.off) else ""
+        come = f"{step.way / units.place[1]:.1f}"
+        margin = _margin(step.balance, units)
+        table.add_row(str(step.number), step.frame, come, step.outcome, f"{step.start:.0f}", off, margin)
     return table
 
 
-def _millimetres(margin: float) -> str:
-    return f"{1e3 * margin:.0f} mm" if np.isfinite(margin) else "none: fewer than three feet on the ground"
+def _margin(margin: float, units: ShownUnits) -> str:
+    return units.small(margin) if np.isfinite(margin) else "none: fewer than three feet on the ground"
 
 
 def print_walk_trials(console: Console, trials: WalkTrials, seeds: Sequence[int]) -> None:

@@ -38,6 +38,8 @@ RISE: Final = 0.25
 SUPPORT: Final = "#8FA3B5"
 HIGHER: Final = "#F3EAD7"
 LOWER: Final = "#D9D4C8"
+MOST_NAMED: Final = 12
+"""Grounds of more blocks, such as rough ones, are drawn without their heights, which nobody could read."""
 
 
 def walker_bounds(task: WalkerTask, moments: list[WalkerMoment]) -> Bounds:
@@ -59,8 +61,9 @@ def foot_radius(task: WalkerTask, bounds: Bounds) -> float:
 def draw_ground(axes: Axes, task: WalkerTask, bounds: Bounds) -> None:
     """Draw patches and goals, and set up the axes."""
     set_axes(axes, task, bounds)
-    for block in task.world.raised():
-        draw_block(axes, block, bounds)
+    raised = task.world.raised()
+    for block in raised:
+        draw_block(axes, block, bounds, named=len(raised) <= MOST_NAMED)
     draw_forbidden(axes, task.world.forbidden())
     for index, goal in enumerate(task.goals):
         corners = goal_box(goal, bounds)
@@ -74,8 +77,8 @@ def block_colour(height: float) -> str:
     return HIGHER if height > 0.0 else LOWER
 
 
-def draw_block(axes: Axes, block: Block, bounds: Bounds) -> None:
-    """Draw a level part of the ground with its height."""
+def draw_block(axes: Axes, block: Block, bounds: Bounds, *, named: bool) -> None:
+    """Draw a level part of the ground, with its height if it is `named`."""
     colour = block_colour(block.height)
     axes.add_patch(Polygon(np.array(block.corners()), fc=colour, ec=style.QUIET, lw=1.0, zorder=0.6))
     x0, x1, y0, y1 = bounds
@@ -83,7 +86,7 @@ def draw_block(axes: Axes, block: Block, bounds: Bounds) -> None:
         np.clip([corner[axis] for corner in block.corners()], low, high)
         for axis, low, high in ((0, x0, x1), (1, y0, y1))
     )
-    if xs.max() > xs.min() and ys.max() > ys.min():
+    if named and xs.max() > xs.min() and ys.max() > ys.min():
         edge = 0.015 * (x1 - x0)
         axes.text(
             xs.max() - edge,

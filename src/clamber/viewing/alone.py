@@ -1,0 +1,137 @@
+"""A robot or a world by itself, without a task: one picture with its facts, or the viewer's page."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from textwrap import wrap
+from typing import Any, Final
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from ..family import NotOfFamilyError, families
+from ..inspection.finding import Finding
+from ..inspection.open_file import file_kinds, inspect_file
+from ..tasks.robots import build_robot, family_in, read_robot
+from ..types import Floats, Json
+from . import style
+from .film import Film, MarginRow
+from .output import CANVASES, check_suffix, save_figure
+from .panel import LINE
+from .scene import Bounds
+from .style import styled
+from .view import Layout, is_wide
+
+WRAPPED: Final = 38
+"""Letters of a line of facts."""
+WORD: Final = 1.3
+"""Where values of facts begin, right of their names [in]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Alone:
+    """A robot or a world, ready to be drawn."""
+
+    task: Any
+    """Stands in for a task: robot and world, nothing to plan."""
+    bounds: Bounds
+    """The part of the world that is shown."""
+    draw: Callable[[Axes], None]
+    """Draws it on axes of world metres, and sets them up."""
+    at: Any = None
+    """The robot's moment; None: a world without a robot is shown."""
+
+
+DrawsAlone = Callable[[Any, Json], Alone]
+"""Takes a robot or a world, and its document."""
+
+
+@dataclass(frozen=True, slots=True)
+class ShownAlone:
+    """A robot or a world that was opened, with what is known of it."""
+
+    alone: Alone
+    finding: Finding
+
+
+def shown_alone(kind: str) -> bool:
+    """Whether a kind of file is a robot or a family's world: what is shown without a task."""
+    return kind == "robot" or any(family.files.world_key == kind for family in families())
+
+
+def open_alone(name_or_path: str, kind: str) -> ShownAlone:
+    """A robot or a world by its name or file, for pictures and for the viewer.
+
+    Args:
+        name_or_path: Its name or file.
+        kind: What it is (`inspection.open_file.kind_of`), one that `shown_alone` takes.
+
+    Raises:
+        ClamberError: If it breaks a rule of its format.
+        NotOfFamilyError: If its family draws none.
+    """
+    if kind == "robot":
+        document = read_robot(name_or_path)
+        family, thing = family_in(document), build_robot(document)
+        draws = family.pictures.robot_alone
+    else:
+        family = next(family for family in families() if family.files.world_key == kind)
+        document, thing = family.files.read_world(name_or_path, None), file_kinds()[kind].load(name_or_path)
+        draws = family.pictures.world_alone
+    if draws is None:
+        raise NotOfFamilyError(family.title, f"picture of a {kind} alone")
+    return ShownAlone(draws(thing, document.data), inspect_file(name_or_path, kind))
+
+
+def draw_alone(shown: ShownAlone, path: str | Path) -> None:
+    """Draw a robot or a world with its facts beside it (.png, .svg, .pdf).
+
+    Raises:
+        SuffixError: If the file's suffix names no format for still pictures.
+        FileError: If the file cannot be written.
+    """
+    check_suffix(path, CANVASES)
+    finding, bounds = shown.finding, shown.alone.bounds
+    rows = [(name, wrap(words, WRAPPED) or [""]) for name, words in finding.facts.items()]
+    height = LINE * sum(len(lines) + 0.35 for _, lines in rows)
+    with styled():
+        layout = Layout(bounds, height if is_wide(bounds) else height + 0.3)
+        title = f"{finding.kind.capitalize()} '{finding.name}'"
+        figure, world, panel, _ = layout.figure(title, finding.title)
+        shown.alone.draw(world)
+        y = layout.panel[1]
+        for name, lines in rows:
+            panel.text(0.0, y, name, fontsize=8, va="top", color=style.QUIET)
+            for line in lines:
+                panel.text(WORD, y, line, fontsize=8, va="top")
+                y -= LINE
+            y -= 0.35 * LINE
+        layout.fix_panel(panel)
+        save_figure(figure, path)
+
+
+class StillFilm(Film[Any]):
+    """A robot that stands still, or a world without one, with its facts."""
+
+    def __init__(self, at: Any, finding: Finding) -> None:
+        self._at, self._facts = at, tuple(finding.facts.items())
+        self.title = finding.title or f"{finding.kind} '{finding.name}'"
+        self.seconds, self.gauges, self.grades = 0.0, (), (3,)
+        self.steps = (f"{finding.kind} '{finding.name}'",)
+        self.starts = self.ends = np.zeros(1)
+
+    def at(self, time: float) -> Any:
+        """See `Film`."""
+        return self._at
+
+    def values(self, at: Any) -> tuple[Floats, ...]:
+        """See `Film`."""
+        return ()
+
+    def facts(self, step: int, at: Any) -> tuple[tuple[str, str], ...]:
+        """See `Film`."""
+        return self._facts
+
+    def margins(self, step: int) -> list[MarginRow]:
+        """See `Film`."""
+        return []
