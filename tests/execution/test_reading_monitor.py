@@ -116,6 +116,43 @@ def test_a_joint_of_a_limb_that_holds_is_silent_only_while_it_stands_still() -> 
     assert not any(silent[100:])
 
 
+@pytest.mark.parametrize(("held", "least"), [(0.5, 0.1), (0.0, 0.3)])
+def test_a_change_of_command_that_a_hold_has_balanced_is_no_fault_before_the_motor_stirs_the_free_joint(
+    held: float, least: float
+) -> None:
+    """The load passes off a limb on its hold, and a joint of it stands still; then the limb leaves the hold."""
+    watch = monitor()
+
+    def stand(command: float, ticks: int = 60) -> None:
+        for _ in range(ticks):
+            see(watch, np.zeros(2), np.zeros(2), np.array((command * LIMIT, 0.0)))
+
+    watch.free[0] = False
+    stand(held)
+    stand(0.0)
+    watch.free[0] = True
+    stand(0.0)
+    stand(0.95 * least)
+    assert not watch.findings
+    with pytest.raises(FaultError, match="one: no answer"):
+        stand(1.05 * least)
+
+
+def test_a_joint_that_moves_soon_after_its_limb_has_left_its_hold_has_not_failed() -> None:
+    """It has as long as any joint to answer its motor."""
+    watch = monitor()
+    for k in range(200):
+        watch.free[0] = k >= 100
+        angle = 0.0 if k < 120 else 1e-3 * (k - 119)
+        see(
+            watch,
+            np.array((angle, 0.0)),
+            np.zeros(2),
+            np.array(((0.5 if k < 50 else 0.0 if k < 100 else 0.2) * LIMIT, 0.0)),
+        )
+    assert not watch.findings
+
+
 def test_a_joint_that_gives_way_to_a_full_command_is_told() -> None:
     watch, ticks = ticks_to_an_end(
         lambda k, q, qd: (q, qd),

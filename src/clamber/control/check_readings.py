@@ -11,29 +11,30 @@ from ..compiled import kernel
 FASTEST, ANSWER, FULL, SLOW, AGAINST = 0, 1, 2, 3, 4
 """Rows of `bounds`: largest speed; change of the command that moves every joint; a command that is nearly all that there is, and the
 speed below which a joint does not follow it; speed against it beyond which the joint gives way."""
-VALUE, SPEED, AGE, SEEN, SAME, LOW, HIGH, DRIVEN, MEAN, YIELDING = 0, 1, 2, 3, 4, 5, 6, 7, 8, 9
+VALUE, SPEED, AGE, SEEN, SAME, LOW, HIGH, DRIVEN, MEAN, YIELDING, LOOSE, LOOSE_LOW, LOOSE_HIGH = range(13)
 """Rows of `memory`: last believed value and speed, ticks since; whether there is one; ticks without any change of the reading, least and
 largest command meanwhile; ticks of a full command that the joint does not follow; the command, smoothed; ticks of a full command against
-which the joint gives way."""
-BOUNDS, MEMORY = 5, 10
+which the joint gives way; of a joint that is free, ticks without any change since then, least and largest command meanwhile."""
+BOUNDS, MEMORY = 5, 13
 """Rows of each."""
 BELIEVED, NO_NUMBER, JUMP, NOTHING_NEW = 0, 1, 2, 3
 """Verdicts."""
 
 
 @kernel
-def check_readings(values, speeds, commands, bounds, period, elapsed, smoothing, patience, memory, verdicts):
+def check_readings(values, speeds, commands, free, bounds, period, elapsed, smoothing, patience, memory, verdicts):
     """Believe or bridge the readings of a tick.
 
     Args:
         values, speeds: As read, and as believed afterwards, shape (n,).
         commands: Of the motors since the reading before, shape (n,).
-        bounds: Rows as above, shape (4, n).
+        free: Whether nothing but its motor and what it carries moved a joint under them, shape (n,).
+        bounds: Rows as above, shape (5, n).
         period: Between two ticks [s].
         elapsed: Ticks since the newest reading before; 0: there is no newer one.
         smoothing: Part of the way to the newest command that the smoothed one goes in a tick.
         patience: Ticks for which a joint may stay where it is, may not follow a full command, and may turn against one, shape (3,).
-        memory: Rows as above; changed, shape (10, n).
+        memory: Rows as above; changed, shape (13, n).
         verdicts: Filled, shape (n,).
 
     Returns:
@@ -65,7 +66,8 @@ def check_readings(values, speeds, commands, bounds, period, elapsed, smoothing,
         if memory[SEEN, c] > 0.0 and (age > 1.0 or not math.isfinite(v)):
             v = (a - x) / ahead  # the speed as read may be that from a reading that was not believed
             speeds[c] = v
-        if memory[SEEN, c] > 0.0 and a == x:
+        unchanged = memory[SEEN, c] > 0.0 and a == x
+        if unchanged:
             memory[SAME, c] += age
             memory[LOW, c] = min(memory[LOW, c], command)
             memory[HIGH, c] = max(memory[HIGH, c], command)
@@ -73,6 +75,14 @@ def check_readings(values, speeds, commands, bounds, period, elapsed, smoothing,
             memory[SAME, c] = 0.0
             memory[LOW, c] = command
             memory[HIGH, c] = command
+        if unchanged and free[c] and memory[LOOSE, c] > 0.0:
+            memory[LOOSE, c] += age
+            memory[LOOSE_LOW, c] = min(memory[LOOSE_LOW, c], command)
+            memory[LOOSE_HIGH, c] = max(memory[LOOSE_HIGH, c], command)
+        else:
+            memory[LOOSE, c] = age if free[c] else 0.0
+            memory[LOOSE_LOW, c] = command
+            memory[LOOSE_HIGH, c] = command
         along = v if command > 0.0 else -v
         full = abs(command) >= bounds[FULL, c]
         memory[DRIVEN, c] = memory[DRIVEN, c] + age if full and along < bounds[SLOW, c] else 0.0

@@ -18,6 +18,9 @@ from ..control.check_readings import (
     FULL,
     HIGH,
     JUMP,
+    LOOSE,
+    LOOSE_HIGH,
+    LOOSE_LOW,
     LOW,
     MEAN,
     MEMORY,
@@ -49,6 +52,9 @@ ANSWERING: Final = 0.3
 """A change of command by this part of a joint's torque limit moves it by a count [-]: twice what has been seen in climbs without a fault,
 where friction of 1.3 times the file's keeps a joint still. A joint whose limb is held at both ends may stay still all the same, as only
 the squeeze between its hold and others changes: there the tips must have moved against each other besides."""
+STIRRED: Final = 1 / 3
+"""A joint that has become free since its command began to change has to move once it changes by this part of that besides [-]: before, its
+hold may have balanced all of it; friction, twice 1.3 times the file's, takes three quarters of this part from LIBRA's joints."""
 FULL_COMMAND: Final = 0.9
 """Part of a torque limit that counts as a full command [-]."""
 FOLLOWS: Final = 0.01
@@ -87,7 +93,7 @@ class ReadingMonitor:
         self.values, self.speeds, self.commands = np.zeros(n), np.zeros(n), np.zeros(n)
         """Readings and speeds, to be filled in before `see` and believed afterwards; commands since the reading before, shape (n,)."""
         self.free = np.ones(n, np.bool_)
-        """Whether what moves a reading is free to move: the joints of a limb that holds on are not, shape (n,)."""
+        """Whether what moves a reading was free to move under those commands: the joints of a limb that holds on are not, shape (n,)."""
         self.silent = np.zeros(n, np.bool_)
         """Whether a reading stays the same now whatever its motor does; of a joint that is not free, that alone is no fault, shape (n,)."""
         self._bounds, self._memory = np.zeros((BOUNDS, n)), np.zeros((MEMORY, n))
@@ -160,7 +166,7 @@ class ReadingMonitor:
         self._ticks += 1
         elapsed = 1 if number < 0 else self._elapsed(number)
         if check_readings(
-            self.values, self.speeds, self.commands, self._bounds, self.period, elapsed, self._smoothing,
+            self.values, self.speeds, self.commands, self.free, self._bounds, self.period, elapsed, self._smoothing,
             self._patience, self._memory, self._verdicts,
         ):  # fmt: skip
             self.clear = 0 if self._verdicts.any() else self.clear + 1
@@ -242,7 +248,9 @@ class ReadingMonitor:
             self._unanswered[:] = 0.0
         self._unanswered, self._looked = np.where(believed & same, self._unanswered + 1.0, 0.0), self._ticks
         self.silent = self._unanswered > self._most  # a joint at rest answers a jump of its torque a moment later
-        for c in np.flatnonzero(self.silent & self.free):
+        loose = memory[LOOSE] >= self._patience[0] + self._most
+        stirred = memory[LOOSE_HIGH] - memory[LOOSE_LOW] > self._bounds[ANSWER] * STIRRED
+        for c in np.flatnonzero(self.silent & loose & stirred):
             self.tell_silent(int(c))
         overcome = (memory[DRIVEN] >= self._patience[1]) | (memory[YIELDING] >= self._patience[2])
         for c in np.flatnonzero(believed & overcome):

@@ -165,6 +165,8 @@ class Climber:
         self.gripped[:] = sensed.gripped
         falls, lost = self.fall.see(), self.slip.see(self.fall.forces)
         self.plant.actuate(self.body.command(), self.grips)
+        for i, task in enumerate(self.body.tasks):
+            self.monitor.free[2 * i : 2 * i + 2] = task.free
         self.plant.step()
         self.ticks += 1
         holding = self.holding()
@@ -220,8 +222,6 @@ class Climber:
         values[:n], values[n] = sensed.q.ravel(), sensed.angle
         speeds[:n], speeds[n] = sensed.qd.ravel(), sensed.angle_speed
         monitor.commands[:n] = self.body.torques.ravel()
-        for i, task in enumerate(self.body.tasks):
-            monitor.free[2 * i : 2 * i + 2] = task.free
         monitor.see(sensed.number)
         q, qd = values[:n].reshape(-1, 2), speeds[:n].reshape(-1, 2)
         self.body.see(q, qd, values.item(n) - self.map.offset, speeds.item(n))
