@@ -10,6 +10,8 @@ import numpy as np
 from ....errors import SpecError, describe_choices
 from ....types import Floats
 from ....units import DEGREE
+from ..planning.task import SpatialTask
+from ..world.patterns import frame_at
 from ..world.solids import unit
 from ..world.world import World
 from .obstacles import clear_of_solids
@@ -23,6 +25,14 @@ AZIMUTHS: Final = np.arange(0.0, 360.0, 15.0) * DEGREE
 ELEVATIONS: Final = np.array((-40.0, -25.0, -12.0, 5.0, 15.0, 25.0, 35.0, 50.0)) * DEGREE
 FACING: Final = 0.6
 """Cosine between a surface's normal and the way to the camera from which on surfaces are seen well [-]."""
+
+
+BEHIND: Final = 1.2
+"""How much surfaces that are seen from behind count against a camera, per cosine [-]."""
+ASLANT: Final = 0.87
+"""Share of its length that a guide is best seen at: aslant, as what is seen from its side alone looks flat [-]."""
+CALM: Final = 22.0 * DEGREE
+"""Elevation that is best where nothing else matters [rad]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,14 +82,15 @@ def up_of(world: World) -> tuple[float, float, float]:
     return x, y, z
 
 
-def camera_for(world: World, asked: str | None) -> Camera:
-    """The camera that is asked for: a name of `NAMES`, or "AZIMUTH,ELEVATION" in degrees; None: one from which the world reads well.
+def camera_for(task: SpatialTask, asked: str | None) -> Camera:
+    """The camera that is asked for: a name of `NAMES`, or "AZIMUTH,ELEVATION" in degrees; None: one from which the task reads well.
 
     Raises:
         SpecError: If it is no such text.
     """
+    world = task.world
     if asked is None:
-        return best_camera(world)
+        return best_camera(world, *stretch(task))
     if asked in NAMES:
         return named_camera(world, asked)
     parts = asked.split(",")
@@ -114,13 +125,25 @@ def _azimuth(direction: Floats, zero: Camera) -> float:
     return math.atan2(float(direction @ right), float(direction @ towards))
 
 
-def best_camera(world: World) -> Camera:
-    """The camera, of a grid of them, that sees most of a world's surfaces from outside, its guide long and not through solids."""
-    frames = world.frames[np.linspace(0, len(world.frames) - 1, min(len(world.frames), 24)).astype(int)]
-    holds = world.normals if len(world.holds) else frames[:, 9:]
+def stretch(task: SpatialTask) -> tuple[float, float]:
+    """From where to where along the guide a task leads: its start and the nearer edge of every goal [m]."""
+    places = [task.start.along]
+    for goal in task.goals:
+        along_min, along_max = goal.box[:2]
+        places.append(min(max(places[-1], along_min), along_max))
+    return min(places), max(places)
+
+
+def best_camera(world: World, first: float, last: float) -> Camera:
+    """The camera, of a grid of them, that sees most of a stretch from outside its surfaces, its guide long and not through solids."""
+    frames = np.array([frame_at(world.frames, along) for along in np.linspace(first, max(last, first + 0.1), 24)])
+    places = world.places
+    near = np.linalg.norm(places[:, None] - frames[None, :, :3], axis=2).min(axis=1) if len(places) else np.zeros(0)
+    holds = world.normals[near < 0.5 * float(np.ptp(frames[:, :3], axis=0).max())] if len(places) else frames[:, 9:]
+    holds = holds if len(holds) else frames[:, 9:]
     holds = holds[np.linspace(0, len(holds) - 1, min(len(holds), 150)).astype(int)]
     lines = frames[:, 3:6]
-    reach = max(0.05, 0.02 * float(np.ptp(world.frames[:, :3], axis=0).max()))
+    reach = max(0.05, 0.02 * float(np.ptp(frames[:, :3], axis=0).max()))
     eyes = frames[:, :3] + reach * frames[:, 9:]
     seen = clear_of_solids(world, eyes)
     cameras = [Camera(azimuth, elevation, up_of(world)) for elevation in ELEVATIONS for azimuth in AZIMUTHS]
@@ -131,8 +154,9 @@ def _score(camera: Camera, normals: Floats, lines: Floats, seen: Callable[[Float
     """How well a world is seen by a camera: surfaces from outside, the guide long, from the left to the right and upwards."""
     right, up, towards = camera.axes
     facing = normals @ towards
-    good = np.where(facing > 0.0, np.minimum(facing, FACING) / FACING - 0.7 * np.maximum(facing - FACING, 0.0), 2.0 * facing)
-    length = np.sqrt(np.maximum(0.0, 1.0 - (lines @ towards) ** 2))
-    onward = float((0.6 * np.maximum(lines @ up, 0.0) + lines @ right).mean())
-    calm = abs(camera.elevation - 20.0 * DEGREE)
-    return float(good.mean() + 0.8 * length.mean() + 0.25 * onward - 0.35 * calm + 1.5 * seen(towards))
+    good = np.where(facing > 0.0, np.minimum(facing, FACING) / FACING - np.maximum(facing - FACING, 0.0), BEHIND * facing)
+    length = np.sqrt(np.maximum(0.0, 1.0 - (lines @ towards) ** 2)).mean()
+    onward = math.tanh(4.0 * float((0.7 * lines @ up + lines @ right).mean()))
+    calm = abs(camera.elevation - CALM)
+    aslant = min(length, ASLANT) - 0.6 * max(length - ASLANT, 0.0)
+    return float(good.mean() + 1.2 * aslant + 0.3 * onward - 0.35 * calm + 0.6 * seen(towards))

@@ -9,7 +9,7 @@ import numpy as np
 from ....types import Floats, Records
 from ....viewing.film import Part
 from ..planning.task import SpatialTask
-from .geometry import Posed, SwingPath, body_between, centre_of_mass, joint_torques, link_frames, posed, swing_between
+from .geometry import LinkFrames, Posed, SwingPath, body_between, centre_of_mass, joint_torques, link_frames, posed, swing_between
 
 SWINGING: Final = -1
 """In place of a hold's index, of a limb that is on its way."""
@@ -22,8 +22,8 @@ class Moment:
     body: Posed
     pose: Floats
     """Along, across, height [m], yaw, pitch, roll [rad] on the guide, shape (6,)."""
-    origins: Floats
-    """Of the joints, then of the tips, world frame [m], shape (limbs, most joints + 1, 3)."""
+    frames: LinkFrames
+    """Of its links."""
     holds: tuple[int, ...]
     """Index of each limb's hold, or `SWINGING`."""
     normals: Floats
@@ -40,10 +40,14 @@ class Moment:
     """Of the tip that swings, world frame [m], shape (n, 3)."""
 
     @property
+    def origins(self) -> Floats:
+        """Of the joints, then of the tips, world frame [m], shape (limbs, most joints + 1, 3)."""
+        return self.frames.origins
+
+    @property
     def tips(self) -> Floats:
         """Places of the tips, world frame [m], shape (limbs, 3)."""
-        tips: Floats = self.origins[:, -1]
-        return tips
+        return self.frames.tips
 
 
 def poses_of(task: SpatialTask, stances: Records) -> Floats:
@@ -76,7 +80,7 @@ def settled_moments(task: SpatialTask, stances: Records, shares: Floats | None =
         held = tuple(int(hold) for hold in stance["hold"][:n_limbs])
         found.append(
             Moment(
-                Posed(body.place[k], body.turn[k], body.q[k]), poses[k], frames.origins[k], held, normals[list(held)],
+                Posed(body.place[k], body.turn[k], body.q[k]), poses[k], LinkFrames(frames.origins[k], frames.axes[k]), held, normals[list(held)],
                 wrenches[k], torques[k], centres[k], np.zeros(0) if shares is None else shares[k],
             )
         )  # fmt: skip
@@ -109,7 +113,7 @@ class Between:
         if share >= 1.0:
             return self.after
         before, after = self.before, self.after
-        places = self.task.world.places[list(before.holds)]
+        places = np.array([self.task.world.holds[hold].at for hold in before.holds])
         at = body_between(self.task.robot.chains, before.body, after.body, places, share)
         wrenches = before.wrenches + share * (after.wrenches - before.wrenches)
         return self._moment(at, share, before.holds, wrenches, None)
@@ -128,7 +132,7 @@ class Between:
         frames = link_frames(chains, at)
         turn = np.array([0.0, 0.0, 0.0, *(math.remainder(angle, math.tau) for angle in (after.pose - before.pose)[3:])])
         pose = before.pose + share * np.where(np.arange(6) < 3, after.pose - before.pose, turn)
-        normals = np.array([self.task.world.normals[hold] if hold >= 0 else np.full(3, math.nan) for hold in holds])
+        normals = np.where(np.array(holds)[:, None] >= 0, before.normals, math.nan)
         torques = joint_torques(chains, frames, wrenches, np.array(self.task.world.gravity))
         centre = centre_of_mass(chains, at, frames)
-        return Moment(at, pose, frames.origins, holds, normals, wrenches, torques, centre, after.shares, path)
+        return Moment(at, pose, frames, holds, normals, wrenches, torques, centre, after.shares, path)

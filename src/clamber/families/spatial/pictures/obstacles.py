@@ -16,13 +16,13 @@ MARCHED: Final = 48
 def clear_of_solids(world: World, eyes: Floats) -> Callable[[Floats], float]:
     """What gives the share of places that a camera sees past all solids, for a direction towards it.
 
-    Tubes are drawn without their near side and bars are thin, so neither hides anything.
+    Planes that are seen from behind and the near side of tubes are drawn as glass, and bars are thin, so none of them hides anything.
 
     Args:
         world: Its solids.
         eyes: The places, outside all solids, world frame [m], shape (n, 3).
     """
-    hiding = [solid for solid in world.solid_records if int(solid["kind"]) in (PLANE, BOX, CYLINDER)]
+    hiding = [solid for solid in world.solid_records if int(solid["kind"]) in (BOX, CYLINDER)]
     span = float(np.ptp(eyes, axis=0).max()) + 1.0
     along = np.linspace(0.0, 3.0 * span, MARCHED)
 

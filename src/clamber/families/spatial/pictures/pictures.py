@@ -77,7 +77,7 @@ def _write_panel(layout: Layout, panel: Axes, task: SpatialTask, replay: Replay,
     regrabs = sum(before.holds != after.holds for before, after in zip(moments, moments[1:], strict=False))
     path = float(np.linalg.norm(np.diff([at.body.place for at in moments], axis=0), axis=1).sum()) if len(moments) > 1 else 0.0
     length = f"{path:.2f} m" if path >= 1.0 else f"{100.0 * path:.0f} cm"
-    facts = ("Holds taken", f"{regrabs}, body path {length}"), ("End", describe_pose(task, moments[-1].pose))
+    facts = ("Holds taken", f"{regrabs}, body path {length}"), ("End", describe_pose(task, moments[-1].pose).split(", yaw")[0])
     height = layout.panel[1]
     write_facts(panel, replay, yardsticks_of(task), facts, height)
     names = task.robot.chains.limb_names
@@ -101,11 +101,12 @@ def draw_bare_world(axes: Axes, task: SpatialTask, bounds: Bounds, camera: Camer
 def pictures_from(asked: str | None) -> Pictures:
     """Pictures from a camera (`camera.camera_for`); None: from one that suits each world."""
     return Pictures(
-        lambda task, replay: SpatialView(task, replay, camera_for(task.world, asked)),
-        lambda task, stance, axes: draw_stance(task, stance, axes, camera_for(task.world, asked)),
-        lambda task, replay: draw_route(task, replay, camera_for(task.world, asked)),
-        lambda task: world_points(task, camera_for(task.world, asked)),
-        lambda axes, task, bounds: draw_bare_world(axes, task, bounds, camera_for(task.world, asked)),
+        lambda task, replay: SpatialView(task, replay, camera_for(task, asked)),
+        lambda task, stance, axes: draw_stance(task, stance, axes, camera_for(task, asked)),
+        lambda task, replay: draw_route(task, replay, camera_for(task, asked)),
+        lambda task: world_points(task, camera_for(task, asked)),
+        lambda axes, task, bounds: draw_bare_world(axes, task, bounds, camera_for(task, asked)),
+        seen_from=pictures_from,
     )
 
 

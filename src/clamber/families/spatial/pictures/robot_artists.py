@@ -27,7 +27,7 @@ FADES: Final = 4
 """Steps of that, so that animations have few colours."""
 GLOSS: Final = 0.45
 """How much lighter the side of a link that is towards the light is [-]."""
-ARROW: Final = 0.85
+ARROW: Final = 1.1
 """Length of the arrow of a force as large as the weight, over the length of the longest limb [-]."""
 SMALLEST: Final = 0.015
 """Smaller forces, over the weight, are not drawn [-]."""
@@ -200,7 +200,8 @@ class RobotArtists:
         least = 1.5 * LEAST_LINK * self._size
         places = at.tips[held].reshape(-1, 3)
         normals = at.normals[held].reshape(-1, 3)
-        radii = np.array([1.7 * max(float(self._radii[limb].max()), least) for limb in held])
+        ends = self._radii[held, self._chains.n_joints[held] - 1]
+        radii = 1.7 * np.maximum(ends, least)
         self.marks.set_verts(list(self._camera.flat(discs(places, normals, radii))) if held else [])
         self.marks.set_facecolor([mixed(limb_colour(limb), style.PAPER, 0.6) for limb in held])
         self.marks.set_edgecolor([limb_colour(limb) for limb in held])
@@ -211,7 +212,7 @@ class RobotArtists:
         scale = force_scale(self._task)
         forces = np.where(known[:, None], at.wrenches[:, :3], 0.0) * scale
         seen = np.linalg.norm(forces, axis=1) > SMALLEST * ARROW * longest_limb(self._task)
-        return arrows(self._camera.flat(at.tips[seen]), self._camera.flat(forces[seen]), 0.0045 * self._size)
+        return arrows(self._camera.flat(at.tips[seen]), self._camera.flat(forces[seen]), 0.0034 * self._size)
 
 
 def arrows(starts: Floats, ways: Floats, width: float) -> Floats:
@@ -225,10 +226,10 @@ def arrows(starts: Floats, ways: Floats, width: float) -> Floats:
     length = np.maximum(np.hypot(ways[:, 0], ways[:, 1]), 1e-9)
     ahead = ways / length[:, None]
     side = np.stack((-ahead[:, 1], ahead[:, 0]), axis=1)
-    head = np.minimum(5.5 * width, 0.6 * length)
+    head = np.minimum(7.0 * width, 0.6 * length)
     thick = np.minimum(width, 0.25 * length)
     corners = [
-        (0.0, 1.0), (length - head, 1.0), (length - head, 2.6), (length, 0.0), (length - head, -2.6), (length - head, -1.0), (0.0, -1.0),
+        (0.0, 1.0), (length - head, 1.0), (length - head, 2.9), (length, 0.0), (length - head, -2.9), (length - head, -1.0), (0.0, -1.0),
     ]  # fmt: skip
     made: Floats = np.stack(
         [starts + np.reshape(at * np.ones(len(starts)), (-1, 1)) * ahead + (off * thick)[:, None] * side for at, off in corners], axis=1

@@ -17,12 +17,17 @@ from ....viewing.panel import Gauges
 from ....viewing.scene import Bounds, length_unit
 from ....viewing.view import Picture
 from ..planning.task import SpatialTask
-from .camera import Camera
+from ..world.patterns import frame_at
+from .camera import Camera, stretch
 from .moments import SWINGING, Between, Moment, settled_moments
-from .robot_artists import RobotArtists, arrows, force_scale, limb_colour
+from .robot_artists import RobotArtists, arrows, force_scale, limb_colour, longest_limb
 from .surfaces import round_length
 from .world_artists import draw_world, picture_bounds
 
+ROOM: Final = 1.3
+"""Holds that are farther from the robot's way than this many lengths of its longest limb are outside the picture [-]."""
+WAY_POINTS: Final = 40
+"""Places of the guide that are looked at for that."""
 MOST_TORQUES: Final = 30
 """Robots with more joints show the most loaded one of each limb alone."""
 NEAR_LIMIT: Final = 0.9
@@ -87,18 +92,27 @@ class SpatialView(PlanView[Moment]):
 
 
 def shown_places(task: SpatialTask, moments: list[Moment]) -> Floats:
-    """Places that are to be seen: holds, the robot's joints and corners in all stances, the guide [m], shape (n, 3)."""
-    half = task.robot.chains.base_half
-    corners = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * half
+    """Places that are to be seen: the robot in all stances, and what `way_places` gives [m], shape (n, 3)."""
+    corners = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * task.robot.chains.base_half
     robots = [np.vstack((at.origins.reshape(-1, 3), at.body.place + corners @ at.body.turn.T)) for at in moments]
-    return np.vstack([task.world.places, task.world.frames[:: max(1, len(task.world.frames) // 50), :3], *robots])
+    return np.vstack([way_places(task, *(float(at.pose[0]) for at in moments)), *robots])
+
+
+def way_places(task: SpatialTask, *alongs: float) -> Floats:
+    """The guide from the start on to the goals and to other places along it [m], and the holds near that, shape (n, 3) [m]."""
+    first, last = stretch(task)
+    ends = min((first, *alongs)), max((last, *alongs))
+    way = np.array([frame_at(task.world.frames, along) for along in np.linspace(*ends, WAY_POINTS)])
+    body = way[:, :3] + task.start.height * way[:, 9:]
+    places = task.world.places
+    near = np.array([np.linalg.norm(way[:, :3] - place, axis=1).min() for place in places]) < ROOM * longest_limb(task)
+    return np.vstack([places[near], way[:, :3], body])
 
 
 def share_gauges(names: tuple[str, ...]) -> Gauges:
     """One bar per check: how much of its limit is left."""
-    colours = tuple(style.PARTS[k % len(style.PARTS)] for k in range(len(names)))
     return Gauges(
-        title="Share of each limit that is left", names=names, colours=colours, low=np.zeros(len(names)), high=np.ones(len(names)),
+        title="Share of each limit that is left", names=names, colours=(style.STRIP[3],) * len(names), low=np.zeros(len(names)), high=np.ones(len(names)),
         limits=(), calm=(0.0, math.inf), unit=("%", 0.01, 0), group=1,
     )  # fmt: skip
 
@@ -146,8 +160,8 @@ def describe_pose(task: SpatialTask, pose: Floats) -> str:
     unit, size = length_unit(task)
     along, across, height = (round(part / size, 1) + 0.0 for part in pose[:3].tolist())
     yaw, pitch, roll = (round(math.remainder(part, math.tau) / DEGREE) for part in pose[3:].tolist())
-    words = f"along {along:.1f}, across {across:.1f}, height {height:.1f} {unit}, yaw {yaw}°"
-    return words + (f", pitch {pitch}°, roll {roll}°" if task.step.tilt else "")
+    words = f"along {along:.1f}, across {across:.1f}, height {height:.1f} {unit}, yaw {yaw}"
+    return words + (f", pitch {pitch}, roll {roll}°" if task.step.tilt else "°")
 
 
 def describe_holds(names: tuple[str, ...], holds: tuple[int, ...]) -> str:

@@ -132,7 +132,7 @@ def clip_lines(lines: Floats, normal: Floats, origin: Floats) -> Floats:
     kept = (height > -1e-9).any(axis=1)
     lines, height = lines[kept].copy(), height[kept]
     for end in (0, 1):
-        out = height[:, end] < 0.0
+        out = height[:, end] < -1e-9
         share = height[:, end] / np.where(out, height[:, end] - height[:, 1 - end], 1.0)
         cut = lines[:, end] + share[:, None] * (lines[:, 1 - end] - lines[:, end])
         lines[:, end] = np.where(out[:, None], cut, lines[:, end])

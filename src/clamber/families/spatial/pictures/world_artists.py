@@ -6,7 +6,8 @@ from typing import Final
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
-from matplotlib.path import Path as Outline
+from matplotlib.path import Path
+from matplotlib.transforms import Bbox
 
 from ....types import Floats
 from ....units import DEGREE
@@ -19,11 +20,12 @@ from ..world.solids import frame_about
 from .camera import Camera
 from .surfaces import Face, guide_ribbon, round_length, surfaces_of
 
-SHADES: Final = ("#C9CFD6", "#F3F4F6")
+SHADES: Final = ("#D3D8DE", "#F6F7F9")
 """Colour of a face that the light passes by, and of one that it falls on straight."""
 LIGHT: Final = np.array((-0.35, 0.75, 0.55))
 """Where the light comes from: right, up and towards the camera, of any length."""
-GRID: Final = "#DDE1E6"
+GRID: Final = "#22303C1C"
+"""Ink, thinned."""
 EDGE: Final = "#AEB7C0"
 FAR_SIDE: Final = "#CBD1D8"
 """Colour of holds that are seen from behind."""
@@ -55,15 +57,14 @@ def draw_world(axes: Axes, task: SpatialTask, camera: Camera, shown: Floats, bou
     """
     _set_axes(axes, bounds)
     surfaces = surfaces_of(task.world, shown)
-    seen = [face for face in surfaces.faces if float(face.normal @ camera.axes[2]) > 1e-6]
+    planes = {k for k, solid in enumerate(task.world.solids) if solid.kind == "plane"} | {-1}
+    front = {id(face): float(face.normal @ camera.axes[2]) > 1e-6 for face in surfaces.faces}
+    seen = [face for face in surfaces.faces if front[id(face)] or face.solid in planes]
     seen.sort(key=lambda face: float(camera.depth(face.corners).mean()))
-    glass = [face for face in seen if _hides(face, camera, task)]
+    glass = [face for face in seen if not front[id(face)] or _hides(face, camera, task)]
     solid = [face for face in seen if not any(face is other for other in glass)]
     _draw_faces(axes, solid, camera)
-    facing = surfaces.line_normals @ camera.axes[2] > 1e-6
-    axes.add_collection(
-        LineCollection(list(camera.flat(surfaces.lines[facing])), colors=GRID, linewidths=0.6, zorder=1.2)
-    )
+    axes.add_collection(LineCollection(list(camera.flat(surfaces.lines)), colors=GRID, linewidths=0.6, zorder=1.2))
     _draw_glass(axes, glass, camera)
     for k, goal in enumerate(task.goals):
         _draw_goal(axes, task, goal, k, camera, bounds)
@@ -116,7 +117,7 @@ def _hides(face: Face, camera: Camera, task: SpatialTask) -> bool:
     behind = (path - face.corners[0]) @ face.normal < -1e-6
     if not behind.any():
         return False
-    return bool(Outline(camera.flat(face.corners)).contains_points(camera.flat(path[behind])).any())
+    return bool(Path(camera.flat(face.corners)).contains_points(camera.flat(path[behind])).any())
 
 
 def goal_label(task: SpatialTask, index: int) -> str:
@@ -157,11 +158,14 @@ def _draw_goal(axes: Axes, task: SpatialTask, goal: Goal, index: int, camera: Ca
                 linestyles="-" if last else (0, (3, 2)),
             )
         )  # fmt: skip
-    top = outline[int(np.argmax(outline[:, 1]))]
-    left = float(top[0]) <= 0.5 * (bounds[0] + bounds[1])
+    inside = Path(outline).clip_to_bbox(Bbox.from_extents(bounds[0], bounds[2], bounds[1], bounds[3])).vertices
+    if not len(inside):
+        return
+    top = inside[int(np.argmax(inside[:, 1] - 1e-3 * inside[:, 0]))]
+    left, high = float(top[0]) <= 0.5 * (bounds[0] + bounds[1]), float(top[1]) > bounds[2] + 0.96 * (bounds[3] - bounds[2])
     axes.annotate(
-        goal_label(task, index), tuple(top), xytext=(2 if left else -2, 2), textcoords="offset points",
-        ha="left" if left else "right", va="bottom", fontsize=8, color=GOAL_WORDS, zorder=9, path_effects=[halo()],
+        goal_label(task, index), tuple(top), xytext=(3 if left else -3, -3 if high else 3), textcoords="offset points",
+        ha="left" if left else "right", va="top" if high else "bottom", fontsize=8, color=GOAL_WORDS, zorder=9, path_effects=[halo()],
     )  # fmt: skip
 
 
@@ -195,8 +199,7 @@ def _draw_holds(axes: Axes, task: SpatialTask, camera: Camera, bounds: Bounds) -
     world = task.world
     if not world.holds:
         return
-    places, normals = world.places, world.normals
-    radii = hold_radii(task, bounds)
+    places, normals, radii = world.places, world.normals, hold_radii(task, bounds)
     facing = normals @ camera.axes[2]
     outlines = camera.flat(discs(places, normals, radii))
     for seen, colour, order in ((facing <= 0.0, FAR_SIDE, 2.0), (facing > 0.0, style.HOLD, 2.1)):
@@ -204,8 +207,8 @@ def _draw_holds(axes: Axes, task: SpatialTask, camera: Camera, bounds: Bounds) -
             PolyCollection(list(outlines[seen]), facecolors=colour, edgecolors=style.PAPER, linewidths=0.4, zorder=order)
         )
         if len(places) <= MOST_NORMALS:
-            ends = np.stack((places[seen], places[seen] + 2.0 * radii[seen, None] * normals[seen]), axis=1)
-            axes.add_collection(LineCollection(list(camera.flat(ends)), colors=colour, linewidths=0.8, zorder=order))
+            ends = np.stack((places[seen], places[seen] + 1.7 * radii[seen, None] * normals[seen]), axis=1)
+            axes.add_collection(LineCollection(list(camera.flat(ends)), colors=colour, linewidths=0.7, zorder=order))
     if len(places) > MOST_NUMBERED:
         return
     for hold, at in zip(world.holds, camera.flat(places), strict=True):
