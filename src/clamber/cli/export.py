@@ -29,8 +29,9 @@ def export(
 ) -> None:
     """Write a robot, a plan or a run for other programs; the file's suffix says as what.
 
-    A robot: .xml (MJCF), .urdf. A plan: .csv and .json (joints over time; JSON in the fields of ROS 2's JointTrajectory), .md (a
-    table). A run's log: .csv, .json. Pictures and animations are made by `clamber show` and `clamber run`.
+    A robot: .xml (MJCF), .urdf. A plan: .csv and .json (joints over time; JSON in the fields of ROS 2's JointTrajectory),
+    .contacts.json (stances and contacts of a robot in space), .md (a table). A run's log: .csv, .json. Pictures and animations are made
+    by `clamber show` and `clamber run`.
     """
     check_writable(output)
     from ..exports.library import export as write

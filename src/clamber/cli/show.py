@@ -41,6 +41,13 @@ def show(
         str | None,
         typer.Option(help="Show a plan in this task, in place of its own.", autocompletion=names_of("tasks")),
     ] = None,
+    camera: Annotated[
+        str | None,
+        typer.Option(
+            metavar="FROM",
+            help="From where a robot in space is drawn: front, left, right, above, iso, or AZIMUTH,ELEVATION in degrees.",
+        ),
+    ] = None,
     overrides: Overrides = None,
     as_json: AsJson = False,
 ) -> None:
@@ -84,11 +91,11 @@ def show(
 
         draw_torques(shown, {Path(thing).stem: replay}, path)
     elif path.suffix.lower() not in CANVASES:
-        animate(shown, replay, path)
+        animate(shown, replay, path, camera)
     elif step is None and last > 0:
-        draw_route(shown, replay, path)
+        draw_route(shown, replay, path, camera)
     else:
-        draw_stance(shown, replay, step or 0, path)
+        draw_stance(shown, replay, step or 0, path, camera)
     _tell(Drawn(path, shown.name, last, path.stat().st_size), as_json)
 
 

@@ -124,6 +124,8 @@ class Trajectories:
     """That only logs of its runs have."""
     run: Callable[[Log], JointTrajectory]
     """Of a log."""
+    contacts: Callable[[Any, Replay], Json] | None = None
+    """Contact sequence of a task and a plan's replay, as plain data; None: the family exports none."""
 
 
 def _body_over_plan(task: Any, replay: Replay) -> JointTrajectory:

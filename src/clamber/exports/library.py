@@ -10,10 +10,11 @@ from ..errors import ClamberError, SpecError, describe_choices
 from ..execution.log import LogError
 from ..execution.log_files import SUFFIXES as LOGS
 from ..execution.log_files import read_log
-from ..family import families, family_of
+from ..family import NotOfFamilyError, families, family_of
 from ..files import is_path, unknown_name, write_atomically
 from ..json_form import Count, Key, in_json
 from ..planning.problem.plan_source import OpenedPlan, is_plan, open_plan, plan_names
+from ..planning.problem.problem import Replay
 from ..planning.problem.problems import plan_family, yardsticks_of
 from ..planning.problem.verdict import StepVerdict, Verdict
 from ..tasks.robots import Robot, load_robot, robot_names
@@ -95,10 +96,13 @@ def plan_trajectory(opened: OpenedPlan) -> JointTrajectory:
     Raises:
         SpecError: If the plan has an action that its task has not.
     """
-    task = opened.task
-    codes = opened.plan.codes(task, opened.label)
-    replay = plan_family(task).problem(task).replay(codes, go_on=True)
-    return family_of(task).trajectories.plan(task, replay)
+    return family_of(opened.task).trajectories.plan(opened.task, _replayed(opened))
+
+
+def _replayed(opened: OpenedPlan) -> Replay:
+    """A plan carried out on paper, violations and all."""
+    codes = opened.plan.codes(opened.task, opened.label)
+    return plan_family(opened.task).problem(opened.task).replay(codes, go_on=True)
 
 
 Kind: TypeAlias = Literal["robot", "plan", "run"]
@@ -173,6 +177,19 @@ def _message(trajectory: JointTrajectory) -> Content:
     return Content(json.dumps(trajectory.to_json(), allow_nan=False) + "\n", "trajectory_msgs/JointTrajectory, JSON")
 
 
+def _contacts(opened: OpenedPlan) -> Content:
+    """Stances and contacts of a plan.
+
+    Raises:
+        NotOfFamilyError: If the robot's family exports none.
+    """
+    family = family_of(opened.task)
+    if family.trajectories.contacts is None:
+        raise NotOfFamilyError(family.title, "contact sequence to export")
+    sequence = family.trajectories.contacts(opened.task, _replayed(opened))
+    return Content(json.dumps(sequence, allow_nan=False) + "\n", "contact sequence, JSON")
+
+
 def _of_plan(content: Content, plan: OpenedPlan) -> Content:
     """The same with a word about the first action that does not hold."""
     first = plan.check().first_violation
@@ -181,11 +198,14 @@ def _of_plan(content: Content, plan: OpenedPlan) -> Content:
     return replace(content, notes=(*content.notes, f"step {first.step} violates a hard check: {first.reason}"))
 
 
+CONTACTS: Final = ".contacts.json"
+"""Suffix of a contact sequence."""
 FORMATS: Final[dict[Kind, dict[str, Callable[[Any], Content]]]] = {
     "robot": {".xml": mjcf, ".mjcf": mjcf, ".urdf": urdf},
     "plan": {
         ".csv": lambda plan: _of_plan(_table(plan_trajectory(plan)), plan),
         ".json": lambda plan: _of_plan(_message(plan_trajectory(plan)), plan),
+        CONTACTS: lambda plan: _of_plan(_contacts(plan), plan),
         ".md": lambda plan: _of_plan(Content(plan_table(plan), "table, Markdown"), plan),
     },
     "run": {
@@ -239,7 +259,7 @@ def export(thing: str, path: Path, task: str | None = None, overrides: Sequence[
     source: Any = Path(thing)
     if kind != "run":
         source = load_robot(thing) if kind == "robot" else open_plan(thing, task, overrides)
-    content = FORMATS[kind][path.suffix.lower()](source)
+    content = FORMATS[kind][_suffix(path)](source)
     write_atomically(path, content.text)
     return Exported(path, kind, content.format, content.notes)
 
@@ -250,5 +270,9 @@ def check_export_suffix(kind: Kind, path: Path) -> None:
     Raises:
         ExportError: If not; it names what can.
     """
-    if path.suffix.lower() not in FORMATS[kind]:
+    if _suffix(path) not in FORMATS[kind]:
         raise ExportError(str(path), kind, tuple(FORMATS[kind]), INSTEAD.get(kind))
+
+
+def _suffix(path: Path) -> str:
+    return CONTACTS if path.name.lower().endswith(CONTACTS) else path.suffix.lower()

@@ -62,11 +62,22 @@ class Pictures:
     """A robot without a task; None: it is not drawn."""
     world_alone: DrawsAlone | None = None
     """A world without a task; None: it is not drawn."""
+    seen_from: "Callable[[str], Pictures] | None" = None
+    """The same from a camera that is asked for in words; None: what is drawn is flat."""
 
 
-def pictures_of(task: Task) -> Pictures:
-    """How a task's family is drawn."""
-    return family_of(task).pictures
+def pictures_of(task: Task, camera: str | None = None) -> Pictures:
+    """How a task's family is drawn, from a camera in words; None: from where it is usual.
+
+    Raises:
+        NotOfFamilyError: If a camera is asked for and the family's pictures have none.
+    """
+    family = family_of(task)
+    if camera is None:
+        return family.pictures
+    if family.pictures.seen_from is None:
+        raise NotOfFamilyError(family.title, "camera: it is drawn in its plane")
+    return family.pictures.seen_from(camera)
 
 
 def carried_out(task: Task, plan: Replay | Plan | None, label: str = "plan") -> Replay:
@@ -81,7 +92,9 @@ def carried_out(task: Task, plan: Replay | Plan | None, label: str = "plan") -> 
     return family_of(task).plans.problem(task).replay(codes, go_on=True)
 
 
-def draw_stance(task: Task, plan: Replay | Plan | None, step: int, target: str | Path | Axes) -> None:
+def draw_stance(
+    task: Task, plan: Replay | Plan | None, step: int, target: str | Path | Axes, camera: str | None = None
+) -> None:
     """Draw the stance after a step.
 
     Args:
@@ -90,13 +103,14 @@ def draw_stance(task: Task, plan: Replay | Plan | None, step: int, target: str |
         step: Number of the action, from 1; 0 is the start.
         target: A file (.png, .svg, .pdf), which also gets pose, nearest limit and loads; or axes, for the robot in its
             world alone.
+        camera: See `pictures_of`.
 
     Raises:
         StepError: If there is no such step.
         SuffixError: If the file's suffix names no format for still pictures.
         FileError: If the file cannot be written.
     """
-    family, replay = pictures_of(task), carried_out(task, plan)
+    family, replay = pictures_of(task, camera), carried_out(task, plan)
     if not 0 <= step < len(replay.stances):
         raise StepError(step, len(replay.stances) - 1)
     if isinstance(target, Axes):
@@ -109,15 +123,15 @@ def draw_stance(task: Task, plan: Replay | Plan | None, step: int, target: str |
         save_figure(picture.figure, target)
 
 
-def draw_route(task: Task, plan: Replay | Plan, path: str | Path) -> None:
-    """Draw a whole plan as one still picture (.png, .svg, .pdf)."""
+def draw_route(task: Task, plan: Replay | Plan, path: str | Path, camera: str | None = None) -> None:
+    """Draw a whole plan as one still picture (.png, .svg, .pdf); `camera` as `pictures_of` has it."""
     check_suffix(path, CANVASES)
     with styled():
-        save_figure(pictures_of(task).route(task, carried_out(task, plan)), path)
+        save_figure(pictures_of(task, camera).route(task, carried_out(task, plan)), path)
 
 
-def animate(task: Task, plan: Replay | Plan, path: str | Path) -> None:
-    """Write a plan, carried out, as an animation (.gif, .html, .mp4).
+def animate(task: Task, plan: Replay | Plan, path: str | Path, camera: str | None = None) -> None:
+    """Write a plan, carried out, as an animation (.gif, .html, .mp4); `camera` as `pictures_of` has it, a page's is moved by its reader.
 
     Raises:
         SuffixError: If the file's suffix names no format for animations.
@@ -133,7 +147,7 @@ def animate(task: Task, plan: Replay | Plan, path: str | Path) -> None:
         write_page(exhibit_of(task, plan), Path(path))
         return
     with styled():
-        WRITERS[suffix](Picture(pictures_of(task).view(task, carried_out(task, plan))), Path(path))
+        WRITERS[suffix](Picture(pictures_of(task, camera).view(task, carried_out(task, plan))), Path(path))
 
 
 def check_run_suffix(path: str | Path) -> str:

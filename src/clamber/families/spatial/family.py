@@ -23,6 +23,9 @@ class Spatial(Family):
         {
             "files": "clamber.families.spatial.planning.task:FILES",
             "plans": "clamber.families.spatial.planning.plans:PLANS",
+            "pictures": "clamber.families.spatial.pictures.pictures:PICTURES",
+            "scenes": "clamber.families.spatial.pictures.scenes:SCENES",
+            "trajectories": "clamber.families.spatial.trajectories:TRAJECTORIES",
             "imports": "clamber.families.spatial.robot.starter:IMPORTS",
         }
     )

@@ -1,0 +1,59 @@
+"""Robots in space in the viewer: world and robot, plans of them, the editor of holds."""
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from ....viewing.browser.exhibit import Scenes
+from ....viewing.browser.solids import FOV, NARROW, Camera, Scenery
+from ....viewing.scene import Bounds
+from ..planning.task import SpatialTask
+from .camera import camera_for
+from .space import SpatialFigure, WorldScene
+from .spatial_view import way_places
+
+if TYPE_CHECKING:
+    import viser
+
+ROOM: Final = 1.08
+"""Around what is shown [-]."""
+
+
+@dataclass(frozen=True, slots=True)
+class SpatialScenery(Scenery):
+    """A task of a robot in space."""
+
+    task: SpatialTask
+
+    def world(self, server: "viser.ViserServer") -> WorldScene:
+        """See `Scenery`."""
+        return WorldScene(server, self.task, way_places(self.task))
+
+    def figure(self, server: "viser.ViserServer", name: str, opacity: float = 1.0) -> SpatialFigure:
+        """See `Scenery`."""
+        return SpatialFigure(server, name, self.task, opacity)
+
+    def camera(self) -> Camera:
+        """See `Scenery`: from where pictures look, as near as all can be seen."""
+        right, up, towards = camera_for(self.task, None).axes
+        places = way_places(self.task)
+        middle = 0.5 * (places.min(axis=0) + places.max(axis=0))
+        away = places - middle
+        half = math.tan(0.5 * FOV)
+        far = float((np.maximum(np.abs(away @ right) / NARROW, np.abs(away @ up)) / half + away @ towards).max())
+        return Camera(middle + ROOM * far * towards, middle)
+
+
+class SpatialScenes(Scenes):
+    """Robots in space in the viewer."""
+
+    tab = "World"
+
+    def scenery(self, task: SpatialTask, bounds: Bounds) -> SpatialScenery:
+        """See `Scenes`."""
+        return SpatialScenery(bounds, task)
+
+
+SCENES: Final = SpatialScenes()

@@ -1,0 +1,278 @@
+"""A world in space on the axes of a picture: surfaces with a quiet grid, holds as discs in their surface, guide, goals, scale."""
+
+import math
+from typing import Final
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.path import Path
+from matplotlib.transforms import Bbox
+
+from ....types import Floats
+from ....units import DEGREE
+from ....viewing import style
+from ....viewing.scene import GOAL_WORDS, Bounds, fit_bounds, halo
+from ..planning.task import Goal, SpatialTask
+from ..world.guide import GRAIN
+from ..world.patterns import frame_at
+from ..world.solids import frame_about
+from .camera import Camera
+from .surfaces import Face, guide_ribbon, round_length, surfaces_of
+
+SHADES: Final = ("#D3D8DE", "#F6F7F9")
+"""Colour of a face that the light passes by, and of one that it falls on straight."""
+LIGHT: Final = np.array((-0.35, 0.75, 0.55))
+"""Where the light comes from: right, up and towards the camera, of any length."""
+GRID: Final = "#22303C1C"
+"""Ink, thinned."""
+EDGE: Final = "#AEB7C0"
+FAR_SIDE: Final = "#CBD1D8"
+"""Colour of holds that are seen from behind."""
+LEAST_HOLD: Final = 0.006
+"""Least radius of a drawn hold, over the larger side of the picture [-]."""
+CORNERS: Final = 14
+MOST_NORMALS: Final = 700
+"""Worlds with more holds show them without their normals."""
+MOST_NUMBERED: Final = 70
+"""Worlds with more holds show them without their numbers."""
+EDGE_ROOM: Final = 0.02
+"""Around a picture of a world, over the larger side [-]."""
+
+
+def picture_bounds(camera: Camera, shown: Floats) -> Bounds:
+    """The part of a picture's plane that holds some places, shape (n, 3), with room around them [m]."""
+    return fit_bounds(camera.flat(shown), ())
+
+
+def draw_world(axes: Axes, task: SpatialTask, camera: Camera, shown: Floats, bounds: Bounds) -> None:
+    """Draw the world of a task: what stands before the guide is drawn over it, as glass.
+
+    Args:
+        axes: The picture's, which get their limits.
+        task: World and goals.
+        camera: From where.
+        shown: Places that are to be seen, world frame [m], shape (n, 3).
+        bounds: Of the picture's plane.
+    """
+    _set_axes(axes, bounds)
+    surfaces = surfaces_of(task.world, shown)
+    planes = {k for k, solid in enumerate(task.world.solids) if solid.kind == "plane"} | {-1}
+    front = {id(face): float(face.normal @ camera.axes[2]) > 1e-6 for face in surfaces.faces}
+    seen = [face for face in surfaces.faces if front[id(face)] or face.solid in planes]
+    seen.sort(key=lambda face: float(camera.depth(face.corners).mean()))
+    glass = [face for face in seen if not front[id(face)] or _hides(face, camera, task)]
+    solid = [face for face in seen if not any(face is other for other in glass)]
+    _draw_faces(axes, solid, camera)
+    axes.add_collection(LineCollection(list(camera.flat(surfaces.lines)), colors=GRID, linewidths=0.6, zorder=1.2))
+    _draw_glass(axes, glass, camera)
+    for k, goal in enumerate(task.goals):
+        _draw_goal(axes, task, goal, k, camera, bounds)
+    _draw_guide(axes, task, camera)
+    _draw_holds(axes, task, camera, bounds)
+    _draw_scale(axes, task, camera, bounds)
+
+
+def _set_axes(axes: Axes, bounds: Bounds) -> None:
+    axes.set(xlim=(bounds[0], bounds[1]), ylim=(bounds[2], bounds[3]), xticks=[], yticks=[])
+    axes.set_aspect("equal")
+    axes.set_facecolor(style.PAPER)
+    for spine in axes.spines.values():
+        spine.set_color(style.FAINT)
+
+
+def shade(normal: Floats, camera: Camera) -> tuple[float, float, float]:
+    """Colour of a face by how the light falls on it, red, green and blue in [0, 1]."""
+    light = LIGHT @ camera.axes
+    lit = max(0.0, float(normal @ light) / float(np.linalg.norm(light) * np.linalg.norm(normal)))
+    dark, bright = (np.array([int(name[k : k + 2], 16) for k in (1, 3, 5)]) / 255.0 for name in SHADES)
+    red, green, blue = dark + (0.3 + 0.7 * lit) * (bright - dark)
+    return float(red), float(green), float(blue)
+
+
+def _draw_faces(axes: Axes, faces: list[Face], camera: Camera) -> None:
+    """Faces from the farthest to the nearest; round solids and ribbons have no lines between their faces."""
+    if not faces:
+        return
+    paint = [shade(face.normal, camera) for face in faces]
+    boxy = {index for index in (face.solid for face in faces) if sum(face.solid == index for face in faces) <= 3}
+    edges = [
+        EDGE if face.solid in boxy and face.solid >= 0 else colour for face, colour in zip(faces, paint, strict=True)
+    ]
+    axes.add_collection(
+        PolyCollection(
+            [camera.flat(face.corners) for face in faces],
+            facecolors=paint,
+            edgecolors=edges,
+            linewidths=0.5,
+            zorder=1.0,
+        )
+    )
+
+
+def _draw_glass(axes: Axes, faces: list[Face], camera: Camera) -> None:
+    outlines = [camera.flat(face.corners) for face in faces]
+    axes.add_collection(PolyCollection(outlines, facecolors=SHADES[0], edgecolors="none", alpha=0.18, zorder=7.0))
+    axes.add_collection(PolyCollection(outlines, facecolors="none", edgecolors=EDGE, linewidths=0.7, zorder=7.1))
+
+
+def _hides(face: Face, camera: Camera, task: SpatialTask) -> bool:
+    """Whether a face stands before the path of the body."""
+    frames = task.world.frames[:: max(1, len(task.world.frames) // 60)]
+    path = frames[:, :3] + max(task.start.height, 0.02) * frames[:, 9:]
+    behind = (path - face.corners[0]) @ face.normal < -1e-6
+    if not behind.any():
+        return False
+    return bool(Path(camera.flat(face.corners)).contains_points(camera.flat(path[behind])).any())
+
+
+def goal_label(task: SpatialTask, index: int) -> str:
+    """What a goal is called, with the yaw that it asks for."""
+    goal, last = task.goals[index], index == len(task.goals) - 1
+    word = "Goal" if last else f"{index + 1}"
+    words = f"{word}: {goal.name}" if goal.name else word
+    if goal.yaw_min is None or goal.yaw_max is None:
+        return words
+    return f"{words} ({goal.yaw_min / DEGREE:.0f} to {goal.yaw_max / DEGREE:.0f}° yaw)"
+
+
+def goal_strip(task: SpatialTask, goal: Goal) -> tuple[Floats, Floats] | None:
+    """Right and left edge of a goal's region on the guide, shape (n, 3) each [m]; None where it asks for no place."""
+    along_min, along_max, across_min, across_max = goal.box
+    if not any(map(math.isfinite, goal.box)):
+        return None
+    whole = guide_ribbon(task.world, 0.0)
+    length = GRAIN * (len(task.world.frames) - 1)
+    first = along_min if math.isfinite(along_min) else min(0.0, along_max)
+    last = along_max if math.isfinite(along_max) else max(length, first + 4.0 * task.step.length)
+    ribbon = guide_ribbon(task.world, 0.0, (first, max(last, first + task.step.length)))
+    sides = np.clip((across_min, across_max), whole.right, whole.left)
+    right, left = (ribbon.at(np.full(len(ribbon.frames), side)) for side in sides)
+    return right, left
+
+
+def _draw_goal(axes: Axes, task: SpatialTask, goal: Goal, index: int, camera: Camera, bounds: Bounds) -> None:
+    edges = goal_strip(task, goal)
+    if edges is None:
+        return
+    last = index == len(task.goals) - 1
+    outline = camera.flat(np.concatenate((edges[0], edges[1][::-1])))
+    for face, line, alpha in ((style.GOAL, "none", 0.24 if last else 0.12), ("none", style.GOAL, 1.0)):
+        axes.add_collection(
+            PolyCollection(
+                [outline], facecolors=face, edgecolors=line, alpha=alpha, linewidths=1.1, zorder=1.4,
+                linestyles="-" if last else (0, (3, 2)),
+            )
+        )  # fmt: skip
+    inside = Path(outline).clip_to_bbox(Bbox.from_extents(bounds[0], bounds[2], bounds[1], bounds[3])).vertices
+    if not len(inside):
+        return
+    top = inside[int(np.argmax(inside[:, 1] - 1e-3 * inside[:, 0]))]
+    left, high = (
+        float(top[0]) <= 0.5 * (bounds[0] + bounds[1]),
+        float(top[1]) > bounds[2] + 0.96 * (bounds[3] - bounds[2]),
+    )
+    axes.annotate(
+        goal_label(task, index), tuple(top), xytext=(3 if left else -3, -3 if high else 3), textcoords="offset points",
+        ha="left" if left else "right", va="top" if high else "bottom", fontsize=8, color=GOAL_WORDS, zorder=9, path_effects=[halo()],
+    )  # fmt: skip
+
+
+def _draw_guide(axes: Axes, task: SpatialTask, camera: Camera) -> None:
+    line = camera.flat(task.world.frames[:, :3])
+    axes.plot(line[:, 0], line[:, 1], color=style.QUIET, lw=0.9, ls=(0, (6, 4)), zorder=1.6)
+    way = line[-1] - line[-2]
+    if float(np.hypot(*way)) > 1e-9:
+        axes.annotate(
+            "", tuple(line[-1]), tuple(line[-1] - 1e-3 * way / np.hypot(*way)), zorder=1.6,
+            arrowprops={"arrowstyle": "-|>", "color": style.QUIET, "lw": 0.9, "mutation_scale": 8},
+        )  # fmt: skip
+
+
+def discs(places: Floats, normals: Floats, radii: Floats) -> Floats:
+    """Corners of round marks in the planes across some normals, shape (n, `CORNERS`, 3)."""
+    frames = np.array([frame_about(normal) for normal in normals]).reshape(-1, 3, 3)
+    turn = np.arange(CORNERS) * (math.tau / CORNERS)
+    around = np.cos(turn)[None, :, None] * frames[:, None, 0] + np.sin(turn)[None, :, None] * frames[:, None, 1]
+    made: Floats = places[:, None] + radii[:, None, None] * around
+    return made
+
+
+def hold_radii(task: SpatialTask, bounds: Bounds) -> Floats:
+    """Radii with which holds are drawn [m], shape (n,)."""
+    least = LEAST_HOLD * max(bounds[1] - bounds[0], bounds[3] - bounds[2])
+    return np.array([max(hold.radius, least) for hold in task.world.holds])
+
+
+def _draw_holds(axes: Axes, task: SpatialTask, camera: Camera, bounds: Bounds) -> None:
+    world = task.world
+    if not world.holds:
+        return
+    places, normals, radii = world.places, world.normals, hold_radii(task, bounds)
+    facing = normals @ camera.axes[2]
+    outlines = camera.flat(discs(places, normals, radii))
+    for seen, colour, order in ((facing <= 0.0, FAR_SIDE, 2.0), (facing > 0.0, style.HOLD, 2.1)):
+        axes.add_collection(
+            PolyCollection(
+                list(outlines[seen]), facecolors=colour, edgecolors=style.PAPER, linewidths=0.4, zorder=order
+            )
+        )
+        if len(places) <= MOST_NORMALS:
+            ends = np.stack((places[seen], places[seen] + 1.7 * radii[seen, None] * normals[seen]), axis=1)
+            axes.add_collection(LineCollection(list(camera.flat(ends)), colors=colour, linewidths=0.7, zorder=order))
+    if len(places) > MOST_NUMBERED:
+        return
+    for hold, at in zip(world.holds, camera.flat(places), strict=True):
+        axes.annotate(
+            str(hold.number), tuple(at), (0, -8), textcoords="offset points", ha="center", fontsize=6, color=style.QUIET,
+            zorder=2.2, annotation_clip=True,
+        )  # fmt: skip
+
+
+def _draw_scale(axes: Axes, task: SpatialTask, camera: Camera, bounds: Bounds) -> None:
+    """A bar of a round length, and the world's axes as they are seen, in the corner with the fewest holds."""
+    width, height = bounds[1] - bounds[0], bounds[3] - bounds[2]
+    length = round_length(0.1 * max(width, height))
+    words = f"{100.0 * length:g} cm" if length < 1.0 else f"{length:g} m"
+    room = 0.035 * max(width, height)
+    x, y = bounds[1] - room - length, bounds[2] + room
+    axes.plot([x, x + length], [y, y], color=style.INK, lw=1.6, solid_capstyle="butt", zorder=9)
+    axes.annotate(
+        words, (x + 0.5 * length, y), xytext=(0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=7.5,
+        color=style.INK, zorder=9, path_effects=[halo(2.4)],
+    )  # fmt: skip
+    origin = np.array((bounds[0] + 2.0 * room, bounds[2] + 2.0 * room))
+    arm = 1.4 * room
+    for axis, name in zip(np.eye(3), "xyz", strict=True):
+        tip = arm * camera.flat(axis)
+        if float(np.hypot(*tip)) < 0.2 * arm:
+            continue
+        axes.plot(*zip(origin, origin + tip, strict=True), color=style.QUIET, lw=1.0, zorder=9, solid_capstyle="round")
+        axes.annotate(
+            name, tuple(origin + 1.3 * tip), ha="center", va="center", fontsize=7, color=style.QUIET, zorder=9,
+            path_effects=[halo(2.0)],
+        )  # fmt: skip
+    fall = np.array(task.world.gravity)
+    if (
+        np.linalg.norm(fall) > 1e-9
+        and abs(float(camera.axes[1] @ fall)) < 0.999 * float(np.linalg.norm(fall))
+        and not _is_down(fall)
+    ):
+        down = arm * camera.flat(fall / np.linalg.norm(fall))
+        axes.annotate(
+            "",
+            tuple(origin + down),
+            tuple(origin),
+            zorder=9,
+            arrowprops={"arrowstyle": "-|>", "color": style.INK, "lw": 1.2},
+        )
+
+
+def _is_down(fall: Floats) -> bool:
+    """Whether things fall along -z."""
+    return bool(fall[2] < -0.999 * np.linalg.norm(fall))
+
+
+def frame_of_start(task: SpatialTask) -> Floats:
+    """Frame of the guide where the body starts, shape (12,)."""
+    return frame_at(task.world.frames, task.start.along)
