@@ -8,10 +8,13 @@ from typing import TYPE_CHECKING
 from ...family import Family
 
 if TYPE_CHECKING:
+    from ...exports.joint_trajectory import Trajectories
     from ...files import Document
     from ...planning.problem.check import Check
     from ...planning.problem.problems import PlanFamily
     from ...tasks.task_format import TaskFormat
+    from ...viewing.browser.exhibit import Scenes
+    from ...viewing.pictures import Pictures
 
 
 class Spatial(Family):
@@ -41,6 +44,27 @@ class Spatial(Family):
         from .planning.plans import PLANS
 
         return PLANS
+
+    @property
+    def pictures(self) -> Pictures:
+        """World and robot from a camera in space."""
+        from .pictures.pictures import PICTURES
+
+        return PICTURES
+
+    @property
+    def scenes(self) -> Scenes:
+        """World and robot in the viewer."""
+        from .pictures.scenes import SCENES
+
+        return SCENES
+
+    @property
+    def trajectories(self) -> Trajectories:
+        """Joints and contacts of plans."""
+        from .trajectories import TRAJECTORIES
+
+        return TRAJECTORIES
 
     def whole_robot(self, document: Document) -> Document:
         """With what statics needs of the model file."""

@@ -27,6 +27,7 @@ LIGHT: Final = np.array((-0.35, 0.75, 0.55))
 GRID: Final = "#22303C1C"
 """Ink, thinned."""
 EDGE: Final = "#AEB7C0"
+HOLDS: Final = "#B4BDC6"
 FAR_SIDE: Final = "#CBD1D8"
 """Colour of holds that are seen from behind."""
 LEAST_HOLD: Final = 0.006
@@ -202,9 +203,10 @@ def _draw_holds(axes: Axes, task: SpatialTask, camera: Camera, bounds: Bounds) -
     places, normals, radii = world.places, world.normals, hold_radii(task, bounds)
     facing = normals @ camera.axes[2]
     outlines = camera.flat(discs(places, normals, radii))
-    for seen, colour, order in ((facing <= 0.0, FAR_SIDE, 2.0), (facing > 0.0, style.HOLD, 2.1)):
+    sides = ((facing <= 0.0, style.WALL, FAR_SIDE, 2.0), (facing > 0.0, HOLDS, style.HOLD, 2.1))
+    for seen, fill, colour, order in sides:
         axes.add_collection(
-            PolyCollection(list(outlines[seen]), facecolors=colour, edgecolors=style.PAPER, linewidths=0.4, zorder=order)
+            PolyCollection(list(outlines[seen]), facecolors=fill, edgecolors=colour, linewidths=0.6, zorder=order)
         )
         if len(places) <= MOST_NORMALS:
             ends = np.stack((places[seen], places[seen] + 1.7 * radii[seen, None] * normals[seen]), axis=1)
