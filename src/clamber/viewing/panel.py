@@ -1,5 +1,6 @@
 """The panel beside a picture: bars of values between limits, strip of steps."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -59,7 +60,9 @@ class Gauges:
         return min(LINE + 0.01, 2.2 / len(self.names))
 
     def show(self, value: float) -> str:
-        """A value in words."""
+        """A value in words; a dash where nothing is known."""
+        if not math.isfinite(value):
+            return "–"
         name, size, decimals = self.unit
         return f"{round(value / size, decimals) + 0.0:.{decimals}f} {name}"  # never "-0"
 
@@ -108,7 +111,7 @@ class GaugeBars:
         """Show values in SI units, shape (n,)."""
         low, high = self.gauges.calm
         for k, (value, share) in enumerate(zip(values.tolist(), self.gauges.shares(values).tolist(), strict=True)):
-            self.bars[k].set_width(self.length * min(max(share, 0.0), 1.0))
+            self.bars[k].set_width(self.length * min(max(0.0, share), 1.0))  # in this order, NaN is 0
             self.bars[k].set_facecolor(self.gauges.colours[k] if low <= share <= high else style.ALERT)
             self.values[k].set_text(self.gauges.show(value))
 

@@ -1,6 +1,7 @@
 """A robot in space at one moment of a plan: in its stances, and on the way from one to the next."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
@@ -8,18 +9,12 @@ import numpy as np
 
 from ....types import Floats, Records
 from ....viewing.film import Part
+from ..planning.checks import SPATIAL_CHECKS
+from ..planning.judging_kernels import judge_stance
+from ..planning.problem import problem_params
 from ..planning.task import SpatialTask
-from .geometry import (
-    LinkFrames,
-    Posed,
-    SwingPath,
-    body_between,
-    centre_of_mass,
-    joint_torques,
-    link_frames,
-    posed,
-    swing_between,
-)
+from ..statics.checks import EQUILIBRIUM
+from .geometry import LinkFrames, Posed, SwingPath, body_between, centre_of_mass, joint_torques, link_frames, posed, swing_between
 
 SWINGING: Final = -1
 """In place of a hold's index, of a limb that is on its way."""
@@ -97,6 +92,36 @@ def settled_moments(task: SpatialTask, stances: Records, shares: Floats | None =
     return found
 
 
+class SwingLoads:
+    """How limbs share the load while one of them swings, as the planner judged it.
+
+    Args:
+        task: Robot, world and rules.
+    """
+
+    def __init__(self, task: SpatialTask) -> None:
+        self._params, self._limbs = problem_params(task, True), len(task.robot.chains.limb_names)
+
+    def wrenches(self, stance: np.void, limb: int) -> Floats:
+        """Of the contacts of a stance without one limb's, as `Moment` has them; NaN where the others cannot hold the robot.
+
+        Args:
+            stance: Record of `planning.records.STANCE`.
+            limb: Index of the limb that swings.
+        """
+        rows, margins = np.array([stance, stance]), np.full(len(SPATIAL_CHECKS), math.nan)
+        judge_stance(self._params.record, rows[0], rows[1], limb, -1, margins)
+        if not margins[EQUILIBRIUM] >= 0.0:
+            return np.full((self._limbs, 6), math.nan)
+        judged = self._params.array("work_judged")[1]
+        frames = judged["frame"][: self._limbs].reshape(-1, 3, 3)
+        turn = np.asarray(stance["turn"]).reshape(3, 3)
+        own = judged["wrench"][: self._limbs].reshape(-1, 2, 3)
+        found: Floats = np.einsum("ij,lkj,lpk->lpi", turn, frames, own).reshape(-1, 6)
+        found[limb] = 0.0
+        return found
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Between:
     """What is on the way between two stances."""
@@ -104,23 +129,22 @@ class Between:
     task: SpatialTask
     before: Moment
     after: Moment
+    loads: Callable[[int], Floats]
+    """Contact wrenches while a limb swings, as `SwingLoads` has them."""
 
     def parts(self) -> list[Part[Moment]]:
         """The motion: a body that moves over its holds, or a limb that swings from hold to hold."""
-        moved = [
-            limb for limb, (old, new) in enumerate(zip(self.before.holds, self.after.holds, strict=True)) if old != new
-        ]
+        moved = [limb for limb, (old, new) in enumerate(zip(self.before.holds, self.after.holds, strict=True)) if old != new]
         if not moved:
             return [Part("move", lambda share, way: self.body(share))]
         path = self._path(moved[0])
         line = np.array([path.at(share) for share in np.linspace(0.0, 1.0, 33)])
-        return [Part("swing", lambda share, way: self.swing(path, line, share))]
+        wrenches = self.loads(moved[0])
+        return [Part("swing", lambda share, way: self.swing(path, line, wrenches, share))]
 
     def _path(self, limb: int) -> SwingPath:
         ends = np.stack((self.before.tips[limb], self.after.tips[limb]))
-        return SwingPath(
-            limb, ends, np.stack((self.before.normals[limb], self.after.normals[limb])), self.task.rules.lift
-        )
+        return SwingPath(limb, ends, np.stack((self.before.normals[limb], self.after.normals[limb])), self.task.rules.lift)
 
     def body(self, share: float) -> Moment:
         """The body at a share of its way; forces pass from those of one stance to those of the next."""
@@ -132,14 +156,14 @@ class Between:
         wrenches = before.wrenches + share * (after.wrenches - before.wrenches)
         return self._moment(at, share, before.holds, wrenches, None)
 
-    def swing(self, path: SwingPath, line: Floats, share: float) -> Moment:
-        """The limb at a share of its path; how the others share the load meanwhile is not in a plan, so no forces are told."""
+    def swing(self, path: SwingPath, line: Floats, wrenches: Floats, share: float) -> Moment:
+        """The limb at a share of its path, while the others hold the robot."""
         if share >= 1.0:
             return self.after
         before, after = self.before, self.after
         at = swing_between(self.task.robot.chains, before.body, after.body, path, share)
         holds = tuple(SWINGING if limb == path.limb else hold for limb, hold in enumerate(before.holds))
-        return self._moment(at, share, holds, np.full_like(before.wrenches, math.nan), line)
+        return self._moment(at, share, holds, wrenches, line)
 
     def _moment(self, at: Posed, share: float, holds: tuple[int, ...], wrenches: Floats, path: Floats | None) -> Moment:
         chains, before, after = self.task.robot.chains, self.before, self.after

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Polygon
 
 from ....planning.problem.problem import Replay
-from ....planning.problem.problems import yardsticks_of
+from ....planning.problem.problems import NOTHING_LIMITS, yardsticks_of
 from ....types import Floats
 from ....units import DEGREE
 from ....viewing import style
@@ -19,10 +19,10 @@ from ....viewing.view import Picture
 from ..planning.task import SpatialTask
 from ..world.patterns import frame_at
 from .camera import Camera, stretch
-from .moments import SWINGING, Between, Moment, settled_moments
+from .moments import SWINGING, Between, Moment, SwingLoads, settled_moments
 from .robot_artists import RobotArtists, arrows, force_scale, limb_colour, longest_limb
 from .surfaces import round_length
-from .world_artists import draw_world, picture_bounds
+from .world_artists import HOLDS, draw_world, picture_bounds
 
 ROOM: Final = 1.3
 """Holds that are farther from the robot's way than this many lengths of its longest limb are outside the picture [-]."""
@@ -48,13 +48,16 @@ class SpatialView(PlanView[Moment]):
     def __init__(self, task: SpatialTask, replay: Replay, camera: Camera) -> None:
         self.camera, self.names = camera, task.robot.chains.limb_names
         sticks = yardsticks_of(task)
-        self._checks = [k for k, check in enumerate(sticks.checks) if sticks.sizes.get(check.name, 0.0) > 0.0]
-        sizes = np.array([sticks.sizes[sticks.checks[k].name] for k in self._checks])
-        nothing = np.full((1, len(sizes)), math.nan)
-        shares = np.vstack([nothing, replay.margins[:, self._checks] / sizes])
+        limited = np.abs(np.nan_to_num(replay.margins, nan=NOTHING_LIMITS)).min(axis=0, initial=NOTHING_LIMITS) < NOTHING_LIMITS
+        known = limited | (len(replay.margins) == 0)
+        checks = [k for k, check in enumerate(sticks.checks) if sticks.sizes.get(check.name, 0.0) > 0.0 and known[k]]
+        sizes = np.array([sticks.sizes[sticks.checks[k].name] for k in checks])
+        left = replay.margins[:, checks] / sizes
+        shares = np.vstack([np.full((1, len(sizes)), math.nan), np.minimum(left, 1.0)])
         self.moments = settled_moments(task, replay.stances, shares)
         self.shown = shown_places(task, self.moments)
-        names = tuple(sticks.checks[k].name.replace("_", "-") for k in self._checks)
+        names = tuple(sticks.checks[k].name.replace("_", "-") for k in checks)
+        self._loads = SwingLoads(task)
         super().__init__(task, replay, picture_bounds(camera, self.shown), share_gauges(names))
         self.gauges = (*self.gauges, force_gauges(task), torque_gauges(task))
 
@@ -64,7 +67,9 @@ class SpatialView(PlanView[Moment]):
 
     def motion(self, step: int) -> list[Part[Moment]]:
         """The parts of a step's motion."""
-        return Between(self.task, self.moments[step - 1], self.moments[step]).parts()
+        stance = self.replay.stances[step - 1]
+        before, after = self.moments[step - 1], self.moments[step]
+        return Between(self.task, before, after, lambda limb: self._loads.wrenches(stance, limb)).parts()
 
     def values(self, at: Moment) -> tuple[Floats, ...]:
         """Shares of limits, sizes of contact forces [N], torques as shares of their limits."""
@@ -202,7 +207,7 @@ def draw_key(panel: Axes, left: float, y: float, task: SpatialTask, metres: floa
     """
     quiet = style.QUIET
     for x, marker, face, edge, words in (
-        (0.0, "o", style.HOLD, style.PAPER, "hold"), (0.62, "o", "#CFE0EE", style.PARTS[0], "held"), (1.24, "o", style.PAPER, style.INK, "centre of mass"),
+        (0.0, "o", HOLDS, style.HOLD, "hold"), (0.62, "o", "#CFE0EE", style.PARTS[0], "held"), (1.24, "o", style.PAPER, style.INK, "centre of mass"),
     ):  # fmt: skip
         panel.plot([left + x + 0.06], [y], marker=marker, ms=6.5, mfc=face, mec=edge, mew=1.2, ls="", clip_on=False)
         panel.text(left + x + 0.17, y, words, fontsize=7, va="center", color=quiet)

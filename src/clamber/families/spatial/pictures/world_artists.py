@@ -27,6 +27,7 @@ LIGHT: Final = np.array((-0.35, 0.75, 0.55))
 GRID: Final = "#22303C1C"
 """Ink, thinned."""
 EDGE: Final = "#AEB7C0"
+HOLDS: Final = "#B4BDC6"
 FAR_SIDE: Final = "#CBD1D8"
 """Colour of holds that are seen from behind."""
 LEAST_HOLD: Final = 0.006
@@ -96,16 +97,10 @@ def _draw_faces(axes: Axes, faces: list[Face], camera: Camera) -> None:
         return
     paint = [shade(face.normal, camera) for face in faces]
     boxy = {index for index in (face.solid for face in faces) if sum(face.solid == index for face in faces) <= 3}
-    edges = [
-        EDGE if face.solid in boxy and face.solid >= 0 else colour for face, colour in zip(faces, paint, strict=True)
-    ]
+    edges = [EDGE if face.solid in boxy and face.solid >= 0 else colour for face, colour in zip(faces, paint, strict=True)]
     axes.add_collection(
         PolyCollection(
-            [camera.flat(face.corners) for face in faces],
-            facecolors=paint,
-            edgecolors=edges,
-            linewidths=0.5,
-            zorder=1.0,
+            [camera.flat(face.corners) for face in faces], facecolors=paint, edgecolors=edges, linewidths=0.5, zorder=1.0
         )
     )
 
@@ -168,10 +163,7 @@ def _draw_goal(axes: Axes, task: SpatialTask, goal: Goal, index: int, camera: Ca
     if not len(inside):
         return
     top = inside[int(np.argmax(inside[:, 1] - 1e-3 * inside[:, 0]))]
-    left, high = (
-        float(top[0]) <= 0.5 * (bounds[0] + bounds[1]),
-        float(top[1]) > bounds[2] + 0.96 * (bounds[3] - bounds[2]),
-    )
+    left, high = float(top[0]) <= 0.5 * (bounds[0] + bounds[1]), float(top[1]) > bounds[2] + 0.96 * (bounds[3] - bounds[2])
     axes.annotate(
         goal_label(task, index), tuple(top), xytext=(3 if left else -3, -3 if high else 3), textcoords="offset points",
         ha="left" if left else "right", va="top" if high else "bottom", fontsize=8, color=GOAL_WORDS, zorder=9, path_effects=[halo()],
@@ -211,11 +203,10 @@ def _draw_holds(axes: Axes, task: SpatialTask, camera: Camera, bounds: Bounds) -
     places, normals, radii = world.places, world.normals, hold_radii(task, bounds)
     facing = normals @ camera.axes[2]
     outlines = camera.flat(discs(places, normals, radii))
-    for seen, colour, order in ((facing <= 0.0, FAR_SIDE, 2.0), (facing > 0.0, style.HOLD, 2.1)):
+    sides = ((facing <= 0.0, style.WALL, FAR_SIDE, 2.0), (facing > 0.0, HOLDS, style.HOLD, 2.1))
+    for seen, fill, colour, order in sides:
         axes.add_collection(
-            PolyCollection(
-                list(outlines[seen]), facecolors=colour, edgecolors=style.PAPER, linewidths=0.4, zorder=order
-            )
+            PolyCollection(list(outlines[seen]), facecolors=fill, edgecolors=colour, linewidths=0.6, zorder=order)
         )
         if len(places) <= MOST_NORMALS:
             ends = np.stack((places[seen], places[seen] + 1.7 * radii[seen, None] * normals[seen]), axis=1)
@@ -253,18 +244,10 @@ def _draw_scale(axes: Axes, task: SpatialTask, camera: Camera, bounds: Bounds) -
             path_effects=[halo(2.0)],
         )  # fmt: skip
     fall = np.array(task.world.gravity)
-    if (
-        np.linalg.norm(fall) > 1e-9
-        and abs(float(camera.axes[1] @ fall)) < 0.999 * float(np.linalg.norm(fall))
-        and not _is_down(fall)
-    ):
+    if np.linalg.norm(fall) > 1e-9 and abs(float(camera.axes[1] @ fall)) < 0.999 * float(np.linalg.norm(fall)) and not _is_down(fall):
         down = arm * camera.flat(fall / np.linalg.norm(fall))
         axes.annotate(
-            "",
-            tuple(origin + down),
-            tuple(origin),
-            zorder=9,
-            arrowprops={"arrowstyle": "-|>", "color": style.INK, "lw": 1.2},
+            "", tuple(origin + down), tuple(origin), zorder=9, arrowprops={"arrowstyle": "-|>", "color": style.INK, "lw": 1.2}
         )
 
 
