@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from spatial_models import FOUR_JOINTS, LOOP, TWO_ARMS, Case, document_of, robot_of
 
-from clamber.errors import FileError, SpecError
+from clamber.errors import FileError, SpecError, UnknownNameError
 from clamber.families.spatial.robot.model import read_model
 from clamber.families.spatial.robot.robot import build_robot, whole_document
 from clamber.families.spatial.robot.starter import import_robot
@@ -25,7 +25,6 @@ def imported(folder: Path, text: str, name: str = "model.urdf") -> ImportedRobot
     return import_robot(folder / name, folder / "robot.toml", "robot")
 
 
-@pytest.mark.usefixtures("spatial")
 def test_the_command_writes_a_robot_that_loads_and_tells_what_it_found(tmp_path: Path, clamber: Clamber) -> None:
     (tmp_path / TWO_ARMS.file).write_text(TWO_ARMS.text, encoding="utf-8")
     model, target = str(tmp_path / TWO_ARMS.file), tmp_path / "robot.toml"
@@ -53,7 +52,6 @@ def test_the_command_writes_a_robot_that_loads_and_tells_what_it_found(tmp_path:
     assert code == 0 and "limb l2: l1, l2; tip lhand" in out and "repaired: " in out and "dropped: " in out
 
 
-@pytest.mark.usefixtures("spatial")
 def test_the_command_refuses_what_does_not_go_together_and_files_of_other_kinds(
     tmp_path: Path, clamber: Clamber
 ) -> None:
@@ -239,6 +237,25 @@ def test_what_the_model_does_not_state_must_stand_in_the_robot_file(tmp_path: Pa
     case = Case("leg.urdf", leg(limit="<limit effort='3'/>"), case.robot)
     with pytest.raises(SpecError, match=r"limb.leg.limits.hip.*the model has no limits of this joint"):
         robot_of(tmp_path, case)
+
+
+def test_contacts_are_read_by_name_or_stated_as_tables(tmp_path: Path) -> None:
+    limbs = TWO_ARMS.robot["limb"]
+    table = {
+        "schema": "clamber-contact-1",
+        "kind": "gripper",
+        "name": "claw",
+        "title": "Claw",
+        "friction": 0.7,
+        "pull": "30 N",
+    }
+    robot = build_robot(document_of(tmp_path, TWO_ARMS, limb=[limbs[0] | {"contact": table}, *limbs[1:]]))
+    assert [contact.kind for contact in robot.contacts] == ["gripper", "gripper", "foot"]
+    assert robot.contacts[0].pull == 30.0
+    with pytest.raises(UnknownNameError, match=r"no contact is called 'fot'.*did you mean 'foot'"):
+        build_robot(document_of(tmp_path, TWO_ARMS, limb=[limbs[0] | {"contact": "fot"}]))
+    with pytest.raises(SpecError, match=r"robot.toml \[limb.left.contact\]: pull = '-3 N'"):
+        build_robot(document_of(tmp_path, TWO_ARMS, limb=[limbs[0] | {"contact": table | {"pull": "-3 N"}}]))
 
 
 def test_share_room_payload_and_overrides_count(tmp_path: Path) -> None:

@@ -14,6 +14,7 @@ from spatial_models import FOUR_JOINTS, LOOP, TWO_ARMS, robot_of
 
 import clamber.families.spatial as family
 from clamber.families.spatial.robot.robot import SpatialRobot, build_robot
+from clamber.families.spatial.robot.starter import import_robot
 from clamber.families.spatial.robot.tree import Posture, rooted_at
 from clamber.files import read_toml
 from clamber.types import Floats
@@ -80,6 +81,16 @@ def check_with_mujoco(robot: SpatialRobot, model: mj.MjModel) -> None:
             assert near(ours.tip(chains, limb, of_limb)[0], oracle.tip(limb))
             assert near(ours.jacobian(chains, limb, of_limb), oracle.jacobian(limb))
             assert near(ours.gravity_torques(chains, limb, of_limb, GRAVITY), oracle.gravity_torques(limb))
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_an_import_finds_the_limbs_of_shipped_robots(name: str, tmp_path: Path) -> None:
+    robot = build_robot(read_toml(DATA / f"{name}.toml"))
+    assert robot.model_path is not None
+    found = import_robot(robot.model_path, tmp_path / "robot.toml", name)
+    assert [limb.joints for limb in found.limbs] == list(robot.chains.joint_names)
+    assert [limb.tip for limb in found.limbs] == [limb.tip for limb in robot.limbs]
+    assert found.mass == pytest.approx(robot.chains.total_mass) and not found.repaired and not found.dropped
 
 
 @pytest.mark.parametrize("name", SHIPPED)

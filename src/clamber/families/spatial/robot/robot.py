@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
-from typing import Annotated, ClassVar, Final, NamedTuple
+from typing import Annotated, Any, ClassVar, Final, NamedTuple
 
 import numpy as np
 from pydantic import Field, GetCoreSchemaHandler, StrictStr
@@ -76,8 +76,8 @@ class LimbSpec:
     """From there to the tip, in that frame [m]."""
     out: Direction | None = None
     """Direction out of the limb, towards what it touches, in that frame; None: a site's z, of a link from the last joint to the tip."""
-    contact: StrictStr
-    """What it holds on with: the name of a contact, or the path of its file."""
+    contact: StrictStr | dict[str, Any]
+    """What it holds on with: the name of a contact, the path of its file, or what such a file says as a table."""
     nominal: tuple[Position, ...] | None = None
     """Posture that searches begin at, from the base to the tip; None: the middle of the limits."""
     limits: Mapping[StrictStr, tuple[Position, Position]] = field(default_factory=dict)
@@ -129,7 +129,8 @@ class SpatialRobot:
     spec: RobotSpec
     tree: Tree = field(repr=False)
     """The model, with the base as its root."""
-    chains: Chains = field(repr=False)
+    chains: Chains = field(repr=False, compare=False)
+    """Made of spec and tree."""
     contacts: tuple[Contact, ...] = field(repr=False)
     """What each limb holds on with."""
     model_path: Path | None
@@ -261,6 +262,8 @@ def _built(robot: RobotSpec, tree: Tree, document: Document, path: Path | None) 
 
 def _contact(document: Document, limb: LimbSpec) -> Contact:
     """What a limb holds on with."""
+    if isinstance(limb.contact, dict):
+        return build_contact(Document(f"{document.label} [limb.{limb.name}.contact]", limb.contact)).contact()
     contacts = document.data.get("contacts")
     stated = contacts.get(limb.contact) if isinstance(contacts, dict) else None
     if not isinstance(stated, dict):

@@ -69,7 +69,7 @@ def _outward(posture: Posture, chain: Chain) -> Floats:
     axis = posture.axis(chain.joints[-1])[1]
     along = float((far - anchors[-1]) @ axis)
     if abs(along) > AXIAL * float(np.linalg.norm(far - anchors[-1])) > 0.0:
-        return np.copysign(1.0, along) * axis
+        return _unit(axis * np.sign(along))
     end = far if np.linalg.norm(far - anchors[-1]) >= SEGMENT * chain.length else anchors[-1]
     for anchor in reversed(anchors):
         if np.linalg.norm(end - anchor) >= SEGMENT * chain.length:
