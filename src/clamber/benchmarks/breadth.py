@@ -7,7 +7,7 @@ import numpy as np
 from ..compiled import kernel
 from ..planning.problem.family_kernels import candidates, done, key, restore, step
 from ..planning.problem.problem import CompiledProblem
-from ..planning.stance_table import slot_of, table_size
+from ..planning.stance_table import scratch_for, slot_of, table_size
 
 FOUND, EXHAUSTED, FULL = 0, 1, 2
 
@@ -25,16 +25,17 @@ class Breadth:
 
 
 @kernel
-def breadth(p, start, keys, depth, table, codes, stances, margins, words, state):
+def breadth(p, start, keys, depth, table, room, state):
     """Look at every stance in the order in which it was reached, until one has met every goal.
 
     Args:
         p, start: Parameters and start stance (array of one record).
         keys, depth: Output, key and depth of every stance seen.
         table: Hash table, all -1, its size a power of two.
-        codes, stances, margins, words: Scratch; two stances.
+        room: Scratch.
         state: Output: stances, actions judged, depth of the goal.
     """
+    codes, stances, margins, words, _ = room
     key(p, start[0], keys[0])
     table[slot_of(keys[0], table, keys)] = 0
     depth[0] = 0
@@ -73,14 +74,11 @@ def breadth_first(problem: CompiledProblem, *, most_stances: int = 4_000_000) ->
         problem: The task.
         most_stances: Memory.
     """
-    room = most_stances + problem.branching
-    keys = np.zeros((room, problem.key_words), np.int64)
+    most = most_stances + problem.branching
+    keys = np.zeros((most, problem.key_words), np.int64)
+    depth, table = np.zeros(most, np.int32), np.full(table_size(most), -1, np.int32)
     state = np.zeros(3, np.int64)
-    end = breadth(
-        problem.params.record, problem.start, keys, np.zeros(room, np.int32),
-        np.full(table_size(room), -1, np.int32), np.zeros(problem.branching, np.int32),
-        np.zeros(2, problem.start.dtype), np.zeros(len(problem.checks)), np.zeros(problem.key_words, np.int64), state,
-    )  # fmt: skip
+    end = breadth(problem.params.record, problem.start, keys, depth, table, scratch_for(problem), state)
     return Breadth(
         length=int(state[2]) if end == FOUND else None,
         complete=end != FULL,

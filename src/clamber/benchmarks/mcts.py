@@ -8,9 +8,9 @@ import numpy as np
 from ..planning.problem.problem import Records
 from ..planning.progress import Listener
 from ..planning.result import PlanResult
-from ..planning.stance_table import table_size
+from ..planning.stance_table import scratch_for, table_size
 from ..tasks import Task
-from .mcts_kernels import CHECKS, DEAD, EDGES, NODES, TABU, enter, simulate
+from .mcts_kernels import CHECKS, DEAD, EDGES, NODES, TABU, Lines, Manner, Tree, enter, simulate
 from .rivals import LONGEST, MAX_CHECKS, Hunt, guidance
 
 MAX_STANCES: Final = 500_000
@@ -103,20 +103,27 @@ class _Tree:
         self.weights = guidance(problem)
         capacity = max(most, LONGEST) + 2 * problem.branching  # the way to the root always has room
         edges = 4 * capacity
-        words = problem.key_words
-        self.keys = np.zeros((capacity, words), np.int64)
-        self.visits, self.first, self.count = (np.zeros(capacity, np.int32) for _ in range(3))
-        self.total, self.top = np.zeros(capacity), np.zeros(capacity)
-        self.mark = np.zeros(capacity, np.int64)
-        self.child_of, self.code_of = np.zeros(edges, np.int32), np.zeros(edges, np.int32)
-        self.table = np.zeros(table_size(capacity), np.int32)
-        self.path, self.trail, self.plan = (np.zeros(LONGEST + 1, np.int32) for _ in range(3))
-        self.codes, self.tried = np.zeros(problem.branching, np.int32), np.zeros(problem.branching, np.int32)
-        self.stances = np.zeros(4, problem.start.dtype)
-        self.margins, self.row = np.zeros(len(problem.checks)), np.zeros(len(problem.features))
-        self.words = np.zeros(words, np.int64)
+        self.tree = Tree(
+            keys=np.zeros((capacity, problem.key_words), np.int64),
+            visits=np.zeros(capacity, np.int32),
+            total=np.zeros(capacity),
+            top=np.zeros(capacity),
+            first=np.zeros(capacity, np.int32),
+            edges=np.zeros(capacity, np.int32),
+            mark=np.zeros(capacity, np.int64),
+            child_of=np.zeros(edges, np.int32),
+            code_of=np.zeros(edges, np.int32),
+            table=np.zeros(table_size(capacity), np.int32),
+        )
+        self.lines = Lines(
+            path=np.zeros(LONGEST + 1, np.int32),
+            tried=np.zeros(problem.branching, np.int32),
+            trail=np.zeros(LONGEST + 1, np.int32),
+            plan=np.zeros(LONGEST + 1, np.int32),
+            scale=np.zeros(2),
+        )
+        self.room = scratch_for(problem, 4)
         self.state = np.zeros(4, np.int64)
-        self.scale = np.zeros(2)
 
     def descend(self) -> None:
         """From the start, action by action, until a plan is found, nothing new is left to do, or the budget ends."""
@@ -128,60 +135,65 @@ class _Tree:
         root = self._grow_anew(passed)
         furthest, stale = -np.inf, 0
         while not hunt.is_over and len(way) < hunt.longest and stale < self.settings.patience:
-            self.scale[:] = np.inf, -np.inf
+            self.lines.scale[:] = np.inf, -np.inf
             length = self._simulate(root, len(way))
             hunt.checks = int(state[CHECKS])
             if length >= 0:
-                codes = np.concatenate([way, self.plan[:length]]).astype(np.int32)
+                codes = np.concatenate([way, self.lines.plan[:length]]).astype(np.int32)
                 hunt.take(codes, np.inf, found=True)
                 continue
             edge = self._most_visited(root)
             if edge < 0:
                 break
-            way.append(int(self.code_of[edge]))
-            root = int(self.child_of[edge])
-            self.mark[root] = TABU
+            way.append(int(self.tree.code_of[edge]))
+            root = int(self.tree.child_of[edge])
+            self.tree.mark[root] = TABU
             here = hunt.problem.rebind(hunt.problem.actions, here).replay(np.array(way[-1:], np.int32)).stances[-1:]
             passed.append(here)
             hunt.take(np.array(way, np.int32), hunt.problem.progress(here), found=hunt.problem.is_done(here))
             if hunt.problem.is_done(here):
                 break
-            if state[NODES] + len(self.codes) > len(self.keys) or state[EDGES] + len(self.codes) > len(self.child_of):
+            room = len(self.tree.keys) - state[NODES], len(self.tree.child_of) - state[EDGES]
+            if min(room) < hunt.problem.branching:
                 root = self._grow_anew(passed)
-            stale = 0 if self.scale[1] > furthest else stale + 1
-            furthest = max(furthest, self.scale[1])
+            stale = 0 if self.lines.scale[1] > furthest else stale + 1
+            furthest = max(furthest, self.lines.scale[1])
 
     def _simulate(self, root: int, depth: int) -> int:
         set_up, care = self.settings, luby(self.descents)
         explore = set_up.explore * (1.0 + set_up.wariness * np.log2(care))
         horizon, visits = min(LONGEST, set_up.horizon * care), set_up.visits * care
+        how = Manner(
+            explore,
+            set_up.boldness,
+            set_up.again,
+            horizon,
+            self.hunt.longest,
+            visits,
+            self.hunt.max_checks,
+            self.hunt.seed,
+        )
+        at = (root, depth)
         return int(
             simulate(
-                self.hunt.problem.params.record, self.weights, self.keys, self.visits, self.total, self.top, self.first,
-                self.count, self.child_of, self.code_of, self.table, self.mark, self.path, self.codes, self.tried,
-                self.stances, self.margins, self.row, self.words, self.state, self.scale, root, depth, explore,
-                set_up.boldness, set_up.again, horizon, self.hunt.longest, visits, self.hunt.max_checks,
-                self.hunt.seed, self.trail, self.plan,
+                self.hunt.problem.params.record, self.weights, self.tree, self.room, self.state, at, how, self.lines
             )
-        )  # fmt: skip
+        )
 
     def _most_visited(self, root: int) -> int:
         """The edge to the child with the most visits that is neither dead nor on the way here; -1: there is none."""
-        edges = np.arange(self.first[root], self.first[root] + self.count[root])
-        children = self.child_of[edges]
-        free = (self.mark[children] != TABU) & (self.first[children] != DEAD)
+        edges = np.arange(self.tree.first[root], self.tree.first[root] + self.tree.edges[root])
+        children = self.tree.child_of[edges]
+        free = (self.tree.mark[children] != TABU) & (self.tree.first[children] != DEAD)
         if not free.any():
             return -1
-        return int(edges[np.argmax(np.where(free, self.visits[children], -1))])
+        return int(edges[np.argmax(np.where(free, self.tree.visits[children], -1))])
 
     def _grow_anew(self, passed: list[Records]) -> int:
         """An empty tree but for the stances on the way, the last of which is its root."""
-        self.table[:] = -1
+        self.tree.table[:] = -1
         self.state[NODES] = self.state[EDGES] = 0
         for stance in passed:
-            root = enter(
-                self.hunt.problem.params.record, stance[0], self.keys, self.visits, self.total, self.top, self.first,
-                self.count, self.mark, self.table, self.words, self.state,
-            )  # fmt: skip
-            self.mark[root] = TABU
+            root = enter(self.hunt.problem.params.record, stance[0], self.tree, self.room.words, self.state)
+            self.tree.mark[root] = TABU
         return int(root)

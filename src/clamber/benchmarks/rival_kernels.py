@@ -1,9 +1,29 @@
 """Random walks, bursts of them, and greedy best-first search as kernels."""
 
+from typing import NamedTuple
+
+import numpy as np
+
 from ..compiled import inlined, kernel
 from ..planning.problem.family_kernels import candidates, done, key, measure, restore, step
 from ..planning.problem.randoms import below, draw, unit
 from ..planning.stance_table import slot_of
+from ..types import Floats, Ints
+
+
+class Nodes(NamedTuple):
+    """Stances seen, shape (capacity, ...), and those that are open."""
+
+    keys: np.ndarray[tuple[int, ...], np.dtype[np.int64]]
+    value: Floats
+    """What they are worth."""
+    parent: Ints
+    code: Ints
+    """The action that led there."""
+    heap: Ints
+    """Open ones."""
+    table: Ints
+    """Hash table; its size is a power of two."""
 
 
 @inlined
@@ -17,25 +37,24 @@ def worth(p, s, weights, row):
 
 
 @kernel
-def wander(p, stances, codes, margins, row, weights, again, most, most_checks, seed, a, b, trail):
+def wander(p, room, weights, again, limits, counters, trail):
     """One random walk: every action is drawn from those that hold, and what the walk is worth is its best prefix.
 
     Args:
         p: A family's parameters.
-        stances: Scratch, three records; the walk begins at the first, which it overwrites. The last is its best stance.
-        codes: Scratch for candidates.
-        margins: Scratch of the family's checks.
-        row: Scratch for features.
+        room: Scratch; the walk begins at its first stance, which it overwrites. The third is its best stance.
         weights: Weights of the features.
         again: Probability of doing the same as before, where that is among the candidates.
-        most: Most actions.
-        most_checks: Most actions to judge.
-        seed, a, b: Counters of the random numbers.
+        limits: Most actions, and most actions to judge.
+        counters: Three, of the random numbers.
         trail: Output: the actions, `most` of them at most.
 
     Returns:
         Actions of the best prefix, what it is worth, actions judged, and whether it meets the goal.
     """
+    codes, stances, margins, _, row = room
+    most, most_checks = limits
+    seed, a, b = counters
     now = 0
     stances[2] = stances[0]
     best = worth(p, stances[0], weights, row)
@@ -80,36 +99,33 @@ def wander(p, stances, codes, margins, row, weights, again, most, most_checks, s
 
 
 @kernel
-def burst(
-    p, here, codes, stances, margins, row, weights, again, walks, most, most_checks, seed, number, trail, best, found
-):  # fmt: skip
+def burst(p, here, room, weights, how, counters, lines, found):
     """Walk at random from a stance, many times, and keep the walk that is worth most; a goal ends the burst.
 
     Args:
         p: A family's parameters.
         here: Where the walks begin, array of one record; the best walk's end on return.
-        codes, stances, margins, row: Scratch of `wander`.
-        weights, again: As in `wander`.
-        walks: How many.
-        most: Most actions of a walk.
-        most_checks: Most actions to judge.
-        seed, number: Counters of the random numbers.
-        trail: Scratch, `most` codes.
-        best: Output: the actions of the best walk.
+        room, weights: As in `wander`.
+        how: The probability `again` of `wander`, how many walks, most actions of one, and most actions to judge.
+        counters: Two, of the random numbers.
+        lines: Scratch for the actions of a walk; output: those of the best walk.
         found: Worth to be exceeded.
 
     Returns:
         Actions of the best walk (-1: none exceeds `found`), what it is worth, actions judged, and whether it meets the goal.
     """
+    again, walks, most, most_checks = how
+    seed, number = counters
+    trail, best = lines
+    stances = room.stances
     length = -1
     checks = 0
     for walk in range(walks):
         if checks >= most_checks:
             break
         stances[0] = here[0]
-        actions, value, judged, reached = wander(
-            p, stances, codes, margins, row, weights, again, most, most_checks - checks, seed, number, walk, trail
-        )
+        limits = (most, most_checks - checks)
+        actions, value, judged, reached = wander(p, room, weights, again, limits, (seed, number, walk), trail)
         checks += judged
         if reached or value > found:
             found = value
@@ -172,9 +188,7 @@ NODES, OPEN, EXPANDED, CHECKS, GOAL, BEST = 0, 1, 2, 3, 4, 5
 
 
 @kernel
-def greedy(
-    p, weights, keys, value, parent, code, heap, table, state, codes, stances, margins, row, words, most_checks, quota
-):  # fmt: skip
+def greedy(p, weights, nodes, state, room, most_checks, quota):
     """Expand the stance that is worth most until the goal, the end of the space, of memory, of the budget, or a quota.
 
     A stance is entered once, by the way that came first, so the search never goes in circles. The start is node 0, put in by the caller.
@@ -182,17 +196,17 @@ def greedy(
     Args:
         p: A family's parameters.
         weights: Weights of the features.
-        keys, value, parent, code: Key, worth, parent and action of every node, shape (capacity, ...).
-        heap: Open nodes.
-        table: Hash table of the nodes; its size is a power of two.
+        nodes: Stances seen; updated in place.
         state: Nodes, open ones, expanded ones, actions judged, goal, node that is worth most; int64, shape (6,), updated in place.
-        codes, stances, margins, row, words: Scratch for candidates, two stances, checks, features and a key.
+        room: Scratch.
         most_checks: Most actions to judge.
         quota: Most stances to expand in this call.
 
     Returns:
         FOUND, EXHAUSTED, FULL (memory or budget) or RUNNING.
     """
+    keys, value, parent, code, heap, table = nodes
+    codes, stances, margins, words, row = room
     for _ in range(quota):
         if state[OPEN] == 0:
             return EXHAUSTED
@@ -227,8 +241,8 @@ def greedy(
 
 
 @kernel
-def plant_root(p, start, weights, keys, value, table, row):
+def plant_root(p, start, weights, nodes, row):
     """Enter the start stance (array of one record) as node 0."""
-    key(p, start[0], keys[0])
-    value[0] = worth(p, start[0], weights, row)
-    table[slot_of(keys[0], table, keys)] = 0
+    key(p, start[0], nodes.keys[0])
+    nodes.value[0] = worth(p, start[0], weights, row)
+    nodes.table[slot_of(nodes.keys[0], nodes.table, nodes.keys)] = 0

@@ -10,7 +10,7 @@ from ..planning.problem.problem import CompiledProblem
 from ..planning.problem.problems import listed_problem, plan_family
 from ..planning.progress import Clock, Listener, Trying
 from ..planning.result import PlanResult, Status, furthest_of
-from ..planning.stance_table import path_to, table_size
+from ..planning.stance_table import path_to, scratch_for, table_size
 from ..tasks import Task
 from ..types import Floats, Ints
 from .rival_kernels import (
@@ -23,6 +23,7 @@ from .rival_kernels import (
     NODES,
     OPEN,
     RUNNING,
+    Nodes,
     burst,
     greedy,
     plant_root,
@@ -173,32 +174,33 @@ def plan_greedy(
     problem = hunt.problem
     params, weights = problem.params.record, guidance(problem)
     capacity = min(max_stances, max_checks + 1) + problem.branching
-    keys = np.zeros((capacity, problem.key_words), np.int64)
-    value = np.zeros(capacity)
-    parent, code, heap = (np.zeros(capacity, np.int32) for _ in range(3))
-    table = np.full(table_size(capacity), -1, np.int32)
-    codes, stances = np.zeros(problem.branching, np.int32), np.zeros(2, problem.start.dtype)
-    margins, row = np.zeros(len(problem.checks)), np.zeros(len(problem.features))
-    words = np.zeros(problem.key_words, np.int64)
+    nodes, room = (
+        Nodes(
+            keys=np.zeros((capacity, problem.key_words), np.int64),
+            value=np.zeros(capacity),
+            parent=np.zeros(capacity, np.int32),
+            code=np.zeros(capacity, np.int32),
+            heap=np.zeros(capacity, np.int32),
+            table=np.full(table_size(capacity), -1, np.int32),
+        ),
+        scratch_for(problem),
+    )
     state = np.zeros(6, np.int64)
     state[NODES] = state[OPEN] = 1
-    parent[0] = state[GOAL] = -1
-    plant_root(params, problem.start, weights, keys, value, table, row)
+    nodes.parent[0] = state[GOAL] = -1
+    plant_root(params, problem.start, weights, nodes, room.row)
     status = FOUND if hunt.found else RUNNING
     try:
         while status == RUNNING and not hunt.is_over:
-            status = greedy(
-                params, weights, keys, value, parent, code, heap, table, state, codes, stances, margins, row, words,
-                max_checks, QUOTA,
-            )  # fmt: skip
+            status = greedy(params, weights, nodes, state, room, max_checks, QUOTA)
             hunt.checks = int(state[CHECKS])
-            hunt.value = float(value[state[BEST]])
+            hunt.value = float(nodes.value[state[BEST]])
             hunt.tell()
     except KeyboardInterrupt:
         hunt.interrupted = True
     end = max(0, int(state[GOAL])) if status == FOUND else int(state[BEST])
     hunt.value = -np.inf
-    hunt.take(path_to(parent, code, end), float(value[end]), found=status == FOUND)
+    hunt.take(path_to(nodes.parent, nodes.code, end), float(nodes.value[end]), found=status == FOUND)
     full = status == FULL and hunt.checks < max_checks
     return hunt.result(
         exhausted=int(state[NODES]) if status == EXHAUSTED else None,
@@ -250,8 +252,7 @@ def plan_random(
     hunt, made = Hunt("random", task, seed, max_checks, seconds, progress), bursts or Bursts()
     problem = hunt.problem
     params, weights = problem.params.record, guidance(problem)
-    codes, stances = np.zeros(problem.branching, np.int32), np.zeros(3, problem.start.dtype)
-    margins, row = np.zeros(len(problem.checks)), np.zeros(len(problem.features))
+    room = scratch_for(problem, 3)
     here = np.zeros(2, problem.start.dtype)
     trail, best = (np.zeros(max(1, hunt.longest), np.int32) for _ in range(2))
     number = 0
@@ -265,10 +266,10 @@ def plan_random(
                 most = min(made.length << stale, hunt.longest - len(way))
                 if most < 0:
                     break
+                how = (made.again, made.walks, most, max_checks - hunt.checks)
                 actions, value, judged, reached = burst(
-                    params, here, codes, stances, margins, row, weights, made.again, made.walks, most, max_checks - hunt.checks,
-                    seed, number, trail, best, value,
-                )  # fmt: skip
+                    params, here, room, weights, how, (seed, number), (trail, best), value
+                )
                 number += 1
                 hunt.checks += int(judged)
                 stale = 0 if actions > 0 else stale + 1

@@ -25,11 +25,13 @@ from .route_kernels import (
     LOWEST,
     NODES,
     RUNNING,
+    Guide,
+    Nodes,
     plant,
     rehash_rough,
     search,
 )
-from .stance_table import path_to, table_size
+from .stance_table import path_to, scratch_for, table_size
 
 QUOTA: Final = 5000
 """Stances expanded between looks at the clock."""
@@ -59,31 +61,34 @@ class Climb:
     """Check -> actions that it forbade."""
 
 
-class _Nodes:
+class _Memory:
     """The arrays of a search; they double until `most` nodes."""
 
     def __init__(self, problem: CompiledProblem, most: int) -> None:
-        words = problem.key_words
-        self.capacity = 0
-        self.heads = np.full(BUCKETS, -1, np.int32)
-        self.keys = np.zeros((0, words), np.int64)
-        self.g = np.zeros(0, np.int32)
-        self.way = np.zeros(0, np.float32)
-        self.parent = np.zeros(0, np.int32)
-        self.code = np.zeros(0, np.int32)
-        self.following = np.zeros(0, np.int32)
-        self.table = np.zeros(0, np.int32)
+        self.all = Nodes(
+            keys=np.zeros((0, problem.key_words), np.int64),
+            g=np.zeros(0, np.int32),
+            way=np.zeros(0, np.float32),
+            parent=np.zeros(0, np.int32),
+            code=np.zeros(0, np.int32),
+            following=np.zeros(0, np.int32),
+            heads=np.full(BUCKETS, -1, np.int32),
+            table=np.zeros(0, np.int32),
+        )
         self.grow(min(most, max(FIRST, 2 * problem.branching)), 0)
 
+    @property
+    def capacity(self) -> int:
+        return len(self.all.keys)
+
     def grow(self, capacity: int, used: int) -> None:
+        longer = {}
         for name in ("keys", "g", "way", "parent", "code", "following"):
-            old = getattr(self, name)
-            new = np.zeros((capacity, *old.shape[1:]), old.dtype)
-            new[: len(old)] = old
-            setattr(self, name, new)
-        self.capacity = capacity
-        self.table = np.full(table_size(capacity), -1, np.int32)
-        rehash_rough(self.keys, used, self.table)
+            old = getattr(self.all, name)
+            longer[name] = np.zeros((capacity, *old.shape[1:]), old.dtype)
+            longer[name][: len(old)] = old
+        self.all = self.all._replace(table=np.full(table_size(capacity), -1, np.int32), **longer)
+        rehash_rough(self.all.keys, used, self.all.table)
 
 
 def climb(
@@ -113,20 +118,14 @@ def climb(
         The plan, or how far it came; Ctrl-C, time and memory end it.
     """
     clock = Clock(seconds)
-    nodes = _Nodes(problem, most_stances)
+    nodes = _Memory(problem, most_stances)
     params = problem.params.record
     state = np.zeros(6, np.int64)
     state[NODES], state[GOAL] = 1, -1
-    codes = np.zeros(problem.branching, np.int32)
-    stances = np.zeros(2, problem.start.dtype)
-    margins, tally = np.zeros(len(problem.checks)), np.zeros(len(problem.checks), np.int64)
-    words = np.zeros(problem.key_words, np.int64)
+    room, tally = scratch_for(problem), np.zeros(len(problem.checks), np.int64)
     visits = np.zeros(fields.fields.shape[1:], np.int32)
-    guide = (fields.fields, fields.frame, fields.hold_fields, fields.after, share, weight)
-    state[LOWEST] = plant(
-        params, problem.start, nodes.keys, nodes.g, nodes.way, nodes.parent, nodes.code, nodes.following, nodes.heads,
-        nodes.table, *guide,
-    )  # fmt: skip
+    guide = Guide(fields.fields, fields.frame, fields.hold_fields, fields.after, share, weight, visits, crowding)
+    state[LOWEST] = plant(params, problem.start, nodes.all, guide)
     if problem.is_done(problem.start):
         state[GOAL] = 0
     status, interrupted = FOUND if state[GOAL] == 0 else RUNNING, False
@@ -136,13 +135,10 @@ def climb(
                 if nodes.capacity >= most_stances:
                     break
                 nodes.grow(min(most_stances, 2 * nodes.capacity), int(state[NODES]))
-            status = search(
-                params, nodes.keys, nodes.g, nodes.way, nodes.parent, nodes.code, nodes.following, nodes.heads,
-                nodes.table, state, codes, stances, margins, words, tally, *guide, visits, crowding, QUOTA,
-            )  # fmt: skip
+            status = search(params, nodes.all, guide, state, room, tally, QUOTA)
             if tell is not None:
                 best = int(state[BEST])
-                tell(int(state[NODES]), int(nodes.g[best]), float(nodes.way[best]), float(nodes.way[0]))
+                tell(int(state[NODES]), int(nodes.all.g[best]), float(nodes.all.way[best]), float(nodes.all.way[0]))
     except KeyboardInterrupt:
         interrupted = True
     goal = int(state[GOAL]) if status == FOUND else int(state[BEST])
@@ -150,10 +146,10 @@ def climb(
         found=status == FOUND,
         exhausted=status == EXHAUSTED,
         interrupted=interrupted,
-        codes=path_to(nodes.parent, nodes.code, goal),
+        codes=path_to(nodes.all.parent, nodes.all.code, goal),
         stances=int(state[NODES]),
         checks=int(state[JUDGED]),
-        left=float(nodes.way[int(state[BEST])]),
+        left=float(nodes.all.way[int(state[BEST])]),
         forbidden={name: int(n) for name, n in zip(problem.checks, tally, strict=True) if n},
     )
 

@@ -1,10 +1,12 @@
 """Greedy best-first search over stances as one kernel, led by fields of the way that is left over the wall."""
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
 from ..compiled import inlined, kernel
+from ..types import Floats, Ints
 from .problem.family_kernels import candidates, done, key, restore, step
 from .problem.randoms import scramble
 
@@ -16,6 +18,46 @@ POSE = 3
 """The first words of a key: place and angle of the body, in ticks."""
 ROUGH = 18
 """Poses are told apart to 2^18 ticks, a quarter of a step: off the lattice, after hangs, there is no end of poses that hardly differ."""
+
+
+class Nodes(NamedTuple):
+    """Stances seen, and the open list."""
+
+    keys: np.ndarray[tuple[int, ...], np.dtype[np.int64]]
+    g: Ints
+    """Actions so far."""
+    way: np.ndarray[tuple[int, ...], np.dtype[np.float32]]
+    """Way left."""
+    parent: Ints
+    code: Ints
+    """The action that led there."""
+    following: Ints
+    """Next node in the same bucket."""
+    heads: Ints
+    """First node of each bucket."""
+    table: Ints
+    """Hash table; its size is a power of two."""
+
+
+class Guide(NamedTuple):
+    """What tells of the way that is left."""
+
+    fields: Floats
+    """Steps to each goal from every place, shape (goals, rows, columns)."""
+    frame: Floats
+    """Lower left place of the fields and their grain [m], shape (3,)."""
+    hold_fields: Floats
+    """The same at every hold, shape (goals, holds)."""
+    after: Floats
+    """Steps from each goal through the later ones, shape (goals,)."""
+    share: float
+    """Weight of the limbs' way."""
+    weight: float
+    """How much a step of way left counts beside an action made."""
+    visits: Ints
+    """Stances expanded at every place, shape (rows, columns)."""
+    crowding: float
+    """By how much each of them makes the way left longer [steps]."""
 
 
 @inlined
@@ -60,25 +102,17 @@ def place_of(s, fields, frame):
 
 
 @inlined
-def way_left(p, s, fields, frame, hold_fields, after, share):
-    """About how many steps are left from a stance: the body's way, and a share of the mean way of its limbs.
-
-    Args:
-        p, s: Parameters and stance.
-        fields: Steps to each goal from every place, shape (goals, rows, columns).
-        frame: Lower left place of the fields and their grain [m], shape (3,).
-        hold_fields: The same at every hold, shape (goals, holds).
-        after: Steps from each goal through the later ones, shape (goals,).
-        share: Weight of the limbs' way.
-    """
+def way_left(p, s, guide):
+    """About how many steps are left from a stance: the body's way, and a share of the mean way of its limbs."""
+    fields, hold_fields = guide.fields, guide.hold_fields
     if s.stage >= fields.shape[0]:
         return 0.0
-    row, column = place_of(s, fields, frame)
+    row, column = place_of(s, fields, guide.frame)
     body = fields[s.stage, row, column]
     tips = 0.0
     for i in range(p.n_limbs):
         tips += hold_fields[s.stage, s.hold[i]] if s.hold[i] >= 0 else body
-    return body + share * tips / p.n_limbs + after[s.stage]
+    return body + guide.share * tips / p.n_limbs + guide.after[s.stage]
 
 
 @inlined
@@ -88,27 +122,23 @@ def bucket_of(cost, way, weight, buckets):
 
 
 @kernel
-def plant(
-    p, start, keys, g, way, parent, code, following, heads, table, fields, frame, hold_fields, after, share, weight
-):
+def plant(p, start, nodes, guide):
     """Put the start stance into an empty search; returns its bucket."""
+    keys, g, way, parent, code, following, heads, table = nodes
     key(p, start[0], keys[0])
     g[0] = 0
-    way[0] = way_left(p, start[0], fields, frame, hold_fields, after, share)
+    way[0] = way_left(p, start[0], guide)
     parent[0] = NONE
     code[0] = 0
     following[0] = NONE
-    f = bucket_of(0, way[0], weight, heads.shape[0])
+    f = bucket_of(0, way[0], guide.weight, heads.shape[0])
     heads[f] = 0
     table[rough_slot(keys[0], table, keys)] = 0
     return f
 
 
 @kernel
-def search(
-    p, keys, g, way, parent, code, following, heads, table, state, codes, stances, margins, words, tally,
-    fields, frame, hold_fields, after, share, weight, visits, crowding, quota,
-):  # fmt: skip
+def search(p, nodes, guide, state, room, tally, quota):
     """Expand stances in order of cost + weight * way left until a goal, the end of the open list or of the arrays, or a quota.
 
     The way left from a place grows with every stance that was expanded there, so that a dead end fills up and the search leaves it (as in
@@ -119,22 +149,20 @@ def search(
 
     Args:
         p: A family's parameters.
-        keys: Key of every node, shape (capacity, words).
-        g, way, parent, code: Actions so far, way left, parent, action of every node.
-        following, heads: The open list: next node in the same bucket, first node of each bucket.
-        table: Hash table of the nodes; its size is a power of two.
+        nodes: Stances seen; updated in place.
+        guide: The way that is left; its visits are updated in place.
         state: Nodes, lowest bucket, expanded, actions judged, goal node (-1: none), node with the least way left; updated in place.
-        codes, stances, margins, words: Scratch: candidates, two records, checks, a key.
+        room: Scratch.
         tally: How often each check forbade an action.
-        fields, frame, hold_fields, after, share: See `way_left`.
-        weight: How much a step of way left counts beside an action made.
-        visits: Stances expanded at every place, shape (rows, columns); updated in place.
-        crowding: By how much each of them makes the way left longer [steps].
         quota: Most stances to expand in this call.
 
     Returns:
         FOUND, EXHAUSTED, FULL or RUNNING.
     """
+    keys, g, way, parent, code, following, heads, table = nodes
+    fields, frame, weight = guide.fields, guide.frame, guide.weight
+    visits, crowding = guide.visits, guide.crowding
+    codes, stances, margins, words, _ = room
     for _ in range(quota):
         while state[LOWEST] < heads.shape[0] and heads[state[LOWEST]] < 0:
             state[LOWEST] += 1
@@ -169,7 +197,7 @@ def search(
             for i in range(words.shape[0]):
                 keys[child, i] = words[i]
             g[child] = g[node] + 1
-            way[child] = way_left(p, stances[1], fields, frame, hold_fields, after, share)
+            way[child] = way_left(p, stances[1], guide)
             parent[child] = node
             code[child] = codes[c]
             if way[child] < way[state[BEST]]:

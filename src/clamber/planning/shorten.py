@@ -15,8 +15,8 @@ from .problem.problem import CompiledProblem
 from .problem.problems import goal_step, plan_family, pose_problem
 from .progress import Clock, Listener, Shortening
 from .result import PlanResult
-from .shorten_kernels import collect, search_window, shortest, stance_keys
-from .stance_table import path_to, rehash, table_size
+from .shorten_kernels import Graph, Line, Tree, collect, search_window, shortest, stance_keys
+from .stance_table import path_to, rehash, scratch_for, table_size
 
 SHORTEST_WINDOW: Final = 6
 """Actions of the smallest window."""
@@ -46,18 +46,18 @@ class WindowSearch:
     def __init__(self, problem: CompiledProblem, most: int) -> None:
         """Take memory for windows of at most `most` stances."""
         capacity = most + problem.branching
-        self.keys = np.zeros((capacity, problem.key_words), np.int64)
-        self.g = np.zeros(capacity, np.int32)
-        self.closed = np.zeros(capacity, np.uint8)
-        self.parent = np.zeros(capacity, np.int32)
-        self.code = np.zeros(capacity, np.int32)
-        self.entries = np.zeros(capacity, np.int32)
-        self.following = np.zeros(capacity, np.int64)
-        self.table = np.zeros(table_size(capacity), np.int32)
-        self.codes = np.zeros(problem.branching, np.int32)
-        self.stances = np.zeros(2, problem.start.dtype)
-        self.margins = np.zeros(len(problem.checks))
-        self.words = np.zeros(problem.key_words, np.int64)
+        self.tree = Tree(
+            keys=np.zeros((capacity, problem.key_words), np.int64),
+            g=np.zeros(capacity, np.int32),
+            closed=np.zeros(capacity, np.uint8),
+            parent=np.zeros(capacity, np.int32),
+            code=np.zeros(capacity, np.int32),
+            entries=np.zeros(capacity, np.int32),
+            following=np.zeros(capacity, np.int64),
+            heads=np.zeros(0, np.int64),
+            table=np.zeros(table_size(capacity), np.int32),
+        )
+        self.room = scratch_for(problem)
         self.state = np.zeros(5, np.int64)
         self.seen = 0
         self.checks = 0
@@ -85,19 +85,15 @@ class WindowSearch:
         table = np.zeros(table_size(len(plan)), np.int32)
         table[:] = -1
         rehash(keys, len(plan), table)
-        heads = np.zeros(len(plan) + 1, np.int64)
-        search_window(
-            params, plan, keys, table, first, last, to_goal, self.keys, self.g, self.closed, self.parent, self.code,
-            self.entries, self.following, heads, self.table, self.codes, self.stances, self.margins, self.words,
-            self.state,
-        )  # fmt: skip
+        tree = self.tree._replace(heads=np.zeros(len(plan) + 1, np.int64))
+        search_window(params, Line(plan, keys, table), (first, last), to_goal, tree, self.room, self.state)
         nodes, judged, node, rejoined, saved = (int(value) for value in self.state)
         self.seen += nodes
         self.checks += judged
-        self.complete &= nodes + problem.branching <= len(self.keys)
+        self.complete &= nodes + problem.branching <= len(tree.keys)
         if not saved:
             return codes
-        way = path_to(self.parent, self.code, node)
+        way = path_to(tree.parent, tree.code, node)
         shorter = np.concatenate([codes[:first], way, codes[rejoined:]]).astype(np.int32)
         return shorter if is_plan(problem, shorter) else codes
 
@@ -213,21 +209,20 @@ def _through(problem: CompiledProblem, codes: Ints, size: int) -> tuple[Ints, in
     """The shortest plan in a corridor; stances and actions that it took; whether every stance that matters was in it."""
     plan = problem.replay(codes).stances
     room = size + len(plan) + problem.branching
-    keys = np.zeros((room, problem.key_words), np.int64)
-    leads = np.zeros(room, np.uint8)
-    table = np.full(table_size(room), -1, np.int32)
-    first_edge = np.zeros(room + 1, np.int64)
-    edge_to = np.zeros(EDGES_PER_STANCE * room, np.int32)
-    edge_code = np.zeros(EDGES_PER_STANCE * room, np.int32)
+    graph = Graph(
+        keys=np.zeros((room, problem.key_words), np.int64),
+        leads=np.zeros(room, np.uint8),
+        table=np.full(table_size(room), -1, np.int32),
+        first_edge=np.zeros(room + 1, np.int64),
+        edge_to=np.zeros(EDGES_PER_STANCE * room, np.int32),
+        edge_code=np.zeros(EDGES_PER_STANCE * room, np.int32),
+    )
     state = np.zeros(3, np.int64)
-    collect(
-        problem.params.record, plan, keys, leads, table, first_edge, edge_to, edge_code, np.zeros(problem.branching, np.int32),
-        np.zeros(2, plan.dtype), np.zeros(len(problem.checks)), np.zeros(problem.key_words, np.int64), state,
-    )  # fmt: skip
+    collect(problem.params.record, plan, graph, scratch_for(problem), state)
     nodes, expanded, judged = (int(value) for value in state)
     parent = np.zeros(nodes, np.int32)
     code = np.zeros(nodes, np.int32)
-    goal = shortest(expanded, leads, first_edge, edge_to, edge_code, parent, code, np.zeros(nodes, np.int32))
+    goal = shortest(expanded, graph, parent, code, np.zeros(nodes, np.int32))
     complete = expanded == nodes
     if goal < 0:
         return codes, nodes, judged, complete

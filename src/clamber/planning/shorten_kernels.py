@@ -1,11 +1,54 @@
 """Shorter ways between stances of a plan as kernels: A* through a window, and the shortest way through the stances about it."""
 
 import math
+from typing import NamedTuple
+
+import numpy as np
 
 from ..compiled import inlined, kernel
+from ..types import Ints, Records
 from .exact.records import NONE
 from .problem.family_kernels import bound, candidates, done, key, restore, step, toward
 from .stance_table import slot_of
+
+Keys = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
+
+
+class Line(NamedTuple):
+    """A plan's stances, start included, with their keys and the hash table of these."""
+
+    stances: Records
+    keys: Keys
+    table: Ints
+
+
+class Tree(NamedTuple):
+    """Nodes of a search, their number bounds its effort; its open list; and its hash table."""
+
+    keys: Keys
+    g: Ints
+    closed: np.ndarray[tuple[int, ...], np.dtype[np.uint8]]
+    parent: Ints
+    code: Ints
+    entries: Ints
+    following: Ints
+    heads: Keys
+    table: Ints
+
+
+class Graph(NamedTuple):
+    """Nodes with the ways on from them."""
+
+    keys: Keys
+    leads: np.ndarray[tuple[int, ...], np.dtype[np.uint8]]
+    """Whether a node meets the goal."""
+    table: Ints
+    first_edge: Keys
+    """First edge of every node, and the end; nodes that were not expanded have none."""
+    edge_to: Ints
+    """Node that an edge leads to."""
+    edge_code: Ints
+    """Its action."""
 
 
 @kernel
@@ -22,10 +65,7 @@ def left(p, s, target, to_goal):
 
 
 @kernel
-def search_window(
-    p, plan, plan_keys, plan_table, first, last, to_goal, keys, g, closed, parent, code, entries, following, heads, table, codes,
-    stances, margins, words, state,
-):  # fmt: skip
+def search_window(p, line, window, to_goal, tree, room, state):
     """Search from stance `first` of a plan to its stance `last` for a way with fewer actions than the plan takes.
 
     Ways that come back to the plan anywhere after `first`, or reach the goal, count too: what they save is known at once, and only ways
@@ -33,15 +73,17 @@ def search_window(
 
     Args:
         p: A family's parameters.
-        plan: Stances of the plan, start included; `plan_keys` their keys, `plan_table` the hash table of these.
-        first, last: The window.
-        to_goal: Whether the window may end in any goal stance, not only in stance `last`.
-        keys, g, closed, parent, code: Nodes, as in `kernels.search`; their number bounds the effort.
-        entries, following, heads: The open list, as there.
-        table: Hash table of the nodes.
-        codes, stances, margins, words: Scratch.
+        line: The plan.
+        window: Its first and last stance.
+        to_goal: Whether the window may end in any goal stance, not only in its last one.
+        tree: Filled.
+        room: Scratch.
         state: Output: nodes, actions judged, node that rejoins, stance of the plan where it does, actions saved.
     """
+    plan, plan_keys, plan_table = line
+    first, last = window
+    keys, g, closed, parent, code, entries, following, heads, table = tree
+    codes, stances, margins, words, _ = room
     end = plan.shape[0] - 1
     length = last - first
     table[:] = NONE
@@ -111,7 +153,7 @@ def search_window(
 
 
 @kernel
-def collect(p, plan, keys, leads, table, first_edge, edge_to, edge_code, codes, stances, margins, words, state):
+def collect(p, plan, graph, room, state):
     """Expand the stances of a plan, then their children, and so on, layer by layer, until the arrays are full or the space ends.
 
     A stance from which no plan shorter than the given one can lead to the goal is left out: its fewest actions from the start and to the
@@ -120,14 +162,12 @@ def collect(p, plan, keys, leads, table, first_edge, edge_to, edge_code, codes, 
     Args:
         p: A family's parameters.
         plan: Stances of the plan, start included; the last meets the goal.
-        keys: Output: key of every node, the plan's stances first.
-        leads: Output, one byte per node: whether it meets the goal.
-        table: Empty hash table of the nodes.
-        first_edge: Output: first edge of every node, and the end; nodes that were not expanded have none.
-        edge_to, edge_code: Output: node that an edge leads to, and the action.
-        codes, stances, margins, words: Scratch.
+        graph: Output, the plan's stances first; its hash table is empty.
+        room: Scratch.
         state: Output: nodes, nodes expanded, actions judged.
     """
+    keys, leads, table, first_edge, edge_to, edge_code = graph
+    codes, stances, margins, words, _ = room
     length = plan.shape[0] - 1
     nodes = 0
     for i in range(plan.shape[0]):
@@ -169,18 +209,20 @@ def collect(p, plan, keys, leads, table, first_edge, edge_to, edge_code, codes, 
 
 
 @kernel
-def shortest(expanded, leads, first_edge, edge_to, edge_code, parent, code, queue):
+def shortest(expanded, graph, parent, code, queue):
     """Breadth-first search from node 0 of a collected graph.
 
     Args:
         expanded: Nodes with edges.
-        leads, first_edge, edge_to, edge_code: As `collect` wrote them.
+        graph: As `collect` wrote it.
         parent, code: Output: where each node was reached from, and by which action.
         queue: Scratch, one entry per node.
 
     Returns:
         The goal node with the fewest actions, or -1.
     """
+    leads, first_edge = graph.leads, graph.first_edge
+    edge_to, edge_code = graph.edge_to, graph.edge_code
     parent[:] = NONE
     if leads[0]:
         return 0

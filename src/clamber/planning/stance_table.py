@@ -1,10 +1,41 @@
-"""A hash table of stances by their keys, for every search that must know where it has been."""
+"""A hash table of stances by their keys, for every search that must know where it has been, and room to look at stances in."""
+
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from ..compiled import inlined, kernel
-from ..types import Ints
+from ..types import Floats, Ints, Records
 from .problem.randoms import scramble
+
+if TYPE_CHECKING:
+    from .problem.problem import CompiledProblem
+
+
+class Scratch(NamedTuple):
+    """Where a search looks at stances and their children."""
+
+    codes: Ints
+    """For candidates."""
+    stances: Records
+    margins: Floats
+    """For the family's checks."""
+    words: "np.ndarray[tuple[int, ...], np.dtype[np.int64]]"
+    """For a key, or several."""
+    row: Floats
+    """For features."""
+
+
+def scratch_for(problem: "CompiledProblem", stances: int = 2, *, keys: int | None = None) -> Scratch:
+    """Room for so many stances and one key, or a list of `keys`."""
+    words = problem.key_words
+    return Scratch(
+        codes=np.zeros(problem.branching, np.int32),
+        stances=np.zeros(stances, problem.start.dtype),
+        margins=np.zeros(len(problem.checks)),
+        words=np.zeros(words if keys is None else (keys, words), np.int64),
+        row=np.zeros(len(problem.features)),
+    )
 
 
 @inlined

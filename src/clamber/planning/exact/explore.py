@@ -11,10 +11,10 @@ import numpy as np
 from ...types import Ints
 from ..problem.problem import CompiledProblem
 from ..progress import Clock
-from ..stance_table import rehash, table_size
+from ..stance_table import rehash, scratch_for, table_size
 from .costs import COSTS, Aim
 from .kernels import explore_some, furthest, plant
-from .records import EXHAUSTED, FOUND, FULL, LABEL, NEAREST, NEWEST, NODE, RUNNING, SEARCH, SHORTEST, STATE
+from .records import EXHAUSTED, FOUND, FULL, LABEL, NEAREST, NEWEST, NODE, RUNNING, SEARCH, SHORTEST, STATE, Seen
 
 BUCKETS: Final = 1 << 16
 FIRST: Final = 1 << 14
@@ -37,6 +37,11 @@ class Memory:
         self.state = np.zeros(1, STATE)
         self.state["goal"] = -1
         self.table = self._table()
+
+    @property
+    def seen(self) -> Seen:
+        """As kernels take it."""
+        return Seen(self.nodes, self.keys, self.labels, self.heads, self.steps, self.table)
 
     def _table(self) -> Ints:
         table = np.full(table_size(len(self.keys)), -1, np.int32)
@@ -166,27 +171,17 @@ def explore(
     clock = Clock(seconds)
     memory = Memory(problem, most_stances)
     params, state = problem.params.record, memory.state
-    codes = np.zeros(problem.branching, np.int32)
-    stances = np.zeros(4, problem.start.dtype)
-    margins = np.zeros(len(problem.checks))
-    words = np.zeros((2, problem.key_words), np.int64)
-    row = np.zeros(len(problem.features))
+    room = scratch_for(problem, 4, keys=2)
     tally = np.zeros(len(problem.checks), np.int64)
     search = search_record(problem, aim, dominance=dominance)
-    planted = plant(
-        params, search, state[0], problem.start, memory.nodes, memory.labels, memory.keys, memory.heads, memory.steps, memory.table,
-        stances, words, row,
-    )  # fmt: skip
+    planted = plant(params, search, state[0], problem.start, memory.seen, room)
     status, interrupted = RUNNING if planted else EXHAUSTED, False
     try:
         quota, looked = FIRST_QUOTA, time.monotonic()
         while status in (RUNNING, FULL):
-            if status == FULL and not memory.grow(len(codes)):
+            if status == FULL and not memory.grow(problem.branching):
                 break
-            status = explore_some(
-                params, search, state[0], memory.nodes, memory.labels, memory.keys, memory.heads, memory.steps, memory.table, codes,
-                stances, margins, words, row, tally, quota,
-            )  # fmt: skip
+            status = explore_some(params, search, state[0], memory.seen, room, tally, quota)
             if tell is not None and status != EXHAUSTED:  # nothing is open any more, so there is no least cost of it
                 tell(int(state["nodes"][0]), _reached(state, search))
             before, looked = looked, time.monotonic()
@@ -201,7 +196,7 @@ def explore(
         best = ways[0].codes
     else:
         n = int(state["nodes"][0])
-        node = furthest(params, memory.keys, n, stances, row, problem.features.index("body"))
+        node = furthest(params, memory.keys, n, room.stances, room.row, problem.features.index("body"))
         best = memory.trace(problem, memory.label_of(node)) if planted else np.zeros(0, np.int32)
     return Exploration(
         found=status == FOUND,

@@ -26,8 +26,18 @@ def lay(search, state, labels, steps, at, ahead):
 
 
 @inlined
-def add_label(search, state, labels, heads, steps, node, first, second, ahead, parent, code, flipped):
-    """Put a way to a stance into the open list; `ahead` is the bound on its actions."""
+def add_label(search, state, seen, node, costs, ahead, way):
+    """Put a way to a stance into the open list.
+
+    Args:
+        search, state, seen: As in `explore_some`.
+        node: The stance.
+        costs: First and second.
+        ahead: Bound on the actions still needed.
+        way: The label before, the action, and whether the stance kept is the mirror image of the one that it led to.
+    """
+    labels, heads = seen.labels, seen.heads
+    first, second = costs
     at = state.labels
     state.labels += 1
     label = labels[at]
@@ -35,21 +45,20 @@ def add_label(search, state, labels, heads, steps, node, first, second, ahead, p
     label.second = second
     label.ahead = ahead
     label.node = node
-    label.parent = parent
-    label.code = code
-    label.flipped = flipped
+    label.parent, label.code, label.flipped = way
     f = first + ahead if search.informed else first
     bucket = min(np.int64(f / search.width + EQUAL), heads.shape[0] - 1)
     if bucket <= state.lowest:
-        lay(search, state, labels, steps, at, ahead)
+        lay(search, state, labels, seen.steps, at, ahead)
     else:
         label.next = heads[bucket]
         heads[bucket] = at
 
 
 @inlined
-def take_label(search, state, labels, heads, steps):
+def take_label(search, state, seen):
     """The next label, or -1: there is none in this bucket, and the next one that holds some is laid out."""
+    labels, heads, steps = seen.labels, seen.heads, seen.steps
     while state.level < state.levels and steps[state.level] < 0:
         state.level += 1
     if state.level < state.levels:
@@ -107,8 +116,10 @@ def grown(p, column, cost, row):
 
 
 @inlined
-def passed_over(p, search, s, first, second, nodes, keys, table, words, freed):
+def passed_over(p, search, s, costs, seen, words, freed):
     """Whether a freer stance was reached at no more cost: whatever can be done from here can be done from there."""
+    nodes, keys, table = seen.nodes, seen.keys, seen.table
+    first, second = costs
     which = 0
     while freer(p, s, which, freed):
         key(p, freed, words)
@@ -124,8 +135,10 @@ def passed_over(p, search, s, first, second, nodes, keys, table, words, freed):
 
 
 @kernel
-def plant(p, search, state, start, nodes, labels, keys, heads, steps, table, stances, words, row):
+def plant(p, search, state, start, seen, room):
     """Put the start stance into an empty search; False if the bound rules out every goal."""
+    nodes, keys, table = seen.nodes, seen.keys, seen.table
+    stances, words, row = room.stances, room.words, room.row
     ahead = bound(p, start[0])
     stances[1] = start[0]
     flipped = keep(p, stances, 1, words) - 1
@@ -147,14 +160,12 @@ def plant(p, search, state, start, nodes, labels, keys, heads, steps, table, sta
     if ahead == math.inf or (search.capped >= 0 and row[search.capped] > search.cap):
         return False
     state.lowest = NONE
-    add_label(search, state, labels, heads, steps, 0, first, second, ahead, NONE, 0, flipped)
+    add_label(search, state, seen, 0, (first, second), ahead, (NONE, 0, flipped))
     return True
 
 
 @kernel
-def explore_some(
-    p, search, state, nodes, labels, keys, heads, steps, table, codes, stances, margins, words, row, tally, quota
-):  # fmt: skip
+def explore_some(p, search, state, seen, room, tally, quota):
     """Take labels in order of first cost + bound until the goal, the end of the space, the end of the arrays, or a quota.
 
     A stance is reached again where that is better by the lexicographic order of the two costs, so a label's costs are least as soon as
@@ -166,26 +177,21 @@ def explore_some(
         p: A family's parameters.
         search: What is minimized, record of `SEARCH`.
         state: Where the search is, record of `STATE`; updated in place.
-        nodes, keys: `NODE` and key of every stance seen, shapes (room,), (room, words).
-        labels, heads: `LABEL`s and the first of each bucket.
-        steps: The first label of each level of the bucket being emptied.
-        table: Hash table of the stances; its size is a power of two.
-        codes: Scratch for candidates.
-        stances: Scratch, four records.
-        margins: Scratch of the family's checks.
-        words: Scratch, two keys.
-        row: Scratch for features.
+        seen: What it knows.
+        room: Scratch, of four stances and two keys.
         tally: How often each check forbade an action.
         quota: Most labels to take in this call.
 
     Returns:
         FOUND, EXHAUSTED, FULL or RUNNING.
     """
+    nodes, labels, keys, heads, table = seen.nodes, seen.labels, seen.keys, seen.heads, seen.table
+    codes, stances, margins, words, row = room
     simple = search.second < 0 and search.informed
     for _ in range(quota):
         if max(state.nodes + codes.shape[0] > keys.shape[0], state.labels + codes.shape[0] > labels.shape[0]):
             return FULL
-        taken = take_label(search, state, labels, heads, steps)
+        taken = take_label(search, state, seen)
         if taken < 0:
             if state.goal >= 0 and not search.front:
                 return FOUND
@@ -248,9 +254,8 @@ def explore_some(
                 continue
             if new_first + (ahead if search.informed else 0.0) > search.at_most:
                 continue
-            if search.dominance and passed_over(
-                p, search, stances[kept], new_first, new_second, nodes, keys, table, words[1], stances[3]
-            ):
+            costs = (new_first, new_second)
+            if search.dominance and passed_over(p, search, stances[kept], costs, seen, words[1], stances[3]):
                 state.dominated += 1
                 continue
             if child < 0:
@@ -263,9 +268,7 @@ def explore_some(
                     keys[child, i] = words[0, i]
             nodes[child].first = new_first
             nodes[child].second = new_second
-            add_label(
-                search, state, labels, heads, steps, child, new_first, new_second, ahead, taken, codes[c], kept - 1
-            )
+            add_label(search, state, seen, child, costs, ahead, (taken, codes[c], kept - 1))
     return RUNNING
 
 

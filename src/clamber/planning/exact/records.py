@@ -1,6 +1,10 @@
 """What an exact search reads and writes: its aim, its state, stances and the ways to them, as fixed-size records."""
 
+from typing import NamedTuple
+
 import numpy as np
+
+from ...types import Ints, Records
 
 RUNNING, FOUND, EXHAUSTED, FULL = 0, 1, 2, 3
 NONE = -1
@@ -59,3 +63,20 @@ SEARCH = np.dtype(
     align=True,
 )
 """What a search minimizes."""
+
+
+class Seen(NamedTuple):
+    """What a search knows."""
+
+    nodes: Records
+    """`NODE` of every stance seen, shape (room,)."""
+    keys: "np.ndarray[tuple[int, ...], np.dtype[np.int64]]"
+    """Shape (room, words)."""
+    labels: Records
+    """Ways to them."""
+    heads: Ints
+    """The first label of each bucket."""
+    steps: Ints
+    """The first label of each level of the bucket being emptied."""
+    table: Ints
+    """Hash table of the stances; its size is a power of two."""

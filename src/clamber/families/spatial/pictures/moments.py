@@ -14,7 +14,17 @@ from ..planning.judging_kernels import judge_stance
 from ..planning.problem import problem_params
 from ..planning.task import SpatialTask
 from ..statics.checks import EQUILIBRIUM
-from .geometry import LinkFrames, Posed, SwingPath, body_between, centre_of_mass, joint_torques, link_frames, posed, swing_between
+from .geometry import (
+    LinkFrames,
+    Posed,
+    SwingPath,
+    body_between,
+    centre_of_mass,
+    joint_torques,
+    link_frames,
+    posed,
+    swing_between,
+)
 
 SWINGING: Final = -1
 """In place of a hold's index, of a limb that is on its way."""
@@ -134,7 +144,9 @@ class Between:
 
     def parts(self) -> list[Part[Moment]]:
         """The motion: a body that moves over its holds, or a limb that swings from hold to hold."""
-        moved = [limb for limb, (old, new) in enumerate(zip(self.before.holds, self.after.holds, strict=True)) if old != new]
+        moved = [
+            limb for limb, (old, new) in enumerate(zip(self.before.holds, self.after.holds, strict=True)) if old != new
+        ]
         if not moved:
             return [Part("move", lambda share, way: self.body(share))]
         path = self._path(moved[0])
@@ -144,7 +156,9 @@ class Between:
 
     def _path(self, limb: int) -> SwingPath:
         ends = np.stack((self.before.tips[limb], self.after.tips[limb]))
-        return SwingPath(limb, ends, np.stack((self.before.normals[limb], self.after.normals[limb])), self.task.rules.lift)
+        return SwingPath(
+            limb, ends, np.stack((self.before.normals[limb], self.after.normals[limb])), self.task.rules.lift
+        )
 
     def body(self, share: float) -> Moment:
         """The body at a share of its way; forces pass from those of one stance to those of the next."""

@@ -48,7 +48,10 @@ class SpatialView(PlanView[Moment]):
     def __init__(self, task: SpatialTask, replay: Replay, camera: Camera) -> None:
         self.camera, self.names = camera, task.robot.chains.limb_names
         sticks = yardsticks_of(task)
-        limited = np.abs(np.nan_to_num(replay.margins, nan=NOTHING_LIMITS)).min(axis=0, initial=NOTHING_LIMITS) < NOTHING_LIMITS
+        limited = (
+            np.abs(np.nan_to_num(replay.margins, nan=NOTHING_LIMITS)).min(axis=0, initial=NOTHING_LIMITS)
+            < NOTHING_LIMITS
+        )
         known = limited | (len(replay.margins) == 0)
         checks = [k for k, check in enumerate(sticks.checks) if sticks.sizes.get(check.name, 0.0) > 0.0 and known[k]]
         sizes = np.array([sticks.sizes[sticks.checks[k].name] for k in checks])

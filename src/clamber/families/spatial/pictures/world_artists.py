@@ -97,10 +97,16 @@ def _draw_faces(axes: Axes, faces: list[Face], camera: Camera) -> None:
         return
     paint = [shade(face.normal, camera) for face in faces]
     boxy = {index for index in (face.solid for face in faces) if sum(face.solid == index for face in faces) <= 3}
-    edges = [EDGE if face.solid in boxy and face.solid >= 0 else colour for face, colour in zip(faces, paint, strict=True)]
+    edges = [
+        EDGE if face.solid in boxy and face.solid >= 0 else colour for face, colour in zip(faces, paint, strict=True)
+    ]
     axes.add_collection(
         PolyCollection(
-            [camera.flat(face.corners) for face in faces], facecolors=paint, edgecolors=edges, linewidths=0.5, zorder=1.0
+            [camera.flat(face.corners) for face in faces],
+            facecolors=paint,
+            edgecolors=edges,
+            linewidths=0.5,
+            zorder=1.0,
         )
     )
 
@@ -163,7 +169,10 @@ def _draw_goal(axes: Axes, task: SpatialTask, goal: Goal, index: int, camera: Ca
     if not len(inside):
         return
     top = inside[int(np.argmax(inside[:, 1] - 1e-3 * inside[:, 0]))]
-    left, high = float(top[0]) <= 0.5 * (bounds[0] + bounds[1]), float(top[1]) > bounds[2] + 0.96 * (bounds[3] - bounds[2])
+    left, high = (
+        float(top[0]) <= 0.5 * (bounds[0] + bounds[1]),
+        float(top[1]) > bounds[2] + 0.96 * (bounds[3] - bounds[2]),
+    )
     axes.annotate(
         goal_label(task, index), tuple(top), xytext=(3 if left else -3, -3 if high else 3), textcoords="offset points",
         ha="left" if left else "right", va="top" if high else "bottom", fontsize=8, color=GOAL_WORDS, zorder=9, path_effects=[halo()],
@@ -244,10 +253,18 @@ def _draw_scale(axes: Axes, task: SpatialTask, camera: Camera, bounds: Bounds) -
             path_effects=[halo(2.0)],
         )  # fmt: skip
     fall = np.array(task.world.gravity)
-    if np.linalg.norm(fall) > 1e-9 and abs(float(camera.axes[1] @ fall)) < 0.999 * float(np.linalg.norm(fall)) and not _is_down(fall):
+    if (
+        np.linalg.norm(fall) > 1e-9
+        and abs(float(camera.axes[1] @ fall)) < 0.999 * float(np.linalg.norm(fall))
+        and not _is_down(fall)
+    ):
         down = arm * camera.flat(fall / np.linalg.norm(fall))
         axes.annotate(
-            "", tuple(origin + down), tuple(origin), zorder=9, arrowprops={"arrowstyle": "-|>", "color": style.INK, "lw": 1.2}
+            "",
+            tuple(origin + down),
+            tuple(origin),
+            zorder=9,
+            arrowprops={"arrowstyle": "-|>", "color": style.INK, "lw": 1.2},
         )
 
 
