@@ -1,7 +1,7 @@
-"""Holds that are generated over a guide: the same seed makes the same world on every machine."""
+"""Holds that are generated on surfaces: the same seed makes the same world on every machine."""
 
 import math
-from typing import Annotated, Literal
+from typing import Annotated
 
 import numpy as np
 from pydantic import Field
@@ -13,23 +13,44 @@ from ....units import (
     NonNegativeAngle,
     NonNegativeLength,
     NonNegativeRatio,
+    Place,
     PositiveForce,
     PositiveLength,
     Quantity,
 )
 from .guide import GRAIN
+from .solids import Direction, frame_about, unit
 
 Span = tuple[Length, Length]
 Seed = Annotated[int, Field(strict=True, ge=0)]
 
 
 @spec
-class Pattern:
-    """A jittered grid of holds on the surface that a guide runs over, or holds on bars beside it."""
+class Patch:
+    """A flat surface somewhere."""
 
-    kind: Literal["grid"] = "grid"
+    at: Place
+    """Its origin, world frame."""
+    x: Direction
+    """Along it."""
+    normal: Direction
+    """Out of it."""
+
+    @property
+    def frames(self) -> Floats:
+        """As those of a guide along x, shape (2, 12)."""
+        axes = frame_about(unit(self.normal), unit(self.x))
+        return np.stack([np.concatenate((np.array(self.at) + k * GRAIN * axes[0], axes.ravel())) for k in range(2)])
+
+
+@spec
+class Pattern:
+    """A jittered grid of holds on the surface that a guide runs over, or on a flat patch somewhere."""
+
+    on: Patch | None = None
+    """None: on the guide."""
     along: Span
-    """From where to where along the guide [m]; beyond its ends the guide goes straight on."""
+    """From where to where along the guide, or the patch's x [m]; beyond its ends a guide goes straight on."""
     across: Span
     """From where to where across it [m]."""
     spacing: PositiveLength
@@ -61,6 +82,7 @@ class Pattern:
             frames: Of the guide, shape (n, 12).
         """
         rng = np.random.default_rng(self.seed)
+        frames = frames if self.on is None else self.on.frames
         waves = _waves(rng, self.bump_length) if self.bumps > 0.0 else None
         made = []
         for along in _steps(self.along, self.spacing):
