@@ -70,17 +70,12 @@ def test_every_stance_of_a_plan_stands_by_an_independent_calculation(name: str) 
         for limb, place in enumerate(places):
             tip = plain.tip(chains, limb, stance["q"][limb], base)
             assert np.linalg.norm(tip - place) < 1e-4 * float(problem.params.array("robot")["size"][0])  # type: ignore[call-overload]
-        frames = np.zeros((len(holds), 3, 3))
-        for limb, normal in enumerate(normals):
-            first = plain.frames(chains, limb, stance["q"][limb], base)[-1][:3, 0]
-            first = first - (first @ normal) * normal
-            first /= np.linalg.norm(first)
-            frames[limb] = normal, first, np.cross(normal, first)
         still = plain.PlainStance(
-            base=base, gravity=np.array(world.gravity), wrench=np.zeros(6), posture=stance["q"], places=places, frames=frames,
+            base=base, gravity=np.array(world.gravity), wrench=np.zeros(6), posture=stance["q"], places=places,
+            normals=normals, along=np.zeros_like(normals),
             bears=[True] * len(holds), strength=np.full(len(holds), np.inf), friction=np.full(len(holds), np.inf),
         )  # fmt: skip
-        s = plain.solve_forces(chains, list(it.robot.contacts), still).s
+        s = plain.solve_forces(chains, list(it.robot.contacts), still)
         assert s == pytest.approx(stance["share"], abs=1e-6) and s >= it.rules.need - 1e-9
 
 
