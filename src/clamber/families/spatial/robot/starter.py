@@ -40,8 +40,8 @@ def import_robot(model_file: Path, target: Path, name: str) -> ImportedRobot:
     model = read_model(model_file)
     found = find_limbs(model.tree)
     if not 1 <= len(found.limbs) <= MAX_LIMBS:
-        looked = "; ".join(found.looked) or "no joint moves a link"
-        told = f"has {len(found.limbs) or 'no'} limb{'s' if found.limbs else ''}: looked at chains to {looked}"
+        looked = f"looked at chains to {'; '.join(found.looked)}" if found.looked else "no joint moves a link"
+        told = f"has {len(found.limbs) or 'no'} limb{'s' if found.limbs else ''}: {looked}"
         allowed = (
             f"a robot has 1 to {MAX_LIMBS} limbs, chains of two joints or more that are not short beside the longest"
         )
