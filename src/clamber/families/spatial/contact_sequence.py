@@ -11,6 +11,7 @@ from .planning.task import SpatialTask
 
 SCHEMA: Final = "clamber-contacts-1"
 FRAMES: Final = "SI units, world frame; orientations are quaternions w, x, y, z of the base; wrenches are those on the robot, moments about the tip"
+"""What the numbers are, in the file itself."""
 
 
 def contact_sequence(task: SpatialTask, replay: Replay) -> Json:

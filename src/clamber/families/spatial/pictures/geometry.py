@@ -46,7 +46,7 @@ class LinkFrames:
         return self.origins[..., -1, :]
 
 
-def posed(chains: Chains, stances: np.void | np.ndarray) -> Posed:  # type: ignore[type-arg]
+def posed(chains: Chains, stances: np.void | np.ndarray) -> Posed:
     """Body and joints of a stance record, or of an array of them."""
     limbs, most = chains.lower.shape
     turn = np.asarray(stances["turn"], np.float64)
@@ -153,15 +153,12 @@ def _damped(jacobian: Floats, error: Floats) -> Floats:
 def rotation_between(before: Floats, after: Floats, share: float) -> Floats:
     """The rotation at a share of the shortest turn from one to another, shape (3, 3) each."""
     turned = before.T @ after
-    angle = math.acos(max(-1.0, min(1.0, 0.5 * (float(np.trace(turned)) - 1.0))))
+    skew = np.array((turned[2, 1] - turned[1, 2], turned[0, 2] - turned[2, 0], turned[1, 0] - turned[0, 1]))
+    angle = math.atan2(float(np.linalg.norm(skew)), float(np.trace(turned)) - 1.0)
     if angle < 1e-9:
         return after.copy()
-    skew = np.array((turned[2, 1] - turned[1, 2], turned[0, 2] - turned[2, 0], turned[1, 0] - turned[0, 1]))
-    if math.sin(angle) < 1e-6:  # half a turn: the axis is that of the symmetric part
-        axis = np.linalg.eigh(turned + turned.T)[1][:, -1]
-    else:
-        axis = skew / np.linalg.norm(skew)
-    x, y, z = axis
+    half = math.sin(angle) < 1e-6  # the axis is then that of the symmetric part
+    x, y, z = np.linalg.eigh(turned + turned.T)[1][:, -1] if half else skew / np.linalg.norm(skew)
     cross = np.array(((0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0)))
     partly = share * angle
     made: Floats = before @ (np.eye(3) + math.sin(partly) * cross + (1.0 - math.cos(partly)) * (cross @ cross))

@@ -1,5 +1,6 @@
 """How robots in space are drawn: a stance, a whole plan, and what needs a camera."""
 
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -74,7 +75,7 @@ def _mark_used(wall: Axes, task: SpatialTask, camera: Camera, moments: list[Mome
 
 
 def _write_panel(layout: Layout, panel: Axes, task: SpatialTask, replay: Replay, moments: list[Moment]) -> None:
-    regrabs = sum(before.holds != after.holds for before, after in zip(moments, moments[1:], strict=False))
+    regrabs = sum(before.holds != after.holds for before, after in pairwise(moments))
     path = (
         float(np.linalg.norm(np.diff([at.body.place for at in moments], axis=0), axis=1).sum())
         if len(moments) > 1

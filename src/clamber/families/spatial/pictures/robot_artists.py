@@ -221,9 +221,7 @@ class RobotArtists:
 
     def _arrows(self, at: Moment) -> Floats:
         """Outlines of the contact forces on the tips, shape (n, 7, 2)."""
-        known = np.isfinite(at.wrenches[:, :3]).all(axis=1)
-        scale = force_scale(self._task)
-        forces = np.where(known[:, None], at.wrenches[:, :3], 0.0) * scale
+        forces = np.nan_to_num(at.wrenches[:, :3]) * force_scale(self._task)
         seen = np.linalg.norm(forces, axis=1) > SMALLEST * ARROW * longest_limb(self._task)
         return arrows(self._camera.flat(at.tips[seen]), self._camera.flat(forces[seen]), 0.0034 * self._size)
 
@@ -241,14 +239,9 @@ def arrows(starts: Floats, ways: Floats, width: float) -> Floats:
     side = np.stack((-ahead[:, 1], ahead[:, 0]), axis=1)
     head = np.minimum(7.0 * width, 0.6 * length)
     thick = np.minimum(width, 0.25 * length)
-    corners = [
-        (0.0, 1.0), (length - head, 1.0), (length - head, 2.9), (length, 0.0), (length - head, -2.9), (length - head, -1.0), (0.0, -1.0),
-    ]  # fmt: skip
-    made: Floats = np.stack(
-        [
-            starts + np.reshape(at * np.ones(len(starts)), (-1, 1)) * ahead + (off * thick)[:, None] * side
-            for at, off in corners
-        ],
-        axis=1,
+    along = np.stack(
+        (0.0 * length, length - head, length - head, length, length - head, length - head, 0.0 * length), axis=1
     )
+    aside = thick[:, None] * np.array((1.0, 1.0, 2.9, 0.0, -2.9, -1.0, -1.0))
+    made: Floats = starts[:, None] + along[..., None] * ahead[:, None] + aside[..., None] * side[:, None]
     return made

@@ -120,7 +120,8 @@ def way_places(task: SpatialTask, *alongs: float) -> Floats:
 def share_gauges(names: tuple[str, ...]) -> Gauges:
     """One bar per check: how much of its limit is left."""
     return Gauges(
-        title="Share of each limit that is left", names=names, colours=(style.STRIP[3],) * len(names), low=np.zeros(len(names)), high=np.ones(len(names)),
+        title="Share of each limit that is left", names=names, colours=(style.STRIP[3],) * len(names),
+        low=np.zeros(len(names)), high=np.ones(len(names)),
         limits=(), calm=(0.0, math.inf), unit=("%", 0.01, 0), group=1,
     )  # fmt: skip
 
@@ -210,7 +211,8 @@ def draw_key(panel: Axes, left: float, y: float, task: SpatialTask, metres: floa
     """
     quiet = style.QUIET
     for x, marker, face, edge, words in (
-        (0.0, "o", HOLDS, style.HOLD, "hold"), (0.62, "o", "#CFE0EE", style.PARTS[0], "held"), (1.24, "o", style.PAPER, style.INK, "centre of mass"),
+        (0.0, "o", HOLDS, style.HOLD, "hold"), (0.62, "o", "#CFE0EE", style.PARTS[0], "held"),
+        (1.24, "o", style.PAPER, style.INK, "centre of mass"),
     ):  # fmt: skip
         panel.plot([left + x + 0.06], [y], marker=marker, ms=6.5, mfc=face, mec=edge, mew=1.2, ls="", clip_on=False)
         panel.text(left + x + 0.17, y, words, fontsize=7, va="center", color=quiet)

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -163,7 +164,7 @@ def _solid_faces(record: np.void, shown: Floats) -> Iterator[tuple[Floats, Float
     around = np.cos(angles)[:, None] * axes[0] + np.sin(angles)[:, None] * axes[1]
     rings = max(1, round((high - low) / (2.0 * radius))) if kind == TUBE else 1
     edges = np.linspace(low, high, rings + 1)
-    for bottom, top in zip(edges[:-1], edges[1:], strict=True):
+    for bottom, top in pairwise(edges):
         ends = [centre + radius * around + height * axes[2] for height in (bottom, top)]
         for k in range(SIDES):
             out = around[k] + around[k + 1]
@@ -203,7 +204,9 @@ class Ribbon:
             yield np.stack((right[k], right[k + 1], left[k + 1], left[k])), self.frames[k, 9:] + self.frames[k + 1, 9:]
 
     def _sides(self, cell: float) -> Floats:
-        return np.arange(math.ceil(self.right / cell - 1e-6), math.floor(self.left / cell + 1e-6) + 1) * cell
+        first, last = math.ceil(self.right / cell - 1e-6), math.floor(self.left / cell + 1e-6)
+        sides: Floats = cell * np.arange(first, last + 1, dtype=np.float64)
+        return sides
 
     def _rows(self, cell: float) -> Floats:
         """Indices of the frames that lines across are drawn at."""

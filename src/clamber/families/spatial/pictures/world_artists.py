@@ -165,7 +165,8 @@ def _draw_goal(axes: Axes, task: SpatialTask, goal: Goal, index: int, camera: Ca
                 linestyles="-" if last else (0, (3, 2)),
             )
         )  # fmt: skip
-    inside = Path(outline).clip_to_bbox(Bbox.from_extents(bounds[0], bounds[2], bounds[1], bounds[3])).vertices
+    clipped = Path(outline).clip_to_bbox(Bbox.from_extents(bounds[0], bounds[2], bounds[1], bounds[3]))
+    inside = np.asarray(clipped.vertices, np.float64)
     if not len(inside):
         return
     top = inside[int(np.argmax(inside[:, 1] - 1e-3 * inside[:, 0]))]
