@@ -2,27 +2,41 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Final
 
 import typer
 
-from ...terminal.options import AsJson, Output, Overrides, PlannerName, Quiet, Ray, Workers
+from ...planning.planners import USUAL_PLANNER as USUAL
+from ...terminal.name_completion import names_of
+from ...terminal.options import AsJson, Output, Overrides, Quiet, Ray, Workers
 from ...terminal.output import check_writable
 
 if TYPE_CHECKING:
     from ...tasks import Task
 
 
+PROFILE: Final = "default"
+"""Settings of the genetic planner, unless a profile is named."""
+EVALUATIONS: Final = 50_000
+"""Whole plans that it tries, unless told."""
+
+
 @dataclass(frozen=True, slots=True)
 class PlanOptions:
     """Options of `clamber plan`, as they came."""
 
-    planner: PlannerName = "genetic"
-    profile: Annotated[str, typer.Option(help="The planner's settings: default, or thesis.")] = "default"
+    planner: Annotated[
+        str | None,
+        typer.Option(
+            help="How to search (`clamber list planners`); auto, unless an option asks for another.",
+            autocompletion=names_of("planners"),
+        ),
+    ] = None
+    profile: Annotated[str, typer.Option(help="The planner's settings: default, or thesis.")] = PROFILE
     overrides: Overrides = None
     seed: Annotated[int, typer.Option(min=0, help="Same seed, same plan, on any number of threads.")] = 0
     threads: Annotated[int | None, typer.Option(min=1, help="Threads; one a core unless given.")] = None
-    evaluations: Annotated[int, typer.Option(min=1, help="Most whole plans to try.")] = 50_000
+    evaluations: Annotated[int, typer.Option(min=1, help="Most whole plans to try.")] = EVALUATIONS
     checks: Annotated[
         int | None, typer.Option(min=1, help="Most single actions to judge, for planners that count them.")
     ] = None
@@ -70,6 +84,19 @@ class PlanOptions:
         """Make sure that files can be written before anything runs."""
         for file in (self.output, self.checkpoint, self.history):
             check_writable(file)
+        if self.pareto is not None and self.chosen != "exact":
+            raise typer.BadParameter(f"only the exact planner finds fronts, not {self.chosen}", param_hint="--pareto")
+
+    @property
+    def chosen(self) -> str:
+        """The planner: the one that is named, else the one that the options are for, else the usual one."""
+        if self.planner is not None:
+            return self.planner
+        if self.pareto or self.minimize or self.stances:
+            return "exact"
+        stated = self.profile != PROFILE or self.evaluations != EVALUATIONS
+        genetic = (self.islands, self.history, self.checkpoint, self.macros, stated)
+        return "genetic" if any(genetic) else "beam" if self.width else USUAL
 
     def planner_options(self, task: "Task") -> dict[str, Any]:
         """What the planner is told: what is usual as far as it takes it, and what was asked for.
@@ -96,14 +123,14 @@ class PlanOptions:
             "--stances": ("max_stances", self.stances),
             "--width": ("width", self.width),
         }
-        options: dict[str, Any] = {name: value for name, value in usual.items() if accepts(self.planner, name)}
+        options: dict[str, Any] = {name: value for name, value in usual.items() if accepts(self.chosen, name)}
         for flag, (name, value) in stated.items():
             if value is None:
                 continue
-            if not accepts(self.planner, name):
-                raise typer.BadParameter(f"the {self.planner} planner does not take it", param_hint=flag)
+            if not accepts(self.chosen, name):
+                raise typer.BadParameter(f"the {self.chosen} planner does not take it", param_hint=flag)
             options[name] = value
-        if self.history is not None and self.planner != "genetic":
+        if self.history is not None and self.chosen != "genetic":
             raise typer.BadParameter("only the genetic planner has one", param_hint="--history")
         if self.islands is None and (self.workers or self.ray):
             raise typer.BadParameter("are for --islands", param_hint="--workers, --ray")
