@@ -1,6 +1,9 @@
 """One usual planner everywhere; an option that is for one planner chooses it, and what another cannot do is refused."""
 
 import inspect
+import os
+import subprocess
+import sys
 from collections.abc import Callable
 
 import pytest
@@ -67,3 +70,10 @@ def test_help_cuts_no_name_of_an_option(clamber: Clamber) -> None:
     out = clamber("plan", "--help")[1]
     assert "--openings-secon…" not in out
     assert "--openings-secon" in out and "ds " in out
+
+
+def test_a_terminal_of_few_letters_gets_no_traceback() -> None:
+    words = [sys.executable, "-c", "from clamber.cli import main; main()", "plan", "--help"]
+    told = subprocess.run(words, capture_output=True, check=False, env={**os.environ, "PYTHONIOENCODING": "latin-1"})
+    assert told.returncode == 0, told.stderr.decode("latin-1")
+    assert b"--openings" in told.stdout

@@ -3,6 +3,7 @@
 Exit codes: 0 found, holds, or done; 1 no plan, or a violation; 2 bad input; 70 an unexpected error; 130 interrupted.
 """
 
+import io
 import math
 import os
 import sys
@@ -189,6 +190,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
         arguments: Words after `clamber`; None takes those of the process.
     """
     words = sys.argv[1:] if arguments is None else list(arguments)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper) and not stream.encoding.lower().startswith("utf"):
+            stream.reconfigure(errors="replace")  # a letter that the terminal has not is a "?", and no traceback
     called = next((word for word in words if not word.startswith("-")), "")
     completes = "_CLAMBER_COMPLETE" in os.environ  # the words come another way
     try:

@@ -9,7 +9,7 @@ from ....specs import build_spec, field_names
 from ....tasks.parts import parts_of
 from ....tasks.task_format import SCHEMA, TaskFormat, check_angle, hashes_of
 from ..robot.robot import LimbedRobot, build_limbed
-from ..world.board import SHORT_KEYS, Board, build_board
+from ..world.board import SHORT_KEYS, Board, build_board, listed_board
 from ..world.library import read_board
 from .task import FREE, LimbedTask, Start, TaskSpec
 from .task_checks import check_centres, check_goal, check_rules, check_start, listed
@@ -89,6 +89,7 @@ FILES: Final = TaskFormat(
     world_key="board",
     read_world=read_board,
     build=build_limbed_task,
+    listed_world=listed_board,
     task_spec=TaskSpec,
     task_keys=field_names(TaskSpec),
     robot_keys=tuple(name for name in field_names(LimbedRobot) if name != "sources"),
