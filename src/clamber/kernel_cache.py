@@ -153,7 +153,12 @@ def tell_no_cache() -> None:
 
 @cache
 def _problem_at_start() -> tuple[str, str] | None:
-    """`cache_problem` when the first kernel was met, with the folder made where there is none."""
+    """`made_problem` when the first kernel was met."""
+    return made_problem()
+
+
+def made_problem() -> tuple[str, str] | None:
+    """`cache_problem`, with the folder made where there is none."""
     problem = cache_problem()
     if problem is None:
         try:

@@ -207,7 +207,7 @@ def test_a_found_plan_is_written_checked_and_the_same_again(run: Any, tmp_path: 
     answer = run("plan", "ladder", "--seed", "1", "--json", "-o", str(output))
     told = answer.json
     assert answer.code == 0 and told["status"] == "found" and told["length"] == len(told["codes"])
-    assert "generation" in answer.err
+    assert "layer" in answer.err
     checked = run("check", str(output), "--json")
     assert checked.code == 0 and checked.json["reached"] and checked.json["steps"] == told["length"]
     assert checked.json["max_torque_oz_in"] == pytest.approx(told["max_torque_oz_in"])

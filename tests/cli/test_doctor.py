@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -57,6 +58,15 @@ def test_a_cache_that_is_no_folder_is_wrong(
     file.write_text("")
     monkeypatch.setenv("CLAMBER_CACHE", str(file))
     assert any("CLAMBER_CACHE" in line for line in told(capsys)["problems"])
+
+
+def test_a_cache_that_cannot_be_made_is_wrong(
+    clamber: Callable[..., tuple[int, str, str]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("CLAMBER_CACHE", "/proc/nowhere")
+    _, out, _ = clamber("doctor")
+    assert "nothing is wrong" not in out
+    assert "cannot be made" in out and "compiled anew by every command" in " ".join(out.split())
 
 
 def test_a_missing_package_is_wrong_and_a_missing_extra_is_not(

@@ -1,12 +1,14 @@
 """Plan, check a plan, look for what would open a task; and what a planner of one's own needs to answer."""
 
 from collections.abc import Sequence
+from inspect import Parameter, signature
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from pydantic import ConfigDict, TypeAdapter, ValidationError
 
-from ..errors import PlannerError, SpecError
+from ..errors import OptionError, PlannerError, SpecError
 from ..inspection.finding import Finding
 from ..inspection.open_file import inspect_file
 from ..planning.exact.costs import read_costs
@@ -40,15 +42,50 @@ def plan(task: Task | str, planner: str = "auto", *, minimize: str | None = None
     Raises:
         ClamberError: If the task cannot be had, its start does not hold, or the planner has no such option.
     """
-    chosen = load_task(task) if isinstance(task, str) else task
+    chosen = task_of(task)
     search = find_planner(planner)
     if minimize is not None:
         options["minimize"] = read_costs("minimize", minimize)
     for name in options:
         if not accepts(planner, name):
             raise PlannerError(planner, chosen.name, f"it has no option '{name}'")
+        _check_option(name, options[name], signature(search).parameters.get(name))
     usual = {name: value for name, value in USUAL.items() if accepts(planner, name)}
     return search(chosen, **(usual | options))
+
+
+def task_of(task: Any) -> Task:
+    """A task, or the one of a name or file.
+
+    Raises:
+        OptionError: If it is neither.
+    """
+    if isinstance(task, str | Path):
+        return load_task(str(task))
+    if not isinstance(task, Task):
+        raise OptionError(
+            "task", f"{_short(task)} is no task", "give one of `clamber.load_task`, or a task's name or file"
+        )
+    return task
+
+
+def _check_option(name: str, value: Any, parameter: Parameter | None) -> None:
+    """Make sure that an option of a planner is of the kind that it takes, and no number below 0."""
+    kind = None if parameter is None or isinstance(parameter.annotation, str) else parameter.annotation
+    if parameter is None or kind is None or kind is Parameter.empty:
+        return
+    words = getattr(kind, "__name__", None) if isinstance(kind, type) else str(kind)
+    try:
+        TypeAdapter(kind, config=ConfigDict(arbitrary_types_allowed=True)).validate_python(value, strict=True)
+    except ValidationError:
+        raise OptionError(name, f"{_short(value)} is not what it takes", f"it takes {words}") from None
+    if isinstance(value, int | float) and not value >= 0:
+        raise OptionError(name, f"{value} is below 0, or no number", "it must be 0 or more")
+
+
+def _short(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."
 
 
 def check(what: Plan | PlanResult | str | Path, task: Task | str | None = None, *, go_on: bool = False) -> Verdict:
@@ -69,10 +106,14 @@ def check(what: Plan | PlanResult | str | Path, task: Task | str | None = None, 
         opened = open_plan(what, task if isinstance(task, str) else None)
         return check_plan(opened.task if task is None or isinstance(task, str) else task, opened.plan, go_on=go_on)
     made = what.plan if isinstance(what, PlanResult) else what
+    if not isinstance(made, Plan):
+        raise OptionError(
+            "what", f"{_short(what)} is no plan", "give a plan, a planner's answer, or a plan's name or file"
+        )
     if task is None:
         own: Task = what.task if isinstance(what, PlanResult) else made.rebuild_task()
     else:
-        own = load_task(task) if isinstance(task, str) else task
+        own = task_of(task)
     return check_plan(own, made, go_on=go_on)
 
 
@@ -105,7 +146,7 @@ def find_openings(task: Task | PlanResult | str, *, seconds: float = 60.0, threa
     Raises:
         ClamberError: If the task cannot be had.
     """
-    chosen = task.task if isinstance(task, PlanResult) else load_task(task) if isinstance(task, str) else task
+    chosen = task.task if isinstance(task, PlanResult) else task_of(task)
     return _find_openings(chosen, seconds=seconds, threads=threads)
 
 

@@ -3,6 +3,7 @@
 Exit codes: 0 found, holds, or done; 1 no plan, or a violation; 2 bad input; 70 an unexpected error; 130 interrupted.
 """
 
+import io
 import math
 import os
 import sys
@@ -73,6 +74,29 @@ def _checked(before: Any, most: float, why: str) -> Any:
     return check
 
 
+def _whole_names(format_help: Any) -> Any:
+    """A command's help whose names of options break over lines where they are too long for their column, and are not cut."""
+
+    def format_whole(*args: Any) -> None:
+        from rich.table import Table
+        from typer import rich_utils
+
+        class Whole(Table):
+            def add_row(self, *cells: Any, **style: Any) -> None:
+                super().add_row(*cells, **style)
+                for column in self.columns:
+                    column.overflow = "fold"
+
+        library = cast(Any, rich_utils)
+        before, library.Table = library.Table, Whole
+        try:
+            format_help(*args)
+        finally:
+            library.Table = before
+
+    return format_whole
+
+
 SHOWS_UNITS: Final = ("check", "plan", "polish", "reach", "rehearse", "run", "show", "sweep", "trials", "view")
 """Commands that print or draw quantities of a task."""
 
@@ -109,6 +133,7 @@ def command_of(app: typer.Typer) -> Command:
         if path[:1] and path[0] in SHOWS_UNITS:
             command.params.append(_units_option())
         limit_numbers(command, path)
+        command.format_help = _whole_names(command.format_help)  # type: ignore[method-assign]
         if command.rich_markup_mode == "rich":  # a plain terminal prints no markup, so none is to be escaped
             for told in (command, *command.params):
                 text = getattr(told, "help", None)
@@ -165,6 +190,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
         arguments: Words after `clamber`; None takes those of the process.
     """
     words = sys.argv[1:] if arguments is None else list(arguments)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper) and not stream.encoding.lower().startswith("utf"):
+            stream.reconfigure(errors="replace")  # a letter that the terminal has not is a "?", and no traceback
     called = next((word for word in words if not word.startswith("-")), "")
     completes = "_CLAMBER_COMPLETE" in os.environ  # the words come another way
     try:

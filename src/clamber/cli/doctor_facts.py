@@ -195,7 +195,7 @@ def kernels() -> Kernels:
     """Where the compiled kernels lie, whether those of this version are there, and what older ones take up."""
     root, folder = kernel_cache.cache_root(), kernel_cache.cache_folder()
     older = [path for path in root.glob("kernels-*") if path != folder] if root.is_dir() else []
-    problem = kernel_cache.cache_problem()
+    problem = kernel_cache.made_problem()
     states = {} if problem is not None else kernel_cache.cache_states(folder)
     return Kernels(
         folder=str(folder),

@@ -48,6 +48,8 @@ ROLES: Final[dict[str, tuple[str, str]]] = {
     "torque sensed": ("sensed_torque", "torque"),
 }
 """Role -> field of `JointSamples` and dimension."""
+DRIVES: Final = frozenset({"torque", "command", "current", "torque sensed"})
+"""What drives a joint: an angle without one, such as a body's, is no joint's."""
 _WORDS: Final[dict[tuple[str, ...], str | None]] = {
     ("output", "angle"): "output angle",
     ("output", "position"): "output angle",
@@ -116,6 +118,12 @@ def samples_of(log: Log, mapping: Mapping[str, str] | None = None) -> LimbSample
         known = describe_choices("angle", log.columns)
         allowed = f"no column is a joint's angle; name it 'NAME angle [rad]' or state which is; there are {known}"
         raise LogError(log.label, None, None, None, allowed)
+    driven = {joint for joint, role in found if role in DRIVES}
+    if passed := [
+        joint for joint in names if driven and joint not in driven and found[joint, "angle"] not in (mapping or {})
+    ]:
+        names = [joint for joint in names if joint not in passed]
+        notes.append(f"passed over, as the log has no torque, current or command of it: {', '.join(passed)}")
     out = []
     for joint in names:
         fields: dict[str, Floats] = {}

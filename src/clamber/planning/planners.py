@@ -76,6 +76,8 @@ PLANNERS: Final[dict[str, BuiltIn]] = {
 }
 """Name -> planner, ours; `find_planner` knows those of other packages too."""
 
+USUAL_PLANNER: Final = "auto"
+"""Where none is asked for, in commands and in Python."""
 PROVERS: Final = ("exact", "auto")
 """Planners that can prove that there is no plan."""
 USUAL: Final = ("progress", "seconds", "seed", "threads")
@@ -132,6 +134,6 @@ def _guarded(name: str, planner: Callable[..., Any]) -> Planner:
     return plan
 
 
-def plan_task(task: "Task", planner: str = "genetic", **options: Any) -> "PlanResult":
+def plan_task(task: "Task", planner: str = USUAL_PLANNER, **options: Any) -> "PlanResult":
     """Plan with a planner by name, ours or another package's."""
     return find_planner(planner)(task, **options)

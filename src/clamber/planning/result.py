@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 import numpy as np
 
+from ..family import family_of
 from ..json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ..tasks import Task
 from ..types import Ints
@@ -107,6 +108,15 @@ class PlanResult(Jsonable):
     """None where there is a plan."""
     history: Annotated[tuple[Generation, ...], HIDDEN] = ()
     macros: Annotated[tuple[Macro, ...], HIDDEN] = field(default=())
+
+    def __repr__(self) -> str:
+        return f"<PlanResult {self.status}: {self.length} actions for {self.task.name!r} by {self.planner}, {self.seconds:.1f} s>"
+
+    def _repr_html_(self) -> str:
+        """The plan as a notebook shows it: a picture, with what was found below."""
+        codes = self.plan.codes(self.task, "plan")
+        replay = plan_family(self.task).problem(self.task).replay(codes, go_on=True)
+        return family_of(self.task).pictures.html(self.task, replay, f"{self.status}: {self.reason}")
 
     @property
     @in_json(after="codes")

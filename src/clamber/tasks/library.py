@@ -1,6 +1,7 @@
 """Tasks by name or path: a task file names its robot and its board, and the robot's family builds the whole."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any, Protocol, runtime_checkable
 
 from ..family import Family, families
@@ -91,6 +92,10 @@ def change_task(task: Task, overrides: Sequence[str]) -> Task:
 def _overridden(merged: Document, overrides: Sequence[str], label: str) -> Task:
     """The task of a merged document with overrides; `label` is what errors call the robot."""
     files = family_in(merged.section("robot", label)).files
+    parts = f"{files.world_key}.holds."
+    if files.listed_world is not None and any(text.strip().startswith(parts) for text in overrides):
+        listed = files.listed_world(merged.section(files.world_key, label))
+        merged = replace(merged, data={**merged.data, files.world_key: listed})
     task_keys = (*files.task_keys, "robot", files.world_key)
     whole = apply_overrides(merged, overrides, task_keys, files.robot_keys, files.short_keys)
     return _built(whole, family_in(whole.section("robot", label)))

@@ -33,6 +33,8 @@ class TaskFormat:
     """Keys of a task file beside robot and world."""
     robot_keys: tuple[str, ...]
     """Keys of a robot file; an override may start with them."""
+    listed_world: Callable[[Document], Json] | None = None
+    """A world's document with what a generator makes of it written out, so that overrides reach each part; None: it has no generators."""
     short_keys: Mapping[str, str] = field(default_factory=dict)
     """Other words for keys of the world, for overrides."""
 

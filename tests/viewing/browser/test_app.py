@@ -260,7 +260,7 @@ def test_a_run_that_nothing_judges_shows_the_margins_of_its_plan(serve: Serve, c
     assert "of the plan, at its step" in app.stage._texts["margins"].content
     app.choose("run")
     app.playback.jump(1)
-    assert "Nothing judges this" in app.stage._texts["margins"].content
+    assert "checks judge the steps of a plan" in app.stage._texts["margins"].content
 
 
 def test_what_is_found_for_a_board_that_was_changed_meanwhile_is_left_out(

@@ -186,6 +186,11 @@ def print_comparison(console: Console, result: "LimbResult", *, everything: bool
     console.print(f"gains: {result.match_words()}")
     console.print()
     _print_measures(console, result, TELLING[kind])
+    from ...control.law_settings import law_names
+
+    others = set(law_names()) - {row.run.entry.settings.law for row in result.rows}
+    if others and kind == "circle":
+        console.print(f"laws that are not shown, each by -c NAME: {', '.join(sorted(others))}")
     if everything:
         console.print()
         _print_measures(console, result, MORE[kind])

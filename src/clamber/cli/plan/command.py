@@ -29,13 +29,13 @@ def plan(
     from ...planning.planners import PROVERS, find_planner
     from .openings import Seeker
 
-    find_planner(words.search)
+    find_planner(words.chosen)
     announce_compilation(quiet=words.quiet)
     if words.pareto is not None:
         from .front import front
 
         raise typer.Exit(front(problem, words.pareto, words))
-    sought = words.openings_seconds if words.openings and words.search in PROVERS and not words.to_run else None
+    sought = words.openings_seconds if words.openings and words.chosen in PROVERS and not words.to_run else None
     seeker = Seeker(problem, sought, words.threads, words.as_json, words.quiet)
     if words.to_run:
         from .to_run import plan_to_run
@@ -67,12 +67,12 @@ def _search(task: "Task", words: PlanOptions, seeker: "Seeker") -> "PlanResult":
     """Search as was asked for: on islands, or by one planner, whose trouble with the start is told with what would allow it."""
     options = words.planner_options(task)
     if words.islands is not None:
-        return islands_result(task, words.search, options, words.islands, words.workers, words.ray, quiet=words.quiet)
+        return islands_result(task, words.chosen, options, words.islands, words.workers, words.ray, quiet=words.quiet)
     from ...planning.planners import plan_task
     from .text import ProgressLine
 
     with seeker.told_of_start(), ProgressLine(stderr(), quiet=words.quiet) as line:
-        return plan_task(task, words.search, progress=line.update, **options)
+        return plan_task(task, words.chosen, progress=line.update, **options)
 
 
 TAKEN = ("seed", "profile", "max_evaluations")

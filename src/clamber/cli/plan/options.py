@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Final
 
 import typer
 
+from ...planning.planners import USUAL_PLANNER as USUAL
 from ...terminal.name_completion import names_of
 from ...terminal.options import AsJson, Output, Overrides, Quiet, Ray, Workers
 from ...terminal.output import check_writable
@@ -13,9 +14,10 @@ from ...terminal.output import check_writable
 if TYPE_CHECKING:
     from ...tasks import Task
 
-PLANNER: Final = "genetic"
-RUN_PLANNER: Final = "auto"
-"""As of `clamber run`."""
+PROFILE: Final = "default"
+"""Settings of the genetic planner, unless a profile is named."""
+EVALUATIONS: Final = 50_000
+"""Whole plans that it tries, unless told."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,18 +27,18 @@ class PlanOptions:
     planner: Annotated[
         str | None,
         typer.Option(
-            help=f"How to search (`clamber list planners`); {PLANNER}, with --to-run {RUN_PLANNER}, unless given.",
+            help="How to search (`clamber list planners`); auto, unless an option asks for another.",
             autocompletion=names_of("planners"),
         ),
     ] = None
     to_run: Annotated[
         bool, typer.Option("--to-run", help="Plan as `clamber run` does: with room for what happens on the way.")
     ] = False
-    profile: Annotated[str, typer.Option(help="The planner's settings: default, or thesis.")] = "default"
+    profile: Annotated[str, typer.Option(help="The planner's settings: default, or thesis.")] = PROFILE
     overrides: Overrides = None
     seed: Annotated[int, typer.Option(min=0, help="Same seed, same plan, on any number of threads.")] = 0
     threads: Annotated[int | None, typer.Option(min=1, help="Threads; one a core unless given.")] = None
-    evaluations: Annotated[int, typer.Option(min=1, help="Most whole plans to try.")] = 50_000
+    evaluations: Annotated[int, typer.Option(min=1, help="Most whole plans to try.")] = EVALUATIONS
     checks: Annotated[
         int | None, typer.Option(min=1, help="Most single actions to judge, for planners that count them.")
     ] = None
@@ -80,15 +82,23 @@ class PlanOptions:
     as_json: AsJson = False
     quiet: Quiet = False
 
-    @property
-    def search(self) -> str:
-        """The planner's name."""
-        return self.planner or (RUN_PLANNER if self.to_run else PLANNER)
-
     def check(self) -> None:
         """Make sure that files can be written before anything runs."""
         for file in (self.output, self.checkpoint, self.history):
             check_writable(file)
+        if self.pareto is not None and self.chosen != "exact":
+            raise typer.BadParameter(f"only the exact planner finds fronts, not {self.chosen}", param_hint="--pareto")
+
+    @property
+    def chosen(self) -> str:
+        """The planner: the one that is named, else the one that the options are for, else the usual one."""
+        if self.planner is not None:
+            return self.planner
+        if self.pareto or self.minimize or self.stances:
+            return "exact"
+        stated = self.profile != PROFILE or self.evaluations != EVALUATIONS
+        genetic = (self.islands, self.history, self.checkpoint, self.macros, stated)
+        return "genetic" if any(genetic) else "beam" if self.width else USUAL
 
     def planner_options(self, task: "Task") -> dict[str, Any]:
         """What the planner is told: what is usual as far as it takes it, and what was asked for.
@@ -115,14 +125,14 @@ class PlanOptions:
             "--stances": ("max_stances", self.stances),
             "--width": ("width", self.width),
         }
-        options: dict[str, Any] = {name: value for name, value in usual.items() if accepts(self.search, name)}
+        options: dict[str, Any] = {name: value for name, value in usual.items() if accepts(self.chosen, name)}
         for flag, (name, value) in stated.items():
             if value is None:
                 continue
-            if not accepts(self.search, name):
-                raise typer.BadParameter(f"the {self.search} planner does not take it", param_hint=flag)
+            if not accepts(self.chosen, name):
+                raise typer.BadParameter(f"the {self.chosen} planner does not take it", param_hint=flag)
             options[name] = value
-        if self.history is not None and self.search != "genetic":
+        if self.history is not None and self.chosen != "genetic":
             raise typer.BadParameter("only the genetic planner has one", param_hint="--history")
         if self.islands is None and (self.workers or self.ray):
             raise typer.BadParameter("are for --islands", param_hint="--workers, --ray")

@@ -30,7 +30,7 @@ def plan_to_run(task: Task, words: PlanOptions) -> PlanResult:
     dynamics, clock = dynamics_of(family_of(task)), Clock()
     unused = PlanOptions.__dataclass_fields__.keys() - TAKEN
     refuse_unused(words, unused, "--to-run plans as `clamber run` does")
-    asked = RunRequest(planner=words.search, seed=words.seed)
+    asked = RunRequest(planner=words.chosen, seed=words.seed)
     asked = asked if words.seconds is None else replace(asked, plan_seconds=words.seconds)
     dynamics.check(task, asked)
     compile_ahead(*dynamics.compiled)
@@ -54,5 +54,5 @@ def plan_to_run(task: Task, words: PlanOptions) -> PlanResult:
         checks=0,
         seconds=clock.spent,
         seed=words.seed,
-        planner=plan.planner or words.search,
+        planner=plan.planner or words.chosen,
     )

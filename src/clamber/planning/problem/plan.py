@@ -36,6 +36,9 @@ class Plan:
     planner: StrictStr = ""
     """Who made it, such as "genetic/default" or a table of a paper."""
 
+    def __repr__(self) -> str:
+        return f"<Plan of {len(self.actions)} actions for {self.task!r}{f' by {self.planner}' if self.planner else ''}>"
+
     @classmethod
     def of_codes(
         cls,

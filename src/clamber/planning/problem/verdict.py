@@ -184,6 +184,11 @@ class Verdict(Jsonable):
     per_step: tuple[StepVerdict, ...]
     """As far as the replay went; the violating step is the last where it did not go on."""
 
+    def __repr__(self) -> str:
+        goal = "goal reached" if self.reached else "goal not reached"
+        word = "holds" if self.ok else "VIOLATED"
+        return f"<Verdict {word}: {self.steps} of {self.length} actions of {self.task!r}, {goal}>"
+
     @property
     @in_json(after="steps")
     def reached(self) -> bool:

@@ -74,7 +74,7 @@ def strip_html(film: Film[Any], step: int, name: str) -> str:
 def margins_html(rows: list[MarginRow], whose: str = "") -> str:
     """A bar for every check, the nearest to failing in bold; checks that only report are paler; `whose` says what they are of."""
     if not rows:
-        return f'<div style="font-size:12px;color:{style.QUIET};{PAD}">Nothing judges this.</div>'
+        return f'<div style="font-size:12px;color:{style.QUIET};{PAD}">No margins here: checks judge the steps of a plan.</div>'
     made = []
     for row in sorted(rows, key=lambda row: (not row.hard, row.share)):
         shade = (

@@ -1,7 +1,7 @@
 """A log identified: every joint that it has, with what the robot's file says of it where a robot is named."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -171,7 +171,18 @@ def identify_log(
             continue
         found_joints.append(identify_joint(samples, motion, load, drivetrain, seed))
     notes += [note for joint in found_joints if (note := _pull_note(joint, upright=upright))]
+    notes += [note for joint in found_joints for note in _impossible(joint)]
     return Identification(log.label, robot, name, tuple(found_joints), tuple(notes))
+
+
+def _impossible(joint: IdentifiedJoint) -> Iterator[str]:
+    """What no joint can have: the log does not tell it, or the joint is none."""
+    for estimate in joint.estimates:
+        if estimate.name in UNITS_OF_FILE and estimate.value is not None and estimate.value < 0.0:
+            yield (
+                f"WARNING: {joint.samples.name}: its {estimate.name} came out below 0, which cannot be: these are not its torques, "
+                "or the log moves it too little; do not use its numbers"
+            )
 
 
 def _pull_note(joint: IdentifiedJoint, *, upright: bool) -> str | None:

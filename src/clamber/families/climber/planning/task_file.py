@@ -15,7 +15,7 @@ from ....tasks.regions import check_order, check_polygon
 from ....tasks.task_format import SCHEMA, TaskFormat, check_angle, check_hard, hashes_of
 from ..robot.robot import LimbedRobot, build_limbed
 from ..statics.checks import LIMBED_CHECKS
-from ..world.board import SHORT_KEYS, Board, build_board
+from ..world.board import SHORT_KEYS, Board, build_board, listed_board
 from ..world.library import read_board
 from .task import FREE, Goal, LimbedTask, Rules, Start, TaskSpec
 
@@ -227,6 +227,7 @@ FILES: Final = TaskFormat(
     world_key="board",
     read_world=read_board,
     build=build_limbed_task,
+    listed_world=listed_board,
     task_spec=TaskSpec,
     task_keys=field_names(TaskSpec),
     robot_keys=tuple(name for name in field_names(LimbedRobot) if name != "sources"),

@@ -14,7 +14,7 @@ from ....errors import UnknownHoldError
 from ....files import Document, check_schema
 from ....specs import Name, build_spec, spec
 from ....tasks.regions import check_polygon
-from ....types import Floats, Ints
+from ....types import Floats, Ints, Json
 from ....units import (
     Angle,
     ConeAngle,
@@ -278,6 +278,19 @@ def build_board(document: Document) -> Board:
     for index, polygon in enumerate(board.keep_out):
         check_polygon(polygon, document, f"keep_out.{index}")
     return board
+
+
+def listed_board(document: Document) -> Json:
+    """The document of a board with every hold in its list, in place of a generator of them."""
+    if "holds" in document.data:
+        return document.data
+    kept = {key: value for key, value in document.data.items() if key not in ("ladder", "grid", "random")}
+    made = build_board(Document(document.label, {**document.data, "added": []}, document.overrides, document.folder))
+    rows = [
+        {"number": hold.number, "x": f"{hold.x!r} m", "y": f"{hold.y!r} m", "radius": f"{hold.radius!r} m"}
+        for hold in made.holds
+    ]
+    return {**kept, "holds": rows}
 
 
 def _with_radius(document: Document) -> Document:
