@@ -10,10 +10,10 @@ LONG = 400
 MANY = 8
 """Parameters of a function."""
 CEILINGS = {
-    "lines": 94_731,
-    "files": 640,
+    "lines": 94_697,
+    "files": 637,
     f"files above {LONG} lines": 0,
-    f"functions with more than {MANY} parameters": 68,
+    f"functions with more than {MANY} parameters": 62,
     "median length of a line": 40,
     "90th percentile of the length of a line": 98,
 }
