@@ -44,9 +44,8 @@ class NoiseKind:
 
     def __post_init__(self) -> None:
         if not self.unit:
-            unit, scale = SHOWN[self.dimension]
-            object.__setattr__(self, "unit", unit)
-            object.__setattr__(self, "scale", scale)
+            for key, usual in zip(("unit", "scale"), SHOWN[self.dimension], strict=True):
+                object.__setattr__(self, key, usual)
 
     def shown(self, value: float) -> str:
         """A value in the unit, such as "6.35 mm"."""
