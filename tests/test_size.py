@@ -10,8 +10,8 @@ LONG = 400
 MANY = 8
 """Parameters of a function."""
 CEILINGS = {
-    "lines": 94_697,
-    "files": 637,
+    "lines": 94_731,
+    "files": 640,
     f"files above {LONG} lines": 0,
     f"functions with more than {MANY} parameters": 60,
     "median length of a line": 40,
