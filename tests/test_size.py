@@ -13,7 +13,7 @@ CEILINGS = {
     "lines": 94_731,
     "files": 640,
     f"files above {LONG} lines": 0,
-    f"functions with more than {MANY} parameters": 68,
+    f"functions with more than {MANY} parameters": 60,
     "median length of a line": 40,
     "90th percentile of the length of a line": 98,
 }

@@ -1,6 +1,7 @@
 """Ways of free limbs: where one waits while the body moves, where one leaves its hold, and who carries meanwhile."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -14,6 +15,7 @@ from clamber.families.climber.execution.approach import (
     LEAST_CLEARANCE,
     MOST_POINTS,
     Approaches,
+    Wish,
     discs_near,
     wall_of,
 )
@@ -182,15 +184,14 @@ def test_a_hook_sets_out_to_its_hold_from_where_its_elbow_is_well_bent_if_the_bo
         before = [one.angles[1] for one in postures(limb, moved, tip - near * final.grab) if one.inside]
         return float(np.degrees(max(before, default=0.0)))
 
-    found = ways.find(RIGHT, start, pose, tip, {}, elbow=1, stand_off=0.04, near=near)
+    wish = Wish(elbow=1, stand_off=0.04, near=near)
+    found = ways.find(RIGHT, start, pose, tip, {}, wish)
     assert found is not None
     assert bends(found.shift) > 20.0
-    kept = ways.find(RIGHT, start, pose, tip, {}, elbow=1, stand_off=0.04, near=near, stands=lambda pose: False)
+    kept = ways.find(RIGHT, start, pose, tip, {}, wish, stands=lambda pose: False)
     well = bends(np.zeros(2)) > 20.0
     assert kept is None or not kept.shift.any()
-    strict = ways.find(
-        RIGHT, start, pose, tip, {}, elbow=1, stand_off=0.04, near=near, stands=lambda pose: False, straight=False
-    )
+    strict = ways.find(RIGHT, start, pose, tip, {}, replace(wish, straight=False), stands=lambda pose: False)
     assert (strict is not None) == well
 
 

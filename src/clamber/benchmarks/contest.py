@@ -141,8 +141,16 @@ def run_trial(item: Json) -> Json:
     try:
         result = find_planner(item["planner"])(task, threads=1, **item["options"])
     except ClamberError as error:
-        return {"status": REFUSED, "reason": str(error), "length": None, "first_length": None, "cost": 0, "checks": 0,
-                "seconds": 0.0, "lower_bound": None}  # fmt: skip
+        return {
+            "status": REFUSED,
+            "reason": str(error),
+            "length": None,
+            "first_length": None,
+            "cost": 0,
+            "checks": 0,
+            "seconds": 0.0,
+            "lower_bound": None,
+        }
     planned = result.status in ("found", "optimal")
     if planned:
         verdict = result.check()

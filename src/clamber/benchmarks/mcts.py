@@ -163,22 +163,10 @@ class _Tree:
         set_up, care = self.settings, luby(self.descents)
         explore = set_up.explore * (1.0 + set_up.wariness * np.log2(care))
         horizon, visits = min(LONGEST, set_up.horizon * care), set_up.visits * care
-        how = Manner(
-            explore,
-            set_up.boldness,
-            set_up.again,
-            horizon,
-            self.hunt.longest,
-            visits,
-            self.hunt.max_checks,
-            self.hunt.seed,
-        )
-        at = (root, depth)
-        return int(
-            simulate(
-                self.hunt.problem.params.record, self.weights, self.tree, self.room, self.state, at, how, self.lines
-            )
-        )
+        hunt, again = self.hunt, set_up.again
+        how = Manner(explore, set_up.boldness, again, horizon, hunt.longest, visits, hunt.max_checks, hunt.seed)
+        params, at = hunt.problem.params.record, (root, depth)
+        return int(simulate(params, self.weights, self.tree, self.room, self.state, at, how, self.lines))
 
     def _most_visited(self, root: int) -> int:
         """The edge to the child with the most visits that is neither dead nor on the way here; -1: there is none."""

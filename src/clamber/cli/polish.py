@@ -6,10 +6,11 @@ from typing import Annotated
 import typer
 
 from ..terminal.name_completion import names_of
-from ..terminal.options import AsJson, Output, Overrides, Quiet
+from ..terminal.options import Overrides, Told, takes_options
 from ..terminal.output import announce_compilation, check_writable, print_json, stderr, stdout
 
 
+@takes_options
 def polish(
     plan: Annotated[Path, typer.Argument(help="A plan: JSON of `clamber plan -o`, or TOML in the thesis's numbers.")],
     task: Annotated[
@@ -24,19 +25,18 @@ def polish(
         typer.Option(metavar="STEP", help="Of a climber: then make this step's grab where limbs are least stretched."),
     ] = None,
     seconds: Annotated[float | None, typer.Option(min=0.0, help="Most time to take.")] = None,
-    output: Output = None,
-    as_json: AsJson = False,
-    quiet: Quiet = False,
+    *,
+    told: Told,
 ) -> None:
     """Make a plan that reaches its goal shorter, by search about it; every check of the task still holds."""
-    check_writable(output)
-    announce_compilation(quiet=quiet)
+    check_writable(told.output)
+    announce_compilation(quiet=told.quiet)
     from ..planning.problem.plan_source import open_plan
     from ..planning.shorten import polish_plan
     from .plan.text import ProgressLine, print_result
 
     opened = open_plan(plan, task, overrides or ())
-    with ProgressLine(stderr(), quiet=quiet) as line:
+    with ProgressLine(stderr(), quiet=told.quiet) as line:
         result = polish_plan(
             opened.task, opened.plan, width=width, effort=effort, seconds=seconds, progress=line.update, label=str(plan)
         )
@@ -44,9 +44,9 @@ def polish(
         from ..families.climber.trials.steadying import steadied_result
 
         result = steadied_result(result, steady, str(plan))
-    if output is not None:
-        result.plan.save(output)
-    if as_json:
+    if told.output is not None:
+        result.plan.save(told.output)
+    if told.as_json:
         print_json(result)
     else:
-        print_result(stdout(), result, output)
+        print_result(stdout(), result, told.output)

@@ -10,7 +10,7 @@ from rich.table import Table
 
 from ..shown_units import ShownUnits, units_of
 from ..terminal.live_line import LiveLine
-from ..terminal.options import AsJson, Output, Overrides, Quiet, TaskName
+from ..terminal.options import Overrides, TaskName, Told, takes_options
 from ..terminal.output import announce_compilation, check_writable, print_json, stderr, stdout
 from ..viewing.text_table import plain_table
 
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from ..planning.reach.reach import Reach
 
 
+@takes_options
 def reach(
     task: TaskName,
     layer: Annotated[
@@ -31,11 +32,11 @@ def reach(
     stances: Annotated[int, typer.Option(min=1, help="Memory: most stances to keep.")] = 8_000_000,
     seconds: Annotated[float | None, typer.Option(min=0.0, help="Most time to take.")] = None,
     threads: Annotated[int | None, typer.Option(min=1, help="Threads; one a core unless given.")] = None,
-    output: Output = None,
-    as_json: AsJson = False,
-    quiet: Quiet = False,
+    *,
+    told: Told,
 ) -> None:
     """Map every pose and hold that the robot can get to, and what it costs to be there (picture, or .csv of the poses)."""
+    output = told.output
     check_writable(output)
     pictured = output is not None and output.suffix.lower() != ".csv"
     if pictured and output is not None:
@@ -48,10 +49,10 @@ def reach(
     from ..planning.reach.reach import choose_layer
 
     shown = choose_layer(loaded, layer)
-    announce_compilation(quiet=quiet)
+    announce_compilation(quiet=told.quiet)
     from ..planning.reach.reach import find_reach
 
-    with FloodLine(stderr(), quiet=quiet) as line:
+    with FloodLine(stderr(), quiet=told.quiet) as line:
         result = find_reach(
             loaded, hangs=hangs, max_stances=stances, seconds=seconds, threads=threads, progress=line.update
         )
@@ -61,7 +62,7 @@ def reach(
         draw_reach(result, shown, output)
     elif output is not None:
         result.save_table(output)
-    if as_json:
+    if told.as_json:
         print_json(result)
     else:
         _print_reach(stdout(), result, shown, output)

@@ -1,6 +1,7 @@
 """`clamber sweep`: plan a task at many values of one or two of its keys."""
 
 import re
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -16,20 +17,27 @@ if TYPE_CHECKING:
     from ..planning.sweep import Sweep
 
 
-@takes_options
-def sweep(
-    task: TaskName,
+@dataclass(frozen=True, slots=True)
+class Varied:
+    """What varies, and what is marked of it."""
+
     vary: Annotated[
         list[str] | None,
         typer.Option(metavar="KEY=LOW..HIGH:N", help="A key and its range, such as motor.torque_limit=10Nm..21Nm:12."),
-    ] = None,
+    ] = None
     values: Annotated[
         list[str] | None, typer.Option(metavar="KEY=A,B,C", help="A key and its values, such as board=ladder,h.")
-    ] = None,
+    ] = None
     mark: Annotated[
         list[str] | None,
         typer.Option(metavar="KEY=VALUE", help="Mark a value of a varied key, or low..high, in table and picture."),
-    ] = None,
+    ] = None
+
+
+@takes_options
+def sweep(
+    task: TaskName,
+    varied: Varied,
     planner: PlannerName = "exact",
     overrides: Overrides = None,
     seed: Annotated[int, typer.Option(min=0, help="Of the genetic planner.")] = 0,
@@ -47,9 +55,9 @@ def sweep(
         check_suffix(words.output, (".csv", *CANVASES))
     from ..planning.axes import check_axes, range_axis, read_mark, values_axis
 
-    axes = [*map(range_axis, vary or ()), *map(values_axis, values or ())]
+    axes = [*map(range_axis, varied.vary or ()), *map(values_axis, varied.values or ())]
     check_axes(axes)
-    marks = [read_mark(text, axes) for text in mark or ()]
+    marks = [read_mark(text, axes) for text in varied.mark or ()]
     from ..planning.planners import accepts
 
     if words.ray is None:

@@ -87,9 +87,13 @@ class WiredClimber:
         angles, speeds = self._decoder.decode(reading)
         self._gripped[self._switches] = reading.counts[self.wiring.n_encoders :]
         return BodySensed(
-            angles[:-1].reshape(-1, 2), speeds[:-1].reshape(-1, 2), float(angles[-1]), float(speeds[-1]), self._gripped,
+            angles[:-1].reshape(-1, 2),
+            speeds[:-1].reshape(-1, 2),
+            float(angles[-1]),
+            float(speeds[-1]),
+            self._gripped,
             reading.tick,
-        )  # fmt: skip
+        )
 
     def actuate(self, torques: Floats, grips: Ints) -> None:
         """See `BodyPlant`."""

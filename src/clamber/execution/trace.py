@@ -83,8 +83,12 @@ def empty_trace(chain: Chain, aims: Records, period: float, batch: int) -> LimbT
 
 
 _AXES: Final = ("x", "y", "z", "about x", "about y", "about z")
-_STATES: Final = (("sensed", 0, "angle", "rad"), ("sensed", 1, "speed", "rad/s"), ("true", 0, "output angle", "rad"),
-                  ("true", 1, "output speed", "rad/s"))  # fmt: skip
+_STATES: Final = (
+    ("sensed", 0, "angle", "rad"),
+    ("sensed", 1, "speed", "rad/s"),
+    ("true", 0, "output angle", "rad"),
+    ("true", 1, "output speed", "rad/s"),
+)
 _TORQUES: Final = (("commanded", "torque commanded"), ("applied", "torque"))
 
 

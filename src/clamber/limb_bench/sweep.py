@@ -267,9 +267,13 @@ def run_limb_sweep(bench: Bench, axes: Sequence[Axis], crew: Crew | None = None)
     scan = _scanned(axes)
     boundaries = () if scan is None else _boundaries(about, axes, scan, points, crew)
     return LimbSweep(
-        bench=bench, axes=tuple(axes), labels=labels, points=points, boundaries=boundaries,
+        bench=bench,
+        axes=tuple(axes),
+        labels=labels,
+        points=points,
+        boundaries=boundaries,
         scan=None if scan is None else axes[scan].key,
-    )  # fmt: skip
+    )
 
 
 def _result(end: Outcome, varied: Json) -> Json:

@@ -2,7 +2,7 @@
 
 import inspect
 from collections.abc import Callable
-from dataclasses import MISSING, fields, is_dataclass
+from dataclasses import MISSING, dataclass, fields, is_dataclass
 from enum import StrEnum
 from functools import wraps
 from pathlib import Path
@@ -122,6 +122,17 @@ Settings: TypeAlias = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="KEY=VALUE", help="Change the plant, such as backlash=2deg or payload=0.3kg."),
 ]
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """Options of commands that answer once: where that is written, and how it is told."""
+
+    output: Output = None
+    as_json: AsJson = False
+    quiet: Quiet = False
+
+
 PlanSeconds: TypeAlias = Annotated[
     float,
     typer.Option(min=0.0, help="Most time for each search; where it ends one, another machine may find another plan."),

@@ -5,10 +5,12 @@ from dataclasses import dataclass
 from typing import Final
 
 from ..errors import ClamberError, UnitError, describe_choices
-from ..units import parse_quantity
+from ..units import DEGREE, parse_quantity
 
 SETS: Final = ("usual", "none")
 """Names of sets of widths."""
+SHOWN: Final = {"length": ("mm", 1e-3), "angle": ("deg", DEGREE), "ratio": ("%", 0.01), "force": ("N", 1.0)}
+"""Dimension -> the unit in which it is usually shown, and that in SI."""
 
 
 class NoiseError(ClamberError):
@@ -27,9 +29,9 @@ class NoiseKind:
     """One property of robot or board that is not as believed."""
 
     dimension: str
-    unit: str
-    """In which it is shown."""
-    scale: float
+    unit: str = ""
+    """In which it is shown; that of `SHOWN` unless stated."""
+    scale: float = 0.0
     """Of that unit, in SI."""
     width: float
     """Usual largest deviation, either way, in SI."""
@@ -39,6 +41,11 @@ class NoiseKind:
     """Whether it is a share that must not take all away."""
     many: bool = False
     """Whether each peg or joint has its own."""
+
+    def __post_init__(self) -> None:
+        if not self.unit:
+            for key, usual in zip(("unit", "scale"), SHOWN[self.dimension], strict=True):
+                object.__setattr__(self, key, usual)
 
     def shown(self, value: float) -> str:
         """A value in the unit, such as "6.35 mm"."""

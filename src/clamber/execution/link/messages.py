@@ -210,9 +210,17 @@ def _foreign(start: bytearray) -> MessageError:
 def pack_about(about: About) -> bytes:
     """Payload of a WELCOME."""
     return _WELCOME.pack(
-        about.commands, about.readings, about.starts, about.truths, about.real_time, 0, about.period, about.pace,
-        cut(about.robot, 32), cut(about.place, 32),
-    )  # fmt: skip
+        about.commands,
+        about.readings,
+        about.starts,
+        about.truths,
+        about.real_time,
+        0,
+        about.period,
+        about.pace,
+        cut(about.robot, 32),
+        cut(about.place, 32),
+    )
 
 
 def unpack_about(payload: bytes) -> About:

@@ -1,6 +1,7 @@
 """`clamber rehearse`: make a climber's plan surer."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
@@ -10,7 +11,7 @@ from rich.console import Console
 from ....terminal.crew import executor_of
 from ....terminal.live_line import LiveLine
 from ....terminal.name_completion import names_of
-from ....terminal.options import AsJson, CarriedOutIn, NoiseTexts, Output, Overrides, Quiet, Ray, Workers
+from ....terminal.options import CarriedOutIn, NoiseTexts, Overrides, Ray, Told, Workers, takes_options
 from ....terminal.output import announce_compilation, check_writable, print_json, stderr, stdout
 from ....viewing.text_table import plain_table
 
@@ -59,29 +60,36 @@ def _climbed(plan: "Rehearsed") -> str:
     return f"{plan.climbed} of {len(plan.trials)} climbs"
 
 
+@dataclass(frozen=True, slots=True)
+class Rehearsing:
+    """How often, and under what a plan is rehearsed."""
+
+    n: Annotated[int, typer.Option("-n", min=1, help="Climbs of each rehearsal.")] = 24
+    lessons: Annotated[int, typer.Option(min=0, help="Most changes that are tried.")] = 12
+    seed: Annotated[int, typer.Option(min=0, help="Of a rehearsal's first climb.")] = FIRST_SEED
+    noise: NoiseTexts = None
+    task: CarriedOutIn = None
+    overrides: Overrides = None
+    seconds: Annotated[float, typer.Option(min=0.0, help="Most time for each search for another way.")] = 60.0
+
+
+@takes_options
 def rehearse(
     plan: Annotated[
         str, typer.Argument(metavar="PLAN", help="A climber's plan: name or file.", autocompletion=names_of("plans"))
     ],
-    n: Annotated[int, typer.Option("-n", min=1, help="Climbs of each rehearsal.")] = 24,
-    lessons: Annotated[int, typer.Option(min=0, help="Most changes that are tried.")] = 12,
-    seed: Annotated[int, typer.Option(min=0, help="Of a rehearsal's first climb.")] = FIRST_SEED,
-    noise: NoiseTexts = None,
-    task: CarriedOutIn = None,
-    overrides: Overrides = None,
-    seconds: Annotated[float, typer.Option(min=0.0, help="Most time for each search for another way.")] = 60.0,
+    *,
+    asked: Rehearsing,
     workers: Workers = None,
     ray: Ray = None,
-    output: Output = None,
-    as_json: AsJson = False,
-    quiet: Quiet = False,
+    told: Told,
 ) -> None:
     """Climb by a plan under noise, change what fails most, keep the change if more climbs succeed, and again.
 
     Noise as in `clamber trials`. `-o` keeps the best plan so far, from the first rehearsal on; Ctrl-C ends with it.
     """
-    check_writable(output)
-    announce_compilation(quiet=quiet)
+    check_writable(told.output)
+    announce_compilation(quiet=told.quiet)
     from ....terminal.compile_ahead import compile_ahead
     from ..trials.warm_up import CLIMBING
 
@@ -92,41 +100,41 @@ def rehearse(
     from ..trials.run_plan import climbing_task
     from ..trials.trial import TrialSetup, with_plan
 
-    widths = read_noise(named_noise("usual"), noise or ())
-    work = open_work(plan, task, overrides or ())
-    opened, asked, plant = climbing_task(work.item), work.plan, work.plant
-    if asked is None:
+    widths = read_noise(named_noise("usual"), asked.noise or ())
+    work = open_work(plan, asked.task, asked.overrides or ())
+    opened, first_plan, plant = climbing_task(work.item), work.plan, work.plant
+    if first_plan is None:
         raise typer.BadParameter(f"'{plan}' is a task; `clamber plan` makes a plan for it", param_hint="PLAN")
-    setup = with_plan(TrialSetup(task=opened, noise=widths, plan=asked, plant=plant, replan=False), label=plan)
+    setup = with_plan(TrialSetup(task=opened, noise=widths, plan=first_plan, plant=plant, replan=False), label=plan)
     executor = executor_of(ray, workers)
     executor.check()
-    told: list[tuple[Rehearsed, Lesson | None]] = []
-    with LessonsLine(stderr(), quiet=quiet) as line:
+    went: list[tuple[Rehearsed, Lesson | None]] = []
+    with LessonsLine(stderr(), quiet=told.quiet) as line:
 
         def tell(best: "Rehearsed", lesson: "Lesson | None") -> None:
-            told.append((best, lesson))
-            line.update(best, [one for _, one in told if one is not None])
-            if output is not None and (lesson is None or lesson.taken):
-                best.plan.save(output)
+            went.append((best, lesson))
+            line.update(best, [one for _, one in went if one is not None])
+            if told.output is not None and (lesson is None or lesson.taken):
+                best.plan.save(told.output)
 
         interrupted = False
         try:
             learn(
                 opened,
-                asked,
+                first_plan,
                 climbs_with(setup, executor),
-                range(seed, seed + n),
-                lessons=lessons,
-                seconds=seconds,
+                range(asked.seed, asked.seed + asked.n),
+                lessons=asked.lessons,
+                seconds=asked.seconds,
                 told=tell,
             )
         except KeyboardInterrupt:
             interrupted = True
-    if told:
-        (first, _), (best, _) = told[0], told[-1]
-        tried = [lesson for _, lesson in told if lesson is not None]
-        if as_json:
+    if went:
+        (first, _), (best, _) = went[0], went[-1]
+        tried = [lesson for _, lesson in went if lesson is not None]
+        if told.as_json:
             print_json(LearnedPlan(first, best, tried))
         else:
-            _print_lessons(stdout(), first, best, tried, output)
+            _print_lessons(stdout(), first, best, tried, told.output)
     raise typer.Exit(130 if interrupted else 0)

@@ -83,6 +83,21 @@ def rank(found: Iterable[Posture], elbow: int) -> list[Posture]:
     return sorted(fit, key=lambda one: -one.on_top)
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Wish:
+    """How a limb is to come to a hold."""
+
+    elbow: int = 0
+    """Side of the elbow to hold with: +1, -1, or 0 for whichever has the hook more on top."""
+    stand_off: float = 0.028
+    """Distance from the hold before the way in [m]."""
+    near: float = 0.016
+    """Distance straight before the hold, against the grab direction, that the limb must also reach, its elbow well bent where that can be:
+    a straight limb is pushed nowhere from there [m]."""
+    straight: bool = True
+    """Whether an elbow that is not well bent there will do."""
+
+
 class Approaches:
     """Finds ways to holds for the limbs of one robot.
 
@@ -104,12 +119,9 @@ class Approaches:
         pose: Floats,
         hold: Floats,
         holds: Mapping[int, Floats],
+        wish: Wish,
         *,
-        elbow: int = 0,
-        stand_off: float = 0.028,
-        near: float = 0.016,
         stands: Callable[[Floats], bool] = lambda pose: True,
-        straight: bool = True,
     ) -> Approach | None:
         """A way for limb `i` from joint angles `angles` to a stand-off before `hold`; None where there is none.
 
@@ -119,20 +131,16 @@ class Approaches:
             pose: Body pose, shape (3,).
             hold: Place of the hold, world frame [m].
             holds: All holds by number, as obstacles.
-            elbow: Side of the elbow to hold with: +1, -1, or 0 for whichever has the hook more on top.
-            stand_off: Wished distance from the hold before the way in [m].
-            near: Distance straight before the hold, against the grab direction, that the limb must also reach, its elbow well bent
-                where that can be: a straight limb is pushed nowhere from there [m].
+            wish: How it is to come there.
             stands: Whether the other limbs can hold the body at another pose.
-            straight: Whether an elbow that is not well bent there will do.
         """
         side = float(np.sign(hold[0] - pose[0]))
-        for bent, slants, (x, y) in product((BENT, 0.0) if straight else (BENT,), SLANTS, SHIFTS):
+        for bent, slants, (x, y) in product((BENT, 0.0) if wish.straight else (BENT,), SLANTS, SHIFTS):
             shift = np.array((x * side, y))
             moved = pose + np.array((*shift, 0.0))
             if shift.any() and not stands(moved):
                 continue
-            found = self._stand_off(i, angles, moved, hold, holds, elbow, (stand_off, near), bent, slants)
+            found = self._stand_off(i, angles, moved, hold, holds, wish, bent, slants)
             if found is not None:
                 grab, way, distance = found
                 return Approach(shift, way, grab, distance)
@@ -197,24 +205,23 @@ class Approaches:
         pose: Floats,
         hold: Floats,
         holds: Mapping[int, Floats],
-        elbow: int,
-        distances: tuple[float, float],
+        wish: Wish,
         bent: float,
         slants: tuple[int, ...],
     ) -> tuple[Floats, Floats, float] | None:
-        limb, (stand_off, near) = self.robot.limbs[i], distances
+        limb = self.robot.limbs[i]
         discs = discs_near(holds, pose, self.peg_radius)
         lower = np.array((limb.shoulder.lower, limb.elbow.lower))
         upper = np.array((limb.shoulder.upper, limb.elbow.upper))
         # the posture that is best on the hold; the other one would pull sideways, and the robot fall when it has to carry
-        for final in rank(postures(limb, pose, hold), elbow)[:1]:
-            if not _bent(limb, pose, hold - near * final.grab, math.copysign(1.0, final.angles[1]), bent):
+        for final in rank(postures(limb, pose, hold), wish.elbow)[:1]:
+            if not _bent(limb, pose, hold - wish.near * final.grab, math.copysign(1.0, final.angles[1]), bent):
                 continue
             for part in STAND_OFFS:
                 for slant in np.radians(slants):
                     c, s = np.cos(slant), np.sin(slant)
                     x, y = final.grab
-                    place = hold - part * stand_off * np.array((c * x - s * y, s * x + c * y))
+                    place = hold - part * wish.stand_off * np.array((c * x - s * y, s * x + c * y))
                     for posture in postures(limb, pose, place):
                         if not posture.inside or posture.angles[1] * final.angles[1] < 0.0:
                             continue
@@ -225,7 +232,7 @@ class Approaches:
                             self.robot.link_radius, HOOK, LEAST_CLEARANCE, self.path,
                         )  # fmt: skip
                         if count:
-                            return final.grab, self.path[:count].copy(), part * stand_off
+                            return final.grab, self.path[:count].copy(), part * wish.stand_off
         return None
 
 

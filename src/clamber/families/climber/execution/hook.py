@@ -2,12 +2,13 @@
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
 
 from ....types import Floats
-from .approach import Approach
+from .approach import Approach, Wish
 from .climber import Climber
 from .hook_push import push_on
 from .hook_release import release as release
@@ -177,14 +178,19 @@ FADING: Final = 1.0
 def come_near(climber: Climber, i: int, number: int, doubt: float, elbow: int, home: Floats | None) -> Approach | None:
     """Move the body to where there is a way for a limb, and find the way from there; None where there is none."""
     body, hold = climber.body, climber.holds[number].copy()
-    wished, near = stand_off_of(climber, i, doubt), NEAR + doubt
+    wish = Wish(elbow=elbow, stand_off=stand_off_of(climber, i, doubt), near=NEAR + doubt)
 
     def way(stands: Callable[[Floats], bool], *, straight: bool = True) -> Approach | None:
         climber.plant.pause()
         return climber.approaches.find(
-            i, body.q[i] - body.play[i], body.settled, hold, climber.holds, elbow=elbow, stand_off=wished, near=near,
-            stands=stands, straight=straight,
-        )  # fmt: skip
+            i,
+            body.q[i] - body.play[i],
+            body.settled,
+            hold,
+            climber.holds,
+            replace(wish, straight=straight),
+            stands=stands,
+        )
 
     if home is not None:
         found = way(_stays, straight=False)

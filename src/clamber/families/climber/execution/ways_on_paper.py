@@ -7,7 +7,7 @@ import numpy as np
 
 from ....types import Floats
 from ..control.limb_chain import legs_of
-from .approach import Approach, Approaches
+from .approach import Approach, Approaches, Wish
 from .bearing import borne
 from .course import Course
 from .hook import NEAR
@@ -98,7 +98,7 @@ def _way(
     pose = course.pose(step)
     least = min(0.0, bears(pose)) - WEAKER
     radius = max(hold.radius for hold in task.world.holds)
-    return ways.find(
-        i, start, pose, holds[course.holds(step)[names[i]]], holds, elbow=int(course.elbows[step, i]),
-        stand_off=stand_off(task.robot.limbs[i], radius, doubt), near=NEAR + doubt, stands=lambda pose: bears(pose) >= least,
-    )  # fmt: skip
+    hold = holds[course.holds(step)[names[i]]]
+    distance = stand_off(task.robot.limbs[i], radius, doubt)
+    wish = Wish(elbow=int(course.elbows[step, i]), stand_off=distance, near=NEAR + doubt)
+    return ways.find(i, start, pose, hold, holds, wish, stands=lambda pose: bears(pose) >= least)

@@ -104,9 +104,17 @@ def draw_scene(axes: Axes, task: LimbedTask, bounds: Bounds, *, font: float = 7.
 def _number_holds(axes: Axes, task: LimbedTask, font: float) -> None:
     for hold in task.world.holds:
         axes.annotate(
-            str(hold.number), (hold.x, hold.y), xytext=(-3, 3), textcoords="offset points", ha="right", va="bottom",
-            fontsize=font, color=style.QUIET, zorder=2.5, path_effects=[halo()],
-        )  # fmt: skip
+            str(hold.number),
+            (hold.x, hold.y),
+            xytext=(-3, 3),
+            textcoords="offset points",
+            ha="right",
+            va="bottom",
+            fontsize=font,
+            color=style.QUIET,
+            zorder=2.5,
+            path_effects=[halo()],
+        )
 
 
 def _draw_goals(axes: Axes, task: LimbedTask, bounds: Bounds, font: float) -> None:

@@ -218,6 +218,14 @@ def wall_points(task: LimbedTask) -> Floats:
 
 
 PICTURES: Final = Pictures(
-    ClimbView, draw_climb, climb_route, wall_points, draw_scene, torque_limits, run_picture, climb_page,
-    robot_alone=climber_alone, world_alone=board_alone,
-)  # fmt: skip
+    ClimbView,
+    draw_climb,
+    climb_route,
+    wall_points,
+    draw_scene,
+    torque_limits,
+    run_picture,
+    climb_page,
+    robot_alone=climber_alone,
+    world_alone=board_alone,
+)

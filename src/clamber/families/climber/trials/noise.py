@@ -88,74 +88,26 @@ def terrain_covariance(task: LimbedTask, warped: float, tilt: float) -> Floats |
 
 
 NOISE: Final[dict[str, NoiseKind]] = {
-    "peg_error": NoiseKind(
-        dimension="length", unit="mm", scale=1e-3, width=0.00635, words="place of each peg, along each axis", many=True
-    ),
-    "backlash": NoiseKind(
-        dimension="angle",
-        unit="deg",
-        scale=DEGREE,
-        width=0.5 * DEGREE,
-        words="true play of all joints, about the file's",
-    ),
+    "peg_error": NoiseKind(dimension="length", width=0.00635, words="place of each peg, along each axis", many=True),
+    "backlash": NoiseKind(dimension="angle", width=0.5 * DEGREE, words="true play of all joints, about the file's"),
     "assumed_backlash": NoiseKind(
-        dimension="angle",
-        unit="deg",
-        scale=DEGREE,
-        width=0.5 * DEGREE,
-        words="play that is reckoned with, about the file's",
+        dimension="angle", width=0.5 * DEGREE, words="play that is reckoned with, about the file's"
     ),
-    "friction": NoiseKind(
-        dimension="ratio", unit="%", scale=0.01, width=0.3, words="Coulomb friction of all joints alike", below_one=True
-    ),
+    "friction": NoiseKind(dimension="ratio", width=0.3, words="Coulomb friction of all joints alike", below_one=True),
     "joint_friction": NoiseKind(
-        dimension="ratio",
-        unit="%",
-        scale=0.01,
-        width=0.0,
-        words="the same of each joint by itself",
-        below_one=True,
-        many=True,
+        dimension="ratio", width=0.0, words="the same of each joint by itself", below_one=True, many=True
     ),
-    "payload": NoiseKind(
-        dimension="ratio",
-        unit="%",
-        scale=0.01,
-        width=0.1,
-        words="mass on the body, of the whole weight",
-        below_one=True,
-    ),
-    "hook_play": NoiseKind(
-        dimension="length", unit="mm", scale=1e-3, width=0.0005, words="width of the hooks' slots, about 1 mm of play"
-    ),
-    "hook_friction": NoiseKind(
-        dimension="ratio", unit="%", scale=0.01, width=0.25, words="friction of hooks on pegs", below_one=True
-    ),
-    "body_angle": NoiseKind(
-        dimension="angle", unit="deg", scale=DEGREE, width=1.0 * DEGREE, words="zero of the body's encoder"
-    ),
-    "joint_angle": NoiseKind(
-        dimension="angle", unit="deg", scale=DEGREE, width=0.3 * DEGREE, words="zero of each joint's encoder", many=True
-    ),
+    "payload": NoiseKind(dimension="ratio", width=0.1, words="mass on the body, of the whole weight", below_one=True),
+    "hook_play": NoiseKind(dimension="length", width=0.0005, words="width of the hooks' slots, about 1 mm of play"),
+    "hook_friction": NoiseKind(dimension="ratio", width=0.25, words="friction of hooks on pegs", below_one=True),
+    "body_angle": NoiseKind(dimension="angle", width=1.0 * DEGREE, words="zero of the body's encoder"),
+    "joint_angle": NoiseKind(dimension="angle", width=0.3 * DEGREE, words="zero of each joint's encoder", many=True),
     "terrain": NoiseKind(
-        dimension="length",
-        unit="mm",
-        scale=1e-3,
-        width=0.0,
-        words="warp of the board: neighbouring pegs alike, none at the start",
-        many=True,
+        dimension="length", width=0.0, words="warp of the board: neighbouring pegs alike, none at the start", many=True
     ),
-    "tilt": NoiseKind(
-        dimension="angle", unit="deg", scale=DEGREE, width=0.0, words="turn of the whole board about the start"
-    ),
+    "tilt": NoiseKind(dimension="angle", width=0.0, words="turn of the whole board about the start"),
     "missing": NoiseKind(
-        dimension="ratio",
-        unit="%",
-        scale=0.01,
-        width=0.0,
-        words="part of the pegs that are not there",
-        below_one=True,
-        many=True,
+        dimension="ratio", width=0.0, words="part of the pegs that are not there", below_one=True, many=True
     ),
 }
 """Key -> what deviates, evenly spread over its width to either side. Zeros of encoders: half a turn of a motor at a joint, and what an

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ....terminal.name_completion import names_of
-from ....terminal.options import AsJson, Output
+from ....terminal.options import AsJson, Output, takes_options
 from ....terminal.output import announce_compilation, check_writable, print_json, stdout
 from ....viewing.text_table import plain_table
 
@@ -30,6 +30,24 @@ class WidestDitch:
     """In the worst direction."""
 
 
+@dataclass(frozen=True, slots=True)
+class Crossed:
+    """The ditch, and where the walker is before it."""
+
+    width: Annotated[
+        str | None, typer.Option(metavar="LENGTH", help="Cross a ditch as wide; else tell the widest.")
+    ] = None
+    before: Annotated[str, typer.Option(metavar="LENGTH", help="Where it starts, before the near edge.")] = "350 mm"
+    heading: Annotated[str, typer.Option(metavar="ANGLE", help="Of the Delta-frame to the crossing direction.")] = (
+        "0 deg"
+    )
+    theta: Annotated[str, typer.Option(metavar="ANGLE", help="Of the Y-frame in the Delta-frame at the start.")] = (
+        "0 deg"
+    )
+    reserve: Annotated[str, typer.Option(metavar="LENGTH", help="How much wider it must still get across.")] = "0 mm"
+
+
+@takes_options
 def ditch(
     robot: Annotated[
         str,
@@ -37,17 +55,8 @@ def ditch(
             help="A walker's name (`clamber list robots`), or its TOML file.", autocompletion=names_of("robots")
         ),
     ] = "hoshino",
-    width: Annotated[
-        str | None, typer.Option(metavar="LENGTH", help="Cross a ditch as wide; else tell the widest.")
-    ] = None,
-    before: Annotated[str, typer.Option(metavar="LENGTH", help="Where it starts, before the near edge.")] = "350 mm",
-    heading: Annotated[
-        str, typer.Option(metavar="ANGLE", help="Of the Delta-frame to the crossing direction.")
-    ] = "0 deg",
-    theta: Annotated[
-        str, typer.Option(metavar="ANGLE", help="Of the Y-frame in the Delta-frame at the start.")
-    ] = "0 deg",
-    reserve: Annotated[str, typer.Option(metavar="LENGTH", help="How much wider it must still get across.")] = "0 mm",
+    *,
+    crossed: Crossed,
     margin: Annotated[str, typer.Option(metavar="LENGTH", help="Centre of mass inside the standing feet.")] = "0 mm",
     straight: Annotated[bool, typer.Option("--straight", help="No sidesteps along the ditch.")] = False,
     as_json: AsJson = False,
@@ -67,16 +76,16 @@ def ditch(
         raise SpecError(f"robot '{made.name}'", "family", made.name, "must be a two-frame walker")
     footing = Footing.of(made, margin=parse_quantity(margin, "length"))
     announce_compilation()
-    if width is None:
+    if crossed.width is None:
         _tell_widest(footing, not straight, as_json, output)
         return
     found = cross_ditch(
         footing,
-        parse_quantity(width, "length"),
-        before=parse_quantity(before, "length"),
-        heading=parse_quantity(heading, "angle"),
-        theta=parse_quantity(theta, "angle"),
-        reserve=parse_quantity(reserve, "length"),
+        parse_quantity(crossed.width, "length"),
+        before=parse_quantity(crossed.before, "length"),
+        heading=parse_quantity(crossed.heading, "angle"),
+        theta=parse_quantity(crossed.theta, "angle"),
+        reserve=parse_quantity(crossed.reserve, "length"),
         aside=not straight,
     )
     if output is not None and found.status == "found":

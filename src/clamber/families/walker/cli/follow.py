@@ -1,6 +1,7 @@
 """`clamber follow`: a walker that stands follows a tool path with arm and body."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -9,13 +10,13 @@ from rich.console import Console
 
 from ....errors import FileError, SpecError
 from ....terminal.name_completion import names_of
-from ....terminal.options import AsJson
+from ....terminal.options import AsJson, takes_options
 from ....terminal.output import announce_compilation, check_writable, print_json, stdout
 from ....viewing.text_table import plain_table
 
 if TYPE_CHECKING:
     from ..robot import WalkerRobot
-    from ..trials.cooperative.follow import FollowRun
+    from ..trials.cooperative.follow import FollowOptions, FollowRun
     from ..trials.cooperative.tool_path import ToolPath
 
 Outputs = Annotated[
@@ -24,6 +25,37 @@ Outputs = Annotated[
 ]
 
 
+@dataclass(frozen=True, slots=True)
+class Following:
+    """How a path is followed, as it was asked for."""
+
+    dof: Annotated[int, typer.Option(help="Degrees of freedom: 4 arm, 5 with height, 7 with tilts, 10 all.")] = 10
+    gain: Annotated[float, typer.Option(help="k_p of the manipulability's gradient.")] = 1.0
+    speed: Annotated[str, typer.Option(help="Largest of the tool, where the path has no times.")] = "50mm/s"
+    payload: Annotated[str, typer.Option(help="At the tool.")] = "0kg"
+    balance: Annotated[str, typer.Option(help="Least margin of the centre of mass in the support.")] = "0mm"
+    height: Annotated[str | None, typer.Option(help="Of the plate at the start; legs' nominal length.")] = None
+    dynamics: Annotated[bool, typer.Option("--dynamics", help="Lead a robot in contact dynamics through it.")] = False
+    blind: Annotated[bool, typer.Option("--blind", help="In dynamics: without correction by what sensors say.")] = False
+
+    def options(self) -> "FollowOptions":
+        """The same in SI."""
+        from ....units import parse_quantity
+        from ..trials.cooperative.follow import FollowOptions
+
+        return FollowOptions(
+            dof=self.dof,
+            gain=self.gain,
+            speed=parse_quantity(self.speed, "speed"),
+            payload=parse_quantity(self.payload, "mass"),
+            balance=parse_quantity(self.balance, "length"),
+            height=None if self.height is None else parse_quantity(self.height, "length"),
+            dynamics=self.dynamics,
+            felt=not self.blind,
+        )
+
+
+@takes_options
 def follow(
     path: Annotated[
         str,
@@ -36,16 +68,8 @@ def follow(
         str,
         typer.Option(help="A two-frame walker with an arm, by name or file.", autocompletion=names_of("robots")),
     ] = "hoshino",
-    dof: Annotated[int, typer.Option(help="Degrees of freedom: 4 arm, 5 with height, 7 with tilts, 10 all.")] = 10,
-    gain: Annotated[float, typer.Option(help="k_p of the manipulability's gradient.")] = 1.0,
-    speed: Annotated[str, typer.Option(help="Largest of the tool, where the path has no times.")] = "50mm/s",
-    payload: Annotated[str, typer.Option(help="At the tool.")] = "0kg",
-    balance: Annotated[str, typer.Option(help="Least margin of the centre of mass in the support.")] = "0mm",
-    height: Annotated[str | None, typer.Option(help="Of the plate at the start; legs' nominal length.")] = None,
-    dynamics: Annotated[bool, typer.Option("--dynamics", help="Lead a robot in contact dynamics through it.")] = False,
-    blind: Annotated[
-        bool, typer.Option("--blind", help="In dynamics: without correction by what sensors say.")
-    ] = False,
+    *,
+    asked: Following,
     output: Outputs = None,
     as_json: AsJson = False,
 ) -> None:
@@ -53,25 +77,15 @@ def follow(
 
     Exit code 1 if the tool does not come to the path's end or cannot reach points of it.
     """
-    from ....units import parse_quantity
-    from ..trials.cooperative.follow import FollowOptions, follow_path
+    from ..trials.cooperative.follow import follow_path
     from ..trials.cooperative.tool_path import load_tool_path
 
-    if blind and not dynamics:
+    if asked.blind and not asked.dynamics:
         raise typer.BadParameter("is for a robot in dynamics", param_hint="--blind")
     files = output or []
     _check_files(files)
     chosen = _load_robot_with_arm(robot)
-    options = FollowOptions(
-        dof=dof,
-        gain=gain,
-        speed=parse_quantity(speed, "speed"),
-        payload=parse_quantity(payload, "mass"),
-        balance=parse_quantity(balance, "length"),
-        height=None if height is None else parse_quantity(height, "length"),
-        dynamics=dynamics,
-        felt=not blind,
-    )
+    options = asked.options()
     tool_path = load_tool_path(path)
     announce_compilation(quiet=as_json)
     run = follow_path(chosen, tool_path, options)

@@ -72,6 +72,13 @@ def start_point(task: WalkerTask) -> Floats:
 
 
 PICTURES: Final = Pictures(
-    WalkerView, draw_walk, walker_route, start_point, draw_ground, run=run_picture, report=walk_page,
-    robot_alone=walker_alone, world_alone=ground_alone,
-)  # fmt: skip
+    WalkerView,
+    draw_walk,
+    walker_route,
+    start_point,
+    draw_ground,
+    run=run_picture,
+    report=walk_page,
+    robot_alone=walker_alone,
+    world_alone=ground_alone,
+)

@@ -13,31 +13,16 @@ from ..sim.walker_flaws import Inclinometers, WalkerFlaws
 
 WALK_NOISE: Final[dict[str, NoiseKind]] = {
     "inclinometer_noise": NoiseKind(
-        dimension="angle",
-        unit="deg",
-        scale=DEGREE,
-        width=0.05 * DEGREE,
-        words="standard deviation of each reading",
-        many=True,
+        dimension="angle", width=0.05 * DEGREE, words="standard deviation of each reading", many=True
     ),
     "inclinometer_offset": NoiseKind(
-        dimension="angle", unit="deg", scale=DEGREE, width=0.2 * DEGREE, words="zero of each inclinometer", many=True
+        dimension="angle", width=0.2 * DEGREE, words="zero of each inclinometer", many=True
     ),
     "force_noise": NoiseKind(
-        dimension="force", unit="N", scale=1.0, width=2.0, words="standard deviation of each leg's load cell", many=True
+        dimension="force", width=2.0, words="standard deviation of each leg's load cell", many=True
     ),
-    "friction": NoiseKind(
-        dimension="ratio", unit="%", scale=0.01, width=0.2, words="friction of the ground", below_one=True
-    ),
-    "mass": NoiseKind(
-        dimension="ratio",
-        unit="%",
-        scale=0.01,
-        width=0.05,
-        words="mass of each part by itself",
-        below_one=True,
-        many=True,
-    ),
+    "friction": NoiseKind(dimension="ratio", width=0.2, words="friction of the ground", below_one=True),
+    "mass": NoiseKind(dimension="ratio", width=0.05, words="mass of each part by itself", below_one=True, many=True),
 }
 """Key -> what deviates: noise by its standard deviation, the rest evenly spread over its width to either side. The inclinometers' noise is
 that of the task; the other sizes are assumed."""
