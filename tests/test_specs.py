@@ -393,7 +393,7 @@ def test_an_override_is_noted_as_the_source() -> None:
         ("weight=1N", "more than the links weigh together"),
         ("motor.torque_limit=1500", "motor.torque_limit = 1500: lacks its unit"),
         ("robot.sources={}", "unknown key"),
-        ("robot.family=fish", "family = 'fish': must be one of limbed, walker"),
+        ("robot.family=fish", "family = 'fish': must be one of limbed, spatial, walker"),
         ("board.ladder.rungs=0", "ladder.rungs = 0: must be greater than or equal to 1"),
         ("board.ladder.removed=[23]", "must be numbers from 1 to 22; 23 is not"),
         ("board.ladder.width=1mm", "holds 1 and 2 overlap: 0.001 m apart"),
@@ -401,7 +401,7 @@ def test_an_override_is_noted_as_the_source() -> None:
         ("board=hh", "no board is called 'hh'; there are across, circle"),
         (
             "robot=lbra",
-            "no robot is called 'lbra'; there are gecko4, hoshino, libra, libra-grippers; did you mean 'libra'?",
+            f"no robot is called 'lbra'; there are {', '.join(robot_names())}; did you mean 'libra'?",
         ),
         ("robot=5", "must name a robot"),
         ("foo", "write key=value, such as start.y=6.2in"),
@@ -468,7 +468,7 @@ def test_unreadable_files_say_why(tmp_path: Path) -> None:
     for name, said in {
         "latin": "is not UTF-8 (byte 8)",
         "big": "has 17825792 bytes; at most 8388608 are read",
-        "folder": "is a folder; name a file",
+        "folder": "is a folder; it has no TOML files; name a file",
         "latim": "does not exist; files beside it: big.toml, deep.toml, folder.toml, latin.toml, long.toml; did you",
         "long": "is not valid TOML",
         "deep": "is not valid TOML",

@@ -1,6 +1,7 @@
 """A world in space: holds as points with normals, solid things that links must miss, gravity, and a guide that bodies go along."""
 
 import math
+from functools import lru_cache
 from typing import Annotated, Any, Final, Literal
 
 import numpy as np
@@ -91,8 +92,13 @@ class World:
     holds: tuple[Hold, ...]
     """By number, from 1 without a gap."""
     solids: tuple[Any, ...]
-    frames: Any
-    """Of the guide, every `guide.GRAIN` of its length, shape (n, 12)."""
+    guide: tuple[Waypoint, ...]
+    """Corners of the path that bodies go along."""
+
+    @property
+    def frames(self) -> Floats:
+        """Of the guide, every `guide.GRAIN` of its length, shape (n, 12)."""
+        return _frames(self.guide)
 
     def by_number(self, number: int) -> Hold:
         """The hold of a number.
@@ -159,8 +165,15 @@ def build_world(document: Document) -> World:
         gravity=(0.0, 0.0, -BODIES[gravity]) if isinstance(gravity, str) else gravity,
         holds=tuple(holds),
         solids=stated.solids,
-        frames=frames,
+        guide=stated.guide,
     )
+
+
+@lru_cache(maxsize=64)
+def _frames(guide: tuple[Waypoint, ...]) -> Floats:
+    made = guide_frames(guide, Document("guide", {}))
+    made.setflags(write=False)
+    return made
 
 
 def _check_solid(solid: Any, key: str, document: Document) -> None:
