@@ -19,12 +19,15 @@ from clamber.families.spatial.planning.problem import SpatialProblem
 from clamber.families.spatial.planning.task import SpatialTask
 from clamber.families.spatial.robot.robot import SpatialRobot
 from clamber.family import family_named
+from clamber.inspection.open_file import inspect_file, inspect_task
 from clamber.planning.beam import plan_beam
 from clamber.planning.problem.plan import Plan
 from clamber.planning.problem.problem import Replay
 from clamber.tasks import load_task
 from clamber.tasks.robots import load_robot, robot_names
+from clamber.toml_text import toml_text
 from clamber.types import Floats
+from clamber.viewing.alone import draw_alone, open_alone
 from clamber.viewing.film import View
 from clamber.viewing.pictures import animate, draw_route, draw_stance, pictures_of
 
@@ -249,3 +252,35 @@ def test_contacts_and_joints_are_exported_and_tell_the_plan(clamber: Any, name: 
     assert joints.names == tuple(joint for limb in chains.joint_names for joint in limb)
     told = made["stances"][-1]["joints"]
     assert joints.positions[-1].tolist() == [told[joint] for joint in joints.names]
+
+
+@pytest.mark.parametrize("name", [*ROBOTS, "bumpy-wall", "steel-corners", "handrails"])
+def test_robots_and_worlds_are_drawn_alone_and_have_nothing_odd_that_stops_them(name: str, tmp_path: Path) -> None:
+    shown = open_alone(name, "robot" if name in ROBOTS else "world")
+    draw_alone(shown, tmp_path / "alone.png")
+    assert (tmp_path / "alone.png").stat().st_size > 10_000
+    assert shown.finding.facts["limbs" if name in ROBOTS else "holds"]
+    assert not any("inside a solid" in odd or "normal" in odd for odd in shown.finding.odd)
+
+
+def test_what_is_odd_about_a_world_is_named(tmp_path: Path) -> None:
+    holds = [{"number": k + 1, "at": [f"{0.1 * k} m", "0 m", "0 m"], "normal": [0.0, 0.0, 1.0]} for k in range(6)]
+    holds[2]["at"] = ["0.2 m", "0 m", "-0.1 m"]
+    holds[3]["normal"] = [0.0, 0.0, -1.0]
+    holds[5]["at"] = ["50 m", "0 m", "0 m"]
+    plane = {"kind": "plane", "at": ["0 m", "0 m", "0 m"], "normal": [0.0, 0.0, 1.0]}
+    guide = [{"at": ["0 m", "0 m", "0 m"], "normal": [0.0, 0.0, 1.0]}, {"at": ["1 m", "0 m", "-1 m"]}]
+    said = {"schema": "clamber-world-1", "name": "odd", "holds": holds, "solids": [plane], "guide": guide}
+    (tmp_path / "odd.toml").write_text(toml_text(said))
+    odd = inspect_file(str(tmp_path / "odd.toml")).odd
+    assert [
+        word
+        for word in ("hold 6 far", "hold 3 inside", "hold 4 with a normal", "guide runs")
+        if not any(word in one for one in odd)
+    ] == []
+
+
+def test_what_is_odd_about_a_task_is_named() -> None:
+    odd = inspect_task(load_task("wall-gripper", ["goal={ along_min = '9 m' }", "rules.hard=['reach']"])).odd
+    for words in ("'equilibrium' only reports", "no hold is within a limb's reach of the goal"):
+        assert any(words in one for one in odd)

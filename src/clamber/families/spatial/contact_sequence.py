@@ -10,7 +10,10 @@ from .pictures.geometry import Posed, centre_of_mass, link_frames, posed, quater
 from .planning.task import SpatialTask
 
 SCHEMA: Final = "clamber-contacts-1"
-FRAMES: Final = "SI units, world frame; orientations of the base as quaternions w, x, y, z; wrenches on the robot, moments about the tip"
+FRAMES: Final = (
+    "SI units, world frame; orientations are quaternions w, x, y, z of the base; wrenches are those on the robot, "
+    "moments about the tip"
+)
 """What the numbers are, in the file itself."""
 
 

@@ -18,6 +18,7 @@ from ....viewing.route import FACTS, draw_way, label_ghost, pick_ghosts, write_f
 from ....viewing.scene import Bounds
 from ....viewing.view import Layout
 from ..planning.task import SpatialTask
+from .alone import robot_alone, world_alone
 from .camera import Camera, camera_for
 from .moments import Moment, settled_moments
 from .robot_artists import RobotArtists, limb_colour, mixed
@@ -114,6 +115,8 @@ def pictures_from(asked: str | None) -> Pictures:
         lambda task, replay: draw_route(task, replay, camera_for(task, asked)),
         lambda task: world_points(task, camera_for(task, asked)),
         lambda axes, task, bounds: draw_bare_world(axes, task, bounds, camera_for(task, asked)),
+        robot_alone=robot_alone,
+        world_alone=world_alone,
         seen_from=pictures_from,
     )
 

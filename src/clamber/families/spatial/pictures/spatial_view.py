@@ -101,9 +101,15 @@ class SpatialView(PlanView[Moment]):
 
 def shown_places(task: SpatialTask, moments: list[Moment]) -> Floats:
     """Places that are to be seen: the robot in all stances, and what `way_places` gives [m], shape (n, 3)."""
+    return np.vstack([way_places(task, *(float(at.pose[0]) for at in moments)), robot_corners(task, moments)])
+
+
+def robot_corners(task: SpatialTask, moments: list[Moment]) -> Floats:
+    """Joints and tips of a robot, and its base's corners, at some moments [m], shape (n, 3)."""
     corners = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * task.robot.chains.base_half
-    robots = [np.vstack((at.origins.reshape(-1, 3), at.body.place + corners @ at.body.turn.T)) for at in moments]
-    return np.vstack([way_places(task, *(float(at.pose[0]) for at in moments)), *robots])
+    return np.vstack(
+        [np.vstack((at.origins.reshape(-1, 3), at.body.place + corners @ at.body.turn.T)) for at in moments]
+    )
 
 
 def way_places(task: SpatialTask, *alongs: float) -> Floats:
