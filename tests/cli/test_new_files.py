@@ -48,6 +48,10 @@ def test_from_nothing_to_a_plan_in_five_commands(run: Run, tmp_path: Path) -> No
     code, out, _ = run("check", "plan.json", "--json")
     verdict = json.loads(out)
     assert code == 0 and verdict["kind"] == "plan" and verdict["reached"]
+    # no robot so weak is carried out today: refused by name and number, and nothing moves
+    assert not verdict["to_run"]["ok"] and "gives 5 N m" in verdict["to_run"]["objection"]
+    code, out, err = run("run", "climb.toml", "-q")
+    assert (code, out) == (1, "") and "gives 5 N m" in err and "nothing has moved" in err
 
 
 @pytest.mark.parametrize("limbs", [2, 3, 4, 6, 8])

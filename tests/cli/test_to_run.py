@@ -57,9 +57,9 @@ def test_json_says_whether_a_run_would_be_refused(clamber: Run, tmp_path: Path) 
 
 def test_without_a_plan_that_can_be_carried_out_nothing_is_written(clamber: Run, tmp_path: Path) -> None:
     plan = tmp_path / "p.json"
-    code, out, _ = clamber("plan", "gap", "--set", HOPELESS, "--to-run", "-o", str(plan), "-q")
-    assert code == 1
-    assert "no plan" in out and "to run:" not in out
+    code, out, err = clamber("plan", "gap", "--set", HOPELESS, "--to-run", "-o", str(plan), "-q")
+    assert (code, out) == (1, "")
+    assert "no plan for 'gap' that hooks can be trusted with" in err
     assert not plan.exists()
 
 
@@ -67,6 +67,32 @@ def test_it_plans_as_run_does_with_no_options_of_other_searches(clamber: Run) ->
     code, _, err = clamber("plan", "gap", "--to-run", "--width", "10")
     assert code == 2
     assert "--width" in err and "as `clamber run` does" in err
+
+
+WEAK = "asks up to 8 N m of every joint, and joint 1 of 'gecko4' gives 5 N m"
+
+
+def test_a_robot_too_weak_for_todays_control_is_refused_before_anything_is_searched_for(
+    clamber: Run, tmp_path: Path
+) -> None:
+    plan = str(tmp_path / "p.json")
+    for words in (("run", "gecko-climb", "-q"), ("plan", "gecko-climb", "--to-run", "-q")):
+        code, out, err = clamber(*words)
+        assert (code, out) == (1, "")
+        assert WEAK in err and "nothing has moved" in err
+    code, out, _ = clamber("plan", "gecko-climb", "--planner", "greedy", "-q", "-o", plan)
+    assert code == 0 and WEAK in " ".join(out.split()) and "--to-run" not in out
+    for command in ("run", "trials"):
+        code, out, err = clamber(command, plan, "-q")
+        assert (code, out) == (2, "")
+        assert WEAK in err and "--force" in err
+
+
+def test_stronger_motors_are_not_refused(clamber: Run, tmp_path: Path) -> None:
+    plan = str(tmp_path / "p.json")
+    strong = ("--set", "motor.torque_limit=8 N m")
+    assert clamber("plan", "gecko-climb", *strong, "--planner", "greedy", "-q", "-o", plan)[0] == 0
+    assert "N m of every joint" not in clamber("check", plan)[1]
 
 
 @pytest.mark.slow

@@ -85,6 +85,8 @@ class RunEvents:
     """A search was ended by its seconds, so that another machine may find another plan."""
     planned: Callable[[Plan], None] = _ignore
     """A plan was found, before anything moves."""
+    note: Callable[[str], None] = _ignore
+    """What takes long and was not asked for begins, such as another plan on the way; in words."""
     step: Callable[[str, float | None], None] = _ignore
     """The action or step that begins, in words, and the share that is done where it is known [-]; may end the run by an error."""
 
@@ -151,6 +153,10 @@ class Dynamics(ABC):
         Raises:
             NoPlanError: If there is none.
         """
+
+    def unfit(self, task: Any) -> str | None:
+        """What speaks against carrying out any plan of a task, whatever it is; None where nothing is known."""
+        return None
 
     def objection(self, task: Any, plan: Plan, label: str = "plan") -> str | None:
         """Why `run` refuses a plan, unless it is forced: the step and the limit; None where nothing speaks against it.

@@ -71,6 +71,8 @@ def to_run(task: Task, plan: Plan, label: str = "plan") -> ToRun | None:
     dynamics = family_of(task).dynamics
     if dynamics is None:
         return None
+    if (unfit := dynamics.unfit(task)) is not None:
+        return ToRun(False, unfit, None)
     why = dynamics.objection(task, plan, label)
     return ToRun(why is None, why, None if why is None else f"clamber plan {_as_typed(task)} --to-run")
 

@@ -43,7 +43,7 @@ def plan(
         result = plan_to_run(problem, words)
     else:
         result = _search(problem, words, seeker)
-    if words.output is not None and (result.has_plan or not words.to_run):
+    if words.output is not None:
         result.plan.save(words.output)
     if words.history is not None:
         from ...viewing.plan_curves import draw_history

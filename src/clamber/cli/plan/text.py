@@ -62,7 +62,8 @@ def print_to_run(console: Console, judged: ToRun | None, command: str | None = N
         console.print("to run: nothing speaks against it")
     else:
         console.print(f"to run: refused, {judged.objection}", style="yellow")
-        console.print(f"for one that can be carried out: {command or judged.command}")
+        if judged.command is not None:
+            console.print(f"for one that can be carried out: {command or judged.command}")
 
 
 def print_lesson(console: Console, task: Task, lesson: Lesson, output: Path | None) -> None:

@@ -3,8 +3,9 @@
 from dataclasses import replace
 from typing import Final
 
+import typer
+
 from ...family import family_of
-from ...planning.problem.plan import Plan
 from ...planning.problem.verdict import check_plan
 from ...planning.progress import Clock, progress_text
 from ...planning.result import PlanResult
@@ -24,6 +25,7 @@ def plan_to_run(task: Task, words: PlanOptions) -> PlanResult:
     """Plan as `run` plans for itself; the answer counts neither plans nor actions.
 
     Raises:
+        Exit: With 1, if there is no such plan; it says why.
         NotOfFamilyError: If the robots of the task's family are never carried out.
         BadParameter: If an option is given that has no meaning here.
     """
@@ -35,19 +37,23 @@ def plan_to_run(task: Task, words: PlanOptions) -> PlanResult:
     dynamics.check(task, asked)
     compile_ahead(*dynamics.compiled)
     cuts: list[None] = []
-    plan, why = Plan.of_codes(task, []), ""
     with LiveLine(stderr(), quiet=words.quiet) as line:
-        events = RunEvents(search=lambda moment: line.show(progress_text(moment)), cut=lambda: cuts.append(None))
+        events = RunEvents(
+            search=lambda moment: line.show(progress_text(moment)),
+            cut=lambda: cuts.append(None),
+            step=lambda told, share: line.show(told),
+        )
         try:
             plan = dynamics.plan(task, asked, events)
         except NoPlanError as none:
-            why = str(none)
+            line.say(str(none))
+            raise typer.Exit(1) from None
     tell_cuts(len(cuts))
     solved = plan.rebuild_task()
     return PlanResult(
-        status="stopped" if why else "found",
+        status="found",
         task=solved,
-        reason=why or f"made to be run: with room for what happens in a {dynamics.kind}",
+        reason=f"made to be run: with room for what happens in a {dynamics.kind}",
         plan=plan,
         max_torque=check_plan(solved, plan).max_torque,
         evaluations=0,

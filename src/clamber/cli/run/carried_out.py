@@ -55,6 +55,7 @@ def carry_out(work: Work, words: RunOptions, command: str) -> None:
             search=lambda moment: line.show(progress_text(moment)),
             cut=lambda: cuts.append(None),
             planned=lambda plan: None if words.save_plan is None else plan.save(words.save_plan),
+            note=lambda told: None if words.quiet else line.say(told),
             step=lambda words, share: line.show(words),
         )
         if work.plan is not None:

@@ -9,13 +9,14 @@ from ...errors import SpecError
 from ...execution.fault import FAULTS, check_faults
 from ...json_form import INLINE
 from ...planning.problem.plan import Plan
-from ...trials.dynamics import Conditions, Dynamics, RunEvents, RunRequest, TrialsRequest
+from ...trials.dynamics import Conditions, Dynamics, NoPlanError, RunEvents, RunRequest, TrialsRequest
+from .execution.body_gains import too_weak
 from .execution.course import climbable, objections_to
 from .planning.task import LimbedTask
 from .trials.noise import NO_NOISE, Noise, check_noise, named_noise, read_noise
 from .trials.planning import no_plan, plan_to_climb, replanner
 from .trials.plants import check_plant, is_remote
-from .trials.rehearsal import rehearse
+from .trials.rehearsal import Rehearsal, rehearse
 from .trials.run_plan import ClimbRun, action_told, climbing_flaws, climbing_task, run_plan
 from .trials.trial import ClimbTrial, ClimbTrials, TrialSetup, with_plan
 from .trials.trial_summary import TrialSummary, sum_up
@@ -65,13 +66,23 @@ class ClimberDynamics(Dynamics):
     def plan(self, task: LimbedTask, asked: RunRequest, events: RunEvents) -> Plan:
         """Found with something kept back, and rehearsed."""
         task = climbing_task(task)
+        weak = None if asked.force else too_weak(task.robot)
+        if weak is not None:
+            raise NoPlanError(asked.planner, task.name, f"can be carried out: {weak}")
         flaws = climbing_flaws(task, asked.plant)
-        plan = plan_to_climb(
-            task, asked.planner, rehearse=lambda task, plan: rehearse(task, plan, flaws), **_search(asked, events)
-        )
+
+        def rehearsed(task: LimbedTask, plan: Plan) -> Rehearsal:
+            events.step(f"rehearsing a plan of {len(plan.actions)} actions in simulation", None)
+            return rehearse(task, plan, flaws)
+
+        plan = plan_to_climb(task, asked.planner, rehearse=rehearsed, **_search(asked, events))
         if plan is None:
             raise no_plan(asked.planner, task)
         return plan
+
+    def unfit(self, task: LimbedTask) -> str | None:
+        """Motors weaker than control asks for."""
+        return too_weak(task.robot)
 
     def objection(self, task: LimbedTask, plan: Plan, label: str = "plan") -> str | None:
         """By the task under the rules that can be carried out."""
@@ -87,6 +98,13 @@ class ClimberDynamics(Dynamics):
         if plan is None:
             plan = self.plan(task, asked, events)
             events.planned(plan)
+        _refuse_weak(task, asked)
+        search = replanner(asked.planner, **_search(asked, events))
+
+        def planned_again(task: LimbedTask) -> Plan | None:
+            events.note("planning again from where the robot is, as a hold cannot be had")
+            return search(task)
+
         return run_plan(
             task,
             plan,
@@ -94,7 +112,7 @@ class ClimberDynamics(Dynamics):
             noise=_noise(asked),
             seed=asked.seed,
             force=asked.force,
-            replan=replanner(asked.planner, **_search(asked, events)) if asked.replan else None,
+            replan=planned_again if asked.replan else None,
             progress=lambda *action: events.step(*action_told(*action)),
             label=label,
             log=asked.log,
@@ -117,6 +135,7 @@ class ClimberDynamics(Dynamics):
         label: str = "plan",
     ) -> TrialSetup:
         """What all climbs have in common."""
+        _refuse_weak(work, asked)
         setup = TrialSetup(
             task=climbing_task(work),
             noise=_noise(asked),
@@ -156,6 +175,14 @@ class ClimberDynamics(Dynamics):
         from .pictures.charts import draw_trials
 
         draw_trials(sum_up(trials), file)
+
+
+def _refuse_weak(task: LimbedTask, asked: Conditions) -> None:
+    weak = None if asked.force else too_weak(task.robot)
+    if weak is not None:
+        raise SpecError(
+            f"task '{task.name}'", "robot", task.robot.name, f"{weak}; nothing has moved (--force tries it)"
+        )
 
 
 def _search(asked: RunRequest, events: RunEvents) -> dict[str, Any]:

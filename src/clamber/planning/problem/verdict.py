@@ -253,7 +253,7 @@ class ToRun:
     objection: str | None
     """Why it would not: the first step and its limit."""
     command: str | None
-    """What makes a plan that can be carried out; TASK stands for the task's file where it has no name."""
+    """What makes a plan that can be carried out, None where nothing does; TASK stands for the task's file where it has no name."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

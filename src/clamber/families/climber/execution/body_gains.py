@@ -81,6 +81,22 @@ USUAL: Final = BodyGains()
 """Those of a climb."""
 
 
+def too_weak(robot: LimbedRobot) -> str | None:
+    """Why a robot's motors cannot do what control asks of them; None where nothing is known against it.
+
+    Control has a limb tug at its hold by up to `firm`, whatever the robot's size: motors that give less stand under full torque there,
+    which is taken for a fault.
+    """
+    weakest = min(robot.joints, key=robot.torque_limit_of)
+    least = robot.torque_limit_of(weakest)
+    if least >= USUAL.firm:
+        return None
+    return (
+        f"today's control of climbers asks up to {USUAL.firm:g} N m of every joint, and joint {weakest.number} of "
+        f"'{robot.name}' gives {least:.3g} N m (motor.torque_limit); docs/own-robot.md says which robots climb"
+    )
+
+
 def usual_alpha(limit: str) -> float:
     """Least acceleration of a hook where nothing is said [m/s^2]: 0 for the printed limit, which does not count the weight; else ours."""
     return 0.0 if limit == "thesis" else USUAL.alpha
