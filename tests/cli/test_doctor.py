@@ -45,7 +45,7 @@ def test_an_empty_cache_is_told_as_not_compiled(
     kernels = told(capsys)["kernels"]
     assert not kernels["compiled"] and kernels["functions"] == 0
     assert (kernels["older_folders"], kernels["older_bytes"]) == (1, 100)
-    kernel_cache.cache_folder().mkdir()
+    kernel_cache.cache_folder().mkdir(exist_ok=True)
     (kernel_cache.cache_folder() / "a.replay-1.py311.1.nbc").write_bytes(b"0" * 7)
     kernels = told(capsys)["kernels"]
     assert kernels["compiled"] and kernels["bytes"] == 7

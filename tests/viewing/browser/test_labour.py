@@ -28,6 +28,21 @@ class Ears:
         return self.labour.begin(work, done, failed)  # type: ignore[arg-type]
 
 
+def test_the_seconds_go_on_while_the_work_says_nothing_new(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("clamber.viewing.browser.work_panel.TICK", 0.01)
+    ears, heard = Ears(), threading.Event()
+    ears.labour = Labour(lambda words, share: (ears.said.append(words), len(ears.said) < 3 or heard.set())[0])
+
+    def work(tell: Tell) -> bool:
+        tell("rehearsing")
+        return heard.wait(5.0)
+
+    assert ears.begin(work)
+    assert ears.ended.wait(10.0)
+    assert ears.done == [True]
+    assert {words.split()[0] for words in ears.said} == {"rehearsing"}
+
+
 def test_what_is_done_is_handed_on() -> None:
     ears = Ears()
 

@@ -14,7 +14,7 @@ from ...tasks.task_format import task_files
 from .. import style
 from ..scene import join
 from .exhibit import Editor, Exhibit, exhibit_of
-from .inputs import by_hand, set_input
+from .inputs import by_hand, readable, set_input
 from .own_pages import Guard, UnguardedError, check_guarded, guarded
 from .playback import Playback
 from .save_panel import SavePanel
@@ -126,6 +126,7 @@ class App:
 
         check_port(host, port)
         self.guard = Guard(port) if host == LOOPBACK else Guard(port, names=None)
+        self.guard.title = f"{exhibit.title} - Clamber"
         self.server = guarded_server(host, self.guard)
         self.exhibit = exhibit
         server = self.server
@@ -200,7 +201,7 @@ class App:
         """
         assert self.editor is not None  # without it nothing is saved
         plan = self.exhibit.plan
-        made = task_files(self.editor.task().document, name)
+        made = task_files(readable(self.editor.task().document), name)
         return made if plan is None else made | {f"{name}-plan.json": plan.text()}
 
     @property

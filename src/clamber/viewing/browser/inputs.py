@@ -10,7 +10,7 @@ import numpy as np
 
 from ...errors import ClamberError, SpecError, StartError
 from ...types import Floats, Json
-from ...units import DEGREE
+from ...units import DEGREE, split_quantity
 from .panel_html import message_html
 
 if TYPE_CHECKING:
@@ -31,6 +31,16 @@ def by_hand(act: Callable[[Any], None], lock: AbstractContextManager[Any] | None
                 act(event)
 
     return heard
+
+
+def readable(said: Any) -> Any:
+    """A document whose lengths and angles are rounded to 1e-9, so that three inches are saved as 0.0762 m and no 0.07619999999999999 m."""
+    if isinstance(said, dict):
+        return {key: readable(value) for key, value in said.items()}
+    if isinstance(said, list | tuple):
+        return [readable(value) for value in said]
+    parts = split_quantity(said) if isinstance(said, str) and said.endswith((" m", " rad")) else None
+    return said if parts is None or parts[1] not in ("m", "rad") else f"{round(parts[0], 9) + 0.0!r} {parts[1]}"
 
 
 def about(error: Exception) -> str:

@@ -1,10 +1,12 @@
 """Only who has the viewer's address may talk to the viewer: other pages, programs and users reach this machine's ports, too."""
 
+import gzip
 import hmac
 import secrets
 import socket
 from collections.abc import Iterator
 from contextlib import contextmanager
+from html import escape
 from http import HTTPStatus
 from typing import Any, Final
 from unittest.mock import patch
@@ -13,6 +15,8 @@ from urllib.parse import parse_qs, urlsplit
 from ...errors import ClamberError
 
 LOOPBACK_NAMES: Final = ("127.0.0.1", "localhost", "[::1]")
+TITLE: Final = b"<title>Viser</title>"
+"""Of the viewer's page as its library has it."""
 PATIENCE: Final = 10.0
 """For the viewer's own server to answer [s]."""
 
@@ -37,7 +41,7 @@ class Guard:
     """
 
     def __init__(self, port: int, names: tuple[str, ...] | None = LOOPBACK_NAMES) -> None:
-        self.port, self.token = port, secrets.token_urlsafe(16)
+        self.port, self.token, self.title = port, secrets.token_urlsafe(16), "Clamber"
         self._names = names
 
     def admits(self, path: str, headers: Any) -> bool:
@@ -58,7 +62,14 @@ class Guard:
         return self._is_token(self._in_path(path)) or self._is_token(self._in_cookie(headers.get("Cookie", "")))
 
     def answer(self, path: str, response: Any) -> None:
-        """Have the browser bring the token from now on, where the address had it."""
+        """Have the browser bring the token from now on, where the address had it, and call the page by what it shows."""
+        if response.headers.get("Content-Type") == "text/html":
+            packed = response.headers.get("Content-Encoding") == "gzip"
+            page = gzip.decompress(response.body) if packed else response.body
+            titled = page.replace(TITLE, f"<title>{escape(self.title)}</title>".encode())
+            response.body = gzip.compress(titled, 1) if packed else titled
+            del response.headers["Content-Length"]
+            response.headers["Content-Length"] = str(len(response.body))
         if self._is_token(self._in_path(path)):
             response.headers["Set-Cookie"] = f"clamber-{self.port}={self.token}; Path=/; HttpOnly; SameSite=Strict"
         response.headers["Referrer-Policy"] = "no-referrer"

@@ -19,7 +19,7 @@ from ..output import check_suffix
 from ..panel import Gauges
 from .app import LOOPBACK, aim_camera, check_viser, guarded_server, light_scene
 from .exhibit import Exhibit
-from .own_pages import Guard
+from .own_pages import TITLE, Guard
 from .panel_html import head_html, step_margins_html
 from .stage import STRIPS, Stage
 
@@ -76,6 +76,7 @@ def _record(server: Any, exhibit: Exhibit) -> str:
     )
     data = data.replace("<", "\\u003c")  # so that no name in the data can end the script
     panel = PANEL.replace("@TITLE@", html.escape(exhibit.title)).replace("@DATA@", data)
+    page = page.replace(TITLE.decode(), f"<title>{html.escape(exhibit.title)} - Clamber</title>", 1)
     end = page.rindex("</body>")
     return page[:end] + panel + page[end:]
 

@@ -79,15 +79,33 @@ class Labour:
             self._thread.join(timeout=wait)
 
     def _do(self, work: Callable[[Tell], Any], done: Callable[[Any], None], failed: Callable[[str], None]) -> None:
-        began = time.monotonic()
+        began, ended = time.monotonic(), threading.Event()
+        last: list[tuple[str, float | None]] = []
+
+        def show() -> None:
+            words, share = last[-1]
+            self._told(f"{words} ({time.monotonic() - began:.0f} s)", share)
 
         def tell(words: str, share: float | None = None) -> None:
             if self._stop.is_set():
                 raise StoppedError
-            self._told(f"{words} ({time.monotonic() - began:.0f} s)", share)
+            last[:] = [(words, share)]
+            show()
 
+        def go_on() -> None:
+            while not ended.wait(TICK):
+                if last:
+                    show()
+
+        clock = threading.Thread(target=go_on, name="labour's clock", daemon=True)
+        clock.start()
         try:
-            done(work(tell))
+            try:
+                made = work(tell)
+            finally:
+                ended.set()
+                clock.join()  # nothing is told any more once the work has ended
+            done(made)
         except StoppedError:
             failed("stopped")
         except ClamberError as error:
@@ -97,6 +115,8 @@ class Labour:
             failed(f"a mistake in Clamber: {type(error).__name__}: {error}")
 
 
+TICK: Final = 1.0
+"""Between two times that are told of work that says nothing new [s]."""
 PLANNER: Final = "auto"
 TOLD: Final = 0.2
 """Between two words of a search's progress [s]."""
