@@ -76,8 +76,12 @@ def _intervals(task: SpatialTask, held: Ints) -> list[Json]:
             hold = task.world.holds[index]
             found.append(
                 {
-                    "limb": name, "hold": hold.number, "first_stance": int(first), "last_stance": int(last),
-                    "place": list(hold.at), "normal": normals[index].tolist(),
+                    "limb": name,
+                    "hold": hold.number,
+                    "first_stance": int(first),
+                    "last_stance": int(last),
+                    "place": list(hold.at),
+                    "normal": normals[index].tolist(),
                 }
-            )  # fmt: skip
+            )
     return sorted(found, key=lambda interval: (interval["first_stance"], interval["last_stance"]))

@@ -75,9 +75,11 @@ def _odd_robot(robot: SpatialRobot, units: ShownUnits) -> Iterator[str]:
         if narrow:
             yield f"limb '{name}': {_many(narrow)} turns through less than {NARROW / DEGREE:.0f} deg"
         at_end = [
-            joint for k, joint in enumerate(joints)
-            if min(chains.nominal[limb, k] - chains.lower[limb, k], chains.upper[limb, k] - chains.nominal[limb, k]) < 1e-6
-        ]  # fmt: skip
+            joint
+            for k, joint in enumerate(joints)
+            if min(chains.nominal[limb, k] - chains.lower[limb, k], chains.upper[limb, k] - chains.nominal[limb, k])
+            < 1e-6
+        ]
         if at_end:
             yield f"limb '{name}': its nominal posture has {_many(at_end)} at an end of the range, where searches have no room"
         needed = weight / n_limbs * 0.5 * float(reaches(robot)[limb])

@@ -12,7 +12,7 @@ from ....viewing.alone import Alone
 from ....viewing.scene import halo
 from ..planning.task import Lattice, Rules, SpatialTask, Start
 from ..robot.robot import SpatialRobot, build_robot
-from ..world.guide import GRAIN
+from ..world.guide import GRAIN, Waypoint
 from ..world.solids import Plane
 from ..world.world import World
 from .camera import camera_for
@@ -32,9 +32,16 @@ def _around(robot: SpatialRobot, world: World, height: float, document: Json) ->
     """What stands in for a task; `document` has the documents of the robot and of what else is shown."""
     half = 0.5 * GRAIN * (len(world.frames) - 1)
     return SpatialTask(
-        name=world.name, title=world.title, robot=robot, world=world, start=Start(along=half, height=height),
-        step=Lattice(length=0.01, height=0.01, angle=0.1), goals=(), rules=Rules(), document=document,
-    )  # fmt: skip
+        name=world.name,
+        title=world.title,
+        robot=robot,
+        world=world,
+        start=Start(along=half, height=height),
+        step=Lattice(length=0.01, height=0.01, angle=0.1),
+        goals=(),
+        rules=Rules(),
+        document=document,
+    )
 
 
 def robot_alone(robot: SpatialRobot, document: Json) -> Alone:
@@ -44,12 +51,13 @@ def robot_alone(robot: SpatialRobot, document: Json) -> Alone:
     lowest = min(float(level.origins[..., 2].min()), -float(chains.base_half[2]))
     reach = max(float(np.linalg.norm(chains.offset[:, 1:], axis=2).sum(axis=1).max()), GRAIN)
     at = Posed(np.array((reach, 0.0, -lowest)), np.eye(3), chains.nominal)
-    rows = int(np.ceil(2.0 * reach / GRAIN)) + 1
-    floor = np.tile(np.concatenate((np.zeros(3), np.eye(3).ravel())), (rows, 1))
-    floor[:, 0] = GRAIN * np.arange(rows)
+    floor = (
+        Waypoint(at=(0.0, 0.0, 0.0), normal=(0.0, 0.0, 1.0)),
+        Waypoint(at=(2.0 * reach, 0.0, 0.0)),
+    )
     ground = Plane(kind="plane", at=(0.0, 0.0, 0.0), normal=(0.0, 0.0, 1.0))
     world = World(
-        name=robot.name, title=robot.title, gravity=(0.0, 0.0, -GRAVITY), holds=(), solids=(ground,), frames=floor
+        name=robot.name, title=robot.title, gravity=(0.0, 0.0, -GRAVITY), holds=(), solids=(ground,), guide=floor
     )
     task = _around(robot, world, -lowest, {"robot": document})
     moment = _unloaded(task, at)
@@ -63,9 +71,18 @@ def robot_alone(robot: SpatialRobot, document: Json) -> Alone:
         RobotArtists(axes, task, camera, max(bounds[1] - bounds[0], bounds[3] - bounds[2])).update(moment)
         for limb, (name, tip) in enumerate(zip(chains.limb_names, camera.flat(moment.tips), strict=True)):
             axes.annotate(
-                name, tuple(tip), xytext=(0, -9), textcoords="offset points", ha="center", va="top", fontsize=8, weight="bold",
-                color=limb_colour(limb), zorder=9, path_effects=[halo(2.5)],
-            )  # fmt: skip
+                name,
+                tuple(tip),
+                xytext=(0, -9),
+                textcoords="offset points",
+                ha="center",
+                va="top",
+                fontsize=8,
+                weight="bold",
+                color=limb_colour(limb),
+                zorder=9,
+                path_effects=[halo(2.5)],
+            )
 
     return Alone(task, bounds, draw, moment)
 
@@ -82,9 +99,16 @@ def _unloaded(task: SpatialTask, at: Posed) -> Moment:
     chains = task.robot.chains
     frames, limbs = link_frames(chains, at), len(chains.limb_names)
     return Moment(
-        at, np.zeros(6), frames, (SWINGING,) * limbs, np.full((limbs, 3), np.nan), np.full((limbs, 6), np.nan),
-        np.zeros(chains.lower.shape), centre_of_mass(chains, at, frames), np.zeros(0),
-    )  # fmt: skip
+        at,
+        np.zeros(6),
+        frames,
+        (SWINGING,) * limbs,
+        np.full((limbs, 3), np.nan),
+        np.full((limbs, 6), np.nan),
+        np.zeros(chains.lower.shape),
+        centre_of_mass(chains, at, frames),
+        np.zeros(0),
+    )
 
 
 def world_alone(world: World, document: Json) -> Alone:

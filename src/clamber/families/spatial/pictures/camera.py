@@ -112,9 +112,12 @@ def named_camera(world: World, name: str) -> Camera:
     level = -across * math.copysign(1.0, float(normal @ up)) if steep else normal
     azimuth = _azimuth(level, Camera(0.0, 0.0, up_of(world)))
     turns: dict[str, tuple[float, float]] = {
-        "front": (0.0, 10.0 * DEGREE), "left": (-ASIDE, 10.0 * DEGREE), "right": (ASIDE, 10.0 * DEGREE),
-        "above": (0.0, 90.0 * DEGREE), "iso": (-45.0 * DEGREE, 35.3 * DEGREE),
-    }  # fmt: skip
+        "front": (0.0, 10.0 * DEGREE),
+        "left": (-ASIDE, 10.0 * DEGREE),
+        "right": (ASIDE, 10.0 * DEGREE),
+        "above": (0.0, 90.0 * DEGREE),
+        "iso": (-45.0 * DEGREE, 35.3 * DEGREE),
+    }
     aside, elevation = turns[name]
     return Camera(azimuth + aside, elevation, up_of(world))
 

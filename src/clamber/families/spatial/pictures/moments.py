@@ -95,11 +95,17 @@ def settled_moments(task: SpatialTask, stances: Records, shares: Floats | None =
         held = tuple(int(hold) for hold in stance["hold"][:n_limbs])
         found.append(
             Moment(
-                Posed(body.place[k], body.turn[k], body.q[k]), poses[k], LinkFrames(frames.origins[k], frames.axes[k]), held,
+                Posed(body.place[k], body.turn[k], body.q[k]),
+                poses[k],
+                LinkFrames(frames.origins[k], frames.axes[k]),
+                held,
                 normals[list(held)],
-                wrenches[k], torques[k], centres[k], np.zeros(0) if shares is None else shares[k],
+                wrenches[k],
+                torques[k],
+                centres[k],
+                np.zeros(0) if shares is None else shares[k],
             )
-        )  # fmt: skip
+        )
     return found
 
 

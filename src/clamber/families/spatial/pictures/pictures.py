@@ -69,10 +69,14 @@ def _mark_used(wall: Axes, task: SpatialTask, camera: Camera, moments: list[Mome
         outlines = camera.flat(discs(world.places[taken], world.normals[taken], 1.25 * radii[taken]))
         wall.add_collection(
             PolyCollection(
-                list(outlines), facecolors=mixed(limb_colour(limb), style.PAPER, 0.25), edgecolors=style.PAPER, linewidths=0.4,
-                zorder=2.3, alpha=0.8,
+                list(outlines),
+                facecolors=mixed(limb_colour(limb), style.PAPER, 0.25),
+                edgecolors=style.PAPER,
+                linewidths=0.4,
+                zorder=2.3,
+                alpha=0.8,
             )
-        )  # fmt: skip
+        )
 
 
 def _write_panel(layout: Layout, panel: Axes, task: SpatialTask, replay: Replay, moments: list[Moment]) -> None:

@@ -76,9 +76,14 @@ class WorldScene:
                 f"/world/surfaces/{solid + 1}", *mesh, color=colour(SURFACE), flat_shading=True, side="front"
             )
             server.scene.add_mesh_simple(
-                f"/world/surfaces/{solid + 1} from behind", *mesh, color=colour(SURFACE), flat_shading=True, side="back",
-                opacity=GLASS, cast_shadow=False,
-            )  # fmt: skip
+                f"/world/surfaces/{solid + 1} from behind",
+                *mesh,
+                color=colour(SURFACE),
+                flat_shading=True,
+                side="back",
+                opacity=GLASS,
+                cast_shadow=False,
+            )
         lift = LIFT * self.size
         if len(surfaces.lines):
             lines = surfaces.lines + lift * surfaces.line_normals[:, None]
@@ -120,9 +125,14 @@ class WorldScene:
         normal = np.cross(along, left - right)
         normal *= lift / np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-12)
         self._server.scene.add_mesh_simple(
-            f"/world/goals/{index + 1}", *strip_mesh(right + normal, left + normal), color=colour(style.GOAL),
-            opacity=0.45 if last else 0.22, flat_shading=True, side="double", cast_shadow=False,
-        )  # fmt: skip
+            f"/world/goals/{index + 1}",
+            *strip_mesh(right + normal, left + normal),
+            color=colour(style.GOAL),
+            opacity=0.45 if last else 0.22,
+            flat_shading=True,
+            side="double",
+            cast_shadow=False,
+        )
         middle = 0.5 * (right[0] + left[0]) + 4.0 * normal[0]
         self._server.scene.add_label(
             f"/world/goals/{index + 1}/name",
@@ -197,16 +207,24 @@ class SpatialFigure(Figure):
         self._length = longest_limb(task)
         self._nodes = {
             key: server.scene.add_mesh_simple(
-                f"{name}/parts/{key[0] + 1} {key[1] + 1}", *mesh, color=colour(BASE if key[0] < 0 else limb_colour(key[0])),
-                flat_shading=False, opacity=None if opacity >= 1.0 else opacity, cast_shadow=opacity >= 1.0,
+                f"{name}/parts/{key[0] + 1} {key[1] + 1}",
+                *mesh,
+                color=colour(BASE if key[0] < 0 else limb_colour(key[0])),
+                flat_shading=False,
+                opacity=None if opacity >= 1.0 else opacity,
+                cast_shadow=opacity >= 1.0,
             )
             for key, mesh in body_meshes(task).items()
-        }  # fmt: skip
+        }
         if (-1, -1) not in self._nodes:
             self._nodes[-1, -1] = server.scene.add_mesh_simple(
-                f"{name}/parts/base", *box_mesh(np.maximum(chains.base_half, 0.01 * self._length)), color=colour(BASE),
-                flat_shading=True, opacity=None if opacity >= 1.0 else opacity, cast_shadow=opacity >= 1.0,
-            )  # fmt: skip
+                f"{name}/parts/base",
+                *box_mesh(np.maximum(chains.base_half, 0.01 * self._length)),
+                color=colour(BASE),
+                flat_shading=True,
+                opacity=None if opacity >= 1.0 else opacity,
+                cast_shadow=opacity >= 1.0,
+            )
         limbs = range(len(chains.limb_names))
         self._bare = [
             (limb, k) for limb in limbs for k in range(int(chains.n_joints[limb])) if (limb, k) not in self._nodes

@@ -126,10 +126,16 @@ def way_places(task: SpatialTask, *alongs: float) -> Floats:
 def share_gauges(names: tuple[str, ...]) -> Gauges:
     """One bar per check: how much of its limit is left."""
     return Gauges(
-        title="Share of each limit that is left", names=names, colours=(style.STRIP[3],) * len(names),
-        low=np.zeros(len(names)), high=np.ones(len(names)),
-        limits=(), calm=(0.0, math.inf), unit=("%", 0.01, 0), group=1,
-    )  # fmt: skip
+        title="Share of each limit that is left",
+        names=names,
+        colours=(style.STRIP[3],) * len(names),
+        low=np.zeros(len(names)),
+        high=np.ones(len(names)),
+        limits=(),
+        calm=(0.0, math.inf),
+        unit=("%", 0.01, 0),
+        group=1,
+    )
 
 
 def force_gauges(task: SpatialTask) -> Gauges:
@@ -137,10 +143,17 @@ def force_gauges(task: SpatialTask) -> Gauges:
     names = task.robot.chains.limb_names
     weight = task.robot.chains.total_mass * float(np.linalg.norm(task.world.gravity)) or 1.0
     return Gauges(
-        title="Contact forces", names=names, colours=tuple(map(limb_colour, range(len(names)))), low=np.zeros(len(names)),
-        high=np.full(len(names), weight), limits=(), calm=(0.0, math.inf), unit=("N", 1.0, 1 if weight < 100.0 else 0),
-        group=1, note="full bar: the robot's weight",
-    )  # fmt: skip
+        title="Contact forces",
+        names=names,
+        colours=tuple(map(limb_colour, range(len(names)))),
+        low=np.zeros(len(names)),
+        high=np.full(len(names), weight),
+        limits=(),
+        calm=(0.0, math.inf),
+        unit=("N", 1.0, 1 if weight < 100.0 else 0),
+        group=1,
+        note="full bar: the robot's weight",
+    )
 
 
 def torque_gauges(task: SpatialTask) -> Gauges:
@@ -153,10 +166,17 @@ def torque_gauges(task: SpatialTask) -> Gauges:
         names += words
         colours += [limb_colour(limb)] * len(words)
     return Gauges(
-        title="Joint torques, of their limits", names=tuple(names), colours=tuple(colours), low=np.zeros(len(names)),
-        high=np.ones(len(names)), limits=((1.0, "limit"),), calm=(0.0, NEAR_LIMIT), unit=("%", 0.01, 0),
-        group=1 if most else int(chains.n_joints.max()), note="the largest of each limb" if most else "",
-    )  # fmt: skip
+        title="Joint torques, of their limits",
+        names=tuple(names),
+        colours=tuple(colours),
+        low=np.zeros(len(names)),
+        high=np.ones(len(names)),
+        limits=((1.0, "limit"),),
+        calm=(0.0, NEAR_LIMIT),
+        unit=("%", 0.01, 0),
+        group=1 if most else int(chains.n_joints.max()),
+        note="the largest of each limb" if most else "",
+    )
 
 
 def used_torques(task: SpatialTask, torques: Floats) -> Floats:
@@ -217,9 +237,10 @@ def draw_key(panel: Axes, left: float, y: float, task: SpatialTask, metres: floa
     """
     quiet = style.QUIET
     for x, marker, face, edge, words in (
-        (0.0, "o", HOLDS, style.HOLD, "hold"), (0.62, "o", "#CFE0EE", style.PARTS[0], "held"),
+        (0.0, "o", HOLDS, style.HOLD, "hold"),
+        (0.62, "o", "#CFE0EE", style.PARTS[0], "held"),
         (1.24, "o", style.PAPER, style.INK, "centre of mass"),
-    ):  # fmt: skip
+    ):
         panel.plot([left + x + 0.06], [y], marker=marker, ms=6.5, mfc=face, mec=edge, mew=1.2, ls="", clip_on=False)
         panel.text(left + x + 0.17, y, words, fontsize=7, va="center", color=quiet)
     per_newton = force_scale(task) / metres

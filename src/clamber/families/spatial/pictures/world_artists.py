@@ -161,10 +161,15 @@ def _draw_goal(axes: Axes, task: SpatialTask, goal: Goal, index: int, camera: Ca
     for face, line, alpha in ((style.GOAL, "none", 0.24 if last else 0.12), ("none", style.GOAL, 1.0)):
         axes.add_collection(
             PolyCollection(
-                [outline], facecolors=face, edgecolors=line, alpha=alpha, linewidths=1.1, zorder=1.4,
+                [outline],
+                facecolors=face,
+                edgecolors=line,
+                alpha=alpha,
+                linewidths=1.1,
+                zorder=1.4,
                 linestyles="-" if last else (0, (3, 2)),
             )
-        )  # fmt: skip
+        )
     clipped = Path(outline).clip_to_bbox(Bbox.from_extents(bounds[0], bounds[2], bounds[1], bounds[3]))
     inside = np.asarray(clipped.vertices, np.float64)
     if not len(inside):
@@ -175,9 +180,17 @@ def _draw_goal(axes: Axes, task: SpatialTask, goal: Goal, index: int, camera: Ca
         float(top[1]) > bounds[2] + 0.96 * (bounds[3] - bounds[2]),
     )
     axes.annotate(
-        goal_label(task, index), tuple(top), xytext=(3 if left else -3, -3 if high else 3), textcoords="offset points",
-        ha="left" if left else "right", va="top" if high else "bottom", fontsize=8, color=GOAL_WORDS, zorder=9, path_effects=[halo()],
-    )  # fmt: skip
+        goal_label(task, index),
+        tuple(top),
+        xytext=(3 if left else -3, -3 if high else 3),
+        textcoords="offset points",
+        ha="left" if left else "right",
+        va="top" if high else "bottom",
+        fontsize=8,
+        color=GOAL_WORDS,
+        zorder=9,
+        path_effects=[halo()],
+    )
 
 
 def _draw_guide(axes: Axes, task: SpatialTask, camera: Camera) -> None:
@@ -186,9 +199,12 @@ def _draw_guide(axes: Axes, task: SpatialTask, camera: Camera) -> None:
     way = line[-1] - line[-2]
     if float(np.hypot(*way)) > 1e-9:
         axes.annotate(
-            "", tuple(line[-1]), tuple(line[-1] - 1e-3 * way / np.hypot(*way)), zorder=1.6,
+            "",
+            tuple(line[-1]),
+            tuple(line[-1] - 1e-3 * way / np.hypot(*way)),
+            zorder=1.6,
             arrowprops={"arrowstyle": "-|>", "color": style.QUIET, "lw": 0.9, "mutation_scale": 8},
-        )  # fmt: skip
+        )
 
 
 def discs(places: Floats, normals: Floats, radii: Floats) -> Floats:
@@ -225,9 +241,16 @@ def _draw_holds(axes: Axes, task: SpatialTask, camera: Camera, bounds: Bounds) -
         return
     for hold, at in zip(world.holds, camera.flat(places), strict=True):
         axes.annotate(
-            str(hold.number), tuple(at), (0, -8), textcoords="offset points", ha="center", fontsize=6, color=style.QUIET,
-            zorder=2.2, annotation_clip=True,
-        )  # fmt: skip
+            str(hold.number),
+            tuple(at),
+            (0, -8),
+            textcoords="offset points",
+            ha="center",
+            fontsize=6,
+            color=style.QUIET,
+            zorder=2.2,
+            annotation_clip=True,
+        )
 
 
 def _draw_scale(axes: Axes, task: SpatialTask, camera: Camera, bounds: Bounds) -> None:
@@ -239,9 +262,17 @@ def _draw_scale(axes: Axes, task: SpatialTask, camera: Camera, bounds: Bounds) -
     x, y = bounds[1] - room - length, bounds[2] + room
     axes.plot([x, x + length], [y, y], color=style.INK, lw=1.6, solid_capstyle="butt", zorder=9)
     axes.annotate(
-        words, (x + 0.5 * length, y), xytext=(0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=7.5,
-        color=style.INK, zorder=9, path_effects=[halo(2.4)],
-    )  # fmt: skip
+        words,
+        (x + 0.5 * length, y),
+        xytext=(0, 3),
+        textcoords="offset points",
+        ha="center",
+        va="bottom",
+        fontsize=7.5,
+        color=style.INK,
+        zorder=9,
+        path_effects=[halo(2.4)],
+    )
     origin = np.array((bounds[0] + 2.0 * room, bounds[2] + 2.0 * room))
     arm = 1.4 * room
     for axis, name in zip(np.eye(3), "xyz", strict=True):
@@ -250,9 +281,15 @@ def _draw_scale(axes: Axes, task: SpatialTask, camera: Camera, bounds: Bounds) -
             continue
         axes.plot(*zip(origin, origin + tip, strict=True), color=style.QUIET, lw=1.0, zorder=9, solid_capstyle="round")
         axes.annotate(
-            name, tuple(origin + 1.3 * tip), ha="center", va="center", fontsize=7, color=style.QUIET, zorder=9,
+            name,
+            tuple(origin + 1.3 * tip),
+            ha="center",
+            va="center",
+            fontsize=7,
+            color=style.QUIET,
+            zorder=9,
             path_effects=[halo(2.0)],
-        )  # fmt: skip
+        )
     fall = np.array(task.world.gravity)
     if (
         np.linalg.norm(fall) > 1e-9

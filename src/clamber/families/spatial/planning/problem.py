@@ -222,11 +222,23 @@ def problem_params(task: SpatialTask, exact: bool) -> Params:
     goals = goal_records(task)
     row["base"] = _way(task, goals)
     return Params(
-        record, robot=arrays.robot, seeds=arrays.seeds, rules=rows, goals=goals, holds=holds, frames=world.frames, follow=follow,
-        solids=world.solid_records, spans=spans, tips=arrays.tips,
-        work=np.zeros(SCRATCH), work_body=body,
-        work_contacts=np.zeros(LIMBS + 2, CONTACT), work_judged=np.zeros(2, JUDGED), work_statics=np.zeros(1, WORK),
-    )  # fmt: skip
+        record,
+        robot=arrays.robot,
+        seeds=arrays.seeds,
+        rules=rows,
+        goals=goals,
+        holds=holds,
+        frames=world.frames,
+        follow=follow,
+        solids=world.solid_records,
+        spans=spans,
+        tips=arrays.tips,
+        work=np.zeros(SCRATCH),
+        work_body=body,
+        work_contacts=np.zeros(LIMBS + 2, CONTACT),
+        work_judged=np.zeros(2, JUDGED),
+        work_statics=np.zeros(1, WORK),
+    )
 
 
 ANY_YAW: Final = 7.0

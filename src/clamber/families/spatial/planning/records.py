@@ -35,11 +35,15 @@ STANCE: Final = np.dtype(
 )
 GOAL: Final = np.dtype(
     [
-        ("along_min", "f8"), ("along_max", "f8"), ("across_min", "f8"), ("across_max", "f8"),  # [m]
-        ("yaw_min", "f8"), ("yaw_width", "f8"),  # least yaw and how far on from there [rad]; width 7: any
+        ("along_min", "f8"),
+        ("along_max", "f8"),
+        ("across_min", "f8"),
+        ("across_max", "f8"),  # [m]
+        ("yaw_min", "f8"),
+        ("yaw_width", "f8"),  # least yaw and how far on from there [rad]; width 7: any
     ],
     align=True,
-)  # fmt: skip
+)
 HOLD: Final = np.dtype(
     [
         ("place", "f8", (3,)),  # world frame [m]
@@ -47,23 +51,60 @@ HOLD: Final = np.dtype(
         ("friction", "f8"),  # largest coefficient; infinite: the end effector's own
         ("strength", "f8"),  # largest force [N]; infinite: any
         ("radius", "f8"),  # of the patch [m]
-        ("along", "f8"), ("across", "f8"), ("height", "f8"),  # on the guide [m]
+        ("along", "f8"),
+        ("across", "f8"),
+        ("height", "f8"),  # on the guide [m]
     ],
     align=True,
-)  # fmt: skip
+)
 PARAMS: Final = np.dtype(
     [
-        ("along", "f8"), ("across", "f8"), ("height", "f8"), ("yaw", "f8"),  # of the start
-        ("length", "f8"), ("rise", "f8"), ("angle", "f8"), ("tilt", "f8"),  # of a step
-        ("follow_along", "f8"), ("follow_across", "f8"), ("follow_grain", "f8"),  # the grid of the fitted surface
-        ("lift", "f8"), ("clearance", "f8"), ("base", "f8"), ("reach", "f8"),
-        ("heights", "i8"), ("tilts", "i8"), ("far", "i8"), ("nearest", "i8"), ("turns", "i8"), ("turn_ticks", "i8"),
-        ("n_limbs", "i4"), ("hard", "i4"), ("kinds", "i4", (8,)),
-        ("n_goals", "i8"), ("n_holds", "i8"), ("n_frames", "i8"), ("n_solids", "i8"), ("n_rows", "i8"), ("n_columns", "i8"),
-        ("robot_at", "i8"), ("seeds_at", "i8"), ("rules_at", "i8"), ("goals_at", "i8"), ("holds_at", "i8"), ("frames_at", "i8"),
-        ("follow_at", "i8"), ("solids_at", "i8"), ("spans_at", "i8"), ("tips_at", "i8"),
-        ("work_at", "i8"), ("work_body_at", "i8"), ("work_contacts_at", "i8"), ("work_judged_at", "i8"), ("work_statics_at", "i8"),
+        ("along", "f8"),
+        ("across", "f8"),
+        ("height", "f8"),
+        ("yaw", "f8"),  # of the start
+        ("length", "f8"),
+        ("rise", "f8"),
+        ("angle", "f8"),
+        ("tilt", "f8"),  # of a step
+        ("follow_along", "f8"),
+        ("follow_across", "f8"),
+        ("follow_grain", "f8"),  # the grid of the fitted surface
+        ("lift", "f8"),
+        ("clearance", "f8"),
+        ("base", "f8"),
+        ("reach", "f8"),
+        ("heights", "i8"),
+        ("tilts", "i8"),
+        ("far", "i8"),
+        ("nearest", "i8"),
+        ("turns", "i8"),
+        ("turn_ticks", "i8"),
+        ("n_limbs", "i4"),
+        ("hard", "i4"),
+        ("kinds", "i4", (8,)),
+        ("n_goals", "i8"),
+        ("n_holds", "i8"),
+        ("n_frames", "i8"),
+        ("n_solids", "i8"),
+        ("n_rows", "i8"),
+        ("n_columns", "i8"),
+        ("robot_at", "i8"),
+        ("seeds_at", "i8"),
+        ("rules_at", "i8"),
+        ("goals_at", "i8"),
+        ("holds_at", "i8"),
+        ("frames_at", "i8"),
+        ("follow_at", "i8"),
+        ("solids_at", "i8"),
+        ("spans_at", "i8"),
+        ("tips_at", "i8"),
+        ("work_at", "i8"),
+        ("work_body_at", "i8"),
+        ("work_contacts_at", "i8"),
+        ("work_judged_at", "i8"),
+        ("work_statics_at", "i8"),
     ],
     align=True,
-)  # fmt: skip
+)
 """A task in space as its kernels read it: numbers, then addresses of its arrays."""

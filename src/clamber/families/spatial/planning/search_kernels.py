@@ -151,6 +151,15 @@ def aims(p, s, k):
 
 
 family_kernels(
-    PARAMS, step=step, candidates=candidates, key=key, restore=restore, measure=measure, bound=bound, done=done, cell=cell, spot=spot,
+    PARAMS,
+    step=step,
+    candidates=candidates,
+    key=key,
+    restore=restore,
+    measure=measure,
+    bound=bound,
+    done=done,
+    cell=cell,
+    spot=spot,
     aims=aims,
-)  # fmt: skip
+)

@@ -150,10 +150,14 @@ def build_world(document: Document) -> World:
         for place, normal in pattern.points(frames):
             holds.append(
                 Hold(
-                    number=len(holds) + 1, at=tuple(place), normal=tuple(normal),
-                    friction=pattern.friction, strength=pattern.strength, radius=pattern.radius,
+                    number=len(holds) + 1,
+                    at=tuple(place),
+                    normal=tuple(normal),
+                    friction=pattern.friction,
+                    strength=pattern.strength,
+                    radius=pattern.radius,
                 )
-            )  # fmt: skip
+            )
             if len(holds) > MOST_HOLDS:
                 raise document.problem("patterns", f"make more than {MOST_HOLDS} holds, the most that a world may have")
     for k, solid in enumerate(stated.solids):
