@@ -65,6 +65,9 @@ def carry_out(work: Work, words: RunOptions, command: str) -> None:
         except NoPlanError as none:
             line.say(str(none))
             raise typer.Exit(1) from None
+        except KeyboardInterrupt:  # of a run that has begun, its report tells
+            line.say("interrupted while it was planned; nothing has moved")
+            raise typer.Exit(130) from None
         finally:
             tell_cuts(len(cuts))
     _tell(work, words, run, command)

@@ -71,6 +71,8 @@ def plan_to_climb(
             result = find_planner(planner)(task, **options)
         except StartError:  # it stands where no such plan may begin
             return None
+        if "interrupted" in result.reason:
+            raise KeyboardInterrupt  # planners answer with what they have, which would be climbed
         if result.seconds >= seconds:
             events.cut()
         return result if result.has_plan else None

@@ -47,6 +47,8 @@ def rehearse(task: LimbedTask, plan: Plan, flaws: LimbFlaws, noise: Noise = REHE
     climbed, shares, failed = 0, [], None
     for seed in SEEDS:
         report = run_plan(task, plan, flaws, noise=noise, seed=seed).report
+        if report.reason == "interrupted":
+            raise KeyboardInterrupt
         climbed += report.done
         shares.append(sum(action.outcome == "ok" for action in report.actions) / max(1, len(plan.actions)))
         if not report.done:
