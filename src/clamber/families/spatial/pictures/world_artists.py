@@ -15,7 +15,6 @@ from ....viewing import style
 from ....viewing.scene import GOAL_WORDS, Bounds, fit_bounds, halo
 from ..planning.task import Goal, SpatialTask
 from ..world.guide import GRAIN
-from ..world.patterns import frame_at
 from ..world.solids import frame_about
 from .camera import Camera
 from .surfaces import Face, guide_ribbon, round_length, surfaces_of
@@ -37,8 +36,6 @@ MOST_NORMALS: Final = 700
 """Worlds with more holds show them without their normals."""
 MOST_NUMBERED: Final = 70
 """Worlds with more holds show them without their numbers."""
-EDGE_ROOM: Final = 0.02
-"""Around a picture of a world, over the larger side [-]."""
 
 
 def picture_bounds(camera: Camera, shown: Floats) -> Bounds:
@@ -71,7 +68,7 @@ def draw_world(axes: Axes, task: SpatialTask, camera: Camera, shown: Floats, bou
         _draw_goal(axes, task, goal, k, camera, bounds)
     _draw_guide(axes, task, camera)
     _draw_holds(axes, task, camera, bounds)
-    _draw_scale(axes, task, camera, bounds)
+    _draw_scale(axes, task, camera, shown, bounds)
 
 
 def _set_axes(axes: Axes, bounds: Bounds) -> None:
@@ -161,15 +158,10 @@ def _draw_goal(axes: Axes, task: SpatialTask, goal: Goal, index: int, camera: Ca
     for face, line, alpha in ((style.GOAL, "none", 0.24 if last else 0.12), ("none", style.GOAL, 1.0)):
         axes.add_collection(
             PolyCollection(
-                [outline],
-                facecolors=face,
-                edgecolors=line,
-                alpha=alpha,
-                linewidths=1.1,
-                zorder=1.4,
+                [outline], facecolors=face, edgecolors=line, alpha=alpha, linewidths=1.1, zorder=1.4,
                 linestyles="-" if last else (0, (3, 2)),
             )
-        )
+        )  # fmt: skip
     clipped = Path(outline).clip_to_bbox(Bbox.from_extents(bounds[0], bounds[2], bounds[1], bounds[3]))
     inside = np.asarray(clipped.vertices, np.float64)
     if not len(inside):
@@ -180,17 +172,9 @@ def _draw_goal(axes: Axes, task: SpatialTask, goal: Goal, index: int, camera: Ca
         float(top[1]) > bounds[2] + 0.96 * (bounds[3] - bounds[2]),
     )
     axes.annotate(
-        goal_label(task, index),
-        tuple(top),
-        xytext=(3 if left else -3, -3 if high else 3),
-        textcoords="offset points",
-        ha="left" if left else "right",
-        va="top" if high else "bottom",
-        fontsize=8,
-        color=GOAL_WORDS,
-        zorder=9,
-        path_effects=[halo()],
-    )
+        goal_label(task, index), tuple(top), xytext=(3 if left else -3, -3 if high else 3), textcoords="offset points",
+        ha="left" if left else "right", va="top" if high else "bottom", fontsize=8, color=GOAL_WORDS, zorder=9, path_effects=[halo()],
+    )  # fmt: skip
 
 
 def _draw_guide(axes: Axes, task: SpatialTask, camera: Camera) -> None:
@@ -199,12 +183,9 @@ def _draw_guide(axes: Axes, task: SpatialTask, camera: Camera) -> None:
     way = line[-1] - line[-2]
     if float(np.hypot(*way)) > 1e-9:
         axes.annotate(
-            "",
-            tuple(line[-1]),
-            tuple(line[-1] - 1e-3 * way / np.hypot(*way)),
-            zorder=1.6,
+            "", tuple(line[-1]), tuple(line[-1] - 1e-3 * way / np.hypot(*way)), zorder=1.6,
             arrowprops={"arrowstyle": "-|>", "color": style.QUIET, "lw": 0.9, "mutation_scale": 8},
-        )
+        )  # fmt: skip
 
 
 def discs(places: Floats, normals: Floats, radii: Floats) -> Floats:
@@ -241,20 +222,13 @@ def _draw_holds(axes: Axes, task: SpatialTask, camera: Camera, bounds: Bounds) -
         return
     for hold, at in zip(world.holds, camera.flat(places), strict=True):
         axes.annotate(
-            str(hold.number),
-            tuple(at),
-            (0, -8),
-            textcoords="offset points",
-            ha="center",
-            fontsize=6,
-            color=style.QUIET,
-            zorder=2.2,
-            annotation_clip=True,
-        )
+            str(hold.number), tuple(at), (0, -8), textcoords="offset points", ha="center", fontsize=6, color=style.QUIET,
+            zorder=2.2, annotation_clip=True,
+        )  # fmt: skip
 
 
-def _draw_scale(axes: Axes, task: SpatialTask, camera: Camera, bounds: Bounds) -> None:
-    """A bar of a round length, and the world's axes as they are seen, in the corner with the fewest holds."""
+def _draw_scale(axes: Axes, task: SpatialTask, camera: Camera, shown: Floats, bounds: Bounds) -> None:
+    """A bar of a round length, and the world's axes as they are seen, in an empty corner."""
     width, height = bounds[1] - bounds[0], bounds[3] - bounds[2]
     length = round_length(0.1 * max(width, height))
     words = f"{100.0 * length:g} cm" if length < 1.0 else f"{length:g} m"
@@ -262,41 +236,24 @@ def _draw_scale(axes: Axes, task: SpatialTask, camera: Camera, bounds: Bounds) -
     x, y = bounds[1] - room - length, bounds[2] + room
     axes.plot([x, x + length], [y, y], color=style.INK, lw=1.6, solid_capstyle="butt", zorder=9)
     axes.annotate(
-        words,
-        (x + 0.5 * length, y),
-        xytext=(0, 3),
-        textcoords="offset points",
-        ha="center",
-        va="bottom",
-        fontsize=7.5,
-        color=style.INK,
-        zorder=9,
-        path_effects=[halo(2.4)],
-    )
-    origin = np.array((bounds[0] + 2.0 * room, bounds[2] + 2.0 * room))
+        words, (x + 0.5 * length, y), xytext=(0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=7.5,
+        color=style.INK, zorder=9, path_effects=[halo(2.4)],
+    )  # fmt: skip
     arm = 1.4 * room
+    origin = _emptiest_corner(camera.flat(shown), bounds, 1.8 * arm)
     for axis, name in zip(np.eye(3), "xyz", strict=True):
         tip = arm * camera.flat(axis)
         if float(np.hypot(*tip)) < 0.2 * arm:
             continue
         axes.plot(*zip(origin, origin + tip, strict=True), color=style.QUIET, lw=1.0, zorder=9, solid_capstyle="round")
         axes.annotate(
-            name,
-            tuple(origin + 1.3 * tip),
-            ha="center",
-            va="center",
-            fontsize=7,
-            color=style.QUIET,
-            zorder=9,
+            name, tuple(origin + 1.3 * tip), ha="center", va="center", fontsize=7, color=style.QUIET, zorder=9,
             path_effects=[halo(2.0)],
-        )
+        )  # fmt: skip
     fall = np.array(task.world.gravity)
-    if (
-        np.linalg.norm(fall) > 1e-9
-        and abs(float(camera.axes[1] @ fall)) < 0.999 * float(np.linalg.norm(fall))
-        and not _is_down(fall)
-    ):
-        down = arm * camera.flat(fall / np.linalg.norm(fall))
+    size = float(np.linalg.norm(fall))
+    if size > 1e-9 and fall[2] > -0.999 * size:  # where things don't fall along -z, the way that they do
+        down = arm * camera.flat(fall / size)
         axes.annotate(
             "",
             tuple(origin + down),
@@ -306,11 +263,16 @@ def _draw_scale(axes: Axes, task: SpatialTask, camera: Camera, bounds: Bounds) -
         )
 
 
-def _is_down(fall: Floats) -> bool:
-    """Whether things fall along -z."""
-    return bool(fall[2] < -0.999 * np.linalg.norm(fall))
+def _emptiest_corner(places: Floats, bounds: Bounds, size: float) -> Floats:
+    """Where a mark of some size has the fewest places near: at the lower left, upper left or upper right.
 
-
-def frame_of_start(task: SpatialTask) -> Floats:
-    """Frame of the guide where the body starts, shape (12,)."""
-    return frame_at(task.world.frames, task.start.along)
+    Args:
+        places: In the picture's plane [m], shape (n, 2).
+        bounds: Of the picture.
+        size: Half the width of the mark [m].
+    """
+    left, right, low, high = bounds[0] + size, bounds[1] - size, bounds[2] + size, bounds[3] - size
+    corners = np.array([(left, low), (left, high), (right, high)])
+    crowd = [int((np.abs(places - corner) < 1.2 * size).all(axis=1).sum()) for corner in corners]
+    chosen: Floats = corners[int(np.argmin(crowd))]
+    return chosen
