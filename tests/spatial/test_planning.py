@@ -88,6 +88,16 @@ def test_wrenches_of_a_stance_bear_the_weight(name: str) -> None:
         assert stance["wrench"][:, :3].sum(axis=0) == pytest.approx(-weight, abs=1e-6 * np.linalg.norm(weight))
 
 
+@pytest.mark.parametrize("name", TASKS)
+def test_no_torque_of_a_plan_is_above_what_the_reserve_leaves(name: str) -> None:
+    it = task(name)
+    stances = SpatialProblem(it, 1, exact=True).replay(planned(name).codes(it)).stances
+    used = np.arange(it.robot.chains.torque.shape[1]) < it.robot.chains.n_joints[:, None]
+    limit = float(it.robot.chains.torque[used].max())
+    assert np.all(stances["torque"] > 0.0)
+    assert np.all(stances["torque"] <= (1.0 - stances["share"]) * limit + 1e-9)
+
+
 def test_threads_do_not_change_a_plan() -> None:
     it = task("wall-gripper")
     assert plan_beam(it, width=30, threads=2).plan == planned("wall-gripper")

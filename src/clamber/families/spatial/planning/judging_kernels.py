@@ -142,6 +142,7 @@ def judge_stance(p, before, s, swinging, moved, margins):
         margins[k] = out.margins[k]
     s.postured = 1
     s.share = out.s
+    s.torque = out.torque
     for i in range(p.n_limbs):
         for k in range(JOINTS):
             s.q[i, k] = out.posture[i, k]

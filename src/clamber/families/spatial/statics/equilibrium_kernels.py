@@ -197,6 +197,7 @@ def read_margins(robot, work, weight, out):
     margins = out.margins
     for check in range(TORQUE, SLIP + 3):
         margins[check] = UNLIMITED
+    out.torque = 0.0
     at = 0
     for limb in range(robot.n_limbs):
         components = robot.components[limb]
@@ -228,6 +229,7 @@ def read_margins(robot, work, weight, out):
                     for a in range(3):
                         for b in range(3):
                             torque += work.axis[limb, k, b] * frame[3 * a + b] * wrench[3 + a]
+            out.torque = max(out.torque, abs(torque))
             margins[TORQUE] = min(margins[TORQUE], robot.torque[limb, k] - abs(torque))
 
 

@@ -120,10 +120,9 @@ JUDGED = np.dtype(
     [
         ("posture", "f8", (LIMBS, JOINTS)),
         ("margins", "f8", (CHECKS_OF_STANCE,)),
-        (
-            "s",
-            "f8",
-        ),  # of the linear programme: a lower bound where it holds, else an upper one; exact where rules ask for it
+        ("torque", "f8"),  # largest torque [N m], or force of a slide [N], of the solution
+        # Of the linear programme: a lower bound where it holds, else an upper one; exact where rules ask for it
+        ("s", "f8"),
         ("wrench", "f8", (LIMBS, 6)),  # of the contact on the limb, its own frame (normal, two tangents): force, moment
         ("frame", "f8", (LIMBS, 9)),  # normal and tangents of each contact, base frame, row by row
         ("origin", "f8", (LIMBS, JOINTS + 1, 3)),  # of every joint's frame and the tip, world frame
