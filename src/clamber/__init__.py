@@ -46,7 +46,7 @@ _PLACES = {
     "find_openings": "api.planning",
     "inspect": "api.planning",
     "load_board": "families.climber.world.library",
-    "load_ground": "families.walker.world.library",
+    "load_ground": "families.walker.world.ground",
     "load_plan": "api.planning",
     "load_robot": "tasks.robots",
     "load_task": "tasks.library",

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from .errors import MISSING, ClamberError, FileError, SpecError, UnknownNameError, describe_choices
-from .regular_files import is_file, read_bytes, user_path
+from .regular_files import is_file, is_folder, read_bytes, user_path
 from .regular_files import write_atomically as write_atomically
 from .types import Json
 
@@ -169,7 +169,7 @@ def other_file(name_or_path: str | Path) -> FileError | None:
     """The error about a folder, or about a file of another program by its suffix, with what to do with it; None: it is neither."""
     text = str(name_or_path)
     path = user_path(text)
-    if path.is_dir():
+    if is_folder(path):
         found = sorted(one.name for one in path.glob("*.toml"))
         words = f"name a file in it, such as {', '.join(found[:5])}" if found else "it has no TOML files; name a file"
         return FileError(text, "is a folder", words)

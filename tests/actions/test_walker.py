@@ -385,7 +385,7 @@ def test_one_planner_works_on_both_families(family: str) -> None:
 
 def test_the_genetic_planner_crosses_the_field_and_the_plain_evaluator_agrees() -> None:
     task = load()
-    result = plan_task(task, seed=0, threads=1, max_evaluations=12_000)
+    result = plan_task(task, "genetic", seed=0, threads=1, max_evaluations=12_000)
     assert result.status == "found"
     assert result.plan is not None
     assert check_plan(task, result.plan, go_on=False).reached

@@ -12,6 +12,7 @@ import pytest
 from clamber.cli import main
 from clamber.families.climber.world.library import load_board
 from clamber.tasks import load_task
+from clamber.units import INCH
 
 Run = Callable[..., tuple[int, str, str]]
 
@@ -209,7 +210,7 @@ def test_a_start_that_does_not_hold_is_told_with_every_margin(run: Run) -> None:
     code, _, err = run("plan", "ladder", "--set", "start.y=2ft", "-q")
     assert code == 2 and "violates the hard check 'reach'" in err
     reach = next(margin["margin"] for margin in found["margins"] if margin["check"] == "reach")
-    assert f"({-reach:.4g}" in err or f"by {-reach:.4g}" in err
+    assert f"by {-reach / INCH:.4g} in" in err
 
 
 @pytest.mark.parametrize(
@@ -218,7 +219,10 @@ def test_a_start_that_does_not_hold_is_told_with_every_margin(run: Run) -> None:
         ('schema = "clamber-robot-2"\n', "schema = 'clamber-robot-2': must be one of clamber-robot-1, clamber-task-1"),
         ("weight = 3\n", "thing.toml: schema: must be one of"),
         ("x = = 3\n", "is not valid TOML"),
-        ('schema = "clamber-robot-1"\nfamily = "flying"\n', "family = 'flying': must be one of limbed, walker"),
+        (
+            'schema = "clamber-robot-1"\nfamily = "flying"\n',
+            "family = 'flying': must be one of limbed, spatial, walker",
+        ),
         (
             'schema = "clamber-board-1"\nname = "b"\n',
             "a board states exactly one of 'holds', [ladder], [grid], [random]",

@@ -14,10 +14,10 @@ from clamber.families.walker.robot import WalkerRobot
 from clamber.sim.lone_robot import LoneRobot, lone_robot
 from clamber.sim.mjcf_file import mjcf_text, plain_name
 from clamber.sim.urdf_file import GRAIN, roll_pitch_yaw, urdf_of
-from clamber.tasks.robots import load_robot, robot_names
+from clamber.tasks.robots import family_in, load_robot, read_robot, robot_names
 from clamber.types import Floats
 
-NAMES = robot_names()
+NAMES = tuple(name for name in robot_names() if family_in(read_robot(name)).model is not None)
 SEEDS = range(3)
 CLOSE = 1e-9
 BASE = ("x", "y", "theta", "plate")

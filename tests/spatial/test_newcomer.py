@@ -15,8 +15,8 @@ LEG = """
 <link name="{n}_thigh"><inertial><origin xyz="0 0 -0.1"/><mass value="1.1"/>
   <inertia ixx="5e-3" iyy="5e-3" izz="1e-3" ixy="0" ixz="0" iyz="0"/></inertial>
   <collision><origin xyz="0 0 -0.1"/><geometry><box size="0.03 0.03 0.2"/></geometry></collision></link>
-<joint name="{n}_thigh_joint" type="revolute"><parent link="{n}_hip"/><child link="{n}_thigh"/><origin xyz="0 {s}0.09 0"/><axis xyz="0 1 0"/>
-  <limit lower="-1.5" upper="3.4" effort="23" velocity="20"/></joint>
+<joint name="{n}_thigh_joint" type="revolute"><parent link="{n}_hip"/><child link="{n}_thigh"/>
+  <origin xyz="0 {s}0.09 0"/><axis xyz="0 1 0"/><limit lower="-1.5" upper="3.4" effort="23" velocity="20"/></joint>
 <link name="{n}_calf"><inertial><origin xyz="0 0 -0.1"/><mass value="0.25"/>
   <inertia ixx="1e-3" iyy="1e-3" izz="1e-4" ixy="0" ixz="0" iyz="0"/></inertial></link>
 <joint name="{n}_calf_joint" type="revolute"><parent link="{n}_thigh"/><child link="{n}_calf"/><origin xyz="0 0 -0.21"/><axis xyz="0 1 0"/>

@@ -23,6 +23,7 @@ class Spatial(Family):
         {
             "files": "clamber.families.spatial.planning.task:FILES",
             "plans": "clamber.families.spatial.planning.plans:PLANS",
+            "relaxations": "clamber.families.spatial.planning.relaxations:spatial_relaxations",
             "pictures": "clamber.families.spatial.pictures.pictures:PICTURES",
             "scenes": "clamber.families.spatial.pictures.scenes:SCENES",
             "trajectories": "clamber.families.spatial.trajectories:TRAJECTORIES",

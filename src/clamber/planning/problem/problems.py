@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Annotated, Any, ClassVar, Final, Literal
 
 import numpy as np
-from pydantic import Field, StrictStr
+from pydantic import AfterValidator, Field, StrictStr
 
 from ...errors import PlannerError
 from ...family import family_of
@@ -27,6 +27,12 @@ POSE_AXES: Final = {3: ("x", "y", "theta"), 6: ("along", "across", "height", "ya
 """Number of a body pose's coordinates -> their names."""
 
 
+def _pose(delta: tuple[float, ...]) -> tuple[float, ...]:
+    if len(delta) not in POSE_AXES:
+        raise ValueError("must be 3 numbers, x, y and angle, or 6, along, across, height, yaw, pitch, roll")
+    return delta
+
+
 @spec
 class PlannedAction(Jsonable):
     """What the robot is told to do in one step, every choice made."""
@@ -36,7 +42,7 @@ class PlannedAction(Jsonable):
     """Name of the limb or frame; None where the action has none."""
     hold: Annotated[int, Field(strict=True, ge=1)] | None = None
     """Number of the hold that a grab takes; None for a grab that found no hold."""
-    delta: tuple[Finite, Finite, Finite] | tuple[Finite, Finite, Finite, Finite, Finite, Finite] | None = None
+    delta: Annotated[tuple[Finite, ...], AfterValidator(_pose)] | None = None
     """A move's change of the body's pose: x, y [m], angle [rad] in a plane; along, across, height [m], yaw, pitch, roll [rad] in space."""
     code: Annotated[int, Field(strict=True, ge=0)] | None = None
     """The thesis's number (0, 1..6, N00, NXX) with the hold that was taken; None where it has no number for this."""

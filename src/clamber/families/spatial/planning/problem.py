@@ -84,13 +84,15 @@ class SpatialProblem(CompiledProblem):
 
     @property
     def estimated_stances(self) -> float:
-        """Poses of the lattice about the way, times holds that each limb may have there."""
-        step, chains = self.task.step, self.task.robot.chains
-        size = float(self.params.record["reach"])
-        poses = (self.way / step.length + 1.0) * (2.0 * size / step.length) * (2 * step.heights + 1)
-        poses *= (2 * step.tilts + 1) ** 2 if step.tilt else 1
-        per_limb = max(2.0, min(step.nearest, self.landmarks / len(chains.limb_names)))
-        return poses * per_limb ** len(chains.limb_names)
+        """Poses of the lattice about the way, times the holds that each limb may have there."""
+        step, limbs = self.task.step, len(self.task.robot.chains.limb_names)
+        reach = float(self.params.record["reach"])
+        poses = (self.way / step.length + 1.0) * (2.0 * reach / step.length) * (2 * step.heights + 1)
+        poses *= float(self.params.record["turns"]) * ((2 * step.tilts + 1) ** 2 if step.tilt else 1)
+        places = self.task.world.places
+        some = places[:: max(1, len(places) // SAMPLED)]
+        near = np.linalg.norm(places[None] - some[:, None], axis=2) < 0.5 * reach
+        return poses * max(1.0, float(np.median(near.sum(axis=1)))) ** limbs
 
     def ways(self) -> WayFields:
         """Steps along and across to each goal, straight."""
@@ -241,6 +243,8 @@ def problem_params(task: SpatialTask, exact: bool) -> Params:
     )
 
 
+SAMPLED: Final = 100
+"""Holds about which others are counted, to estimate how many there are for a limb."""
 ANY_YAW: Final = 7.0
 """Width of a goal's range of yaw that takes all of them: more than a turn [rad]."""
 MOVED: Final = 2.5

@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from itertools import pairwise, takewhile
+from string import ascii_letters
 from typing import Final
 
 import numpy as np
@@ -218,5 +219,17 @@ def _prefix(names: list[str]) -> str:
     alike = takewhile(lambda letters: len(set(letters)) == 1, zip(*names, strict=False))
     shared = "".join(letters[0] for letters in alike)
     if any(name[len(shared) : len(shared) + 1].isalpha() for name in names):
-        shared = re.sub(r"[A-Za-z]+$", "", shared)
-    return re.sub(r"[^A-Za-z0-9]*(joint|j)?[^A-Za-z0-9]*$", "", shared, flags=re.I) if len(names) > 1 else ""
+        shared = shared.rstrip(ascii_letters)
+    if len(names) < 2:
+        return ""
+    bare = _without_signs(shared)
+    word = next((word for word in ("joint", "j") if bare.lower().endswith(word)), "")
+    return _without_signs(bare[: len(bare) - len(word)])
+
+
+def _without_signs(name: str) -> str:
+    """A name up to its last letter or digit."""
+    end = len(name)
+    while end and not name[end - 1].isalnum():
+        end -= 1
+    return name[:end]

@@ -133,7 +133,7 @@ class SpatialRobot:
     """Made of spec and tree."""
     contacts: tuple[Contact, ...] = field(repr=False)
     """What each limb holds on with."""
-    model_path: Path | None
+    model_path: Path | None = field(compare=False)
     """None: the robot comes from a stored plan, which holds what statics needs of the model."""
     sources: Mapping[str, Provenance]
     """Dotted key of the file -> the number as written and its source."""

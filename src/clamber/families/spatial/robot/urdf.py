@@ -183,8 +183,7 @@ def _unreadable(file: Path) -> str | None:
     if file.stat().st_size > MOST_MESH:
         return f"is larger than {MOST_MESH // 2**20} MB"
     if suffix == ".stl":
-        with file.open("rb") as opened:
-            header = opened.read(STL_HEADER)
+        header = read_bytes(file, MOST_MESH)[:STL_HEADER]
         faces = int.from_bytes(header[80:], "little")
         if len(header) < STL_HEADER or file.stat().st_size < STL_HEADER + STL_FACE * faces:
             return "is no binary STL file"
