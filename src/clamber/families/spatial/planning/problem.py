@@ -108,7 +108,7 @@ class SpatialProblem(CompiledProblem):
         at_holds = np.array([_away(goal, holds["along"], holds["across"]) for goal in goals])
         after = np.zeros(len(goals))
         for k in range(len(goals) - 2, -1, -1):
-            after[k] = after[k + 1] + _between(goals[k], goals[k + 1]) / (step.far * step.length)
+            after[k] = (goals["way"][-1] - goals["way"][k]) / (step.far * step.length)
         return WayFields(np.array((u[0], v[0], step.length)), fields, at_holds / (step.far * step.length), after)
 
     def resolve(self, codes: npt.NDArray[np.int32], stances: Records) -> npt.NDArray[np.int32]:
@@ -154,21 +154,22 @@ def _away(goal: Any, along: Any, across: Any) -> Floats:
     return made
 
 
-def _between(first: Any, then: Any) -> float:
-    """Distance of two goals' boxes [m]."""
-    gaps = [
-        max(0.0, float(then[f"{axis}_min"] - first[f"{axis}_max"]), float(first[f"{axis}_min"] - then[f"{axis}_max"]))
-        for axis in ("along", "across")
-    ]
-    return math.hypot(*gaps)
+def _entered(box: tuple[float, float, float, float], at: tuple[float, float]) -> tuple[float, float]:
+    """Place of a goal's box that is nearest another place [m]."""
+    return min(max(at[0], box[0]), box[1]), min(max(at[1], box[2]), box[3])
 
 
 def goal_records(task: SpatialTask) -> Records:
     """Goals in order, records of `GOAL`."""
     rows = np.zeros(len(task.goals), GOAL)
+    at, way = (task.start.along, task.start.across), 0.0
     for row, goal in zip(rows, task.goals, strict=True):
         row["along_min"], row["along_max"], row["across_min"], row["across_max"] = goal.box
         low, high = goal.yaw_min, goal.yaw_max
+        entered = _entered(goal.box, at)
+        way += math.dist(at, entered)
+        at = entered
+        row["way"] = way
         row["yaw_min"], row["yaw_width"] = (0.0, ANY_YAW) if low is None or high is None else (low, high - low)
     return rows
 
@@ -222,7 +223,7 @@ def problem_params(task: SpatialTask, exact: bool) -> Params:
     body = np.zeros(1, BODY)
     body["gravity"], body["wrench"][0, :3] = world.gravity, rules.push
     goals = goal_records(task)
-    row["base"] = _way(task, goals)
+    row["base"] = goals["way"][-1]
     return Params(
         record,
         robot=arrays.robot,
@@ -249,10 +250,3 @@ ANY_YAW: Final = 7.0
 """Width of a goal's range of yaw that takes all of them: more than a turn [rad]."""
 MOVED: Final = 2.5
 """How much farther a joint of a limb that takes another hold may move than one of a limb that stays, of `rules.jump` [-]."""
-
-
-def _way(task: SpatialTask, goals: Records) -> float:
-    total, at = 0.0, (task.start.along, task.start.across)
-    for k, goal in enumerate(goals):
-        total += float(_away(goal, *at)) if k == 0 else _between(goals[k - 1], goal)
-    return total

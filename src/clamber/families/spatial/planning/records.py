@@ -41,6 +41,7 @@ GOAL: Final = np.dtype(
         ("across_max", "f8"),  # [m]
         ("yaw_min", "f8"),
         ("yaw_width", "f8"),  # least yaw and how far on from there [rad]; width 7: any
+        ("way", "f8"),  # from the start through the goals before to this one, each entered where it is nearest [m]
     ],
     align=True,
 )

@@ -77,16 +77,9 @@ def restore(p, words, s):
 @kernel
 def measure(p, s, row):
     """Progress of body and limbs [m], one action, goals met, length, nothing unstable, share of all limits that is used."""
-    goals, holds = goals_of(p), holds_of(p)
-    goal = goals[min(s.stage, p.n_goals - 1)]
-    later = 0.0
-    for k in range(s.stage + 1, p.n_goals):
-        along = max(0.0, max(goals[k].along_min - goals[k - 1].along_max, goals[k - 1].along_min - goals[k].along_max))
-        across = max(
-            0.0, max(goals[k].across_min - goals[k - 1].across_max, goals[k - 1].across_min - goals[k].across_max)
-        )
-        later += math.sqrt(along * along + across * across)
-    done = p.base - later
+    holds = holds_of(p)
+    goal = goals_of(p)[min(s.stage, p.n_goals - 1)]
+    done = goal.way
     row[0] = done - away_from(s.x, s.y, goal) - p.reach * yaw_missing(p, s.angle, goal)
     tips = carray(pointer(p.tips_at), (p.n_limbs, 3), np.float64)
     row[1] = 0.0
