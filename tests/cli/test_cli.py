@@ -156,7 +156,7 @@ def test_check_reads_well_in_80_columns_without_colour(run: Any) -> None:
         (("plan", "ladder", "-o", "no/such/folder/plan.json"), "does not exist"),
         (("plan", "ladder", "--seed", "-1"), "--seed"),
         (("plan", "ladder", "--evaluations", "0"), "--evaluations"),
-        (("show", "leiter"), "no plan, task, walk, robot, board or ground is called 'leiter'"),
+        (("show", "leiter"), "no plan, task, walk, robot, board, world or ground is called 'leiter'"),
         (("show", "ladder-hans"), "did you mean 'ladder-hand'"),
         (("run", "slope-wak"), "no task, plan or walk is called 'slope-wak'"),
         (("trials", "slope-wak"), "did you mean 'slope-walk'"),

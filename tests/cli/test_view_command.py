@@ -160,7 +160,7 @@ def test_host_that_is_not_ours_is_bad_input(clamber: Clamber) -> None:
     ("words", "told"),
     [
         (("nowhere.json",), "nowhere.json"),
-        (("laddr",), "no plan, task, walk, robot, board or ground is called 'laddr'"),
+        (("laddr",), "no plan, task, walk, robot, board, world or ground is called 'laddr'"),
         (("ladder", "h"), "one can be shown at a time"),
         (("nowhere.mcap",), "nowhere.mcap: does not exist"),
         (("ladder", "--save", "page.png"), "no picture can be written as '.png'"),
