@@ -37,3 +37,12 @@ def test_progress_does_not_fall_where_a_goal_is_met() -> None:
     body = problem.measured(stances)[:, problem.features.index("body")]
     assert body == pytest.approx([0.0, 0.9, 0.9, 1.7, 2.5, ways[-1]])
     assert problem.way == pytest.approx(ways[-1])
+
+
+def test_a_push_on_the_body_has_to_be_borne() -> None:
+    """The start's wrenches add up to weight and push."""
+    push = np.array((0.0, 3.0, 0.0))
+    task: Any = load_task("scene-wall", ["rules.push=['0 N', '3 N', '0 N']"])
+    stance = SpatialProblem(task, 1, exact=True).replay([0]).stances[-1]
+    weight = task.robot.chains.total_mass * np.array(task.world.gravity)
+    assert stance["wrench"][:, :3].sum(axis=0) == pytest.approx(-(weight + push), abs=1e-6)

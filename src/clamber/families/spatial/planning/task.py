@@ -13,7 +13,7 @@ from ....tasks.parts import parts_of
 from ....tasks.regions import check_order
 from ....tasks.task_format import SCHEMA, TaskFormat, check_angle, check_hard, hashes_of
 from ....types import Json
-from ....units import Angle, Length, NonNegativeLength, Place, PositiveAngle, PositiveLength, Quantity
+from ....units import Angle, Length, NonNegativeLength, PositiveAngle, PositiveLength, Quantity
 from ..robot.robot import RobotSpec, SpatialRobot, build_robot
 from ..world.library import read_world
 from ..world.world import World, build_world
@@ -124,8 +124,6 @@ class Rules:
     """Names of the checks that forbid an action; the others only report."""
     push: Force = (0.0, 0.0, 0.0)
     """Force on the body's origin, such as that of wind or of a tool, world frame [N]."""
-    moment_arm: Place = (0.0, 0.0, 0.0)
-    """Where `push` acts, base frame [m]."""
 
 
 @spec
