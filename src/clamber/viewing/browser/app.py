@@ -10,7 +10,7 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from ...errors import ClamberError
+from ...errors import ClamberError, how_to_install
 from ...family import family_of
 from ...planning.problem.plan import Plan
 from ...tasks.task_format import task_files
@@ -40,7 +40,7 @@ class MissingViserError(ClamberError):
     """The viewer is asked for without the package that it is made with."""
 
     def __str__(self) -> str:
-        return "the viewer needs the package 'viser', which is not installed; pip install \"clamber[view]\""
+        return f"the viewer needs the package 'viser', which is not installed: {how_to_install('view')}"
 
 
 class PortError(ClamberError):
