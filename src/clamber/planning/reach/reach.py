@@ -10,6 +10,7 @@ from ...errors import ClamberError, UnknownNameError, describe_choices
 from ...family import family_of
 from ...files import write_atomically
 from ...json_form import HIDDEN, Count, Jsonable, Key, in_json
+from ...notebook import Pictured
 from ...tasks import Task
 from ..problem.problems import listed_problem, plan_family, without_hangs, yardsticks_of
 from ..progress import Clock
@@ -118,8 +119,8 @@ class GoalReach(Jsonable):
     """Actions of the shortest way there; None: nobody gets there."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Reach(Jsonable):
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
+class Reach(Jsonable, Pictured):
     """The reachable space of a task, as far as it was seen."""
 
     status: Status
@@ -150,6 +151,10 @@ class Reach(Jsonable):
     """Column to its values, a place of the body each: `x_m`, `y_m`, `stances`, `first_step` and so on; "inf" where nothing limits."""
     rim: Annotated[Rim, HIDDEN]
     """Places that could be tried and were not reached; while incomplete, not reached so far."""
+
+    def told(self) -> str:
+        """What was seen of which task."""
+        return f"{self.status} for {self.task.name!r}: {self.reason}"
 
     @property
     @in_json(after="holds")

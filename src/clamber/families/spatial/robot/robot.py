@@ -12,6 +12,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from ....errors import UnitError, describe_choices
 from ....files import Document, check_schema
+from ....notebook import Pictured
 from ....regular_files import user_path
 from ....specs import Name, Provenance, build_spec, collect_sources, spec
 from ....types import Json
@@ -120,8 +121,8 @@ class RobotSpec:
     limb: Annotated[tuple[LimbSpec, ...], Field(min_length=1, max_length=MAX_LIMBS)]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SpatialRobot:
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
+class SpatialRobot(Pictured):
     """A robot as its file and its model describe it."""
 
     family: ClassVar[str] = FAMILY
