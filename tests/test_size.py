@@ -10,7 +10,7 @@ LONG = 400
 MANY = 8
 """Parameters of a function."""
 CEILINGS = {
-    "lines": 96_186,
+    "lines": 96_280,
     "files": 643,
     f"files above {LONG} lines": 0,
     f"functions with more than {MANY} parameters": 60,
