@@ -19,6 +19,7 @@ class Spatial(Family):
     name = "spatial"
     title = "robot in space"
     data = Path(__file__).parent / "data"
+    starters = MappingProxyType({"world": "clamber.families.spatial.cli.new_world:world"})
     parts = MappingProxyType(
         {
             "files": "clamber.families.spatial.planning.task:FILES",
@@ -29,6 +30,8 @@ class Spatial(Family):
             "trajectories": "clamber.families.spatial.trajectories:TRAJECTORIES",
             "inspection": "clamber.families.spatial.inspection:INSPECTION",
             "imports": "clamber.families.spatial.robot.starter:IMPORTS",
+            "first_task": "clamber.families.spatial.planning.first_task:first_task",
+            "printed": "clamber.families.spatial.cli.new_world:PRINTED",
         }
     )
 
