@@ -18,7 +18,7 @@ from ..statics.records import BODY, CONTACT, JUDGED, LIMBS, RULES, WORK
 from . import search_kernels as search_kernels  # its module registers the family's kernels
 from .checks import SPATIAL_CHECKS
 from .judging_kernels import SCRATCH
-from .records import GOAL, PARAMS
+from .records import GOAL, KNOWN, LIFTED, PARAMS
 from .records import HOLD as HOLD_RECORD
 from .robot_arrays import robot_arrays
 from .start import find_start
@@ -39,6 +39,7 @@ class SpatialProblem(CompiledProblem):
     """Poses on a guide, holds of the world, all checks."""
 
     key_words, spot_words = 6, 3 + LIMBS
+    foreseen, beam = ("body", "limbs", "stages", "length", "unstable"), 60
 
     def __init__(self, task: SpatialTask, threads: int | None = None, *, exact: bool = False) -> None:
         """Pose a task.
@@ -241,9 +242,13 @@ def problem_params(task: SpatialTask, exact: bool) -> Params:
         work_contacts=np.zeros(LIMBS + 2, CONTACT),
         work_judged=np.zeros(2, JUDGED),
         work_statics=np.zeros(1, WORK),
+        work_known=np.zeros(KEPT, KNOWN),
+        work_lifted=np.zeros(1, LIFTED),
     )
 
 
+KEPT: Final = 1 << 14
+"""Postures that each thread keeps; a power of two."""
 SAMPLED: Final = 100
 """Holds about which others are counted, to estimate how many there are for a limb."""
 ANY_YAW: Final = 7.0
