@@ -34,10 +34,20 @@ def place_bodies(tree, state, out):
         slides = tree.sliding[i]
         cosine, sine = (1.0, 0.0) if slides else (math.cos(q), math.sin(q))
         for a in range(3):
-            x = before[a, 0] * tree.turn[i, 0, 0] + before[a, 1] * tree.turn[i, 1, 0] + before[a, 2] * tree.turn[i, 2, 0]
-            y = before[a, 0] * tree.turn[i, 0, 1] + before[a, 1] * tree.turn[i, 1, 1] + before[a, 2] * tree.turn[i, 2, 1]
+            x = (
+                before[a, 0] * tree.turn[i, 0, 0]
+                + before[a, 1] * tree.turn[i, 1, 0]
+                + before[a, 2] * tree.turn[i, 2, 0]
+            )
+            y = (
+                before[a, 0] * tree.turn[i, 0, 1]
+                + before[a, 1] * tree.turn[i, 1, 1]
+                + before[a, 2] * tree.turn[i, 2, 1]
+            )
             axes[a, 2] = (
-                before[a, 0] * tree.turn[i, 0, 2] + before[a, 1] * tree.turn[i, 1, 2] + before[a, 2] * tree.turn[i, 2, 2]
+                before[a, 0] * tree.turn[i, 0, 2]
+                + before[a, 1] * tree.turn[i, 1, 2]
+                + before[a, 2] * tree.turn[i, 2, 2]
             )
             axes[a, 0], axes[a, 1] = cosine * x + sine * y, cosine * y - sine * x
             out.origin[i, a] = out.origin[p, a] + before[a, 0] * tree.offset[i, 0]
