@@ -89,8 +89,8 @@ class SpatialPlant(Plant[SpatialSensed, SpatialTruth | None], Protocol):
     def grip(self, limb: int, close: bool) -> None:
         """Command an end effector to attach, or to let go; until the next command of that limb. Feet ignore it.
 
-        One that is to attach does so as soon as its tip is near enough to a hold and points well enough at it; one that has come off goes
-        on trying until it is told to let go.
+        One that is to attach does so as soon as its tip is near enough to a hold and points well enough at it. One that has come off, or
+        whose attempt has failed, stays off until it has been told to let go and to attach again.
         """
 
     def reset(self, pose: Pose, joints: Floats, held: Sequence[int] | Ints) -> None:
