@@ -43,7 +43,9 @@ def believed_tree(robot: SpatialRobot, gravity: Sequence[float]) -> Tree:
 def joint_limits(robot: SpatialRobot) -> Limits:
     """Limits of all joints, those that may be used."""
     chains = robot.chains
-    return Limits(flat(robot, chains.torque), flat(robot, chains.lower), flat(robot, chains.upper), flat(robot, chains.speed))
+    return Limits(
+        flat(robot, chains.torque), flat(robot, chains.lower), flat(robot, chains.upper), flat(robot, chains.speed)
+    )
 
 
 def flat(robot: SpatialRobot, table: Floats) -> Floats:
