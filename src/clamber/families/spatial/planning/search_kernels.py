@@ -12,7 +12,7 @@ from ..statics.records import BODY, CONTACT, JOINTS, LIMBS, SEEDS, WORK
 from ..statics.stance_kernels import aim_limb, solve_limb
 from .judging_kernels import robot_of, scratch_of, set_contacts
 from .poses_kernels import away_from, goals_of, holds_of, meets, outside, place_body, yaw_missing
-from .records import ACROSS, ALONG, HEIGHT, PARAMS, PITCH, ROLL, YAW
+from .records import ACROSS, ALONG, AXES, HEIGHT, PARAMS, PITCH, ROLL, YAW
 from .step_kernels import MOVES, NEAR, RANKED, holds_near, step
 
 
@@ -130,15 +130,16 @@ def cell(p, s):
 
 
 @kernel
-def spot(p, s, words):
-    """Along, across and yaw in ticks, then the hold of each limb."""
-    words[0], words[1], words[2] = s.pose[ALONG] * TICKS, s.pose[ACROSS] * TICKS, s.pose[YAW] * TICKS
+def body_pose(p, s, words):
+    """The pose in ticks, then the hold of each limb."""
+    for axis in range(AXES):
+        words[axis] = s.pose[axis] * TICKS
     for i in range(LIMBS):
-        words[3 + i] = s.hold[i]
+        words[AXES + i] = s.hold[i]
 
 
 @kernel
-def aims(p, s, k):
+def satisfies_goal(p, s, k):
     """Whether the body is where goal k asks for."""
     return meets(p, s, goals_of(p)[k])
 
@@ -153,6 +154,6 @@ family_kernels(
     bound=bound,
     done=done,
     cell=cell,
-    spot=spot,
-    aims=aims,
+    body_pose=body_pose,
+    satisfies_goal=satisfies_goal,
 )
