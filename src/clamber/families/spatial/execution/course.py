@@ -1,5 +1,6 @@
 """A plan of a robot in space as what is carried out in one go: motions of the body over its holds, and limbs that take other holds."""
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Self, TypeAlias
@@ -86,7 +87,7 @@ class Course:
         standings = [_standing(task, stance) for stance in replay.stances]
         loads = SwingLoads(task)
         motions: list[Motion] = []
-        for k, (before, after) in enumerate(zip(standings, standings[1:], strict=False)):
+        for k, (before, after) in enumerate(itertools.pairwise(standings)):
             moved = np.flatnonzero(before.holds != after.holds)
             if moved.size:
                 limb = int(moved[0])

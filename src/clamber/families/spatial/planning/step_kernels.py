@@ -143,7 +143,7 @@ def draft(p, before, code, after):
     if kind == MOVE:
         if not move_body(p, argument, after):
             return -1
-    elif kind == HOLD or kind == NEAREST:
+    elif kind in (HOLD, NEAREST):
         hold = argument
         if kind == NEAREST:
             ranked = scratch_of(p)[RANKED : RANKED + p.nearest]
@@ -169,10 +169,11 @@ def step(p, before, code, after, margins):
         margins[0] = NOWHERE
         return 0
     kind, limb, _ = unpack(code)
-    if kind == HOLD or kind == NEAREST:
-        broken = take_hold(p, before, limb, after, margins)
-    else:
-        broken = judge_stance(p, before, after, -1, -1, margins)
+    broken = (
+        take_hold(p, before, limb, after, margins)
+        if kind in (HOLD, NEAREST)
+        else judge_stance(p, before, after, -1, -1, margins)
+    )
     if broken >= 0:
         after.stage = before.stage
     return broken
