@@ -9,6 +9,7 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
+from ...interrupts import answer
 from ..problem.problem import CompiledProblem, Records
 from ..problem.problems import Yardsticks
 from ..progress import Clock
@@ -207,6 +208,7 @@ def flood(
             if clock.is_over and done < sea.seen:
                 ended = ended or "time"
     except KeyboardInterrupt:
+        answer()
         ended = "interrupt"
     if pool is not None:
         pool.shutdown(cancel_futures=True)  # waits, so that nobody writes into the pieces any more

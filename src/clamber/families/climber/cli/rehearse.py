@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 from rich.console import Console
 
+from ....interrupts import answer
 from ....terminal.crew import executor_of
 from ....terminal.live_line import LiveLine
 from ....terminal.name_completion import names_of
@@ -25,9 +26,19 @@ FIRST_SEED: Final = 500_000
 class LessonsLine(LiveLine):
     """Follows rehearsals."""
 
+    def __init__(self, console: Console, *, quiet: bool) -> None:
+        super().__init__(console, quiet=quiet, doing="preparing the climbs")
+        self._so_far = "the plan as it is"
+
     def update(self, best: "Rehearsed", tried: "Sequence[Lesson]") -> None:
         """Show how the best plan so far climbs, and how many changes were tried."""
-        self.show(f"{_climbed(best)}; {len(tried)} changes tried, {sum(lesson.taken for lesson in tried)} taken")
+        taken = sum(lesson.taken for lesson in tried)
+        self._so_far = f"{_climbed(best)}; {len(tried)} changes tried, {taken} taken"
+        self.show(f"{self._so_far}; looking for another way", now=True)
+
+    def climbs(self, ended: int, asked: int, climbed: int) -> None:
+        """Show how far the climbs by one plan are."""
+        self.show(f"{self._so_far}; now {ended} of {asked} climbs, {climbed} whole", ended / asked)
 
 
 def _print_lessons(
@@ -122,13 +133,14 @@ def rehearse(
             learn(
                 opened,
                 first_plan,
-                climbs_with(setup, executor),
+                climbs_with(setup, executor, line.climbs),
                 range(asked.seed, asked.seed + asked.n),
                 lessons=asked.lessons,
                 seconds=asked.seconds,
                 told=tell,
             )
         except KeyboardInterrupt:
+            answer()
             interrupted = True
     if went:
         (first, _), (best, _) = went[0], went[-1]
@@ -137,4 +149,8 @@ def rehearse(
             print_json(LearnedPlan(first, best, tried))
         else:
             _print_lessons(stdout(), first, best, tried, told.output)
+    elif interrupted:
+        stderr().print(
+            "interrupted before the plan had been climbed once as often as asked; nothing is known of it yet"
+        )
     raise typer.Exit(130 if interrupted else 0)

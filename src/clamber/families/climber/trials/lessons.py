@@ -31,15 +31,27 @@ BATCH: Final = 12
 """Climbs that are asked for at a time after that: when it is clear that the change is no gain, there are no more."""
 
 
-def climbs_with(setup: TrialSetup, executor: Executor) -> Climbs:
+def climbs_with(
+    setup: TrialSetup, executor: Executor, told: Callable[[int, int, int], None] = lambda ended, asked, climbed: None
+) -> Climbs:
     """Climbs by plans under a setup's noise, without new plans on the way.
+
+    Args:
+        setup: Whose plan changes.
+        executor: Who climbs.
+        told: Given, at each end, how many climbs of a plan have ended, of how many, and how many of them were carried out whole.
 
     Raises, when called:
         KeyboardInterrupt: After Ctrl-C.
     """
 
     def climbs(plan: Plan, seeds: Sequence[int]) -> list[ClimbTrial]:
-        ended = run_trials(replace(setup, plan=plan, replan=False), seeds, executor=executor).ended
+        ended = run_trials(
+            replace(setup, plan=plan, replan=False),
+            seeds,
+            executor=executor,
+            told=lambda trials: told(len(trials.ended), trials.asked, trials.done),
+        ).ended
         if len(ended) < len(seeds):
             raise KeyboardInterrupt
         return ended
