@@ -45,11 +45,6 @@ def asked() -> bool:
     return _now.asked
 
 
-def answered() -> bool:
-    """Whether whoever was interrupted last has said so."""
-    return not _now.open
-
-
 @contextmanager
 def passed_on() -> Iterator[None]:
     """A block of which Ctrl-C ends all: parts that by themselves would end with what they have raise it on, and nothing follows them."""

@@ -4,7 +4,7 @@ import sys
 from collections.abc import Sequence
 from typing import Final
 
-from ..interrupts import answered, asked, listening
+from ..interrupts import answer, asked, listening
 
 INTERRUPTED: Final = 130
 """Exit code after Ctrl-C: that of a process which SIGINT ends, in shells."""
@@ -23,7 +23,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
             code = run(arguments)
         except KeyboardInterrupt:
-            code = INTERRUPTED
-        if code == INTERRUPTED and not answered():
-            print("clamber: interrupted", file=sys.stderr)
-    sys.exit(INTERRUPTED if asked() and code in (None, 0, 1) else code)
+            pass
+        answer()
+    if asked() and code in (None, 0, 1, INTERRUPTED):
+        print("clamber: interrupted", file=sys.stderr)
+        code = INTERRUPTED
+    sys.exit(code)

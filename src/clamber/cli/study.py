@@ -109,7 +109,7 @@ def study(
                     site.add(results[-1], began)
         except KeyboardInterrupt:
             answer()
-            line.say(f"interrupted in {chosen}; {len(results)} of {len(wanted)} results are told")
+            line.say(f"interrupted in {chosen}")
     if words.markdown is not None:
         from ..studies.markdown import write_markdown
 

@@ -36,6 +36,7 @@ class LiveLine:
         self._console, self._quiet, self._words, self._told = console, quiet, doing, -math.inf
         self._began = self._since = time.monotonic()
         self._first = self._share = 0.0
+        self._end: float | None = None  # when it will be done, by what is
         self._fresh = True  # nothing was shown yet
         self._ended = Event()
         self._live = (
@@ -76,8 +77,11 @@ class LiveLine:
             share: Of the work that is done, 0 to 1, where that is known; less than before begins to count anew.
             now: Whether it is time in a log, too.
         """
+        moment = time.monotonic()
         if share is None or share < self._share or not self._words:
-            self._since, self._first = time.monotonic(), share or 0.0
+            self._since, self._first, self._end = moment, share or 0.0, None
+        elif share > max(self._share, self._first) and moment >= self._since + SOON:
+            self._end = moment + (moment - self._since) * (1.0 - share) / (share - self._first)
         self._words, self._share = words, share or 0.0
         if self._live is None and not self._quiet:
             self._tell(now=now or self._fresh)
@@ -96,25 +100,25 @@ class LiveLine:
             self._tell(now=False)
 
     def _line(self) -> str:
-        """What was shown last, how long it has taken by now, and what is left."""
+        """What was shown last, and its times."""
+        return self._words + self._times()
+
+    def _times(self) -> str:
+        """How long it has taken by now, and what is left."""
         spent = time.monotonic() - self._began
+        left = 0.0 if self._end is None else self._end - time.monotonic()
         after = f", {_time(spent)}" if spent >= SOON else ""
-        done, since = self._share - self._first, time.monotonic() - self._since
-        left = since * (1.0 - self._share) / done if done > 0.0 and since >= SOON else 0.0
-        return f"{self._words}{after}" + (f", about {_time(left)} left" if left >= SOON else "")
+        return after + (f", about {_time(left)} left" if left >= SOON else "")
 
     def _turning(self) -> Text:
-        """The same as it stands on a terminal now."""
-        spent = time.monotonic() - self._began
-        return Text(f"{TURN[int(4 * spent) % len(TURN)]} {self._line()}", no_wrap=True, overflow="ellipsis")
+        """The same as it stands on a terminal now, in which times have room before words have."""
+        times, turn = self._times(), int(4 * (time.monotonic() - self._began)) % len(TURN)
+        room = max(0, self._console.width - len(times) - 3)
+        return Text(f"{TURN[turn]} {self._words[:room]}{times}", no_wrap=True, overflow="crop")
 
 
 def _time(seconds: float) -> str:
     """A time as people say it."""
-    return (
-        f"{seconds:.0f} s"
-        if seconds < 100.0
-        else f"{seconds / 60.0:.0f} min"
-        if seconds < 6000.0
-        else f"{seconds / 3600.0:.1f} h"
-    )
+    if seconds < 100.0:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60.0:.0f} min" if seconds < 6000.0 else f"{seconds / 3600.0:.1f} h"

@@ -7,6 +7,7 @@ from typing import Annotated, Final, TypeAlias
 
 import numpy as np
 
+from ....interrupts import passed_on
 from ....jobs import Executor
 from ....json_form import Count, Key, in_json
 from ....planning.problem.plan import Plan
@@ -46,15 +47,13 @@ def climbs_with(
     """
 
     def climbs(plan: Plan, seeds: Sequence[int]) -> list[ClimbTrial]:
-        ended = run_trials(
-            replace(setup, plan=plan, replan=False),
-            seeds,
-            executor=executor,
-            told=lambda trials: told(len(trials.ended), trials.asked, trials.done),
-        ).ended
-        if len(ended) < len(seeds):
-            raise KeyboardInterrupt
-        return ended
+        with passed_on():
+            return run_trials(
+                replace(setup, plan=plan, replan=False),
+                seeds,
+                executor=executor,
+                told=lambda trials: told(len(trials.ended), trials.asked, trials.done),
+            ).ended
 
     return climbs
 

@@ -6,6 +6,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from ....interrupts import passed_on
 from ....planning.problem.plan import Plan
 from ....sim.limb_flaws import LimbFlaws
 from ....trials.dynamics import RunEvents
@@ -57,9 +58,8 @@ def rehearsals(
                 share = (climb + action_told(*action)[1]) / len(SEEDS)
                 events.step(f"{what}, climb {climb + 1} of {len(SEEDS)}", share)
 
-            report = run_plan(task, plan, flaws, noise=noise, seed=seed, progress=tell).report
-            if report.reason == "interrupted":
-                raise KeyboardInterrupt
+            with passed_on():
+                report = run_plan(task, plan, flaws, noise=noise, seed=seed, progress=tell).report
             climbed += report.done
             shares.append(sum(action.outcome == "ok" for action in report.actions) / max(1, len(plan.actions)))
             if not report.done:
