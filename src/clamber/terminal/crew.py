@@ -76,6 +76,8 @@ class EndsLine(LiveLine):
 
     def update(self, ended: int, total: int, outcome: "Outcome | None" = None) -> None:
         """Take note of one end."""
+        if self.total == 0:
+            self.begin_from((ended - 1) / total)
         self.ended, self.total = ended, total
         tenth = ended == total or ended * 10 // total > (ended - 1) * 10 // total
         self.show(f"{ended} of {total} {self.what}", ended / total, now=tenth)

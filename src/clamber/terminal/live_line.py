@@ -87,6 +87,10 @@ class LiveLine:
             self._tell(now=now or self._fresh)
         self._fresh = False
 
+    def begin_from(self, share: float) -> None:
+        """Take a share as done before the block, in none of its time."""
+        self._first = share
+
     def _tell(self, *, now: bool) -> None:
         """A line in a log, if it is time to or has to be `now`."""
         moment = time.monotonic()
