@@ -18,6 +18,7 @@ from ..families.walker.robot.robot import build_walker
 from ..families.walker.trials.cooperative.chain_peers import CHAIN_PEERS, PERIOD, Tick
 from ..families.walker.trials.cooperative.follow import FollowOptions, FollowRun, follow_path
 from ..families.walker.trials.cooperative.tool_path import load_tool_path
+from ..interrupts import abandonable
 from ..planning.exact.explore import explore
 from ..planning.exact.planner import plan_exact
 from ..planning.genetic.profile import load_profile
@@ -164,7 +165,7 @@ def bench_exact(*, cases: tuple[Case, ...] = CASES, say: Say = keep_quiet) -> li
         task = load_task(case.task, (NO_HANGS, *case.overrides))
         problem = pose_problem(task, threads=1).problem
         started = time.perf_counter()
-        plain = breadth_first(problem, most_stances=MOST_STANCES)
+        plain = abandonable(partial(breadth_first, problem, most_stances=MOST_STANCES))
         plain_seconds = time.perf_counter() - started
         started = time.perf_counter()
         seen = explore(problem.informed(), most_stances=MOST_STANCES)

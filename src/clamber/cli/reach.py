@@ -52,7 +52,7 @@ def reach(
     announce_compilation(quiet=told.quiet)
     from ..planning.reach.reach import find_reach
 
-    with FloodLine(stderr(), quiet=told.quiet) as line:
+    with FloodLine(stderr(), quiet=told.quiet, doing="seeing every stance") as line:
         result = find_reach(
             loaded, hangs=hangs, max_stances=stances, seconds=seconds, threads=threads, progress=line.update
         )

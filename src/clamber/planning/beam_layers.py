@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
+from ..interrupts import answer
 from .beam_kernels import choose
 from .problem.problem import CompiledProblem, Records
 from .progress import Clock
@@ -159,6 +160,7 @@ def search_layers(
             if tell is not None:
                 tell(depth, kept.n, best_score)
     except KeyboardInterrupt:
+        answer()
         interrupted = True
     codes = []
     node = goal if goal >= 0 else best

@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 
 from ..errors import SpecError
+from ..interrupts import answer
 from ..tasks import Task
 from ..types import Ints
 from .beam_layers import Beam, Corridor, search_layers
@@ -142,6 +143,7 @@ def shorten_by_windows(
             else:
                 break
     except KeyboardInterrupt:
+        answer()
         return Shortened(codes, search.seen, search.checks, complete=False, interrupted=True)
     return Shortened(codes, search.seen, search.checks, search.complete)
 
@@ -201,6 +203,7 @@ def shorten_in_corridor(
                 break
             size = min(most, CORRIDOR_GROWTH * size)
     except KeyboardInterrupt:
+        answer()
         return Shortened(codes, seen, checks, complete=False, interrupted=True)
     return Shortened(codes, seen, checks, complete)
 

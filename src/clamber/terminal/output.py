@@ -37,9 +37,18 @@ def stdout() -> Console:
     return PlainConsole(highlight=False, markup=False, emoji=False)
 
 
+_lent: list[Console] = []
+"""The console of stderr on which a line is rewritten now, if there is one."""
+
+
+def borrow_stderr(console: Console | None) -> None:
+    """Have all that goes to stderr go to a console that rewrites its last line, so that neither breaks the other; None: no more."""
+    _lent[:] = [] if console is None else [console]
+
+
 def stderr() -> Console:
     """Where progress and notices go."""
-    return PlainConsole(stderr=True, highlight=False, markup=False, emoji=False)
+    return _lent[0] if _lent else PlainConsole(stderr=True, highlight=False, markup=False, emoji=False)
 
 
 def print_json(value: Any) -> None:
@@ -62,7 +71,7 @@ def announce_compilation(*, quiet: bool = False) -> None:
     if not quiet:
         kernel_cache.tell_no_cache()
         _command_ended.clear()
-        Thread(target=_tell_compilation, args=(kernel_cache.cache_folder(), stderr()), daemon=True).start()
+        Thread(target=_tell_compilation, args=(kernel_cache.cache_folder(),), daemon=True).start()
 
 
 _command_ended: Final = Event()
@@ -74,18 +83,18 @@ def fall_silent() -> None:
     _command_ended.set()
 
 
-def _tell_compilation(folder: Path, console: Console, every: float = 10.0, ended: Event = _command_ended) -> None:
+def _tell_compilation(folder: Path, every: float = 10.0, ended: Event = _command_ended) -> None:
     """Tells that kernels are compiled as soon as the first one comes into their folder, and how many there are while more come."""
     began = told = time.monotonic()
     seen, announced = _count_kernels(folder), False
     while not ended.wait(0.5):
         now, count = time.monotonic(), _count_kernels(folder)
         if not announced and count > seen:
-            console.print("compiling the kernels, once: about a minute, two where the machine is busy")
+            stderr().print("compiling the kernels, once: about a minute, two where the machine is busy")
             announced, told = True, now
         elif announced and now - told >= every:
             if count > seen:
-                console.print(f"  {count} kernels compiled after {now - began:.0f} s", style="dim")
+                stderr().print(f"  {count} kernels compiled after {now - began:.0f} s", style="dim")
             seen, told = count, now
 
 

@@ -6,6 +6,7 @@ from typing import Annotated, Final
 
 from ...errors import PlannerError
 from ...family import NotOfFamilyError, family_of
+from ...interrupts import answer
 from ...json_form import Count, Jsonable, Key, in_json
 from ...tasks import Task
 from ..problem.problems import plan_family
@@ -185,6 +186,7 @@ def find_openings(
             if places is None:
                 shut.append(Shut(key=key, tried="where the robot can get to was not seen whole", proved=False))
     except KeyboardInterrupt:
+        answer()
         ended = "interrupted"
     if not ended and trial.left() == 0.0:
         ended = "time"
