@@ -23,7 +23,7 @@ from .film import View
 from .output import CANVASES, StepError, check_suffix, save_figure
 from .scene import Bounds
 from .style import styled
-from .view import Picture
+from .view import CloseUp, Picture
 
 if TYPE_CHECKING:
     from .report.run_page import RunPage
@@ -62,6 +62,8 @@ class Pictures:
     """A robot without a task; None: it is not drawn."""
     world_alone: DrawsAlone | None = None
     """A world without a task; None: it is not drawn."""
+    near: "Callable[[Any, np.void], CloseUp] | None" = None
+    """One stance from near, for worlds in which the robot would be a dot; None: it is not drawn so."""
     seen_from: "Callable[[str], Pictures] | None" = None
     """The same from a camera that is asked for in words; None: what is drawn is flat."""
 
@@ -120,6 +122,8 @@ def draw_stance(
     with styled():
         picture = Picture(family.view(task, replay))
         picture.show(step, picture.view.settled(step))
+        if family.near is not None:
+            picture.draw_near(family.near(task, replay.stances[step]))
         save_figure(picture.figure, target)
 
 
@@ -172,7 +176,7 @@ def draw_run(run: CarriedOut, path: str | Path) -> None:
     suffix, file = check_run_suffix(path), Path(path)
     if suffix in LOGS:
         log = run.trace.to_log()
-        write_log(log, file, log.label)
+        write_log(log, file, log.label, run.scene)
         return
     if suffix in ANIMATIONS and suffix not in WRITERS:
         from .browser.exhibit import run_exhibit  # loads the viewer
