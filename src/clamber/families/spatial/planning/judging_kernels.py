@@ -6,7 +6,17 @@ from ....compiled import carray, inlined, kernel, pointer
 from ....planning.problem.check import TOLERANCE, UNLIMITED
 from ....planning.problem.randoms import scramble
 from ..statics.records import BODY, CONTACT, JOINTS, JUDGED, LIMBS, ROBOT, RULES, SEEDS, WORK
-from ..statics.stance_kernels import aim_limb, judge, judge_forces, judge_postures, judge_shape, place_in_world, solve_limb, swing_reach, weigh
+from ..statics.stance_kernels import (
+    aim_limb,
+    judge,
+    judge_forces,
+    judge_postures,
+    judge_shape,
+    place_in_world,
+    solve_limb,
+    swing_reach,
+    weigh,
+)
 from ..world.solids import SOLID
 from ..world.terrain_kernels import terrain_distance
 from .checks import CLEARANCE, SWING
@@ -242,7 +252,9 @@ def judge_lifted(p, before, limb):
             for k in range(JOINTS):
                 judged[1].posture[i, k] = before.q[i, k]
         remember(p, before, judged[0])
-        judge_postures(robot, carray(pointer(p.seeds_at), 1, SEEDS)[0], body, contacts, judged[0], rules, judged[1], work)
+        judge_postures(
+            robot, carray(pointer(p.seeds_at), 1, SEEDS)[0], body, contacts, judged[0], rules, judged[1], work
+        )
         weigh(robot, body, work)
         lifted.verdict[limb] = judge_forces(robot, rules, judged[1], work)
     return lifted.verdict[limb]

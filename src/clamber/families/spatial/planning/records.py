@@ -108,6 +108,12 @@ PARAMS: Final = np.dtype(
         ("n_solids", "i8"),
         ("n_rows", "i8"),
         ("n_columns", "i8"),
+        ("region_low", "i8", (AXES,)),
+        ("region_count", "i8", (AXES,)),  # box of poses that tables of the bound are for
+        ("n_region", "i8"),
+        ("n_poses", "i8"),
+        ("region_at", "i8"),
+        ("left_at", "i8"),
         ("robot_at", "i8"),
         ("seeds_at", "i8"),
         ("rules_at", "i8"),

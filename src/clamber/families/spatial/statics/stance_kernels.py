@@ -142,7 +142,8 @@ def judge_postures(robot, tables, body, contacts, before, rules, out, work):
 @kernel
 def judge_shape(robot, tables, body, contacts, before, rules, out, work):
     """All checks of a stance that forces don't matter to; arguments and answer as those of `judge`, but for `exact`: where a limb does not
-    reach its hold, `out.judged` is 0."""
+    reach its hold, `out.judged` is 0.
+    """
     margins = out.margins
     for check in range(CHECKS_OF_STANCE):
         margins[check] = math.nan
