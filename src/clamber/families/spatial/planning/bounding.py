@@ -8,7 +8,7 @@ import numpy as np
 
 from ....planning.problem.arrays import Params
 from ....planning.problem.problem import Records
-from .bounding_kernels import count_down, join_poses, mark_region, reach_holds
+from .bounding_kernels import count_down, join_poses, list_poses, mark_region, reach_holds
 from .records import ACROSS, ALONG, AXES, HEIGHT, PITCH, ROLL, YAW
 from .step_kernels import MOVES
 
@@ -50,13 +50,16 @@ def with_bound(params: Params, start: Records, is_late: Callable[[], bool]) -> P
     low, count, region, n = best
     left = np.zeros((int(row["n_limbs"]), n, len(holds)), np.int16)
     poses, scratch = np.zeros((n, AXES), np.int64), start.copy()
-    reach_holds(row, low, count, region, poses, left, scratch)
+    list_poses(row, low, count, region, poses)
     made = params.extended({"n_poses": n}, region=region, left=left)
     made.record["region_low"], made.record["region_count"] = low, count
     beside, exits, met = np.zeros((n, MOVES), np.int32), np.zeros(n, np.int64), np.zeros(n, np.uint8)
     join_poses(made.record, poses, beside, exits, met, scratch)
-    for limb in range(len(left)):
-        count_down(made.record, limb, left[limb], beside, exits, met, np.zeros(left[limb].size, np.int64))
+    joints: Any = params.array("robot")["n_joints"][0]
+    for limb, table in enumerate(left):
+        postures = np.zeros((*table.shape, int(joints[limb])), np.float32)
+        reach_holds(row, limb, poses, table, postures, scratch)
+        count_down(row, limb, table, postures, beside, exits, met, np.zeros(table.size, np.int64))
     return made
 
 

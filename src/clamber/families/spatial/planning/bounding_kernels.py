@@ -1,8 +1,8 @@
 """A bound on the actions that are left: for each limb by itself, the least moves of the body and holds to take on a way to the goal.
 
 Of a plan with m moves in which limb l takes r_l holds, each limb alone sees m / n + r_l of the m + r_1 + ... + r_n actions (n limbs). The
-least of that over all ways of the body on which the limb always reaches its hold, whatever the other limbs, the forces and collisions, is
-at most what the plan has; so the sum over the limbs bounds the plan (a cost partition as of Katz and Domshlak, 2010). It is worked out
+least of that over all ways of the body on which the limb always reaches its hold without a jump, whatever the other limbs, the forces and
+collisions, is at most what the plan has; so the sum over the limbs bounds the plan (a cost partition as of Katz and Domshlak, 2010). It is worked out
 for the poses of a region about the straight way; beyond it a plan needs what `plain_bound` says, for one pose as for all.
 """
 
@@ -12,6 +12,7 @@ import numpy as np
 
 from ....compiled import carray, inlined, kernel, pointer
 from ....planning.problem.check import TOLERANCE
+from ..statics.checks import JUMP
 from ..statics.records import BODY, LIMBS, RULES, SEEDS, WORK
 from ..statics.stance_kernels import aim_limb, solve_limb
 from .judging_kernels import robot_of, scratch_of
@@ -23,6 +24,8 @@ FAR = 30_000
 """More than any number of the tables: not worked out yet."""
 DEAD = 32_000
 """Where a limb does not reach its hold, or no way on leads to the goal."""
+ROUNDED = 1e-5
+"""By how much a posture may be off that is kept as single floats [rad]."""
 BEYOND = -2
 """Of a neighbour: a pose outside the region."""
 
@@ -134,13 +137,8 @@ def mark_region(p, start, slack, low, count, region, pose):
 
 
 @kernel
-def reach_holds(p, low, count, region, poses, left, s):
-    """Write every pose of the region, and for every limb and hold there `FAR` if the limb reaches it and `DEAD` if it does not."""
-    robot, holds = robot_of(p), holds_of(p)
-    seeds = carray(pointer(p.seeds_at), 1, SEEDS)[0]
-    body = carray(pointer(p.work_body_at), 1, BODY)[0]
-    work = carray(pointer(p.work_statics_at), 1, WORK)[0]
-    most = carray(pointer(p.rules_at), 1, RULES)[0].reach * robot.size + TOLERANCE
+def list_poses(p, low, count, region, poses):
+    """Write every pose of the region."""
     for index in range(region.shape[0]):
         q = region[index]
         if q < 0:
@@ -150,6 +148,26 @@ def reach_holds(p, low, count, region, poses, left, s):
             poses[q, axis] = low[axis] + rest % count[axis]
             rest //= count[axis]
         poses[q, YAW] %= p.turns
+
+
+@kernel
+def reach_holds(p, limb, poses, left, postures, s):
+    """Write for every pose and hold `FAR` if a limb reaches the hold, with its posture, and `DEAD` if it does not.
+
+    Args:
+        p: Parameters.
+        limb: Index of the limb.
+        poses: Poses of the region, shape (n, AXES).
+        left: Output, shape (n, holds).
+        postures: Output, shape (n, holds, joints).
+        s: Scratch, array of one stance.
+    """
+    robot, holds = robot_of(p), holds_of(p)
+    seeds = carray(pointer(p.seeds_at), 1, SEEDS)[0]
+    body = carray(pointer(p.work_body_at), 1, BODY)[0]
+    work = carray(pointer(p.work_statics_at), 1, WORK)[0]
+    most = carray(pointer(p.rules_at), 1, RULES)[0].reach * robot.size + TOLERANCE
+    for q in range(poses.shape[0]):
         for axis in range(AXES):
             s[0].pose[axis] = poses[q, axis]
         place_body(p, s[0], scratch_of(p))
@@ -161,12 +179,22 @@ def reach_holds(p, low, count, region, poses, left, s):
             away = 0.0
             for k in range(3):
                 away += (holds[h].place[k] - s[0].place[k]) ** 2
-            for limb in range(p.n_limbs):
-                left[limb, q, h] = DEAD
-                if away <= p.reach * p.reach:
-                    aim_limb(body, holds[h].place, holds[h].normal, limb, work)
-                    if solve_limb(robot, seeds, limb, work) <= most:
-                        left[limb, q, h] = FAR
+            left[q, h] = DEAD
+            if away <= p.reach * p.reach:
+                aim_limb(body, holds[h].place, holds[h].normal, limb, work)
+                if solve_limb(robot, seeds, limb, work) <= most:
+                    left[q, h] = FAR
+                    for k in range(postures.shape[2]):
+                        postures[q, h, k] = work.posture[limb, k]
+
+
+@inlined
+def near_by(one, other, most):
+    """Whether no joint differs by more than `most` between two postures that are kept as single floats."""
+    for k in range(one.shape[0]):
+        if not abs(one[k] - other[k]) <= most + ROUNDED:
+            return False
+    return True
 
 
 @kernel
@@ -201,17 +229,20 @@ def join_poses(p, poses, beside, exits, met, s):
 
 
 @kernel
-def count_down(p, limb, left, beside, exits, met, reached):
+def count_down(p, limb, left, postures, beside, exits, met, reached):
     """Fill a limb's table: moves left at least plus n times the holds to take, over all poses and holds, from the goal on.
 
     Args:
         p: Parameters.
         limb: Index of the limb.
-        left: Its table, `FAR` where it reaches a hold; shape (poses, holds).
+        left, postures: As `reach_holds` wrote them; `left` becomes the table.
         beside, exits, met: As `join_poses` wrote them.
         reached: Scratch: pairs that it reaches, as pose times holds plus hold.
     """
     goal, holds = goals_of(p)[p.n_goals - 1], holds_of(p)
+    rules = carray(pointer(p.rules_at), 1, RULES)[0]
+    held = p.hard >> JUMP & 1
+    jump, jump_moved = rules.jump if held else math.inf, rules.jump_moved if held else math.inf
     n, last = 0, 0
     for q in range(left.shape[0]):
         for h in range(left.shape[1]):
@@ -232,11 +263,15 @@ def count_down(p, limb, left, beside, exits, met, reached):
                 continue
             for argument in range(MOVES):
                 other = beside[q, argument]
-                if other >= 0 and value + 1 < left[other, h] < DEAD:
+                if (
+                    other >= 0
+                    and value + 1 < left[other, h] < DEAD
+                    and near_by(postures[q, h], postures[other, h], jump)
+                ):
                     left[other, h] = value + 1
                     last = max(last, value + 1)
             for k in range(left.shape[1]):
-                if value + p.n_limbs < left[q, k] < DEAD:
+                if value + p.n_limbs < left[q, k] < DEAD and near_by(postures[q, h], postures[q, k], jump_moved):
                     left[q, k] = value + p.n_limbs
                     last = max(last, value + p.n_limbs)
         value += 1

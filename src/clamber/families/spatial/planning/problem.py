@@ -194,7 +194,6 @@ def hold_records(task: SpatialTask) -> Records:
     rows["place"], rows["normal"] = world.places, world.normals
     rows["friction"] = [math.inf if hold.friction is None else hold.friction for hold in world.holds]
     rows["strength"] = [math.inf if hold.strength is None else hold.strength for hold in world.holds]
-    rows["radius"] = [hold.radius for hold in world.holds]
     on = on_guide(world.frames, world.places)
     rows["along"], rows["across"], rows["height"] = on[:, 0], on[:, 1], on[:, 2]
     return rows

@@ -69,7 +69,6 @@ HOLD: Final = np.dtype(
         ("normal", "f8", (3,)),  # out of the surface
         ("friction", "f8"),  # largest coefficient; infinite: the end effector's own
         ("strength", "f8"),  # largest force [N]; infinite: any
-        ("radius", "f8"),  # of the patch [m]
         ("along", "f8"),
         ("across", "f8"),
         ("height", "f8"),  # on the guide [m]

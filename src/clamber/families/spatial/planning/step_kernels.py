@@ -167,10 +167,8 @@ def step(p, before, code, after, margins):
         margins[0] = NOWHERE
         return 0
     kind, limb, _ = unpack(code)
-    if kind in (HOLD, NEAREST):
-        broken = take_hold(p, before, limb, after, margins)
-    else:
-        broken = judge_stance(p, before, after, -1, -1, margins)
+    grabs = kind in (HOLD, NEAREST)
+    broken = take_hold(p, before, limb, after, margins) if grabs else judge_stance(p, before, after, -1, -1, margins)
     if broken >= 0:
         after.stage = before.stage
     return broken
