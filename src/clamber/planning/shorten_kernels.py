@@ -8,7 +8,7 @@ import numpy as np
 from ..compiled import inlined, kernel
 from ..types import Ints, Records
 from .exact.records import NONE
-from .problem.family_kernels import bound, candidates, done, draft, key, restore, step, toward
+from .problem.family_kernels import bound, candidates, done, draft, heuristic_between, key, restore, step
 from .stance_table import slot_of
 
 Keys = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
@@ -61,7 +61,7 @@ def stance_keys(p, stances, keys):
 @inlined
 def left(p, s, target, to_goal):
     """Actions from a stance to the window's end at least: to the key of `target`, or to the goal."""
-    return math.ceil(bound(p, s) if to_goal else toward(p, s, target))
+    return math.ceil(bound(p, s) if to_goal else heuristic_between(p, s, target))
 
 
 @kernel
@@ -165,7 +165,7 @@ def collect(p, plan, graph, room, state):
     """Expand the stances of a plan, then their children, and so on, layer by layer, until the arrays are full or the space ends.
 
     A stance from which no plan shorter than the given one can lead to the goal is left out: its fewest actions from the start and to the
-    goal are bounded by the family's `toward` and `bound`.
+    goal are bounded by the family's `heuristic_between` and `bound`.
 
     Args:
         p: A family's parameters.
@@ -200,7 +200,7 @@ def collect(p, plan, graph, room, state):
                 slot = slot_of(words, table, keys)
                 child = table[slot]
                 if child < 0:
-                    if math.ceil(toward(p, plan[0], stances[1])) + math.ceil(bound(p, stances[1])) >= length:
+                    if math.ceil(heuristic_between(p, plan[0], stances[1])) + math.ceil(bound(p, stances[1])) >= length:
                         continue
                     child = nodes
                     nodes += 1

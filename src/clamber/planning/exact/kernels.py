@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from ...compiled import inlined, kernel
-from ..problem.family_kernels import bound, candidates, done, draft, freer, key, measure, reflect, restore, step
+from ..problem.family_kernels import bound, candidates, dominating, done, draft, key, measure, reflect, restore, step
 from ..problem.loops import LARGEST
 from ..stance_table import slot_of
 from .records import EQUAL, EXHAUSTED, FOUND, FULL, NEAREST, NONE, RUNNING, SHORTEST
@@ -117,11 +117,11 @@ def grown(p, column, cost, row):
 
 @inlined
 def passed_over(p, search, s, costs, seen, words, freed):
-    """Whether a freer stance was reached at no more cost: whatever can be done from here can be done from there."""
+    """Whether a dominating stance was reached at no more cost: whatever can be done from here can be done from there."""
     nodes, keys, table = seen.nodes, seen.keys, seen.table
     first, second = costs
     which = 0
-    while freer(p, s, which, freed):
+    while dominating(p, s, which, freed):
         key(p, freed, words)
         other = table[slot_of(words, table, keys)]
         if other >= 0:

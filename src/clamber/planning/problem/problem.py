@@ -109,8 +109,8 @@ class CompiledProblem:
     handed in is looked at here first, whoever it comes from.
     """
 
-    burdens: ClassVar[tuple[str, ...]] = ()
-    """Names of what the family's kernel `burden` writes, each with its unit at the end."""
+    stance_costs: ClassVar[tuple[str, ...]] = ()
+    """Names of what the family's kernel `stance_cost` writes, each with its unit at the end."""
     foreseen: ClassVar[tuple[str, ...]] = ()
     """Features that the family's kernel `draft` tells of an action before it is judged; none where it has no such kernel."""
     beam: ClassVar[Beam] = Beam()
@@ -308,7 +308,7 @@ class CompiledProblem:
         return other
 
     def without_more_hangs(self, stance: Records) -> Self:
-        """The same problem without the actions that `toward` can't bound, for ways that start at `stance`; most families have none."""
+        """The same problem without the actions that `heuristic_between` can't bound from `stance` on; most families have none."""
         return self
 
     def resolve(self, codes: npt.NDArray[np.int32], stances: Records) -> npt.NDArray[np.int32]:
@@ -390,13 +390,13 @@ class CompiledProblem:
         """Whether a stance (array of one record) has met every goal."""
         raise NotImplementedError
 
-    def wander(self) -> tuple[Params, Records]:
+    def without_goals(self) -> tuple[Params, Records]:
         """Parameters and start of a robot that has every goal behind it: stances differ by where they are alone."""
         start = self.start.copy()
         start["stage"] = self.goals
         return self.params.for_thread(), start
 
     @property
-    def spot_words(self) -> int:
-        """Integers that the family's kernel `spot` writes."""
+    def pose_words(self) -> int:
+        """Integers that the family's kernel `body_pose` writes: the body's pose, and a hold for each limb."""
         return 3

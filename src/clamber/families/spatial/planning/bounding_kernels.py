@@ -1,9 +1,9 @@
 """A bound on the actions that are left: for each limb by itself, the least moves of the body and holds to take on a way to the goal.
 
-Of a plan with m moves in which limb l takes r_l holds, each limb alone sees m / n + r_l of the m + r_1 + ... + r_n actions (n limbs). The
-least of that over all ways of the body on which the limb always reaches its hold without a jump, whatever the other limbs, the forces and
-collisions, is at most what the plan has; so the sum over the limbs bounds the plan (a cost partition as of Katz and Domshlak, 2010). It is worked out
-for the poses of a region about the straight way; beyond it a plan needs what `plain_bound` says, for one pose as for all.
+Of a plan with m moves in which limb l takes r_l holds, each limb alone sees m / n + r_l of the m + r_1 + ... + r_n actions (n limbs).
+The least of that over all ways of the body on which the limb always reaches its hold without a jump, whatever the other limbs, forces
+and collisions, is at most what the plan has; so the sum over the limbs bounds the plan (a cost partition as of Katz and Domshlak, 2010).
+It is worked out for the poses of a region about the straight way; beyond it a plan needs what `plain_bound` says, for one pose as for all.
 """
 
 import math
@@ -191,10 +191,10 @@ def reach_holds(p, limb, poses, left, postures, s):
 @inlined
 def near_by(one, other, most):
     """Whether no joint differs by more than `most` between two postures that are kept as single floats."""
+    largest = 0.0
     for k in range(one.shape[0]):
-        if not abs(one[k] - other[k]) <= most + ROUNDED:
-            return False
-    return True
+        largest = max(largest, abs(one[k] - other[k]))
+    return largest <= most + ROUNDED
 
 
 @kernel

@@ -12,8 +12,8 @@ import numpy as np
 
 from ....planning.openings.find import Opening, Places
 from ....planning.openings.trial import Answer, Trial
-from ....planning.problem.problems import pose_problem, yardsticks_of
-from ....planning.reach.flood import flood
+from ....planning.problem.problems import plan_family, pose_problem, yardsticks_of
+from ....planning.reach.exploration import explore_breadth_first
 from ....toml_text import toml_value
 from ....types import Floats
 from .task import SpatialTask
@@ -45,9 +45,11 @@ def find_places(
     problem: Any = pose_problem(task, threads=1).problem
     size = float(problem.params.array("robot")["size"][0])
     wide = max(1, round(size / PER_LIMB / task.step.length)) * task.step.length if spacing is None else spacing
-    seen = flood(
+    lattice = plan_family(task).lattice(task, problem)
+    seen = explore_breadth_first(
         problem,
         yardsticks_of(task),
+        lattice,
         holds=len(task.world.holds),
         threads=threads,
         most_stances=trial.max_stances,
@@ -55,8 +57,8 @@ def find_places(
     )
     if seen.ended:
         return None, seen.ended == "interrupt"
-    steps = seen.poses[seen.notes["stances"] > 0][:, :2]
-    poses = np.array((task.start.along, task.start.across)) + np.unique(steps, axis=0) * task.step.length
+    steps = seen.poses[seen.notes["stances"] > 0]
+    poses = np.unique((lattice.origin + steps * lattice.step)[:, :2], axis=0)  # along and across come first
     sites = _sites(task, problem, poses, wide)
     sites.sort(key=lambda site: (math.dist(site[:2], near), site))
     trial.grant(1.0)

@@ -10,7 +10,6 @@ import numpy.typing as npt
 
 from ....errors import SpecError
 from ....planning.problem.arrays import ActionTable, Params, WayFields
-from ....planning.problem.check import TICKS
 from ....planning.problem.code_limits import CodeLimits
 from ....planning.problem.codes import HOLD, MOVE, NEAREST, NONE, Code, pack
 from ....planning.problem.problem import Beam, CompiledProblem, Records
@@ -21,7 +20,7 @@ from . import search_kernels as search_kernels  # its module registers the famil
 from .bounding import with_bound
 from .checks import SPATIAL_CHECKS
 from .judging_kernels import SCRATCH
-from .records import GOAL, KNOWN, LIFTED, PARAMS
+from .records import AXES, GOAL, KNOWN, LIFTED, PARAMS
 from .records import HOLD as HOLD_RECORD
 from .robot_arrays import robot_arrays
 from .start import find_start
@@ -41,7 +40,7 @@ MOVE_NAMES: Final = tuple(
 class SpatialProblem(CompiledProblem):
     """Poses on a guide, holds of the world, all checks."""
 
-    key_words, spot_words = 6, 3 + LIMBS
+    key_words, pose_words = 6, AXES + LIMBS
     foreseen = ("body", "limbs", "stages", "length", "unstable")
     beam = Beam(width=120, niche=2, weights=(("body", 1.0), ("limbs", 0.3), ("stages", 0.5)), polish=10_000)
 
@@ -210,7 +209,6 @@ def problem_params(task: SpatialTask, exact: bool) -> Params:
     row["length"], row["rise"], row["angle"], row["tilt"] = step.length, step.height, step.angle, step.tilt
     row["heights"], row["tilts"], row["far"], row["nearest"] = step.heights, step.tilts, step.far, step.nearest
     row["turns"] = round(math.tau / step.angle)
-    row["turn_ticks"] = TICKS * int(row["turns"])
     row["n_limbs"], row["kinds"][: len(KINDS)] = len(robot.chains.limb_names), KINDS
     row["hard"] = sum(1 << k for k, check in enumerate(SPATIAL_CHECKS) if check.name in rules.hard)
     row["lift"], row["clearance"] = rules.lift, rules.clearance

@@ -97,7 +97,6 @@ PARAMS: Final = np.dtype(
         ("far", "i8"),
         ("nearest", "i8"),
         ("turns", "i8"),
-        ("turn_ticks", "i8"),
         ("n_limbs", "i4"),
         ("hard", "i4"),
         ("kinds", "i4", (8,)),

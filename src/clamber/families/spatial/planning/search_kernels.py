@@ -12,7 +12,7 @@ from ..statics.records import JOINTS, LIMBS
 from .bounding_kernels import moves_between, plain_bound, table_bound
 from .judging_kernels import know_posture, scratch_of, set_contacts
 from .poses_kernels import away_from, goals_of, holds_of, meets, place_body, yaw_missing
-from .records import ACROSS, ALONG, HEIGHT, PARAMS, PITCH, ROLL, YAW
+from .records import ACROSS, ALONG, AXES, HEIGHT, PARAMS, PITCH, ROLL, YAW
 from .step_kernels import MOVES, NEAR, RANKED, draft, holds_near, step
 
 
@@ -103,7 +103,7 @@ def bound(p, s):
 
 
 @kernel
-def toward(p, s, t):
+def heuristic_between(p, s, t):
     """Moves of the body from one pose to the other, and limbs that have to take another hold."""
     count = moves_between(p, s.pose, t.pose)
     for i in range(p.n_limbs):
@@ -128,15 +128,16 @@ def cell(p, s):
 
 
 @kernel
-def spot(p, s, words):
-    """Along, across and yaw in ticks, then the hold of each limb."""
-    words[0], words[1], words[2] = s.pose[ALONG] * TICKS, s.pose[ACROSS] * TICKS, s.pose[YAW] * TICKS
+def body_pose(p, s, words):
+    """The pose in ticks, then the hold of each limb."""
+    for axis in range(AXES):
+        words[axis] = s.pose[axis] * TICKS
     for i in range(LIMBS):
-        words[3 + i] = s.hold[i]
+        words[AXES + i] = s.hold[i]
 
 
 @kernel
-def aims(p, s, k):
+def satisfies_goal(p, s, k):
     """Whether the body is where goal k asks for."""
     return meets(p, s, goals_of(p)[k])
 
@@ -145,7 +146,7 @@ family_kernels(
     PARAMS,
     step=step,
     draft=draft,
-    toward=toward,
+    heuristic_between=heuristic_between,
     candidates=candidates,
     key=key,
     restore=restore,
@@ -153,6 +154,6 @@ family_kernels(
     bound=bound,
     done=done,
     cell=cell,
-    spot=spot,
-    aims=aims,
+    body_pose=body_pose,
+    satisfies_goal=satisfies_goal,
 )

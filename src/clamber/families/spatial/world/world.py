@@ -2,13 +2,14 @@
 
 import math
 from functools import lru_cache
-from typing import Annotated, Any, Final, Literal
+from typing import Annotated, Any, ClassVar, Final, Literal
 
 import numpy as np
 from pydantic import Field, StrictStr
 
 from ....errors import UnknownHoldError
 from ....files import Document, check_schema
+from ....notebook import Pictured
 from ....specs import Name, build_spec, spec
 from ....types import Floats, Records
 from ....units import (
@@ -25,6 +26,8 @@ from .solids import SOLID, Direction, Solid, solid_record, unit
 SCHEMA: Final = "clamber-world-1"
 MOST_HOLDS: Final = 60_000
 """Of a world: keys of stances keep a hold's index in 16 bits."""
+LOOSE: Final = 1.1
+"""How far an estimate of the number of holds may be off [-]."""
 BODIES: Final = {"earth": GRAVITY, "moon": 1.625, "mars": 3.728, "none": 0.0}
 """Free fall at the surface [m/s^2]: standard gravity; Moon and Mars after NASA's fact sheets; weightless."""
 Acceleration = Annotated[float, Quantity("acceleration")]
@@ -82,8 +85,10 @@ class WorldSpec:
 
 
 @spec
-class World:
+class World(Pictured):
     """A world with everything resolved, SI, world frame."""
+
+    kind: ClassVar[str] = "world"
 
     name: str
     title: str
@@ -146,7 +151,10 @@ def build_world(document: Document) -> World:
             raise document.problem(f"holds.{k}.number", f"must be {k + 1}: holds are numbered in order, from 1")
         if not np.linalg.norm(hold.normal) > 0.0:
             raise document.problem(f"holds.{k}.normal", "must not be zero")
-    for pattern in stated.patterns:
+    for k, pattern in enumerate(stated.patterns):
+        if len(holds) + pattern.grid > LOOSE * MOST_HOLDS:  # before they are made, which takes long
+            allowed = f"makes about {pattern.grid:.0f} holds; a world may have {MOST_HOLDS}"
+            raise document.problem(f"patterns.{k}.spacing", allowed)
         for place, normal in pattern.points(frames):
             holds.append(
                 Hold(
