@@ -269,13 +269,11 @@ class CompiledProblem:
         self.limits.stances(stances, self.start.dtype)
         weights = self._weights(weights)
         assert len(stances) <= len(out.count), "memory for fewer stances"
-        drafts = self.drafts(weights)
-
         def part(worker: int, first: int, end: int) -> None:
             params, child, margins, row = self._scratch[worker]
             codes = np.zeros(self.branching, np.int32)
             sprout(
-                params, stances, first, end, drafts, weights, toll, margins, row[0], child, codes,
+                params, stances, first, end, self.drafts(weights), weights, toll, margins, row[0], child, codes,
                 out.count, out.code, out.score, out.cell, out.done, out.keys,
             )  # fmt: skip
 
