@@ -104,9 +104,8 @@ class Problem(Protocol):
 class CompiledProblem:
     """A `Problem` whose family is a set of kernels: the loops of `actions.loops`, spread over threads.
 
-    The answer does not depend on the number of threads: every plan is carried out alone. Kernels take codes, entries of the table and
-    indices of stances as they are, and one that does not exist would make them read and write memory that is not theirs. So whatever is
-    handed in is looked at here first, whoever it comes from.
+    The answer does not depend on the number of threads: every plan is carried out alone. Kernels take codes and indices as they are, and
+    one that does not exist would make them use memory that is not theirs; so whatever is handed in is looked at here first.
     """
 
     stance_costs: ClassVar[tuple[str, ...]] = ()
@@ -269,6 +268,7 @@ class CompiledProblem:
         self.limits.stances(stances, self.start.dtype)
         weights = self._weights(weights)
         assert len(stances) <= len(out.count), "memory for fewer stances"
+
         def part(worker: int, first: int, end: int) -> None:
             params, child, margins, row = self._scratch[worker]
             codes = np.zeros(self.branching, np.int32)
