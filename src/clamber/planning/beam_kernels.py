@@ -10,7 +10,7 @@ from .stance_table import slot_of
 
 @kernel
 def choose(p, parents, order, sprouts, width, niche, kept, niches, margins, children, chosen):
-    """Take children in order of their score: those with a key that no layer had yet, at most `niche` per niche, up to `width`, if they hold.
+    """Take children that hold in order of their score: those with a key that no layer had, at most `niche` per niche, up to `width`.
 
     Args:
         p: A family's parameters.

@@ -2,35 +2,15 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final
 
 import numpy as np
 import numpy.typing as npt
 
 from ..interrupts import answer
 from .beam_kernels import choose
-from .problem.problem import CompiledProblem, Records
+from .problem.problem import Beam, CompiledProblem, Records
 from .progress import Clock
 from .stance_table import rehash, table_size
-
-NICHE: Final = 20
-LONGEST: Final = 400
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Beam:
-    """The settings of a beam search; lengths in actions."""
-
-    width: int = CompiledProblem.beam
-    """Stances kept of each layer."""
-    niche: int = NICHE
-    """Most of one niche in a layer: same goals met, same contacts, nearby."""
-    longest: int = LONGEST
-    """Layers, so actions of a plan."""
-    toll: float = 0.0
-    """What a stance's score loses per action that the family's bound says is left."""
-    weights: tuple[tuple[str, float], ...] = (("body", 1.0), ("limbs", 0.1), ("stages", 0.5))
-    """Feature -> weight in the score."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,6 +25,7 @@ class Spatial(Family):
             "files": "clamber.families.spatial.planning.task:FILES",
             "plans": "clamber.families.spatial.planning.plans:PLANS",
             "relaxations": "clamber.families.spatial.planning.relaxations:spatial_relaxations",
+            "one_hold_more": "clamber.families.spatial.planning.one_hold_more:find_places",
             "pictures": "clamber.families.spatial.pictures.pictures:PICTURES",
             "scenes": "clamber.families.spatial.pictures.scenes:SCENES",
             "dynamics": "clamber.families.spatial.dynamics:DYNAMICS",

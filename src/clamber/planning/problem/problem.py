@@ -53,6 +53,24 @@ class Replay:
         return bool(np.all(self.reasons < 0))
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Beam:
+    """The settings of a beam search; lengths in actions."""
+
+    width: int = 500
+    """Stances kept of each layer."""
+    niche: int = 20
+    """Most of one niche in a layer: same goals met, same contacts, nearby."""
+    longest: int = 400
+    """Layers, so actions of a plan."""
+    toll: float = 0.0
+    """What a stance's score loses per action that the family's bound says is left."""
+    weights: tuple[tuple[str, float], ...] = (("body", 1.0), ("limbs", 0.1), ("stages", 0.5))
+    """Feature -> weight in the score."""
+    polish: int = 60_000
+    """Most stances that windows about the plan may see afterwards."""
+
+
 class Problem(Protocol):
     """A task that planners can work on, whatever the robot; a worker rebuilds it from the task's text."""
 
@@ -86,18 +104,16 @@ class Problem(Protocol):
 class CompiledProblem:
     """A `Problem` whose family is a set of kernels: the loops of `actions.loops`, spread over threads.
 
-    The answer does not depend on the number of threads: every plan is carried out alone.
-
-    Kernels take codes, entries of the table and indices of stances as they are, and one that does not exist would make them read
-    and write memory that is not theirs. So whatever is handed in is looked at here first, whoever it comes from.
+    The answer does not depend on the number of threads: every plan is carried out alone. Kernels take codes and indices as they are, and
+    one that does not exist would make them use memory that is not theirs; so whatever is handed in is looked at here first.
     """
 
     stance_costs: ClassVar[tuple[str, ...]] = ()
     """Names of what the family's kernel `stance_cost` writes, each with its unit at the end."""
     foreseen: ClassVar[tuple[str, ...]] = ()
     """Features that the family's kernel `draft` tells of an action before it is judged; none where it has no such kernel."""
-    beam: ClassVar[int] = 500
-    """Stances that a beam keeps of each layer, unless told otherwise."""
+    beam: ClassVar[Beam] = Beam()
+    """What suits the family's robots, unless told otherwise."""
 
     def __init__(
         self,
@@ -219,8 +235,6 @@ class CompiledProblem:
             code = np.zeros(room, np.int32)
             n, first = expand(params, stances, first, len(stances), codes, margins, children, parent, code)
             parts.append(Children(parent[:n], code[:n], children[:n]))
-        if len(parts) == 1:
-            return parts[0]
         return Children(
             np.concatenate([part.parent for part in parts]),
             np.concatenate([part.code for part in parts]),
@@ -246,7 +260,7 @@ class CompiledProblem:
     def sprout(self, stances: Records, weights: npt.NDArray[np.float64], toll: float, out: Sprouts) -> None:
         """Write every valid child of every stance, scored: weights times features, less `toll` times the bound on what is left.
 
-        Where the family can tell the score before an action is judged (`drafts`), children are not judged, and may not be valid.
+        Where the score can be told before an action is judged (`drafts`), children are not judged, and may not be valid.
 
         Raises:
             SpecError: If a stance names a limb, hold or goal that does not exist, or a weight is missing.
@@ -254,13 +268,12 @@ class CompiledProblem:
         self.limits.stances(stances, self.start.dtype)
         weights = self._weights(weights)
         assert len(stances) <= len(out.count), "memory for fewer stances"
-        drafts = self.drafts(weights)
 
         def part(worker: int, first: int, end: int) -> None:
             params, child, margins, row = self._scratch[worker]
             codes = np.zeros(self.branching, np.int32)
             sprout(
-                params, stances, first, end, drafts, weights, toll, margins, row[0], child, codes,
+                params, stances, first, end, self.drafts(weights), weights, toll, margins, row[0], child, codes,
                 out.count, out.code, out.score, out.cell, out.done, out.keys,
             )  # fmt: skip
 

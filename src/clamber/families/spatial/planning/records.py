@@ -69,7 +69,6 @@ HOLD: Final = np.dtype(
         ("normal", "f8", (3,)),  # out of the surface
         ("friction", "f8"),  # largest coefficient; infinite: the end effector's own
         ("strength", "f8"),  # largest force [N]; infinite: any
-        ("radius", "f8"),  # of the patch [m]
         ("along", "f8"),
         ("across", "f8"),
         ("height", "f8"),  # on the guide [m]
@@ -107,6 +106,12 @@ PARAMS: Final = np.dtype(
         ("n_solids", "i8"),
         ("n_rows", "i8"),
         ("n_columns", "i8"),
+        ("region_low", "i8", (AXES,)),
+        ("region_count", "i8", (AXES,)),  # box of poses that tables of the bound are for
+        ("n_region", "i8"),
+        ("n_poses", "i8"),
+        ("region_at", "i8"),
+        ("left_at", "i8"),
         ("robot_at", "i8"),
         ("seeds_at", "i8"),
         ("rules_at", "i8"),

@@ -9,8 +9,9 @@ from ....planning.problem.check import TICKS
 from ....planning.problem.codes import MOVE, pack_code
 from ....planning.problem.family_kernels import family_kernels
 from ..statics.records import JOINTS, LIMBS
+from .bounding_kernels import moves_between, plain_bound, table_bound
 from .judging_kernels import know_posture, scratch_of, set_contacts
-from .poses_kernels import away_from, goals_of, holds_of, meets, outside, place_body, yaw_missing
+from .poses_kernels import away_from, goals_of, holds_of, meets, place_body, yaw_missing
 from .records import ACROSS, ALONG, AXES, HEIGHT, PARAMS, PITCH, ROLL, YAW
 from .step_kernels import MOVES, NEAR, RANKED, draft, holds_near, step
 
@@ -91,38 +92,20 @@ def measure(p, s, row):
 
 @kernel
 def bound(p, s):
-    """Moves that the body needs at least, and times that each limb must take another hold to come along."""
+    """Actions that are left at least: by the tables, where there are any for the pose, else by distances alone."""
     if s.stage >= p.n_goals:
         return 0.0
-    goal, holds = goals_of(p)[s.stage], holds_of(p)
-    spans = carray(pointer(p.spans_at), LIMBS, np.float64)
-    stride = p.far * p.length
-    count = math.ceil(outside(s.x, goal.along_min, goal.along_max) / stride - 1e-6)
-    count += math.ceil(outside(s.y, goal.across_min, goal.across_max) / stride - 1e-6)
-    count += math.ceil(yaw_missing(p, s.angle, goal) / p.angle - 1e-6)
-    for i in range(p.n_limbs):
-        short = outside(holds[s.hold[i]].along, goal.along_min, goal.along_max) - spans[i]
-        if short > 0.0:
-            count += math.ceil(short / (2.0 * spans[i]) - 1e-6)
-    return float(count)
-
-
-@inlined
-def steps_apart(difference, far):
-    """Least number of steps of 1 and of `far` that make up a difference."""
-    rest = abs(difference) % far
-    return abs(difference) // far + min(rest, 1 + far - rest)
+    if p.n_region > 0 and s.stage == p.n_goals - 1:
+        left = table_bound(p, s)
+        if left >= 0.0:
+            return left
+    return float(plain_bound(p, s))
 
 
 @kernel
 def heuristic_between(p, s, t):
     """Moves of the body from one pose to the other, and limbs that have to take another hold."""
-    turn = (s.pose[YAW] - t.pose[YAW]) % p.turns
-    count = min(turn, p.turns - turn)
-    count += steps_apart(s.pose[ALONG] - t.pose[ALONG], p.far)
-    count += steps_apart(s.pose[ACROSS] - t.pose[ACROSS], p.far)
-    for axis in (HEIGHT, PITCH, ROLL):
-        count += abs(s.pose[axis] - t.pose[axis])
+    count = moves_between(p, s.pose, t.pose)
     for i in range(p.n_limbs):
         if s.hold[i] != t.hold[i]:
             count += 1

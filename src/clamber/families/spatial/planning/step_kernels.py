@@ -117,21 +117,18 @@ def take_hold(p, before, limb, after, margins):
 
 
 @kernel
-def move_body(p, argument, after):
-    """Move the body on its lattice; False where the lattice has no such pose."""
+def shift(p, argument, pose):
+    """Carry out a move of the body on a pose; False where the lattice has no such pose."""
     axis = (argument % NEAR) >> 1
-    after.pose[axis] += (1 - 2 * (argument & 1)) * (1 if argument < NEAR else p.far)
+    pose[axis] += (1 - 2 * (argument & 1)) * (1 if argument < NEAR else p.far)
     if axis == YAW:
-        after.pose[YAW] = after.pose[YAW] % p.turns
+        pose[YAW] = pose[YAW] % p.turns
     most = UNLIMITED
     if axis == HEIGHT:
         most = p.heights
     elif axis in (PITCH, ROLL):
         most = p.tilts if p.tilt > 0.0 else 0
-    if abs(after.pose[axis]) > most:
-        return False
-    place_body(p, after, scratch_of(p))
-    return True
+    return abs(pose[axis]) <= most
 
 
 @kernel
@@ -141,8 +138,9 @@ def draft(p, before, code, after):
     after.count = before.count + 1
     kind, limb, argument = unpack(code)
     if kind == MOVE:
-        if not move_body(p, argument, after):
+        if not shift(p, argument, after.pose):
             return -1
+        place_body(p, after, scratch_of(p))
     elif kind in (HOLD, NEAREST):
         hold = argument
         if kind == NEAREST:
@@ -169,11 +167,8 @@ def step(p, before, code, after, margins):
         margins[0] = NOWHERE
         return 0
     kind, limb, _ = unpack(code)
-    broken = (
-        take_hold(p, before, limb, after, margins)
-        if kind in (HOLD, NEAREST)
-        else judge_stance(p, before, after, -1, -1, margins)
-    )
+    grabs = kind in (HOLD, NEAREST)
+    broken = take_hold(p, before, limb, after, margins) if grabs else judge_stance(p, before, after, -1, -1, margins)
     if broken >= 0:
         after.stage = before.stage
     return broken

@@ -12,8 +12,10 @@ from ....compiled import kernel
 from ....planning.problem.check import UNLIMITED
 from .checks import EQUILIBRIUM, SLIP, TORQUE
 from .programme_kernels import eliminate, maximise
-from .relaxing_kernels import relax_forces
+from .relaxing_kernels import STEPS, relax_forces
 
+ALL = 1.0 - 1e-8
+"""No forces leave more of the limits than this: without weight, none are needed."""
 LEAST_WEIGHT = 0.01 * 9.80665
 """Gravity that forces are counted in at least [m/s^2], so that a robot in free fall has a scale, too."""
 
@@ -245,19 +247,15 @@ def balance_forces(robot, work, rules, out):
     n = fill_balance(robot, work, weight)
     margins = out.margins
     out.pivots = 0
-    if not rules.exact:
-        share = relax_forces(robot, work, weight, rules.need, n)
-        if share < rules.need and share > -math.inf:  # a motor that its own limb's weight is too much for
-            out.s = share
-            margins[EQUILIBRIUM] = share - rules.need
-            for check in range(TORQUE, SLIP + 3):
-                margins[check] = math.nan
-            return False
+    share = relax_forces(robot, work, weight, ALL if rules.exact else rules.need, 0 if rules.exact else STEPS, n)
+    if share > -math.inf:  # if it is less than the need: a motor that its own limb's weight is too much for
+        out.s = share
+        margins[EQUILIBRIUM] = share - rules.need
+        for check in range(TORQUE, SLIP + 3):
+            margins[check] = math.nan
         if share >= rules.need:
             read_margins(robot, work, weight, out)
-            out.s = share
-            margins[EQUILIBRIUM] = share - rules.need
-            return True
+        return share >= rules.need
     rank = eliminate(work, n)
     if rank < 0:  # as for one or two point contacts: no forces balance, however large
         out.s = -1.0
@@ -286,6 +284,6 @@ def balance_forces(robot, work, rules, out):
                     value -= work.balance[-1 - place, k] * work.point[other]
             work.solution[j] = value
     read_margins(robot, work, weight, out)
-    out.s = lower if lower >= rules.need else upper
+    out.s = upper if upper < rules.need else lower  # where the programme was not settled, what it is sure of
     margins[EQUILIBRIUM] = out.s - rules.need
     return lower >= rules.need

@@ -111,8 +111,15 @@ def tightest(robot, work, weight):
 
 
 @kernel
-def relax_forces(robot, work, weight, need, n):
+def relax_forces(robot, work, weight, need, steps, n):
     """Seek forces in `solution` that balance and leave `need` of every limit, after `fill_balance` and before its equations are solved.
+
+    Args:
+        robot, work: Robot and scratch; `weigh` and `fill_balance` came before.
+        weight: Unit of forces [N].
+        need: Share of all limits.
+        steps: Constraints that the forces are moved off, at most.
+        n: Unknowns.
 
     Returns:
         A share of all limits that they leave, at least the need; less than it where no forces can leave more; -infinity: not found.
@@ -128,12 +135,12 @@ def relax_forces(robot, work, weight, need, n):
         for i in range(6):
             total += balance[i, j] * six[i]
         solution[j] = total
-    for _ in range(STEPS):
+    for _ in range(steps):
         least, limb = tightest(robot, work, weight)
         if least >= need + SURE:
             return least
         if not work.bears[limb]:
-            return least
+            return min(least, need - SURE)
         first = 0
         for i in range(limb):
             if work.bears[i]:

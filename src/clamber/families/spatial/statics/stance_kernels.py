@@ -141,9 +141,7 @@ def judge_postures(robot, tables, body, contacts, before, rules, out, work):
 
 @kernel
 def judge_shape(robot, tables, body, contacts, before, rules, out, work):
-    """All checks of a stance that forces don't matter to; arguments and answer as those of `judge`, but for `exact`: where a limb does not
-    reach its hold, `out.judged` is 0.
-    """
+    """All checks of a stance that forces don't matter to, as `judge` takes and tells them; `out.judged` is 0 if a limb does not reach."""
     margins = out.margins
     for check in range(CHECKS_OF_STANCE):
         margins[check] = math.nan

@@ -72,7 +72,7 @@ class Pattern:
     strength: PositiveForce | None = None
     """Of every hold [N]; None: any."""
     radius: PositiveLength = 0.01
-    """Of every hold's patch [m]."""
+    """Of every hold's patch, as it is drawn [m]; no check reads it."""
     seed: Seed = 0
 
     @property

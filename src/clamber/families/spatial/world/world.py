@@ -49,7 +49,7 @@ class Hold:
     strength: PositiveForce | None = None
     """Largest force of any direction that the hold bears [N]; None: any."""
     radius: Ends = 0.01
-    """Of the patch about its place that can be taken [m]."""
+    """Of the patch that is drawn about its place [m]; no check reads it: whether an end effector fits is the model's maker to say."""
 
     @property
     def x(self) -> float:
