@@ -19,7 +19,7 @@ from ....units import (
     Quantity,
 )
 from .guide import Waypoint, guide_frames
-from .patterns import Pattern
+from .patterns import Pattern, Seed
 from .solids import SOLID, Direction, Solid, solid_record, unit
 
 SCHEMA: Final = "clamber-world-1"
@@ -76,6 +76,8 @@ class WorldSpec:
     holds: tuple[Hold, ...] = ()
     patterns: tuple[Pattern, ...] = ()
     """Holds that are generated, numbered after those that are listed."""
+    seed: Seed = 0
+    """Added to the seeds of the patterns: another world of the same kind."""
     solids: tuple[Solid, ...] = ()
     guide: tuple[Waypoint, ...]
     """Corners of the path that bodies go along."""
@@ -147,7 +149,7 @@ def build_world(document: Document) -> World:
         if not np.linalg.norm(hold.normal) > 0.0:
             raise document.problem(f"holds.{k}.normal", "must not be zero")
     for pattern in stated.patterns:
-        for place, normal in pattern.points(frames):
+        for place, normal in pattern.points(frames, stated.seed):
             holds.append(
                 Hold(
                     number=len(holds) + 1,
