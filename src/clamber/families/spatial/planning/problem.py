@@ -26,7 +26,7 @@ from .robot_arrays import robot_arrays
 from .start import find_start
 from .step_kernels import MOVES
 from .surface import fit_surface, on_guide, span_along
-from .task import CHECK_NAMES, SpatialTask
+from .task import CHECK_NAMES, SpatialTask, Start
 
 FEATURES: Final = ("body", "limbs", "effort", "stages", "length", "unstable", "peak")
 KINDS: Final = (0, 0, 1, 0, 1, 1, 2)
@@ -198,6 +198,18 @@ def hold_records(task: SpatialTask) -> Records:
     return rows
 
 
+def leaning(tips: Floats, start: Start) -> Floats:
+    """Nominal tips along, beside and above a body's heading on the guide, when it leans as at the start, shape (limbs, 3) [m].
+
+    Args:
+        tips: Base frame, shape (limbs, 3) [m].
+        start: Of the task.
+    """
+    cp, sp, cr, sr = math.cos(start.pitch), math.sin(start.pitch), math.cos(start.roll), math.sin(start.roll)
+    made: Floats = tips @ np.array(((cp, sp * sr, sp * cr), (0.0, cr, -sr), (-sp, cp * sr, cp * cr))).T
+    return made
+
+
 def problem_params(task: SpatialTask, exact: bool) -> Params:
     """The parameters of a task for its kernels."""
     robot, world, step, rules, start = task.robot, task.world, task.step, task.rules, task.start
@@ -205,7 +217,8 @@ def problem_params(task: SpatialTask, exact: bool) -> Params:
         raise SpecError(f"world '{world.name}'", "holds", [], "must be one or more: limbs stand on holds")
     holds, record = hold_records(task), np.zeros(1, PARAMS)
     row = record[0]
-    row["along"], row["across"], row["height"], row["yaw"] = start.along, start.across, start.height, start.yaw
+    row["along"], row["across"], row["height"] = start.along, start.across, start.height
+    row["yaw"], row["pitch"], row["roll"] = start.yaw, start.pitch, start.roll
     row["length"], row["rise"], row["angle"], row["tilt"] = step.length, step.height, step.angle, step.tilt
     row["heights"], row["tilts"], row["far"], row["nearest"] = step.heights, step.tilts, step.far, step.nearest
     row["turns"] = round(math.tau / step.angle)
@@ -245,7 +258,7 @@ def problem_params(task: SpatialTask, exact: bool) -> Params:
         follow=follow,
         solids=world.solid_records,
         spans=spans,
-        tips=arrays.tips,
+        tips=leaning(arrays.tips, start),
         region=np.zeros(0, np.int32),
         left=np.zeros(0, np.int16),
         work=np.zeros(SCRATCH),

@@ -80,7 +80,9 @@ PARAMS: Final = np.dtype(
         ("along", "f8"),
         ("across", "f8"),
         ("height", "f8"),
-        ("yaw", "f8"),  # of the start
+        ("yaw", "f8"),
+        ("pitch", "f8"),
+        ("roll", "f8"),  # of the start
         ("length", "f8"),
         ("rise", "f8"),
         ("angle", "f8"),

@@ -81,13 +81,14 @@ class Pattern:
         rows, columns = (_number(span, self.spacing) for span in (self.along, self.across))
         return rows * columns * (1.0 - self.left_out)
 
-    def points(self, frames: Floats) -> list[tuple[Floats, Floats]]:
+    def points(self, frames: Floats, seed: int = 0) -> list[tuple[Floats, Floats]]:
         """Place and normal of each hold, world frame, row by row along the guide.
 
         Args:
             frames: Of the guide, shape (n, 12).
+            seed: Of the world, added to the pattern's own.
         """
-        rng = np.random.default_rng(self.seed)
+        rng = np.random.default_rng(self.seed + seed)
         frames = frames if self.on is None else self.on.frames
         waves = _waves(rng, self.bump_length) if self.bumps > 0.0 else None
         made = []

@@ -20,7 +20,7 @@ from ....units import (
     Quantity,
 )
 from .guide import Waypoint, guide_frames
-from .patterns import Pattern
+from .patterns import Pattern, Seed
 from .solids import SOLID, Direction, Solid, solid_record, unit
 
 SCHEMA: Final = "clamber-world-1"
@@ -79,6 +79,8 @@ class WorldSpec:
     holds: tuple[Hold, ...] = ()
     patterns: tuple[Pattern, ...] = ()
     """Holds that are generated, numbered after those that are listed."""
+    seed: Seed = 0
+    """Added to the seeds of the patterns: another world of the same kind."""
     solids: tuple[Solid, ...] = ()
     guide: tuple[Waypoint, ...]
     """Corners of the path that bodies go along."""
@@ -155,7 +157,7 @@ def build_world(document: Document) -> World:
         if len(holds) + pattern.grid > LOOSE * MOST_HOLDS:  # before they are made, which takes long
             allowed = f"makes about {pattern.grid:.0f} holds; a world may have {MOST_HOLDS}"
             raise document.problem(f"patterns.{k}.spacing", allowed)
-        for place, normal in pattern.points(frames):
+        for place, normal in pattern.points(frames, stated.seed):
             holds.append(
                 Hold(
                     number=len(holds) + 1,
