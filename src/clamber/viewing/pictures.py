@@ -42,6 +42,16 @@ class RunPicture(Animated[Any], Protocol):
 
 
 @dataclass(frozen=True, slots=True)
+class Chart:
+    """A world as a map of the first two coordinates of a body's poses."""
+
+    points: Callable[[Any], Floats]
+    """Places of a task's holds, or what else must be seen, on the map, shape (n, 2) [m]."""
+    world: Callable[[Axes, Any, Bounds], None]
+    """A task's world on given axes."""
+
+
+@dataclass(frozen=True, slots=True)
 class Pictures:
     """How one family of robots is drawn."""
 
@@ -65,6 +75,8 @@ class Pictures:
     """A robot without a task; None: it is not drawn."""
     world_alone: DrawsAlone | None = None
     """A world without a task; None: it is not drawn."""
+    chart: Chart | None = None
+    """What maps of reachable places are drawn over, its points those of the holds; None: the world as it is drawn otherwise."""
     seen_from: "Callable[[str], Pictures] | None" = None
     """The same from a camera that is asked for in words; None: what is drawn is flat."""
 

@@ -1,6 +1,7 @@
 """A world in space on the axes of a picture: surfaces with a quiet grid, holds as discs in their surface, guide, goals, scale."""
 
 import math
+from collections import Counter
 from typing import Final
 
 import numpy as np
@@ -32,6 +33,8 @@ FAR_SIDE: Final = "#CBD1D8"
 LEAST_HOLD: Final = 0.006
 """Least radius of a drawn hold, over the larger side of the picture [-]."""
 CORNERS: Final = 14
+MANY: Final = 60
+"""Faces of what is no flat solid, none of which is taken away from before the robot."""
 MOST_NORMALS: Final = 700
 """Worlds with more holds show them without their normals."""
 MOST_NUMBERED: Final = 70
@@ -59,8 +62,10 @@ def draw_world(axes: Axes, task: SpatialTask, camera: Camera, shown: Floats, bou
     front = {id(face): float(face.normal @ camera.axes[2]) > 1e-6 for face in surfaces.faces}
     seen = [face for face in surfaces.faces if front[id(face)] or face.solid in planes]
     seen.sort(key=lambda face: float(camera.depth(face.corners).mean()))
-    glass = [face for face in seen if not front[id(face)] or _hides(face, camera, task)]
-    solid = [face for face in seen if not any(face is other for other in glass)]
+    few = Counter(face.solid for face in seen)
+    glass = [face for face in seen if not front[id(face)] or (few[face.solid] < MANY and _hides(face, camera, task))]
+    clear = {id(face) for face in glass}
+    solid = [face for face in seen if id(face) not in clear]
     _draw_faces(axes, solid, camera)
     axes.add_collection(LineCollection(list(camera.flat(surfaces.lines)), colors=GRID, linewidths=0.6, zorder=1.2))
     _draw_glass(axes, glass, camera)
@@ -93,7 +98,7 @@ def _draw_faces(axes: Axes, faces: list[Face], camera: Camera) -> None:
     if not faces:
         return
     paint = [shade(face.normal, camera) for face in faces]
-    boxy = {index for index in (face.solid for face in faces) if sum(face.solid == index for face in faces) <= 3}
+    boxy = {index for index, count in Counter(face.solid for face in faces).items() if count <= 3}
     edges = [
         EDGE if face.solid in boxy and face.solid >= 0 else colour for face, colour in zip(faces, paint, strict=True)
     ]
