@@ -22,6 +22,8 @@ from .surfaces import Face, guide_ribbon, round_length, surfaces_of
 
 SHADES: Final = ("#D3D8DE", "#F6F7F9")
 """Colour of a face that the light passes by, and of one that it falls on straight."""
+RELIEF: Final = "#8E9AA6"
+"""The former of a terrain, whose shape nothing else shows."""
 LIGHT: Final = np.array((-0.35, 0.75, 0.55))
 """Where the light comes from: right, up and towards the camera, of any length."""
 GRID: Final = "#22303C1C"
@@ -84,11 +86,11 @@ def _set_axes(axes: Axes, bounds: Bounds) -> None:
         spine.set_color(style.FAINT)
 
 
-def shade(normal: Floats, camera: Camera) -> tuple[float, float, float]:
-    """Colour of a face by how the light falls on it, red, green and blue in [0, 1]."""
+def shade(normal: Floats, camera: Camera, darkest: str = SHADES[0]) -> tuple[float, float, float]:
+    """Colour of a face by how the light falls on it, red, green and blue in [0, 1]; `darkest` where it passes by."""
     light = LIGHT @ camera.axes
     lit = max(0.0, float(normal @ light) / float(np.linalg.norm(light) * np.linalg.norm(normal)))
-    dark, bright = (np.array([int(name[k : k + 2], 16) for k in (1, 3, 5)]) / 255.0 for name in SHADES)
+    dark, bright = (np.array([int(name[k : k + 2], 16) for k in (1, 3, 5)]) / 255.0 for name in (darkest, SHADES[1]))
     red, green, blue = dark + (0.3 + 0.7 * lit) * (bright - dark)
     return float(red), float(green), float(blue)
 
@@ -97,8 +99,9 @@ def _draw_faces(axes: Axes, faces: list[Face], camera: Camera) -> None:
     """Faces from the farthest to the nearest; round solids and ribbons have no lines between their faces."""
     if not faces:
         return
-    paint = [shade(face.normal, camera) for face in faces]
-    boxy = {index for index, count in Counter(face.solid for face in faces).items() if count <= 3}
+    counts = Counter(face.solid for face in faces)
+    boxy = {index for index, count in counts.items() if count <= 3}
+    paint = [shade(face.normal, camera, RELIEF if counts[face.solid] >= MANY else SHADES[0]) for face in faces]
     edges = [
         EDGE if face.solid in boxy and face.solid >= 0 else colour for face, colour in zip(faces, paint, strict=True)
     ]
