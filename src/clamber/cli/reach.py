@@ -71,10 +71,10 @@ def reach(
 
 
 class FloodLine(LiveLine):
-    """Follows a flood."""
+    """Follows an exploration."""
 
     def update(self, stances: int, poses: int, depth: int) -> None:
-        """Show one moment of the flood."""
+        """Show one moment of the exploration."""
         self.show(f"{stances} stances, {poses} poses tried, {depth} actions from the start")
 
 
@@ -111,7 +111,8 @@ def _layer_table(reach: "Reach", layer: str) -> Table:
     from ..planning.reach.reach import LAYERS
 
     shown, units = LAYERS[layer], units_of(reach.task.document)
-    heads = tuple(f"{axis} [{units.place[0]}]" for axis in "xy")
+    axes = reach.lattice.axes[:2]
+    heads = tuple(f"{axis.name} [{units.place[0]}]" for axis in axes)
     values = reach.places.floats(shown.column)
     order = np.argsort(values if shown.good else -values, kind="stable")
     order = order[~np.isnan(values[order])]
@@ -119,7 +120,7 @@ def _layer_table(reach: "Reach", layer: str) -> Table:
     rows = (("hardest place", 0), ("middle", len(order) // 2), ("easiest place", -1)) if len(order) else ()
     for words, rank in rows:
         at = order[rank]
-        place = [f"{reach.places.floats(name)[at] / units.place[1] + 0.0:.1f}" for name in ("x_m", "y_m")]
+        place = [f"{reach.places.floats(axis.column)[at] / units.place[1] + 0.0:.1f}" for axis in axes]
         table.add_row(
             words, _value(float(values[at]), shown.column, units), *(place if words != "middle" else ("", ""))
         )

@@ -4,7 +4,7 @@ from dataclasses import replace
 from typing import Final
 
 from ..tasks import Task
-from .beam_layers import LONGEST, WIDTH, Beam, Reached, search_layers
+from .beam_layers import LONGEST, Beam, Reached, search_layers
 from .problem.plan import Plan
 from .problem.problems import listed_problem, plan_family
 from .progress import Clock, Layers, Listener
@@ -21,7 +21,7 @@ def plan_beam(
     task: Task,
     *,
     seed: int = 0,
-    width: int = WIDTH,
+    width: int | None = None,
     longest: int = LONGEST,
     polish: int = 60_000,
     seconds: float | None = None,
@@ -36,7 +36,7 @@ def plan_beam(
     Args:
         task: What to plan.
         seed: Only written down: nothing here is drawn at random.
-        width: Stances kept of each layer at first.
+        width: Stances kept of each layer at first; None: as many as the family of the robot says.
         longest: Most actions of a plan.
         polish: Most stances that windows about the plan may see afterwards (`planning.shorten`); 0 for none.
         seconds: Most wall-clock time [s].
@@ -56,7 +56,7 @@ def plan_beam(
         if progress is not None:
             progress(Layers(layer, stances, score))
 
-    beam = Beam(width=width, longest=longest)
+    beam = Beam(width=problem.beam if width is None else width, longest=longest)
     checks = 0
     for _ in range(1 + WIDENINGS):
         reached = search_layers(problem, beam, seconds=clock.left, tell=tell)

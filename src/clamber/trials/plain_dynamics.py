@@ -114,6 +114,11 @@ class PlainSetup(Setup[PlainRun, PlainTrial]):
     faults: tuple[str, ...] = ()
 
     @property
+    def work(self) -> Task:
+        """See `Setup`."""
+        return self.task
+
+    @property
     def worker(self) -> Callable[[Json], Json]:
         """One trial."""
         return run_plain_trial

@@ -1,10 +1,7 @@
 """Pictures of any robot's plans and runs: each family says how its own are drawn."""
 
-import base64
-import io
 from collections.abc import Callable
 from dataclasses import dataclass
-from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Protocol
 
@@ -79,20 +76,6 @@ class Pictures:
     """What maps of reachable places are drawn over, its points those of the holds; None: the world as it is drawn otherwise."""
     seen_from: "Callable[[str], Pictures] | None" = None
     """The same from a camera that is asked for in words; None: what is drawn is flat."""
-
-    def html(self, task: Any, replay: Replay, words: str) -> str:
-        """A plan, or a start without one, as a notebook shows it: a picture and words below."""
-        with styled():
-            if len(replay.reasons):
-                figure = self.route(task, replay)
-            else:
-                picture = Picture(self.view(task, replay))
-                picture.show(0, picture.view.settled(0))
-                figure = picture.figure
-            content = io.BytesIO()
-            figure.savefig(content, format="png")
-        data = base64.b64encode(content.getvalue()).decode("ascii")
-        return f'<img alt="{escape(words)}" src="data:image/png;base64,{data}"><p>{escape(words)}</p>'
 
 
 def pictures_of(task: Task, camera: str | None = None) -> Pictures:

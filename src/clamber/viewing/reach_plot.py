@@ -50,8 +50,8 @@ def reach_figure(reach: Reach, layer: str) -> Figure:
     """The picture as a figure."""
     task: Any = reach.task
     world = pictures_of(task)
-    cell = task.step.length
-    spots = np.stack([reach.places.floats("x_m"), reach.places.floats("y_m")], axis=1)
+    cell = float(reach.lattice.step[0])
+    spots = np.stack([reach.places.floats(axis.column) for axis in reach.lattice.axes[:2]], axis=1)
     chart = world.chart or world
     bounds = fit_bounds(np.vstack([chart.points(task), spots - cell, spots + cell]), task.goals)
     across, up = bounds[1] - bounds[0], bounds[3] - bounds[2]
@@ -119,7 +119,7 @@ def _shown(reach: Reach, layer: str) -> tuple[Floats, str, str]:
 
 def _field(axes: Axes, reach: Reach, layer: str) -> AxesImage:
     """Colour the cell of each place."""
-    lattice, cell, start = reach.places.lattice, reach.task.step.length, reach.task.start
+    lattice, cell = reach.places.lattice, float(reach.lattice.step[0])
     values, _, _ = _shown(reach, layer)
     low, high = lattice.min(axis=0), lattice.max(axis=0)
     field = np.full((high[1] - low[1] + 1, high[0] - low[0] + 1), np.nan)
@@ -131,7 +131,7 @@ def _field(axes: Axes, reach: Reach, layer: str) -> AxesImage:
     top = tail if top > 2.0 * tail > 0.0 else top
     bottom = float(finite.min())
     edges = (low[0] - 0.5, high[0] + 0.5, low[1] - 0.5, high[1] + 0.5)
-    origin = (start.x, start.x, start.y, start.y)
+    origin = np.repeat(reach.lattice.origin[:2], 2)
     window = axes.get_xlim(), axes.get_ylim()
     shown = axes.imshow(
         np.ma.masked_invalid(field),
@@ -148,7 +148,7 @@ def _field(axes: Axes, reach: Reach, layer: str) -> AxesImage:
 
 def _edge(axes: Axes, reach: Reach) -> list[Artist]:
     """Outline the places; where all were seen, each side in the colour of the check that forbids most body moves across it."""
-    cell, start = reach.task.step.length, reach.task.start
+    cell, start = float(reach.lattice.step[0]), reach.lattice.origin
     inside = set(map(tuple, reach.places.lattice.tolist()))
     rim = zip(reach.rim.lattice.tolist(), reach.rim.forbidden, strict=True) if reach.status == "complete" else ()
     closers = {(x, y): int(np.argmax(row)) for (x, y), row in rim}
@@ -157,7 +157,7 @@ def _edge(axes: Axes, reach: Reach) -> list[Artist]:
         for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
             if (x + dx, y + dy) in inside:
                 continue
-            middle = np.array([start.x + (x + 0.5 * dx) * cell, start.y + (y + 0.5 * dy) * cell])
+            middle = start[:2] + cell * np.array((x + 0.5 * dx, y + 0.5 * dy))
             along = 0.5 * cell * np.array([dy, dx])
             sides.setdefault(closers.get((x + dx, y + dy), -1), []).append(np.stack([middle - along, middle + along]))
     every = [side for group in sides.values() for side in group]
@@ -180,7 +180,7 @@ def _marks(axes: Axes, reach: Reach) -> list[Artist]:
     task: Any = reach.task
     handles: list[Artist] = []
     (mark,) = axes.plot(
-        task.start.x, task.start.y, marker="o", ms=6.5, mfc=style.PAPER, mec=style.INK, mew=1.6, ls="", zorder=6,
+        *reach.lattice.origin[:2], marker="o", ms=6.5, mfc=style.PAPER, mec=style.INK, mew=1.6, ls="", zorder=6,
         label="body at the start",
     )  # fmt: skip
     handles.append(mark)

@@ -2,8 +2,11 @@
 
 import contextlib
 import io
+import math
 import socket
+import time
 from dataclasses import replace
+from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -215,6 +218,26 @@ class App:
         host = self.server.get_host()
         shown = {"0.0.0.0": LOOPBACK, "::": "[::1]"}.get(host, f"[{host}]" if ":" in host else host)
         return f"http://{shown}:{self.server.get_port()}"
+
+    def __enter__(self) -> "App":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        return f"<App {self.exhibit.title!r} at {self.url}>"
+
+    def _repr_html_(self) -> str:
+        url = escape(self.url)
+        return f'<a href="{url}" target="_blank">{escape(self.exhibit.title)}: open the viewer</a>'
+
+    def wait(self, seconds: float | None = None) -> None:
+        """Leave the page open for so long [s], or until Ctrl-C."""
+        ends = math.inf if seconds is None else time.monotonic() + seconds
+        with contextlib.suppress(KeyboardInterrupt):  # the usual end
+            while (left := ends - time.monotonic()) > 0.0:
+                time.sleep(min(0.2, left))
 
     def close(self) -> None:
         """End the work, the clock and the server."""

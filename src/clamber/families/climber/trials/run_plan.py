@@ -17,6 +17,7 @@ from ....execution.log_stream import LogGap, WantedLog, growing_log
 from ....execution.plant import BodyPlant
 from ....execution.sequencer import Sequencer
 from ....json_form import HIDDEN, INLINE, Jsonable, Key
+from ....notebook import Pictured
 from ....planning.problem.plan import Plan
 from ....sim.flaw_texts import named_flaws, read_flaws
 from ....sim.limb_flaws import LimbFlaws
@@ -58,8 +59,8 @@ PHYSICS_RATE: float = 1000.0
 """Of the contact dynamics [Hz]."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class ClimbRun(Jsonable):
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class ClimbRun(Jsonable, Pictured):
     """A climb that was carried out; exit code 1 where it is not done."""
 
     task: Annotated[LimbedTask, Key(get=attrgetter("name"), kind=str, after="actions")]
@@ -89,6 +90,10 @@ class ClimbRun(Jsonable):
     def reason(self) -> str:
         """Why not; empty where it did."""
         return self.report.reason
+
+    def told(self) -> str:
+        """Of what, and how it ended."""
+        return f"of {self.work.name!r}: {self.reason or 'done'}, {self.report.seconds:.0f} s"
 
     @property
     def true_pegs(self) -> Floats | None:

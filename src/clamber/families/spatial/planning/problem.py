@@ -8,7 +8,6 @@ import numpy.typing as npt
 
 from ....errors import SpecError
 from ....planning.problem.arrays import ActionTable, Params, WayFields
-from ....planning.problem.check import TICKS
 from ....planning.problem.code_limits import CodeLimits
 from ....planning.problem.codes import HOLD, MOVE, NEAREST, NONE, Code, pack
 from ....planning.problem.problem import CompiledProblem, Records
@@ -18,7 +17,7 @@ from ..statics.records import BODY, CONTACT, JUDGED, LIMBS, RULES, WORK
 from . import search_kernels as search_kernels  # its module registers the family's kernels
 from .checks import SPATIAL_CHECKS
 from .judging_kernels import SCRATCH
-from .records import GOAL, PARAMS
+from .records import AXES, GOAL, KNOWN, LIFTED, PARAMS
 from .records import HOLD as HOLD_RECORD
 from .robot_arrays import robot_arrays
 from .start import find_start
@@ -38,7 +37,8 @@ MOVE_NAMES: Final = tuple(
 class SpatialProblem(CompiledProblem):
     """Poses on a guide, holds of the world, all checks."""
 
-    key_words, spot_words = 6, 3 + LIMBS
+    key_words, pose_words = 6, AXES + LIMBS
+    foreseen, beam = ("body", "limbs", "stages", "length", "unstable"), 60
 
     def __init__(self, task: SpatialTask, threads: int | None = None, *, exact: bool = False) -> None:
         """Pose a task.
@@ -198,7 +198,6 @@ def problem_params(task: SpatialTask, exact: bool) -> Params:
     row["length"], row["rise"], row["angle"], row["tilt"] = step.length, step.height, step.angle, step.tilt
     row["heights"], row["tilts"], row["far"], row["nearest"] = step.heights, step.tilts, step.far, step.nearest
     row["turns"] = round(math.tau / step.angle)
-    row["turn_ticks"] = TICKS * int(row["turns"])
     row["n_limbs"], row["kinds"][: len(KINDS)] = len(robot.chains.limb_names), KINDS
     row["hard"] = sum(1 << k for k, check in enumerate(SPATIAL_CHECKS) if check.name in rules.hard)
     row["lift"], row["clearance"] = rules.lift, rules.clearance
@@ -241,9 +240,13 @@ def problem_params(task: SpatialTask, exact: bool) -> Params:
         work_contacts=np.zeros(LIMBS + 2, CONTACT),
         work_judged=np.zeros(2, JUDGED),
         work_statics=np.zeros(1, WORK),
+        work_known=np.zeros(KEPT, KNOWN),
+        work_lifted=np.zeros(1, LIFTED),
     )
 
 
+KEPT: Final = 1 << 14
+"""Postures that each thread keeps; a power of two."""
 SAMPLED: Final = 100
 """Holds about which others are counted, to estimate how many there are for a limb."""
 ANY_YAW: Final = 7.0

@@ -8,6 +8,7 @@ from typing import Annotated, Final
 from pydantic import Field, StrictBool, StrictStr
 
 from ....files import Document, check_schema
+from ....notebook import Pictured
 from ....specs import Name, build_spec, field_names, spec
 from ....tasks.parts import parts_of
 from ....tasks.regions import check_order
@@ -161,7 +162,7 @@ class SpatialTaskSpec:
 
 
 @spec
-class SpatialTask:
+class SpatialTask(Pictured):
     """A task with everything resolved, SI."""
 
     name: str

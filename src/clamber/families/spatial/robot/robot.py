@@ -12,13 +12,14 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from ....errors import UnitError, describe_choices
 from ....files import Document, check_schema
+from ....notebook import Pictured
 from ....regular_files import user_path
 from ....specs import Name, Provenance, build_spec, collect_sources, spec
 from ....types import Json
 from ....units import DEGREE, Length, NonNegativeAngle, NonNegativeLength, NonNegativeMass, Quantity, read_quantity
 from .assembly import Choice, LimbChoice, axis_frame, chains_of
 from .chains import Chains
-from .contact_kinds import build_contact, read_contact
+from .contact_kinds import ContactKind, build_contact, read_contact
 from .contacts import Contact
 from .model import read_model
 from .tree import Frame, Joint, Tree, rooted_at
@@ -120,8 +121,8 @@ class RobotSpec:
     limb: Annotated[tuple[LimbSpec, ...], Field(min_length=1, max_length=MAX_LIMBS)]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SpatialRobot:
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
+class SpatialRobot(Pictured):
     """A robot as its file and its model describe it."""
 
     family: ClassVar[str] = FAMILY
@@ -129,10 +130,12 @@ class SpatialRobot:
     spec: RobotSpec
     tree: Tree = field(repr=False)
     """The model, with the base as its root."""
+    choice: Choice = field(repr=False, compare=False)
+    """Of limbs and held joints, made of spec and tree."""
     chains: Chains = field(repr=False, compare=False)
-    """Made of spec and tree."""
-    contacts: tuple[Contact, ...] = field(repr=False)
-    """What each limb holds on with."""
+    """Made of tree and choice."""
+    ends: tuple[ContactKind, ...] = field(repr=False)
+    """What each limb holds on with, as its data sheet says."""
     model_path: Path | None = field(compare=False)
     """None: the robot comes from a stored plan, which holds what statics needs of the model."""
     sources: Mapping[str, Provenance]
@@ -157,6 +160,11 @@ class SpatialRobot:
     def limb_names(self) -> tuple[str, ...]:
         """Names of the limbs, in order."""
         return self.chains.limb_names
+
+    @property
+    def contacts(self) -> tuple[Contact, ...]:
+        """What the end of each limb can take, as statics needs it."""
+        return tuple(end.contact() for end in self.ends)
 
     @property
     def model_sha256(self) -> str:
@@ -253,22 +261,23 @@ def _built(robot: RobotSpec, tree: Tree, document: Document, path: Path | None) 
     return SpatialRobot(
         spec=robot,
         tree=tree,
+        choice=choice,
         chains=chains,
-        contacts=tuple(_contact(document, limb) for limb in robot.limb),
+        ends=tuple(_end(document, limb) for limb in robot.limb),
         model_path=path,
         sources=collect_sources(document.data),
     )
 
 
-def _contact(document: Document, limb: LimbSpec) -> Contact:
+def _end(document: Document, limb: LimbSpec) -> ContactKind:
     """What a limb holds on with."""
     if isinstance(limb.contact, dict):
-        return build_contact(Document(f"{document.label} [limb.{limb.name}.contact]", limb.contact)).contact()
+        return build_contact(Document(f"{document.label} [limb.{limb.name}.contact]", limb.contact))
     contacts = document.data.get("contacts")
     stated = contacts.get(limb.contact) if isinstance(contacts, dict) else None
     if not isinstance(stated, dict):
         raise document.problem(f"limb.{limb.name}.contact", "must name a contact that stands under 'contacts'")
-    return build_contact(Document(f"contact '{limb.contact}' of {document.label}", stated)).contact()
+    return build_contact(Document(f"contact '{limb.contact}' of {document.label}", stated))
 
 
 def _tip_link(document: Document, limb: LimbSpec, tree: Tree) -> str:

@@ -3,13 +3,14 @@
 import math
 from dataclasses import field
 from functools import lru_cache
-from typing import Annotated, Any, Final, Literal
+from typing import Annotated, Any, ClassVar, Final, Literal
 
 import numpy as np
 from pydantic import Field, StrictStr
 
 from ....errors import UnknownHoldError
 from ....files import Document, check_schema
+from ....notebook import Pictured
 from ....specs import Name, build_spec, spec
 from ....types import Floats, Records
 from ....units import (
@@ -89,8 +90,10 @@ class WorldSpec:
 
 
 @spec
-class World:
+class World(Pictured):
     """A world with everything resolved, SI, world frame."""
+
+    kind: ClassVar[str] = "world"
 
     name: str
     title: str

@@ -16,6 +16,7 @@ from ....execution.log_stream import LogGap, WantedLog, growing_log
 from ....execution.run_report import RunEndedError
 from ....execution.sequencer import Sequencer
 from ....json_form import HIDDEN, INLINE, Jsonable, Key, OrNull, in_json
+from ....notebook import Pictured
 from ....planning.problem.plan import Plan
 from ....sim.plant_rules import PlantError
 from ....types import Floats
@@ -100,8 +101,8 @@ WITHIN: Final = 0.005
 """So near are places of a path passed [m]."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class WalkRun(Jsonable):
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class WalkRun(Jsonable, Pictured):
     """A walk that was carried out; exit code 1 where it is not done."""
 
     walk: Annotated[Walk, Key(get=attrgetter("name"), kind=str, after="steps")]
@@ -141,6 +142,10 @@ class WalkRun(Jsonable):
             return report.reason
         off = math.dist(self.true.pose[-1, :2], report.pose[:2])
         return "" if off <= LOST else f"lost: the robot is {1e3 * off:.0f} mm from where it believes to be"
+
+    def told(self) -> str:
+        """Of what, and how it ended."""
+        return f"of {self.work.name!r}: {self.reason or 'done'}, {self.report.seconds:.0f} s"
 
     @property
     def walking(self) -> slice:
