@@ -10,8 +10,8 @@ LONG = 400
 MANY = 8
 """Parameters of a function."""
 CEILINGS = {
-    "lines": 96_924,
-    "files": 649,
+    "lines": 97_775,
+    "files": 655,
     f"files above {LONG} lines": 0,
     f"functions with more than {MANY} parameters": 60,
     "median length of a line": 40,

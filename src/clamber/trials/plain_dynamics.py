@@ -50,6 +50,11 @@ class PlainRun(Jsonable):
         return None
 
     @property
+    def scene(self) -> None:
+        """None is kept, either."""
+        return None
+
+    @property
     def done(self) -> bool:
         """Whether the plan came to its end."""
         return self.report.done

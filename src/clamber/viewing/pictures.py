@@ -184,7 +184,7 @@ def draw_run(run: CarriedOut, path: str | Path) -> None:
     suffix, file = check_run_suffix(path), Path(path)
     if suffix in LOGS:
         log = run.trace.to_log()
-        write_log(log, file, log.label)
+        write_log(log, file, log.label, run.scene)
         return
     if suffix in ANIMATIONS and suffix not in WRITERS:
         from .browser.exhibit import run_exhibit  # loads the viewer

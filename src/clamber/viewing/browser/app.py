@@ -16,10 +16,12 @@ from ...planning.problem.plan import Plan
 from ...tasks.task_format import task_files
 from .. import style
 from ..scene import join
+from .camera_panel import CameraPanel
 from .exhibit import Editor, Exhibit, exhibit_of
 from .inputs import by_hand, readable, set_input
 from .own_pages import Guard, UnguardedError, check_guarded, guarded
 from .playback import Playback
+from .recording import RecordingPanel, file_name
 from .save_panel import SavePanel
 from .solids import FOV, Camera, colour
 from .stage import Stage
@@ -147,6 +149,9 @@ class App:
             self._shown = server.gui.add_dropdown("show", SHOWN, initial_value="both", visible=False)
             self.stage.add_head()
             self.playback = Playback(server, self.stage.show, self.stage.main)
+            with server.gui.add_folder("Camera"):
+                self.camera = CameraPanel(server, self.stage)
+                self.recording = RecordingPanel(server, self.playback, file_name(exhibit.title))
             self.stage.add_details()
         self._shown.on_update(by_hand(lambda _: self.choose(self._shown.value)))
         self.work: WorkPanel | None = None
@@ -170,6 +175,7 @@ class App:
         stage.shown = "plan" if shown == "plan" else "run" if shown == "run" else "both"
         self._shown.visible = len(stage.films) > 1 and self.exhibit.planned
         set_input(self._shown, stage.shown)
+        stage.load(stage.main)
         self.playback.load(stage.main)
 
     def show_task(self, task: Any, plan: Plan | None = None) -> None:

@@ -13,6 +13,7 @@ import numpy as np
 from ....errors import SpecError
 from ....execution.fault import Failing, Fault
 from ....execution.faulty_plants import FaultyBody
+from ....execution.log_scene import LoggedScene
 from ....execution.log_stream import LogGap, WantedLog, growing_log
 from ....execution.plant import BodyPlant
 from ....execution.sequencer import Sequencer
@@ -25,6 +26,7 @@ from ....tasks import Task
 from ....types import Floats
 from ..execution.body_gains import USUAL, BodyGains
 from ..execution.climb_report import ClimbReport
+from ..execution.climb_scene import climb_scene
 from ..execution.climb_trace import TOPIC, ClimbTrace, TracedClimber, limb_notes
 from ..execution.climbing import Climbing, Progress, Replan
 from ..execution.course import climbable, lay_course
@@ -90,6 +92,11 @@ class ClimbRun(Jsonable, Pictured):
     def reason(self) -> str:
         """Why not; empty where it did."""
         return self.report.reason
+
+    @property
+    def scene(self) -> LoggedScene:
+        """See `CarriedOut`."""
+        return climb_scene(self.task, true=self.trace.true_pose is not None)
 
     def told(self) -> str:
         """Of what, and how it ended."""
@@ -188,7 +195,8 @@ def run_plan(
         climber = believing_climber(task, body, noise, drawn, gains)
         again = None if replan is None else timed_replan
         sequencer = Sequencer(Climbing(climber, course, replan=again, force=force), progress=progress)
-        with growing_log(log, climber.samples, climber.titles, limb_notes(climber.limbs), TOPIC) as finish:
+        scene = climb_scene(task, true=climber.truth is not None)
+        with growing_log(log, climber.samples, climber.titles, limb_notes(climber.limbs), TOPIC, scene) as finish:
             report = sequencer.run()
             notes = report.to_json() | {"task": task.name, "noise": noise.to_json(), "seed": seed}
             if fault is not None:
