@@ -52,8 +52,8 @@ class Terrain:
     """World direction of its own x."""
     z: Direction = (0.0, 0.0, 1.0)
     """World direction of its own z, or nearly: it is made square to x."""
-    spacing: PositiveLength
-    """Least distance of two holds."""
+    spacing: PositiveLength | None = None
+    """Least distance of two holds; None: it has none."""
     slope: PositiveAngle | None = None
     """Largest angle between z and the normal of a hold; 60 deg unless stated, of a mesh any."""
     radius: PositiveLength = 0.01
@@ -178,10 +178,12 @@ def face_normals(mesh: Mesh) -> tuple[Floats, Floats]:
 @lru_cache(maxsize=8)
 def holds_on(terrain: Terrain) -> Holds:
     """Holds on a terrain, the same for the same seed: `spacing` apart, on slopes that are allowed."""
+    if terrain.spacing is None:
+        return Holds(np.zeros((0, 3)), np.zeros((0, 3)))
     if terrain.kind == "points":
-        places, normals = _on_points(terrain)
+        places, normals = _on_points(terrain, terrain.spacing)
     else:
-        places, normals = _on_mesh(terrain)
+        places, normals = _on_mesh(terrain, terrain.spacing)
     up = terrain.axes[2]
     kept = normals @ up >= math.cos(terrain.steepest) - 1e-12
     places, normals = places[kept], normals[kept]
@@ -195,7 +197,7 @@ MOST_CANDIDATES: Final = 400_000
 """Samples of a surface; with fewer for each square, holds lie less densely."""
 
 
-def _on_mesh(terrain: Terrain) -> tuple[Floats, Floats]:
+def _on_mesh(terrain: Terrain, spacing: float) -> tuple[Floats, Floats]:
     """Places all over a surface, at random by area, and the mean of the normals about each."""
     from scipy.spatial import cKDTree
 
@@ -205,7 +207,7 @@ def _on_mesh(terrain: Terrain) -> tuple[Floats, Floats]:
     if not total > 0.0:
         return np.zeros((0, 3)), np.zeros((0, 3))
     rng = np.random.default_rng(terrain.seed)
-    count = math.ceil(min(CANDIDATES * total / terrain.spacing**2, MOST_CANDIDATES)) + 1
+    count = math.ceil(min(CANDIDATES * total / spacing**2, MOST_CANDIDATES)) + 1
     picked = np.searchsorted(np.cumsum(areas), rng.uniform(0.0, total, count)).clip(0, len(areas) - 1)
     u, v = rng.uniform(size=(2, count))
     over = u + v > 1.0
@@ -213,7 +215,7 @@ def _on_mesh(terrain: Terrain) -> tuple[Floats, Floats]:
     corners = vertices[faces[picked]]
     places = corners[:, 0] + u[:, None] * (corners[:, 1] - corners[:, 0]) + v[:, None] * (corners[:, 2] - corners[:, 0])
     own = normals[picked]
-    pairs = cKDTree(places).query_pairs(min(terrain.radius, terrain.spacing), output_type="ndarray")
+    pairs = cKDTree(places).query_pairs(min(terrain.radius, spacing), output_type="ndarray")
     alike = pairs[np.einsum("ij,ij->i", own[pairs[:, 0]], own[pairs[:, 1]]) > ALIKE] if len(pairs) else pairs
     mean = own.copy()
     np.add.at(mean, alike[:, 0], own[alike[:, 1]])
@@ -225,12 +227,12 @@ ALIKE: Final = 0.3
 """Normals with a smaller product are of another side of an edge or of a thin wall, and do not count in a mean [-]."""
 
 
-def _on_points(terrain: Terrain) -> tuple[Floats, Floats]:
+def _on_points(terrain: Terrain, spacing: float) -> tuple[Floats, Floats]:
     """Points of a cloud, and normals of the planes fitted to those nearest to each, towards its z."""
     from scipy.spatial import cKDTree
 
     places = terrain.scale * terrain.packed[0].array @ terrain.axes + np.array(terrain.at)
-    chosen = thinned(places, 0.5 * terrain.spacing)  # fits cost time; twice as many as holds leave a choice
+    chosen = thinned(places, 0.5 * spacing)  # fits cost time; twice as many as holds leave a choice
     tree = cKDTree(places)
     _, near = tree.query(places[chosen], k=min(terrain.neighbours, len(places)))
     about = places[near]
