@@ -1,8 +1,9 @@
 """What `clamber new world` is told, and what it writes."""
 
 import math
+import os
 from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from ....errors import SpecError, UnitError
 from ....files import Document
@@ -10,7 +11,13 @@ from ....spec_text import spec_text
 from ....types import Json
 from ....units import DEGREE, parse_quantity
 from ..world.guide import GRAIN
+from ..world.library import read_parts
+from ..world.made import Fit, Kind, Wanted, world_data
+from ..world.measured import guide_through, measured_data
 from ..world.world import World, WorldSpec, build_world
+
+if TYPE_CHECKING:
+    from .new_world import WorldOptions
 
 COMMAND: Final = "clamber new world"
 LONGEST: Final = 1000.0
@@ -65,18 +72,81 @@ def _parsed(option: str, text: str, dimension: str) -> float:
     return value if math.isfinite(value) else math.nan
 
 
-def checked_world(data: Json, folder: Path | None = None) -> tuple[World, float]:
-    """The world of a document, and its guide's length [m].
+def made_data(words: "WorldOptions", kind: Kind, fit: Fit, name: str) -> Json:
+    """The document of a world that is made up.
 
     Raises:
+        SpecError: If an option is none that it may be; the error names it.
+    """
+    wanted = Wanted(
+        kind=kind,
+        length=length("--length", words.length),
+        width=length("--width", words.width),
+        spacing=length("--spacing", words.spacing),
+        bumps=length("--bumps", words.bumps, least=0.0),
+        gap=length("--gap", words.gap),
+        angle=angle("--angle", words.angle),
+        left_out=words.left_out,
+        seed=words.seed,
+    )
+    return world_data(wanted, fit, name)
+
+
+def read_data(words: "WorldOptions", source: str, fit: Fit, name: str) -> Json:
+    """The document of a world of a file, with a guide through its holds.
+
+    Args:
+        words: Options.
+        source: The one that names the file: table, heights, mesh or points.
+        fit: The robot that it is for.
+        name: What it is called.
+
+    Raises:
+        FileError: If the file cannot be read.
+        SpecError: If an option is none that it may be, or the file has fewer than three holds.
+    """
+    path: Path = getattr(words, source)
+    said = os.path.relpath(path, words.output.parent)
+    if source == "table":
+        table: Json = {"table": said}
+    else:
+        sizes = {} if words.size is None else {"size": _size(words.size)}
+        scale, slope = length("--scale", words.scale, least=0.0), angle("--slope", words.slope)
+        table = {"kind": source, "file": said} | sizes
+        table |= {} if scale is None else {"scale": f"{scale:g} m"}
+        table |= {} if slope is None else {"slope": f"{slope:g} deg"}
+        table |= {"seed": words.seed} if words.seed else {}
+    data = measured_data(table, fit, name, length("--spacing", words.spacing))
+    built, _ = checked_world(data, words.output.parent)
+    return data | {"title": f"{len(built.holds)} holds of {path.name}", "guide": guide_through(built, fit, str(path))}
+
+
+def _size(text: str) -> list[str]:
+    parts = [part.strip() for part in text.split(",")]
+    if len(parts) != 2:
+        raise SpecError(COMMAND, "--size", text, "must be two lengths, such as 4m,2m")
+    return [f"{length('--size', part):g} m" for part in parts]
+
+
+def checked_world(data: Json, folder: Path) -> tuple[World, float]:
+    """The world of a document, and its guide's length [m].
+
+    Args:
+        data: The document.
+        folder: Where its file is to lie.
+
+    Raises:
+        FileError: If a file that it names cannot be read.
         SpecError: If sizes were stated that make none.
     """
-    built = build_world(Document(COMMAND, data, (), folder))
+    built = build_world(read_parts(Document(COMMAND, data, (), folder), folder))
     return built, GRAIN * (len(built.frames) - 1)
 
 
 def world_text(data: Json, path: Path) -> str:
     """A world's document, told key by key."""
     title = f"A world in space; `clamber check {path.name}` says what is wrong or odd with it.\n{HOW}"
-    lead = (("schema", data["schema"], "The format of this file."),)
+    lead: list[tuple[str, object, str]] = [("schema", data["schema"], "The format of this file.")]
+    if "table" in data:
+        lead.append(("table", data["table"], "A CSV file of holds, from where this file lies, in place of `holds`."))
     return spec_text(WorldSpec, data, header=title, lead=lead, examples=EXAMPLES)

@@ -1,5 +1,7 @@
 """Judging a stance of a task in space: where its limbs are, what statics says of it, and how near it comes to solids."""
 
+import math
+
 import numpy as np
 
 from ....compiled import carray, inlined, kernel, pointer
@@ -25,6 +27,8 @@ from .records import AXES, KNOWN, LIFTED
 
 SCRATCH = 256
 """Floats of a thread's scratch."""
+BETWEEN = 3
+"""Places of a link between its ends that are held against solids."""
 
 
 @inlined
@@ -133,7 +137,11 @@ def know_postures(p, s, out):
 
 @kernel
 def solids_gap(p, s, judged):
-    """Least distance of links, but for the last one's tip, and of the base's corners from solids, less the clearance asked for [m]."""
+    """Least distance of links and of the base's corners from solids, less the clearance asked for [m].
+
+    Of each link its ends and `BETWEEN` places in between are looked at; of the last one, which touches a solid with its tip, the half
+    that is nearer to the joint; first links lie beside the base.
+    """
     if p.n_solids == 0:
         return UNLIMITED
     robot = robot_of(p)
@@ -141,8 +149,17 @@ def solids_gap(p, s, judged):
     gap = UNLIMITED
     for i in range(p.n_limbs):
         for k in range(1, robot.n_joints[i]):
-            at = judged.origin[i, k]
-            gap = min(gap, terrain_distance(solids, at[0], at[1], at[2]) - robot.radius[i, k])
+            at, to = judged.origin[i, k], judged.origin[i, k + 1]
+            x, y, z = to[0] - at[0], to[1] - at[1], to[2] - at[2]
+            near = terrain_distance(solids, at[0], at[1], at[2]) - robot.radius[i, k]
+            gap = min(gap, near)
+            part = 1.0 if k + 1 < robot.n_joints[i] else 0.5
+            if near - part * math.sqrt(x * x + y * y + z * z) > gap:
+                continue
+            for step in range(1, BETWEEN + 1):
+                share = part * step / (BETWEEN + 1)
+                away = terrain_distance(solids, at[0] + share * x, at[1] + share * y, at[2] + share * z)
+                gap = min(gap, away - robot.radius[i, k])
     for corner in range(8):
         x = robot.base_half[0] * (1 - 2 * (corner & 1))
         y = robot.base_half[1] * (1 - (corner & 2))
