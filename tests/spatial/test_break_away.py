@@ -107,3 +107,25 @@ def test_an_end_effector_does_not_creep_and_gives_way_at_its_data_sheet(case: st
     last = load(plant, RAMP, base + 0.9 * strength * way, base + 1.1 * strength * way)
     assert plant.truth().attached[0] < 0
     assert float((last - base) @ way) / float(way @ way) == pytest.approx(strength, rel=0.01)
+
+
+@pytest.mark.parametrize("kind", ["foot", "area"])
+def test_a_foot_does_not_creep_and_slips_at_its_friction(kind: str, tmp_path: Path) -> None:
+    """At 80 % of what friction bears it moves by at most 1 um/s; it slides within 1 % of it. The tip lies 2 mm above what it touches."""
+    contact, normal = shipped(kind), 100.0
+    plant = rig(tmp_path, contact)
+    press = np.array([0.0, 0.0, normal, 0.0, 0.0, 0.0])
+    most = contact["friction"]["value"] * normal * np.array([0.6, 0.8, 0.0, 0.8 * 0.002, -0.6 * 0.002, 0.0])
+    load(plant, SETTLE, 0.0 * press, press)
+    load(plant, SETTLE, press, press + 0.8 * most)
+    load(plant, SETTLE, press + 0.8 * most, press + 0.8 * most)
+    before = plant.truth().tips[0]
+    load(plant, CREEP_OVER, press + 0.8 * most, press + 0.8 * most)
+    assert np.linalg.norm(plant.truth().tips[0] - before) / CREEP_OVER <= 1e-6
+    load(plant, SETTLE, press + 0.8 * most, press + 0.99 * most)
+    before = plant.truth().tips[0]
+    load(plant, SETTLE, press + 0.99 * most, press + 0.99 * most)
+    assert np.linalg.norm(plant.truth().tips[0] - before) / SETTLE <= 1e-5
+    load(plant, SETTLE, press + 0.99 * most, press + 1.01 * most)
+    load(plant, SETTLE, press + 1.01 * most, press + 1.01 * most)
+    assert np.linalg.norm(plant.truth().tips[0] - before) / SETTLE >= 1e-4
