@@ -26,6 +26,7 @@ class Spatial(Family):
             "relaxations": "clamber.families.spatial.planning.relaxations:spatial_relaxations",
             "pictures": "clamber.families.spatial.pictures.pictures:PICTURES",
             "scenes": "clamber.families.spatial.pictures.scenes:SCENES",
+            "dynamics": "clamber.families.spatial.dynamics:DYNAMICS",
             "trajectories": "clamber.families.spatial.trajectories:TRAJECTORIES",
             "inspection": "clamber.families.spatial.inspection:INSPECTION",
             "imports": "clamber.families.spatial.robot.starter:IMPORTS",
