@@ -5,8 +5,8 @@ import math
 import numpy as np
 
 from ....types import Floats
-from .checks import SPATIAL_CHECKS
 from ..statics.checks import EQUILIBRIUM
+from .checks import SPATIAL_CHECKS
 from .judging_kernels import judge_stance
 from .problem import problem_params
 from .task import SpatialTask
