@@ -161,9 +161,9 @@ class SpatialSim:
         """See `SpatialPlant`."""
         self.ends.grip(limb, close)
 
-    def push(self, force: Floats) -> None:
-        """Push the base at its centre of mass until the next call or reset, world frame [N], shape (3,)."""
-        self._pushed[:3] = force
+    def push(self, wrench: Floats) -> None:
+        """Push the base until the next call or reset: force on its centre of mass [N], and moment [N m], world frame, shape (6,)."""
+        self._pushed[:] = wrench
 
     def pause(self) -> None:
         """See `SpatialPlant`: nothing to do, as time stands still meanwhile."""
