@@ -17,12 +17,12 @@ MOST_DELAY = 1.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SpatialFlaws(Flaws):
-    """What makes a plant differ from the robot's file, and its sensors from the truth. The defaults are ideal."""
+    """What makes a plant differ from the robot's file, and its sensors from the truth. The defaults are as its files say."""
 
     backlash: float = 0.0
     """Whole play at each turning joint's output [rad]; the encoder is on the motor's side."""
-    friction: float = 0.0
-    """Coulomb friction of each gear, as a part of what its motor gives at most [-]."""
+    friction: float = 1.0
+    """Coulomb friction of each gear over that of the robot's model [-]."""
     encoder_step: float = 0.0
     """Of a turning joint [rad]; 0: a perfect encoder that also tells the speed."""
     delay: float = 0.0
@@ -49,7 +49,7 @@ class SpatialFlaws(Flaws):
     def __post_init__(self) -> None:
         noise = ("gyro_noise", "gyro_bias", "accelerometer_noise", "accelerometer_bias", "force_noise", "miss")
         check_not_negative(self, ("backlash", "friction", "encoder_step", "delay", *noise))
-        for key, most, unit in (("friction", 1.0, ""), ("miss", 1.0, ""), ("delay", MOST_DELAY, " s")):
+        for key, most, unit in (("miss", 1.0, ""), ("delay", MOST_DELAY, " s")):
             if not getattr(self, key) <= most:
                 raise PlantError(key, getattr(self, key), f"must be at most {most:g}{unit}")
         check_seed(self.seed, {key: getattr(self, key) for key in noise})

@@ -15,6 +15,7 @@ from ....types import Floats, Ints
 from ....units import GRAVITY
 from ..execution.plant import Pose, SpatialSensed, SpatialTruth
 from ..robot.bodies import rotation
+from ..robot.parts import Motors
 from ..robot.robot import SpatialRobot
 from ..world.world import World
 from .ends import Ends
@@ -61,18 +62,16 @@ class SpatialSim:
         self._qpos, self._qvel, self._ctrl = data.qpos, data.qvel, data.ctrl
         self._at = np.array([joint.qposadr[0] for joint in joints])
         self._speed_at = np.array([joint.dofadr[0] for joint in joints])
-        sliding = np.concatenate([chains.sliding[i, : chains.n_joints[i]] for i in range(limbs)]).astype(bool)
+        motors = Motors.of(robot)
+        sliding = motors.sliding
         self._played = np.flatnonzero(~sliding) if flaws.backlash > 0.0 else np.zeros(0, np.intp)
         plays = [model.joint(play_name(names[k])) for k in self._played]
         self._play_at = np.array([play.qposadr[0] for play in plays], np.intp)
         self._play_speed_at = np.array([play.dofadr[0] for play in plays], np.intp)
-        used = np.arange(chains.torque.shape[1]) < chains.n_joints[:, None]
-        self._limits = chains.torque[used] / robot.spec.torque_share
-        self._no_load = chains.speed[used]
-        rotors = model.dof_armature[self._speed_at]
+        self._limits, self._no_load = motors.torque, motors.speed
         with np.errstate(divide="ignore"):
             self._agility = (
-                2.0 * self._limits / rotors
+                2.0 * self._limits / motors.rotor
             )  # a load on the motor's side brings no more than the motor itself
         self._counts = np.where(sliding | (flaws.encoder_step == 0.0), 0.0, 1.0 / max(flaws.encoder_step, 1e-12))
         self._names = names
