@@ -1,11 +1,14 @@
 """Plans of robots in space in contact dynamics."""
 
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Final
 
 from ...errors import SpecError
 from ...planning.planners import plan_task
 from ...planning.problem.plan import Plan
-from ...trials.dynamics import Conditions, Dynamics, NoPlanError, RunEvents, RunRequest
+from ...trials.dynamics import NoPlanError, RunEvents, RunRequest
+from ...trials.plain_dynamics import PlainDynamics
+from .execution.carrying_report import CarryingReport
 from .planning.task import SpatialTask
 from .trials.run_plan import SpatialRun, run_plan
 
@@ -13,14 +16,17 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 
-class SpatialDynamics(Dynamics):
+class SpatialDynamics(PlainDynamics):
     """Climbs and walks of robots in space."""
 
     kind = "run"
     past = "carried out"
 
-    def check(self, work: SpatialTask, asked: Conditions) -> None:
-        """Nothing can be asked for yet that cannot be."""
+    def simulate(
+        self, task: SpatialTask, plan: Plan, drawn: Mapping[str, float], step: Callable[[str, float | None], None]
+    ) -> CarryingReport:
+        """See `PlainDynamics`: nothing deviates yet."""
+        return run_plan(task, plan).report
 
     def plan(self, task: SpatialTask, asked: RunRequest, events: RunEvents) -> Plan:
         """As any plan of the task: what is simulated keeps to its checks."""
@@ -29,7 +35,7 @@ class SpatialDynamics(Dynamics):
             raise NoPlanError(asked.planner, task.name, f"was found: {result.reason}")
         return result.plan
 
-    def run(
+    def run(  # type: ignore[override]
         self, work: SpatialTask, plan: Plan | None, asked: RunRequest, events: RunEvents, label: str = "plan"
     ) -> SpatialRun:
         """One plan carried out."""

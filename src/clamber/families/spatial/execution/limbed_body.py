@@ -8,6 +8,7 @@ import numpy as np
 
 from ....control.whole_body.law import WholeBody
 from ....control.whole_body.programme import FREE_LIMB, HOLDS, SWINGS, Gains
+from ....control.whole_body.tree import FREE
 from ....execution.run_report import FallenError
 from ....types import Floats, Ints
 from ..control.believed_tree import believed_tree, joint_limits
@@ -61,6 +62,7 @@ class LimbedBody:
         self.ticks = 0
         self.told: Callable[[], None] | None = None
         """Called after each tick."""
+        self._pressed, self._normal = -1, np.zeros(3)
         self._bears = [end.bears() for end in robot.ends]
 
     @property
@@ -99,6 +101,7 @@ class LimbedBody:
 
     def hold_on(self, limb: int, hold: int) -> None:
         """From now on a limb holds on to a hold where its tip is."""
+        self._pressed = -1
         aims, dynamics = self.law.aims, self.law.dynamics
         contact, patch = self.robot.contacts[limb], self.world.holds[hold]
         normal = self.world.normals[hold]
@@ -132,6 +135,10 @@ class LimbedBody:
         aims.tip[limb], aims.tip_velocity[limb], aims.tip_acceleration[limb] = path
         aims.points[limb] = 0.0 if points is None else points
 
+    def press(self, limb: int, normal: Floats) -> None:
+        """From now on a swinging limb presses against its aim across a surface of this normal, until it holds on or lets be (limb -1)."""
+        self._pressed, self._normal = limb, normal
+
     def tick(self) -> None:
         """Let a control period pass.
 
@@ -145,7 +152,13 @@ class LimbedBody:
         for limb in np.flatnonzero(aims.does == HOLDS):
             aims.wrench[limb, :3] = aims.frame[limb] @ self.loads[limb, :3]
             aims.wrench[limb, 3:] = aims.frame[limb] @ self.loads[limb, 3:]
-        self.plant.actuate(law.tick())
+        torques = law.tick()
+        if self._pressed >= 0:  # what the tip misses of its aim, as a spring would press: its own inertia is too little
+            limb, normal, stiffness = self._pressed, self._normal, self.pace.pressing
+            deep = stiffness * max(0.0, float((law.dynamics.tip[limb] - aims.tip[limb]) @ normal))
+            torques -= deep * (normal @ law.dynamics.jacobian[limb, :3, FREE:])
+            np.clip(torques, -law.limits.torque, law.limits.torque, out=torques)
+        self.plant.actuate(torques)
         self.plant.step()
         self.ticks += 1
         if self.told is not None:

@@ -125,6 +125,7 @@ def _approach(body: LimbedBody, motion: Regrab, path: TipPath) -> bool:
     limb, pace = motion.limb, body.pace
     inward = -path.normals[1]
     speed = pace.approach * inward
+    body.press(limb, path.normals[1])
     if body.attaches(limb):
         body.plant.grip(limb, True)
     for k in range(1, math.ceil(pace.depth / pace.approach / body.plant.period) + 1):
@@ -133,6 +134,7 @@ def _approach(body: LimbedBody, motion: Regrab, path: TipPath) -> bool:
         deep = k * body.plant.period * speed
         body.swing(limb, (path.end + deep, speed, np.zeros(3)), inward if body.robot.contacts[limb].aligned else None)
         body.tick()
+    body.press(-1, inward)
     return False
 
 

@@ -25,6 +25,8 @@ class Pace:
     """In which load passes from one set of limbs to another [s]."""
     touch: float
     """A foot that feels such a force stands [N]."""
+    pressing: float
+    """Force of a tip that feels for its hold per way that it misses [N/m]."""
     approach: float
     """Speed of a tip that feels for its hold [m/s]."""
     depth: float
@@ -48,7 +50,8 @@ class Pace:
             body=0.05 * agile,
             swing=swing,
             shift=0.5 * math.sqrt(size / agile),
-            touch=0.03 * mass * GRAVITY,
+            touch=0.02 * mass * GRAVITY,
+            pressing=0.1 * mass * GRAVITY / (0.1 * size),
             approach=0.1 * math.sqrt(size * agile) * 0.3,
             depth=0.1 * size,
             lost=0.3 * size,
