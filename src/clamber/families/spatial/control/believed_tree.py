@@ -7,7 +7,7 @@ import numpy as np
 from ....control.whole_body.programme import Limits
 from ....control.whole_body.tree import Tree
 from ....types import Floats
-from ..robot.parts import parts_of
+from ..robot.parts import Motors, parts_of
 from ..robot.robot import SpatialRobot
 
 
@@ -32,7 +32,7 @@ def believed_tree(robot: SpatialRobot, gravity: Sequence[float]) -> Tree:
         mass=np.array([body.mass for body in bodies]),
         centre=np.array([body.centre for body in bodies]),
         inertia=np.array([body.inertia for body in bodies]),
-        rotor=np.zeros(len(joints)),
+        rotor=Motors.of(robot).rotor,
         end=ends.astype(np.int32),
         tip=np.array([chains.offset[at] for at in last]),
         tip_turn=np.array([chains.rotation[at] for at in last]),

@@ -25,6 +25,8 @@ class LimbChoice:
     """Positions that may be used [rad] or [m]."""
     torque: tuple[float, ...]
     """That may be used [N m] or [N]."""
+    speed: tuple[float, ...]
+    """Of each motor without load [rad/s] or [m/s]; infinite where nothing states one."""
     nominal: tuple[float, ...]
     tip_link: str
     tip: Frame
@@ -107,7 +109,7 @@ def chains_of(name: str, tree: Tree, choice: Choice) -> Chains:
         lower=_padded([limb.lower for limb in choice.limbs], 0.0),
         upper=_padded([limb.upper for limb in choice.limbs], 0.0),
         torque=_padded([limb.torque for limb in choice.limbs], NEVER),
-        speed=_padded([[joint.speed or np.inf for joint in limb.joints] for limb in choice.limbs], np.inf),
+        speed=_padded([limb.speed for limb in choice.limbs], np.inf),
         nominal=_padded([limb.nominal for limb in choice.limbs], 0.0),
         mass=mass,
         centre=np.divide(moment, mass[..., None], out=np.zeros_like(moment), where=mass[..., None] > 0.0),

@@ -3,11 +3,14 @@
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from ....types import Floats
 from .assembly import owners, placed_parts
 from .robot import SpatialRobot
 from .tree import Frame
+
+Bools = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -79,3 +82,34 @@ def _joined(masses: Floats, centres: Floats, spins: list[Floats], shapes: tuple[
         off = at - centre
         inertia += spin + mass * (float(off @ off) * np.eye(3) - np.outer(off, off))
     return Part(mass=total, centre=centre, inertia=inertia, shapes=shapes)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Motors:
+    """Motors and gears of all joints, limb by limb from the base to the tip, arrays of shape (n,)."""
+
+    torque: Floats
+    """Most that they give, without the share that plans leave [N m] or [N]."""
+    speed: Floats
+    """Without load, at which they give nothing [rad/s] or [m/s]; infinite where nothing states one."""
+    rotor: Floats
+    """Inertia at the joint [kg m^2], or mass [kg]."""
+    friction: Floats
+    """Coulomb friction of the gear [N m] or [N]."""
+    damping: Floats
+    """Viscous friction of the gear [N m s/rad] or [N s/m]."""
+    sliding: Bools
+
+    @classmethod
+    def of(cls, robot: SpatialRobot) -> "Motors":
+        """Of a robot, as its files have them."""
+        limbs = robot.choice.limbs
+        joints = [joint for limb in limbs for joint in limb.joints]
+        return cls(
+            torque=np.array([torque for limb in limbs for torque in limb.torque]) / robot.spec.torque_share,
+            speed=np.array([speed for limb in limbs for speed in limb.speed]),
+            rotor=np.array([joint.rotor for joint in joints]),
+            friction=np.array([joint.friction for joint in joints]),
+            damping=np.array([joint.damping for joint in joints]),
+            sliding=np.array([joint.sliding for joint in joints]),
+        )

@@ -17,8 +17,8 @@ from .spatial_model import THICK, TIP, held_name, patch_name, quaternion, tip_na
 
 GIVING_WAY: Final = 0.02
 """An end effector comes off after that long above its strength; shorter knocks, as when it lands, break nothing [s]."""
-TOUCH: Final = 0.002
-"""Forces below this part of the robot's weight on Earth neither slip nor leave where nothing pulls [-]."""
+TOUCH: Final = 0.0002
+"""Forces below this part of the strength of a hook or of spines, which nothing pulls on, neither slip nor leave [-]."""
 FAR: Final = 1e3
 """Where patches are of limbs near no hold [m]."""
 
@@ -62,7 +62,7 @@ class Ends:
                 end[key] = getattr(strength, key)
             end["half1"], end["half2"] = strength.halves
             end["slope"] = math.tan(strength.angle)
-            end["touch"] = TOUCH * robot.chains.total_mass * 9.80665
+            end["touch"] = TOUCH * strength.pull
         self._capture = np.array([strength.capture for strength in strengths])
         sites = np.array([model.site(tip_name(name)).id for name in names])
         self._bodies = [model.body(tip_name(name)).id for name in names]
@@ -168,7 +168,8 @@ class Ends:
         if hold < 0:
             self._data.mocap_pos[mocap] = (FAR, FAR, FAR)
             return
-        radius, normal = self._own_radii[hold] + self._capture[limb], self._normals[hold]
+        reach = self._capture[limb] + math.hypot(*self._strengths[limb].halves)
+        radius, normal = self._own_radii[hold] + reach, self._normals[hold]
         self._model.geom_size[geom, 0] = radius
         self._model.geom_rbound[geom] = math.hypot(radius, THICK)
         self._model.geom_aabb[geom, 3:] = radius, radius, THICK

@@ -150,7 +150,8 @@ def _add_joint(
     kind = mujoco.mjtJoint.mjJNT_SLIDE if sliding else mujoco.mjtJoint.mjJNT_HINGE
     joint = body.add_joint(name=name, type=kind, axis=(0, 0, 1))
     of_model = robot.choice.limbs[limb].joints[k]
-    joint.frictionloss = flaws.friction * float(chains.torque[at]) / robot.spec.torque_share
+    joint.armature, joint.damping[0] = of_model.rotor, of_model.damping
+    joint.frictionloss = flaws.friction * of_model.friction
     joint.solref_friction, joint.solimp_friction = FRICTION_SOLREF, FRICTION_SOLIMP
     if of_model.limits is not None:
         _stop(joint, *of_model.limits)

@@ -15,6 +15,7 @@ from ....types import Floats, Ints
 from ....units import GRAVITY
 from ..execution.plant import Pose, SpatialSensed, SpatialTruth
 from ..robot.bodies import rotation
+from ..robot.parts import Motors
 from ..robot.robot import SpatialRobot
 from ..world.world import World
 from .ends import Ends
@@ -61,18 +62,16 @@ class SpatialSim:
         self._qpos, self._qvel, self._ctrl = data.qpos, data.qvel, data.ctrl
         self._at = np.array([joint.qposadr[0] for joint in joints])
         self._speed_at = np.array([joint.dofadr[0] for joint in joints])
-        sliding = np.concatenate([chains.sliding[i, : chains.n_joints[i]] for i in range(limbs)]).astype(bool)
+        motors = Motors.of(robot)
+        sliding = motors.sliding
         self._played = np.flatnonzero(~sliding) if flaws.backlash > 0.0 else np.zeros(0, np.intp)
         plays = [model.joint(play_name(names[k])) for k in self._played]
         self._play_at = np.array([play.qposadr[0] for play in plays], np.intp)
         self._play_speed_at = np.array([play.dofadr[0] for play in plays], np.intp)
-        used = np.arange(chains.torque.shape[1]) < chains.n_joints[:, None]
-        self._limits = chains.torque[used] / robot.spec.torque_share
-        self._no_load = chains.speed[used]
-        rotors = model.dof_armature[self._speed_at]
+        self._limits, self._no_load = motors.torque, motors.speed
         with np.errstate(divide="ignore"):
             self._agility = (
-                2.0 * self._limits / rotors
+                2.0 * self._limits / motors.rotor
             )  # a load on the motor's side brings no more than the motor itself
         self._counts = np.where(sliding | (flaws.encoder_step == 0.0), 0.0, 1.0 / max(flaws.encoder_step, 1e-12))
         self._names = names
@@ -85,6 +84,7 @@ class SpatialSim:
         reach = float(model.stat.extent) / 2.0
         sensor = ForceSensor(noise=spread, moment_noise=0.1 * reach * spread, seed=flaws.seed or 0)
         self._feeling = WrenchReader(sensor, period=self.period, delay=flaws.late, batch=limbs)
+        self._pushes, self._next_push = true.deviations.pushes, 0
         self._pushed = data.xfrc_applied[model.body("base").id]
         self._sites = np.array([model.site(tip_name(name)).id for name in chains.limb_names])
         self.tick = 0
@@ -113,6 +113,7 @@ class SpatialSim:
         mujoco.mj_forward(model, data)
         self.ends.feel(0.0)
         self._wanted[:] = self._ring[:] = 0.0
+        self._next_push = 0
         self._imu.reset()
         self._feeling.reset()
         self.tick = 0
@@ -161,9 +162,9 @@ class SpatialSim:
         """See `SpatialPlant`."""
         self.ends.grip(limb, close)
 
-    def push(self, force: Floats) -> None:
-        """Push the base at its centre of mass until the next call or reset, world frame [N], shape (3,)."""
-        self._pushed[:3] = force
+    def push(self, wrench: Floats) -> None:
+        """Push the base until the next call or reset: force on its centre of mass [N], and moment [N m], world frame, shape (6,)."""
+        self._pushed[:] = wrench
 
     def pause(self) -> None:
         """See `SpatialPlant`: nothing to do, as time stands still meanwhile."""
@@ -175,6 +176,8 @@ class SpatialSim:
             PlantStoppedError: If the simulation has lost its numbers.
         """
         self.ends.look()
+        if self._next_push < len(self._pushes):
+            self._push_on()
         if self._drive(self.period):
             self._step(self.model, self._data, self.flaws.steps)
         else:  # near a limit the torque follows the speed at every physics step
@@ -185,6 +188,15 @@ class SpatialSim:
             raise PlantStoppedError("the simulation has lost its numbers")
         self.tick += 1
         self.ends.feel(self.time)
+
+    def _push_on(self) -> None:
+        """Begin and end the pushes that are to come."""
+        push = self._pushes[self._next_push]
+        if self.time >= push.end:
+            self._pushed[:] = 0.0
+            self._next_push += 1
+        elif self.time >= push.start:
+            self._pushed[:3] = push.force
 
     def _drive(self, time: float) -> bool:
         """Put what the motors give at the present speeds on the joints; whether that may be held for `time` [s]."""

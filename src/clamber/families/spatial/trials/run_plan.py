@@ -6,13 +6,15 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from ....execution.log_stream import LogGap
+from ....execution.plant import HoldBreak
 from ....execution.sequencer import Sequencer
 from ....json_form import HIDDEN, INLINE, Jsonable, Key
 from ....planning.problem.plan import Plan
-from ..execution.belief import TrueBase
+from ..control.believed_tree import believed_tree
 from ..execution.carrying import Carrying
 from ..execution.carrying_report import CarryingReport
 from ..execution.course import Course
+from ..execution.estimated_base import EstimatedBase
 from ..execution.limbed_body import LimbedBody
 from ..execution.settings import Pace
 from ..planning.task import SpatialTask
@@ -29,6 +31,8 @@ class SpatialRun(Jsonable):
     report: Annotated[CarryingReport, INLINE]
     wall_seconds: float
     """That it took."""
+    broken: tuple[HoldBreak, ...] = ()
+    """Contacts that came off, truly."""
     log_gap: Annotated[LogGap | None, HIDDEN] = None
 
     @property
@@ -77,6 +81,16 @@ def run_plan(
     began = time.perf_counter()
     course = Course.of(task, plan, label)
     plant = SpatialSim(task.robot, task.world, flaws or SpatialFlaws(), deviations)
-    body = LimbedBody(task.robot, task.world, plant, TrueBase(plant), Pace.of(task.robot), task.rules.lift)
+    sensors = plant.flaws
+    belief = EstimatedBase(
+        task.robot,
+        task.world,
+        believed_tree(task.robot, task.world.gravity),
+        plant.period,
+        late=sensors.late * plant.period,
+        coarse=sensors.encoder_step > 0.0,
+    )
+    body = LimbedBody(task.robot, task.world, plant, belief, Pace.of(task.robot), task.rules.lift)
     report = Sequencer(Carrying(body, course), progress=progress).run()
-    return SpatialRun(task=task, plan=plan, report=report, wall_seconds=time.perf_counter() - began)
+    seconds = time.perf_counter() - began
+    return SpatialRun(task=task, plan=plan, report=report, wall_seconds=seconds, broken=plant.truth().broken)
