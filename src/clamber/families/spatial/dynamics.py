@@ -48,7 +48,7 @@ class SpatialDynamics(PlainDynamics):
         def told(action: int, of: int) -> None:
             events.step(f"action {action} of {of}", action / of)
 
-        return run_plan(work, plan, progress=told, label=label)
+        return run_plan(work, plan, progress=told, log=asked.log, label=label)
 
     def print_run(self, console: "Console", run: SpatialRun) -> None:
         """How it ended, and how near it kept to its plan."""

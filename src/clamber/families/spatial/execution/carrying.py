@@ -10,8 +10,9 @@ from ....execution.sequencer import Attempt, Performer
 from ....types import Floats
 from .carrying_report import CarryingReport, MotionReport
 from .course import BodyMotion, Course, Motion, Regrab
-from .limbed_body import LimbedBody
 from .motions import move_body, regrab, rest
+from .references import quaternion_of
+from .run_trace import TracedBody
 
 AT_FIRST: Final = 0.3
 """The robot stands still for that long before it moves [s]."""
@@ -27,7 +28,7 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
 
     goes_on = frozenset({"ok"})
 
-    def __init__(self, body: LimbedBody, course: Course) -> None:
+    def __init__(self, body: TracedBody, course: Course) -> None:
         self.body, self.course = body, course
         self.report = CarryingReport()
         self._at = 0
@@ -47,7 +48,10 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
     def next(self) -> Motion | None:
         """See `Performer`."""
         motions = self.course.motions
-        return motions[self._at] if self._at < len(motions) else None
+        if self._at == len(motions):
+            return None
+        self.body.action = motions[self._at].first
+        return motions[self._at]
 
     def told(self, action: Motion) -> tuple[int, int]:
         """See `Performer`: the action that begins, and how many there are."""
@@ -124,7 +128,4 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
 
 def pose_of(position: Floats, rotation: Floats) -> tuple[float, ...]:
     """x, y, z [m], then the unit quaternion w, x, y, z."""
-    from scipy.spatial.transform import Rotation
-
-    x, y, z, w = Rotation.from_matrix(rotation).as_quat().tolist()
-    return (*position.tolist(), w, x, y, z)
+    return (*position.tolist(), *quaternion_of(rotation).tolist())

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from typing import Annotated, Literal
 
-from ....execution.run_report import Outcome, RunReport
+from ....execution.run_report import Moment, Outcome, RunReport
 from ....json_form import Count, Jsonable, Key, OrNull
 
 CarryingOutcome = Literal["ok", "missed", "refused", "stuck", "fell", "fault", "stopped", "interrupted"]
@@ -30,6 +30,26 @@ class MotionReport(Jsonable):
     """Of the tip from its hold when it was taken, or of the body from where it was to be, as believed [m]."""
     tries: Count
     reason: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class LoggedMotion:
+    """What is read back of a motion; see `MotionReport`."""
+
+    outcome: Outcome
+    start: Moment
+    seconds: Moment
+    limb: str | None = None
+    hold: int | None = None
+    off: float | None = None
+    reason: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class LoggedRun:
+    """What is read back of the report in a run's log."""
+
+    motions: list[LoggedMotion] = field(default_factory=list)
 
 
 @dataclass(slots=True, kw_only=True)

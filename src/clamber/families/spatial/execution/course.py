@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Self, TypeAlias
 
 import numpy as np
@@ -86,7 +87,7 @@ class Course:
         standings = [_standing(task, stance) for stance in replay.stances]
         loads = SwingLoads(task)
         motions: list[Motion] = []
-        for k, (before, after) in enumerate(zip(standings, standings[1:], strict=False)):
+        for k, (before, after) in enumerate(pairwise(standings)):
             moved = np.flatnonzero(before.holds != after.holds)
             if moved.size:
                 limb = int(moved[0])

@@ -77,7 +77,7 @@ def move_body(body: LimbedBody, motion: BodyMotion) -> None:
 
 def regrab(body: LimbedBody, motion: Regrab) -> Landing:
     """A limb lets go of its hold, swings, and takes another."""
-    pace, world, limb = body.pace, body.world, motion.limb
+    pace, limb = body.pace, motion.limb
     old = int(body.holds[limb])
     share_loads(body, motion.loads, pace.shift, limb, fading=True)
     body.plant.grip(limb, False)

@@ -3,9 +3,10 @@
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Annotated
 
-from ....execution.log_stream import LogGap
+from ....execution.log_stream import LogGap, WantedLog, growing_log
 from ....execution.sequencer import Sequencer
 from ....json_form import HIDDEN, INLINE, Jsonable, Key
 from ....planning.problem.plan import Plan
@@ -13,7 +14,7 @@ from ..execution.belief import TrueBase
 from ..execution.carrying import Carrying
 from ..execution.carrying_report import CarryingReport
 from ..execution.course import Course
-from ..execution.limbed_body import LimbedBody
+from ..execution.run_trace import TOPIC, RunTrace, TracedBody
 from ..execution.settings import Pace
 from ..planning.task import SpatialTask
 from ..sim.spatial_flaws import Deviations, SpatialFlaws
@@ -27,6 +28,8 @@ class SpatialRun(Jsonable):
     task: Annotated[SpatialTask, Key(get=lambda task: task.name, kind=str)]
     plan: Annotated[Plan, HIDDEN]
     report: Annotated[CarryingReport, INLINE]
+    trace: Annotated[RunTrace, HIDDEN]
+    """What happened."""
     wall_seconds: float
     """That it took."""
     log_gap: Annotated[LogGap | None, HIDDEN] = None
@@ -35,11 +38,6 @@ class SpatialRun(Jsonable):
     def work(self) -> SpatialTask:
         """What was carried out."""
         return self.task
-
-    @property
-    def trace(self) -> None:
-        """None is kept."""
-        return None
 
     @property
     def done(self) -> bool:
@@ -59,6 +57,7 @@ def run_plan(
     flaws: SpatialFlaws | None = None,
     deviations: Deviations | None = None,
     progress: Callable[[int, int], None] | None = None,
+    log: Path | WantedLog | None = None,
     label: str = "plan",
 ) -> SpatialRun:
     """Carry a plan out.
@@ -69,6 +68,7 @@ def run_plan(
         flaws: Of the plant; None: it is ideal.
         deviations: How robot and world truly are; None: as believed.
         progress: Told before each motion: the action that it begins with, and how many there are.
+        log: An .mcap file that grows as the robot moves (`execution.log_stream`).
         label: What errors call the plan.
 
     Raises:
@@ -77,6 +77,10 @@ def run_plan(
     began = time.perf_counter()
     course = Course.of(task, plan, label)
     plant = SpatialSim(task.robot, task.world, flaws or SpatialFlaws(), deviations)
-    body = LimbedBody(task.robot, task.world, plant, TrueBase(plant), Pace.of(task.robot), task.rules.lift)
-    report = Sequencer(Carrying(body, course), progress=progress).run()
-    return SpatialRun(task=task, plan=plan, report=report, wall_seconds=time.perf_counter() - began)
+    body = TracedBody(task.robot, task.world, plant, TrueBase(plant), Pace.of(task.robot), task.rules.lift)
+    with growing_log(log, body.samples, body.titles, body.named.notes(), TOPIC) as finish:
+        report = Sequencer(Carrying(body, course), progress=progress).run()
+        notes = report.to_json() | {"task": task.name}
+        gap = finish(notes)
+    taken = time.perf_counter() - began
+    return SpatialRun(task=task, plan=plan, report=report, trace=body.trace(notes), wall_seconds=taken, log_gap=gap)
