@@ -4,18 +4,21 @@ from typing import Protocol
 
 from ....control.whole_body.tree import State
 from ....types import Ints
-from .plant import SpatialPlant, SpatialSensed
+from .plant import Pose, SpatialPlant, SpatialSensed
 
 
 class Belief(Protocol):
     """What writes the believed state, once a tick. An estimator from encoders, IMU and contacts is one; it never sees the truth."""
+
+    def begin(self, pose: Pose, sensed: SpatialSensed) -> None:
+        """Begin at rest at a pose that the robot was told, with the first reading of its sensors."""
 
     def update(self, sensed: SpatialSensed, holds: Ints, state: State) -> None:
         """Bring a state up to date.
 
         Args:
             sensed: What the sensors say.
-            holds: 1 for limbs that hold on or stand, as believed, shape (limbs,).
+            holds: Index of the hold that each limb holds on to or stands on, as believed, -1: none; shape (limbs,).
             state: Written.
         """
 
@@ -29,6 +32,9 @@ class TrueBase:
 
     def __init__(self, plant: SpatialPlant) -> None:
         self._plant = plant
+
+    def begin(self, pose: Pose, sensed: SpatialSensed) -> None:
+        """See `Belief`: nothing to do."""
 
     def update(self, sensed: SpatialSensed, holds: Ints, state: State) -> None:
         """See `Belief`."""

@@ -88,6 +88,7 @@ class LimbedBody:
         """Put the robot on its holds."""
         self.plant.reset(at.pose, at.joints, at.holds)
         self.sensed = self.plant.sense()
+        self.belief.begin(at.pose, self.sensed)
         self._believe()
         aims = self.law.aims
         aims.rotation[:], aims.position[:] = at.pose.rotation, at.pose.position
@@ -167,5 +168,5 @@ class LimbedBody:
             raise FallenError(f"the body is {1e3 * off:.0f} mm from where it is to be")
 
     def _believe(self) -> None:
-        self.belief.update(self.sensed, (self.law.aims.does == HOLDS).astype(np.int32), self.law.state)
+        self.belief.update(self.sensed, np.where(self.law.aims.does == HOLDS, self.holds, -1), self.law.state)
         self.law.look()
