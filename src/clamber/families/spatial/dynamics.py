@@ -50,7 +50,7 @@ class SpatialDynamics(PlainDynamics):
 
         return run_plan(work, plan, progress=told, log=asked.log, label=label)
 
-    def print_run(self, console: "Console", run: SpatialRun) -> None:
+    def print_run(self, console: "Console", run: SpatialRun) -> None:  # type: ignore[override]
         """How it ended, and how near it kept to its plan."""
         report = run.report
         words = self.past if run.done else f"not {self.past}"

@@ -10,10 +10,13 @@ from ....execution.sequencer import Attempt, Performer
 from ....types import Floats
 from .carrying_report import CarryingReport, MotionReport
 from .course import BodyMotion, Course, Motion, Regrab
-from .motions import move_body, regrab, rest
+from .limbed_body import LostHoldError
+from .motions import Landing, move_body, regrab, rest, retake
 from .references import quaternion_of
 from .run_trace import TracedBody
 
+MOST_LOST: Final = 4
+"""Times that holds may be lost and taken again in one motion."""
 AT_FIRST: Final = 0.3
 """The robot stands still for that long before it moves [s]."""
 
@@ -60,6 +63,25 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
     def carry_out(self, action: Motion) -> tuple[Outcome, int, str]:
         """See `Performer`."""
         self._off = math.nan
+        lost, caught = 0, ""
+        while True:
+            try:
+                outcome, tries, reason = self._once(action)
+                return outcome, tries + lost, reason or caught
+            except LostHoldError as off:
+                lost += 1
+                name = self.body.robot.limb_names[off.limb]
+                caught = f"{name} came off hold {off.hold + 1} and took it again"
+                if lost > MOST_LOST:
+                    return "missed", lost, f"{name} came off hold {off.hold + 1} again and again"
+                if isinstance(action, Regrab) and off.limb == action.limb:
+                    continue
+                landing = self._catch(off, action)
+                if not landing.taken:
+                    return "missed", lost, f"{name} came off hold {off.hold + 1}: {landing.reason}"
+
+    def _once(self, action: Motion) -> tuple[Outcome, int, str]:
+        """An action from where the robot is."""
         if isinstance(action, BodyMotion):
             move_body(self.body, action)
             self._off = float(np.linalg.norm(self.body.law.aims.position - self.body.law.state.position))
@@ -67,6 +89,15 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
         landing = regrab(self.body, action)
         self._off = landing.off
         return ("ok" if landing.taken else "missed"), landing.tries, landing.reason
+
+    def _catch(self, off: LostHoldError, action: Motion) -> Landing:
+        """Have a limb that came off hold on again, those that come off meanwhile, too."""
+        loads = action.loads if isinstance(action, Regrab) and self.body.holds[action.limb] < 0 else action.start.loads
+        try:
+            return retake(self.body, off, loads)
+        except LostHoldError as other:
+            first = self._catch(other, action)
+            return retake(self.body, off, loads) if first.taken else first
 
     def record(self, action: Motion, attempt: Attempt) -> None:
         """See `Performer`."""

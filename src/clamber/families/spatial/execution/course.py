@@ -41,6 +41,11 @@ class BodyMotion:
     """The stance where it begins, and all that it comes through."""
 
     @property
+    def start(self) -> Standing:
+        """Where it begins."""
+        return self.way[0]
+
+    @property
     def last(self) -> int:
         """Number of the plan's action that it ends with."""
         return self.first + len(self.way) - 2
@@ -59,6 +64,11 @@ class Regrab:
     after: Standing
     loads: Floats
     """Wrenches while it swings, as `Standing.loads`; its own are zero."""
+
+    @property
+    def start(self) -> Standing:
+        """Where it begins."""
+        return self.before
 
     @property
     def last(self) -> int:

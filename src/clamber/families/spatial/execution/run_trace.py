@@ -177,12 +177,12 @@ class TracedBody(LimbedBody):
             self.sensed.joints[0],
             law.torques,
             self.sensed.wrenches.ravel(),
-            self.holds + 1.0,
+            (self.holds + 1.0).tolist(),
         ]
         true = self.plant.truth()
         if true is not None:
             parts += [true.pose.position, quaternion_of(true.pose.rotation), true.joints[0], true.wrenches.ravel()]
-            parts += [true.attached + 1.0]
+            parts += [(true.attached + 1.0).tolist()]
         return np.concatenate([np.asarray(part, np.float64) for part in parts])
 
     def trace(self, report: Json | None = None) -> RunTrace:

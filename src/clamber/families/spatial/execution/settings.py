@@ -25,6 +25,10 @@ class Pace:
     """In which load passes from one set of limbs to another [s]."""
     touch: float
     """A foot that feels such a force stands [N]."""
+    firm: float
+    """An end effector that presses so hard and does not attach has no hold there [N]."""
+    beside: float
+    """From a hold to the next place where it is felt for [m]."""
     pressing: float
     """Force of a tip that feels for its hold per way that it misses [N/m]."""
     approach: float
@@ -51,6 +55,8 @@ class Pace:
             swing=swing,
             shift=0.5 * math.sqrt(size / agile),
             touch=0.02 * mass * GRAVITY,
+            firm=0.06 * mass * GRAVITY,
+            beside=0.02 * size,
             pressing=0.1 * mass * GRAVITY / (0.1 * size),
             approach=0.1 * math.sqrt(size * agile) * 0.3,
             depth=0.1 * size,

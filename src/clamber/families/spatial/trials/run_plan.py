@@ -10,10 +10,11 @@ from ....execution.log_stream import LogGap, WantedLog, growing_log
 from ....execution.sequencer import Sequencer
 from ....json_form import HIDDEN, INLINE, Jsonable, Key
 from ....planning.problem.plan import Plan
-from ..execution.belief import TrueBase
+from ..control.believed_tree import believed_tree
 from ..execution.carrying import Carrying
 from ..execution.carrying_report import CarryingReport
 from ..execution.course import Course
+from ..execution.estimated_base import EstimatedBase
 from ..execution.run_trace import TOPIC, RunTrace, TracedBody
 from ..execution.settings import Pace
 from ..planning.task import SpatialTask
@@ -76,8 +77,17 @@ def run_plan(
     """
     began = time.perf_counter()
     course = Course.of(task, plan, label)
-    plant = SpatialSim(task.robot, task.world, flaws or SpatialFlaws(), deviations)
-    body = TracedBody(task.robot, task.world, plant, TrueBase(plant), Pace.of(task.robot), task.rules.lift)
+    wrong = flaws or SpatialFlaws()
+    plant = SpatialSim(task.robot, task.world, wrong, deviations)
+    belief = EstimatedBase(
+        task.robot,
+        task.world,
+        believed_tree(task.robot, task.world.gravity),
+        plant.period,
+        late=wrong.delay,
+        coarse=wrong.encoder_step > 0.0,
+    )
+    body = TracedBody(task.robot, task.world, plant, belief, Pace.of(task.robot), task.rules.lift)
     with growing_log(log, body.samples, body.titles, body.named.notes(), TOPIC) as finish:
         report = Sequencer(Carrying(body, course), progress=progress).run()
         notes = report.to_json() | {"task": task.name}
