@@ -1,17 +1,20 @@
 """What is not ideal about a simulated robot in space: gears, motors, sensors, delay, and what of robot and world is not as believed."""
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Self
+from typing import Final, Self
 
 import numpy as np
 
+from ....errors import UnitError, describe_choices
 from ....sim.plant_rules import Flaws, PlantError, check_not_negative, check_rates, check_seed
 from ....types import Floats
+from ....units import parse_quantity
 from ..robot.robot import SpatialRobot
 from ..world.world import World
 
-MOST_DELAY = 1.0
+MOST_DELAY: Final = 1.0
 """Of a reading [s]."""
 
 
@@ -61,6 +64,59 @@ class SpatialFlaws(Flaws):
         return round(self.delay * self.control_rate)
 
 
+DIMENSIONS: Final[dict[str, str]] = {
+    "backlash": "angle",
+    "friction": "ratio",
+    "encoder_step": "angle",
+    "delay": "time",
+    "gyro_noise": "angular speed",
+    "gyro_bias": "angular speed",
+    "accelerometer_noise": "acceleration",
+    "accelerometer_bias": "acceleration",
+    "force_noise": "ratio",
+    "miss": "ratio",
+    "control_rate": "frequency",
+    "physics_rate": "frequency",
+}
+"""Property that a user may state -> its dimension."""
+
+
+def read_spatial_flaws(texts: Iterable[str], seed: int = 0) -> SpatialFlaws:
+    """A plant with the properties of texts such as "backlash=1deg".
+
+    Args:
+        texts: All at once, so that rates may depend on each other.
+        seed: Of what is left to chance.
+
+    Raises:
+        PlantError: If one of them cannot be.
+    """
+    changes: dict[str, float] = {}
+    for text in texts:
+        key, equals, said = (part.strip() for part in text.partition("="))
+        if key not in DIMENSIONS:
+            raise PlantError(key, said, f"no such property; there are {describe_choices(key, tuple(DIMENSIONS))}")
+        if not equals or not said:
+            raise PlantError(key, said, "needs a value, as in backlash=1deg")
+        try:
+            changes[key] = parse_quantity(said, DIMENSIONS[key])
+        except UnitError as error:
+            raise PlantError(key, said, f"{error.problem}; {error.allowed}") from None
+    return SpatialFlaws(**changes, seed=seed if changes else None)
+
+
+@dataclass(frozen=True, slots=True)
+class Push:
+    """A force on the base, at its centre of mass, for a while."""
+
+    start: float
+    """[s]."""
+    end: float
+    """[s]."""
+    force: tuple[float, float, float]
+    """World frame [N]."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Deviations:
     """How robot and world truly are, where that is not as believed."""
@@ -75,6 +131,8 @@ class Deviations:
     """The same of friction [-], shape (holds,)."""
     masses: Floats
     """True mass and inertia of each part over what the model states [-], the base first, then limb by limb, shape (1 + n,)."""
+    pushes: tuple[Push, ...] = ()
+    """One after another."""
     payload: float = 0.0
     """Mass at the base's centre of mass that the controller does not know of [kg]."""
 

@@ -84,6 +84,7 @@ class SpatialSim:
         reach = float(model.stat.extent) / 2.0
         sensor = ForceSensor(noise=spread, moment_noise=0.1 * reach * spread, seed=flaws.seed or 0)
         self._feeling = WrenchReader(sensor, period=self.period, delay=flaws.late, batch=limbs)
+        self._pushes, self._next_push = true.deviations.pushes, 0
         self._pushed = data.xfrc_applied[model.body("base").id]
         self._sites = np.array([model.site(tip_name(name)).id for name in chains.limb_names])
         self.tick = 0
@@ -112,6 +113,7 @@ class SpatialSim:
         mujoco.mj_forward(model, data)
         self.ends.feel(0.0)
         self._wanted[:] = self._ring[:] = 0.0
+        self._next_push = 0
         self._imu.reset()
         self._feeling.reset()
         self.tick = 0
@@ -174,6 +176,8 @@ class SpatialSim:
             PlantStoppedError: If the simulation has lost its numbers.
         """
         self.ends.look()
+        if self._next_push < len(self._pushes):
+            self._push_on()
         if self._drive(self.period):
             self._step(self.model, self._data, self.flaws.steps)
         else:  # near a limit the torque follows the speed at every physics step
@@ -184,6 +188,15 @@ class SpatialSim:
             raise PlantStoppedError("the simulation has lost its numbers")
         self.tick += 1
         self.ends.feel(self.time)
+
+    def _push_on(self) -> None:
+        """Begin and end the pushes that are to come."""
+        push = self._pushes[self._next_push]
+        if self.time >= push.end:
+            self._pushed[:] = 0.0
+            self._next_push += 1
+        elif self.time >= push.start:
+            self._pushed[:3] = push.force
 
     def _drive(self, time: float) -> bool:
         """Put what the motors give at the present speeds on the joints; whether that may be held for `time` [s]."""

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Annotated
 
 from ....execution.log_stream import LogGap, WantedLog, growing_log
+from ....execution.plant import HoldBreak
 from ....execution.sequencer import Sequencer
 from ....json_form import HIDDEN, INLINE, Jsonable, Key
 from ....planning.problem.plan import Plan
@@ -33,6 +34,8 @@ class SpatialRun(Jsonable):
     """What happened."""
     wall_seconds: float
     """That it took."""
+    broken: tuple[HoldBreak, ...] = ()
+    """Contacts that came off, truly."""
     log_gap: Annotated[LogGap | None, HIDDEN] = None
 
     @property
@@ -77,20 +80,27 @@ def run_plan(
     """
     began = time.perf_counter()
     course = Course.of(task, plan, label)
-    wrong = flaws or SpatialFlaws()
-    plant = SpatialSim(task.robot, task.world, wrong, deviations)
+    plant = SpatialSim(task.robot, task.world, flaws or SpatialFlaws(), deviations)
+    sensors = plant.flaws
     belief = EstimatedBase(
         task.robot,
         task.world,
         believed_tree(task.robot, task.world.gravity),
         plant.period,
-        late=wrong.delay,
-        coarse=wrong.encoder_step > 0.0,
+        late=sensors.late * plant.period,
+        coarse=sensors.encoder_step > 0.0,
     )
     body = TracedBody(task.robot, task.world, plant, belief, Pace.of(task.robot), task.rules.lift)
     with growing_log(log, body.samples, body.titles, body.named.notes(), TOPIC) as finish:
         report = Sequencer(Carrying(body, course), progress=progress).run()
         notes = report.to_json() | {"task": task.name}
         gap = finish(notes)
-    taken = time.perf_counter() - began
-    return SpatialRun(task=task, plan=plan, report=report, trace=body.trace(notes), wall_seconds=taken, log_gap=gap)
+    return SpatialRun(
+        task=task,
+        plan=plan,
+        report=report,
+        trace=body.trace(notes),
+        wall_seconds=time.perf_counter() - began,
+        broken=plant.truth().broken,
+        log_gap=gap,
+    )
