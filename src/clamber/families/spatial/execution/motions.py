@@ -21,8 +21,6 @@ SPEED: Final = 0.7
 """Of a joint's largest speed that motions may ask for [-]."""
 SETTLING: Final = 0.1
 """After a motion [s]."""
-TRIES: Final = 7
-"""Places that are felt for a hold, the first where it is believed to be, the others about that."""
 AROUND: Final = math.radians(137.5)
 """From one of them to the next, about the normal: the golden angle, which leaves no side out [rad]."""
 
@@ -141,13 +139,13 @@ def take(body: LimbedBody, limb: int, hold: int, normals: Floats, loads: Floats,
         body.plant.grip(limb, False)
         body.let_go(limb)
         normals = np.stack((normals[1], normals[1]))
-    return Landing(False, float(np.linalg.norm(body.tips[limb] - place)), TRIES, reason)
+    return Landing(False, float(np.linalg.norm(body.tips[limb] - place)), body.pace.tries, reason)
 
 
 def _beside(body: LimbedBody, normal: Floats) -> Iterator[Floats]:
     """Ways from a hold to where it is felt for, on a spiral across the normal [m], shape (3,) each."""
     across = np.linalg.svd(normal[None])[2][1:]
-    for k in range(TRIES):
+    for k in range(body.pace.tries):
         out = body.pace.beside * math.sqrt(max(0, k - 1)) if k > 1 else 0.0  # the second try is where the first was
         yield out * (math.cos(k * AROUND) * across[0] + math.sin(k * AROUND) * across[1])
 
