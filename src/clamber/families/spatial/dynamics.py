@@ -11,6 +11,7 @@ from ...json_form import INLINE
 from ...planning.planners import plan_task
 from ...planning.problem.plan import Plan
 from ...trials.dynamics import Conditions, Dynamics, NoPlanError, RunEvents, RunRequest, TrialsRequest
+from .execution.carrying import Replan
 from .planning.task import SpatialTask
 from .sim.spatial_flaws import read_spatial_flaws
 from .trials.noise import SpatialNoise, named_spatial_noise, read_spatial_noise
@@ -76,6 +77,7 @@ class SpatialDynamics(Dynamics):
             deviations=noise.deviations(work.robot, work.world, asked.seed) if noise.any else None,
             progress=told,
             log=asked.log,
+            replan=_replanner(asked, events) if asked.replan else None,
             label=label,
         )
 
@@ -146,6 +148,19 @@ def _found(task: SpatialTask, asked: Conditions, events: RunEvents, seed: int) -
                 f"no plan keeps {100 * tried.rules.need:.0f} % of all strengths in reserve; one with less is looked for"
             )
     raise NoPlanError(asked.planner, task.name, f"was found: {result.reason}")
+
+
+def _replanner(asked: RunRequest, events: RunEvents) -> Replan:
+    """What a run asks for another plan."""
+
+    def replan(task: SpatialTask) -> Plan | None:
+        events.note("planning again from where the robot is, as a hold cannot be had")
+        try:
+            return _found(task, asked, events, asked.seed)
+        except NoPlanError:
+            return None
+
+    return replan
 
 
 def _noise(asked: Conditions) -> SpatialNoise:

@@ -1,20 +1,26 @@
 """A robot in space that carries out a plan: what the sequencer is told of its motions."""
 
 import math
-from typing import Final
+from collections.abc import Callable
+from typing import Final, TypeAlias
 
 import numpy as np
 
 from ....execution.run_report import BRACED, SETTLED, Ending, Outcome, ending_of
 from ....execution.sequencer import Attempt, Performer
+from ....planning.problem.plan import Plan
 from ....types import Floats
-from .carrying_report import CarryingReport, MotionReport
+from ..planning.task import SpatialTask
+from .carrying_report import CarryingReport, MotionReport, NewPlan
 from .course import BodyMotion, Course, Motion, Regrab
 from .limbed_body import LostHoldError
-from .motions import Landing, move_body, regrab, rest, retake
+from .motions import Landing, move_body, regrab, rest, retake, take
 from .references import quaternion_of
+from .replanning import neighbours, task_from_here, without
 from .run_trace import TracedBody
 
+Replan: TypeAlias = Callable[[SpatialTask], Plan | None]
+"""Makes a plan for the rest of a task; None: there is none."""
 MOST_LOST: Final = 4
 """Times that holds may be lost and taken again in one motion."""
 AT_FIRST: Final = 0.3
@@ -26,13 +32,16 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
 
     Args:
         body: The robot.
+        task: What its plan is for.
         course: What its plan asks for.
+        replan: Makes another plan for the rest of a task; None: none is made.
     """
 
     goes_on = frozenset({"ok"})
 
-    def __init__(self, body: TracedBody, course: Course) -> None:
-        self.body, self.course = body, course
+    def __init__(self, body: TracedBody, task: SpatialTask, course: Course, replan: Replan | None = None) -> None:
+        self.body, self.task, self.course, self._replan = body, task, course, replan
+        self._missed: set[int] = set()
         self.report = CarryingReport()
         self._at = 0
         self._off = math.nan
@@ -120,6 +129,31 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
     def done(self, action: Motion) -> None:
         """See `Performer`."""
         self._at += 1
+
+    def plan_again(self, action: Motion, outcome: Outcome) -> bool:
+        """See `Performer`: back on the hold that the limb came from, and on without those that were missed."""
+        if self._replan is None or outcome != "missed" or not isinstance(action, Regrab):
+            return False
+        body, back = self.body, action.before
+        self._missed.add(action.hold)
+        normals = body.world.normals[[action.hold, int(back.holds[action.limb])]]
+        try:
+            landing = take(body, action.limb, int(back.holds[action.limb]), normals, back.loads, back.joints)
+        except LostHoldError:
+            return False
+        task = task_from_here(self.task, back, self._missed) if landing.taken else None
+        if task is None:
+            return False
+        body.plant.pause()
+        plan = self._replan(task)
+        if plan is None:
+            return False
+        self.report.replans.append(
+            NewPlan(len(self.report.motions), [hold + 1 for hold in sorted(self._missed)], len(plan.actions))
+        )
+        self.course = without(Course.of(task, plan, "new plan"), neighbours(self.task, self._missed))
+        self._at = 0
+        return True
 
     def stop_safely(self) -> Ending:
         """See `Performer`: the robot stays where it is."""

@@ -33,6 +33,17 @@ class MotionReport(Jsonable):
 
 
 @dataclass(frozen=True, slots=True)
+class NewPlan(Jsonable):
+    """A plan that was made on the way."""
+
+    after: Count
+    """Motions that had been carried out."""
+    missed: list[int]
+    """Numbers of the holds that it does without."""
+    actions: Count
+
+
+@dataclass(frozen=True, slots=True)
 class LoggedMotion:
     """What is read back of a motion; see `MotionReport`."""
 
@@ -57,6 +68,7 @@ class CarryingReport(RunReport):
     """How a run went; its pose is that of the body: x, y, z [m], then a quaternion w, x, y, z."""
 
     motions: list[MotionReport] = field(default_factory=list)
+    replans: list[NewPlan] = field(default_factory=list)
     off: float = 0.0
     """Largest distance of the body from where it was to be, as believed [m]."""
     torque: float = 0.0

@@ -12,6 +12,7 @@ from ....planning.problem.problem import Replay
 from ....planning.problem.problems import plan_family
 from ....types import Floats, Ints
 from ..control.believed_tree import flat
+from ..planning.records import HEIGHT, PITCH, ROLL
 from ..planning.swing_loads import SwingLoads
 from ..planning.task import SpatialTask
 from .plant import Pose
@@ -29,6 +30,18 @@ class Standing:
     """Index of each limb's hold, shape (limbs,)."""
     loads: Floats
     """Wrenches of the contacts on the robot, world frame: force [N], moment about the tip [N m], shape (limbs, 6)."""
+    along: float
+    """On the guide [m] ..."""
+    across: float
+    """... beside it [m] ..."""
+    height: float
+    """... over it [m] ..."""
+    yaw: float
+    """... and about its normal [rad]."""
+    level: bool
+    """Whether the body neither pitches nor rolls on its guide."""
+    stage: int
+    """Goals that are met."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -120,6 +133,12 @@ def _standing(task: SpatialTask, stance: np.void) -> Standing:
         flat(task.robot, np.asarray(stance["q"])[:limbs, :most]),
         np.array(stance["hold"][:limbs], np.int32),
         np.array(stance["wrench"][:limbs], np.float64),
+        along=float(stance["x"]),
+        across=float(stance["y"]),
+        height=task.start.height + task.step.height * int(stance["pose"][HEIGHT]),
+        yaw=float(stance["angle"]),
+        level=not stance["pose"][[PITCH, ROLL]].any(),
+        stage=int(stance["stage"]),
     )
 
 

@@ -12,7 +12,7 @@ from ....execution.sequencer import Sequencer
 from ....json_form import HIDDEN, INLINE, Jsonable, Key
 from ....planning.problem.plan import Plan
 from ..control.believed_tree import believed_tree
-from ..execution.carrying import Carrying
+from ..execution.carrying import Carrying, Replan
 from ..execution.carrying_report import CarryingReport
 from ..execution.course import Course
 from ..execution.estimated_base import EstimatedBase
@@ -62,6 +62,7 @@ def run_plan(
     deviations: Deviations | None = None,
     progress: Callable[[int, int], None] | None = None,
     log: Path | WantedLog | None = None,
+    replan: Replan | None = None,
     label: str = "plan",
 ) -> SpatialRun:
     """Carry a plan out.
@@ -73,6 +74,7 @@ def run_plan(
         deviations: How robot and world truly are; None: as believed.
         progress: Told before each motion: the action that it begins with, and how many there are.
         log: An .mcap file that grows as the robot moves (`execution.log_stream`).
+        replan: Makes another plan for the rest of the task where a hold cannot be had; None: none is made.
         label: What errors call the plan.
 
     Raises:
@@ -92,7 +94,7 @@ def run_plan(
     )
     body = TracedBody(task.robot, task.world, plant, belief, Pace.of(task.robot), task.rules.lift)
     with growing_log(log, body.samples, body.titles, body.named.notes(), TOPIC) as finish:
-        report = Sequencer(Carrying(body, course), progress=progress).run()
+        report = Sequencer(Carrying(body, task, course, replan), progress=progress).run()
         notes = report.to_json() | {"task": task.name}
         gap = finish(notes)
     return SpatialRun(
