@@ -20,8 +20,23 @@ from .course import Standing
 from .plant import SpatialPlant, SpatialSensed
 from .settings import Pace
 
+OPEN: Final = 3
+"""Ticks after which a switch is believed that says that an end effector has come off."""
 NESTED: Final = 0.9
 """Of friction and pull that contacts are relied on for: the planner keeps its need within this, and the contacts bear more [-]."""
+
+
+class LostHoldError(Exception):
+    """A limb that held on has come off.
+
+    Args:
+        limb: Which.
+        hold: Index of the hold that it held on to.
+    """
+
+    def __init__(self, limb: int, hold: int) -> None:
+        super().__init__(limb, hold)
+        self.limb, self.hold = limb, hold
 
 
 class LimbedBody:
@@ -59,6 +74,7 @@ class LimbedBody:
         """Wrenches that contacts are to bear, world frame, shape (limbs, 6)."""
         self.places: Floats = np.zeros((limbs, 3))
         """Where the tips of limbs hold on, as believed [m], shape (limbs, 3)."""
+        self._open = np.zeros(limbs, np.int64)
         self.ticks = 0
         self.told: Callable[[], None] | None = None
         """Called after each tick."""
@@ -101,7 +117,7 @@ class LimbedBody:
 
     def hold_on(self, limb: int, hold: int) -> None:
         """From now on a limb holds on to a hold where its tip is."""
-        self._pressed = -1
+        self._pressed, self._open[limb] = -1, 0
         aims, dynamics = self.law.aims, self.law.dynamics
         contact, patch = self.robot.contacts[limb], self.world.holds[hold]
         normal = self.world.normals[hold]
@@ -143,13 +159,14 @@ class LimbedBody:
         """Let a control period pass.
 
         Raises:
+            LostHoldError: If an end effector that is attached has come off.
             FallenError: If the body is not where it is to be by far.
             PlantStoppedError: If the plant takes no more commands.
         """
         law, aims = self.law, self.law.aims
         self.sensed = self.plant.sense()
         self._believe()
-        for limb in np.flatnonzero(aims.does == HOLDS):
+        for limb in np.flatnonzero(aims.does == HOLDS).tolist():
             aims.wrench[limb, :3] = aims.frame[limb] @ self.loads[limb, :3]
             aims.wrench[limb, 3:] = aims.frame[limb] @ self.loads[limb, 3:]
         torques = law.tick()
@@ -166,6 +183,25 @@ class LimbedBody:
         off = float(np.linalg.norm(aims.position - law.state.position))
         if off > self.pace.lost:
             raise FallenError(f"the body is {1e3 * off:.0f} mm from where it is to be")
+        self._feel_holds()
+
+    def _feel_holds(self) -> None:
+        """Notice what has come off."""
+        for limb, hold in enumerate(self.holds.tolist()):
+            if hold < 0 or not self.attaches(limb) or self.sensed.closed[limb]:
+                self._open[limb] = 0
+                continue
+            self._open[limb] += 1
+            if self._open[limb] == OPEN:
+                self._open[limb] = 0
+                self.let_go(limb)
+                raise LostHoldError(limb, hold)
+
+    def stop(self) -> None:
+        """From now on the body is to stay where it is."""
+        aims, state = self.law.aims, self.law.state
+        aims.position[:], aims.rotation[:] = state.position, state.rotation
+        aims.velocity[:] = aims.acceleration[:] = 0.0
 
     def _believe(self) -> None:
         self.belief.update(self.sensed, np.where(self.law.aims.does == HOLDS, self.holds, -1), self.law.state)

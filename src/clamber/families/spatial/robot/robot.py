@@ -27,6 +27,7 @@ from .assembly import Choice, LimbChoice, axis_frame, chains_of
 from .chains import Chains
 from .contact_kinds import ContactKind, build_contact, read_contact
 from .contacts import Contact
+from .handling import Handling
 from .model import read_model
 from .readings import LINEAR, Load, Position, Rate, Reading, shown
 from .tree import Frame, Joint, Tree, rooted_at
@@ -98,6 +99,8 @@ class RobotSpec:
     payload: Payload | None = None
     half: tuple[NonNegativeLength, NonNegativeLength, NonNegativeLength] | None = None
     """Half extents of the box that stands for the base's body [m]; None: as large as its shapes."""
+    handling: Handling = Handling()
+    """How it moves and takes holds."""
     limb: Annotated[tuple[LimbSpec, ...], Field(min_length=1, max_length=MAX_LIMBS)]
 
 
