@@ -9,6 +9,7 @@ from typing import Final
 
 import numpy as np
 
+from ..errors import how_to_install
 from ..families.walker.control.cooperative.closest import ReachSearch
 from ..families.walker.control.cooperative.cooperator import Cooperator
 from ..families.walker.control.cooperative.freedoms import freedoms_of, weights_of
@@ -96,7 +97,7 @@ def peer_rows(*, rounds: int = ROUNDS, steps: int = PEER_STEPS, say: Say = keep_
     rows = []
     for name, make in CHAIN_PEERS.items():
         if not installed(name):
-            rows.append(Row(f"{name} (not installed: pip install 'clamber[bench]')", NOTHING, "ratio"))
+            rows.append(Row(f"{name} (not installed: {how_to_install('bench')})", NOTHING, "ratio"))
             continue
         say(f"{name} on the same chain")
         ours = partial(_step_often, _law(run, limited=True), run, weights_of("all", 4), 10 * steps)

@@ -1,9 +1,10 @@
 """What commands print: JSON or tables on stdout, everything on the way on stderr."""
 
 import json
+import re
 import sys
 import time
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import fields
 from pathlib import Path
 from threading import Event, Thread
@@ -15,8 +16,8 @@ from rich.padding import Padding
 from rich.segment import Segment
 from rich.text import Text
 
-from ..errors import printable
-from ..regular_files import check_target
+from ..errors import FileError, printable
+from ..regular_files import check_target, is_there
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
@@ -135,3 +136,29 @@ def check_writable(path: Path | None) -> None:
     """
     if path is not None:
         check_target(path)
+
+
+def check_new(path: Path, force: bool) -> None:
+    """Makes sure that a file can be written, and that nobody's work is lost by it.
+
+    Raises:
+        FileError: If it can't, or is there already and `force` is not given.
+    """
+    check_writable(path)
+    if is_there(path) and not force:
+        raise FileError(str(path), "is there already", "name another file, or write over it with --force")
+
+
+def print_new(written: Mapping[str, str], told: str, following: str) -> None:
+    """Print what `clamber new` made, the files by their kinds, and the command that comes next."""
+    console = stdout()
+    console.print(told)
+    for kind, path in written.items():
+        console.print(f"{kind} written to {path}", soft_wrap=True)
+    console.print(f"next: {following}", soft_wrap=True)
+
+
+def name_of(path: Path, kind: str = "wall") -> str:
+    """A name for what a file describes, from the file's."""
+    stem = re.sub(r"[^A-Za-z0-9_-]", "-", path.stem)[:56]
+    return stem if stem[:1].isalpha() else f"{kind}-{stem}"

@@ -168,9 +168,10 @@ class ClimberDynamics(Dynamics):
 
     def draw_trials(self, trials: ClimbTrials, file: Path) -> None:
         """Success over what was drawn."""
+        from ...shown_units import units_of
         from .pictures.charts import draw_trials
 
-        draw_trials(sum_up(trials), file)
+        draw_trials(sum_up(trials), file, units_of(trials.setup.task.document))
 
 
 def _refuse_weak(task: LimbedTask, asked: Conditions) -> None:

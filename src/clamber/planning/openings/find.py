@@ -207,5 +207,5 @@ def _furthest(trial: Trial) -> tuple[float, float] | None:
         raise PlannerError("openings", trial.task.name, "it has a plan, so nothing needs to be opened")
     if answer.problem is None:
         return None
-    x, y, _ = plan_family(trial.task).pose(answer.problem.replay(answer.codes).stances[-1])
+    x, y, *_ = plan_family(trial.task).pose(trial.task, answer.problem.replay(answer.codes).stances[-1])
     return x, y

@@ -152,6 +152,11 @@ class TrialSetup(Setup[ClimbRun, ClimbTrial]):
     faults: tuple[str, ...] = ()
     """Kinds of faults, one of which each trial has; none without."""
 
+    @property
+    def work(self) -> LimbedTask:
+        """See `Setup`."""
+        return self.task
+
     def about(self) -> Json:
         """What tells these trials from others; not how many, nor from which seed on."""
         return {
