@@ -1,6 +1,7 @@
 """Ctrl-C: what is asked to end is asked again until somebody answers, because an exception that is raised in compiled code may be lost."""
 
 import signal
+import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -43,6 +44,11 @@ def answer() -> None:
 def asked() -> bool:
     """Whether the command was interrupted, whoever answered."""
     return _now.asked
+
+
+def unanswered() -> bool:
+    """Whether the last Ctrl-C has no answer yet: what goes wrong then may come of it, such as an import that broke off."""
+    return _now.open
 
 
 @contextmanager
@@ -94,9 +100,11 @@ def listening() -> Iterator[None]:
         return
     before: dict[int, Any] = {signal.SIGINT: signal.signal(signal.SIGINT, _hear)}
     before[signal.SIGALRM] = signal.signal(signal.SIGALRM, _hear_again)
+    told, sys.unraisablehook = sys.unraisablehook, _tell_lost
     try:
         yield
     finally:
+        sys.unraisablehook = told
         _now.open = False
         signal.setitimer(signal.ITIMER_REAL, 0.0)
         for number, handler in before.items():
@@ -112,3 +120,9 @@ def _hear_again(number: int, frame: FrameType | None) -> None:
     if _now.open:
         signal.setitimer(signal.ITIMER_REAL, AGAIN)
         raise KeyboardInterrupt
+
+
+def _tell_lost(lost: "sys.UnraisableHookArgs") -> None:
+    """Tell of an exception that nobody could be given, unless it is an interrupt, which comes again."""
+    if not (_now.open and lost.exc_type is not None and issubclass(lost.exc_type, KeyboardInterrupt)):
+        sys.__unraisablehook__(lost)

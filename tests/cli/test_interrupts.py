@@ -53,7 +53,7 @@ LONG = (
     "limb sweep --vary backlash=0deg..4deg:30",
     "limb step --flaws nominal --trials 400",
     "body push --trials 400",
-    "most slope-walk payload=1kg..100kg",
+    "most level-walk --vary payload=10kg..26kg:17",
 )
 """At what takes minutes."""
 
@@ -217,6 +217,22 @@ def test_an_interrupt_that_was_lost_comes_again_until_it_is_answered() -> None:
     interrupts.answer()
     time.sleep(2.0 * interrupts.AGAIN)  # nothing comes any more
     assert interrupts.asked()
+
+
+@pytest.mark.usefixtures("listens")
+def test_an_interrupt_that_no_caller_could_be_given_is_not_told_but_comes_again(
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    class Lost:
+        def __del__(self) -> None:  # Python can't raise what is raised here
+            signal.raise_signal(signal.SIGINT)
+
+    lost = Lost()
+    with pytest.raises(KeyboardInterrupt):
+        del lost
+        time.sleep(10.0 * interrupts.AGAIN)
+    interrupts.answer()
+    assert capfd.readouterr().err == ""
 
 
 @pytest.mark.usefixtures("listens")

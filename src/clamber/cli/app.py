@@ -16,6 +16,7 @@ from typer.core import TyperCommand, TyperGroup
 
 from .. import __version__
 from ..errors import ClamberError, printable
+from ..interrupts import unanswered
 from ..terminal.command_end import until_command_ends
 from ..terminal.options import UnitsChoice
 from ..terminal.output import fall_silent
@@ -203,8 +204,7 @@ def run(arguments: Sequence[str] | None = None) -> int | str | None:
     completes = "_CLAMBER_COMPLETE" in os.environ  # the words come another way
     try:
         command = command_of(application(None if completes else called))
-        code: int | None = command(args=words, prog_name="clamber", standalone_mode=False)
-        return code
+        return _called(command, words)
     except SystemExit as end:
         return end.code
     except ClamberError as error:
@@ -226,6 +226,17 @@ def run(arguments: Sequence[str] | None = None) -> int | str | None:
     finally:
         fall_silent()
         until_command_ends.close()
+
+
+def _called(command: Command, words: Sequence[str]) -> int | None:
+    """The exit code of a command; what goes wrong in it after Ctrl-C that nobody has answered is taken for what came of that."""
+    try:
+        code: int | None = command(args=words, prog_name="clamber", standalone_mode=False)
+    except Exception as error:
+        if unanswered():
+            raise KeyboardInterrupt from error
+        raise
+    return code
 
 
 def _told_unexpected(error: BaseException, words: Sequence[str]) -> int:

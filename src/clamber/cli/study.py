@@ -135,7 +135,7 @@ class StudyLine(LiveLine):
 def verdicts(results: "Sequence[StudyResult]") -> str:
     """How many results hold, and so on."""
     counts = Counter(result.verdict for result in results)
-    return ", ".join(f"{counts[word]} {VERDICTS[word]}" for word in VERDICTS if counts[word])
+    return ", ".join(f"{counts[word]} {VERDICTS[word][counts[word] > 1]}" for word in VERDICTS if counts[word])
 
 
 def _repeat(paper: str, result: str, words: StudyOptions, *, seeded: bool) -> "StudyResult":
@@ -163,13 +163,13 @@ def _open_site(report: Path | None) -> "StudySite | None":
     return StudySite(report)
 
 
-VERDICTS: "Final[dict[Verdict, str]]" = {
-    "holds": "hold",
-    "consistent": "are consistent",
-    "differs": "differ",
-    "open": "are open",
+VERDICTS: "Final[dict[Verdict, tuple[str, str]]]" = {
+    "holds": ("holds", "hold"),
+    "consistent": ("is consistent", "are consistent"),
+    "differs": ("differs", "differ"),
+    "open": ("is open", "are open"),
 }
-"""Verdict -> what is said of several results."""
+"""Verdict -> what is said of one result and of several."""
 STYLES = {"holds": "bold green", "consistent": "bold cyan", "differs": "bold red", "open": "bold yellow"}
 """Verdict -> colour."""
 

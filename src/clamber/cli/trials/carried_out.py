@@ -60,7 +60,9 @@ def try_out(work: Work, asked: TrialsOptions, words: CrewWords) -> None:
             executor=words.executor,
             store=words.store,
             resume=words.resume,
-            told=lambda trials: line.show(_so_far(trials, dynamics.past), len(trials.ended) / trials.asked),
+            told=lambda trials: line.show(
+                _so_far(trials, dynamics.past), len(trials.ended) / trials.asked, now=len(trials.ended) == 1
+            ),
         )
     if words.output is not None:
         dynamics.draw_trials(trials, words.output)
