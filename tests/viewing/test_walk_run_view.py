@@ -9,8 +9,9 @@ import pytest
 from PIL import Image
 
 from clamber.families.walker.execution.true_walk import TracedPlant, TrueWalk
+from clamber.families.walker.execution.walk_scene import plate_axes
 from clamber.families.walker.pictures.walk_run_view import WalkRunView, footprints
-from clamber.families.walker.pictures.walker_motion import plate_axes, shapes_at
+from clamber.families.walker.pictures.walker_motion import shapes_at
 from clamber.families.walker.robot import WalkerRobot
 from clamber.families.walker.sim.walker_flaws import WalkerFlaws
 from clamber.families.walker.sim.walker_plant import WalkerSim

@@ -27,7 +27,7 @@ from ..trials.run_plan import ClimbRun
 from .alone import board_alone, climber_alone
 from .artists import ClimberArtists, Snapshot, draw_scene, find_bounds, torque_gauges, torque_limits
 from .climb_run import ClimbFilm, run_picture
-from .climb_view import ClimbView, Transition, draw_climb
+from .climb_view import ClimbView, Transition, draw_climb, near_climb
 from .geometry import Posture, postures
 from .report import climb_page
 
@@ -226,6 +226,7 @@ PICTURES: Final = Pictures(
     torque_limits,
     run_picture,
     climb_page,
+    near=near_climb,
     robot_alone=climber_alone,
     world_alone=board_alone,
 )

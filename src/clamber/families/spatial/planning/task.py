@@ -8,6 +8,7 @@ from typing import Annotated, Final
 from pydantic import Field, StrictBool, StrictStr
 
 from ....files import Document, check_schema
+from ....notebook import Pictured
 from ....specs import Name, build_spec, field_names, spec
 from ....tasks.parts import parts_of
 from ....tasks.regions import check_order
@@ -101,6 +102,26 @@ class Goal:
     yaw_max: Angle | None = None
 
     @property
+    def x_min(self) -> float | None:
+        """Least place along the guide [m]; so for the others."""
+        return self.along_min
+
+    @property
+    def x_max(self) -> float | None:
+        """Largest place along."""
+        return self.along_max
+
+    @property
+    def y_min(self) -> float | None:
+        """Least place across."""
+        return self.across_min
+
+    @property
+    def y_max(self) -> float | None:
+        """Largest place across."""
+        return self.across_max
+
+    @property
     def box(self) -> tuple[float, float, float, float]:
         """Least and largest place along, least and largest across [m]; infinite where open."""
         low, high = -math.inf, math.inf
@@ -147,7 +168,7 @@ class SpatialTaskSpec:
 
 
 @spec
-class SpatialTask:
+class SpatialTask(Pictured):
     """A task with everything resolved, SI."""
 
     name: str

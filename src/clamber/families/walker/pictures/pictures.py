@@ -20,7 +20,7 @@ from .alone import ground_alone, walker_alone
 from .report import walk_page
 from .walk_run_view import run_picture
 from .walker_motion import COLOURS, NAMES, WalkerMoment, settled_moment
-from .walker_view import WalkerArtists, WalkerView, draw_ground, draw_walk, walker_bounds
+from .walker_view import WalkerArtists, WalkerView, draw_ground, draw_walk, near_walk, walker_bounds
 
 GHOSTS: Final = 2
 """Stances drawn between start and end, at most: a walker covers most of its own steps."""
@@ -78,6 +78,7 @@ PICTURES: Final = Pictures(
     start_point,
     draw_ground,
     run=run_picture,
+    near=near_walk,
     report=walk_page,
     robot_alone=walker_alone,
     world_alone=ground_alone,
