@@ -9,7 +9,7 @@ import argparse
 import math
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -19,8 +19,15 @@ from scipy.optimize import nnls
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from clamber.families.spatial.robot.contact_kinds import AreaFoot, Clamp, ContactKind, Hook, Spine, build_contact, read_contact
-from clamber.families.spatial.robot.contacts import Contact
+from clamber.families.spatial.robot.contact_kinds import (
+    AreaFoot,
+    Clamp,
+    ContactKind,
+    Hook,
+    Spine,
+    build_contact,
+    read_contact,
+)
 from clamber.families.spatial.robot.robot import SpatialRobot
 from clamber.families.spatial.statics.judging import Statics
 from clamber.tasks.robots import load_robot
@@ -211,7 +218,9 @@ class Bench:
         feed = self.torques(wrenches)
         weight = float(model.body_mass.sum() * np.linalg.norm(body["gravity"]))
         balanced = float(np.abs(feed[:6]).max())
-        assert judged["s"] < -0.9 or balanced < 1e-4 * weight * max(1.0, self.size), f"MuJoCo's weight is off by {balanced} N"
+        assert judged["s"] < -0.9 or balanced < 1e-4 * weight * max(1.0, self.size), (
+            f"MuJoCo's weight is off by {balanced} N"
+        )
         feed[:6] = 0.0
         start, spring = data.qpos.copy(), STIFFNESS * self.limits
         tied = [(limb, self.bodies[limb], self.sites[limb]) for limb in bearing]
@@ -251,9 +260,9 @@ class Tally:
 def tally(machine: Machine, n: int, seed: int = 11) -> Tally:
     """Hold `n` random stances of a machine that lie outside `NEAR` of every limit."""
     loaded: Any = load_robot(machine.robot)
+    robot: SpatialRobot = loaded
     kind = build_contact(read_contact(machine.contact))
-    robot: SpatialRobot = replace(loaded, contacts=(kind.contact(),) * len(loaded.limbs))
-    statics, bench = Statics(robot.chains, list(robot.contacts)), Bench(robot, kind)
+    statics, bench = Statics(robot.chains, [kind.contact()] * len(robot.limbs)), Bench(robot, kind)
     rng = np.random.default_rng(seed)
     asked, stood, wrong = 0, 0, []
     while asked < n:
@@ -263,7 +272,13 @@ def tally(machine: Machine, n: int, seed: int = 11) -> Tally:
         contacts["bears"] = rng.uniform(size=contacts.shape) < 0.9
         judged, _ = statics.judge(bodies, contacts)
         for body, where, found in zip(bodies, contacts, judged, strict=True):
-            if asked == n or not found["judged"] or abs(found["s"]) < NEAR or not np.isfinite(found["s"]) or found["s"] < -0.9:
+            if (
+                asked == n
+                or not found["judged"]
+                or abs(found["s"]) < NEAR
+                or not np.isfinite(found["s"])
+                or found["s"] < -0.9
+            ):
                 continue
             asked += 1
             stood += found["s"] > 0.0

@@ -8,7 +8,7 @@ from held_in_mujoco import MACHINES, tally
 @pytest.mark.parametrize("name", MACHINES)
 def test_what_statics_says_stands_stays_in_dynamics_and_what_does_not_falls(name: str) -> None:
     made = tally(MACHINES[name], 20)
-    assert 0 < made.stood
+    assert made.stood > 0
     # Polytopes lie within the exact bodies, so that now and then a stance holds which statics does not trust; never the other way round.
     assert [s for s, _ in made.wrong if s > 0.0] == []
     assert len(made.wrong) <= 1

@@ -167,8 +167,9 @@ def connect(stances: Stances, i: int, goal: Floats, seconds: float) -> tuple[boo
     Returns:
         Whether it came there, and how many states it had judged.
     """
-    from ompl import base, geometric
+    from ompl import base, geometric, util
 
+    util.setLogLevel(util.LogLevel.LOG_NONE)
     contacts, statics = stances.contacts[i : i + 1], stances.statics
     body, rules = stances.bodies[i : i + 1].copy(), rules_record(exact=0, reach=REACHED)
     start: Any = stances.bodies[i]
