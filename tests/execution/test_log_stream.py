@@ -200,10 +200,10 @@ def test_a_climb_goes_on_without_its_log_and_says_from_when_that_is_missing(
     plan, before = climb_plan(tmp_path, RUNG[:2]), resource.getrlimit(resource.RLIMIT_FSIZE)
     whole = LiveLine.show
 
-    def fills_the_disk(line: LiveLine, words: str) -> None:
+    def fills_the_disk(line: LiveLine, words: str, share: float | None = None) -> None:
         if words.startswith("action 2 "):
             resource.setrlimit(resource.RLIMIT_FSIZE, (2000, before[1]))
-        whole(line, words)
+        whole(line, words, share)
 
     monkeypatch.setattr(LiveLine, "show", fills_the_disk)
     try:

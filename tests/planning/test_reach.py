@@ -266,7 +266,7 @@ def test_a_walker_has_a_map_of_margins_and_steps_alone() -> None:
 
 @pytest.mark.parametrize("family", families(), ids=lambda family: str(family.name))
 def test_every_family_has_burdens_and_a_world_to_draw(family: Family) -> None:
-    assert family.plans.burdens is not None and family.pictures is not None
+    assert family.plans.stance_costs is not None and family.pictures is not None
 
 
 def test_a_map_has_the_layers_that_its_family_has_burdens_for() -> None:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..interrupts import answer
 from ..json_form import Count, Key
 from ..terminal.name_completion import names_of
 from ..terminal.options import AsJson, Overrides, takes_options
@@ -100,7 +101,7 @@ def view(
     try:
         _serve(app, words)
     except KeyboardInterrupt:
-        pass  # the usual end
+        answer()  # the usual end
     finally:
         app.close()
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from multiprocessing import get_context
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import SpawnProcess
+from multiprocessing.resource_tracker import ensure_running
 from typing import Any, Final
 
 from .executor import MOST_TRIES, End
@@ -124,6 +125,8 @@ def _quiet_start() -> Iterator[None]:
     main.__dict__["__spec__"] = None
     before = os.environ.get("OPENBLAS_NUM_THREADS")
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
+    if os.name == "posix":
+        ensure_running()  # which would let Ctrl-C in again if it were begun below
     masks = hasattr(signal, "pthread_sigmask")
     mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT}) if masks else set()
     try:

@@ -13,6 +13,7 @@ from ..types import Ints
 from ..units import OZ_IN
 from .genetic.evolve import Generation
 from .genetic.learning import Macro
+from .problem.body_pose import named_pose, on_map
 from .problem.plan import Plan
 from .problem.problem import CompiledProblem
 from .problem.problems import PlannedAction, plan_family, spent
@@ -30,6 +31,8 @@ class PlacedBody:
     theta_rad: float
     holds: dict[str, int]
     """Limb to the number of its hold, 0 if it is free; empty for robots without holds."""
+    pose: dict[str, float]
+    """Each coordinate of the body's pose, in the unit at the end of its name."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,7 +160,7 @@ def furthest_of(task: Task, problem: CompiledProblem, codes: Ints) -> Furthest:
         if not tried.ok:
             name = problem.checks[int(tried.reasons[-1])]
             stopped[name] = stopped.get(name, 0) + 1
-    x, y, angle = family.pose(last[0])
-    pose = PlacedBody(x, y, angle, family.holds(task, last[0]))
+    axes, at = family.pose_axes, family.pose(task, last[0])
+    pose = PlacedBody(*on_map(axes, at), family.holds(task, last[0]), named_pose(axes, at))
     ranked = dict(sorted(stopped.items(), key=lambda item: (-item[1], item[0])))
     return Furthest(len(codes), family.goals_met(last[0]), problem.goals, pose, ranked)

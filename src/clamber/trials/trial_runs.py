@@ -3,11 +3,11 @@
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final, Generic, Protocol, TypeVar
 
+from ..interrupts import answer
 from ..jobs import Executor, Kept, Outcome, look_into, map_items
 from ..notebook import Pictured
 from ..planning.problem.plan import Plan
@@ -201,7 +201,7 @@ def run_trials(
         if told is not None:
             told(trials)
 
-    with suppress(KeyboardInterrupt):
+    try:
         outcomes = map_items(
             setup.worker,
             [setup.item(seed) for seed in seeds],
@@ -218,6 +218,8 @@ def run_trials(
             setup.failed(seed, outcome.error or "") if outcome.result is None else setup.trial(outcome.result, store)
             for seed, outcome in zip(seeds, outcomes, strict=True)
         ]
+    except KeyboardInterrupt:
+        answer()
     return trials
 
 

@@ -39,6 +39,16 @@ class RunPicture(Animated[Any], Protocol):
 
 
 @dataclass(frozen=True, slots=True)
+class Chart:
+    """A world as a map of the first two coordinates of a body's poses."""
+
+    points: Callable[[Any], Floats]
+    """Places of a task's holds, or what else must be seen, on the map, shape (n, 2) [m]."""
+    world: Callable[[Axes, Any, Bounds], None]
+    """A task's world on given axes."""
+
+
+@dataclass(frozen=True, slots=True)
 class Pictures:
     """How one family of robots is drawn."""
 
@@ -64,6 +74,8 @@ class Pictures:
     """A world without a task; None: it is not drawn."""
     near: "Callable[[Any, np.void], CloseUp] | None" = None
     """One stance from near, for worlds in which the robot would be a dot; None: it is not drawn so."""
+    chart: Chart | None = None
+    """What maps of reachable places are drawn over, its points those of the holds; None: the world as it is drawn otherwise."""
     seen_from: "Callable[[str], Pictures] | None" = None
     """The same from a camera that is asked for in words; None: what is drawn is flat."""
 

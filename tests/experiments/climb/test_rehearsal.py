@@ -4,8 +4,8 @@ import math
 
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.trials.noise import NO_NOISE, read_noise
-from clamber.families.climber.trials.planning import plan_to_climb
-from clamber.families.climber.trials.rehearsal import SEEDS, Rehearsal, rehearse
+from clamber.families.climber.trials.planning import QUIET, plan_to_climb
+from clamber.families.climber.trials.rehearsal import SEEDS, Rehearsal, rehearsals
 from clamber.families.climber.trials.run_plan import climbing_flaws, climbing_task
 from clamber.planning.problem.plan import Plan
 from clamber.planning.problem.plan_source import open_plan
@@ -15,8 +15,8 @@ def test_a_plan_is_climbed_by_as_often_as_it_is_carried_out() -> None:
     opened = open_plan("ladder-hand")
     task = climbing_task(opened.task)
     few = Plan.of_codes(task, opened.plan.codes(task)[:3], planner="hand")
-    assert rehearse(task, few, climbing_flaws(task, ())) == Rehearsal(len(SEEDS), 1.0)
-    lost = rehearse(task, opened.plan, climbing_flaws(task, ()), read_noise(NO_NOISE, ("peg_error=30mm",)))
+    assert rehearsals(climbing_flaws(task, ()), QUIET)(task, few) == Rehearsal(len(SEEDS), 1.0)
+    lost = rehearsals(climbing_flaws(task, ()), QUIET, read_noise(NO_NOISE, ("peg_error=30mm",)))(task, opened.plan)
     assert lost.climbed == 0 and lost.share < 1.0
 
 

@@ -16,7 +16,7 @@ from .planning.task import LimbedTask
 from .trials.noise import NO_NOISE, Noise, check_noise, named_noise, read_noise
 from .trials.planning import no_plan, plan_to_climb, replanner
 from .trials.plants import check_plant, is_remote
-from .trials.rehearsal import Rehearsal, rehearse
+from .trials.rehearsal import rehearsals
 from .trials.run_plan import ClimbRun, action_told, climbing_flaws, climbing_task, run_plan
 from .trials.trial import ClimbTrial, ClimbTrials, TrialSetup, with_plan
 from .trials.trial_summary import TrialSummary, sum_up
@@ -71,11 +71,7 @@ class ClimberDynamics(Dynamics):
             raise NoPlanError(asked.planner, task.name, f"can be carried out: {weak}")
         flaws = climbing_flaws(task, asked.plant)
 
-        def rehearsed(task: LimbedTask, plan: Plan) -> Rehearsal:
-            events.step(f"rehearsing a plan of {len(plan.actions)} actions in simulation", None)
-            return rehearse(task, plan, flaws)
-
-        plan = plan_to_climb(task, asked.planner, rehearse=rehearsed, **_search(asked, events))
+        plan = plan_to_climb(task, asked.planner, rehearse=rehearsals(flaws, events), **_search(asked, events))
         if plan is None:
             raise no_plan(asked.planner, task)
         return plan

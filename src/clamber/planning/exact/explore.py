@@ -8,6 +8,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from ...interrupts import answer
 from ...types import Ints
 from ..problem.problem import CompiledProblem
 from ..progress import Clock
@@ -130,7 +131,7 @@ class Exploration:
     dead: int
     """Stances from which the relaxed problem rules out every goal."""
     dominated: int
-    """Stances dropped because a freer one was reached at no more cost."""
+    """Stances dropped because a dominating one was reached at no more cost."""
     lower_bound: float
     """No plan has less of the first cost."""
     forbidden: dict[str, int]
@@ -163,7 +164,7 @@ def explore(
         seconds: Most time [s]; the first stances are expanded whatever it is, so that the bound at the start is known.
         tell: Called now and then with stances seen and the lower bound.
         aim: What is minimized.
-        dominance: Drop stances for freer ones (more goals met, fewer hangs used) reached at no more cost.
+        dominance: Drop stances for dominating ones (more goals met, fewer hangs used) reached at no more cost.
 
     Returns:
         The exploration; Ctrl-C, time and memory end it with a lower bound.
@@ -190,6 +191,7 @@ def explore(
             took = looked - before
             quota = min(QUOTA, 2 * quota) if took < LOOK / 2 else max(FIRST_QUOTA, quota // 2) if took > LOOK else quota
     except KeyboardInterrupt:
+        answer()
         interrupted = True
     ways = _ways(problem, memory)
     if ways:

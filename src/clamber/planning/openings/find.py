@@ -6,6 +6,7 @@ from typing import Annotated, Final
 
 from ...errors import PlannerError
 from ...family import NotOfFamilyError, family_of
+from ...interrupts import answer
 from ...json_form import Count, Jsonable, Key, in_json
 from ...tasks import Task
 from ..problem.problems import plan_family
@@ -185,6 +186,7 @@ def find_openings(
             if places is None:
                 shut.append(Shut(key=key, tried="where the robot can get to was not seen whole", proved=False))
     except KeyboardInterrupt:
+        answer()
         ended = "interrupted"
     if not ended and trial.left() == 0.0:
         ended = "time"
@@ -205,5 +207,5 @@ def _furthest(trial: Trial) -> tuple[float, float] | None:
         raise PlannerError("openings", trial.task.name, "it has a plan, so nothing needs to be opened")
     if answer.problem is None:
         return None
-    x, y, _ = plan_family(trial.task).pose(answer.problem.replay(answer.codes).stances[-1])
+    x, y, *_ = plan_family(trial.task).pose(trial.task, answer.problem.replay(answer.codes).stances[-1])
     return x, y

@@ -25,9 +25,19 @@ FIRST_SEED: Final = 500_000
 class LessonsLine(LiveLine):
     """Follows rehearsals."""
 
+    def __init__(self, console: Console, *, quiet: bool) -> None:
+        super().__init__(console, quiet=quiet, doing="preparing the climbs")
+        self._so_far = "the plan as it is"
+
     def update(self, best: "Rehearsed", tried: "Sequence[Lesson]") -> None:
         """Show how the best plan so far climbs, and how many changes were tried."""
-        self.show(f"{_climbed(best)}; {len(tried)} changes tried, {sum(lesson.taken for lesson in tried)} taken")
+        taken = sum(lesson.taken for lesson in tried)
+        self._so_far = f"{_climbed(best)}; {len(tried)} changes tried, {taken} taken"
+        self.show(f"{self._so_far}; looking for another way", now=True)
+
+    def climbs(self, ended: int, asked: int, climbed: int) -> None:
+        """Show how far the climbs by one plan are."""
+        self.show(f"{self._so_far}; now {ended} of {asked} climbs, {climbed} whole", ended / asked)
 
 
 def _print_lessons(
@@ -119,8 +129,12 @@ def rehearse(
                 lessons=asked.lessons,
                 seconds=asked.seconds,
                 told=tell,
+                ended=line.climbs,
             )
         except KeyboardInterrupt:
+            stderr().print(
+                "interrupted before the plan had been climbed once as often as asked; nothing is known of it yet"
+            )
             raise typer.Exit(130) from None
     if told.as_json:
         print_json(learned)

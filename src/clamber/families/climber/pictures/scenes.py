@@ -9,9 +9,9 @@ import numpy as np
 
 from ....execution.log import Log, LogError
 from ....execution.sample_log import told_of
-from ....planning.problem.plan import Plan
 from ....planning.progress import Listener
 from ....tasks.library import task_names
+from ....trials.dynamics import RunEvents
 from ....viewing.browser.exhibit import NAMED, Editor, Exhibit, Planned, Scenes
 from ....viewing.browser.solids import FOV, NARROW, Camera, Scenery
 from ....viewing.scene import Bounds, join
@@ -19,7 +19,7 @@ from ..execution.climb_report import LoggedClimb
 from ..execution.climb_trace import ClimbTrace
 from ..planning.task import LimbedTask
 from ..trials.planning import plan_to_climb
-from ..trials.rehearsal import Rehearsal, rehearse
+from ..trials.rehearsal import rehearsals
 from ..trials.run_plan import ClimbRun, climbing_flaws, climbing_task
 from .board_editor import BoardPanel
 from .climb_run import ClimbFilm, run_film
@@ -114,11 +114,8 @@ class ClimbScenes(Scenes):
         strict = climbing_task(task)
         flaws = climbing_flaws(strict, ())
 
-        def rehearsed(task: LimbedTask, plan: Plan) -> Rehearsal:
-            tell(f"rehearsing a plan of {len(plan.actions)} actions in simulation")
-            return rehearse(task, plan, flaws)
-
-        kept = plan_to_climb(strict, planner, seconds=seconds, seed=0, rehearse=rehearsed)
+        events = RunEvents(step=lambda words, share: tell(words))
+        kept = plan_to_climb(strict, planner, seconds=seconds, seed=0, rehearse=rehearsals(flaws, events))
         if kept is None:
             reach = f"there is a plan of {len(found.plan.actions)} actions"
             return Planned(None, f"{reach}, but none that keeps reserves for a run, or that hooks can be trusted with")

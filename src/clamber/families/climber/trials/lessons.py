@@ -8,6 +8,7 @@ from typing import Annotated, Final, TypeAlias
 import numpy as np
 
 from ....errors import SpecError
+from ....interrupts import answer, passed_on
 from ....jobs import Executor
 from ....json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ....notebook import Pictured
@@ -36,18 +37,28 @@ BATCH: Final = 12
 """Climbs that are asked for at a time after that: when it is clear that the change is no gain, there are no more."""
 
 
-def climbs_with(setup: TrialSetup, executor: Executor) -> Climbs:
+def climbs_with(
+    setup: TrialSetup, executor: Executor, told: Callable[[int, int, int], None] = lambda ended, asked, climbed: None
+) -> Climbs:
     """Climbs by plans under a setup's noise, without new plans on the way.
+
+    Args:
+        setup: Whose plan changes.
+        executor: Who climbs.
+        told: Given, at each end, how many climbs of a plan have ended, of how many, and how many of them were carried out whole.
 
     Raises, when called:
         KeyboardInterrupt: After Ctrl-C.
     """
 
     def climbs(plan: Plan, seeds: Sequence[int]) -> list[ClimbTrial]:
-        ended = run_trials(replace(setup, plan=plan, replan=False), seeds, executor=executor).ended
-        if len(ended) < len(seeds):
-            raise KeyboardInterrupt
-        return ended
+        with passed_on():
+            return run_trials(
+                replace(setup, plan=plan, replan=False),
+                seeds,
+                executor=executor,
+                told=lambda trials: told(len(trials.ended), trials.asked, trials.done),
+            ).ended
 
     return climbs
 
@@ -203,6 +214,7 @@ def rehearse(
     lessons: int,
     seconds: float,
     told: Callable[[Sequence[Went]], None] = lambda went: None,
+    ended: Callable[[int, int, int], None] = lambda ended, asked, climbed: None,
 ) -> LearnedPlan:
     """Make the plan of a work surer, under the usual noise but for what is named; Ctrl-C ends it with what there is.
 
@@ -214,6 +226,7 @@ def rehearse(
         lessons: Most changes that are tried.
         seconds: Most time for each search for another way [s].
         told: Of all that came of it so far: the best plan after each change, and the change; of the first rehearsal without one.
+        ended: As `climbs_with` tells of climbs.
 
     Raises:
         SpecError: If the work has no plan.
@@ -226,7 +239,7 @@ def rehearse(
     setup = TrialSetup(
         task=task, noise=read_noise(named_noise("usual"), noise), plan=work.plan, plant=work.plant, replan=False
     )
-    climbs, went = climbs_with(with_plan(setup, label=work.label), executor), list[Went]()
+    climbs, went = climbs_with(with_plan(setup, label=work.label), executor, ended), list[Went]()
 
     def tell(best: Rehearsed, lesson: Lesson | None) -> None:
         went.append((best, lesson))
@@ -236,6 +249,7 @@ def rehearse(
     try:
         learn(task, work.plan, climbs, seeds, lessons=lessons, seconds=seconds, told=tell)
     except KeyboardInterrupt:
+        answer()
         interrupted = True
         if not went:
             raise

@@ -22,7 +22,7 @@ from ..execution.course import lay_course
 from ..planning.task import LimbedTask
 from .noise import NOISE, Noise, check_noise, noise_of
 from .planning import QUIET, no_plan, plan_to_climb, replanner
-from .rehearsal import rehearse
+from .rehearsal import rehearsals
 from .run_plan import BEGINS, ClimbRun, action_told, climbing_flaws, failing_of, run_plan
 from .warm_up import warm_up
 
@@ -238,7 +238,7 @@ def with_plan(
             seconds=setup.seconds,
             seed=PLAN_SEED,
             events=events,
-            rehearse=lambda task, plan: rehearse(task, plan, flaws),
+            rehearse=rehearsals(flaws, events),
         )
     if plan is None:
         raise no_plan(setup.planner, setup.task)

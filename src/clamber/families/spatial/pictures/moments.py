@@ -9,11 +9,8 @@ import numpy as np
 
 from ....types import Floats, Records
 from ....viewing.film import Part
-from ..planning.checks import SPATIAL_CHECKS
-from ..planning.judging_kernels import judge_stance
-from ..planning.problem import problem_params
+from ..planning.plans import poses_of
 from ..planning.task import SpatialTask
-from ..statics.checks import EQUILIBRIUM
 from .geometry import (
     LinkFrames,
     Posed,
@@ -65,15 +62,6 @@ class Moment:
         return self.frames.tips
 
 
-def poses_of(task: SpatialTask, stances: Records) -> Floats:
-    """Along, across, height [m], yaw, pitch, roll [rad] of stances, shape (n, 6)."""
-    steps, lattice = stances["pose"], task.step
-    height = task.start.height + lattice.height * steps[:, 2]
-    return np.column_stack(
-        (stances["x"], stances["y"], height, stances["angle"], lattice.tilt * steps[:, 4], lattice.tilt * steps[:, 5])
-    )
-
-
 def settled_moments(task: SpatialTask, stances: Records, shares: Floats | None = None) -> list[Moment]:
     """The moments of stances.
 
@@ -107,36 +95,6 @@ def settled_moments(task: SpatialTask, stances: Records, shares: Floats | None =
             )
         )
     return found
-
-
-class SwingLoads:
-    """How limbs share the load while one of them swings, as the planner judged it.
-
-    Args:
-        task: Robot, world and rules.
-    """
-
-    def __init__(self, task: SpatialTask) -> None:
-        self._params, self._limbs = problem_params(task, True), len(task.robot.chains.limb_names)
-
-    def wrenches(self, stance: np.void, limb: int) -> Floats:
-        """Of the contacts of a stance without one limb's, as `Moment` has them; NaN where the others cannot hold the robot.
-
-        Args:
-            stance: Record of `planning.records.STANCE`.
-            limb: Index of the limb that swings.
-        """
-        rows, margins = np.array([stance, stance]), np.full(len(SPATIAL_CHECKS), math.nan)
-        judge_stance(self._params.record, rows[0], rows[1], limb, -1, margins)
-        if not margins[EQUILIBRIUM] >= 0.0:
-            return np.full((self._limbs, 6), math.nan)
-        judged = self._params.array("work_judged")[1]
-        frames = judged["frame"][: self._limbs].reshape(-1, 3, 3)
-        turn = np.asarray(stance["turn"]).reshape(3, 3)
-        own = judged["wrench"][: self._limbs].reshape(-1, 2, 3)
-        found: Floats = np.einsum("ij,lkj,lpk->lpi", turn, frames, own).reshape(-1, 6)
-        found[limb] = 0.0
-        return found
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -20,8 +20,10 @@ from ....viewing.view import Layout
 from ..planning.task import SpatialTask
 from .alone import robot_alone, world_alone
 from .camera import Camera, camera_for
+from .chart import CHART
 from .moments import Moment, settled_moments
 from .robot_artists import RobotArtists, limb_colour, mixed
+from .run_view import RunPicture, RunView
 from .spatial_view import SpatialView, describe_pose, stance_bounds
 from .world_artists import discs, draw_world, hold_radii
 
@@ -119,8 +121,10 @@ def pictures_from(asked: str | None) -> Pictures:
         lambda task, replay: draw_route(task, replay, camera_for(task, asked)),
         lambda task: world_points(task, camera_for(task, asked)),
         lambda axes, task, bounds: draw_bare_world(axes, task, bounds, camera_for(task, asked)),
+        run=lambda run: RunPicture(RunView(run.task, run.trace, camera_for(run.task, asked))),
         robot_alone=robot_alone,
         world_alone=world_alone,
+        chart=CHART,
         seen_from=pictures_from,
     )
 

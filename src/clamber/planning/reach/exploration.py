@@ -1,4 +1,4 @@
-"""Drive a flood over every reachable stance: layers, threads, memory that grows to a stated limit, interrupts."""
+"""Drive an exploration over every reachable stance: layers, threads, memory that grows to a stated limit, interrupts."""
 
 import os
 from collections.abc import Callable
@@ -7,18 +7,34 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
+from ...interrupts import answer
+from ..problem.body_pose import PoseLattice
 from ..problem.problem import CompiledProblem, Records
 from ..problem.problems import Yardsticks
 from ..progress import Clock
 from ..stance_table import rehash, table_size
-from .kernels import POSE, POSES, STANCES, WEIGHED, absorb, note, note_tries, plant, spread, weigh
+from .kernels import (
+    POSE,
+    POSES,
+    STANCES,
+    WEIGHED,
+    Children,
+    Judged,
+    Long,
+    PoseMap,
+    Scratch,
+    Sizes,
+    absorb,
+    note,
+    note_tries,
+    plant,
+    spread,
+    weigh,
+)
 
 FIRST: Final = 1 << 14
 """Stances that memory is taken for at first."""
-
-Long = npt.NDArray[np.int64]
 
 
 class Store:
@@ -45,34 +61,43 @@ class Store:
 class Piece:
     """A piece of a layer: its parameters and scratch, and what came of it."""
 
-    def __init__(self, problem: CompiledProblem, most: int) -> None:
-        self.params, _ = problem.wander()
-        branching, checks = problem.branching, len(problem.checks)
-        self.codes = np.zeros(branching, np.int32)
-        self.stances = np.zeros(3, problem.start.dtype)
-        self.margins, self.spare = np.zeros(checks), np.zeros(checks)
-        self.children = np.zeros((most * branching, problem.key_words), np.int64)
-        self.tries = np.zeros((most * branching, 4 + problem.spot_words), np.int64)
-        self.tally = np.zeros(checks, np.int64)
-        self.spots = np.zeros((most, problem.spot_words), np.int64)
-        self.burdens = np.zeros((most, len(problem.burdens)))
-        self.room, self.closest = np.zeros(most), np.zeros(most, np.int32)
-        self.aimed = np.zeros((most, problem.goals), np.uint8)
-        self.first = self.end = self.born = self.tried = self.judged = 0
+    def __init__(self, problem: CompiledProblem, axes: int, most: int) -> None:
+        self.params, _ = problem.without_goals()
+        branching, checks, words = problem.branching, len(problem.checks), problem.pose_words
+        codes, stances = np.zeros(branching, np.int32), np.zeros(3, problem.start.dtype)
+        self.scratch = Scratch(codes, stances, np.zeros(checks), np.zeros(checks))
+        self.children = Children(
+            keys=np.zeros((most * branching, problem.key_words), np.int64),
+            tries=np.zeros((most * branching, max(words, axes + 1)), np.int64),
+            tally=np.zeros(checks, np.int64),
+        )
+        self.judged = Judged(
+            poses=np.zeros((most, words), np.int64),
+            costs=np.zeros((most, len(problem.stance_costs))),
+            room=np.zeros(most),
+            closest=np.zeros(most, np.int32),
+            aimed=np.zeros((most, problem.goals), np.uint8),
+        )
+        self.first = self.end = self.born = self.tried = self.actions = 0
 
 
-class Sea:
+class ReachabilityState:
     """The stances seen so far, and the map of them."""
 
-    def __init__(self, problem: CompiledProblem, yardsticks: Yardsticks, holds: int, most: int) -> None:
+    def __init__(
+        self, problem: CompiledProblem, yardsticks: Yardsticks, lattice: PoseLattice, holds: int, most: int
+    ) -> None:
         names = [check.name for check in yardsticks.checks]
-        self.hard = np.array([name in yardsticks.hard for name in names])
-        self.sizes = np.array([yardsticks.sizes.get(name, 0.0) for name in names])
+        self.sizes = Sizes(
+            period=lattice.period,
+            hard=np.array([name in yardsticks.hard for name in names]),
+            margins=np.array([yardsticks.sizes.get(name, 0.0) for name in names]),
+        )
         self.most = most
         self.state = np.zeros(3, np.int64)
         self.stances = Store(problem.key_words, min(most, FIRST))
-        self.poses = Store(3, FIRST, POSE)
-        limbs = problem.spot_words - 3
+        self.poses = Store(len(lattice.axes), FIRST, POSE)
+        limbs = problem.pose_words - len(lattice.axes)
         self.used, self.first_used = np.zeros((limbs, holds), np.int64), np.full((limbs, holds), -1, np.int64)
         self.met, self.first_met = np.zeros(problem.goals, np.int64), np.full(problem.goals, -1, np.int64)
 
@@ -83,36 +108,35 @@ class Sea:
 
     def weigh(self, piece: Piece) -> None:
         """Judge a piece's stances as they stand."""
-        weigh(
-            piece.params.record, self.stances.keys, piece.first, piece.end, self.hard, self.sizes, piece.stances,
-            piece.margins, piece.spare, piece.spots, piece.burdens, piece.room, piece.closest, piece.aimed,
-        )  # fmt: skip
+        record, keys = piece.params.record, self.stances.keys
+        weigh(record, keys, piece.first, piece.end, self.sizes, piece.scratch, piece.judged)
 
     def visit(self, piece: Piece) -> None:
         """Judge a piece's stances as they stand, and find their children."""
         self.weigh(piece)
-        piece.tally[:] = 0
-        piece.born, piece.tried, piece.judged = spread(
-            piece.params.record, self.stances.keys, self.stances.table, piece.first, piece.end, piece.codes,
-            piece.stances, piece.margins, piece.children, piece.tries, piece.tally,
-        )  # fmt: skip
+        piece.children.tally[:] = 0
+        known, span = (self.stances.keys, self.stances.table), (piece.first, piece.end)
+        piece.born, piece.tried, piece.actions = spread(
+            piece.params.record, known, *span, self.sizes.period, piece.scratch, piece.children
+        )
 
     def note(self, piece: Piece, depth: int) -> None:
         """Put a piece's stances on the map."""
         count = piece.end - piece.first
         while self.state[POSES] + count + piece.tried > len(self.poses.keys):
             self.poses.grow(2 * len(self.poses.keys), int(self.state[POSES]))
-        note(
-            piece.spots, piece.burdens, piece.room, piece.closest, piece.aimed, count, depth, self.poses.keys,
-            self.poses.rows, self.poses.table, self.used, self.first_used, self.met, self.first_met, self.state,
-        )  # fmt: skip
-        note_tries(piece.tries, piece.tried, self.poses.keys, self.poses.rows, self.poses.table, self.state)
+        assert self.poses.rows is not None
+        seen = PoseMap(
+            self.poses.keys, self.poses.rows, self.poses.table, self.used, self.first_used, self.met, self.first_met
+        )
+        note(piece.judged, count, depth, seen, self.state)
+        note_tries(piece.children.tries, piece.tried, seen, self.state)
 
     def absorb(self, piece: Piece) -> bool:
         """Take in a piece's children; returns whether the memory sufficed."""
         taken = 0
         while True:
-            taken = absorb(piece.children, taken, piece.born, self.stances.keys, self.stances.table, self.state)
+            taken = absorb(piece.children.keys, taken, piece.born, self.stances.keys, self.stances.table, self.state)
             if taken == piece.born:
                 return True
             if len(self.stances.keys) >= self.most:
@@ -127,8 +151,8 @@ PIECES: Final = 2
 
 
 @dataclass(frozen=True, slots=True)
-class Flood:
-    """What a flood saw."""
+class Exploration:
+    """What an exploration saw."""
 
     ended: str
     """"" if every reachable stance was seen, else why not."""
@@ -140,7 +164,7 @@ class Flood:
     forbidden: Long
     """How often each check forbade an action, shape (n_checks,)."""
     poses: Long
-    """Poses of the body as steps from the start in x, y and angle; those without stances were only tried, shape (n, 3)."""
+    """Poses of the body as steps from the start along each axis; those without stances were only tried, shape (n, axes)."""
     notes: Records
     """Records of `kernels.POSE`, shape (n,)."""
     used: Long
@@ -152,16 +176,17 @@ class Flood:
     first_met: Long
 
 
-def flood(
+def explore_breadth_first(
     problem: CompiledProblem,
     yardsticks: Yardsticks,
+    lattice: PoseLattice,
     *,
     holds: int,
     most_stances: int,
     seconds: float | None = None,
     threads: int | None = None,
     tell: Callable[[int, int, int], None] | None = None,
-) -> Flood:
+) -> Exploration:
     """See every stance that can be reached from the start, whatever the goals, and note what it costs to be there.
 
     Breadth first: a layer holds the stances that take equally many actions. Its pieces are expanded in threads, which only read; what
@@ -170,6 +195,7 @@ def flood(
     Args:
         problem: The task.
         yardsticks: What its margins are measured against.
+        lattice: The lattice of its body's poses.
         holds: Number of the board's holds; 0 where there are none.
         most_stances: Memory: most stances kept, a key and 8 to 16 bytes each, half as much again while memory grows.
         seconds: Most time [s].
@@ -177,60 +203,62 @@ def flood(
         tell: Called now and then with stances, poses and depth.
 
     Returns:
-        The flood; memory, time and Ctrl-C end it, and then it judges and tells what was seen so far, which takes a while longer.
+        The exploration; memory, time and Ctrl-C end it, and then it judges and tells what was seen so far, which takes a while longer.
     """
     clock = Clock(seconds)
     threads = max(1, threads if threads is not None else (os.cpu_count() or 1))
     size = max(1, CHILDREN // problem.branching)
-    pieces = [Piece(problem, size) for _ in range(PIECES * threads if threads > 1 else 1)]
-    sea = Sea(problem, yardsticks, holds, most_stances)
-    plant(pieces[0].params.record, problem.wander()[1], pieces[0].children)
+    axes = len(lattice.axes)
+    pieces = [Piece(problem, axes, size) for _ in range(PIECES * threads if threads > 1 else 1)]
+    reached = ReachabilityState(problem, yardsticks, lattice, holds, most_stances)
+    plant(pieces[0].params.record, problem.without_goals()[1], pieces[0].children.keys)
     pieces[0].born = 1
-    sea.absorb(pieces[0])
+    reached.absorb(pieces[0])
     depth, done, layer_end, judged, ended = 0, 0, 1, 0, ""
     forbidden = np.zeros(len(problem.checks), np.int64)
     pool = _pool(threads)
     try:
-        while done < sea.seen and not ended:
+        while done < reached.seen and not ended:
             if done == layer_end:
-                depth, layer_end = depth + 1, sea.seen
-            for piece in _share(pool, pieces, sea.visit, range(done, layer_end, size), layer_end):
-                sea.note(piece, depth)
-                judged += piece.judged
-                forbidden += piece.tally
-                if not sea.absorb(piece):
+                depth, layer_end = depth + 1, reached.seen
+            for piece in _share(pool, pieces, reached.visit, range(done, layer_end, size), layer_end):
+                reached.note(piece, depth)
+                judged += piece.actions
+                forbidden += piece.children.tally
+                if not reached.absorb(piece):
                     ended = "memory"
                     break
                 done = piece.end
             if tell is not None:
-                tell(sea.seen, int(sea.state[POSES]), depth)
-            if clock.is_over and done < sea.seen:
+                tell(reached.seen, int(reached.state[POSES]), depth)
+            if clock.is_over and done < reached.seen:
                 ended = ended or "time"
     except KeyboardInterrupt:
+        answer()
         ended = "interrupt"
     if pool is not None:
         pool.shutdown(cancel_futures=True)  # waits, so that nobody writes into the pieces any more
     pool = _pool(threads)
-    for end, late in ((layer_end, depth), (sea.seen, depth + 1)):  # what was seen, but is not on the map yet
-        while (first := int(sea.state[WEIGHED])) < end:
-            for piece in _share(pool, pieces, sea.weigh, range(first, end, size), end):
-                sea.note(piece, late)
+    for end, late in ((layer_end, depth), (reached.seen, depth + 1)):  # what was seen, but is not on the map yet
+        while (first := int(reached.state[WEIGHED])) < end:
+            for piece in _share(pool, pieces, reached.weigh, range(first, end, size), end):
+                reached.note(piece, late)
     if pool is not None:
         pool.shutdown()
-    count = int(sea.state[POSES])
-    assert sea.poses.rows is not None
-    return Flood(
+    count = int(reached.state[POSES])
+    assert reached.poses.rows is not None
+    return Exploration(
         ended=ended,
-        stances=sea.seen,
-        depth=depth if sea.seen == layer_end else depth + 1,
+        stances=reached.seen,
+        depth=depth if reached.seen == layer_end else depth + 1,
         judged=judged,
         forbidden=forbidden,
-        poses=sea.poses.keys[:count],
-        notes=sea.poses.rows[:count],
-        used=sea.used,
-        first_used=sea.first_used,
-        met=sea.met,
-        first_met=sea.first_met,
+        poses=reached.poses.keys[:count],
+        notes=reached.poses.rows[:count],
+        used=reached.used,
+        first_used=reached.first_used,
+        met=reached.met,
+        first_met=reached.first_met,
     )
 
 
