@@ -30,7 +30,9 @@ def draw_chart(axes: Axes, task: SpatialTask, bounds: Bounds) -> None:
     axes.tick_params(labelsize=7, colors=style.QUIET, length=2.5)
     for spine in axes.spines.values():
         spine.set_color(style.FAINT)
-    axes.plot([0.0, GRAIN * (len(task.world.frames) - 1)], [0.0, 0.0], color=style.QUIET, lw=0.9, ls=(0, (5, 4)), zorder=1.5)
+    axes.plot(
+        [0.0, GRAIN * (len(task.world.frames) - 1)], [0.0, 0.0], color=style.QUIET, lw=0.9, ls=(0, (5, 4)), zorder=1.5
+    )
     for k, goal in enumerate(task.goals):
         corners = goal_box(goal, bounds)
         if corners is None:

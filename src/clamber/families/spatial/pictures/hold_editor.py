@@ -1,4 +1,4 @@
-"""The part of the viewer's panel that edits holds in space: picked, added and removed by clicks, moved and turned by a handle or numbers."""
+"""The part of the viewer's panel that edits holds in space: by clicks, by a handle that moves and turns them, or by numbers."""
 
 import threading
 from collections.abc import Callable

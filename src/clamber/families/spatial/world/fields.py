@@ -17,7 +17,7 @@ NODES: Final = 1_200_000
 FINEST: Final = 0.004
 """Least distance of two nodes [m]."""
 BAND: Final = 3.0
-"""Exact distances are worked out so many nodes about the surface; those farther away take the nearest of the places that their neighbours have [-]."""
+"""Exact distances are worked out so many nodes about the surface; farther nodes take the nearest place of a neighbour [-]."""
 ROOM: Final = 0.25
 """Of the grid about the terrain, over its largest extent [-]; farther away a distance is that of the grid's edge and on from there."""
 MOST_ROOM: Final = 0.5

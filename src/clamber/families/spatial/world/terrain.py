@@ -131,7 +131,11 @@ def check_terrain(terrain: Terrain, key: str, document: Document) -> None:
     if not np.linalg.norm(np.cross(terrain.x, terrain.z)) > 0.0:
         raise document.problem(f"{key}.z", "must not be zero or lie along x")
     if (terrain.kind == "heights") == (terrain.size is None):
-        allowed = "must be given, of a height map" if terrain.size is None else "is of height maps; meshes and points have a scale"
+        allowed = (
+            "must be given, of a height map"
+            if terrain.size is None
+            else "is of height maps; meshes and points have a scale"
+        )
         raise document.problem(f"{key}.size", allowed)
     if not terrain.scale:
         raise document.problem(f"{key}.scale", "must not be 0")
@@ -255,5 +259,3 @@ def thinned(places: Floats, spacing: float) -> Ints:
             chosen.append(index)
             free[tree.query_ball_point(places[index], spacing)] = False
     return np.array(chosen, np.int64)
-
-
