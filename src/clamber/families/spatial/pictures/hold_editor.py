@@ -2,7 +2,7 @@
 
 import threading
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
@@ -151,7 +151,7 @@ class HoldPanel:
         if event.phase == "end":
             self.apply()
 
-    def _clicked(self, event: "viser.SceneClickEvent[Any]") -> None:
+    def _clicked(self, event: "viser.SceneClickEvent") -> None:
         if not self._editing.value:
             return
         eye, towards = np.array(event.ray_origin), np.array(event.ray_direction)

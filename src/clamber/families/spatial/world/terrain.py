@@ -11,7 +11,7 @@ from pydantic import Field, StrictBool, StrictStr
 from ....files import Document
 from ....regular_files import user_path
 from ....specs import spec
-from ....types import Floats, Ints, Json
+from ....types import Floats, Json
 from ....units import (
     DEGREE,
     Length,
@@ -24,9 +24,9 @@ from ....units import (
 from .packed import Packed, pack
 from .patterns import Seed
 from .solids import Direction, frame_about, unit
-from .terrain_files import read_heights, read_mesh, read_points
+from .terrain_files import Long, read_heights, read_mesh, read_points
 
-Mesh = tuple[Floats, Ints]
+Mesh = tuple[Floats, Long]
 """Vertices [m], shape (n, 3), and triangles that turn anticlockwise seen from outside, shape (m, 3)."""
 STEEP: Final = 60.0 * DEGREE
 """Usual slope limit of height maps and clouds [rad]."""
@@ -247,7 +247,7 @@ def _on_points(terrain: Terrain, spacing: float) -> tuple[Floats, Floats]:
     return places[chosen], normals
 
 
-def thinned(places: Floats, spacing: float) -> Ints:
+def thinned(places: Floats, spacing: float) -> Long:
     """Indices of places, the first of them first, that are `spacing` or more from all chosen before."""
     from scipy.spatial import cKDTree
 

@@ -7,13 +7,15 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
+import numpy.typing as npt
 
 from ....errors import FileError
 from ....files import csv_rows
 from ....regular_files import read_bytes
-from ....types import Floats, Ints
+from ....types import Floats
 from ....units import UNITS, split_title
 
+Long = npt.NDArray[np.int64]
 MOST_BYTES: Final = 64 * 1024 * 1024
 """Largest file that is read [bytes]: what is kept of one is far smaller, and reading takes ten times as much memory."""
 MOST_HEIGHTS: Final = 600 * 600
@@ -180,7 +182,7 @@ def _table(path: Path) -> tuple[Floats, float | None]:
     return points, UNITS["length"][unit] if unit else None
 
 
-def read_mesh(path: Path) -> tuple[Floats, Ints]:
+def read_mesh(path: Path) -> tuple[Floats, Long]:
     """Vertices, shape (n, 3), and triangles that turn anticlockwise seen from outside, shape (m, 3).
 
     Raises:
