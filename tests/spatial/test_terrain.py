@@ -38,7 +38,9 @@ def wavy_map(rows: int = 81, columns: int = 121) -> Floats:
 
 def write_world(folder: Path, *terrain: dict[str, Any], **more: Any) -> Path:
     path = folder / "world.toml"
-    path.write_text(toml_text({"schema": "clamber-world-1", "name": "here", "guide": GUIDE, "terrain": list(terrain)} | more))
+    path.write_text(
+        toml_text({"schema": "clamber-world-1", "name": "here", "guide": GUIDE, "terrain": list(terrain)} | more)
+    )
     return path
 
 
@@ -116,7 +118,9 @@ def test_no_distance_from_a_terrain_grows_faster_than_one_goes(tmp_path: Path) -
     np.save(tmp_path / "map.npy", wavy_map())
     world = read(tmp_path, heights())
     rng = np.random.default_rng(0)
-    a = rng.uniform((-1.2, -0.8, -0.6), (1.2, 0.8, 0.6), (3000, 3))  # over the map; beyond its edge, over and under meet
+    a = rng.uniform(
+        (-1.2, -0.8, -0.6), (1.2, 0.8, 0.6), (3000, 3)
+    )  # over the map; beyond its edge, over and under meet
     b = a + rng.normal(0.0, 0.05, a.shape)
     grown = np.abs(distances(world, a) - distances(world, b)) - np.linalg.norm(a - b, axis=1)
     assert grown.max() < 0.03  # a cell of the grid is 20 mm
@@ -218,7 +222,9 @@ def array(values: Any, **more: Any) -> bytes:
         ("map.tif", b"", "is no height map"),
     ],
 )  # fmt: skip
-def test_what_is_no_height_map_is_refused_by_file_and_reason(tmp_path: Path, name: str, content: bytes, words: str) -> None:
+def test_what_is_no_height_map_is_refused_by_file_and_reason(
+    tmp_path: Path, name: str, content: bytes, words: str
+) -> None:
     (tmp_path / name).write_bytes(content)
     with pytest.raises(FileError, match=words) as refused:
         read_heights(tmp_path / name)
@@ -286,7 +292,9 @@ def test_a_command_makes_a_world_of_each_kind_of_file(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     np.save("map.npy", 0.3 * wavy_map())
-    (tmp_path / "holds.csv").write_text("x,y,z,nx,ny,nz\n" + "".join(f"{0.1 * k},{0.1 * (k % 3)},0,0,0,1\n" for k in range(20)))
+    (tmp_path / "holds.csv").write_text(
+        "x,y,z,nx,ny,nz\n" + "".join(f"{0.1 * k},{0.1 * (k % 3)},0,0,0,1\n" for k in range(20))
+    )
     for words in (("--heights", "map.npy", "--size", "3m,2m", "--slope", "45deg"), ("--table", "holds.csv")):
         code, out, err = clamber("new", "world", *words, "--robot", "gripper-climber", "-o", "made.toml", "--force")
         assert code == 0, err
