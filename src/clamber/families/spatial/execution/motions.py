@@ -21,6 +21,8 @@ SPEED: Final = 0.7
 """Of a joint's largest speed that motions may ask for [-]."""
 SETTLING: Final = 0.1
 """After a motion [s]."""
+PRESSED: Final = 1.5
+"""Force on something that is to be closed about, of that by which it is noticed [-]."""
 LOW: Final = 0.8
 """Share of a swing after which a tip may touch [-]."""
 AROUND: Final = math.radians(137.5)
@@ -175,16 +177,20 @@ def _approach(body: LimbedBody, limb: int, path: TipPath) -> bool:
     if body.attaches(limb):
         body.plant.grip(limb, True)
     body.press(limb, path.normals[1])
-    start = body.tips[limb].copy() if presses(body, limb) else path.end
-    deep, closing = 0.0, round(pace.shift / body.plant.period)
+    deep, closing, met = 0.0, round(pace.shift / body.plant.period), False
+    eager = 0.0
     while deep < pace.depth and closing > 0:
         if touches(body, limb):
             return True
-        if presses(body, limb):  # on something: it has a while to close about it
+        met = met or presses(body, limb)
+        if met:  # on something: pressed on by a force alone, it has a while to close about it
             closing -= 1
+            body.press(limb, path.normals[1], PRESSED * pace.firm)
+            body.swing(limb, (body.tips[limb].copy(), np.zeros(3), np.zeros(3)), pointed)
         else:
-            deep += body.plant.period * pace.approach
-        body.swing(limb, (start + deep * inward, speed, np.zeros(3)), pointed)
+            eager = min(1.0, eager + body.plant.period / pace.shift)  # at once would be a knock
+            deep += eager * body.plant.period * pace.approach
+            body.swing(limb, (path.end + deep * inward, eager * speed, np.zeros(3)), pointed)
         body.tick()
     body.press(-1, inward)
     return False
