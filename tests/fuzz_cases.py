@@ -113,7 +113,7 @@ def prepare(folder: Path, run: Callable[..., int]) -> None:
         run: Runs a command.
     """
     from clamber.execution.log_files import read_log, write_log
-    from clamber.families.climber.execution.course import climbable
+    from clamber.families.climber.execution.executable_plan import climbable
     from clamber.families.climber.planning.plans import thesis_code
     from clamber.planning.problem.plan import Plan
     from clamber.tasks import load_task
@@ -430,8 +430,9 @@ def _refused_with_options(rng: random.Random, folder: Path) -> list[str]:
 
 
 SLOW: Final = frozenset(
-    {("run",), ("trials",), ("rehearse",), ("study",), ("bench",), ("learn",), ("most",), ("view",), ("show",), ("sweep",), ("plan",),
-     ("polish",),
+    {("run",), ("trials",), ("validate",), ("study",), ("bench",), ("learn",), ("max-setting",),
+     ("view",), ("show",), ("sweep",), ("plan",),
+     ("shorten",),
      ("limb", "portrait"), ("limb", "tune"), ("limb", "sweep"), ("plant", "serve"), ("follow",), ("reach",)}
 )  # fmt: skip
 """Commands that may take long with a thing that is there."""

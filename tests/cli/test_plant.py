@@ -19,7 +19,7 @@ from clamber.benchmarks.plant_bench import SERVE, served
 from clamber.cli.printed.library import schema_of
 from clamber.execution.log_files import read_log
 from clamber.families.climber.execution.climb_trace import ClimbTrace
-from clamber.families.climber.execution.course import climbable
+from clamber.families.climber.execution.executable_plan import climbable
 from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.planning.problem.plan import Plan

@@ -13,7 +13,7 @@ from clamber.families.climber.execution.climb_report import ClimbReport
 from clamber.families.climber.execution.climb_trace import TracedClimber
 from clamber.families.climber.execution.climber import FallenError, SlippedError
 from clamber.families.climber.execution.climbing import Climbing
-from clamber.families.climber.execution.course import lay_course
+from clamber.families.climber.execution.executable_plan import lay_course
 from clamber.families.climber.execution.slip import MOVED
 from clamber.families.climber.sim.climber_plant import ClimberPlant
 from clamber.families.climber.trials.noise import draw_for, named_noise
@@ -87,24 +87,26 @@ class Knocked:
 
 def on_two_limbs(step: int, ticks: int) -> When:
     """Some ticks after a step has begun and two limbs carry while the third is free."""
-    return _after(step, ticks, lambda doing: doing.count("hold") == 2 and bool({"joints", "tip"} & set(doing)))
+    return _after(
+        step, ticks, lambda doing: doing.count("stance") == 2 and bool({"swing_joint", "swing_cartesian"} & set(doing))
+    )
 
 
 def on_three_limbs(step: int, ticks: int) -> When:
     """Likewise, while the third one, the bottom limb, clings."""
-    return _after(step, ticks, lambda doing: doing.count("hold") == 2 and doing[BOTTOM] == "cling")
+    return _after(step, ticks, lambda doing: doing.count("stance") == 2 and doing[BOTTOM] == "unloaded_contact")
 
 
 def while_one_pushes(step: int, ticks: int) -> When:
     """Likewise, while the third one pushes its hook onto a hold."""
-    return _after(step, ticks, lambda doing: doing.count("hold") == 2 and "pull" in doing)
+    return _after(step, ticks, lambda doing: doing.count("stance") == 2 and "contact_push" in doing)
 
 
 def _after(step: int, ticks: int, fits: Callable[[list[str]], bool]) -> When:
     seen = [0]
 
     def due(climber: TracedClimber) -> bool:
-        if climber.step >= step and fits([task.doing for task in climber.body.tasks]):
+        if climber.step >= step and fits([task.mode for task in climber.body.tasks]):
             seen[0] += 1
         return seen[0] > ticks
 

@@ -12,8 +12,8 @@ from ..errors import OptionError, PlannerError, SpecError
 from ..inspection.finding import Finding
 from ..inspection.open_file import inspect_file
 from ..planning.exact.costs import read_costs
-from ..planning.openings.find import Openings
-from ..planning.openings.find import find_openings as _find_openings
+from ..planning.infeasibility.find import InfeasibilityExplanation
+from ..planning.infeasibility.find import explain_infeasibility as _find_openings
 from ..planning.planners import accepts, find_planner
 from ..planning.problem.plan import Plan
 from ..planning.problem.plan_source import open_plan
@@ -132,7 +132,9 @@ def inspect(what: str | Path) -> Finding:
     return inspect_file(str(what))
 
 
-def find_openings(task: Task | PlanResult | str, *, seconds: float = 60.0, threads: int | None = None) -> Openings:
+def explain_infeasibility(
+    task: Task | PlanResult | str, *, seconds: float = 60.0, threads: int | None = None
+) -> InfeasibilityExplanation:
     """Which single, smallest changes of an infeasible task would allow a plan.
 
     Args:

@@ -45,7 +45,7 @@ LONGEST: Final = 400
 
 
 @dataclass(slots=True)
-class Hunt:
+class SearchBudget:
     """A rival at work: what it has spent and the best that it has."""
 
     planner: str
@@ -170,7 +170,7 @@ def plan_greedy(
     Raises:
         PlannerError: If the task allows actions that can't be listed one by one.
     """
-    hunt = Hunt("greedy", task, seed, max_checks, seconds, progress)
+    hunt = SearchBudget("greedy", task, seed, max_checks, seconds, progress)
     problem = hunt.problem
     params, weights = problem.params.record, guidance(problem)
     capacity = min(max_stances, max_checks + 1) + problem.branching
@@ -249,7 +249,7 @@ def plan_random(
     Raises:
         PlannerError: If the task allows actions that can't be listed one by one.
     """
-    hunt, made = Hunt("random", task, seed, max_checks, seconds, progress), bursts or Bursts()
+    hunt, made = SearchBudget("random", task, seed, max_checks, seconds, progress), bursts or Bursts()
     problem = hunt.problem
     params, weights = problem.params.record, guidance(problem)
     room = scratch_for(problem, 3)

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from rich.console import Console
 
-from ..terminal.crew import EndsLine, check_resume, executor_of
 from ..terminal.options import AsJson, Output, Ray, Resume, Store, Workers
 from ..terminal.output import announce_compilation, check_writable, print_json, stderr, stdout
+from ..terminal.worker_options import EndsLine, check_resume, executor_of
 from ..viewing.text_table import plain_table
 
 if TYPE_CHECKING:

@@ -10,10 +10,10 @@ import typer
 from rich.console import Console
 
 from ..studies.library import study_titles
-from ..terminal.crew import EndsLine, executor_of
 from ..terminal.name_completion import names_of
 from ..terminal.options import AsJson, Quiet, Resume, Store, Workers, takes_options
 from ..terminal.output import announce_compilation, print_indented, print_json, stderr, stdout
+from ..terminal.worker_options import EndsLine, executor_of
 from ..viewing.text_table import plain_table
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ def choose(order, slots, cells, keys, width, niche, kept_keys, n_kept, table, ni
     Args:
         order: Children, best first: parent times `slots` plus slot.
         slots: Slots per parent.
-        cells, keys: As `Problem.sprout` wrote them.
+        cells, keys: As `Problem.expand_scored` wrote them.
         width: Most children to take.
         niche: Most of one niche.
         kept_keys, n_kept: Keys of all layers so far, with room for `width` more, and their number; the new ones are added.

@@ -110,7 +110,7 @@ def search_layers(
     """
     clock = Clock(seconds)
     weights = np.array([dict(beam.weights).get(name, 0.0) for name in problem.features])
-    out = problem.sprouts(beam.width)
+    out = problem.scored_children(beam.width)
     slots = problem.branching
     kept = _Kept(problem.key_words)
     kept.make_room(1 + beam.width)
@@ -126,7 +126,7 @@ def search_layers(
         while goal < 0 and len(layer) and depth < beam.longest:
             if clock.is_over:
                 break
-            problem.sprout(layer, weights, beam.toll, out)
+            problem.expand_scored(layer, weights, beam.toll, out)
             count = out.count[: len(layer)]
             children = np.flatnonzero((filled < count[:, None]).ravel())
             scores = out.score[: len(layer)].ravel()[children]

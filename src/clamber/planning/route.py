@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from ..errors import PlannerError
 from ..tasks import Task
-from .problem.arrays import WayFields
+from .problem.arrays import CostToGoMap
 from .problem.plan import Plan
 from .problem.problem import CompiledProblem
 from .problem.problems import listed_problem, plan_family
@@ -93,7 +93,7 @@ class _Memory:
 
 def climb(
     problem: CompiledProblem,
-    fields: WayFields,
+    fields: CostToGoMap,
     *,
     weight: float,
     share: float,

@@ -8,8 +8,8 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from . import style
-from .film import Frame, Moment, View, make_frames
 from .panel import LINE, GaugeBars, Place, StepStrip
+from .recording import Frame, Moment, View, make_frames
 from .scene import Bounds
 
 Shown = TypeVar("Shown", contravariant=True)

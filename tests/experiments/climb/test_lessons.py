@@ -5,10 +5,10 @@ from collections.abc import Callable, Sequence
 import numpy as np
 import pytest
 
-from clamber.families.climber.execution.course import lay_course
+from clamber.families.climber.execution.executable_plan import lay_course
 from clamber.families.climber.planning.task import LimbedTask
-from clamber.families.climber.trials.cautions import CAUTIONS, cautious
-from clamber.families.climber.trials.lessons import Climbs, Lesson, Rehearsed, learn
+from clamber.families.climber.trials.plan_repair import Climbs, Lesson, ValidatedPlan, learn
+from clamber.families.climber.trials.planning_margins import PLANNING_MARGINS, with_margins
 from clamber.families.climber.trials.run_plan import climbing_task
 from clamber.families.climber.trials.trial import ClimbTrial
 from clamber.planning.planners import find_planner
@@ -21,7 +21,7 @@ SEEDS = range(40, 48)
 @pytest.fixture(scope="module")
 def climb() -> tuple[LimbedTask, Plan]:
     task = climbing_task(load_task("ladder"))
-    return task, Plan.of_codes(task, find_planner("beam")(cautious(task, CAUTIONS[0])).plan.codes(task))
+    return task, Plan.of_codes(task, find_planner("beam")(with_margins(task, PLANNING_MARGINS[0])).plan.codes(task))
 
 
 def trial(seed: int, step: int, *, done: bool) -> ClimbTrial:
@@ -46,7 +46,7 @@ def test_what_fails_is_done_without_and_what_came_before_stays(climb: tuple[Limb
     grabs = [step for step, action in enumerate(plan.actions, 1) if action.kind == "grab"]
     step = grabs[6]
     grab = plan.actions[step - 1]
-    told: list[tuple[Rehearsed, Lesson | None]] = []
+    told: list[tuple[ValidatedPlan, Lesson | None]] = []
     best = learn(
         task, plan, falls_at(grab.limb, grab.hold, lambda seed: seed % 2 == 0), SEEDS, lessons=12, seconds=60.0,
         told=lambda best, lesson: told.append((best, lesson)),

@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 
 from clamber.errors import SpecError
-from clamber.families.climber.execution.course import lay_course
+from clamber.families.climber.execution.executable_plan import lay_course
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.trials.run_plan import climbing_task
-from clamber.families.climber.trials.steadying import BENT, SHIFT, WORTH, steadied, steadied_result
+from clamber.families.climber.trials.stretch_repair import BENT, SHIFT, WORTH, steadied_result, with_stretch_repaired
 from clamber.planning.planners import find_planner
 from clamber.planning.problem.codes import HOLD
 from clamber.planning.problem.plan import Plan
 from clamber.planning.problem.plan_source import open_plan
-from clamber.planning.problem.problems import plan_family, yardsticks_of
+from clamber.planning.problem.problems import normalisation_of, plan_family
 from clamber.planning.shorten import polish_plan
 from clamber.tasks import load_task
 from clamber.types import Floats, Ints
@@ -23,7 +23,7 @@ from clamber.types import Floats, Ints
 
 def room(task: LimbedTask, codes: Ints) -> Floats:
     """What limbs leave of reach and joint ranges after every action, as shares of these."""
-    sticks = yardsticks_of(task)
+    sticks = normalisation_of(task)
     replay = plan_family(task).problem(task).replay(codes)
     assert replay.ok
     shares = [
@@ -47,7 +47,7 @@ def test_a_steadied_plan_has_the_same_actions_and_ends_in_the_same_stance(found:
     codes = plan.codes(task)
     problem = plan_family(task).problem(task)
     for step in steps_of_grabs(codes):
-        made = steadied(task, codes, step)
+        made = with_stretch_repaired(task, codes, step)
         assert Counter(made.tolist()) == Counter(codes.tolist())
         before, after = problem.replay(codes), problem.replay(made)
         assert before.ok and after.ok
@@ -60,7 +60,7 @@ def test_the_grab_that_is_steadied_gains_and_nothing_comes_nearer_to_a_limit(fou
     codes = plan.codes(task)
     before = room(task, codes)
     for turn, step in enumerate(steps_of_grabs(codes)):
-        made = steadied(task, codes, step)
+        made = with_stretch_repaired(task, codes, step)
         after = room(task, made)
         new = steps_of_grabs(made)[turn]
         assert made[new - 1] == codes[step - 1]
@@ -75,7 +75,7 @@ def test_a_grab_is_made_before_the_step_that_stretches_the_limbs() -> None:
     assert [action.title for action in opened.plan.actions[89:91]] == ["right grabs 5", "+y"]
     later = codes.copy()
     later[89:91] = codes[90], codes[89]
-    assert np.array_equal(steadied(task, later, 91), codes)
+    assert np.array_equal(with_stretch_repaired(task, later, 91), codes)
 
 
 def test_a_plan_that_does_not_hold_stays_as_it_is() -> None:
@@ -83,7 +83,7 @@ def test_a_plan_that_does_not_hold_stays_as_it_is() -> None:
     task = climbing_task(opened.task)
     codes = opened.plan.codes(task)
     assert lay_course(task, opened.plan).objections
-    assert np.array_equal(steadied(task, codes, steps_of_grabs(codes)[0]), codes)
+    assert np.array_equal(with_stretch_repaired(task, codes, steps_of_grabs(codes)[0]), codes)
 
 
 def test_a_steadied_result_can_be_carried_out_and_says_what_was_done(found: tuple[LimbedTask, Plan]) -> None:
@@ -93,7 +93,7 @@ def test_a_steadied_result_can_be_carried_out_and_says_what_was_done(found: tupl
         result = steadied_result(polished, step)
         assert lay_course(task, result.plan).objections == ()
         moved = result.plan.actions != plan.actions
-        assert result.planner == f"{plan.planner}{', steadied' * moved}" == result.plan.planner
+        assert result.planner == f"{plan.planner}{', with_stretch_repaired' * moved}" == result.plan.planner
         assert ("made elsewhere" if moved else "where it is steadiest") in result.reason
 
 

@@ -22,8 +22,8 @@ from clamber.planning.problem.verdict import check_plan
 from clamber.tasks import Task, load_task
 from clamber.viewing.browser import work_panel
 from clamber.viewing.browser.app import App, PortError, check_port
-from clamber.viewing.browser.exhibit import Planned, open_exhibit
-from clamber.viewing.film import Film
+from clamber.viewing.browser.viewer_content import Planned, open_exhibit
+from clamber.viewing.recording import Recording
 
 Serve = Callable[..., App]
 
@@ -95,7 +95,7 @@ def test_plan_and_run_are_made_and_shown_together(serve: Serve, compiled: None) 
     app.playback.jump(1)
     assert shown_figures(app) == {"run", "plan ghost"}
     app.choose("plan")
-    plan: Film[Any] = app.stage.films["plan"]
+    plan: Recording[Any] = app.stage.films["plan"]
     assert app.playback.film is plan
     assert shown_figures(app) == {"plan"}
     board.apply()  # another board has no plan yet

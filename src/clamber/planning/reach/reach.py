@@ -12,7 +12,7 @@ from ...files import write_atomically
 from ...json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ...tasks import Task
 from ..problem.body_pose import PoseLattice
-from ..problem.problems import listed_problem, plan_family, without_hangs, yardsticks_of
+from ..problem.problems import listed_problem, normalisation_of, plan_family, without_hangs
 from ..progress import Clock
 from .exploration import Exploration, explore_breadth_first
 from .table import Rim, Table, place_table, pose_table, rim_of
@@ -212,7 +212,7 @@ def find_reach(
     lattice = plan_family(posed).lattice(posed, problem)
     seen = explore_breadth_first(
         problem,
-        yardsticks_of(posed),
+        normalisation_of(posed),
         lattice,
         holds=len(holds),
         most_stances=max_stances,

@@ -13,7 +13,7 @@ from ....viewing.output import drawing
 from ....viewing.style import LAW_COLOURS, MATCH_LINES, WANTED, bare
 from ..trials.body_bench import SLOT, BodyEntry, BodyRun
 from ..trials.body_stand import BodyScenario
-from ..trials.press import Pressed
+from ..trials.hold_force import Pressed
 
 MILLI: Final = 1e3
 COORDINATED: Final = "#8C564B"

@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from ....types import Floats, Records
-from ....viewing.film import Part
+from ....viewing.recording import Part
 from ..planning.checks import SPATIAL_CHECKS
 from ..planning.judging_kernels import judge_stance
 from ..planning.plans import poses_of

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from ....viewing.browser.exhibit import Scenes
 from ....viewing.browser.solids import FOV, NARROW, Camera, Scenery
+from ....viewing.browser.viewer_content import Scenes
 from ....viewing.scene import Bounds
 from ..planning.task import SpatialTask
 from .camera import camera_for

@@ -22,7 +22,7 @@ EVERY: Final = 8
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Course:
+class Tilts:
     """Inclines over time."""
 
     time: Floats
@@ -37,7 +37,7 @@ class Course:
     """Times between which legs move [s]."""
 
 
-def draw_inclining(courses: Mapping[str, Course], *, within: float, path: str | Path) -> None:
+def draw_inclining(courses: Mapping[str, Tilts], *, within: float, path: str | Path) -> None:
     """Draw what is wanted and read, and below it the plate's true error.
 
     Args:
@@ -56,7 +56,7 @@ def draw_inclining(courses: Mapping[str, Course], *, within: float, path: str | 
         grid[0, 0].legend(fontsize=8, loc="lower left")
 
 
-def _draw_inclines(axes: Axes, course: Course) -> None:
+def _draw_inclines(axes: Axes, course: Tilts) -> None:
     _shade(axes, course)
     for k, (name, colour) in enumerate(zip(AXES, style.PARTS, strict=False)):
         axes.plot(course.time, course.read[:, k], color=colour, lw=1.2, label=f"read {name}")
@@ -64,7 +64,7 @@ def _draw_inclines(axes: Axes, course: Course) -> None:
     style.bare(axes)
 
 
-def _draw_error(axes: Axes, course: Course, within: float) -> None:
+def _draw_error(axes: Axes, course: Tilts, within: float) -> None:
     _shade(axes, course)
     error = np.hypot(*(course.true - course.wanted).T)
     for begin, arrive in course.moves:
@@ -78,7 +78,7 @@ def _draw_error(axes: Axes, course: Course, within: float) -> None:
     style.bare(axes)
 
 
-def _shade(axes: Axes, course: Course) -> None:
+def _shade(axes: Axes, course: Tilts) -> None:
     for begin, arrive in course.moves:
         axes.axvspan(begin, arrive, color=MOVING, lw=0, zorder=0)
 
