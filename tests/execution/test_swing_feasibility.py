@@ -76,6 +76,7 @@ def test_what_has_no_way_on_paper_is_missed_in_climbs() -> None:
     assert missed and set(missed) == set(blocked)
 
 
+@pytest.mark.slow
 def test_it_is_the_same_each_time() -> None:
     opened = open_plan("ladder-hand")
     task = ringed(10, 0.12)

@@ -18,6 +18,7 @@ from clamber.families.walker.world.ground import Ground, load_ground
 from clamber.tasks.robots import load_robot
 from clamber.viewing.output import SuffixError
 from clamber.viewing.pictures import write_run_picture
+from tiers import first_fast
 
 
 @pytest.fixture(scope="module")
@@ -84,7 +85,7 @@ def test_walks_are_drawn_as_the_suffix_says(robot: WalkerRobot, walk: TrueWalk, 
 FAR = ((1.0, 0.0), (2.0, 0.0), (0.0, 2.0))
 
 
-@pytest.mark.parametrize("end", [(0.1, 0.0), (1.2, 1.2), *(pytest.param(end, marks=pytest.mark.slow) for end in FAR)])
+@pytest.mark.parametrize("end", first_fast([(0.1, 0.0), (1.2, 1.2), *FAR]))
 def test_views_fill_the_picture_whatever_the_way(
     robot: WalkerRobot, walk: TrueWalk, end: tuple[float, float], tmp_path: Path
 ) -> None:

@@ -84,6 +84,7 @@ def test_the_tool_comes_stays_and_leaves_within_range_and_speed(monkeypatch: pyt
     np.testing.assert_allclose(arms[-1], ARM.rest, atol=1e-6)
 
 
+@pytest.mark.slow
 def test_the_tool_goes_along_a_line_evenly_with_the_way(monkeypatch: pytest.MonkeyPatch) -> None:
     """Through a corner, 0.13 m of line on 0.12 m of way; the tool waits wherever the robot stands."""
     monkeypatch.setattr("spring_walks.SpringsWalker", Watched)

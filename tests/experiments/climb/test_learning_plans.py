@@ -73,6 +73,7 @@ def test_cautions_bar_holds_besides_those_of_the_task() -> None:
     assert {name: set(numbers) for name, numbers in more.rules.barred.items()} == {"left": {7, 9}, "right": {8}}
 
 
+@pytest.mark.slow
 def test_a_grab_that_failed_is_made_elsewhere_and_then_done_without() -> None:
     task = climbing_task(load_task("ladder"))
     tried: list[Plan] = []

@@ -1,5 +1,7 @@
 """Another way on from somewhere in a plan: what comes before stays, and doubtful grabs are done without."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -22,6 +24,7 @@ from clamber.planning.problem.problems import plan_family
 from clamber.tasks import load_task
 
 
+@cache
 def found(name: str, planner: str = "beam") -> tuple[LimbedTask, Plan]:
     task = climbing_task(load_task(name))
     result = find_planner(planner)(with_margins(task, PLANNING_MARGINS[0]))

@@ -62,6 +62,7 @@ def test_what_fails_is_done_without_and_what_came_before_stays(climb: tuple[Limb
     assert lay_course(task, best.plan).objections == ()
 
 
+@pytest.mark.slow
 def test_a_change_that_climbs_no_more_often_is_not_kept(climb: tuple[LimbedTask, Plan]) -> None:
     task, plan = climb
 

@@ -2,6 +2,8 @@
 
 import math
 
+import pytest
+
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.trials.noise import NO_NOISE, read_noise
 from clamber.families.climber.trials.plan_validation import SEEDS, PlanValidation, validate_plan
@@ -25,6 +27,7 @@ def test_rehearsals_are_told_apart_by_climbs_then_by_how_far_they_came() -> None
     assert PlanValidation(1, 0.2) > PlanValidation(0, 0.9) > PlanValidation(0, 0.3)
 
 
+@pytest.mark.slow
 def test_every_candidate_may_be_asked_for_and_the_one_that_does_best_is_taken() -> None:
     asked: list[Plan] = []
 
