@@ -27,7 +27,7 @@ DEFINED = {
     "command_tips": "command_contact_forces", "best_within": "max_min_solution", "spot": "body_pose", "burden": "stance_cost",
     "burdens": "stance_costs", "freer": "dominating", "toward": "heuristic_between", "wander": "without_goals", "sprout": "expand_scored",
     "sprouts": "scored_children", "Sprouts": "ScoredChildren", "WayFields": "CostToGoMap", "Way": "path, plan", "Course": "ExecutablePlan",
-    "Sea": "ReachabilityState", "Flood": "Exploration", "Caution": "PlanningMargins", "caution": "planning_margins", "mended": "repaired",
+    "Sea": "ReachabilityState", "Flood": "Exploration", "Caution": "PlanningMargins", "caution": "margins", "mended": "repaired",
     "steadied": "with_stretch_repaired", "rehearse": "validate", "Rehearsal": "PlanValidation", "Opening": "FeasibleRelaxation",
     "Shut": "FailedRelaxation", "Openings": "InfeasibilityExplanation", "LentPlate": "RedundancyAllocation", "lent_plate":
     "redundancy_allocation", "PlateRoom": "FreeBaseFreedoms", "plate_room": "free_base_freedoms", "takes_words": "takes_options", "Telling":

@@ -81,6 +81,6 @@ def test_a_limb_folded_into_the_body_is_pushed_out_with_no_more_than_the_most() 
 def test_limbs_that_push_at_a_hold_or_have_no_potential_are_as_they_were() -> None:
     robot = robot_named("libra")
     angles = np.array((0.0, math.pi - 0.05))
-    assert repelled(robot, 0, angles, "joints")[0].any()
-    assert not repelled(robot, 0, angles, "pull")[0].any()
+    assert repelled(robot, 0, angles, "swing_joint")[0].any()
+    assert not repelled(robot, 0, angles, "contact_push")[0].any()
     assert BodyGains().potential == 0.0

@@ -61,7 +61,7 @@ def plan_mcts(
     Args:
         task: What to plan.
         seed: Same seed, same plan.
-        seconds: Most wall-clock time [s].
+        seconds: Most time [s].
         threads: The search runs on one.
         max_checks: Most actions to judge.
         max_stances: Memory: most nodes of the tree.

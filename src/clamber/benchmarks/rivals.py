@@ -158,7 +158,7 @@ def plan_greedy(
     Args:
         task: What to plan.
         seed: Only written down: nothing here is drawn at random.
-        seconds: Most wall-clock time [s].
+        seconds: Most time [s].
         threads: The search runs on one.
         max_checks: Most actions to judge; a stance being expanded is finished.
         max_stances: Memory: most stances kept.
@@ -237,7 +237,7 @@ def plan_random(
     Args:
         task: What to plan.
         seed: Same seed, same plan.
-        seconds: Most wall-clock time [s].
+        seconds: Most time [s].
         threads: The search runs on one.
         max_checks: Most actions to judge.
         progress: Called now and then.

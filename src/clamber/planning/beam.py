@@ -39,7 +39,7 @@ def plan_beam(
         width: Stances kept of each layer at first.
         longest: Most actions of a plan.
         polish: Most stances that windows about the plan may see afterwards (`planning.shorten`); 0 for none.
-        seconds: Most wall-clock time [s].
+        seconds: Most time [s].
         threads: Threads; None for one a core. The plan does not depend on them.
         progress: Called after every layer.
 

@@ -184,7 +184,7 @@ def plan_route(
     Args:
         task: What to plan.
         seed: Only written down: nothing here is drawn at random.
-        seconds: Most wall-clock time [s].
+        seconds: Most time [s].
         threads: The search itself runs on one; replays take as many as given.
         max_stances: Memory: most stances kept. Running out is a result ("stopped").
         progress: Called now and then.

@@ -80,7 +80,7 @@ def plan_front(
     Args:
         task: What to plan.
         costs: Two of "length" and the costs of the robot's family.
-        seconds: Most wall-clock time [s].
+        seconds: Most time [s].
         threads: As for `plan_exact`.
         max_stances: Memory; running out leaves the front incomplete, and says so.
         progress: Called now and then.

@@ -194,7 +194,7 @@ def find_reach(
         hangs: Whether hangs count as the task's rules have them. They take the body off the lattice of steps, so that with any number
             of them the space has no end; without this they are left out.
         max_stances: Memory: most stances kept. Running out is a result ("incomplete").
-        seconds: Most wall-clock time [s].
+        seconds: Most time [s].
         threads: The answer doesn't depend on them; None for one a core.
         progress: Called now and then with stances, poses tried and actions from the start.
 

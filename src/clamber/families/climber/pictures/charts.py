@@ -25,7 +25,7 @@ def draw_cones(lengths: Mapping[str, Mapping[float, int | None]], path: str | Pa
 
     Args:
         lengths: Board -> half angle of the cone [deg] -> actions of the shortest plan, None where there is none.
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     with drawing(path, (7.2, 4.8)) as figure:
         axes = figure.subplots()
@@ -86,7 +86,7 @@ def draw_trials(summary: TrialSummary, path: str | Path) -> None:
 
     Args:
         summary: Of one climb or more.
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     check_suffix(path, CANVASES)
     with styled():

@@ -200,10 +200,10 @@ def _changes(task: LimbedTask, best: ValidatedPlan, seconds: float) -> Iterator[
             yield step, "made where it is steadier", replace(plan, actions=Plan.of_codes(task, made).actions)
     course = lay_course(task, plan)
     for back in BACKS:
-        for planning_margins in (*steady(task), *PLANNING_MARGINS):
+        for margins in (*steady(task), *PLANNING_MARGINS):
             for step in steps:
                 for grab in grabs_of(course, step):
-                    avoiding = without(planning_margins, plan, grab)
+                    avoiding = without(margins, plan, grab)
                     other = other_end(course, plan, grab, back, avoiding, seconds)
                     other = None if other is None else repaired(task, other, avoiding, seconds)
                     if other is not None:

@@ -77,27 +77,25 @@ def plan_to_climb(
             events.cut()
         return result if result.has_plan else None
 
-    def found_with(planning_margins: PlanningMargins, planner: str) -> Plan | None:
-        result = search(with_margins(task, planning_margins), planner)
+    def found_with(margins: PlanningMargins, planner: str) -> Plan | None:
+        result = search(with_margins(task, margins), planner)
         if result is None:
             return None
         # the same actions, for the robot and the board as they are
         plan = Plan.of_codes(task, result.plan.codes(task), seed=seed, planner=result.plan.planner)
         return None if lay_course(task, plan).objections else plan
 
-    def repaired_with(planning_margins: PlanningMargins, planner: str) -> Plan | None:
-        plan = found_with(planning_margins, planner)
-        return None if plan is None else repaired(task, plan, planning_margins, seconds) or plan
+    def repaired_with(margins: PlanningMargins, planner: str) -> Plan | None:
+        plan = found_with(margins, planner)
+        return None if plan is None else repaired(task, plan, margins, seconds) or plan
 
-    easy, hard = _by_ease(task, lambda planning_margins: found_with(planning_margins, planner))
+    easy, hard = _by_ease(task, lambda margins: found_with(margins, planner))
     quick = QUICK if planner in PROVERS else planner
     if validate_plan is None:  # the robot waits
-        steadier = (found_with(planning_margins, quick) for planning_margins in steady(task))
+        steadier = (found_with(margins, quick) for margins in steady(task))
         first = next((plan for plans in (easy, steadier, hard) for plan in plans if plan is not None), None)
     else:
-        first = _rehearsed(
-            task, easy, hard, lambda planning_margins: repaired_with(planning_margins, quick), validate_plan
-        )
+        first = _rehearsed(task, easy, hard, lambda margins: repaired_with(margins, quick), validate_plan)
     if first is not None:
         return first
     result = search(task, planner)
@@ -109,8 +107,8 @@ def _by_ease(task: LimbedTask, find: Callable[[PlanningMargins], Plan | None]) -
     found: list[tuple[float, Plan]] = []
     seen: set[bytes] = set()
     least = math.inf
-    for rank, planning_margins in enumerate(PLANNING_MARGINS):
-        plan = find(planning_margins)
+    for rank, margins in enumerate(PLANNING_MARGINS):
+        plan = find(margins)
         if plan is None:
             continue
         codes = plan.codes(task).tobytes()
@@ -147,8 +145,8 @@ def _rehearsed(
     for plan in easy:
         if tried(plan).flawless:
             return plan
-    for planning_margins in steady(task):
-        taught = _taught(task, planning_margins, find, tried)
+    for margins in steady(task):
+        taught = _taught(task, margins, find, tried)
         if taught is not None:
             return taught
     for plan in hard:
@@ -159,12 +157,12 @@ def _rehearsed(
 
 def _taught(
     task: LimbedTask,
-    planning_margins: PlanningMargins,
+    margins: PlanningMargins,
     find: Callable[[PlanningMargins], Plan | None],
     tried: Callable[[Plan], PlanValidation],
 ) -> Plan | None:
     """A plan whose rehearsal is flawless: the grab that failed in the rehearsal before is made where it is steadier, or done without."""
-    plan = find(planning_margins)
+    plan = find(margins)
     for _ in range(LESSONS):
         if plan is None:
             return None
@@ -174,12 +172,12 @@ def _taught(
         if done.failed is None:
             return None
         codes = plan.codes(task)
-        made = with_stretch_repaired(with_margins(task, planning_margins), codes, done.failed)
+        made = with_stretch_repaired(with_margins(task, margins), codes, done.failed)
         if not np.array_equal(made, codes):
             plan = Plan.of_codes(task, made, seed=plan.seed, planner=plan.planner)
             continue
-        planning_margins = without(planning_margins, plan, done.failed)
-        plan = find(planning_margins)
+        margins = without(margins, plan, done.failed)
+        plan = find(margins)
     return None
 
 

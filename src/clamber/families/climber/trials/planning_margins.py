@@ -95,54 +95,50 @@ def steady(task: LimbedTask) -> tuple[PlanningMargins, ...]:
     return (*HANGING, *STEADY) if task.rules.max_hangs > 0 else STEADY
 
 
-def with_margins(task: LimbedTask, planning_margins: PlanningMargins) -> LimbedTask:
+def with_margins(task: LimbedTask, margins: PlanningMargins) -> LimbedTask:
     """A task that asks for more than its checks do, so that what holds in it can bear to be carried out."""
     document = copy.deepcopy(task.document)
     hooks = hooked(task)
     if hooks:  # grippers may well push one against the other
         board = {key: value for key, value in document["board"].items() if key not in GENERATORS}
-        document["board"] = board | {
-            "holds": [_spared(hold, task.robot.weight, planning_margins) for hold in task.world.holds]
-        }
-    if planning_margins.barred:
+        document["board"] = board | {"holds": [_spared(hold, task.robot.weight, margins) for hold in task.world.holds]}
+    if margins.barred:
         barred = {name: list(numbers) for name, numbers in task.rules.barred.items()}
-        for name, number in planning_margins.barred:
+        for name, number in margins.barred:
             barred[name] = [*barred.get(name, []), number]
         document["rules"] = document.get("rules", {}) | {"barred": barred}
     changed = task_from_document(document, "cautious task")
     rules = task.rules
-    stretched = (planning_margins.bend is None and hooks) or rules.offset_while_holding
+    stretched = (margins.bend is None and hooks) or rules.offset_while_holding
     settings = [
-        f"rules.hook_cone={min(rules.hook_cone / DEGREE, planning_margins.hook_cone)!r} deg",
-        f"rules.hook_pull={max(rules.hook_pull, planning_margins.pull * task.robot.weight)!r} N",
-        f"rules.reach_offset={max(rules.reach_offset, planning_margins.spare * INCH)!r} m",
+        f"rules.hook_cone={min(rules.hook_cone / DEGREE, margins.hook_cone)!r} deg",
+        f"rules.hook_pull={max(rules.hook_pull, margins.pull * task.robot.weight)!r} N",
+        f"rules.reach_offset={max(rules.reach_offset, margins.spare * INCH)!r} m",
         f"rules.offset_while_holding={str(stretched).lower()}",
-        f"rules.holding_offset={max(rules.holding_offset, (planning_margins.bend or 0.0) * INCH * hooks)!r} m",
-        f"motor.torque_limit={planning_margins.share * task.robot.motor.torque_limit!r} N m",
+        f"rules.holding_offset={max(rules.holding_offset, (margins.bend or 0.0) * INCH * hooks)!r} m",
+        f"motor.torque_limit={margins.share * task.robot.motor.torque_limit!r} N m",
     ]
-    if planning_margins.swing is not None:
+    if margins.swing is not None:
         # with a number of hangs, the same stance after fewer and more of them would be two
-        settings += [f"rules.max_swing={planning_margins.swing!r} deg", "rules.max_hangs=-1"]
-    if planning_margins.room is not None:
-        hard = dict.fromkeys(
-            (*rules.hard, "holder_peg", *INSIDE * planning_margins.inside, *ALOOF * planning_margins.aloof)
-        )
+        settings += [f"rules.max_swing={margins.swing!r} deg", "rules.max_hangs=-1"]
+    if margins.room is not None:
+        hard = dict.fromkeys((*rules.hard, "holder_peg", *INSIDE * margins.inside, *ALOOF * margins.aloof))
         settings += [
             f"rules.hard=[{', '.join(repr(name) for name in hard)}]",
             f"rules.hook_width={HOOK_WIDTH!r} m",
             f"rules.hook_ahead={HOOK_AHEAD!r} m",
             f"rules.hook_way={HOOK_WAY!r} m",
-            f"rules.hook_room={planning_margins.flare * MM!r} m",
-            f"link_radius={task.robot.link_radius + planning_margins.room * MM!r} m",
+            f"rules.hook_room={margins.flare * MM!r} m",
+            f"link_radius={task.robot.link_radius + margins.room * MM!r} m",
         ]
     cautious_task = change_task(changed, settings)
     assert isinstance(cautious_task, LimbedTask)  # the robot stays what it is
     return cautious_task
 
 
-def _spared(hold: Hold, weight: float, planning_margins: PlanningMargins) -> Json:
+def _spared(hold: Hold, weight: float, margins: PlanningMargins) -> Json:
     if hold.direction is None:
-        made = hold_document(hold, -90.0 * DEGREE, planning_margins.hold_cone * DEGREE)
+        made = hold_document(hold, -90.0 * DEGREE, margins.hold_cone * DEGREE)
     else:
         made = hold_document(hold, hold.direction, hold.cone)
-    return {"strength": f"{planning_margins.strength * weight!r} N"} | made
+    return {"strength": f"{margins.strength * weight!r} N"} | made

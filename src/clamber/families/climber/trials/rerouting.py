@@ -30,11 +30,11 @@ MENDED: Final = 8
 """Most changes of a plan, one after the other."""
 
 
-def without(planning_margins: PlanningMargins, plan: Plan, step: int) -> PlanningMargins:
+def without(margins: PlanningMargins, plan: Plan, step: int) -> PlanningMargins:
     """The caution that does without the grab of a step."""
     grab = plan.actions[step - 1]
     assert grab.limb is not None and grab.hold is not None  # a plan names what it took
-    return replace(planning_margins, barred=(*planning_margins.barred, (grab.limb, grab.hold)))
+    return replace(margins, barred=(*margins.barred, (grab.limb, grab.hold)))
 
 
 def doubtful_grabs(course: ExecutablePlan) -> list[int]:
@@ -47,7 +47,7 @@ def doubtful_grabs(course: ExecutablePlan) -> list[int]:
     return sorted(steps - {0})  # what the start lacks no grab mends
 
 
-def repaired(task: LimbedTask, plan: Plan, planning_margins: PlanningMargins, seconds: float) -> Plan | None:
+def repaired(task: LimbedTask, plan: Plan, margins: PlanningMargins, seconds: float) -> Plan | None:
     """A plan without doubtful grabs: changed from shortly before the first of them, until there is none.
 
     Args:
@@ -66,7 +66,7 @@ def repaired(task: LimbedTask, plan: Plan, planning_margins: PlanningMargins, se
             return plan
         best: tuple[tuple[int, int], Plan, ExecutablePlan, list[int]] | None = None
         for step, back in product(grabs_of(course, doubtful[0])[:2], BACKS):
-            other = other_end(course, plan, step, back, without(planning_margins, plan, step), seconds)
+            other = other_end(course, plan, step, back, without(margins, plan, step), seconds)
             if other is None:
                 continue
             laid = lay_course(task, other)
@@ -100,7 +100,7 @@ def grabs_of(course: ExecutablePlan, step: int) -> list[int]:
 
 
 def other_end(
-    course: ExecutablePlan, plan: Plan, step: int, back: int, planning_margins: PlanningMargins, seconds: float
+    course: ExecutablePlan, plan: Plan, step: int, back: int, margins: PlanningMargins, seconds: float
 ) -> Plan | None:
     """A plan with another end, from `back` grabs before a step on; None where none is found, or something speaks against it.
 
@@ -115,7 +115,7 @@ def other_end(
     task, codes = course.task, plan.codes(course.task)
     cut = cut_before(plan, step, back)
     try:
-        left = with_margins(task_from_here(course, cut + 1, course.holds(cut), set()), planning_margins)
+        left = with_margins(task_from_here(course, cut + 1, course.holds(cut), set()), margins)
         result = plan_beam(left, longest=round(LONGER * (len(codes) - cut)), seconds=seconds)
     except StartError:  # it stands where no such plan may begin
         return None

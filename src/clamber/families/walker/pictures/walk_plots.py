@@ -43,7 +43,7 @@ def draw_inclining(courses: Mapping[str, Tilts], *, within: float, path: str | P
     Args:
         courses: Title -> course; a column each.
         within: Error that is allowed at rest [deg].
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     with drawing(path, (4.9 * len(courses), 5.0)) as figure:
         grid = figure.subplots(2, len(courses), sharex="col", sharey="row", squeeze=False, height_ratios=(1.5, 1.0))
@@ -91,7 +91,7 @@ def draw_directions(tilts: Floats, angles: Floats, right: Floats, told: Floats, 
         angles: Steepest angle by beta and gamma [deg], shape (n, n).
         right: Its direction, likewise [rad].
         told: The direction that the equation gives, likewise [rad].
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     with drawing(path, (6.0, 6.0)) as figure:
         axes = figure.subplots()
@@ -126,7 +126,7 @@ def draw_levelling(
         level: Name -> walk with the plate kept level.
         tilted: The same names -> walks with the plate as the slope.
         within: What counts as level [deg].
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     with drawing(path, (3.6 * len(level), 4.6)) as figure:
         grid = figure.subplots(2, len(level), sharex=True, sharey="row", squeeze=False)
@@ -172,7 +172,7 @@ def draw_paths(runs: Mapping[str, WalkRun], centres: Mapping[str, tuple[float, f
     Args:
         runs: Name -> walk.
         centres: Name -> point that it turned about, where it did, in the Delta-frame at the start [m].
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     with drawing(path, (6.2, 5.2)) as figure:
         axes = figure.add_subplot()
