@@ -32,6 +32,7 @@ QUICK = (
     "new board --random --force --holds 20 -o board.toml",
     "new robot --force -o robot.toml",
     "new task --force -o task.toml",
+    "new world stones --force -o world.toml",
     "new board --random --force --holds 20 --task -o wall.toml",
     "view ladder-hand --save page.html",
     "view ladder --no-browser --seconds 0",

@@ -183,7 +183,7 @@ def test_missing_package_is_named(clamber: Clamber, monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(sys, "meta_path", [Absent(), *sys.meta_path])
     code, _, err = clamber("view", "ladder")
     assert code == 2
-    assert 'pip install "clamber[view]"' in err
+    assert 'pip install ".[view]"' in err
 
 
 def test_saved_page_is_whole_and_names_no_other(clamber: Clamber, tmp_path: Path) -> None:

@@ -19,7 +19,7 @@ from clamber.families.climber.execution.climber import Climber
 from clamber.families.climber.execution.executable_plan import ExecutablePlan, lay_course
 from clamber.families.climber.execution.hold_map import HoldMap
 from clamber.families.climber.execution.remaining_task import task_from_here
-from clamber.families.climber.trials.plan_validation import REHEARSED
+from clamber.families.climber.trials.plan_validation import VALIDATION_NOISE
 from clamber.families.climber.trials.run_plan import ClimbRun, climbing_flaws, climbing_task, run_plan
 from clamber.planning.problem.plan import Plan, load_plan
 from clamber.tasks import load_task, task_from_document
@@ -53,7 +53,7 @@ def climb(course: ExecutablePlan, actions: int, seed: int) -> ClimbRun:
     whole = load_plan(SAVED)
     codes = whole.codes(climbing_task(load_task("across-hanging")))[BEFORE - 1 :]
     plan = Plan.of_codes(course.task, codes[:actions], planner="beam")
-    return run_plan(course.task, plan, climbing_flaws(course.task, ()), noise=REHEARSED, seed=seed)
+    return run_plan(course.task, plan, climbing_flaws(course.task, ()), noise=VALIDATION_NOISE, seed=seed)
 
 
 def true_tip(run: ClimbRun, i: int) -> Floats:

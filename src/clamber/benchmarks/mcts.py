@@ -5,6 +5,7 @@ from typing import Final
 
 import numpy as np
 
+from ..interrupts import answer
 from ..planning.problem.problem import Records
 from ..planning.progress import Listener
 from ..planning.result import PlanResult
@@ -83,6 +84,7 @@ def plan_mcts(
             tree.descend()
             hunt.tell()
     except KeyboardInterrupt:
+        answer()
         hunt.interrupted = True
     return hunt.result()
 

@@ -11,6 +11,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from ..errors import how_to_install
 from ..planning.genetic.evolve import Genes, first_generation, next_generation, weights_for
 from ..planning.genetic.profile import load_profile
 from ..planning.problem.problem import CompiledProblem
@@ -267,7 +268,7 @@ def race_rows(
 
 def _rows(name: str, runs: list[Race], seeds: int, seconds: float) -> list[Row]:
     if not runs:
-        return [Row(f"{name} (not installed: pip install 'clamber[bench]')", NOTHING, "plans/s")]
+        return [Row(f"{name} (not installed: {how_to_install('bench')})", NOTHING, "plans/s")]
     found = sum(run.success is not None for run in runs)
     return [
         Row(f"{name}: plans per second, median of {seeds} seeds", median(run.rate for run in runs), "plans/s"),

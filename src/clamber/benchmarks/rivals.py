@@ -5,6 +5,7 @@ from typing import Final
 
 import numpy as np
 
+from ..interrupts import answer
 from ..planning.problem.plan import Plan
 from ..planning.problem.problem import CompiledProblem
 from ..planning.problem.problems import listed_problem, plan_family
@@ -197,6 +198,7 @@ def plan_greedy(
             hunt.value = float(nodes.value[state[BEST]])
             hunt.tell()
     except KeyboardInterrupt:
+        answer()
         hunt.interrupted = True
     end = max(0, int(state[GOAL])) if status == FOUND else int(state[BEST])
     hunt.value = -np.inf
@@ -277,5 +279,6 @@ def plan_random(
                 hunt.take(way, value, found=reached)
             hunt.tell()
     except KeyboardInterrupt:
+        answer()
         hunt.interrupted = True
     return hunt.result()

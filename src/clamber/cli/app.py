@@ -183,11 +183,17 @@ def _options(
     pass
 
 
-def main(arguments: Sequence[str] | None = None) -> None:
-    """Run a command and leave with its exit code; the user's mistakes come out as one message on stderr.
+def run(arguments: Sequence[str] | None = None) -> int | str | None:
+    """Run a command; the user's mistakes come out as one message on stderr.
 
     Args:
         arguments: Words after `clamber`; None takes those of the process.
+
+    Returns:
+        The exit code.
+
+    Raises:
+        KeyboardInterrupt: After Ctrl-C, where the command does not end with what there is.
     """
     words, renamed = under_new_name(sys.argv[1:] if arguments is None else arguments)
     if renamed is not None:
@@ -199,30 +205,33 @@ def main(arguments: Sequence[str] | None = None) -> None:
     completes = "_CLAMBER_COMPLETE" in os.environ  # the words come another way
     try:
         command = command_of(application(None if completes else called))
-        sys.exit(command(args=words, prog_name="clamber", standalone_mode=False))
+        code: int | None = command(args=words, prog_name="clamber", standalone_mode=False)
+        return code
+    except SystemExit as end:
+        return end.code
     except ClamberError as error:
         print(printable(f"clamber: {error}"), file=sys.stderr)
-        sys.exit(2)
+        return 2
     except typer.TyperException as error:  # words that are no options, or not what options take
         from typer.rich_utils import rich_format_error
 
         error.message = printable(error.message)
         rich_format_error(cast(Any, error))
-        sys.exit(error.exit_code)
+        return error.exit_code
     except typer.Abort as error:  # Typer's word for a file that ended too early
-        _leave_unexpectedly(error.__cause__ or error, words)
+        return _told_unexpected(error.__cause__ or error, words)
     except MemoryError:
         print("clamber: needs more memory than there is; ask for less", file=sys.stderr)
-        sys.exit(2)
+        return 2
     except Exception as error:
-        _leave_unexpectedly(error, words)
+        return _told_unexpected(error, words)
     finally:
         fall_silent()
         until_command_ends.close()
 
 
-def _leave_unexpectedly(error: BaseException, words: Sequence[str]) -> None:
+def _told_unexpected(error: BaseException, words: Sequence[str]) -> int:
     from .unexpected import UNEXPECTED, unexpected
 
     print(unexpected(error, words), file=sys.stderr)
-    sys.exit(UNEXPECTED)
+    return UNEXPECTED

@@ -252,10 +252,10 @@ def push(
     announce_compilation(quiet=words.quiet)
     told = {}
     for entry in words.build_entries(stand):
-        line = EndsLine(stderr(), f"pushes, {entry.label}", quiet=words.quiet)
-        told[entry.label] = push_trials(
-            stand, entry, flaws, force=size, seconds=seconds, trials=trials, seed=seed, progress=line.update
-        )
+        with EndsLine(stderr(), f"pushes, {entry.label}", quiet=words.quiet) as line:
+            told[entry.label] = push_trials(
+                stand, entry, flaws, force=size, seconds=seconds, trials=trials, seed=seed, progress=line.update
+            )
     if words.as_json:
         print_json(told)
     else:

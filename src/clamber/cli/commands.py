@@ -77,7 +77,7 @@ def under_new_name(words: Sequence[str]) -> tuple[list[str], str | None]:
     return [*words[:at], name, *words[at + 1 :]], line
 
 
-def _read(place: str) -> Any:
+def read_place(place: str) -> Any:
     """The function or the group at a place."""
     module, name = place.split(":")
     return getattr(import_module(module), name)
@@ -109,12 +109,12 @@ def add_commands(app: typer.Typer, only: str | None = None) -> None:
     listed = only not in single | grouped  # else nobody sees the lines of the others
     for name, place in single.items():
         if only in (None, name):
-            app.command(name)(_read(place))
+            app.command(name)(read_place(place))
         else:
             app.command(name, help=first_paragraph(place) if listed else None)(_nothing)
     for name, place in grouped.items():
         if only in (None, name):
-            app.add_typer(_read(place), name=name)
+            app.add_typer(read_place(place), name=name)
         else:
             help_line = first_paragraph(place) if listed else None
             app.add_typer(typer.Typer(help=help_line, callback=_nothing), name=name)

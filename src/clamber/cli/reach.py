@@ -1,6 +1,7 @@
 """`clamber reach`: everything that a robot can ever reach."""
 
 import math
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -52,7 +53,7 @@ def reach(
     announce_compilation(quiet=told.quiet)
     from ..planning.reach.reach import find_reach
 
-    with FloodLine(stderr(), quiet=told.quiet) as line:
+    with FloodLine(stderr(), quiet=told.quiet, doing="seeing every stance") as line:
         result = find_reach(
             loaded, hangs=hangs, max_stances=stances, seconds=seconds, threads=threads, progress=line.update
         )
@@ -90,6 +91,8 @@ def _print_reach(console: Console, reach: "Reach", layer: str, output: Path | No
         used = sum(bool(hold.limbs) for hold in reach.holds)
         never = f"; never used: {', '.join(map(str, reach.never_used))}" if reach.never_used else ""
         console.print(f"holds: {used} of {len(reach.holds)} are used{never if complete else ' so far'}")
+        by_limb = Counter(limb for hold in reach.holds for limb in hold.limbs)
+        console.print(f"of each limb: {', '.join(f'{limb} {by_limb[limb]}' for limb in reach.task.robot.limb_names)}")
     console.print(_layer_table(reach, layer))
     if reach.closed_by:
         closed = ", ".join(f"{name} {n}" for name, n in reach.closed_by.items())

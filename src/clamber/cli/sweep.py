@@ -66,18 +66,19 @@ def sweep(
 
     stated = {"max_evaluations": evaluations, "max_stances": stances}
     limits = {"seed": seed} | {option: most for option, most in stated.items() if accepts(planner, option)}
-    result = run_sweep(
-        task,
-        axes,
-        overrides=overrides or (),
-        planner=planner,
-        options=limits,
-        executor=words.executor,
-        marks=marks,
-        store=words.store,
-        resume=words.resume,
-        progress=words.line("points").update,
-    )
+    with words.keeping("points") as batch:
+        result = run_sweep(
+            task,
+            axes,
+            overrides=overrides or (),
+            planner=planner,
+            options=limits,
+            executor=words.executor,
+            marks=marks,
+            store=batch.store,
+            resume=words.resume,
+            progress=batch.line.update,
+        )
     if pictured and words.output is not None:
         from ..viewing.sweep_plot import draw_sweep
 

@@ -1,12 +1,12 @@
 """`clamber view`: robots, plans and runs in the browser, in three dimensions."""
 
-import time
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..interrupts import answer
 from ..json_form import Count, Key
 from ..terminal.name_completion import names_of
 from ..terminal.options import AsJson, Overrides, takes_options
@@ -101,7 +101,7 @@ def view(
     try:
         _serve(app, words)
     except KeyboardInterrupt:
-        pass  # the usual end
+        answer()  # the usual end
     finally:
         app.close()
 
@@ -127,7 +127,4 @@ def _serve(app: "App", words: ViewOptions) -> None:
         import webbrowser
 
         webbrowser.open(app.url)
-    began = time.monotonic()
-    while words.seconds is None or time.monotonic() - began < words.seconds:
-        left = 0.2 if words.seconds is None else words.seconds - (time.monotonic() - began)
-        time.sleep(min(0.2, max(left, 0.001)))
+    app.wait(words.seconds)

@@ -2,12 +2,12 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
 from ..errors import SpecError, describe_choices
-from ..family import NotOfFamilyError, families, family_of
+from ..family import Family, NotOfFamilyError, families, family_of, named_family
 from ..files import Document, is_path, read_toml, unknown_name
 from ..planning.problem.body_pose import describe_body_pose
 from ..planning.problem.check import UNLIMITED
@@ -16,7 +16,7 @@ from ..planning.problem.plan_source import is_plan, plan_names
 from ..planning.problem.problem import CompiledProblem
 from ..planning.problem.problems import plan_family
 from ..regular_files import user_path
-from ..shown_units import units_of
+from ..shown_units import SI, units_of
 from ..tasks import Task, load_task, task_names
 from ..tasks.library import change_task
 from ..tasks.robots import family_in, read_robot, robot_names
@@ -129,6 +129,30 @@ def _document(name_or_path: str, kind: Kind) -> Json:
     """What the file of a family's world says; empty for other kinds, whose quantities are shown in SI."""
     reads = (family.files.read_world for family in families() if family.files.world_key == kind)
     return next((read(name_or_path, None).data for read in reads), {})
+
+
+def family_of_thing(thing: Any) -> Family | None:
+    """The family of a robot, or of what only one family has, such as a board; None: it is neither."""
+    return named_family(getattr(thing, "family", None)) or next(
+        (
+            one
+            for one in families()
+            if one.inspection is not None and getattr(thing, "kind", None) in one.inspection.kinds
+        ),
+        None,
+    )
+
+
+def inspect_thing(thing: Any) -> Finding | None:
+    """What is to be said of a task, a robot, a world or a walk as Python has it, in SI units; None: it is none of them."""
+    if isinstance(thing, Task):
+        return inspect_task(thing)
+    family = family_of_thing(thing)
+    if family is None or family.inspection is None:
+        return None
+    if hasattr(thing, "family"):
+        return family.inspection.robot(thing, SI)
+    return family.inspection.kinds[thing.kind].inspect(thing, SI)
 
 
 def inspect_file(name_or_path: str, kind: Kind | None = None, overrides: Sequence[str] = ()) -> Finding:

@@ -6,8 +6,8 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from ..family import family_of
 from ..json_form import HIDDEN, Count, Jsonable, Key, in_json
+from ..notebook import Pictured
 from ..tasks import Task
 from ..types import Ints
 from ..units import OZ_IN
@@ -60,8 +60,8 @@ class Furthest(Jsonable):
     """Check -> how many of the inventory's modules it forbids at the furthest stance."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PlanResult(Jsonable):
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
+class PlanResult(Jsonable, Pictured):
     """A planner's answer. It proves itself: `check` replays the plan without the planner."""
 
     status: Status
@@ -112,14 +112,9 @@ class PlanResult(Jsonable):
     history: Annotated[tuple[Generation, ...], HIDDEN] = ()
     macros: Annotated[tuple[Macro, ...], HIDDEN] = field(default=())
 
-    def __repr__(self) -> str:
-        return f"<PlanResult {self.status}: {self.length} actions for {self.task.name!r} by {self.planner}, {self.seconds:.1f} s>"
-
-    def _repr_html_(self) -> str:
-        """The plan as a notebook shows it: a picture, with what was found below."""
-        codes = self.plan.codes(self.task, "plan")
-        replay = plan_family(self.task).problem(self.task).replay(codes, go_on=True)
-        return family_of(self.task).pictures.html(self.task, replay, f"{self.status}: {self.reason}")
+    def told(self) -> str:
+        """How it ended, of what, by whom."""
+        return f"{self.status}: {self.length} actions for {self.task.name!r} by {self.planner}, {self.seconds:.1f} s"
 
     @property
     @in_json(after="codes")

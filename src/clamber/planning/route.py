@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import PlannerError
+from ..interrupts import answer
 from ..tasks import Task
 from .problem.arrays import CostToGoMap
 from .problem.plan import Plan
@@ -140,6 +141,7 @@ def climb(
                 best = int(state[BEST])
                 tell(int(state[NODES]), int(nodes.all.g[best]), float(nodes.all.way[best]), float(nodes.all.way[0]))
     except KeyboardInterrupt:
+        answer()
         interrupted = True
     goal = int(state[GOAL]) if status == FOUND else int(state[BEST])
     return Climb(

@@ -8,7 +8,7 @@ import numpy as np
 from ..compiled import inlined, kernel
 from ..types import Ints, Records
 from .exact.records import NONE
-from .problem.family_kernels import bound, candidates, done, heuristic_between, key, restore, step
+from .problem.family_kernels import bound, candidates, done, draft, heuristic_between, key, restore, step
 from .stance_table import slot_of
 
 Keys = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
@@ -113,9 +113,13 @@ def search_window(p, line, window, to_goal, tree, room, state):
         closed[node] = 1
         restore(p, keys[node], stances[0])
         for c in range(candidates(p, stances[0], codes)):
-            judged += 1
-            if step(p, stances[0], codes[c], stances[1], margins) >= 0:
+            late = draft(p, stances[0], codes[c], stances[1])
+            if late < 0:
                 continue
+            if late == 0:
+                judged += 1
+                if step(p, stances[0], codes[c], stances[1], margins) >= 0:
+                    continue
             key(p, stances[1], words)
             cost = g[node] + 1
             slot = slot_of(words, table, keys)
@@ -129,6 +133,10 @@ def search_window(p, line, window, to_goal, tree, room, state):
             gain = at - first - cost
             if f >= length - saved and gain <= saved:
                 continue
+            if late > 0:
+                judged += 1
+                if step(p, stances[0], codes[c], stances[1], margins) >= 0:
+                    continue
             if child < 0:
                 child = nodes
                 nodes += 1

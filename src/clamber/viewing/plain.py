@@ -230,6 +230,7 @@ class PlainSolid(Solid):
     def show(self, at: Moment, grade: int = 3) -> None:
         """Body and limbs of a moment."""
         centre = np.array((at.pose[0], 0.0, at.pose[1]))
+        self.middle = centre
         self._ball.put(centre[None])
         if self._sticks is not None:
             tips = np.column_stack((at.tips[:, 0], np.zeros(len(at.tips)), at.tips[:, 1]))

@@ -52,7 +52,8 @@ def reach_figure(reach: Reach, layer: str) -> Figure:
     world = pictures_of(task)
     cell = float(reach.lattice.step[0])
     spots = np.stack([reach.places.floats(axis.column) for axis in reach.lattice.axes[:2]], axis=1)
-    bounds = fit_bounds(np.vstack([world.points(task), spots - cell, spots + cell]), task.goals)
+    chart = world.chart or world
+    bounds = fit_bounds(np.vstack([chart.points(task), spots - cell, spots + cell]), task.goals)
     across, up = bounds[1] - bounds[0], bounds[3] - bounds[2]
     scale = min(WIDEST / across, HIGHEST / up)
     wide, high = across * scale, up * scale
@@ -64,7 +65,7 @@ def reach_figure(reach: Reach, layer: str) -> Figure:
         return x / size[0], y / size[1], w / size[0], h / size[1]
 
     axes = figure.add_axes(place(LEFT, FOOT, wide, high))
-    world.world(axes, task, bounds)
+    chart.world(axes, task, bounds)
     shown = _field(axes, reach, layer)
     handles = [*_edge(axes, reach), *_marks(axes, reach)]
     _colour_bar(figure, figure.add_axes(place(LEFT + wide + 0.16, FOOT, 0.16, high)), shown, reach, layer)
@@ -183,13 +184,30 @@ def _marks(axes: Axes, reach: Reach) -> list[Artist]:
         label="body at the start",
     )  # fmt: skip
     handles.append(mark)
+    chart = pictures_of(task).chart
+    if chart is not None and reach.holds:
+        handles += _limbs_at(axes, reach, chart.points(task))
     if reach.never_used:
-        spots = np.array([(hold.x, hold.y) for hold in task.world.holds if hold.number in reach.never_used])
+        places = [(hold.x, hold.y) for hold in task.world.holds] if chart is None else chart.points(task)
+        spots = np.array(places)[np.array(reach.never_used) - 1]
         crosses = axes.scatter(
             spots[:, 0], spots[:, 1], marker="x", s=34, lw=1.7, color=style.ALERT, zorder=6, label="hold never used",
             path_effects=[halo(1.0)],
         )  # fmt: skip
         handles.append(crosses)
+    return handles
+
+
+def _limbs_at(axes: Axes, reach: Reach, places: Floats) -> list[Artist]:
+    """Mark the holds that limbs can use, the larger the more limbs can."""
+    many = np.array([len(hold.limbs) for hold in reach.holds])
+    handles: list[Artist] = []
+    for count in sorted(set(many[many > 0].tolist())):
+        (marks,) = axes.plot(
+            *places[many == count].T, marker="o", ms=2.0 + 0.9 * count, mfc="none", mec=style.INK, mew=0.9, ls="", zorder=5,
+            label=f"hold of {count} limb{'s' if count > 1 else ''}", path_effects=[halo(0.6)],
+        )  # fmt: skip
+        handles.append(marks)
     return handles
 
 

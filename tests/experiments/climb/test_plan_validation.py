@@ -6,8 +6,8 @@ import pytest
 
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.trials.noise import NO_NOISE, read_noise
-from clamber.families.climber.trials.plan_validation import SEEDS, PlanValidation, validate_plan
-from clamber.families.climber.trials.planning import plan_to_climb
+from clamber.families.climber.trials.plan_validation import SEEDS, PlanValidation, validations
+from clamber.families.climber.trials.planning import QUIET, plan_to_climb
 from clamber.families.climber.trials.run_plan import climbing_flaws, climbing_task
 from clamber.planning.problem.plan import Plan
 from clamber.planning.problem.plan_source import open_plan
@@ -17,8 +17,8 @@ def test_a_plan_is_climbed_by_as_often_as_it_is_carried_out() -> None:
     opened = open_plan("ladder-hand")
     task = climbing_task(opened.task)
     few = Plan.of_codes(task, opened.plan.codes(task)[:3], planner="hand")
-    assert validate_plan(task, few, climbing_flaws(task, ())) == PlanValidation(len(SEEDS), 1.0)
-    lost = validate_plan(task, opened.plan, climbing_flaws(task, ()), read_noise(NO_NOISE, ("peg_error=30mm",)))
+    assert validations(climbing_flaws(task, ()), QUIET)(task, few) == PlanValidation(len(SEEDS), 1.0)
+    lost = validations(climbing_flaws(task, ()), QUIET, read_noise(NO_NOISE, ("peg_error=30mm",)))(task, opened.plan)
     assert lost.climbed == 0 and lost.share < 1.0
 
 

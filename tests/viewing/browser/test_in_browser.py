@@ -264,7 +264,7 @@ def test_work_is_stopped_by_a_click(serve: Serve, visit: Open, compiled: None) -
     shown.press("Plan")
     shown.page.get_by_role("button", name="Stop", exact=True).click()
     shown.says("stopped")
-    assert app.work is not None and not app.work.labour.busy
+    assert app.work is not None and not app.work.background_task.busy
     assert shown.wrong == []
 
 

@@ -12,7 +12,7 @@ from rich.console import Console
 from ...terminal.name_completion import names_of
 from ...terminal.options import ROBOT, AsJson, Flaws, FlawsChoice, Output, Quiet, Settings
 from ...terminal.output import check_writable, print_json, stdout
-from ...terminal.worker_options import WorkerOptions
+from ...terminal.worker_options import Batch, WorkerOptions
 from ...viewing.text_table import plain_table
 
 if TYPE_CHECKING:
@@ -147,12 +147,12 @@ class FileWords:
         tell_written(stdout(), self.output, *logged)
 
 
-def crew_of(words: WorkerOptions, what: str) -> "Crew":
-    """Who works through items, called so."""
+def crew_of(words: WorkerOptions, batch: Batch) -> "Crew":
+    """Who works through the items of a batch."""
     from ...limb_bench.runner import Crew
 
-    told = words.line(what).update
-    return Crew(executor=words.executor, store=words.store, resume=words.resume, progress=told)
+    told, then = batch.line.update, batch.line.follow
+    return Crew(executor=words.executor, store=batch.store, resume=words.resume, progress=told, then=then)
 
 
 def tell_batch(

@@ -104,7 +104,8 @@ def sweep(
         )
     )
     announce_compilation(quiet=words.quiet)
-    result = run_limb_sweep(bench, axes, opt.crew_of(words, "points"))
+    with words.keeping("points") as batch:
+        result = run_limb_sweep(bench, axes, opt.crew_of(words, batch))
     opt.tell_batch(result, words, lambda console: print_limb_sweep(console, result))
     raise typer.Exit(0 if any(result.wins().values()) else 1)
 
@@ -231,7 +232,8 @@ def tune(
     chosen = limb.build_limb(plant)
     laws = [] if controllers in (None, ["all"]) else list(controllers or ())
     announce_compilation(quiet=words.quiet)
-    result = find(chosen, laws, plant, robot=limb.robot, margin=margin, crew=opt.crew_of(words, "searches"))
+    with words.keeping("searches") as batch:
+        result = find(chosen, laws, plant, robot=limb.robot, margin=margin, crew=opt.crew_of(words, batch))
     if save is not None:
         save_recommended(result.recommended(), save)
     opt.tell_batch(result, words, lambda console: print_tuning(console, result), save)

@@ -104,6 +104,6 @@ def islands_result(
     executor = executor_of(ray, workers)
     if ray is not None:
         executor.check()
-    line = EndsLine(stderr(), "islands", quiet=quiet)
     given = {name: options[name] for name in TAKEN}
-    return plan_islands(task, islands=islands, executor=executor, progress=line.update, **given)
+    with EndsLine(stderr(), "islands", quiet=quiet) as line:
+        return plan_islands(task, islands=islands, executor=executor, progress=line.update, **given)

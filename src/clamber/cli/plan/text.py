@@ -21,6 +21,9 @@ from ...terminal.output import print_indented
 class ProgressLine(LiveLine):
     """Follows a search."""
 
+    def __init__(self, console: Console, *, quiet: bool) -> None:
+        super().__init__(console, quiet=quiet, doing="preparing the search")
+
     def update(self, progress: ProgressEvent) -> None:
         """Show one moment of the search."""
         self.show(progress_text(progress))

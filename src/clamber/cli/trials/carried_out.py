@@ -49,17 +49,18 @@ def try_out(work: Work, asked: TrialsOptions, words: WorkerOptions) -> None:
         words.executor.check()  # before a minute is spent on a plan
     announce_compilation(quiet=words.quiet)
     compile_ahead(*dynamics.compiled)
-    with LiveLine(stderr(), quiet=words.quiet) as line:
+    with LiveLine(stderr(), quiet=words.quiet, doing=f"preparing the {dynamics.kind}") as line:
         setup = _planned(work, request, words, line)
         if asked.replay is not None:
             raise typer.Exit(_replay(work, setup, asked.replay, words, line))
+        line.show(f"0 of {asked.n} {dynamics.past}, the first ones are on their way", 0.0, now=True)
         trials = run_trials(
             setup,
             asked.seeds,
             executor=words.executor,
             store=words.store,
             resume=words.resume,
-            told=lambda trials: line.show(_so_far(trials, dynamics.past)),
+            told=lambda trials: line.show(_so_far(trials, dynamics.past), len(trials.ended) / trials.asked),
         )
     if words.output is not None:
         dynamics.draw_trials(trials, words.output)
@@ -89,7 +90,9 @@ def _so_far(trials: Trials[Any, Any], past: str) -> str:
 def _planned(work: Work, request: TrialsRequest, words: WorkerOptions, line: LiveLine) -> Setup[Any, Any]:
     """What every trial has in common, planned if it was not; leaves with 1 where there is no plan."""
     cuts: list[None] = []
-    events = RunEvents(search=lambda moment: line.show(progress_text(moment)), cut=lambda: cuts.append(None))
+    events = RunEvents(
+        search=lambda moment: line.show(progress_text(moment)), step=line.show, cut=lambda: cuts.append(None)
+    )
     try:
         return work.dynamics.trials(work.item, work.plan, request, events, words.store, work.label)
     except NoPlanError as none:
@@ -103,7 +106,7 @@ def _replay(work: Work, setup: Setup[Any, Any], seed: int, words: WorkerOptions,
     """One trial again; the exit code."""
     dynamics = work.dynamics
     kept = stored_result(setup, seed, words.store)
-    run, trial = setup.again(seed, kept, lambda words, share: line.show(words))
+    run, trial = setup.again(seed, kept, line.show)
     if words.output is not None:
         from ...viewing.pictures import draw_run
 

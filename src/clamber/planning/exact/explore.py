@@ -8,6 +8,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from ...interrupts import answer
 from ...types import Ints
 from ..problem.problem import CompiledProblem
 from ..progress import Clock
@@ -190,6 +191,7 @@ def explore(
             took = looked - before
             quota = min(QUOTA, 2 * quota) if took < LOOK / 2 else max(FIRST_QUOTA, quota // 2) if took > LOOK else quota
     except KeyboardInterrupt:
+        answer()
         interrupted = True
     ways = _ways(problem, memory)
     if ways:

@@ -8,6 +8,7 @@ from typing import Final
 
 import numpy as np
 
+from ...interrupts import answer
 from ...tasks import Task
 from ..problem.arrays import ActionTable
 from ..problem.plan import Plan
@@ -138,6 +139,7 @@ def search(
             watch()
         _polish(problem, profile, run, seed, lambda: budget.allows(run.state, BATCH, clock), watch)
     except KeyboardInterrupt:
+        answer()
         interrupted = True
     _note_success(run)
     keeper.save(run, now=True)

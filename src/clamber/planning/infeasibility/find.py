@@ -6,6 +6,7 @@ from typing import Annotated, Final
 
 from ...errors import PlannerError
 from ...family import NotOfFamilyError, family_of
+from ...interrupts import answer
 from ...json_form import Count, Jsonable, Key, in_json
 from ...tasks import Task
 from ..problem.problems import plan_family
@@ -187,6 +188,7 @@ def explain_infeasibility(
                     FailedRelaxation(key=key, tried="where the robot can get to was not seen whole", proved=False)
                 )
     except KeyboardInterrupt:
+        answer()
         ended = "interrupted"
     if not ended and trial.left() == 0.0:
         ended = "time"

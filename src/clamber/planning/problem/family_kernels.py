@@ -16,6 +16,7 @@ from ...kernel_cache import made_outside
 
 SCALARS = (
     "step",
+    "draft",
     "candidates",
     "key",
     "restore",
@@ -49,11 +50,16 @@ def _no_burden(p, s, spare, margins, row):  # type: ignore[no-untyped-def]
     pass
 
 
+def _no_draft(p, before, code, after):  # type: ignore[no-untyped-def]
+    return 0
+
+
 PLAIN: Final[dict[str, Callable[..., Any]]] = {
     "dominating": _no_other,
     "reflect": _no_mirror,
     "heuristic_between": _no_bound,
     "stance_cost": _no_burden,
+    "draft": _no_draft,
 }
 """Kernels that a family may do without: nothing is known that would make searches shorter, and being somewhere costs nothing."""
 
@@ -74,6 +80,14 @@ def _chosen(name: str, params: types.Type) -> Callable[..., Any]:
 
 def step(p, before, code, after, margins):  # type: ignore[no-untyped-def]
     """Carry out one action: writes `after` and `margins`, returns the first violated hard check, or -1."""
+    raise TypeError("called from kernels only")
+
+
+def draft(p, before, code, after):  # type: ignore[no-untyped-def]
+    """Write what an action leads to, but for what only judging tells: 1 if it is written, -1 if there is no such action, 0 if `step` must.
+
+    Key, cell, bound and goals of what is written are those of the stance that `step` would write; so are the `foreseen` features.
+    """
     raise TypeError("called from kernels only")
 
 
@@ -143,6 +157,7 @@ def stance_cost(p, s, spare, margins, row):  # type: ignore[no-untyped-def]
 
 
 overload(step)(lambda p, before, code, after, margins: _chosen("step", p))
+overload(draft)(lambda p, before, code, after: _chosen("draft", p))
 overload(candidates)(lambda p, s, codes: _chosen("candidates", p))
 overload(key)(lambda p, s, words: _chosen("key", p))
 overload(restore)(lambda p, words, s: _chosen("restore", p))

@@ -8,6 +8,7 @@ from typing import Final
 
 import numpy as np
 
+from ...interrupts import answer
 from ..problem.body_pose import PoseLattice
 from ..problem.problem import CompiledProblem, Records
 from ..problem.problems import Normalisation
@@ -233,6 +234,7 @@ def explore_breadth_first(
             if clock.is_over and done < reached.seen:
                 ended = ended or "time"
     except KeyboardInterrupt:
+        answer()
         ended = "interrupt"
     if pool is not None:
         pool.shutdown(cancel_futures=True)  # waits, so that nobody writes into the pieces any more

@@ -10,6 +10,7 @@ from ...errors import ClamberError, UnknownNameError, describe_choices
 from ...family import family_of
 from ...files import write_atomically
 from ...json_form import HIDDEN, Count, Jsonable, Key, in_json
+from ...notebook import Pictured
 from ...tasks import Task
 from ..problem.body_pose import PoseLattice
 from ..problem.problems import listed_problem, normalisation_of, plan_family, without_hangs
@@ -121,8 +122,8 @@ class GoalReach(Jsonable):
     """Actions of the shortest way there; None: nobody gets there."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Reach(Jsonable):
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
+class Reach(Jsonable, Pictured):
     """The reachable space of a task, as far as it was seen."""
 
     status: Status
@@ -156,6 +157,10 @@ class Reach(Jsonable):
     """Places that could be tried and were not reached; while incomplete, not reached so far."""
     lattice: Annotated[PoseLattice, HIDDEN]
     """Of the body's poses; places are those of its first two axes."""
+
+    def told(self) -> str:
+        """What was seen of which task."""
+        return f"{self.status} for {self.task.name!r}: {self.reason}"
 
     @property
     @in_json(after="holds")

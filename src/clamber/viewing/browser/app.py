@@ -2,20 +2,25 @@
 
 import contextlib
 import io
+import math
 import socket
+import time
 from dataclasses import replace
+from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from ...errors import ClamberError
+from ...errors import ClamberError, how_to_install
 from ...family import family_of
 from ...planning.problem.plan import Plan
 from ...tasks.task_format import task_files
 from .. import style
 from ..scene import join
+from .camera_panel import CameraPanel
 from .inputs import by_hand, readable, set_input
 from .own_pages import Guard, UnguardedError, check_guarded, guarded
 from .playback import Playback
+from .recording import RecordingPanel, file_name
 from .save_panel import SavePanel
 from .scene_view import SceneView
 from .solids import FOV, Camera, colour
@@ -35,7 +40,7 @@ class MissingViserError(ClamberError):
     """The viewer is asked for without the package that it is made with."""
 
     def __str__(self) -> str:
-        return "the viewer needs the package 'viser', which is not installed; pip install \"clamber[view]\""
+        return f"the viewer needs the package 'viser', which is not installed: {how_to_install('view')}"
 
 
 class PortError(ClamberError):
@@ -144,6 +149,9 @@ class App:
             self._shown = server.gui.add_dropdown("show", SHOWN, initial_value="both", visible=False)
             self.stage.add_head()
             self.playback = Playback(server, self.stage.show, self.stage.main)
+            with server.gui.add_folder("Camera"):
+                self.camera = CameraPanel(server, self.stage)
+                self.recording = RecordingPanel(server, self.playback, file_name(exhibit.title))
             self.stage.add_details()
         self._shown.on_update(by_hand(lambda _: self.choose(self._shown.value)))
         self.work: WorkPanel | None = None
@@ -167,6 +175,7 @@ class App:
         stage.shown = "plan" if shown == "plan" else "run" if shown == "run" else "both"
         self._shown.visible = len(stage.films) > 1 and self.exhibit.planned
         set_input(self._shown, stage.shown)
+        stage.load(stage.main)
         self.playback.load(stage.main)
 
     def show_task(self, task: Any, plan: Plan | None = None) -> None:
@@ -215,6 +224,26 @@ class App:
         host = self.server.get_host()
         shown = {"0.0.0.0": LOOPBACK, "::": "[::1]"}.get(host, f"[{host}]" if ":" in host else host)
         return f"http://{shown}:{self.server.get_port()}"
+
+    def __enter__(self) -> "App":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        return f"<App {self.exhibit.title!r} at {self.url}>"
+
+    def _repr_html_(self) -> str:
+        url = escape(self.url)
+        return f'<a href="{url}" target="_blank">{escape(self.exhibit.title)}: open the viewer</a>'
+
+    def wait(self, seconds: float | None = None) -> None:
+        """Leave the page open for so long [s], or until Ctrl-C."""
+        ends = math.inf if seconds is None else time.monotonic() + seconds
+        with contextlib.suppress(KeyboardInterrupt):  # the usual end
+            while (left := ends - time.monotonic()) > 0.0:
+                time.sleep(min(0.2, left))
 
     def close(self) -> None:
         """End the work, the clock and the server."""

@@ -1,9 +1,15 @@
 """What stands in the scene: a world, the figures of a plan and of a run in it, and what the panel says of them."""
 
 import time
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Final, Literal
 
+import numpy as np
+
+from ...types import Floats
 from ..recording import Recording
+from .curves import Curves
+from .inputs import by_hand
 from .panel_html import head_html, loads_html, step_margins_html, strip_html
 from .solids import Figure, Scenery, World
 
@@ -35,6 +41,16 @@ class SceneView:
         self._told = (0.0, -1)
         self.shown: Shown = "plan"
         self._texts: dict[str, viser.GuiHtmlHandle] = {}
+        self._curves: Curves | None = None
+        self._block: viser.GuiDropdownHandle[str] | None = None
+        self.moved: Callable[[Floats], None] = lambda middle: None
+        """Is told where the robot is whenever it has been shown [m]."""
+
+    @property
+    def middle(self) -> Floats | None:
+        """Where the robot is that is shown [m]; None before it is."""
+        figure = self._figures.get(self.main_kind)
+        return None if figure is None or not np.isfinite(figure.middle).all() else figure.middle
 
     def add_head(self) -> None:
         """Make the texts above the controls, where the panel's context is."""
@@ -48,6 +64,29 @@ class SceneView:
             self._texts["bars"] = gui.add_html("")
         with gui.add_folder("Margins"):
             self._texts["margins"] = gui.add_html("")
+        with gui.add_folder("Curves over time", expand_by_default=False):
+            self._block = gui.add_dropdown("of", ("",), visible=False)
+            self._texts["curves"] = gui.add_html("")
+            self._texts["now"] = gui.add_html("")
+        self._block.on_update(by_hand(lambda _: self._draw_curves(self.main)))
+        self._told = 0.0, -1
+
+    def load(self, film: Recording[Any]) -> None:
+        """Draw the curves of a film that is to be shown."""
+        titles = tuple(dict.fromkeys(gauges.title for gauges in film.gauges))
+        if self._block is not None and titles:
+            self._block.options = titles
+            self._block.visible = len(titles) > 1
+        self._draw_curves(film)
+
+    def _draw_curves(self, film: Recording[Any]) -> None:
+        self._curves = None
+        if self._block is None:
+            return
+        titles = [gauges.title for gauges in film.gauges]
+        if film.seconds > 0.0 and titles:
+            self._curves = Curves(film, titles.index(self._block.value) if self._block.value in titles else 0)
+        self._texts["curves"].content = "" if self._curves is None else self._curves.html()
         self._told = 0.0, -1
 
     def set_film(self, kind: Literal["plan", "run"], film: Recording[Any] | None) -> None:
@@ -96,7 +135,8 @@ class SceneView:
                 figure.hide(not (name == kind or (name == "plan ghost" and ghost is not None)))
             if ghost is not None:
                 self._figure("plan ghost").show(ghost)
-            self._tell(film, kind, step, moment, planned)
+            self._tell(film, kind, step, moment, planned, at)
+        self.moved(self._figures[kind].middle)
 
     def _figure(self, name: str) -> Figure:
         if name not in self._figures:
@@ -104,7 +144,7 @@ class SceneView:
             self._figures[name] = self.scenery.figure(self.server, f"/{name}", opacity)
         return self._figures[name]
 
-    def _tell(self, film: Recording[Any], kind: str, step: int, moment: Any, planned: int | None) -> None:
+    def _tell(self, film: Recording[Any], kind: str, step: int, moment: Any, planned: int | None, at: float) -> None:
         now, (last, before) = time.perf_counter(), self._told
         if not self._texts or (step == before and now - last < WORDS_PERIOD):
             return
@@ -113,6 +153,7 @@ class SceneView:
             "bars": loads_html(film.gauges, film.values(moment)),
             "strip": strip_html(film, step, f"{STRIPS[kind]} {film.noun.lower()}"),
             "margins": step_margins_html(film, step, self.films.get("plan"), planned),
+            "now": "" if self._curves is None else self._curves.mark_html(at),
         }
         self._told = now, step
         for name, words in texts.items():

@@ -211,14 +211,14 @@ def _opened(what: str, task: str | None, overrides: Sequence[str]) -> ViewerCont
     if other is not None:
         return exhibit_of(other)
     if shown_alone(kind := kind_of(what)):
-        return _alone_exhibit(open_alone(what, kind))
+        return alone_exhibit(open_alone(what, kind))
     if kind != "plan":
         return exhibit_of(load_task(what, overrides))
     opened = open_plan(what, task, overrides)
     return exhibit_of(opened.task, opened.plan, what)
 
 
-def _alone_exhibit(shown: ShownAlone) -> ViewerContent:
+def alone_exhibit(shown: ShownAlone) -> ViewerContent:
     """A robot or a world alone: nothing is edited, planned or run."""
     alone, film = shown.alone, StillFilm(None, shown.finding)
     scenes = family_of(alone.task).scenes

@@ -16,7 +16,7 @@ from ....terminal.worker_options import executor_of
 from ....viewing.text_table import plain_table
 
 if TYPE_CHECKING:  # loads NumPy, which `--help` does without
-    from ..trials.plan_repair import Lesson, ValidatedPlan
+    from ..trials.plan_repair import Lesson, ValidatedPlan, Went
 
 FIRST_SEED: Final = 500_000
 """Of rehearsals, unless stated: far from those that trials begin with."""
@@ -25,9 +25,19 @@ FIRST_SEED: Final = 500_000
 class LessonsLine(LiveLine):
     """Follows rehearsals."""
 
+    def __init__(self, console: Console, *, quiet: bool) -> None:
+        super().__init__(console, quiet=quiet, doing="preparing the climbs")
+        self._so_far = "the plan as it is"
+
     def update(self, best: "ValidatedPlan", tried: "Sequence[Lesson]") -> None:
         """Show how the best plan so far climbs, and how many changes were tried."""
-        self.show(f"{_climbed(best)}; {len(tried)} changes tried, {sum(lesson.taken for lesson in tried)} taken")
+        taken = sum(lesson.taken for lesson in tried)
+        self._so_far = f"{_climbed(best)}; {len(tried)} changes tried, {taken} taken"
+        self.show(f"{self._so_far}; looking for another way", now=True)
+
+    def climbs(self, ended: int, asked: int, climbed: int) -> None:
+        """Show how far the climbs by one plan are."""
+        self.show(f"{self._so_far}; now {ended} of {asked} climbs, {climbed} whole", ended / asked)
 
 
 def _print_lessons(
@@ -95,46 +105,39 @@ def validate(
 
     compile_ahead(CLIMBING)
     from ....trials.work import open_work
-    from ..trials.noise import named_noise, read_noise
-    from ..trials.plan_repair import LearnedPlan, climbs_with, learn
-    from ..trials.run_plan import climbing_task
-    from ..trials.trial import TrialSetup, with_plan
+    from ..trials.plan_repair import validate_plan as learned_by
 
-    widths = read_noise(named_noise("usual"), asked.noise or ())
     work = open_work(plan, asked.task, asked.overrides or ())
-    opened, first_plan, plant = climbing_task(work.item), work.plan, work.plant
-    if first_plan is None:
+    if work.plan is None:
         raise typer.BadParameter(f"'{plan}' is a task; `clamber plan` makes a plan for it", param_hint="PLAN")
-    setup = with_plan(TrialSetup(task=opened, noise=widths, plan=first_plan, plant=plant, replan=False), label=plan)
     executor = executor_of(ray, workers)
     executor.check()
-    went: list[tuple[ValidatedPlan, Lesson | None]] = []
     with LessonsLine(stderr(), quiet=told.quiet) as line:
 
-        def tell(best: "ValidatedPlan", lesson: "Lesson | None") -> None:
-            went.append((best, lesson))
+        def tell(went: "Sequence[Went]") -> None:
+            best, lesson = went[-1]
             line.update(best, [one for _, one in went if one is not None])
             if told.output is not None and (lesson is None or lesson.taken):
                 best.plan.save(told.output)
 
-        interrupted = False
         try:
-            learn(
-                opened,
-                first_plan,
-                climbs_with(setup, executor),
+            learned = learned_by(
+                work,
+                asked.noise or (),
+                executor,
                 range(asked.seed, asked.seed + asked.n),
                 lessons=asked.lessons,
                 seconds=asked.seconds,
                 told=tell,
+                ended=line.climbs,
             )
         except KeyboardInterrupt:
-            interrupted = True
-    if went:
-        (first, _), (best, _) = went[0], went[-1]
-        tried = [lesson for _, lesson in went if lesson is not None]
-        if told.as_json:
-            print_json(LearnedPlan(first, best, tried))
-        else:
-            _print_lessons(stdout(), first, best, tried, told.output)
-    raise typer.Exit(130 if interrupted else 0)
+            stderr().print(
+                "interrupted before the plan had been climbed once as often as asked; nothing is known of it yet"
+            )
+            raise typer.Exit(130) from None
+    if told.as_json:
+        print_json(learned)
+    else:
+        _print_lessons(stdout(), learned.first, learned.best, learned.lessons, told.output)
+    raise typer.Exit(130 if learned.interrupted else 0)

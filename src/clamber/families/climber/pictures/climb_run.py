@@ -2,7 +2,7 @@
 
 import cmath
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -83,7 +83,12 @@ class ClimbFilm(View[Moment]):
         draw_scene(picture.wall, self.task, self.bounds)
         if self._pegs is not None:
             x, y = self._pegs.T
-            picture.wall.plot(x, y, ls="none", marker="x", ms=3.0, mew=0.7, color=style.ALERT, zorder=9)
+            cross: dict[str, Any] = {"ls": "none", "marker": "x", "mew": 0.7, "color": style.ALERT, "zorder": 9}
+            picture.wall.plot(x, y, ms=3.0, **cross)
+            left, y_key = picture.key.left, picture.key.top
+            picture.panel.plot([left + 0.06], [y_key], ms=5.0, **cross)
+            words = "peg as it truly is; dots: as it is mapped"
+            picture.panel.text(left + 0.2, y_key, words, fontsize=7, va="center", color=style.QUIET)
         return ClimberArtists(picture.wall, self.task, self.bounds)
 
     def posture(self, k: int) -> Posture:

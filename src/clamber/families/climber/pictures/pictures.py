@@ -1,7 +1,5 @@
 """How climbers are drawn: whole plans, and climbs stage by stage."""
 
-import cmath
-import math
 from collections.abc import Mapping
 from itertools import cycle
 from pathlib import Path
@@ -15,81 +13,23 @@ from matplotlib.lines import Line2D
 
 from ....planning.problem.problem import Replay
 from ....planning.problem.problems import normalisation_of
-from ....tasks.robots import read_robot, robot_names
-from ....types import Floats, Json
+from ....types import Floats
 from ....viewing import style
-from ....viewing.alone import Alone
 from ....viewing.output import CANVASES, check_suffix, drawing, save_figure
 from ....viewing.pictures import Pictures
 from ....viewing.route import FACTS, ROW, draw_way, label_ghost, pick_ghosts, write_facts
-from ....viewing.scene import Bounds, fit_bounds, halo, set_axes
+from ....viewing.scene import Bounds
 from ....viewing.style import styled
 from ....viewing.view import PANEL_WIDTH, Layout, is_wide
 from ..execution.climb_trace import ClimbTrace
-from ..planning.task import LimbedTask, Rules, Start, Step
-from ..robot.robot import Limb, LimbedRobot, build_limbed
+from ..planning.task import LimbedTask
 from ..trials.run_plan import ClimbRun
-from ..world.board import Board
+from .alone import board_alone, climber_alone
 from .artists import ClimberArtists, Snapshot, draw_scene, find_bounds, torque_gauges, torque_limits
 from .climb_run import ClimbFilm, run_picture
-from .climb_view import ClimbView, Transition, draw_climb
-from .geometry import Posture, joint_margin, limb_chain, pose, postures
+from .climb_view import ClimbView, Transition, draw_climb, near_climb
+from .geometry import Posture, postures
 from .report import climb_page
-
-SHARES: Final = (0.8, 0.7, 0.9, 0.6, 0.95, 0.5)
-"""How far limbs are stretched, over their length; the first that their joints allow is taken [-]."""
-
-
-def _around(robot: LimbedRobot, board: Board, document: Json) -> LimbedTask:
-    """What stands in for a task; `document` has the documents of the robot and of what else is shown."""
-    return LimbedTask(
-        name=board.name, title=board.title, robot=robot, world=board, start=Start(x=0.0, y=0.0, holds={}),
-        step=Step(length=0.01, angle=math.radians(15.0)), goals=(), rules=Rules(), document=document,
-    )  # fmt: skip
-
-
-def board_alone(board: Board, document: Json) -> Alone:
-    """A board; what the viewer asks of a robot, such as how long pegs need be, one that comes with Clamber says."""
-    robot = read_robot(robot_names("limbed")[0])
-    task = _around(build_limbed(robot), board, {"board": document, "robot": robot.data})
-    bounds = find_bounds(task, [])
-    return Alone(task, bounds, lambda axes: draw_scene(axes, task, bounds))
-
-
-def climber_alone(robot: LimbedRobot, document: Json) -> Alone:
-    """A climber upright, its limbs stretched out of their ports as far as their joints let them."""
-    task = _around(robot, Board(name=robot.name, title=robot.title, holds=()), {"robot": document})
-    tips, sides = zip(*map(_spread, robot.limbs), strict=True)
-    free = (-1,) * len(robot.limbs)
-    posture = pose(robot, 0j, 0.0, list(tips), list(sides), free)
-    unloaded = np.zeros((len(robot.limbs), 2))
-    bounds = fit_bounds(np.vstack((posture.outline, posture.chains.reshape(-1, 2))), ())
-
-    def draw(axes: Axes) -> None:
-        set_axes(axes, task, bounds)
-        ClimberArtists(axes, task, bounds, arrows=False).update(Snapshot(posture, unloaded, unloaded))
-        _name_limbs(axes, robot, posture)
-
-    return Alone(task, bounds, draw, Snapshot(posture, unloaded, unloaded))
-
-
-def _spread(limb: Limb) -> tuple[complex, float]:
-    """Tip of a limb in the body frame [m], and the side of its elbow."""
-    port, ahead = complex(limb.port_x, limb.port_y), cmath.exp(1j * limb.port_angle)
-    ways = [(port + share * limb.length * ahead, side) for share in SHARES for side in (1.0, -1.0)]
-    margins = [joint_margin(limb, 0.0, limb_chain(limb, 0j, 0.0, tip, side)) for tip, side in ways]
-    return next(
-        (way for way, margin in zip(ways, margins, strict=True) if margin >= 0.0), ways[int(np.argmax(margins))]
-    )
-
-
-def _name_limbs(axes: Axes, robot: LimbedRobot, posture: Posture) -> None:
-    for i, (limb, chain) in enumerate(zip(robot.limbs, posture.chains, strict=True)):
-        axes.annotate(
-            limb.name, chain[3], xytext=(0, 9), textcoords="offset points", ha="center", va="bottom", fontsize=8, zorder=9,
-            color=style.PARTS[i % len(style.PARTS)], weight="bold", path_effects=[halo(2.5)],
-        )  # fmt: skip
-
 
 ROWS: Final = 2
 ROOM: Final = 0.04
@@ -108,7 +48,7 @@ def draw_stages(run: ClimbRun, path: str | Path) -> None:
         shown = [view.settled(step) for step in range(len(actions) + 1)]
         titles = ["start", *(action.title for action in actions)]
         points = np.vstack([np.vstack([at.posture.outline, at.posture.chains.reshape(-1, 2)]) for at in shown])
-        bounds = _bounds_about(points)
+        bounds = _around(points)
         columns = -(-len(shown) // ROWS)
         height = 2.1 * (bounds[3] - bounds[2]) / (bounds[1] - bounds[0])
         figure = Figure(figsize=(2.1 * columns, ROWS * (height + 0.35)), layout="constrained")
@@ -124,7 +64,7 @@ def draw_stages(run: ClimbRun, path: str | Path) -> None:
         save_figure(figure, path)
 
 
-def _bounds_about(points: Floats) -> Bounds:
+def _around(points: Floats) -> Bounds:
     low, high = points.min(axis=0) - ROOM, points.max(axis=0) + ROOM
     return float(low[0]), float(high[0]), float(low[1]), float(high[1])
 
@@ -158,7 +98,7 @@ def draw_heights(traces: Mapping[str, ClimbTrace], path: str | Path) -> None:
 
     Args:
         traces: Label -> a climb of a plant that tells the truth.
-        path: Picture file (`drawing`).
+        path: Of the picture (`drawing`).
     """
     with drawing(path, (8.6, 3.8)) as figure:
         axes = figure.subplots()
@@ -286,6 +226,7 @@ PICTURES: Final = Pictures(
     torque_limits,
     run_picture,
     climb_page,
+    near=near_climb,
     robot_alone=climber_alone,
     world_alone=board_alone,
 )

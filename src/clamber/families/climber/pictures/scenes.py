@@ -9,16 +9,16 @@ import numpy as np
 
 from ....execution.log import Log, LogError
 from ....execution.sample_log import told_of
-from ....planning.problem.plan import Plan
 from ....planning.progress import Listener
 from ....tasks.library import task_names
+from ....trials.dynamics import RunEvents
 from ....viewing.browser.solids import FOV, NARROW, Camera, Scenery
 from ....viewing.browser.viewer_content import NAMED, Editor, Planned, Scenes, ViewerContent
 from ....viewing.scene import Bounds, join
 from ..execution.climb_report import LoggedClimb
 from ..execution.climb_trace import ClimbTrace
 from ..planning.task import LimbedTask
-from ..trials.plan_validation import PlanValidation, validate_plan
+from ..trials.plan_validation import validations
 from ..trials.planning import plan_to_climb
 from ..trials.run_plan import ClimbRun, climbing_flaws, climbing_task
 from .board_editor import BoardPanel
@@ -114,11 +114,8 @@ class ClimbScenes(Scenes):
         strict = climbing_task(task)
         flaws = climbing_flaws(strict, ())
 
-        def validated(task: LimbedTask, plan: Plan) -> PlanValidation:
-            tell(f"rehearsing a plan of {len(plan.actions)} actions in simulation")
-            return validate_plan(task, plan, flaws)
-
-        kept = plan_to_climb(strict, planner, seconds=seconds, seed=0, validate_plan=validated)
+        events = RunEvents(step=lambda words, share: tell(words))
+        kept = plan_to_climb(strict, planner, seconds=seconds, seed=0, validate_plan=validations(flaws, events))
         if kept is None:
             reach = f"there is a plan of {len(found.plan.actions)} actions"
             return Planned(None, f"{reach}, but none that keeps reserves for a run, or that hooks can be trusted with")

@@ -13,6 +13,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from ....interrupts import answer
 from ....kernel_cache import is_compiled
 from ....planning.infeasibility.find import FeasibleRelaxation, Places
 from ....planning.infeasibility.trial import Answer, Trial
@@ -131,6 +132,7 @@ def _settle(
             for site, future in zip(sites, asked, strict=True):
                 answers.append((site, future.result()))
         except KeyboardInterrupt:
+            answer()
             trial.stopped.set()
             pool.shutdown(cancel_futures=True)
     return answers, trial.stopped.is_set()

@@ -7,19 +7,25 @@ from typing import Annotated, Final, TypeAlias
 
 import numpy as np
 
+from ....errors import SpecError
+from ....interrupts import answer, passed_on
 from ....jobs import Executor
-from ....json_form import Count, Key, in_json
+from ....json_form import HIDDEN, Count, Jsonable, Key, in_json
+from ....notebook import Pictured
 from ....planning.problem.plan import Plan
 from ....planning.problem.problems import PlannedAction
 from ....trials.held_out import check_training
 from ....trials.trial_runs import run_trials
+from ....trials.work import Work
 from ..execution.executable_plan import lay_course
 from ..planning.task import LimbedTask
+from .noise import named_noise, read_noise
 from .plan_validation import grab_before
 from .planning_margins import PLANNING_MARGINS, steady
 from .rerouting import cut_before, grabs_of, other_end, repaired, without
+from .run_plan import climbing_task
 from .stretch_repair import with_stretch_repaired
-from .trial import ClimbTrial, TrialSetup
+from .trial import ClimbTrial, TrialSetup, with_plan
 
 Climbs: TypeAlias = Callable[[Plan, Sequence[int]], list[ClimbTrial]]
 """Climbs by a plan once with each seed, without another plan on the way."""
@@ -31,18 +37,28 @@ BATCH: Final = 12
 """Climbs that are asked for at a time after that: when it is clear that the change is no gain, there are no more."""
 
 
-def climbs_with(setup: TrialSetup, executor: Executor) -> Climbs:
+def climbs_with(
+    setup: TrialSetup, executor: Executor, told: Callable[[int, int, int], None] = lambda ended, asked, climbed: None
+) -> Climbs:
     """Climbs by plans under a setup's noise, without new plans on the way.
+
+    Args:
+        setup: Whose plan changes.
+        executor: Who climbs.
+        told: Given, at each end, how many climbs of a plan have ended, of how many, and how many of them were carried out whole.
 
     Raises, when called:
         KeyboardInterrupt: After Ctrl-C.
     """
 
     def climbs(plan: Plan, seeds: Sequence[int]) -> list[ClimbTrial]:
-        ended = run_trials(replace(setup, plan=plan, replan=False), seeds, executor=executor).ended
-        if len(ended) < len(seeds):
-            raise KeyboardInterrupt
-        return ended
+        with passed_on():
+            return run_trials(
+                replace(setup, plan=plan, replan=False),
+                seeds,
+                executor=executor,
+                told=lambda trials: told(len(trials.ended), trials.asked, trials.done),
+            ).ended
 
     return climbs
 
@@ -87,6 +103,10 @@ class Lesson:
     """Whether the plan goes on from there."""
 
 
+Went: TypeAlias = tuple[ValidatedPlan, Lesson | None]
+"""The best plan after a change was tried, and the change; None: the first rehearsal."""
+
+
 @dataclass(frozen=True, slots=True)
 class GrabAtFault:
     """A grab with which climbs went wrong."""
@@ -97,8 +117,8 @@ class GrabAtFault:
     """Of those climbs."""
 
 
-@dataclass(frozen=True, slots=True)
-class LearnedPlan:
+@dataclass(frozen=True, slots=True, repr=False)
+class LearnedPlan(Jsonable, Pictured):
     """What a plan learned in rehearsals."""
 
     first: Annotated[
@@ -118,6 +138,17 @@ class LearnedPlan:
     ]
     lessons: Annotated[Sequence[Lesson], Key(after="faults")]
     """Changes in the order in which they were tried."""
+    interrupted: Annotated[bool, HIDDEN] = False
+    """Whether Ctrl-C ended it."""
+
+    @property
+    def plan(self) -> Plan:
+        """The best one."""
+        return self.best.plan
+
+    def told(self) -> str:
+        """Climbs before and after."""
+        return f"for {self.plan.task!r}: {self.first.climbed} of {len(self.first.trials)} climbs before, {self.best.climbed} after"
 
     @in_json(after="actions")
     def faults(self) -> tuple[GrabAtFault, ...]:
@@ -172,6 +203,57 @@ def learn(
         done = sum(trial.done for trial in trials)
         told(best, Lesson(step, what, len(changed.actions), done, len(trials), better))
     return best
+
+
+def validate_plan(
+    work: Work,
+    noise: Sequence[str],
+    executor: Executor,
+    seeds: Sequence[int],
+    *,
+    lessons: int,
+    seconds: float,
+    told: Callable[[Sequence[Went]], None] = lambda went: None,
+    ended: Callable[[int, int, int], None] = lambda ended, asked, climbed: None,
+) -> LearnedPlan:
+    """Make the plan of a work surer, under the usual noise but for what is named; Ctrl-C ends it with what there is.
+
+    Args:
+        work: A climber's plan with its task.
+        noise: Texts "key=width".
+        executor: Who climbs.
+        seeds: Of every rehearsal.
+        lessons: Most changes that are tried.
+        seconds: Most time for each search for another way [s].
+        told: Of all that came of it so far: the best plan after each change, and the change; of the first rehearsal without one.
+        ended: As `climbs_with` tells of climbs.
+
+    Raises:
+        SpecError: If the work has no plan.
+        KeyboardInterrupt: If Ctrl-C comes before the first rehearsal has ended.
+        HeldOutError: If a seed is held out for rates.
+    """
+    task = climbing_task(work.item)
+    if work.plan is None:
+        raise SpecError(work.label, "plan", "", "there is none; `clamber plan` makes one for a task")
+    setup = TrialSetup(
+        task=task, noise=read_noise(named_noise("usual"), noise), plan=work.plan, plant=work.plant, replan=False
+    )
+    climbs, went = climbs_with(with_plan(setup, label=work.label), executor, ended), list[Went]()
+
+    def tell(best: ValidatedPlan, lesson: Lesson | None) -> None:
+        went.append((best, lesson))
+        told(went)
+
+    interrupted = False
+    try:
+        learn(task, work.plan, climbs, seeds, lessons=lessons, seconds=seconds, told=tell)
+    except KeyboardInterrupt:
+        answer()
+        interrupted = True
+        if not went:
+            raise
+    return LearnedPlan(went[0][0], went[-1][0], [lesson for _, lesson in went if lesson is not None], interrupted)
 
 
 def _tried(plan: Plan, best: ValidatedPlan, climbs: Climbs, seeds: Sequence[int]) -> list[ClimbTrial]:

@@ -1,16 +1,19 @@
 """Plans climbed in simulation before anything moves, pegs a little off: no check of single stances sees all of a climb."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
+from ....interrupts import passed_on
 from ....planning.problem.plan import Plan
 from ....sim.limb_flaws import LimbFlaws
+from ....trials.dynamics import RunEvents
 from ..execution.climb_report import ClimbReport
 from ..planning.task import LimbedTask
 from .noise import NO_NOISE, Noise, read_noise
-from .run_plan import run_plan
+from .run_plan import action_told, run_plan
 
 VALIDATION_NOISE: Final = read_noise(NO_NOISE, ("peg_error=3mm",))
 """What deviates in a rehearsal."""
@@ -35,26 +38,36 @@ class PlanValidation:
         return self.climbed == len(SEEDS)
 
 
-def validate_plan(task: LimbedTask, plan: Plan, flaws: LimbFlaws, noise: Noise = VALIDATION_NOISE) -> PlanValidation:
-    """Climb by a plan a few times, without asking for another on the way; after a fall only as often as it could still be flawless.
+def validations(
+    flaws: LimbFlaws, events: RunEvents, noise: Noise = VALIDATION_NOISE
+) -> Callable[[LimbedTask, Plan], PlanValidation]:
+    """What climbs by a plan a few times, without asking for another on the way; after a fall only as often as it could still be flawless.
 
     Args:
-        task: Robot, board and start.
-        plan: A plan that nothing speaks against.
         flaws: Of the plant, as the controller believes them.
+        events: Told of each climb how far it is.
         noise: By how much pegs and plant differ from that.
     """
-    climbed, shares, failed = 0, [], None
-    for seed in SEEDS:
-        report = run_plan(task, plan, flaws, noise=noise, seed=seed).report
-        if report.reason == "interrupted":
-            raise KeyboardInterrupt
-        climbed += report.done
-        shares.append(sum(action.outcome == "ok" for action in report.actions) / max(1, len(plan.actions)))
-        if not report.done:
-            failed = grab_at_fault(plan, report)
-            break
-    return PlanValidation(climbed, float(np.mean(shares)), failed)
+
+    def validate_plan(task: LimbedTask, plan: Plan) -> PlanValidation:
+        climbed, shares, failed = 0, [], None
+        what = f"rehearsing a plan of {len(plan.actions)} actions in simulation"
+        for climb, seed in enumerate(SEEDS):
+
+            def tell(*action: Any, climb: int = climb) -> None:
+                share = (climb + action_told(*action)[1]) / len(SEEDS)
+                events.step(f"{what}, climb {climb + 1} of {len(SEEDS)}", share)
+
+            with passed_on():
+                report = run_plan(task, plan, flaws, noise=noise, seed=seed, progress=tell).report
+            climbed += report.done
+            shares.append(sum(action.outcome == "ok" for action in report.actions) / max(1, len(plan.actions)))
+            if not report.done:
+                failed = grab_at_fault(plan, report)
+                break
+        return PlanValidation(climbed, float(np.mean(shares)), failed)
+
+    return validate_plan
 
 
 def grab_at_fault(plan: Plan, report: ClimbReport) -> int | None:

@@ -7,6 +7,7 @@ from typing import Final, TypeAlias
 import numpy as np
 
 from ....errors import StartError
+from ....interrupts import passed_on
 from ....planning.planners import PROVERS, accepts, find_planner
 from ....planning.problem.plan import Plan
 from ....planning.result import PlanResult
@@ -68,11 +69,10 @@ def plan_to_climb(
     def search(task: LimbedTask, planner: str) -> PlanResult | None:
         options = {name: value for name, value in stated.items() if accepts(planner, name)}
         try:
-            result = find_planner(planner)(task, **options)
+            with passed_on():  # planners answer with what they have, which would be climbed
+                result = find_planner(planner)(task, **options)
         except StartError:  # it stands where no such plan may begin
             return None
-        if "interrupted" in result.reason:
-            raise KeyboardInterrupt  # planners answer with what they have, which would be climbed
         if result.seconds >= seconds:
             events.cut()
         return result if result.has_plan else None

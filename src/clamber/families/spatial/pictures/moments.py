@@ -9,12 +9,8 @@ import numpy as np
 
 from ....types import Floats, Records
 from ....viewing.recording import Part
-from ..planning.checks import SPATIAL_CHECKS
-from ..planning.judging_kernels import judge_stance
 from ..planning.plans import poses_of
-from ..planning.problem import problem_params
 from ..planning.task import SpatialTask
-from ..statics.checks import EQUILIBRIUM
 from .geometry import (
     LinkFrames,
     Posed,
@@ -99,36 +95,6 @@ def settled_moments(task: SpatialTask, stances: Records, shares: Floats | None =
             )
         )
     return found
-
-
-class SwingLoads:
-    """How limbs share the load while one of them swings, as the planner judged it.
-
-    Args:
-        task: Robot, world and rules.
-    """
-
-    def __init__(self, task: SpatialTask) -> None:
-        self._params, self._limbs = problem_params(task, True), len(task.robot.chains.limb_names)
-
-    def wrenches(self, stance: np.void, limb: int) -> Floats:
-        """Of the contacts of a stance without one limb's, as `Moment` has them; NaN where the others cannot hold the robot.
-
-        Args:
-            stance: Record of `planning.records.STANCE`.
-            limb: Index of the limb that swings.
-        """
-        rows, margins = np.array([stance, stance]), np.full(len(SPATIAL_CHECKS), math.nan)
-        judge_stance(self._params.record, rows[0], rows[1], limb, -1, margins)
-        if not margins[EQUILIBRIUM] >= 0.0:
-            return np.full((self._limbs, 6), math.nan)
-        judged = self._params.array("work_judged")[1]
-        frames = judged["frame"][: self._limbs].reshape(-1, 3, 3)
-        turn = np.asarray(stance["turn"]).reshape(3, 3)
-        own = judged["wrench"][: self._limbs].reshape(-1, 2, 3)
-        found: Floats = np.einsum("ij,lkj,lpk->lpi", turn, frames, own).reshape(-1, 6)
-        found[limb] = 0.0
-        return found
 
 
 @dataclass(frozen=True, slots=True, eq=False)

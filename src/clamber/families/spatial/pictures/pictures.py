@@ -20,6 +20,7 @@ from ....viewing.view import Layout
 from ..planning.task import SpatialTask
 from .alone import robot_alone, world_alone
 from .camera import Camera, camera_for
+from .chart import CHART
 from .moments import Moment, settled_moments
 from .robot_artists import RobotArtists, limb_colour, mixed
 from .spatial_view import SpatialView, describe_pose, stance_bounds
@@ -121,6 +122,7 @@ def pictures_from(asked: str | None) -> Pictures:
         lambda axes, task, bounds: draw_bare_world(axes, task, bounds, camera_for(task, asked)),
         robot_alone=robot_alone,
         world_alone=world_alone,
+        chart=CHART,
         seen_from=pictures_from,
     )
 

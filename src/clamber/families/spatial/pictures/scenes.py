@@ -1,21 +1,25 @@
 """Robots in space in the viewer: world and robot, plans of them, the editor of holds."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
 from ....viewing.browser.solids import FOV, NARROW, Camera, Scenery
-from ....viewing.browser.viewer_content import Scenes
+from ....viewing.browser.viewer_content import Editor, Scenes
 from ....viewing.scene import Bounds
 from ..planning.task import SpatialTask
 from .camera import camera_for
+from .hold_editor import HoldPanel
 from .space import SpatialFigure, WorldScene
 from .spatial_view import way_places
 
 if TYPE_CHECKING:
     import viser
+
+    from ....viewing.browser.scene_view import SceneView
 
 ROOM: Final = 1.08
 """Around what is shown [-]."""
@@ -54,6 +58,17 @@ class SpatialScenes(Scenes):
     def scenery(self, task: SpatialTask, bounds: Bounds) -> SpatialScenery:
         """See `Scenes`."""
         return SpatialScenery(bounds, task)
+
+    def editor(
+        self, server: "viser.ViserServer", task: SpatialTask, stage: "SceneView", changed: Callable[[Any], None]
+    ) -> Editor:
+        """See `Scenes`."""
+
+        def world() -> WorldScene:
+            assert isinstance(stage.world, WorldScene)  # a world in space
+            return stage.world
+
+        return HoldPanel(server, task, world, changed)
 
 
 SCENES: Final = SpatialScenes()

@@ -16,10 +16,11 @@ from ....viewing.panel import Gauges
 from ....viewing.recording import Part, PlanView
 from ....viewing.scene import Bounds, length_unit
 from ....viewing.view import Picture
+from ..planning.swing_loads import SwingLoads
 from ..planning.task import SpatialTask
 from ..world.patterns import frame_at
 from .camera import Camera, stretch
-from .moments import SWINGING, Between, Moment, SwingLoads, settled_moments
+from .moments import SWINGING, Between, Moment, settled_moments
 from .robot_artists import RobotArtists, arrows, force_scale, limb_colour, longest_limb
 from .surfaces import round_length
 from .world_artists import HOLDS, draw_world, picture_bounds

@@ -25,6 +25,8 @@ class LimbChoice:
     """Positions that may be used [rad] or [m]."""
     torque: tuple[float, ...]
     """That may be used [N m] or [N]."""
+    speed: tuple[float, ...]
+    """Of each motor without load [rad/s] or [m/s]; infinite where nothing states one."""
     nominal: tuple[float, ...]
     tip_link: str
     tip: Frame
@@ -48,26 +50,44 @@ class Choice:
     """Half extents of the base's box [m]; None: as its shapes have it."""
 
 
+@dataclass(frozen=True, slots=True)
+class PlacedParts:
+    """Where the parts are that move as one, with every limb's joints at 0, in the model's frame."""
+
+    posture: Posture
+    base: Frame
+    frames: Mapping[tuple[int, int], Frame]
+    """Limb, joint -> frame of the link behind it, the joint's axis as its z."""
+    tips: tuple[Frame, ...]
+    """Of each limb; z points out of it."""
+
+
+def placed_parts(tree: Tree, choice: Choice) -> PlacedParts:
+    """The frames of base, links and tips of a robot whose tree has the base as its root."""
+    posture = Posture.of(tree, choice.held)
+    frames: dict[tuple[int, int], Frame] = {}
+    for index, limb in enumerate(choice.limbs):
+        for k, joint in enumerate(limb.joints):
+            place, axis = posture.axis(joint)
+            frames[index, k] = Frame(place, axis_frame(axis))
+    tips = tuple(posture.frame(tree.link(limb.tip_link)).then(limb.tip) for limb in choice.limbs)
+    return PlacedParts(posture, posture.frame(tree.links[0]), frames, tips)
+
+
 def chains_of(name: str, tree: Tree, choice: Choice) -> Chains:
     """The arrays of a robot whose tree has the base as its root."""
-    posture = Posture.of(tree, choice.held)
-    base = posture.frame(tree.links[0])
+    placed = placed_parts(tree, choice)
+    posture, base, frames = placed.posture, placed.base, placed.frames
     owner = owners(tree, choice.limbs)
     n_limbs, most = len(choice.limbs), max(len(limb.joints) for limb in choice.limbs)
     shape = (n_limbs, most)
     offset, rotation = np.zeros((n_limbs, most + 1, 3)), np.tile(np.eye(3), (n_limbs, most + 1, 1, 1))
     mass, moment = np.zeros(shape), np.zeros((*shape, 3))
-    frames: dict[tuple[int, int], Frame] = {}
     for index, limb in enumerate(choice.limbs):
         before = base
-        for k, joint in enumerate(limb.joints):
-            place, axis = posture.axis(joint)
-            frames[index, k] = Frame(place, axis_frame(axis))
-            offset[index, k], rotation[index, k] = before.within(place), before.axes.T @ frames[index, k].axes
-            before = frames[index, k]
-        tip = posture.frame(tree.link(limb.tip_link)).then(limb.tip)
-        end = len(limb.joints)
-        offset[index, end], rotation[index, end] = before.within(tip.place), before.axes.T @ tip.axes
+        for k, frame in enumerate((*(frames[index, k] for k in range(len(limb.joints))), placed.tips[index])):
+            offset[index, k], rotation[index, k] = before.within(frame.place), before.axes.T @ frame.axes
+            before = frame
     base_mass, base_moment = choice.payload, choice.payload * np.array(choice.payload_at)
     for link in tree.links:
         centre = posture.frame(link).at(link.centre)
@@ -89,7 +109,7 @@ def chains_of(name: str, tree: Tree, choice: Choice) -> Chains:
         lower=_padded([limb.lower for limb in choice.limbs], 0.0),
         upper=_padded([limb.upper for limb in choice.limbs], 0.0),
         torque=_padded([limb.torque for limb in choice.limbs], NEVER),
-        speed=_padded([[joint.speed or np.inf for joint in limb.joints] for limb in choice.limbs], np.inf),
+        speed=_padded([limb.speed for limb in choice.limbs], np.inf),
         nominal=_padded([limb.nominal for limb in choice.limbs], 0.0),
         mass=mass,
         centre=np.divide(moment, mass[..., None], out=np.zeros_like(moment), where=mass[..., None] > 0.0),

@@ -19,10 +19,12 @@ from ....units import (
     PositiveRatio,
     PositiveTorque,
 )
-from .contacts import Contact, at_most, cone, hook_rows, moments, pad, spine_rows
+from .contacts import Contact, Strength, at_most, cone, hook_rows, moments, pad, spine_rows
 
 SCHEMA: Final = "clamber-contact-1"
 DATA: Final = Path(__file__).parent.parent / "data" / "contacts"
+CAPTURE: Final = 0.01
+"""How far from a hold end effectors attach whose files do not say it, chosen: spines, jaws and lips of this size reach so far [m]."""
 Title = Annotated[str, Field(max_length=200)]
 
 
@@ -39,6 +41,10 @@ class PointFoot:
     def contact(self) -> Contact:
         """What it can take: a friction cone."""
         return Contact(kind=self.kind, rows=cone(), friction=self.friction)
+
+    def bears(self) -> Strength:
+        """Exactly what it bears."""
+        return Strength(form="cone", friction=self.friction)
 
 
 @spec
@@ -63,6 +69,16 @@ class AreaFoot:
         """What it can take."""
         return _padded(self.kind, self.friction, 0.0, (self.length / 2, self.width / 2), self.ankle, self.tilt)
 
+    def bears(self) -> Strength:
+        """Exactly what it bears."""
+        return Strength(
+            form="cone" if self.ankle else "pad",
+            friction=self.friction,
+            halves=(self.length / 2, self.width / 2),
+            moments=not self.ankle,
+            tilt=self.tilt,
+        )
+
 
 @spec
 class Gripper:
@@ -75,10 +91,16 @@ class Gripper:
     """Tangential force per normal force above the pull-off force [-]."""
     pull: PositiveForce
     """Pull-off force along the normal [N]."""
+    capture: PositiveLength = CAPTURE
+    """It attaches to a hold's patch that is no farther from its tip [m]."""
 
     def contact(self) -> Contact:
         """What it can take: a friction cone whose apex lies at the pull-off force."""
         return Contact(kind=self.kind, rows=cone(), friction=self.friction, pull=self.pull)
+
+    def bears(self) -> Strength:
+        """Exactly what it bears."""
+        return Strength(form="cone", friction=self.friction, pull=self.pull, capture=self.capture)
 
 
 @spec
@@ -100,6 +122,8 @@ class Clamp:
     """Largest moment about the normal [N m]."""
     tilt: ConeAngle
     """Largest angle off the normal at which it closes [rad]."""
+    capture: PositiveLength = CAPTURE
+    """It attaches to a hold's patch that is no farther from its tip [m]."""
 
     def contact(self) -> Contact:
         """What it can take: forces and moments apart from each other."""
@@ -111,6 +135,20 @@ class Clamp:
             pull=self.pull,
             components=6,
             aligned=True,
+            tilt=self.tilt,
+        )
+
+    def bears(self) -> Strength:
+        """Exactly what it bears."""
+        return Strength(
+            form="cone",
+            friction=self.friction,
+            pull=self.pull,
+            press=self.press,
+            bending=self.bending,
+            twisting=self.twisting,
+            moments=True,
+            capture=self.capture,
             tilt=self.tilt,
         )
 
@@ -130,12 +168,25 @@ class Hook:
     """Largest force [N]."""
     tilt: ConeAngle
     """Largest angle of the end effector's z from the inward normal at which it hangs safely [rad]."""
+    capture: PositiveLength = CAPTURE
+    """It attaches to a hold's patch that is no farther from its tip [m]."""
 
     def contact(self) -> Contact:
         """What it can take."""
         rows = hook_rows(self.opening, self.friction)
         return Contact(
             kind=self.kind, rows=rows, friction=self.friction, pull=self.strength, aligned=True, tilt=self.tilt
+        )
+
+    def bears(self) -> Strength:
+        """Exactly what it bears."""
+        return Strength(
+            form="hook",
+            friction=self.friction,
+            pull=self.strength,
+            angle=self.opening,
+            capture=self.capture,
+            tilt=self.tilt,
         )
 
 
@@ -162,13 +213,25 @@ class Magnet:
     """Angle at which half of the pull is left, without an ankle [rad]; None: tilt costs nothing."""
     ankle: bool = False
     """Whether a passive joint lets the face lie flat."""
+    capture: PositiveLength = CAPTURE
+    """It attaches to a hold's patch that is no farther from its tip [m]."""
 
     def contact(self) -> Contact:
         """What it can take."""
-        pull = self.pull / (1.0 + self.gap / self.quarter_gap) ** 2
         side = self.radius * math.sqrt(0.5)
-        loss = 0.0 if self.ankle or self.half_tilt is None else 0.5 / self.half_tilt
-        return _padded(self.kind, self.friction, pull, (side, side), self.ankle, self.tilt, loss)
+        return _padded(self.kind, self.friction, self._pull, (side, side), self.ankle, self.tilt, self._loss)
+
+    @property
+    def _pull(self) -> float:
+        return self.pull / (1.0 + self.gap / self.quarter_gap) ** 2
+
+    @property
+    def _loss(self) -> float:
+        return 0.0 if self.ankle or self.half_tilt is None else 0.5 / self.half_tilt
+
+    def bears(self) -> Strength:
+        """Exactly what it bears."""
+        return _strength(self, self._pull, self.radius * math.sqrt(0.5), self._loss)
 
 
 @spec
@@ -190,12 +253,21 @@ class Suction:
     """Largest angle between lip and surface: of the ankle, or that the lip seals [rad]."""
     ankle: bool = False
     """Whether a passive joint lets the lip lie flat."""
+    capture: PositiveLength = CAPTURE
+    """It attaches to a hold's patch that is no farther from its tip [m]."""
 
     def contact(self) -> Contact:
         """What it can take."""
-        pull = self.vacuum * math.pi / 4 * self.diameter**2 / self.safety
         side = self.diameter / 2 * math.sqrt(0.5)
-        return _padded(self.kind, self.friction, pull, (side, side), self.ankle, self.tilt)
+        return _padded(self.kind, self.friction, self._pull, (side, side), self.ankle, self.tilt)
+
+    @property
+    def _pull(self) -> float:
+        return self.vacuum * math.pi / 4 * self.diameter**2 / self.safety
+
+    def bears(self) -> Strength:
+        """Exactly what it bears."""
+        return _strength(self, self._pull, self.diameter / 2 * math.sqrt(0.5))
 
 
 @spec
@@ -213,11 +285,24 @@ class Spine:
     """Largest drawing force of all spines of the foot [N]."""
     tilt: ConeAngle
     """Largest angle of the end effector's z from the inward normal [rad]."""
+    capture: PositiveLength = CAPTURE
+    """It attaches to a hold's patch that is no farther from its tip [m]."""
 
     def contact(self) -> Contact:
         """What it can take."""
         return Contact(
             kind=self.kind, rows=spine_rows(self.angle), friction=self.friction, pull=self.strength, tilt=self.tilt
+        )
+
+    def bears(self) -> Strength:
+        """Exactly what it bears."""
+        return Strength(
+            form="spine",
+            friction=self.friction,
+            pull=self.strength,
+            angle=self.angle,
+            capture=self.capture,
+            tilt=self.tilt,
         )
 
 
@@ -277,5 +362,19 @@ def _padded(
         components=3 if ankle else 6,
         aligned=not ankle,
         tilt=tilt,
+        tilt_loss=loss,
+    )
+
+
+def _strength(kind: Magnet | Suction, pull: float, side: float, loss: float = 0.0) -> Strength:
+    """Of a face that pulls all over the square in it, half as wide as `side` [m]."""
+    return Strength(
+        form="cone" if kind.ankle else "pad",
+        friction=kind.friction,
+        pull=pull,
+        halves=(side, side),
+        moments=not kind.ankle,
+        capture=kind.capture,
+        tilt=kind.tilt,
         tilt_loss=loss,
     )

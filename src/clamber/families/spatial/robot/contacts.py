@@ -7,6 +7,7 @@ forces [N], then moments about the contact's point [N m]. A row says `coefficien
 
 import math
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -68,6 +69,36 @@ class Contact:
         terms = np.array([1.0, held, mu * held])
         matrix = np.array([np.add(row.coefficients, mu * np.array(row.per_friction)) for row in self.rows])
         return matrix, np.array([float(np.dot(row.limit, terms)) for row in self.rows])
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Strength:
+    """The exact body of wrenches that an end effector bears, which the rows of its `Contact` lie in, and when it attaches at all."""
+
+    form: Literal["cone", "pad", "hook", "spine"]
+    """Cone: |tangent| <= mu (normal + pull). Pad: the same, with moments that peel and twist it off. Hook and spine: as their rows say."""
+    friction: float
+    """Coefficient mu [-]."""
+    pull: float = 0.0
+    """Largest pull along the normal; of hooks the largest force, of spines the largest draw [N]."""
+    press: float = math.inf
+    """Largest push [N]."""
+    bending: float = math.inf
+    """Largest moment across the normal, of a cone that bears moments [N m]."""
+    twisting: float = math.inf
+    """Largest moment about the normal, of a cone that bears moments [N m]."""
+    halves: tuple[float, float] = (0.0, 0.0)
+    """Half the length and width of a pad [m]."""
+    angle: float = 0.0
+    """Of hooks and spines [rad]."""
+    moments: bool = False
+    """Whether it holds its direction, too."""
+    capture: float = 0.0
+    """It attaches to a hold's patch that is no farther from its tip [m]; 0: it only pushes."""
+    tilt: float = math.inf
+    """Largest angle of its z from the inward normal at which it attaches [rad]."""
+    tilt_loss: float = 0.0
+    """Share of the pull that a radian of tilt costs [1/rad]."""
 
 
 def cone(facets: int = FACETS) -> tuple[Row, ...]:

@@ -13,7 +13,7 @@ from ....errors import FileError
 from ....files import content_hash, read_text
 from ....regular_files import read_bytes
 from .bodies import is_of_a_body, rotation, shape_points, symmetric
-from .notes import Notes
+from .notes import Notes, span
 from .tree import Joint, Link, Shape, Site, Tree, matrix, vector
 from .urdf import JointFacts, Urdf, prepare
 
@@ -211,14 +211,9 @@ def _shrink_inertias(spec: Any, model: Any, notes: Notes) -> bool:
         if mass > SLIGHT * model.body_mass.sum() and most > BULKY * mass * size**2:
             large[model.body(body).name] = most / (mass * size**2)
             _make_round(spec.body(model.body(body).name), 0.4 * mass * size**2)
-    told = f"its inertia is {_span(large)} times mass times squared size, as if of another unit; it counts as a ball's of that size"
+    told = f"its inertia is {span(large)} times mass times squared size, as if of another unit; it counts as a ball's of that size"
     notes.repair("link", list(large), told)
     return bool(large)
-
-
-def _span(values: Mapping[str, float]) -> str:
-    low, high = min(values.values(), default=0.0), max(values.values(), default=0.0)
-    return f"{low:.3g}" if high < 1.01 * low else f"{low:.3g} to {high:.3g}"
 
 
 def _size(model: Any, data: Any, body: int) -> float:
@@ -342,6 +337,7 @@ class _Reader:
         limited = bool(model.jnt_limited[joint])
         facts = self.facts.get(name) or JointFacts(torque=self._torque(joint), speed=None, limited=limited)
         lower, upper = (float(bound) for bound in model.jnt_range[joint])
+        at = model.jnt_dofadr[joint]
         return Joint(
             name=name,
             link=self.names[int(model.jnt_bodyid[joint])],
@@ -351,6 +347,9 @@ class _Reader:
             limits=(lower, upper) if facts.limited else None,
             torque=facts.torque,
             speed=facts.speed,
+            rotor=float(model.dof_armature[at]),
+            friction=float(model.dof_frictionloss[at]),
+            damping=float(model.dof_damping[at].flat[0]),
             held=self.held.get(name),
         )
 

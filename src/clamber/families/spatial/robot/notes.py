@@ -1,6 +1,6 @@
 """What was repaired in a model and what was left out of it, as sentences that name element, what was done, and why."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Final
 
@@ -33,3 +33,9 @@ def sentence(kind: str, names: Sequence[str], told: str) -> str:
     plural = {"body": "bodies", "collision mesh": "collision meshes", "mesh": "meshes"}.get(kind, f"{kind}s")
     more = f", and {len(names) - NAMED} more" if len(names) > NAMED else ""
     return f"{len(names)} {plural} ({', '.join(names[:NAMED])}{more}): {told}"
+
+
+def span(values: Mapping[str, float]) -> str:
+    """The range of some numbers, or the one that they are."""
+    low, high = min(values.values(), default=0.0), max(values.values(), default=0.0)
+    return f"{low:.3g}" if high < 1.01 * low else f"{low:.3g} to {high:.3g}"

@@ -4,23 +4,31 @@ import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, Final, NamedTuple
+from typing import Annotated, Any, ClassVar, Final
 
 import numpy as np
-from pydantic import Field, GetCoreSchemaHandler, StrictStr
-from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+from pydantic import Field, StrictStr
 
-from ....errors import UnitError, describe_choices
+from ....errors import describe_choices
 from ....files import Document, check_schema
+from ....notebook import Pictured
 from ....regular_files import user_path
 from ....specs import Name, Provenance, build_spec, collect_sources, spec
 from ....types import Json
-from ....units import DEGREE, Length, NonNegativeAngle, NonNegativeLength, NonNegativeMass, Quantity, read_quantity
+from ....units import (
+    Length,
+    NonNegativeAngle,
+    NonNegativeLength,
+    NonNegativeMass,
+    PositiveAngularSpeed,
+    Quantity,
+)
 from .assembly import Choice, LimbChoice, axis_frame, chains_of
 from .chains import Chains
-from .contact_kinds import build_contact, read_contact
+from .contact_kinds import ContactKind, build_contact, read_contact
 from .contacts import Contact
 from .model import read_model
+from .readings import LINEAR, Load, Position, Rate, Reading, shown
 from .tree import Frame, Joint, Tree, rooted_at
 
 SCHEMA: Final = "clamber-robot-1"
@@ -29,37 +37,6 @@ MAX_LIMBS: Final = 8
 """Limb slots of a stance."""
 
 
-class Reading(NamedTuple):
-    """A quantity whose dimension the joint decides that it is said of."""
-
-    value: float
-    """[rad], [m], [N m] or [N]."""
-    dimension: str
-
-
-class _OneOf:
-    """A quantity of one of two dimensions: that of a turning joint, and that of a sliding one."""
-
-    def __init__(self, turning: str, sliding: str) -> None:
-        self.dimensions = (turning, sliding)
-
-    def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_plain_validator_function(self._read)
-
-    def _read(self, raw: object) -> Reading:
-        told = []
-        for dimension in self.dimensions:
-            try:
-                return Reading(read_quantity(raw, dimension), dimension)
-            except UnitError as error:
-                told.append(f"{error.problem}; {error.allowed}")
-        raise PydanticCustomError("quantity", "{text}", {"text": told[0]})
-
-
-Position = Annotated[Reading, _OneOf("angle", "length")]
-"""Of a joint: an angle, or a length where it slides."""
-Load = Annotated[Reading, _OneOf("torque", "force")]
-"""Of a motor: a torque, or a force where its joint slides."""
 Share = Annotated[float, Quantity("ratio", above=0.0, at_most=1.0)]
 Direction = tuple[float, float, float]
 
@@ -84,6 +61,8 @@ class LimbSpec:
     """Joint -> least and largest position, in place of the model's."""
     torques: Mapping[StrictStr, Load] = field(default_factory=dict)
     """Joint -> largest torque or force of its motor, in place of the model's."""
+    speeds: Mapping[StrictStr, Rate] = field(default_factory=dict)
+    """Joint -> speed of its motor without load, in place of the model's."""
     radius: NonNegativeLength | None = None
     """Of its links' capsules [m]; None: as thick as their shapes."""
 
@@ -110,6 +89,8 @@ class RobotSpec:
     """Link that floats; its frame is the robot's."""
     trunk: Mapping[StrictStr, Position] = field(default_factory=dict)
     """Joint that no limb has -> position at which it is held; 0, or what the model couples it to, where it is not named."""
+    speed: PositiveAngularSpeed | None = None
+    """Of motors without load, where neither limb nor model state one for a turning joint; None: they turn as fast as they may."""
     torque_share: Share = 1.0
     """Part of each motor's largest torque that may be used [-]."""
     joint_room: NonNegativeAngle = 0.0
@@ -120,8 +101,8 @@ class RobotSpec:
     limb: Annotated[tuple[LimbSpec, ...], Field(min_length=1, max_length=MAX_LIMBS)]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SpatialRobot:
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
+class SpatialRobot(Pictured):
     """A robot as its file and its model describe it."""
 
     family: ClassVar[str] = FAMILY
@@ -129,10 +110,12 @@ class SpatialRobot:
     spec: RobotSpec
     tree: Tree = field(repr=False)
     """The model, with the base as its root."""
+    choice: Choice = field(repr=False, compare=False)
+    """Of limbs and held joints, made of spec and tree."""
     chains: Chains = field(repr=False, compare=False)
-    """Made of spec and tree."""
-    contacts: tuple[Contact, ...] = field(repr=False)
-    """What each limb holds on with."""
+    """Made of tree and choice."""
+    ends: tuple[ContactKind, ...] = field(repr=False)
+    """What each limb holds on with, as its data sheet says."""
     model_path: Path | None = field(compare=False)
     """None: the robot comes from a stored plan, which holds what statics needs of the model."""
     sources: Mapping[str, Provenance]
@@ -157,6 +140,11 @@ class SpatialRobot:
     def limb_names(self) -> tuple[str, ...]:
         """Names of the limbs, in order."""
         return self.chains.limb_names
+
+    @property
+    def contacts(self) -> tuple[Contact, ...]:
+        """What the end of each limb can take, as statics needs it."""
+        return tuple(end.contact() for end in self.ends)
 
     @property
     def model_sha256(self) -> str:
@@ -209,9 +197,13 @@ def build_robot(document: Document) -> SpatialRobot:
     return _built(robot, tree, whole, path)
 
 
-def _plain(value: object) -> Json:
-    """A spec as plain data."""
-    made: Json = asdict(value)  # type: ignore[call-overload]
+def _plain(tree: Tree) -> Json:
+    """A tree as plain data, without what its joints do not have."""
+    made: Json = asdict(tree)
+    for joint in made["joints"]:
+        for key in ("rotor", "friction", "damping"):
+            if not joint[key]:
+                del joint[key]
     return made
 
 
@@ -253,22 +245,23 @@ def _built(robot: RobotSpec, tree: Tree, document: Document, path: Path | None) 
     return SpatialRobot(
         spec=robot,
         tree=tree,
+        choice=choice,
         chains=chains,
-        contacts=tuple(_contact(document, limb) for limb in robot.limb),
+        ends=tuple(_end(document, limb) for limb in robot.limb),
         model_path=path,
         sources=collect_sources(document.data),
     )
 
 
-def _contact(document: Document, limb: LimbSpec) -> Contact:
+def _end(document: Document, limb: LimbSpec) -> ContactKind:
     """What a limb holds on with."""
     if isinstance(limb.contact, dict):
-        return build_contact(Document(f"{document.label} [limb.{limb.name}.contact]", limb.contact)).contact()
+        return build_contact(Document(f"{document.label} [limb.{limb.name}.contact]", limb.contact))
     contacts = document.data.get("contacts")
     stated = contacts.get(limb.contact) if isinstance(contacts, dict) else None
     if not isinstance(stated, dict):
         raise document.problem(f"limb.{limb.name}.contact", "must name a contact that stands under 'contacts'")
-    return build_contact(Document(f"contact '{limb.contact}' of {document.label}", stated)).contact()
+    return build_contact(Document(f"contact '{limb.contact}' of {document.label}", stated))
 
 
 def _tip_link(document: Document, limb: LimbSpec, tree: Tree) -> str:
@@ -291,7 +284,7 @@ def _limb(
         told = f"no joint is this limb's alone between the base '{robot.base}' and it; name a site or link behind one"
         raise document.problem(f"{key}.tip", told)
     own = {joint.name: joint for joint in joints}
-    for word, stated in (("limits", limb.limits), ("torques", limb.torques)):
+    for word, stated in (("limits", limb.limits), ("torques", limb.torques), ("speeds", limb.speeds)):
         for name in stated:
             _check_joint(document, f"{key}.{word}.{name}", name, own)
     bounds = [_bounds(document, robot, limb, joint) for joint in joints]
@@ -305,7 +298,7 @@ def _limb(
         nominal = [reading.value for reading in limb.nominal]
         for joint, value, (lower, upper) in zip(joints, nominal, bounds, strict=True):
             if not lower <= value <= upper:
-                told = f"that of {joint.name} must be {_shown(joint, lower)} to {_shown(joint, upper)}"
+                told = f"that of {joint.name} must be {shown(joint, lower)} to {shown(joint, upper)}"
                 raise document.problem(f"{key}.nominal", told + ", its limits less 'joint_room'")
     return LimbChoice(
         name=limb.name,
@@ -313,6 +306,7 @@ def _limb(
         lower=tuple(lower for lower, _ in bounds),
         upper=tuple(upper for _, upper in bounds),
         torque=tuple(torque),
+        speed=tuple(_speed(document, robot, limb, joint) for joint in joints),
         nominal=tuple(nominal),
         tip_link=tip_link,
         tip=_tip(document, limb, tree, joints[-1]),
@@ -337,7 +331,7 @@ def _bounds(document: Document, robot: RobotSpec, limb: LimbSpec, joint: Joint) 
         )
     if not lower + room < upper - room:
         told = "the least position must be below the largest" + (", both moved inwards by 'joint_room'" if room else "")
-        raise document.problem(key, f"{told}; here {_shown(joint, lower + room)} to {_shown(joint, upper - room)}")
+        raise document.problem(key, f"{told}; here {shown(joint, lower + room)} to {shown(joint, upper - room)}")
     return lower + room, upper - room
 
 
@@ -353,6 +347,19 @@ def _torque(document: Document, robot: RobotSpec, limb: LimbSpec, joint: Joint) 
     if not reading.value > 0.0:
         raise document.problem(key, "must be more than 0")
     return robot.torque_share * reading.value
+
+
+def _speed(document: Document, robot: RobotSpec, limb: LimbSpec, joint: Joint) -> float:
+    """Speed of a joint's motor without load [rad/s] or [m/s]; infinite where nothing states one."""
+    key = f"limb.{limb.name}.speeds.{joint.name}"
+    if joint.name not in limb.speeds:
+        usual = None if joint.sliding else robot.speed
+        return joint.speed or usual or math.inf
+    reading = limb.speeds[joint.name]
+    _check_dimension(document, key, joint, reading)
+    if not reading.value > 0.0:
+        raise document.problem(key, "must be more than 0")
+    return reading.value
 
 
 def _tip(document: Document, limb: LimbSpec, tree: Tree, last: Joint) -> Frame:
@@ -381,11 +388,11 @@ def _check_joint(document: Document, key: str, name: str, joints: Mapping[str, J
 
 
 def _check_dimension(document: Document, key: str, joint: Joint, reading: Reading) -> None:
-    """Makes sure that a turning joint has an angle or a torque, and a sliding one a length or a force."""
-    if (reading.dimension in ("length", "force")) != joint.sliding:
-        what = "slides: state a length or a force" if joint.sliding else "turns: state an angle or a torque"
+    """Makes sure that what is said of a joint is of its dimension."""
+    if (reading.dimension in LINEAR) != joint.sliding:
+        what = (
+            "slides: state a length or a force, or a speed"
+            if joint.sliding
+            else "turns: state an angle or a torque, or an angular speed"
+        )
         raise document.problem(key, f"joint {joint.name} {what}")
-
-
-def _shown(joint: Joint, position: float) -> str:
-    return f"{position:.4g} m" if joint.sliding else f"{position / DEGREE:.4g} deg"

@@ -12,6 +12,7 @@ from ....specs import spec
 from ....types import Floats
 
 Number: TypeAlias = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+NotNegative: TypeAlias = Annotated[float, Field(strict=True, ge=0.0, allow_inf_nan=False)]
 Vector: TypeAlias = tuple[Number, Number, Number]
 Matrix: TypeAlias = tuple[Vector, Vector, Vector]
 """Rows."""
@@ -28,7 +29,7 @@ class Link:
     """Origin of its frame [m]."""
     axes: Matrix
     """Axes of its frame, as columns."""
-    mass: Annotated[float, Field(strict=True, ge=0.0, allow_inf_nan=False)]
+    mass: NotNegative
     """[kg]."""
     centre: Vector = (0.0, 0.0, 0.0)
     """Centre of mass in the link's frame [m]."""
@@ -53,6 +54,12 @@ class Joint:
     """Largest motor torque [N m] or force [N]; None where the model states none."""
     speed: Annotated[float, Field(strict=True, gt=0.0, allow_inf_nan=False)] | None = None
     """Largest speed [rad/s] or [m/s]; None where the model states none."""
+    rotor: NotNegative = 0.0
+    """Inertia of its motor's rotor at the joint [kg m^2], or mass [kg]."""
+    friction: NotNegative = 0.0
+    """Coulomb friction of its gear [N m] or [N]."""
+    damping: NotNegative = 0.0
+    """Viscous friction of its gear [N m s/rad] or [N s/m]."""
     held: Number | None = None
     """Position at which it stays because the model couples it to another joint [rad] or [m]."""
 

@@ -1,80 +1,26 @@
 """How walkers are drawn."""
 
-from dataclasses import replace
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from ....files import Document
 from ....planning.problem.problem import Replay
 from ....planning.problem.problems import normalisation_of
-from ....tasks.robots import read_robot, robot_names
-from ....tasks.task_format import SCHEMA
-from ....types import Floats, Json
+from ....types import Floats
 from ....viewing import style
-from ....viewing.alone import Alone
 from ....viewing.pictures import Pictures
 from ....viewing.route import FACTS, draw_way, label_ghost, pick_ghosts, write_facts
-from ....viewing.scene import Bounds, length_unit, set_axes
+from ....viewing.scene import Bounds, length_unit
 from ....viewing.view import Layout
-from ..planning.plans import PLANS
-from ..planning.task import WalkerTask, build_walker_task
-from ..robot import WalkerRobot
-from ..world.ground import SCHEMA as GROUND_SCHEMA
-from ..world.ground import Ground
+from ..planning.task import WalkerTask
+from .alone import ground_alone, walker_alone
 from .report import walk_page
 from .walk_run_view import run_picture
 from .walker_motion import COLOURS, NAMES, WalkerMoment, settled_moment
-from .walker_view import WalkerArtists, WalkerView, draw_ground, draw_walk, walker_bounds
-
-BESIDE: Final = 1.0
-"""Ground that is shown about what is on it [m]."""
-
-
-def _around(robot: Json, ground: Json) -> WalkerTask:
-    return build_walker_task(
-        Document(
-            "what is shown",
-            {
-                "schema": SCHEMA, "name": "alone", "robot": robot, "ground": ground, "goal": {"x_min": "0 m"},
-                "start": {"x": "0 m", "y": "0 m"}, "step": {"length": "1 cm", "angle": "15 deg"}, "rules": {"hard": []},
-                "labels": {"robot": "robot", "ground": "ground"},
-            },
-        )
-    )  # fmt: skip
-
-
-def ground_alone(ground: Ground, document: Json) -> Alone:
-    """A ground from above; the task about it needs some robot that comes with Clamber."""
-    task = replace(_around(read_robot(robot_names("walker")[0]).data, document), goals=())
-    bounds = *_within(ground, 0, ground.x_min, ground.x_max), *_within(ground, 1, ground.y_min, ground.y_max)
-    return Alone(task, bounds, lambda axes: draw_ground(axes, task, bounds))
-
-
-def _within(ground: Ground, axis: int, low: float, high: float) -> tuple[float, float]:
-    """The part of the ground, along an axis, that has all edges of blocks, rough parts and patches but its own ends [m]."""
-    parts = (*(block.corners() for block in ground.raised()), *ground.forbidden())
-    edges = [place[axis] for corners in parts for place in corners if low < place[axis] < high]
-    middle = min(max(0.0, low), high)
-    return max(min(edges, default=middle) - BESIDE, low), min(max(edges, default=middle) + BESIDE, high)
-
-
-def walker_alone(robot: WalkerRobot, document: Json) -> Alone:
-    """A walker from above, on its Delta-frame."""
-    task = _around(document, {"schema": GROUND_SCHEMA, "name": "level"})
-    stance: Any = PLANS.problem(task).replay(np.zeros(0, np.int32)).stances[0]
-    at = settled_moment(task, stance)
-    bounds = walker_bounds(task, [at])
-
-    def draw(axes: Axes) -> None:
-        set_axes(axes, task, bounds)
-        WalkerArtists(axes, task, bounds).update(at)
-
-    return Alone(task, bounds, draw, at)
-
+from .walker_view import WalkerArtists, WalkerView, draw_ground, draw_walk, near_walk, walker_bounds
 
 GHOSTS: Final = 2
 """Stances drawn between start and end, at most: a walker covers most of its own steps."""
@@ -132,6 +78,7 @@ PICTURES: Final = Pictures(
     start_point,
     draw_ground,
     run=run_picture,
+    near=near_walk,
     report=walk_page,
     robot_alone=walker_alone,
     world_alone=ground_alone,

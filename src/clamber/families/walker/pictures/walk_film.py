@@ -12,6 +12,7 @@ from ..control.gait import lengths_at
 from ..control.track import Track, straight
 from ..control.walker_balance import mass_centre
 from ..execution.true_walk import TrueWalk, hull_margins
+from ..execution.walk_scene import plate_axes
 from ..execution.walk_trace import WalkTrace
 from ..planning import Walk
 from ..robot import WalkerRobot
@@ -20,7 +21,7 @@ from ..trials.run_walk import lay_track
 from ..world.ground import Ground, Surface
 from .space import WalkMoment
 from .walker_loads import WalkLoads, actuator_gauges, leg_force_gauges, leg_gauges, plate_normals
-from .walker_motion import NAMES, WalkerMoment, WalkShapes, plate_axes, shapes_at
+from .walker_motion import NAMES, WalkerMoment, WalkShapes, shapes_at
 from .walker_view import WalkerView
 
 USUAL: Final = 16.0

@@ -1,0 +1,1 @@
+"""Laws of a robot whose base floats and whose limbs hold on to something."""

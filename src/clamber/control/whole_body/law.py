@@ -1,0 +1,76 @@
+"""Whole-body control: at each tick the accelerations and contact wrenches that come nearest to what is asked for, as motor torques."""
+
+from typing import Any, Final
+
+import numpy as np
+
+from ...types import Floats
+from .programme import Aims, Gains, Limits, Programme
+from .programme_kernels import hold_torques, read_torques, write_programme
+from .tree import Dynamics, State, Tree
+from .tree_kernels import work_out
+
+DAMPED: Final = 0.1
+"""Of a joint's largest torque that motion of 1 rad/s takes where no programme can be solved [s]."""
+
+
+class WholeBody:
+    """The law of one robot, with its memory.
+
+    Args:
+        tree: The robot as it is believed to be.
+        limits: Of its joints.
+        gains: Weights and feedback.
+        most_rows: Of a contact's polytope.
+    """
+
+    def __init__(self, tree: Tree, limits: Limits, gains: Gains, most_rows: int) -> None:
+        import daqp
+
+        self.tree, self.limits, self.gains = tree, limits, gains
+        self.state, self.dynamics = State.of(tree), Dynamics.of(tree)
+        self.aims = Aims.of(tree, most_rows)
+        self.torques: Floats = np.zeros(tree.joints)
+        """Of the last tick, shape (n,)."""
+        self.wrenches: Floats = np.zeros((tree.limbs, 6))
+        """That contacts are meant to bear, each in its own frame, shape (limbs, 6)."""
+        self.failures = 0
+        """Ticks whose programme had no solution."""
+        self._solve: Any = daqp.solve
+        self._packed, self._programme = gains.packed(), Programme.of(tree, most_rows)
+        self._views: dict[tuple[int, int], tuple[Floats, ...]] = {}
+        self._damping = DAMPED * float(np.min(limits.torque))
+
+    def look(self) -> None:
+        """Work out the dynamics of `state`."""
+        work_out(self.tree, self.state, self.dynamics)
+
+    def tick(self) -> Floats:
+        """Torques for `aims` in `state`, after `look`; shape (n,), the law's own."""
+        programme, aims = self._programme, self.aims
+        n, m = write_programme(self.tree, self.state, self.dynamics, aims, self.limits, self._packed, programme)
+        views = self._views.get((n, m)) or self._view(n, m)
+        x, _, flag, _ = self._solve(*views)
+        if flag < 1:
+            self.failures += 1
+            hold_torques(self.dynamics, aims, self.limits, self._damping, self.state, self.torques)
+            return self.torques
+        read_torques(self.dynamics, self.limits, programme, views[2], x, self.torques)
+        for limb, at in enumerate(programme.at.tolist()):
+            self.wrenches[limb] = 0.0
+            if at >= 0:
+                self.wrenches[limb, : aims.components[limb]] = x[at : at + aims.components[limb]]
+        return self.torques
+
+    def _view(self, n: int, m: int) -> tuple[Floats, ...]:
+        """The programme of so many unknowns and rows as the solver takes it: H, f, A, upper, lower, sense."""
+        of = self._programme
+        made = self._views[n, m] = (
+            of.h[: n * n].reshape(n, n),
+            of.f[:n],
+            of.a[: m * n].reshape(m, n),
+            of.upper[: n + m],
+            of.lower[: n + m],
+            of.sense[: n + m],
+        )
+        return made

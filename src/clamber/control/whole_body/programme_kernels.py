@@ -1,0 +1,246 @@
+"""Writing the programme of a tick, and reading torques off its solution."""
+
+import math
+
+from ...compiled import inlined, kernel
+from .programme import (
+    ARM,
+    BASE,
+    BASE_RATE,
+    ENDLESS,
+    HOLDING,
+    HOLDS,
+    LIMIT_RATE,
+    POSTURE,
+    POSTURE_RATE,
+    REST_RATE,
+    RESTING,
+    SPEED_RATE,
+    SWING,
+    SWING_RATE,
+    SWINGS,
+    WRENCH,
+)
+from .tree import FREE
+
+EQUATION, GIVES_WAY = 5, 8
+"""What the solver calls such bounds."""
+SMALL = 1e-9
+"""Of the diagonal, so that the programme is strictly convex whatever is asked for [-]."""
+
+
+@inlined
+def add_row(h, f, jacobian, row, wanted, weight):
+    """Add `weight (row of the Jacobian . accelerations - wanted)^2 / 2`."""
+    n = jacobian.shape[1]
+    for i in range(n):
+        left = weight * jacobian[row, i]
+        if left == 0.0:
+            continue
+        f[i] -= left * wanted
+        for j in range(n):
+            h[i, j] += left * jacobian[row, j]
+
+
+@kernel
+def base_tasks(dynamics, state, aims, gains, h, f):
+    """The base follows its aim: errors die away without overshoot."""
+    rate = gains[BASE_RATE]
+    weight = gains[BASE]
+    for a in range(3):
+        wanted = aims.acceleration[a] + 2.0 * rate * (aims.velocity[a] - state.speed[a])
+        wanted += rate * rate * (aims.position[a] - state.position[a])
+        h[a, a] += weight
+        f[a] -= weight * wanted
+    weight *= gains[ARM] ** 2
+    r, d = state.rotation, aims.rotation
+    ex, ey, ez = 0.0, 0.0, 0.0
+    for c in range(3):  # half the sum of the cross products of the axes: the sine of the angle about its axis
+        ex += 0.5 * (r[1, c] * d[2, c] - r[2, c] * d[1, c])
+        ey += 0.5 * (r[2, c] * d[0, c] - r[0, c] * d[2, c])
+        ez += 0.5 * (r[0, c] * d[1, c] - r[1, c] * d[0, c])
+    for a in range(3):
+        w = r[0, a] * aims.velocity[3] + r[1, a] * aims.velocity[4] + r[2, a] * aims.velocity[5]
+        wanted = r[0, a] * aims.acceleration[3] + r[1, a] * aims.acceleration[4] + r[2, a] * aims.acceleration[5]
+        wanted += 2.0 * rate * (w - state.speed[3 + a])
+        wanted += rate * rate * (r[0, a] * ex + r[1, a] * ey + r[2, a] * ez)
+        h[3 + a, 3 + a] += weight
+        f[3 + a] -= weight * wanted
+
+
+@kernel
+def tip_tasks(dynamics, aims, gains, h, f):
+    """Tips that swing follow their paths and point as they are to; those that hold on stay; others come to rest."""
+    for limb in range(aims.does.size):
+        jacobian, bias, speed = dynamics.jacobian[limb], dynamics.tip_bias[limb], dynamics.tip_speed[limb]
+        does = aims.does[limb]
+        if does == SWINGS:
+            rate = gains[SWING_RATE]
+            for a in range(3):
+                wanted = aims.tip_acceleration[limb, a] - bias[a]
+                wanted += rate * rate * (aims.tip[limb, a] - dynamics.tip[limb, a])
+                wanted += 2.0 * rate * (aims.tip_velocity[limb, a] - speed[a])
+                add_row(h, f, jacobian, a, wanted, gains[SWING])
+            point_tip(dynamics, aims, gains, limb, h, f)
+        else:
+            weight = gains[HOLDING] if does == HOLDS else gains[RESTING]
+            for a in range(3):
+                add_row(h, f, jacobian, a, -gains[REST_RATE] * speed[a] - bias[a], weight)
+            if does == HOLDS and aims.components[limb] == 6:
+                weight *= gains[ARM] ** 2
+                for a in range(3, 6):
+                    add_row(h, f, jacobian, a, -gains[REST_RATE] * speed[a] - bias[a], weight)
+
+
+@kernel
+def point_tip(dynamics, aims, gains, limb, h, f):
+    """Turn a swinging end effector's z to where it is to point; turns about it are free."""
+    d = aims.points[limb]
+    if d[0] == 0.0 and d[1] == 0.0 and d[2] == 0.0:
+        return
+    rate, weight = gains[SWING_RATE], gains[SWING] * gains[ARM] ** 2
+    turn, jacobian = dynamics.tip_turn[limb], dynamics.jacobian[limb]
+    bias, speed = dynamics.tip_bias[limb], dynamics.tip_speed[limb]
+    z0, z1, z2 = turn[0, 2], turn[1, 2], turn[2, 2]
+    ex, ey, ez = z1 * d[2] - z2 * d[1], z2 * d[0] - z0 * d[2], z0 * d[1] - z1 * d[0]
+    n = jacobian.shape[1]
+    for axis in range(2):  # the end effector's x and y
+        u0, u1, u2 = turn[0, axis], turn[1, axis], turn[2, axis]
+        wanted = rate * rate * (u0 * ex + u1 * ey + u2 * ez)
+        wanted -= 2.0 * rate * (u0 * speed[3] + u1 * speed[4] + u2 * speed[5])
+        wanted -= u0 * bias[3] + u1 * bias[4] + u2 * bias[5]
+        for i in range(n):
+            left = weight * (u0 * jacobian[3, i] + u1 * jacobian[4, i] + u2 * jacobian[5, i])
+            if left == 0.0:
+                continue
+            f[i] -= left * wanted
+            for j in range(n):
+                h[i, j] += left * (u0 * jacobian[3, j] + u1 * jacobian[4, j] + u2 * jacobian[5, j])
+
+
+@kernel
+def joint_tasks(tree, state, aims, limits, gains, programme, h):
+    """Joints lean to their posture, and keep away from their limits of position and speed by bounds that give way."""
+    f, lower, upper, sense = programme.f, programme.lower, programme.upper, programme.sense
+    rate = gains[POSTURE_RATE]
+    for k in range(tree.rotor.size):
+        i = FREE + k
+        scale = 1.0 if tree.sliding[k + 1] else gains[ARM] ** 2
+        weight = gains[POSTURE] * scale
+        q, qd = state.joints[k], state.speed[i]
+        h[i, i] += weight
+        f[i] -= weight * rate * (rate * (aims.posture[k] - q) - 2.0 * qd)
+        most = min(limits.speed[k], gains[LIMIT_RATE] * (limits.upper[k] - q))
+        least = max(-limits.speed[k], gains[LIMIT_RATE] * (limits.lower[k] - q))
+        lower[i] = gains[SPEED_RATE] * (min(least, 0.0) - qd)
+        upper[i] = gains[SPEED_RATE] * (max(most, 0.0) - qd)
+        sense[i] = GIVES_WAY
+
+
+@kernel
+def write_programme(tree, state, dynamics, aims, limits, gains, programme):
+    """Write the programme of a tick.
+
+    Args:
+        tree: A `Tree`.
+        state: A `State`.
+        dynamics: `Dynamics` of that state.
+        aims: `Aims`.
+        limits: `Limits`.
+        gains: Of `Gains.packed`.
+        programme: A `Programme`, filled.
+
+    Returns:
+        Number of unknowns and of rows.
+    """
+    nv = FREE + tree.rotor.size
+    n, m = nv, nv
+    for limb in range(aims.does.size):
+        programme.at[limb] = -1
+        if aims.does[limb] == HOLDS and aims.cap[limb] > 0.0:
+            programme.at[limb] = n
+            n += aims.components[limb]
+            m += aims.n_rows[limb]
+    h, a = programme.h[: n * n].reshape(n, n), programme.a[: m * n].reshape(m, n)
+    f, lower, upper, sense = programme.f, programme.lower, programme.upper, programme.sense
+    for i in range(n):
+        f[i] = 0.0
+        for j in range(n):
+            h[i, j] = 0.0
+        lower[i], upper[i], sense[i] = -ENDLESS, ENDLESS, 0
+    for i in range(m):
+        for j in range(n):
+            a[i, j] = 0.0
+        sense[n + i] = 0
+    base_tasks(dynamics, state, aims, gains, h, f)
+    tip_tasks(dynamics, aims, gains, h, f)
+    joint_tasks(tree, state, aims, limits, gains, programme, h)
+    for i in range(nv):
+        h[i, i] += SMALL
+        for j in range(nv):
+            a[i, j] = dynamics.mass[i, j]
+        if i < FREE:
+            lower[n + i] = upper[n + i] = -dynamics.bias[i]
+            sense[n + i] = EQUATION
+        else:
+            lower[n + i] = -limits.torque[i - FREE] - dynamics.bias[i]
+            upper[n + i] = limits.torque[i - FREE] - dynamics.bias[i]
+    row = nv
+    for limb in range(aims.does.size):
+        if programme.at[limb] >= 0:
+            row = write_contact(dynamics, aims, gains, programme, limb, row, h, a)
+    return n, m
+
+
+@kernel
+def write_contact(dynamics, aims, gains, programme, limb, row, h, a):
+    """Unknowns, bounds and rows of a contact that bears; returns the row behind its own."""
+    n, nv = h.shape[0], dynamics.bias.size
+    at, frame, jacobian = programme.at[limb], aims.frame[limb], dynamics.jacobian[limb]
+    per_mass = 1.0 / dynamics.mass[0, 0]
+    for c in range(aims.components[limb]):
+        arm = 1.0 if c < 3 else gains[ARM]
+        first, axis = (0, c) if c < 3 else (3, c - 3)
+        weight = gains[WRENCH] * (per_mass / arm) ** 2
+        h[at + c, at + c] = weight + SMALL * per_mass**2
+        programme.f[at + c] = -weight * aims.wrench[limb, c]
+        if aims.cap[limb] < math.inf:
+            programme.lower[at + c], programme.upper[at + c] = -arm * aims.cap[limb], arm * aims.cap[limb]
+        for i in range(nv):
+            a[i, at + c] = -(
+                jacobian[first, i] * frame[axis, 0]
+                + jacobian[first + 1, i] * frame[axis, 1]
+                + jacobian[first + 2, i] * frame[axis, 2]
+            )
+    for k in range(aims.n_rows[limb]):
+        for c in range(aims.components[limb]):
+            a[row, at + c] = aims.rows[limb, k, c]
+        programme.lower[n + row], programme.upper[n + row] = -ENDLESS, aims.limits[limb, k]
+        row += 1
+    return row
+
+
+@kernel
+def read_torques(dynamics, limits, programme, a, x, torques):
+    """Torques that the solution `x` takes, within the motors' limits; `a` is the programme's matrix."""
+    for k in range(torques.size):
+        total = dynamics.bias[FREE + k]
+        for j in range(x.size):
+            total += a[FREE + k, j] * x[j]
+        torques[k] = min(limits.torque[k], max(-limits.torque[k], total))
+
+
+@kernel
+def hold_torques(dynamics, aims, limits, damping, state, torques):
+    """Torques that hold the robot by the wrenches that are wanted, with damping [N m s]: what is left where no programme can be solved."""
+    for k in range(torques.size):
+        i = FREE + k
+        total = dynamics.weight[i] - damping * state.speed[i]
+        for limb in range(aims.does.size):
+            if aims.does[limb] != HOLDS:
+                continue
+            for c in range(aims.components[limb]):
+                first, axis = (0, c) if c < 3 else (3, c - 3)
+                for b in range(3):
+                    total -= dynamics.jacobian[limb, first + b, i] * aims.frame[limb, axis, b] * aims.wrench[limb, c]
+        torques[k] = min(limits.torque[k], max(-limits.torque[k], total))

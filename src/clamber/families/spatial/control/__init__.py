@@ -1,0 +1,1 @@
+"""What a robot in space is believed to be by its laws."""

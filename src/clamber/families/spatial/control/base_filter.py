@@ -1,0 +1,160 @@
+"""Where a robot in space is, as a filter believes it: its arrays, its settings, and what is done to it tick by tick."""
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from ....types import Floats, Ints
+from ....units import DEGREE
+from .base_filter_kernels import (
+    ACCELEROMETER,
+    CONTACTS,
+    GYRO,
+    PHI,
+    POSITION,
+    VELOCITY,
+    begin_contact,
+    correct,
+    end_contact,
+    predict,
+    take_place,
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FilterSettings:
+    """What a filter believes of sensors and contacts: standard deviations."""
+
+    gyro: float = 0.01
+    """Of a reading [rad/s]."""
+    accelerometer: float = 0.1
+    """Of a reading [m/s^2]."""
+    gyro_bias: float = 0.01
+    """At the start [rad/s]."""
+    accelerometer_bias: float = 0.1
+    """At the start [m/s^2]."""
+    gyro_wander: float = 1e-4
+    """Of the bias [rad/s/sqrt(s)]."""
+    accelerometer_wander: float = 1e-3
+    """Of the bias [m/s^2/sqrt(s)]."""
+    slip: float = 3e-4
+    """Of what a contact gives way [m/sqrt(s)]."""
+    yielding: float = 1e-3
+    """The same of its direction [rad/sqrt(s)]."""
+    encoder: float = 0.1 * DEGREE
+    """Of what an encoder tells, with half of the play of its gear [rad]."""
+    place: float = 2e-3
+    """Of where the robot is at the start [m]."""
+    turn: float = 0.3 * DEGREE
+    """Of how it stands at the start [rad]."""
+    hold: float = 6e-3
+    """Of where a hold is taken, by the map, before it is touched [m]."""
+    gate: float = 0.02
+    """A tip that seems to have moved by more has slipped [m]."""
+
+
+class Believed(NamedTuple):
+    """What a filter believes; a NamedTuple, as kernels take it."""
+
+    rotation: Floats
+    """Axes of the base in the world, as columns, shape (3, 3)."""
+    velocity: Floats
+    """Of the base's origin, world frame [m/s], shape (3,)."""
+    position: Floats
+    """World frame [m], shape (3,)."""
+    biases: Floats
+    """What gyro [rad/s] and accelerometer [m/s^2] tell too much, shape (6,)."""
+    places: Floats
+    """Of contacts, world frame [m], shape (limbs, 3)."""
+    directions: Floats
+    """Axes of end effectors that hold on, world frame, as columns, shape (limbs, 3, 3)."""
+    holds: Ints
+    """1 for limbs that hold on, shape (limbs,)."""
+    turn_at: Ints
+    """First row of the error of each contact's direction, -1: it holds none; shape (limbs,)."""
+    covariance: Floats
+    """Of the errors, whose rows stand in `base_filter_kernels`, shape (n, n)."""
+    error: Floats
+    gain: Floats
+
+
+class BaseFilter:
+    """A contact-aided invariant filter.
+
+    Args:
+        limbs: How many.
+        directed: 1 for limbs whose contacts hold their direction, shape (limbs,).
+        gravity: World frame [m/s^2], shape (3,).
+        settings: What it believes of its sensors.
+    """
+
+    def __init__(self, limbs: int, directed: Ints, gravity: Floats, settings: FilterSettings) -> None:
+        first = CONTACTS + 3 * limbs
+        turn_at = np.where(directed, first + 3 * (np.cumsum(directed) - 1), -1).astype(np.int32)
+        n = first + 3 * int(directed.sum())
+        self.believed = Believed(
+            rotation=np.eye(3),
+            velocity=np.zeros(3),
+            position=np.zeros(3),
+            biases=np.zeros(6),
+            places=np.zeros((limbs, 3)),
+            directions=np.tile(np.eye(3), (limbs, 1, 1)),
+            holds=np.zeros(limbs, np.int32),
+            turn_at=turn_at,
+            covariance=np.zeros((n, n)),
+            error=np.zeros(n),
+            gain=np.zeros(n),
+        )
+        self.slips = 0
+        """How often a tip that should stay has moved."""
+        self._settings, self._gravity = settings, gravity
+        s = settings
+        self._noise = np.array(
+            (s.gyro, s.accelerometer, s.gyro_wander, s.accelerometer_wander, s.slip, s.yielding), np.float64
+        )
+        self._off, self._row = np.zeros(6), np.zeros(n)
+        self._turned = s.encoder**2 * 3.0
+
+    def begin(self, rotation: Floats, position: Floats) -> None:
+        """Begin at rest at a pose, with no contact."""
+        b, s = self.believed, self._settings
+        b.rotation[:], b.position[:] = rotation, position
+        for array in (b.velocity, b.biases, b.covariance, b.error, b.holds):
+            array[:] = 0
+        spreads = (
+            (PHI, s.turn),
+            (VELOCITY, 1e-3),
+            (POSITION, s.place),
+            (GYRO, s.gyro_bias),
+            (ACCELEROMETER, s.accelerometer_bias),
+        )
+        for first, spread in spreads:
+            b.covariance[range(first, first + 3), range(first, first + 3)] = spread**2
+        self.slips = 0
+
+    def predict(self, gyro: Floats, accelerometer: Floats, dt: float) -> None:
+        """Move on by a time [s]."""
+        predict(self.believed, gyro, accelerometer, self._gravity, self._noise, dt)
+
+    def correct(self, tips: Floats, axes: Floats, variances: Floats) -> None:
+        """Take in that tips stay where they are; arguments as those of the kernel."""
+        self.slips += correct(self.believed, tips, axes, variances, self._turned, self._settings.gate, self._off)
+
+    def hold_on(self, limb: int, tip: Floats, axes: Floats, variance: float) -> None:
+        """A limb's tip stays where it is from now on."""
+        begin_contact(self.believed, limb, tip, axes, variance, self._turned)
+
+    def let_go(self, limb: int) -> None:
+        """A limb's tip moves from now on."""
+        end_contact(self.believed, limb)
+
+    def take_place(self, limb: int, place: Floats, variance: float) -> None:
+        """Take in where the hold is that a limb is on, by the map [m], [m^2]."""
+        take_place(self.believed, limb, place, variance, self._row)
+
+    def spread(self, limb: int) -> float:
+        """Standard deviation of where a limb's contact is, in any direction [m]."""
+        at = CONTACTS + 3 * limb
+        return math.sqrt(float(np.trace(self.believed.covariance[at : at + 3, at : at + 3])) / 3.0)

@@ -1,0 +1,310 @@
+"""Where a robot in space is, by IMU, encoders and contacts that stay where they are: a right-invariant extended Kalman filter.
+
+After Hartley, Ghaffari, Eustice and Grizzle, "Contact-aided invariant extended Kalman filtering for robot state estimation" (Int. J.
+Robotics Research 39, 2020), with contacts that hold directions, too, and a map of holds. An error is what is believed less what is so, in
+world axes: of the rotation phi, of velocity and places less phi times them, of directions of contacts, of biases. Rows of the errors:
+phi, velocity, position, bias of the gyro, bias of the accelerometer, the place of each contact, the direction of those that hold it.
+"""
+
+import math
+
+import numpy as np
+
+from ....compiled import inlined, kernel
+
+IDENTITY = np.eye(3)
+PHI, VELOCITY, POSITION, GYRO, ACCELEROMETER, CONTACTS = 0, 3, 6, 9, 12, 15
+"""First row of each error; contact i has three rows from `CONTACTS + 3 i` on, and its direction those that `turn_at` says."""
+
+
+@inlined
+def turn_by(x, y, z, matrix):
+    """Turn the columns of a rotation by a rotation vector in world axes (Rodrigues)."""
+    angle = math.sqrt(x * x + y * y + z * z)
+    if angle < 1e-9:
+        a, b = 1.0, 0.5
+    else:
+        a, b = math.sin(angle) / angle, (1.0 - math.cos(angle)) / (angle * angle)
+    for c in range(3):
+        u, v, w = matrix[0, c], matrix[1, c], matrix[2, c]
+        cx, cy, cz = y * w - z * v, z * u - x * w, x * v - y * u
+        dx, dy, dz = y * cz - z * cy, z * cx - x * cz, x * cy - y * cx
+        matrix[0, c] = u + a * cx + b * dx
+        matrix[1, c] = v + a * cy + b * dy
+        matrix[2, c] = w + a * cz + b * dz
+
+
+@kernel
+def add_cross(covariance, row, x, y, z, factor, rotation, other):
+    """Rows from `row` on gain `factor [x, y, z]x rotation` times the rows from `other` on; without a rotation where it is the identity."""
+    for c in range(covariance.shape[1]):
+        u, v, w = covariance[other, c], covariance[other + 1, c], covariance[other + 2, c]
+        a = rotation[0, 0] * u + rotation[0, 1] * v + rotation[0, 2] * w
+        b = rotation[1, 0] * u + rotation[1, 1] * v + rotation[1, 2] * w
+        d = rotation[2, 0] * u + rotation[2, 1] * v + rotation[2, 2] * w
+        covariance[row, c] += factor * (y * d - z * b)
+        covariance[row + 1, c] += factor * (z * a - x * d)
+        covariance[row + 2, c] += factor * (x * b - y * a)
+
+
+@kernel
+def add_turned(covariance, row, factor, rotation, other):
+    """Rows from `row` on gain `factor rotation` times the rows from `other` on."""
+    for c in range(covariance.shape[1]):
+        u, v, w = covariance[other, c], covariance[other + 1, c], covariance[other + 2, c]
+        for a in range(3):
+            covariance[row + a, c] += factor * (rotation[a, 0] * u + rotation[a, 1] * v + rotation[a, 2] * w)
+
+
+@kernel
+def flow(covariance, rotation, velocity, position, places, holds, gravity, dt):
+    """The covariance of the errors moved on by a time, from the left only: rows."""
+    g = gravity
+    # velocity and places use the rotation's error before it moves on, and the position the velocity's
+    add_turned(covariance, POSITION, dt, IDENTITY, VELOCITY)
+    add_cross(covariance, POSITION, position[0], position[1], position[2], -dt, rotation, GYRO)
+    add_cross(covariance, VELOCITY, g[0], g[1], g[2], dt, IDENTITY, PHI)
+    add_cross(covariance, VELOCITY, velocity[0], velocity[1], velocity[2], -dt, rotation, GYRO)
+    add_turned(covariance, VELOCITY, -dt, rotation, ACCELEROMETER)
+    add_turned(covariance, PHI, -dt, rotation, GYRO)
+    for limb in range(places.shape[0]):
+        if holds[limb]:
+            d = places[limb]
+            add_cross(covariance, CONTACTS + 3 * limb, d[0], d[1], d[2], -dt, rotation, GYRO)
+
+
+@kernel
+def transpose(matrix):
+    """A square matrix turned over its diagonal, in place."""
+    for a in range(matrix.shape[0]):
+        for b in range(a):
+            matrix[a, b], matrix[b, a] = matrix[b, a], matrix[a, b]
+
+
+@kernel
+def predict(belief, gyro, accelerometer, gravity, noise, dt):
+    """Move a belief on by a time.
+
+    Args:
+        belief: `BaseFilter`'s arrays (`base_filter.Belief`).
+        gyro: Angular velocity by the gyro, base frame [rad/s].
+        accelerometer: Specific force by the accelerometer, base frame [m/s^2].
+        gravity: World frame [m/s^2].
+        noise: Of a reading of gyro [rad/s] and accelerometer [m/s^2], how biases wander [rad/s/sqrt(s)], [m/s^2/sqrt(s)], and how
+            contacts wander in place [m/sqrt(s)] and direction [rad/sqrt(s)], shape (6,).
+        dt: The time [s].
+    """
+    r, v, p, p_ = belief.rotation, belief.velocity, belief.position, belief.covariance
+    flow(p_, r, v, p, belief.places, belief.holds, gravity, dt)
+    transpose(p_)
+    flow(p_, r, v, p, belief.places, belief.holds, gravity, dt)
+    transpose(p_)
+    n = p_.shape[0]
+    turned, pushed = (noise[0] * dt) ** 2, (noise[1] * dt) ** 2
+    for a in range(3):
+        p_[PHI + a, PHI + a] += turned
+        p_[VELOCITY + a, VELOCITY + a] += pushed
+        p_[GYRO + a, GYRO + a] += noise[2] ** 2 * dt
+        p_[ACCELEROMETER + a, ACCELEROMETER + a] += noise[3] ** 2 * dt
+    for limb in range(belief.holds.size):
+        if belief.holds[limb]:
+            for a in range(3):
+                p_[CONTACTS + 3 * limb + a, CONTACTS + 3 * limb + a] += noise[4] ** 2 * dt
+                if belief.turn_at[limb] >= 0:
+                    p_[belief.turn_at[limb] + a, belief.turn_at[limb] + a] += noise[5] ** 2 * dt
+    for a in range(n):
+        for b in range(a):
+            p_[a, b] = p_[b, a] = 0.5 * (p_[a, b] + p_[b, a])
+    wx, wy, wz = gyro[0] - belief.biases[0], gyro[1] - belief.biases[1], gyro[2] - belief.biases[2]
+    fx = accelerometer[0] - belief.biases[3]
+    fy = accelerometer[1] - belief.biases[4]
+    fz = accelerometer[2] - belief.biases[5]
+    for a in range(3):
+        push = r[a, 0] * fx + r[a, 1] * fy + r[a, 2] * fz + gravity[a]
+        p[a] += dt * (v[a] + 0.5 * dt * push)
+        v[a] += dt * push
+    x = r[0, 0] * wx + r[0, 1] * wy + r[0, 2] * wz
+    y = r[1, 0] * wx + r[1, 1] * wy + r[1, 2] * wz
+    z = r[2, 0] * wx + r[2, 1] * wy + r[2, 2] * wz
+    turn_by(dt * x, dt * y, dt * z, r)
+
+
+@kernel
+def take(belief, plus, minus, innovation, variance):
+    """One number that was measured: that the error of row `plus`, less that of row `minus`, is `innovation`; `belief.error` gathers."""
+    p, h = belief.covariance, belief.gain
+    n = p.shape[0]
+    for a in range(n):
+        h[a] = p[a, plus] - p[a, minus]
+    spread = h[plus] - h[minus] + variance
+    off = innovation - (belief.error[plus] - belief.error[minus])
+    for a in range(n):
+        gain = h[a] / spread
+        belief.error[a] += gain * off
+        for b in range(n):
+            p[a, b] -= gain * h[b]
+
+
+@kernel
+def take_row(belief, measured, innovation, variance):
+    """One number that was measured: that `measured` times the errors is `innovation`."""
+    p, h = belief.covariance, belief.gain
+    n = p.shape[0]
+    spread, off = variance, innovation
+    for a in range(n):
+        total = 0.0
+        for b in range(n):
+            total += p[a, b] * measured[b]
+        h[a] = total
+    for a in range(n):
+        spread += h[a] * measured[a]
+        off -= measured[a] * belief.error[a]
+    for a in range(n):
+        gain = h[a] / spread
+        belief.error[a] += gain * off
+        for b in range(n):
+            p[a, b] -= gain * h[b]
+
+
+@kernel
+def apply_error(belief):
+    """Take the error that has been found off the belief."""
+    e = belief.error
+    x, y, z = -e[PHI], -e[PHI + 1], -e[PHI + 2]
+    turn_by(x, y, z, belief.rotation)
+    shift_by(x, y, z, e[VELOCITY], e[VELOCITY + 1], e[VELOCITY + 2], belief.velocity)
+    shift_by(x, y, z, e[POSITION], e[POSITION + 1], e[POSITION + 2], belief.position)
+    for a in range(6):
+        belief.biases[a] -= e[GYRO + a]
+    for limb in range(belief.holds.size):
+        if belief.holds[limb]:
+            at = CONTACTS + 3 * limb
+            shift_by(x, y, z, e[at], e[at + 1], e[at + 2], belief.places[limb])
+            at = belief.turn_at[limb]
+            if at >= 0:
+                turn_by(-e[at], -e[at + 1], -e[at + 2], belief.directions[limb])
+    for a in range(e.size):
+        e[a] = 0.0
+
+
+@inlined
+def shift_by(x, y, z, ex, ey, ez, vector):
+    """A vector turned by a small rotation in world axes, less an error."""
+    u, v, w = vector[0], vector[1], vector[2]
+    cx, cy, cz = y * w - z * v, z * u - x * w, x * v - y * u
+    vector[0] = u + cx + 0.5 * (y * cz - z * cy) - ex
+    vector[1] = v + cy + 0.5 * (z * cx - x * cz) - ey
+    vector[2] = w + cz + 0.5 * (x * cy - y * cx) - ez
+
+
+@kernel
+def begin_contact(belief, limb, tip, axes, variance, turned):
+    """From now on a limb's tip stays where it is: its place, and its direction, as errors are those of the base and of the encoders."""
+    r = belief.rotation
+    for a in range(3):
+        belief.places[limb, a] = belief.position[a] + r[a, 0] * tip[0] + r[a, 1] * tip[1] + r[a, 2] * tip[2]
+        for b in range(3):
+            belief.directions[limb, a, b] = r[a, 0] * axes[0, b] + r[a, 1] * axes[1, b] + r[a, 2] * axes[2, b]
+    copy_error(belief.covariance, CONTACTS + 3 * limb, POSITION, variance)
+    if belief.turn_at[limb] >= 0:
+        copy_error(belief.covariance, belief.turn_at[limb], PHI, turned)
+    belief.holds[limb] = 1
+
+
+@kernel
+def copy_error(covariance, to, source, variance):
+    """Three errors that are as three others are, but for a variance of their own."""
+    n = covariance.shape[0]
+    for a in range(3):
+        for b in range(n):
+            covariance[to + a, b] = covariance[source + a, b]
+    for a in range(3):
+        for b in range(n):
+            covariance[b, to + a] = covariance[b, source + a]
+        covariance[to + a, to + a] += variance
+
+
+@kernel
+def clear_error(covariance, first):
+    """Three errors that mean nothing any more."""
+    for a in range(3):
+        for b in range(covariance.shape[0]):
+            covariance[first + a, b] = covariance[b, first + a] = 0.0
+
+
+@kernel
+def end_contact(belief, limb):
+    """From now on a limb's tip moves."""
+    clear_error(belief.covariance, CONTACTS + 3 * limb)
+    if belief.turn_at[limb] >= 0:
+        clear_error(belief.covariance, belief.turn_at[limb])
+    belief.holds[limb] = 0
+
+
+@kernel
+def off_contact(belief, limb, tip, axes, out):
+    """By how much a tip that stays where it is seems to have moved: place [m], then direction [rad], shape (6,)."""
+    r = belief.rotation
+    for a in range(3):
+        out[a] = belief.position[a] + r[a, 0] * tip[0] + r[a, 1] * tip[1] + r[a, 2] * tip[2] - belief.places[limb, a]
+    # the rotation vector of R axes D^T, small
+    x, y, z = 0.0, 0.0, 0.0
+    for b in range(3):
+        u = r[0, 0] * axes[0, b] + r[0, 1] * axes[1, b] + r[0, 2] * axes[2, b]
+        v = r[1, 0] * axes[0, b] + r[1, 1] * axes[1, b] + r[1, 2] * axes[2, b]
+        w = r[2, 0] * axes[0, b] + r[2, 1] * axes[1, b] + r[2, 2] * axes[2, b]
+        d = belief.directions[limb]
+        x += 0.5 * (d[1, b] * w - d[2, b] * v)
+        y += 0.5 * (d[2, b] * u - d[0, b] * w)
+        z += 0.5 * (d[0, b] * v - d[1, b] * u)
+    out[3], out[4], out[5] = x, y, z
+
+
+@kernel
+def correct(belief, tips, axes, variances, turned, gate, off):
+    """Take in that tips stay where they are.
+
+    Args:
+        belief: As in `predict`.
+        tips: By the encoders, base frame [m], shape (limbs, 3).
+        axes: Of the end effectors, base frame, shape (limbs, 3, 3).
+        variances: Of the tips' places by the encoders [m^2], shape (limbs,).
+        turned: Variance of their directions [rad^2].
+        gate: A tip that seems to have moved by more [m] has slipped: it stays where it is now.
+        off: Scratch, shape (6,).
+
+    Returns:
+        Number of tips that have slipped.
+    """
+    slipped = 0
+    for limb in range(tips.shape[0]):
+        if not belief.holds[limb]:
+            continue
+        off_contact(belief, limb, tips[limb], axes[limb], off)
+        if math.sqrt(off[0] * off[0] + off[1] * off[1] + off[2] * off[2]) > gate:
+            begin_contact(belief, limb, tips[limb], axes[limb], variances[limb], turned)
+            slipped += 1
+            continue
+        at = CONTACTS + 3 * limb
+        for a in range(3):
+            take(belief, POSITION + a, at + a, off[a], variances[limb])
+        if belief.turn_at[limb] >= 0:
+            for a in range(3):
+                take(belief, PHI + a, belief.turn_at[limb] + a, off[3 + a], turned)
+        apply_error(belief)
+    return slipped
+
+
+@kernel
+def take_place(belief, limb, place, variance, row):
+    """Take in where a hold is that a limb is on, by the map; `row` is scratch, shape (n,)."""
+    d, at = belief.places[limb], CONTACTS + 3 * limb
+    for a in range(3):
+        for b in range(row.size):
+            row[b] = 0.0
+        # phi x d, written as a row of phi
+        b, c = (a + 1) % 3, (a + 2) % 3
+        row[PHI + b], row[PHI + c] = d[c], -d[b]
+        row[at + a] = 1.0
+        take_row(belief, row, d[a] - place[a], variance)
+    apply_error(belief)

@@ -1,0 +1,141 @@
+"""Plans of robots in space in contact dynamics: one, and many under model error."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Final
+
+from ...errors import SpecError
+from ...family import NotOfFamilyError, family_of
+from ...json_form import INLINE
+from ...planning.planners import plan_task
+from ...planning.problem.plan import Plan
+from ...trials.dynamics import Conditions, Dynamics, NoPlanError, RunEvents, RunRequest, TrialsRequest
+from .planning.task import SpatialTask
+from .sim.spatial_flaws import read_spatial_flaws
+from .trials.noise import SpatialNoise, named_spatial_noise, read_spatial_noise
+from .trials.run_plan import SpatialRun, run_plan
+from .trials.trials import SpatialSetup, SpatialTrial, SpatialTrials
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+
+@dataclass(frozen=True, slots=True)
+class TrialedRuns:
+    """Many runs of a plan of a robot in space."""
+
+    trials: Annotated[SpatialTrials, INLINE]
+    held_out: bool
+    """Whether all seeds are held out: none that any tuning may use."""
+
+
+@dataclass(frozen=True, slots=True)
+class ReplayedRun:
+    """`--replay SEED`: one run of the trials again."""
+
+    run: Annotated[SpatialRun, INLINE]
+    trial: SpatialTrial
+
+
+class SpatialDynamics(Dynamics):
+    """Climbs and walks of robots in space."""
+
+    kind = "run"
+    past = "carried out"
+
+    def check(self, work: SpatialTask, asked: Conditions) -> None:
+        """Plant and noise; there are no faults."""
+        read_spatial_flaws(asked.plant)
+        _noise(asked)
+        if isinstance(asked, TrialsRequest) and asked.faults:
+            raise NotOfFamilyError(family_of(work).title, "faults")
+
+    def plan(self, task: SpatialTask, asked: RunRequest, events: RunEvents) -> Plan:
+        """As any plan of the task: what is simulated keeps to its checks."""
+        return _found(task, asked, events, asked.seed)
+
+    def run(
+        self, work: SpatialTask, plan: Plan | None, asked: RunRequest, events: RunEvents, label: str = "plan"
+    ) -> SpatialRun:
+        """One plan carried out."""
+        plan = self._fit(work, plan, asked, events, asked.seed, label)
+        noise = _noise(asked)
+
+        def told(action: int, of: int) -> None:
+            events.step(f"action {action} of {of}", action / of)
+
+        return run_plan(
+            work,
+            plan,
+            flaws=noise.flaws(read_spatial_flaws(asked.plant, asked.seed), asked.seed),
+            deviations=noise.deviations(work.robot, work.world, asked.seed) if noise.any else None,
+            progress=told,
+            label=label,
+        )
+
+    def _fit(
+        self, task: SpatialTask, plan: Plan | None, asked: Conditions, events: RunEvents, seed: int, label: str
+    ) -> Plan:
+        """The plan if nothing speaks against it, or the one that is found, and told."""
+        if plan is None:
+            plan = _found(task, asked, events, seed)
+            events.planned(plan)
+        elif not asked.force and (against := self.objection(task, plan, label)) is not None:
+            raise SpecError(label, "actions", against, "nothing has moved")
+        return plan
+
+    def print_run(self, console: "Console", run: SpatialRun) -> None:
+        """How it ended, and how near it kept to its plan."""
+        report = run.report
+        words = self.past if run.done else f"not {self.past}"
+        console.print(f"{words}: '{run.task.name}'", style="bold green" if run.done else "bold red")
+        if run.reason:
+            console.print(run.reason)
+        console.print(
+            f"{len(run.plan.actions)} actions, {report.seconds:.1f} s in {run.wall_seconds:.1f} s; the body at most "
+            f"{1e3 * report.off:.1f} mm off, torques at most {100 * report.torque:.0f} % of what may be used"
+        )
+
+    def trials(
+        self,
+        work: SpatialTask,
+        plan: Plan | None,
+        asked: TrialsRequest,
+        events: RunEvents,
+        store: Path | None = None,
+        label: str = "plan",
+    ) -> SpatialSetup:
+        """What all runs have in common."""
+        setup = SpatialSetup(task=work, noise=_noise(asked), plant=tuple(asked.plant), plan=plan, planned=plan is None)
+        return replace(setup, plan=self._fit(work, plan or setup.stored_plan(store), asked, events, 0, label))
+
+    def trials_json(self, trials: SpatialTrials, held_out: bool) -> TrialedRuns:
+        """The trials and what they say together."""
+        return TrialedRuns(trials, held_out)
+
+    def replay_json(self, run: SpatialRun, trial: SpatialTrial) -> ReplayedRun:
+        """The run, and what trials keep of it."""
+        return ReplayedRun(run, trial)
+
+    def print_trials(self, console: "Console", trials: SpatialTrials, seeds: Sequence[int]) -> None:
+        """How often runs came to their end, and the spread of what is measured of them."""
+        from .pictures.trials_text import print_spatial_trials
+
+        print_spatial_trials(console, trials, seeds)
+
+
+def _found(task: SpatialTask, asked: Conditions, events: RunEvents, seed: int) -> Plan:
+    result = plan_task(task, asked.planner, seed=seed, seconds=asked.plan_seconds, progress=events.search)
+    if not result.has_plan:
+        raise NoPlanError(asked.planner, task.name, f"was found: {result.reason}")
+    return result.plan
+
+
+def _noise(asked: Conditions) -> SpatialNoise:
+    """Widths: of trials the usual ones, of one run none, but for those that are named."""
+    base = "usual" if isinstance(asked, TrialsRequest) else "none"
+    return read_spatial_noise(named_spatial_noise(base), asked.noise)
+
+
+DYNAMICS: Final = SpatialDynamics()

@@ -1,0 +1,45 @@
+"""What is told of a plan of a robot in space that was carried out: of every motion, and as a whole."""
+
+from dataclasses import dataclass, field
+from typing import Annotated, Literal
+
+from ....execution.run_report import Outcome, RunReport
+from ....json_form import Count, Jsonable, Key, OrNull
+
+CarryingOutcome = Literal["ok", "missed", "refused", "stuck", "fell", "fault", "stopped", "interrupted"]
+"""Those that a motion may have."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MotionReport(Jsonable):
+    """What became of a motion."""
+
+    first: Count
+    """Of the plan's actions that it carries out, from 1."""
+    last: Count
+    limb: str | None
+    """That took another hold; None: the body moved."""
+    hold: int | None
+    """Number of the hold."""
+    outcome: Annotated[Outcome, Key(kind=CarryingOutcome)]
+    start: float
+    """When it began [s]."""
+    seconds: float
+    """That it took."""
+    off: OrNull
+    """Of the tip from its hold when it was taken, or of the body from where it was to be, as believed [m]."""
+    tries: Count
+    reason: str = ""
+
+
+@dataclass(slots=True, kw_only=True)
+class CarryingReport(RunReport):
+    """How a run went; its pose is that of the body: x, y, z [m], then a quaternion w, x, y, z."""
+
+    motions: list[MotionReport] = field(default_factory=list)
+    off: float = 0.0
+    """Largest distance of the body from where it was to be, as believed [m]."""
+    torque: float = 0.0
+    """Largest share of a joint's torque that was asked for [-]."""
+    failures: Count = 0
+    """Ticks in which no torques kept all limits."""

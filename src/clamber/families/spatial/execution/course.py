@@ -1,0 +1,123 @@
+"""A plan of a robot in space as what is carried out in one go: motions of the body over its holds, and limbs that take other holds."""
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Self, TypeAlias
+
+import numpy as np
+
+from ....planning.problem.plan import Plan
+from ....planning.problem.problem import Replay
+from ....planning.problem.problems import plan_family
+from ....types import Floats, Ints
+from ..control.believed_tree import flat
+from ..planning.swing_loads import SwingLoads
+from ..planning.task import SpatialTask
+from .plant import Pose
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Standing:
+    """A stance of a plan."""
+
+    pose: Pose
+    """Of the body."""
+    joints: Floats
+    """[rad] or [m], shape (n,)."""
+    holds: Ints
+    """Index of each limb's hold, shape (limbs,)."""
+    loads: Floats
+    """Wrenches of the contacts on the robot, world frame: force [N], moment about the tip [N m], shape (limbs, 6)."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BodyMotion:
+    """The body over its holds, through one stance or several."""
+
+    first: int
+    """Number of the plan's action that it begins with, from 1."""
+    way: tuple[Standing, ...]
+    """The stance where it begins, and all that it comes through."""
+
+    @property
+    def last(self) -> int:
+        """Number of the plan's action that it ends with."""
+        return self.first + len(self.way) - 2
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Regrab:
+    """A limb from its hold to another."""
+
+    first: int
+    """Number of the plan's action, from 1."""
+    limb: int
+    hold: int
+    """Index of the hold that it takes."""
+    before: Standing
+    after: Standing
+    loads: Floats
+    """Wrenches while it swings, as `Standing.loads`; its own are zero."""
+
+    @property
+    def last(self) -> int:
+        """The same number."""
+        return self.first
+
+
+Motion: TypeAlias = BodyMotion | Regrab
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Course:
+    """What a plan asks for, in order."""
+
+    start: Standing
+    motions: tuple[Motion, ...]
+
+    @classmethod
+    def of(cls, task: SpatialTask, plan: Plan, label: str = "plan") -> Self:
+        """Of a plan; moves of the body that follow each other become one motion where it goes straight on.
+
+        Raises:
+            ClamberError: If an action is none of the task's.
+        """
+        replay: Replay = plan_family(task).problem(task).replay(plan.codes(task, label), go_on=True)
+        standings = [_standing(task, stance) for stance in replay.stances]
+        loads = SwingLoads(task)
+        motions: list[Motion] = []
+        for k, (before, after) in enumerate(itertools.pairwise(standings)):
+            moved = np.flatnonzero(before.holds != after.holds)
+            if moved.size:
+                limb = int(moved[0])
+                shared = loads.wrenches(replay.stances[k], limb)
+                shared = np.where(np.isfinite(shared), shared, before.loads)
+                motions.append(Regrab(k + 1, limb, int(after.holds[limb]), before, after, shared))
+            elif motions and isinstance(last := motions[-1], BodyMotion) and _straight_on(last.way, after):
+                motions[-1] = BodyMotion(last.first, (*last.way, after))
+            else:
+                motions.append(BodyMotion(k + 1, (before, after)))
+        return cls(standings[0], tuple(motions))
+
+
+def _standing(task: SpatialTask, stance: np.void) -> Standing:
+    limbs = len(task.robot.chains.limb_names)
+    most = task.robot.chains.lower.shape[1]
+    turn = np.array(stance["turn"], np.float64).reshape(3, 3)
+    return Standing(
+        Pose(turn, np.array(stance["place"], np.float64)),
+        flat(task.robot, np.asarray(stance["q"])[:limbs, :most]),
+        np.array(stance["hold"][:limbs], np.int32),
+        np.array(stance["wrench"][:limbs], np.float64),
+    )
+
+
+def _straight_on(way: Sequence[Standing], after: Standing) -> bool:
+    """Whether the body goes on in the direction that it has gone, without a turn."""
+    first, last = way[0].pose, way[-1].pose
+    gone, more = last.position - first.position, after.pose.position - last.position
+    if np.abs(after.pose.rotation - first.rotation).max() > 1e-9:
+        return False
+    size = float(np.linalg.norm(gone) * np.linalg.norm(more))
+    return size > 0.0 and float(gone @ more) > (1.0 - 1e-9) * size

@@ -1,0 +1,118 @@
+"""A robot in space that works out where it is: from encoders, IMU and contacts, with a map of holds that its touches correct."""
+
+from typing import Final
+
+import numpy as np
+
+from ....control.whole_body.tree import FREE, Dynamics, State, Tree
+from ....control.whole_body.tree_kernels import place_bodies, tip_motion
+from ....types import Floats, Ints
+from ..control.base_filter import BaseFilter, FilterSettings
+from ..control.base_filter_kernels import turn_by
+from ..robot.robot import SpatialRobot
+from ..world.world import World
+from .plant import Pose, SpatialSensed
+
+LEAST: Final = 1e-4
+"""What links and tips give way, which no encoder tells [m]."""
+SPEED_BAND: Final = 120.0
+"""Of the tracking filter that makes speeds of the angles of coarse encoders [rad/s]."""
+
+
+class EstimatedBase:
+    """A `Belief` by a contact-aided invariant filter.
+
+    Args:
+        robot: The robot.
+        world: As believed.
+        tree: The robot's, as believed.
+        period: Between ticks [s].
+        late: By which sensors tell what was, as their data sheets say [s]; beliefs are of now.
+        coarse: Whether encoders are too coarse to tell speeds.
+        settings: Of the filter.
+    """
+
+    def __init__(
+        self,
+        robot: SpatialRobot,
+        world: World,
+        tree: Tree,
+        period: float,
+        *,
+        late: float = 0.0,
+        coarse: bool = False,
+        settings: FilterSettings = FilterSettings(),  # noqa: B008  # frozen
+    ) -> None:
+        self._tree, self._period, self._late, self._settings = tree, period, late, settings
+        limbs = tree.limbs
+        directed = np.array([end.bears().moments for end in robot.ends], np.int32)
+        self.filter: Final = BaseFilter(limbs, directed, np.array(world.gravity), settings)
+        self.places: Final = world.places
+        """Where holds are, as believed, corrected by touch [m], shape (holds, 3)."""
+        self._spreads = np.full(len(world.holds), settings.hold)
+        self._on: Ints = np.full(limbs, -1, np.int32)
+        self._own, self._work = State.of(tree), Dynamics.of(tree)
+        self._variances = np.zeros(limbs)
+        self._coarse, self._keep = coarse, float(np.exp(-SPEED_BAND * period))
+        self._number = -1
+
+    def begin(self, pose: Pose, sensed: SpatialSensed) -> None:
+        """See `Belief`."""
+        self.filter.begin(pose.rotation, pose.position)
+        self._on[:] = -1
+        self._own.joints[:] = sensed.joints[0]
+        self._own.speed[:] = 0.0
+        self._number = int(sensed.number[0])
+
+    def update(self, sensed: SpatialSensed, holds: Ints, state: State) -> None:
+        """See `Belief`."""
+        passed = int(sensed.number[0]) - self._number
+        self._number += passed
+        if passed:
+            self.filter.predict(sensed.gyro, sensed.accelerometer, passed * self._period)
+        self._follow(sensed.joints, passed)
+        place_bodies(self._tree, self._own, self._work)
+        tip_motion(self._tree, self._own, self._work)
+        levers = np.square(self._work.jacobian[:, :3, FREE:]).sum(axis=(1, 2)) / 3.0
+        self._variances[:] = LEAST**2 + self._settings.encoder**2 * levers
+        self.filter.correct(self._work.tip, self._work.tip_turn, self._variances)
+        for limb in np.flatnonzero(holds != self._on).tolist():
+            self._change(limb, int(holds[limb]))
+        self._tell(sensed, state)
+
+    def _follow(self, joints: Floats, passed: int) -> None:
+        """Angles and speeds of the joints."""
+        own = self._own
+        if not self._coarse:
+            own.joints[:], own.speed[FREE:] = joints
+            return
+        dt = passed * self._period
+        own.joints[:] += dt * own.speed[FREE:]
+        off = joints[0] - own.joints
+        own.joints[:] += (1.0 - self._keep**2) * off
+        own.speed[FREE:] += (1.0 - self._keep) ** 2 / self._period * off
+
+    def _change(self, limb: int, hold: int) -> None:
+        """A limb takes a hold, or leaves one: what was felt of that stays in the map."""
+        before = int(self._on[limb])
+        if before >= 0:
+            self.places[before] = self.filter.believed.places[limb]
+            self._spreads[before] = max(self.filter.spread(limb), LEAST)
+            self.filter.let_go(limb)
+        if hold >= 0:
+            work = self._work
+            self.filter.hold_on(limb, work.tip[limb], work.tip_turn[limb], float(self._variances[limb]))
+            self.filter.take_place(limb, self.places[hold], float(self._spreads[hold]) ** 2)
+        self._on[limb] = hold
+
+    def _tell(self, sensed: SpatialSensed, state: State) -> None:
+        """The belief as of now."""
+        believed, own = self.filter.believed, self._own
+        spin = sensed.gyro - believed.biases[:3]
+        state.rotation[:] = believed.rotation
+        state.position[:] = believed.position + self._late * believed.velocity
+        state.joints[:] = own.joints + self._late * own.speed[FREE:]
+        state.speed[:3], state.speed[3:FREE], state.speed[FREE:] = believed.velocity, spin, own.speed[FREE:]
+        if self._late > 0.0:
+            x, y, z = self._late * (believed.rotation @ spin)
+            turn_by(x, y, z, state.rotation)

@@ -1,0 +1,172 @@
+"""A robot in space under whole-body control: a tick, and what its limbs hold on to as it believes."""
+
+import math
+from collections.abc import Callable
+from typing import Final
+
+import numpy as np
+
+from ....control.whole_body.law import WholeBody
+from ....control.whole_body.programme import FREE_LIMB, HOLDS, SWINGS, Gains
+from ....control.whole_body.tree import FREE
+from ....execution.run_report import FallenError
+from ....types import Floats, Ints
+from ..control.believed_tree import believed_tree, joint_limits
+from ..robot.contacts import MOST_ROWS
+from ..robot.robot import SpatialRobot
+from ..world.world import World
+from .belief import Belief
+from .course import Standing
+from .plant import SpatialPlant, SpatialSensed
+from .settings import Pace
+
+NESTED: Final = 0.9
+"""Of friction and pull that contacts are relied on for: the planner keeps its need within this, and the contacts bear more [-]."""
+
+
+class LimbedBody:
+    """A robot that holds on with its limbs and moves as it is told to.
+
+    Args:
+        robot: The robot.
+        world: As believed.
+        plant: What moves.
+        belief: Where it believes to be.
+        pace: How quickly it moves.
+        lift: Height of swinging tips over their holds [m].
+        gains: Of its law; None: the usual ones for its size.
+    """
+
+    def __init__(
+        self,
+        robot: SpatialRobot,
+        world: World,
+        plant: SpatialPlant,
+        belief: Belief,
+        pace: Pace,
+        lift: float,
+        gains: Gains | None = None,
+    ) -> None:
+        self.robot, self.world, self.plant, self.belief = robot, world, plant, belief
+        self.pace, self.lift = pace, lift
+        tree = believed_tree(robot, world.gravity)
+        self.law = WholeBody(tree, joint_limits(robot), gains or Gains(arm=pace.size), MOST_ROWS)
+        limbs = tree.limbs
+        self.sensed = SpatialSensed.of(robot.chains)
+        self.holds: Ints = np.full(limbs, -1, np.int32)
+        """Index of the hold that each limb holds on to, as believed; -1: none. Shape (limbs,)."""
+        self.loads: Floats = np.zeros((limbs, 6))
+        """Wrenches that contacts are to bear, world frame, shape (limbs, 6)."""
+        self.places: Floats = np.zeros((limbs, 3))
+        """Where the tips of limbs hold on, as believed [m], shape (limbs, 3)."""
+        self.ticks = 0
+        self.told: Callable[[], None] | None = None
+        """Called after each tick."""
+        self._pressed, self._normal = -1, np.zeros(3)
+        self._bears = [end.bears() for end in robot.ends]
+
+    @property
+    def time(self) -> float:
+        """Since the start [s]."""
+        return self.ticks * self.plant.period
+
+    @property
+    def tips(self) -> Floats:
+        """Where the tips are, as believed [m], shape (limbs, 3)."""
+        return self.law.dynamics.tip
+
+    def joints_of(self, limb: int) -> tuple[int, int]:
+        """First joint of a limb, and the one behind its last."""
+        ends = np.cumsum(self.robot.chains.n_joints)
+        return int(ends[limb] - self.robot.chains.n_joints[limb]), int(ends[limb])
+
+    def attaches(self, limb: int) -> bool:
+        """Whether a limb's end effector attaches, in place of only pushing."""
+        return self._bears[limb].capture > 0.0
+
+    def start(self, at: Standing) -> None:
+        """Put the robot on its holds."""
+        self.plant.reset(at.pose, at.joints, at.holds)
+        self.sensed = self.plant.sense()
+        self.belief.begin(at.pose, self.sensed)
+        self._believe()
+        aims = self.law.aims
+        aims.rotation[:], aims.position[:] = at.pose.rotation, at.pose.position
+        aims.posture[:] = at.joints
+        self.loads[:] = at.loads
+        for limb, hold in enumerate(at.holds.tolist()):
+            if self.attaches(limb):
+                self.plant.grip(limb, True)
+            self.hold_on(limb, hold)
+
+    def hold_on(self, limb: int, hold: int) -> None:
+        """From now on a limb holds on to a hold where its tip is."""
+        self._pressed = -1
+        aims, dynamics = self.law.aims, self.law.dynamics
+        contact, patch = self.robot.contacts[limb], self.world.holds[hold]
+        normal = self.world.normals[hold]
+        x = dynamics.tip_turn[limb, :, 0]
+        if abs(float(normal @ x)) > 0.9:
+            x = dynamics.tip_turn[limb, :, 1]
+        first = x - (normal @ x) * normal
+        first /= np.linalg.norm(first)
+        aims.frame[limb] = normal, first, np.cross(normal, first)
+        mu = min(contact.friction, math.inf if patch.friction is None else patch.friction)
+        tilt = math.acos(min(1.0, max(-1.0, -float(dynamics.tip_turn[limb, :, 2] @ normal))))
+        pull = min(
+            contact.pull * max(0.0, 1.0 - contact.tilt_loss * tilt),
+            math.inf if patch.strength is None else patch.strength,
+        )
+        rows, limits = contact.polytope(NESTED * mu, NESTED * pull)
+        aims.components[limb], aims.n_rows[limb] = contact.components, len(rows)
+        aims.rows[limb, : len(rows)], aims.limits[limb, : len(rows)] = rows, limits
+        aims.does[limb], aims.cap[limb] = HOLDS, math.inf
+        self.holds[limb], self.places[limb] = hold, dynamics.tip[limb]
+
+    def let_go(self, limb: int) -> None:
+        """From now on a limb bears nothing."""
+        self.law.aims.does[limb], self.holds[limb] = FREE_LIMB, -1
+        self.loads[limb] = 0.0
+
+    def swing(self, limb: int, path: tuple[Floats, Floats, Floats], points: Floats | None) -> None:
+        """Where a limb's tip is to be, with velocity and acceleration, and which way its end effector is to point."""
+        aims = self.law.aims
+        aims.does[limb] = SWINGS
+        aims.tip[limb], aims.tip_velocity[limb], aims.tip_acceleration[limb] = path
+        aims.points[limb] = 0.0 if points is None else points
+
+    def press(self, limb: int, normal: Floats) -> None:
+        """From now on a swinging limb presses against its aim across a surface of this normal, until it holds on or lets be (limb -1)."""
+        self._pressed, self._normal = limb, normal
+
+    def tick(self) -> None:
+        """Let a control period pass.
+
+        Raises:
+            FallenError: If the body is not where it is to be by far.
+            PlantStoppedError: If the plant takes no more commands.
+        """
+        law, aims = self.law, self.law.aims
+        self.sensed = self.plant.sense()
+        self._believe()
+        for limb in np.flatnonzero(aims.does == HOLDS):
+            aims.wrench[limb, :3] = aims.frame[limb] @ self.loads[limb, :3]
+            aims.wrench[limb, 3:] = aims.frame[limb] @ self.loads[limb, 3:]
+        torques = law.tick()
+        if self._pressed >= 0:  # what the tip misses of its aim, as a spring would press: its own inertia is too little
+            limb, normal, stiffness = self._pressed, self._normal, self.pace.pressing
+            deep = stiffness * max(0.0, float((law.dynamics.tip[limb] - aims.tip[limb]) @ normal))
+            torques -= deep * (normal @ law.dynamics.jacobian[limb, :3, FREE:])
+            np.clip(torques, -law.limits.torque, law.limits.torque, out=torques)
+        self.plant.actuate(torques)
+        self.plant.step()
+        self.ticks += 1
+        if self.told is not None:
+            self.told()
+        off = float(np.linalg.norm(aims.position - law.state.position))
+        if off > self.pace.lost:
+            raise FallenError(f"the body is {1e3 * off:.0f} mm from where it is to be")
+
+    def _believe(self) -> None:
+        self.belief.update(self.sensed, np.where(self.law.aims.does == HOLDS, self.holds, -1), self.law.state)
+        self.law.look()

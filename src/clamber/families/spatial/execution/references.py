@@ -1,0 +1,130 @@
+"""Where a body and a swinging tip are to be at a moment, with speed and acceleration: quintics from rest to rest."""
+
+import math
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ....types import Floats
+
+PEAK_SPEED: Final = 1.875
+"""Of a quintic from rest to rest, of its way per its time [-] ..."""
+PEAK: Final = 10.0 / math.sqrt(3.0)
+"""... and of its acceleration, of its way per its squared time [-]."""
+OFF: Final = 0.15
+"""Share of a swing in which the tip only lifts, and in which it only comes down [-]; as the check `swing` has it."""
+RISE: Final = 0.4
+"""Share of a swing in which the tip rises, and in which it sinks [-]; as the check `swing` has it."""
+
+
+def quintic(u: float) -> tuple[float, float, float]:
+    """Share of the way at a share of the time, and its first and second derivative; at rest before 0 and after 1."""
+    if u <= 0.0 or u >= 1.0:
+        return float(u >= 1.0), 0.0, 0.0
+    v = u * (1.0 - u)
+    return u**3 * (10.0 - 15.0 * u + 6.0 * u * u), 30.0 * v * v, 60.0 * v * (1.0 - 2.0 * u)
+
+
+def seconds_for(way: float, acceleration: float) -> float:
+    """That a way takes from rest to rest with such a largest acceleration [s]."""
+    return math.sqrt(PEAK * way / acceleration)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BodyPath:
+    """A body on its way from one pose to another, straight and by the shortest turn."""
+
+    position: Floats
+    """At the start [m], shape (3,)."""
+    rotation: Floats
+    """At the start, shape (3, 3)."""
+    way: Floats
+    """[m], shape (3,)."""
+    turn: Floats
+    """Axis times angle, world frame [rad], shape (3,)."""
+    seconds: float
+
+    @classmethod
+    def between(cls, position: Floats, rotation: Floats, to: Floats, to_rotation: Floats, seconds: float) -> "BodyPath":
+        """From one pose to another."""
+        return cls(position.copy(), rotation.copy(), to - position, rotation_vector(to_rotation @ rotation.T), seconds)
+
+    def at(self, time: float) -> tuple[Floats, Floats, Floats, Floats]:
+        """Position, rotation, velocity and acceleration, linear then angular, shapes (3,), (3, 3), (6,), (6,)."""
+        share, speed, acceleration = quintic(time / self.seconds)
+        both = np.concatenate((self.way, self.turn))
+        return (
+            self.position + share * self.way,
+            rotation_of(share * self.turn) @ self.rotation,
+            speed / self.seconds * both,
+            acceleration / self.seconds**2 * both,
+        )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TipPath:
+    """The lifted path of a tip between two places: off along the normals first, on last, as the check `swing` has it."""
+
+    start: Floats
+    end: Floats
+    """[m], shape (3,)."""
+    normals: Floats
+    """At both, out of the surfaces, shape (2, 3)."""
+    lift: float
+    """[m]."""
+    seconds: float
+
+    def at(self, time: float) -> tuple[Floats, Floats, Floats]:
+        """Place, velocity and acceleration, shape (3,) each."""
+        u, per = time / self.seconds, 1.0 / self.seconds
+        long = 1.0 - 2.0 * OFF
+        share, speed, acceleration = quintic((u - OFF) / long)
+        height, rate, curve = quintic((u if u < 0.5 else 1.0 - u) / RISE)
+        rate = rate if u < 0.5 else -rate
+        way, up = self.end - self.start, 0.5 * self.lift * self.normals.sum(axis=0)
+        return (
+            self.start + share * way + height * up,
+            per * (speed / long * way + rate / RISE * up),
+            per * per * (acceleration / long**2 * way + curve / RISE**2 * up),
+        )
+
+    def points(self, time: float) -> Floats:
+        """Direction of an end effector that turns from the one inward normal to the other, shape (3,)."""
+        share = quintic(time / self.seconds)[0]
+        normal = self.normals[0] + share * (self.normals[1] - self.normals[0])
+        length = float(np.linalg.norm(normal))
+        found: Floats = -normal / length if length > 1e-6 else -self.normals[1]
+        return found
+
+
+def swing_seconds(way: float, lift: float, acceleration: float) -> float:
+    """That a lifted path takes so that neither part of it accelerates more [s]."""
+    return max(seconds_for(way, acceleration) / (1.0 - 2.0 * OFF), seconds_for(lift, acceleration) / RISE)
+
+
+def rotation_of(vector: Floats) -> Floats:
+    """Rotation about an axis by an angle, both as one vector [rad], shape (3, 3)."""
+    angle = float(np.linalg.norm(vector))
+    x, y, z = vector
+    cross = np.array(((0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0)))
+    first = math.sin(angle) / angle if angle > 1e-9 else 1.0
+    second = (1.0 - math.cos(angle)) / angle**2 if angle > 1e-6 else 0.5
+    made: Floats = np.eye(3) + first * cross + second * (cross @ cross)
+    return made
+
+
+def rotation_vector(rotation: Floats) -> Floats:
+    """Axis times angle of a rotation [rad], shape (3,)."""
+    r = rotation
+    skew = 0.5 * np.array((r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]))
+    sine, cosine = float(np.linalg.norm(skew)), 0.5 * (float(np.trace(r)) - 1.0)
+    if sine < 1e-9:
+        if cosine > 0.0:
+            return skew
+        k = int(np.argmax(np.diag(r)))  # half a turn: an axis is a column of R + 1
+        axis = r[:, k] + np.eye(3)[k]
+        half: Floats = math.pi * axis / np.linalg.norm(axis)
+        return half
+    made: Floats = math.atan2(sine, cosine) / sine * skew
+    return made

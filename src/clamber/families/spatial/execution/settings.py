@@ -1,0 +1,58 @@
+"""How a robot in space is moved: every number by the robot's own weight, size and strength."""
+
+import math
+from dataclasses import dataclass
+from typing import Self
+
+from ....units import GRAVITY
+from ..robot.robot import SpatialRobot
+from ..statics.records import stretched
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Pace:
+    """How quickly a robot moves, and by what it feels contacts, SI."""
+
+    size: float
+    """Length of its longest limb when stretched [m]."""
+    weight: float
+    """On Earth [N]."""
+    body: float
+    """Largest acceleration of the body on its way [m/s^2]."""
+    swing: float
+    """The same of a tip that swings [m/s^2]."""
+    shift: float
+    """In which load passes from one set of limbs to another [s]."""
+    touch: float
+    """A foot that feels such a force stands [N]."""
+    pressing: float
+    """Force of a tip that feels for its hold per way that it misses [N/m]."""
+    approach: float
+    """Speed of a tip that feels for its hold [m/s]."""
+    depth: float
+    """How far beyond its hold it feels [m]."""
+    lost: float
+    """A body that is so far from where it is to be has fallen [m]."""
+
+    @classmethod
+    def of(cls, robot: SpatialRobot) -> Self:
+        """Of a robot: as quick as its motors can bear, never quicker than what falls."""
+        chains = robot.chains
+        limbs = len(chains.limb_names)
+        size = max(stretched(chains, limb) for limb in range(limbs))
+        mass = chains.total_mass
+        strong = sum(float(chains.torque[limb, : chains.n_joints[limb]].max()) for limb in range(limbs))
+        agile = min(GRAVITY, strong / (mass * size))
+        swing = 0.2 * agile
+        return cls(
+            size=size,
+            weight=mass * GRAVITY,
+            body=0.05 * agile,
+            swing=swing,
+            shift=0.5 * math.sqrt(size / agile),
+            touch=0.02 * mass * GRAVITY,
+            pressing=0.1 * mass * GRAVITY / (0.1 * size),
+            approach=0.1 * math.sqrt(size * agile) * 0.3,
+            depth=0.1 * size,
+            lost=0.3 * size,
+        )

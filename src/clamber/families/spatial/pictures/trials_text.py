@@ -1,0 +1,50 @@
+"""Many runs of a robot in space as a terminal shows them: what they say together, and why some ended early."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from rich.console import Console
+
+from ....trials.held_out import seeds_in_words
+from ....viewing.text_table import plain_table
+from ....viewing.trials_text import share_range, some
+from ..trials.trials import SpatialTrials
+
+SPREAD = ("median", "5 %", "95 %", "least", "most")
+ROWS = (
+    ("body off its aim, as believed [mm]", "off", 1e-3, 1),
+    ("not where it believes to be, at the end [mm]", "lost", 1e-3, 1),
+    ("contacts that came off", "breaks", 1.0, 0),
+    ("time [s]", "seconds", 1.0, 0),
+)
+
+
+def print_spatial_trials(console: Console, trials: SpatialTrials, seeds: Sequence[int]) -> None:
+    """Print how often runs came to their end, causes, and the spread of what is measured of them."""
+    n = len(trials.ended)
+    low, high = trials.interval
+    style = "bold green" if trials.done == n else "bold red"
+    console.print(f"{trials.done} of {n} runs of '{trials.setup.name}' came to their end", style=style)
+    console.print(f"95 % between {100 * low:.1f} and {100 * high:.1f} %")
+    console.print(seeds_in_words(seeds))
+    causes = trials.causes()
+    if causes:
+        table = plain_table("failed", "times", "of all, 95 %", "after actions", "seeds", right=("times",))
+        for cause in causes:
+            table.add_row(
+                cause.words, str(cause.n), share_range(cause.interval), some(cause.actions), some(cause.seeds)
+            )
+        console.print(table)
+        console.print(f"seed {causes[0].seeds[0]}: {causes[0].reason}", soft_wrap=True)
+    table = plain_table("", *SPREAD, right=SPREAD)
+    for title, name, unit, digits in ROWS:
+        values = trials.of(name) / unit
+        if len(values):
+            told = (*np.percentile(values, (50.0, 5.0, 95.0)), values.min(), values.max())
+            table.add_row(title, *(f"{value:.{digits}f}" for value in told))
+    console.print(table)
+    ran = float(trials.of("seconds").sum())
+    if trials.wall_seconds > 0.0:
+        console.print(
+            f"{trials.wall_seconds:.0f} s of computing: {ran / trials.wall_seconds:.1f} times as fast as they happen"
+        )

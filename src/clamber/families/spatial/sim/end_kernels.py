@@ -1,0 +1,179 @@
+"""What end effectors feel and bear, as kernels: which hold is nearest, wrenches on tips, and whether they are within what holds them."""
+
+import math
+
+import numpy as np
+
+from ....compiled import inlined, kernel
+
+CONE, PAD, HOOK, SPINE = range(4)
+FORMS = {"cone": CONE, "pad": PAD, "hook": HOOK, "spine": SPINE}
+"""Forms of `contacts.Strength`, by their words."""
+HOLDS, SLIPS, PULLED, PRESSED, BENT, TWISTED, PEELED, LEFT, DRAWN = range(9)
+WORDS = (
+    "holds",
+    "slips",
+    "pulled off",
+    "pressed",
+    "bent off",
+    "twisted off",
+    "peeled off",
+    "left its bed",
+    "drawn off",
+)
+"""What became of an end effector."""
+END = np.dtype(
+    [
+        ("form", "i8"),
+        ("friction", "f8"),
+        ("pull", "f8"),
+        ("press", "f8"),
+        ("bending", "f8"),
+        ("twisting", "f8"),
+        ("half1", "f8"),
+        ("half2", "f8"),
+        ("slope", "f8"),  # tangent of a hook's opening or of a spine's angle
+        ("moments", "i8"),
+        ("touch", "f8"),  # forces below it neither slip nor leave where nothing pulls [N]
+        # while it is attached
+        ("hold", "i8"),  # index, -1: to none
+        ("mu", "f8"),
+        ("held", "f8"),  # pull of end effector and hold [N]
+        ("normal", "f8", (3,)),  # out of the surface, world frame
+        ("over", "i8"),  # ticks in a row for which it bore too much
+    ],
+    align=True,
+)
+"""An end effector as kernels read it."""
+
+
+@kernel
+def what_gives(end, n, f1, f2, mn, m1, m2):
+    """What of an end effector's hold gives way under a wrench of the surface on it, in the contact's frame; `HOLDS`: nothing."""
+    mu, pull = end.mu, end.held
+    if end.form == HOOK:
+        if math.sqrt(n * n + f1 * f1 + f2 * f2) > pull:
+            return PULLED
+        if abs(f2) > end.slope * n + end.touch:
+            return LEFT
+        return SLIPS if abs(f1) > mu * n + end.touch else HOLDS
+    if end.form == SPINE:
+        if f1 > pull:
+            return DRAWN
+        if f1 < 0.0:
+            return SLIPS if math.sqrt(f1 * f1 + f2 * f2) > mu * n + end.touch else HOLDS
+        hooked = n + end.slope * f1
+        if hooked < -end.touch:
+            return PULLED
+        return SLIPS if abs(f2) > mu * hooked + end.touch else HOLDS
+    pressure = n + pull
+    if pressure < 0.0:
+        return PULLED
+    if math.sqrt(f1 * f1 + f2 * f2) > mu * pressure:
+        return SLIPS
+    if end.form == CONE:
+        if n > end.press:
+            return PRESSED
+        if end.moments:
+            if math.sqrt(m1 * m1 + m2 * m2) > end.bending:
+                return BENT
+            if abs(mn) > end.twisting:
+                return TWISTED
+        return HOLDS
+    if abs(m1) > end.half2 * pressure or abs(m2) > end.half1 * pressure:
+        return PEELED
+    inside = math.sqrt(0.5)  # of the pyramid in the cone, as the rows of `contacts.pad` have it
+    around = inside * (end.half1 + end.half2)
+    for a in (-1.0, 1.0):
+        for b in (-1.0, 1.0):
+            for turn in (-1.0, 1.0):
+                load = turn * mn + a * end.half2 * f1 + b * end.half1 * f2
+                if load + mu * turn * inside * (a * m1 + b * m2) > mu * around * pressure:
+                    return TWISTED
+    return HOLDS
+
+
+@inlined
+def dot(a, b):
+    """Of two vectors."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@kernel
+def feel_ends(ends, axes, readings, wrenches, local, given):
+    """What acts on every tip, and what gives way.
+
+    Args:
+        ends: Records of `END`; `over` is counted.
+        axes: Of the end effectors in the world, row by row, shape (limbs, 9).
+        readings: Force and moment of what carries each tip on it, in its own frame, shape (limbs, 6).
+        wrenches: Filled: of the surface on each tip, world frame, shape (limbs, 6).
+        local: Filled: the same in the end effector's frame.
+        given: Filled: what gives way (`WORDS`), shape (limbs,); `HOLDS` of those that are not attached.
+    """
+    normal, first, second = np.empty(3), np.empty(3), np.empty(3)
+    for limb in range(ends.shape[0]):
+        end = ends[limb]
+        turn = axes[limb]
+        for part in range(0, 6, 3):
+            for i in range(3):
+                local[limb, part + i] = -readings[limb, part + i]
+                total = 0.0
+                for k in range(3):
+                    total -= turn[3 * i + k] * readings[limb, part + k]
+                wrenches[limb, part + i] = total
+        given[limb] = HOLDS
+        if end.hold < 0:
+            continue
+        along = 0
+        for i in range(3):
+            normal[i] = end.normal[i]
+        if abs(normal[0] * turn[0] + normal[1] * turn[3] + normal[2] * turn[6]) > 0.9:
+            along = 1
+        for i in range(3):
+            first[i] = turn[3 * i + along]
+        across = dot(first, normal)
+        for i in range(3):
+            first[i] -= across * normal[i]
+        scale = 1.0 / math.sqrt(dot(first, first))
+        for i in range(3):
+            first[i] *= scale
+        second[0] = normal[1] * first[2] - normal[2] * first[1]
+        second[1] = normal[2] * first[0] - normal[0] * first[2]
+        second[2] = normal[0] * first[1] - normal[1] * first[0]
+        force, moment = wrenches[limb, :3], wrenches[limb, 3:]
+        given[limb] = what_gives(
+            end, dot(force, normal), dot(force, first), dot(force, second), dot(moment, normal), dot(moment, first),
+            dot(moment, second),
+        )  # fmt: skip
+        end.over = 0 if given[limb] == HOLDS else end.over + 1
+
+
+@kernel
+def nearest_holds(tips, places, normals, radii, nearest, gaps):
+    """The hold whose patch is nearest each tip.
+
+    Args:
+        tips: World frame [m], shape (limbs, 3).
+        places, normals: Of the holds, shape (holds, 3); normals out of the surface.
+        radii: Of their patches [m], shape (holds,); negative: the hold is no more.
+        nearest: Filled: index, -1 where there is none, shape (limbs,).
+        gaps: Filled: distance from the patch [m], shape (limbs,).
+    """
+    for limb in range(tips.shape[0]):
+        nearest[limb] = -1
+        best = math.inf
+        for k in range(places.shape[0]):
+            if radii[k] < 0.0:
+                continue
+            x, y, z = tips[limb, 0] - places[k, 0], tips[limb, 1] - places[k, 1], tips[limb, 2] - places[k, 2]
+            square = x * x + y * y + z * z
+            if square > (best + radii[k]) * (best + radii[k]):
+                continue
+            out = x * normals[k, 0] + y * normals[k, 1] + z * normals[k, 2]
+            aside = max(0.0, math.sqrt(max(0.0, square - out * out)) - radii[k])
+            gap = math.sqrt(out * out + aside * aside)
+            if gap < best:
+                best = gap
+                nearest[limb] = k
+        gaps[limb] = best

@@ -1,0 +1,215 @@
+"""The end effectors of a robot while it moves: they attach to holds on command, bear what their data sheets say, and come off beyond."""
+
+import math
+from collections.abc import Sequence
+from typing import Any, Final
+
+import numpy as np
+
+from ....execution.plant import HoldBreak
+from ....types import Floats, Ints
+from ..robot.robot import SpatialRobot
+from ..world.solids import frame_about
+from ..world.world import World
+from .end_kernels import END, FORMS, WORDS, feel_ends, nearest_holds
+from .spatial_flaws import Deviations, SpatialFlaws
+from .spatial_model import THICK, TIP, held_name, patch_name, quaternion, tip_name
+
+GIVING_WAY: Final = 0.02
+"""An end effector comes off after that long above its strength; shorter knocks, as when it lands, break nothing [s]."""
+TOUCH: Final = 0.0002
+"""Forces below this part of the strength of a hook or of spines, which nothing pulls on, neither slip nor leave [-]."""
+FAR: Final = 1e3
+"""Where patches are of limbs near no hold [m]."""
+
+
+class Ends:
+    """End effectors and the holds beneath them.
+
+    An end effector that is told to attach does so as soon as the patch of a hold is within its capture distance and it points into that
+    hold within its tilt. It is then held where it is, with its direction if it bears moments. It comes off when the wrench on it has been
+    outside its exact body (`contacts.Strength`) for `GIVING_WAY`; a hold that was weaker than the end effector is then gone for good.
+
+    Args:
+        robot: Whose they are.
+        world: Its holds as believed.
+        deviations: How they truly are.
+        flaws: Share of attempts that fail, and the seed.
+        model, data: MuJoCo's, of `spatial_spec`.
+    """
+
+    def __init__(
+        self, robot: SpatialRobot, world: World, deviations: Deviations, flaws: SpatialFlaws, model: Any, data: Any
+    ) -> None:
+        import mujoco
+
+        self._mujoco, self._model, self._data, self._flaws = mujoco, model, data, flaws
+        self._strengths = strengths = [end.bears() for end in robot.ends]
+        names = robot.limb_names
+        n = len(names)
+        self._places, self._normals = deviations.places, deviations.normals
+        self._own_radii = np.array([hold.radius for hold in world.holds])
+        self._radii = self._own_radii.copy()
+        inf = math.inf
+        self._hold_mu = np.array([inf if hold.friction is None else hold.friction for hold in world.holds])
+        self._hold_pull = np.array([inf if hold.strength is None else hold.strength for hold in world.holds])
+        self._grip_factor, self._slip_factor = deviations.strengths, deviations.frictions
+        self._numbers = [hold.number for hold in world.holds]
+        self._ends = np.zeros(n, END)
+        for end, strength in zip(self._ends, strengths, strict=True):
+            end["form"] = FORMS[strength.form]
+            for key in ("friction", "pull", "press", "bending", "twisting", "moments"):
+                end[key] = getattr(strength, key)
+            end["half1"], end["half2"] = strength.halves
+            end["slope"] = math.tan(strength.angle)
+            end["touch"] = TOUCH * strength.pull
+        self._capture = np.array([strength.capture for strength in strengths])
+        sites = np.array([model.site(tip_name(name)).id for name in names])
+        self._bodies = [model.body(tip_name(name)).id for name in names]
+        self._site_places, self._site_axes, self._sites = data.site_xpos, data.site_xmat, sites
+        self._held = [
+            model.equality(held_name(name)).id if c else -1 for name, c in zip(names, self._capture, strict=True)
+        ]
+        self._patches = [model.geom(patch_name(name)).id for name in names]
+        self._mocaps = [int(model.body(patch_name(name)).mocapid[0]) for name in names]
+        self._balls = [
+            [geom for geom in range(model.ngeom) if model.geom_bodyid[geom] == body] for body in self._bodies
+        ]
+        self._bits = [int(model.geom_contype[balls[0]]) for balls in self._balls]
+        self._readings = data.sensordata[6:].reshape(n, 6)
+        self._limit = max(1, round(GIVING_WAY * flaws.control_rate))
+        self.wrenches: Final = np.zeros((n, 6))
+        """Of the surface on each tip, world frame, shape (limbs, 6) [N], [N m]."""
+        self.local: Final = np.zeros((n, 6))
+        """The same in the end effector's frame."""
+        self._given = np.zeros(n, np.int64)
+        self._nearest, self._under, self._gaps = np.zeros(n, np.int64), np.full(n, -2), np.zeros(n)
+        self._wanted, self._spent = np.zeros(n, bool), np.zeros(n, bool)
+        self.closed: Final = np.zeros(n, np.int32)
+        """1 of those that are attached, shape (limbs,)."""
+        self.broken: tuple[HoldBreak, ...] = ()
+        """Since the reset."""
+        self._chance = np.random.default_rng(flaws.seed)
+
+    @property
+    def attached(self) -> Ints:
+        """Index of the hold that each is attached to; of what only pushes the one that it pushes on; -1: none. Shape (limbs,)."""
+        found = self._ends["hold"].astype(np.int32)
+        pushing = (self._capture == 0.0) & (np.abs(self.wrenches[:, :3]).sum(axis=1) > 0.0)
+        found[pushing] = self._nearest[pushing]
+        return found
+
+    def reset(self, held: Sequence[int] | Ints) -> None:
+        """Attach limbs to holds, -1: to none, where their tips are; the others are open."""
+        self._radii[:] = self._own_radii
+        self._wanted[:] = self._spent[:] = False
+        self.closed[:] = 0
+        self._ends["hold"], self.broken = -1, ()
+        self._under[:] = -2
+        self._chance = np.random.default_rng(self._flaws.seed)
+        for limb, hold in enumerate(held):
+            self._let_go(limb)
+            if hold >= 0 and self._capture[limb] > 0.0:
+                self._wanted[limb] = True
+                self._attach(limb, int(hold))
+        self.look()
+
+    def places(self, held: Sequence[int] | Ints) -> Floats:
+        """Where the tips of limbs on holds truly are, shape (limbs, 3) [m]."""
+        at: Floats = self._places[np.asarray(held)]
+        return at
+
+    def grip(self, limb: int, close: bool) -> None:
+        """Tell an end effector to attach or to let go."""
+        if not self._capture[limb]:
+            return
+        self._wanted[limb] = close
+        if not close:
+            self._spent[limb] = False
+            if self._ends["hold"][limb] >= 0:
+                self._let_go(limb)
+
+    def look(self) -> None:
+        """Bring the nearest hold beneath every tip, and attach what is to attach: before the physics of a control period."""
+        tips = self._site_places[self._sites]
+        nearest_holds(tips, self._places, self._normals, self._radii, self._nearest, self._gaps)
+        for limb, hold in enumerate(self._nearest.tolist()):
+            if hold != self._under[limb]:
+                self._put_beneath(limb, hold)
+            if self._wanted[limb] and not self._spent[limb] and not self.closed[limb] and self._catches(limb, hold):
+                if self._flaws.miss > 0.0 and self._chance.random() < self._flaws.miss:
+                    self._spent[limb] = True
+                else:
+                    self._attach(limb, hold)
+
+    def feel(self, time: float) -> None:
+        """See what acts on tips, and let come off what bears too much: after the physics of a control period that ends at `time` [s]."""
+        axes = self._site_axes[self._sites]
+        feel_ends(self._ends, axes, self._readings, self.wrenches, self.local, self._given)
+        if self._ends["over"].any():
+            for limb in np.flatnonzero(self._ends["over"] >= self._limit).tolist():
+                self._come_off(limb, time)
+
+    def _catches(self, limb: int, hold: int) -> bool:
+        near = hold >= 0 and self._gaps[limb] <= self._capture[limb]
+        return bool(near and self._tilt(limb, hold) <= self._strengths[limb].tilt)
+
+    def _tilt(self, limb: int, hold: int) -> float:
+        inward = -float(self._site_axes[self._sites[limb]].reshape(3, 3)[:, 2] @ self._normals[hold])
+        return math.acos(min(1.0, max(-1.0, inward)))
+
+    def _friction(self, limb: int, hold: int) -> float:
+        return float(self._slip_factor[hold] * min(self._strengths[limb].friction, self._hold_mu[hold]))
+
+    def _put_beneath(self, limb: int, hold: int) -> None:
+        """Put a hold's patch beneath a limb."""
+        self._under[limb] = hold
+        geom, mocap = self._patches[limb], self._mocaps[limb]
+        if hold < 0:
+            self._data.mocap_pos[mocap] = (FAR, FAR, FAR)
+            return
+        reach = self._capture[limb] + math.hypot(*self._strengths[limb].halves)
+        radius, normal = self._own_radii[hold] + reach, self._normals[hold]
+        self._model.geom_size[geom, 0] = radius
+        self._model.geom_rbound[geom] = math.hypot(radius, THICK)
+        self._model.geom_aabb[geom, 3:] = radius, radius, THICK
+        self._model.geom_friction[geom, 0] = max(self._friction(limb, hold), 1e-5)
+        self._data.mocap_pos[mocap] = self._places[hold] - (TIP + THICK) * normal
+        self._data.mocap_quat[mocap] = quaternion(self._mujoco, frame_about(normal).T)
+
+    def _attach(self, limb: int, hold: int) -> None:
+        data, eq, body = self._data, self._model.eq_data[self._held[limb]], self._bodies[limb]
+        strength, end = self._strengths[limb], self._ends[limb]
+        if strength.moments:  # a weld: anchor in the world, in the body, turn from it to the world
+            eq[:3], eq[3:6] = data.xpos[body], 0.0
+            eq[6:10] = data.xquat[body] * (1.0, -1.0, -1.0, -1.0)
+        else:
+            eq[:3], eq[3:6] = 0.0, data.xpos[body]
+        data.eq_active[self._held[limb]] = 1
+        own = strength.pull * max(0.0, 1.0 - strength.tilt_loss * self._tilt(limb, hold))
+        end["hold"], end["over"], end["normal"] = hold, 0, self._normals[hold]
+        end["mu"] = self._friction(limb, hold)
+        end["held"] = self._grip_factor[hold] * min(own, self._hold_pull[hold])
+        self._touchable(limb, False)
+        self.closed[limb] = 1
+
+    def _let_go(self, limb: int) -> None:
+        if self._held[limb] >= 0:
+            self._data.eq_active[self._held[limb]] = 0
+        self._ends["hold"][limb], self._ends["over"][limb] = -1, 0
+        self._touchable(limb, True)
+        self.closed[limb] = 0
+
+    def _come_off(self, limb: int, time: float) -> None:
+        hold = int(self._ends["hold"][limb])
+        force = float(np.linalg.norm(self.wrenches[limb, :3]))
+        why = f"{WORDS[self._given[limb]]} at {force:.1f} N"
+        self.broken = (*self.broken, HoldBreak(time, self._numbers[hold], force, why))
+        if self._hold_pull[hold] < self._strengths[limb].pull:
+            self._radii[hold] = -1.0
+        self._let_go(limb)
+        self._spent[limb] = True
+
+    def _touchable(self, limb: int, touches: bool) -> None:
+        for ball in self._balls[limb]:
+            self._model.geom_contype[ball] = self._bits[limb] if touches else 0

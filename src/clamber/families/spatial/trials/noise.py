@@ -1,0 +1,148 @@
+"""What a run of a robot in space meets that nobody told its controller: widths by name, and what a seed draws from them."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from ....trials.noise import SETS, NoiseKind, read_widths
+from ....types import Floats, Json
+from ....units import DEGREE, GRAVITY
+from ..robot.robot import SpatialRobot
+from ..sim.spatial_flaws import Deviations, Push, SpatialFlaws
+from ..world.world import World
+
+SPATIAL_NOISE: Final[dict[str, NoiseKind]] = {
+    "hold_place": NoiseKind(dimension="length", width=5e-3, words="place of each hold, in any direction", many=True),
+    "hold_tilt": NoiseKind(dimension="angle", width=5.0 * DEGREE, words="normal of each hold", many=True),
+    "friction": NoiseKind(dimension="ratio", width=0.2, words="friction at each hold", below_one=True, many=True),
+    "strength": NoiseKind(dimension="ratio", width=0.2, words="strength at each hold", below_one=True, many=True),
+    "mass": NoiseKind(dimension="ratio", width=0.1, words="mass of each part", below_one=True, many=True),
+    "payload": NoiseKind(dimension="ratio", width=0.0, words="mass that the base carries, of the robot's"),
+    "gear_friction": NoiseKind(dimension="ratio", width=0.2, words="friction of the gears", below_one=True),
+    "backlash": NoiseKind(dimension="angle", width=0.5 * DEGREE, words="whole play of each joint"),
+    "delay": NoiseKind(dimension="time", unit="ms", scale=1e-3, width=5e-3, words="of all sensors"),
+    "encoder": NoiseKind(dimension="angle", width=0.022 * DEGREE, words="step of the encoders"),
+    "gyro": NoiseKind(
+        dimension="angular speed",
+        unit="rad/s",
+        scale=1.0,
+        width=5e-3,
+        words="standard deviation of readings and biases",
+    ),
+    "accelerometer": NoiseKind(
+        dimension="acceleration", unit="m/s^2", scale=1.0, width=0.05, words="standard deviation of readings and biases"
+    ),
+    "force": NoiseKind(dimension="ratio", width=0.005, words="standard deviation of tips' sensors, of the weight"),
+    "miss": NoiseKind(dimension="ratio", width=0.0, words="share of attempts to attach that fail"),
+    "push": NoiseKind(dimension="ratio", width=0.0, words="largest push on the body, of its weight"),
+}
+"""Key -> what deviates: noise of sensors by its standard deviation, play, delay, steps and misses as they are, the rest evenly spread over
+its width to either side. The widths of holds, friction, strength, mass, play and delay are those that this family's rates are stated for;
+the sensors' are assumed: an encoder of 14 bits, an IMU of a phone's class, force sensors of half a per cent."""
+PUSHES: Final = 8.0
+"""Mean time between two pushes [s]."""
+LASTS: Final = (0.1, 0.3)
+"""Shortest and longest push [s]."""
+PUSHED_FOR: Final = 600.0
+"""Pushes are drawn for runs of so long [s]."""
+
+
+@dataclass(frozen=True, slots=True)
+class SpatialNoise:
+    """A width for every key, in SI."""
+
+    widths: Mapping[str, float]
+
+    def to_json(self) -> Json:
+        """Plain data."""
+        return {key: self.widths[key] for key in SPATIAL_NOISE}
+
+    @property
+    def any(self) -> bool:
+        """Whether anything deviates."""
+        return any(self.widths.values())
+
+    def flaws(self, base: SpatialFlaws, seed: int) -> SpatialFlaws:
+        """What a seed makes of a plant; what it states itself stays."""
+        if not self.any:
+            return base
+        widths = self.widths
+        own = {
+            "backlash": widths["backlash"],
+            "delay": widths["delay"],
+            "encoder_step": widths["encoder"],
+            "gyro_noise": widths["gyro"],
+            "gyro_bias": widths["gyro"],
+            "accelerometer_noise": widths["accelerometer"],
+            "accelerometer_bias": widths["accelerometer"],
+            "force_noise": widths["force"],
+            "miss": widths["miss"],
+        }
+        usual = SpatialFlaws()
+        stated = {key: value for key in own if (value := getattr(base, key)) != getattr(usual, key)}
+        friction = base.friction * (1.0 + float(self._share("gear_friction", seed)[0]))
+        return replace(base, **(own | stated), friction=friction, seed=seed)
+
+    def deviations(self, robot: SpatialRobot, world: World, seed: int) -> Deviations:
+        """What a seed makes of robot and world."""
+        holds, parts = len(world.holds), 1 + int(robot.chains.n_joints.sum())
+        weight = GRAVITY * robot.chains.total_mass
+        return Deviations(
+            places=world.places + self._within("hold_place", seed, holds),
+            normals=tilted(world.normals, self._within("hold_tilt", seed, holds)),
+            strengths=1.0 + self._share("strength", seed, holds),
+            frictions=1.0 + self._share("friction", seed, holds),
+            masses=1.0 + self._share("mass", seed, parts),
+            payload=robot.chains.total_mass * abs(float(self._share("payload", seed)[0])),
+            pushes=self._pushes(weight, seed),
+        )
+
+    def _share(self, key: str, seed: int, n: int = 1) -> Floats:
+        """Evenly spread over a width to either side, from a stream of the key's own, shape (n,)."""
+        return self.widths[key] * np.random.default_rng([seed, *key.encode()]).uniform(-1.0, 1.0, n)
+
+    def _within(self, key: str, seed: int, n: int) -> Floats:
+        """Evenly spread within a ball of the width, shape (n, 3)."""
+        chance = np.random.default_rng([seed, *key.encode()])
+        ways = chance.standard_normal((n, 3))
+        ways /= np.linalg.norm(ways, axis=1, keepdims=True)
+        found: Floats = self.widths[key] * ways * np.cbrt(chance.random((n, 1)))
+        return found
+
+    def _pushes(self, weight: float, seed: int) -> tuple[Push, ...]:
+        if not self.widths["push"]:
+            return ()
+        chance = np.random.default_rng([seed, *b"push"])
+        found, time = [], float(chance.exponential(PUSHES))
+        while time < PUSHED_FOR:
+            way = chance.standard_normal(3)
+            force = self.widths["push"] * weight * chance.random() * way / np.linalg.norm(way)
+            found.append(Push(time, time + float(chance.uniform(*LASTS)), tuple(force.tolist())))
+            time = found[-1].end + float(chance.exponential(PUSHES))
+        return tuple(found)
+
+
+def tilted(normals: Floats, turns: Floats) -> Floats:
+    """Unit vectors turned by what of rotation vectors lies across them [rad], shape (n, 3)."""
+    across = turns - np.sum(turns * normals, axis=1, keepdims=True) * normals
+    angles = np.linalg.norm(across, axis=1, keepdims=True)
+    axes = across / np.maximum(angles, 1e-12)
+    made: Floats = np.cos(angles) * normals + np.sin(angles) * np.cross(axes, normals)
+    return made
+
+
+def named_spatial_noise(name: str) -> SpatialNoise:
+    """All widths: "usual", or "none" of all."""
+    assert name in SETS
+    return SpatialNoise({key: kind.width if name == "usual" else 0.0 for key, kind in SPATIAL_NOISE.items()})
+
+
+def read_spatial_noise(base: SpatialNoise, texts: Iterable[str]) -> SpatialNoise:
+    """`base` changed by texts such as "friction=30%", the last one winning; "none" and "usual" change all of it.
+
+    Raises:
+        NoiseError: If there is no such key, or its width cannot be.
+    """
+    return SpatialNoise(read_widths(SPATIAL_NOISE, base.widths, texts))

@@ -1,0 +1,246 @@
+"""Many runs of one plan of a robot in space, each with its own seed: run over workers, stored as they end, and what they say together."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from operator import attrgetter
+from pathlib import Path
+from typing import Annotated, Final
+
+import numpy as np
+
+from ....jobs import read_result
+from ....json_form import HIDDEN, Count, Jsonable, Key, in_json
+from ....planning.problem.plan import Plan
+from ....tasks import task_from_document
+from ....trials.trial_runs import Setup, Trials, wilson_interval
+from ....types import Floats, Json
+from ..planning.task import SpatialTask
+from ..sim.spatial_flaws import read_spatial_flaws
+from .noise import SpatialNoise
+from .run_plan import SpatialRun, run_plan
+
+ERROR: Final = "error"
+"""Start of the reason of a trial that raised, or whose workers died."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SpatialTrial(Jsonable):
+    """How one run ended."""
+
+    seed: Count
+    done: bool
+    """Whether the plan came to its end."""
+    reason: str
+    """Why not; empty where it did."""
+    seconds: float
+    """Simulated."""
+    actions: Count
+    """Of the plan that were carried out."""
+    off: float
+    """Largest distance of the body from where it was to be, as believed [m]."""
+    lost: float | None
+    """How far the robot was from where it believed to be, at the end [m]; None where that is not known."""
+    breaks: Count
+    """Contacts that came off."""
+    wall_seconds: float
+    """That it took."""
+
+    @property
+    def fault(self) -> None:
+        """There are none."""
+        return None
+
+
+@dataclass(frozen=True, slots=True)
+class SpatialCause:
+    """Runs that ended early in the same way."""
+
+    words: str
+    n: int
+    interval: tuple[float, float]
+    """Of their share of all runs, 95 %, Wilson's."""
+    actions: tuple[Count, ...]
+    """After how many, each once."""
+    seeds: tuple[Count, ...]
+    reason: str
+    """Of the first one."""
+
+
+def run_once(item: Json, step: Callable[[str, float | None], None] | None = None) -> SpatialRun:
+    """One run of many; `item` as `SpatialSetup.item` writes it."""
+    task = task_from_document(item["document"])
+    assert isinstance(task, SpatialTask)
+    seed, noise = item["seed"], SpatialNoise(item["noise"])
+
+    def told(action: int, of: int) -> None:
+        if step is not None:
+            step(f"action {action} of {of}", action / of)
+
+    return run_plan(
+        task,
+        Plan.from_json(item["plan"] | {"document": item["document"]}),
+        flaws=noise.flaws(read_spatial_flaws(item["plant"], seed), seed),
+        deviations=noise.deviations(task.robot, task.world, seed) if noise.any else None,
+        progress=told,
+    )
+
+
+def judged(seed: int, run: SpatialRun) -> SpatialTrial:
+    """What is kept of a run."""
+    report, lost = run.report, None
+    if report.pose is not None and report.true_pose is not None:
+        lost = float(np.linalg.norm(np.subtract(report.pose[:3], report.true_pose[:3])))
+    ended = [motion.last for motion in report.motions if motion.outcome == "ok"]
+    return SpatialTrial(
+        seed=seed,
+        done=run.done,
+        reason=run.reason,
+        seconds=report.seconds,
+        actions=max(ended, default=0),
+        off=report.off,
+        lost=lost,
+        breaks=len(run.broken),
+        wall_seconds=run.wall_seconds,
+    )
+
+
+def run_spatial_trial(item: Json) -> Json:
+    """One run, as `SpatialTrial.to_json`; runs in a worker."""
+    return judged(item["seed"], run_once(item)).to_json()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SpatialSetup(Setup[SpatialRun, SpatialTrial]):
+    """What all trials have in common."""
+
+    task: SpatialTask
+    noise: SpatialNoise
+    plant: tuple[str, ...] = ()
+    """Settings of the plant, such as "friction=50%"."""
+    plan: Plan | None = None
+    planned: bool = False
+    """Whether a planner made the plan, so that it is no part of what was asked for."""
+    faults: tuple[str, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """Of the task."""
+        return self.task.name
+
+    @property
+    def worker(self) -> Callable[[Json], Json]:
+        """One trial."""
+        return run_spatial_trial
+
+    @property
+    def title(self) -> str:
+        """In words."""
+        return f"runs of '{self.name}'"
+
+    def about(self) -> Json:
+        """Task, plant, noise, and the plan if it was asked for."""
+        return self._plain() | {"plan": None if self.plan is None or self.planned else self.plan.to_json()}
+
+    def item(self, seed: int) -> Json:
+        """One trial for a worker."""
+        assert self.plan is not None, "plan first"
+        return self._plain() | {"plan": self.plan.to_json() | {"document": {}}, "seed": seed}
+
+    def _plain(self) -> Json:
+        return {"document": self.task.document, "plant": list(self.plant), "noise": self.noise.to_json()}
+
+    def begun(self, asked: int) -> "SpatialTrials":
+        """No runs yet."""
+        return SpatialTrials(self, asked, [])
+
+    def trial(self, result: Json, store: Path | None = None) -> SpatialTrial:
+        """The trial of a result."""
+        return read_result(SpatialTrial, result, store)
+
+    def failed(self, seed: int, error: str) -> SpatialTrial:
+        """A run that raised."""
+        return SpatialTrial(
+            seed=seed,
+            done=False,
+            reason=f"{ERROR}: {error}",
+            seconds=0.0,
+            actions=0,
+            off=0.0,
+            lost=None,
+            breaks=0,
+            wall_seconds=0.0,
+        )
+
+    def again(
+        self, seed: int, kept: Json | None, step: Callable[[str, float | None], None]
+    ) -> tuple[SpatialRun, SpatialTrial]:
+        """One run again."""
+        run = run_once(self.item(seed), step)
+        return run, judged(seed, run)
+
+
+@dataclass(slots=True)
+class SpatialTrials(Trials[SpatialSetup, SpatialTrial], Jsonable):
+    """Runs that ended."""
+
+    setup: Annotated[
+        SpatialSetup,
+        Key("task", get=attrgetter("name"), kind=str),
+        Key(
+            "noise",
+            get=lambda setup: setup.noise.to_json(),
+            kind=dict[str, float],
+            meaning="Key to its width, SI units.",
+        ),
+    ]
+    asked: Count
+    """How many there are to be."""
+    ended: Annotated[list[SpatialTrial], Key("trials", after="causes")]
+    wall_seconds: Annotated[float, HIDDEN] = 0.0
+    """All workers together, for the runs that ended."""
+
+    @in_json(after="asked")
+    def n(self) -> Count:
+        """Runs that ended."""
+        return len(self.ended)
+
+    @property
+    @in_json(after="n")
+    def done(self) -> int:
+        """Runs whose plan came to its end."""
+        return sum(trial.done for trial in self.ended)
+
+    @property
+    @in_json(after="done")
+    def interval(self) -> tuple[float, float]:
+        """Of the share that came to their end, 95 %, Wilson's."""
+        return wilson_interval(self.done, len(self.ended))
+
+    @in_json(after="interval")
+    def causes(self) -> tuple[SpatialCause, ...]:
+        """Why runs ended early, the commonest first."""
+        found: dict[str, list[SpatialTrial]] = {}
+        for trial in self.ended:
+            if not trial.done:
+                found.setdefault(cause_of(trial.reason), []).append(trial)
+        return tuple(
+            SpatialCause(
+                words,
+                len(alike),
+                wilson_interval(len(alike), len(self.ended)),
+                tuple(sorted({each.actions for each in alike})),
+                tuple(each.seed for each in alike),
+                alike[0].reason,
+            )
+            for words, alike in sorted(found.items(), key=lambda pair: -len(pair[1]))
+        )
+
+    def of(self, name: str) -> Floats:
+        """A number of all runs that have it."""
+        return np.array([value for trial in self.ended if (value := getattr(trial, name)) is not None], np.float64)
+
+
+def cause_of(reason: str) -> str:
+    """The reason of a run that ended early without its numbers, such as "fell" of "step 3, LF to hold 7: fell: the body is off"."""
+    parts = [part.strip() for part in reason.split(":")]
+    return parts[1] if parts[0].startswith("step ") and len(parts) > 1 else parts[0]

@@ -1,0 +1,59 @@
+"""The simulated plant of robots in space: forces balance the weight, end effectors attach where they can, tips stay where they are."""
+
+import numpy as np
+import pytest
+from standing import Standing
+
+from clamber.families.spatial.statics.kinematics_kernels import limb_frames
+from clamber.families.spatial.statics.records import WORK, robot_record
+
+OWN = ("wall-gripper", "stones-quadruped", "rubble-hexapod", "corners-magnet", "ceiling-gripper")
+
+
+@pytest.mark.parametrize("name", OWN)
+def test_a_robot_that_stands_is_carried_by_its_contacts_and_feels_it(name: str) -> None:
+    """The wrenches on tips add up to the weight, and an accelerometer at rest feels gravity's opposite in its own axes."""
+    stand = Standing(name)
+    stand.stay(1.5)
+    truth, sensed = stand.plant.truth(), stand.plant.sense()
+    up = -np.array(stand.task.world.gravity)
+    assert not truth.broken
+    assert truth.wrenches[:, :3].sum(axis=0) == pytest.approx(
+        stand.weight * up / np.linalg.norm(up), abs=0.03 * stand.weight
+    )
+    assert truth.pose.rotation @ sensed.accelerometer == pytest.approx(up, abs=0.3)
+    assert list(truth.attached) == list(stand.held)
+
+
+def test_the_model_moves_its_tips_where_statics_have_them() -> None:
+    stand = Standing("handrails-triped")
+    chains, robot = stand.robot.chains, robot_record(stand.robot.chains, stand.robot.contacts)
+    joints = stand.joints + np.random.default_rng(1).uniform(-0.5, 0.5, len(stand.joints))
+    stand.plant.reset(stand.pose, joints, [-1] * len(stand.held))
+    work = np.zeros(1, WORK)
+    starts = np.concatenate(([0], np.cumsum(chains.n_joints)))
+    for limb, n in enumerate(chains.n_joints):
+        work["posture"][0, limb, :n] = joints[starts[limb] : starts[limb + 1]]
+        limb_frames(robot[0], limb, work[0])
+        tip = stand.pose.position + stand.pose.rotation @ work["origin"][0, limb, n]
+        assert stand.plant.truth().tips[limb] == pytest.approx(tip, abs=1e-9)
+
+
+def test_an_end_effector_attaches_only_near_a_hold_and_when_it_is_told_to() -> None:
+    stand = Standing("corners-magnet")
+    plant = stand.plant
+    plant.grip(0, False)
+    stand.stay(0.05)
+    assert plant.sense().closed[0] == 0 and plant.truth().attached[0] == -1
+    plant.grip(0, True)
+    stand.stay(0.05)
+    assert plant.sense().closed[0] == 1 and plant.truth().attached[0] == stand.held[0]
+    plant.grip(0, False)
+    stand.joints[1] += 0.3  # lifts the foot
+    stand.stay(0.5)
+    plant.grip(0, True)
+    stand.stay(0.2)
+    assert plant.sense().closed[0] == 0
+    stand.joints[1] -= 0.3  # back: it is still told to attach
+    stand.stay(0.5)
+    assert plant.truth().attached[0] == stand.held[0]
