@@ -11,7 +11,7 @@ from clamber.families.spatial.pictures.hold_editor import HoldPanel
 from clamber.planning.beam import plan_beam
 from clamber.tasks import load_task
 from clamber.viewing.browser.app import App
-from clamber.viewing.browser.exhibit import exhibit_of, open_exhibit
+from clamber.viewing.browser.viewer_content import exhibit_of, open_exhibit
 
 Open = Callable[[str], Visit]
 Serve = Callable[..., App]

@@ -10,8 +10,8 @@ import numpy as np
 from ....execution.log import Log, LogError
 from ....execution.sample_log import report_of, told_of
 from ....tasks.library import task_names
-from ....viewing.browser.exhibit import Editor, Exhibit, Scenes
 from ....viewing.browser.solids import FOV, NARROW, Camera, Scenery
+from ....viewing.browser.viewer_content import Editor, Scenes, ViewerContent
 from ....viewing.scene import Bounds
 from ..execution.carrying_report import LoggedRun
 from ..execution.run_trace import NAMES, Named, RunTrace
@@ -26,7 +26,7 @@ from .spatial_view import way_places
 if TYPE_CHECKING:
     import viser
 
-    from ....viewing.browser.stage import Stage
+    from ....viewing.browser.scene_view import SceneView
 
 ROOM: Final = 1.08
 """Around what is shown [-]."""
@@ -67,7 +67,7 @@ class SpatialScenes(Scenes):
         return SpatialScenery(bounds, task)
 
     def editor(
-        self, server: "viser.ViserServer", task: SpatialTask, stage: "Stage", changed: Callable[[Any], None]
+        self, server: "viser.ViserServer", task: SpatialTask, stage: "SceneView", changed: Callable[[Any], None]
     ) -> Editor:
         """See `Scenes`."""
 
@@ -77,11 +77,11 @@ class SpatialScenes(Scenes):
 
         return HoldPanel(server, task, world, changed)
 
-    def run_film(self, exhibit: Exhibit, run: SpatialRun) -> RunView:
+    def run_film(self, exhibit: ViewerContent, run: SpatialRun) -> RunView:
         """See `Scenes`."""
         return RunView(run.task, run.trace, camera_for(run.task, None))
 
-    def with_log(self, exhibit: Exhibit, log: Log) -> Exhibit:
+    def with_log(self, exhibit: ViewerContent, log: Log) -> ViewerContent:
         """See `Scenes`."""
         trace = RunTrace.from_log(log)
         told_of(trace.report, LoggedRun, log.label)
