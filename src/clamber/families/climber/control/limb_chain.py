@@ -77,7 +77,7 @@ def closed_branches(limb: Limb, x: float, y: float) -> tuple[tuple[float, float]
 
 
 def legs_of(robot: LimbedRobot) -> Records:
-    """Records of `control.leg.PLANAR_LIMB`, shape (limbs,)."""
+    """Records of `control.planar_limb.PLANAR_LIMB`, shape (limbs,)."""
     legs = np.zeros(len(robot.limbs), PLANAR_LIMB)
     for i, limb in enumerate(robot.limbs):
         joints = chain_of_limb(robot, limb.name).joints
