@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...errors import SpecError
+from ...types import Floats
 from .arrays import ActionTable, Children, CostToGoMap, Params, ScoredChildren
 from .code_limits import CodeLimits, indices
 from .loops import expand, expand_scored, features_of, possible, replay, rollout
@@ -44,7 +45,7 @@ class Replay:
     """A plan carried out: stances (n + 1), margins (n, n_checks), reasons (n; -1 where the action holds)."""
 
     stances: Records
-    margins: npt.NDArray[np.float64]
+    margins: Floats
     reasons: npt.NDArray[np.int32]
 
     @property
@@ -83,7 +84,7 @@ class Problem(Protocol):
     """Names of the features that weights apply to."""
 
     def rollout(
-        self, genes: npt.NDArray[np.int32], lengths: npt.NDArray[np.int32], weights: npt.NDArray[np.float64], limit: int
+        self, genes: npt.NDArray[np.int32], lengths: npt.NDArray[np.int32], weights: Floats, limit: int
     ) -> Records:
         """Carry out many plans; records of `ROLLOUT`."""
         ...
@@ -139,14 +140,14 @@ class CompiledProblem:
         """The codes, and the indices in stances, that there are here."""
         raise NotImplementedError
 
-    def _make_scratch(self) -> tuple[Any, Records, npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+    def _make_scratch(self) -> tuple[Any, Records, Floats, Floats]:
         params = self.params.for_thread()
         self._kept.append(params)
         stances = np.zeros(3, self.start.dtype)
         return params.record, stances, np.zeros(len(self.checks)), np.zeros((2, len(self.features)))
 
     def rollout(
-        self, genes: npt.NDArray[np.int32], lengths: npt.NDArray[np.int32], weights: npt.NDArray[np.float64], limit: int
+        self, genes: npt.NDArray[np.int32], lengths: npt.NDArray[np.int32], weights: Floats, limit: int
     ) -> Records:
         """Carry out many plans, each up to its goal or its first failure.
 
@@ -176,7 +177,7 @@ class CompiledProblem:
         self._spread(len(genes), part)
         return out
 
-    def _weights(self, weights: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    def _weights(self, weights: Floats) -> Floats:
         taken = np.ascontiguousarray(weights, np.float64)
         if taken.shape != (len(self.features),):
             allowed = f"must be one number for each of {', '.join(self.features)}"
@@ -231,8 +232,7 @@ class CompiledProblem:
         while first < len(stances):
             room = max(4 * most, 16 * (len(stances) - first))
             children = np.zeros(room, self.start.dtype)
-            parent = np.zeros(room, np.int32)
-            code = np.zeros(room, np.int32)
+            parent, code = np.zeros(room, np.int32), np.zeros(room, np.int32)
             n, first = expand(params, stances, first, len(stances), codes, margins, children, parent, code)
             parts.append(Children(parent[:n], code[:n], children[:n]))
         return Children(
@@ -253,13 +253,11 @@ class CompiledProblem:
             np.zeros((n, slots, self.key_words), np.int64),
         )
 
-    def drafts(self, weights: npt.NDArray[np.float64]) -> bool:
+    def drafts(self, weights: Floats) -> bool:
         """Whether children can be scored by these weights of the features before they are judged."""
         return all(name in self.foreseen for name, weight in zip(self.features, weights, strict=True) if weight)
 
-    def expand_scored(
-        self, stances: Records, weights: npt.NDArray[np.float64], toll: float, out: ScoredChildren
-    ) -> None:
+    def expand_scored(self, stances: Records, weights: Floats, toll: float, out: ScoredChildren) -> None:
         """Write every valid child of every stance, scored: weights times features, less `toll` times the bound on what is left.
 
         Where the score can be told before an action is judged (`drafts`), children are not judged, and may not be valid.
@@ -319,7 +317,7 @@ class CompiledProblem:
         """Codes that say what to do from where the robot is, rather than name places; `stances` are those of the plan's replay."""
         return codes
 
-    def measured(self, stances: Records) -> npt.NDArray[np.float64]:
+    def measured(self, stances: Records) -> Floats:
         """Features of stances as actions led to them, shape (n, n_features)."""
         self.limits.stances(stances, self.start.dtype)
         rows = np.zeros((len(stances), len(self.features)))
