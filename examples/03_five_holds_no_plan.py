@@ -13,7 +13,7 @@ print(f"proved for: {result.model}")
 
 # Why: limb-1 could take hold 5 only from a body so high that the lower limbs have let go, and three limbs must hold.
 # Each opening is the smallest single change that an exact search found to be enough; the others were tried and did not help.
-found = clamber.find_openings(result, seconds=20.0)
+found = clamber.explain_infeasibility(result, seconds=20.0)
 for opening in found.openings:
     print(f"it opens with {opening.key}: {opening.before} -> {opening.after}, in {opening.length} actions")
 if found.places is not None and found.places.openings:

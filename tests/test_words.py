@@ -39,8 +39,6 @@ DEFINED = {
 ELSEWHERE = {
     "LEG": "families/walker/",
     "doing": "terminal/",
-    "rehearse": ("__init__.py", "api/"),
-    "find_openings": ("__init__.py", "api/"),
 }
 """Name -> where it stands for something else, or is what people call: rows of a walker's six legs, what a line says, the Python API."""
 PENDING = {"families/spatial"}

@@ -5,6 +5,7 @@ asked for, so that `import clamber` is quick. SI units and radians; shapes and f
 """
 
 import sys
+import warnings
 from importlib import import_module
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
@@ -24,8 +25,8 @@ if TYPE_CHECKING:
     from .api.planning import load_plan as load_plan
     from .api.planning import plan as plan
     from .api.running import run as run
-    from .api.trying import rehearse as rehearse
     from .api.trying import trials as trials
+    from .api.trying import validate as validate
     from .api.viewing import view as view
     from .errors import ClamberError as ClamberError
     from .families.climber.world.library import load_board as load_board
@@ -51,7 +52,7 @@ _PLACES = {
     "check": "api.planning",
     "compare": "api.comparing",
     "draw": "api.drawing",
-    "find_openings": "api.planning",
+    "explain_infeasibility": "api.planning",
     "inspect": "api.planning",
     "load_board": "families.climber.world.library",
     "load_ground": "families.walker.world.ground",
@@ -63,10 +64,10 @@ _PLACES = {
     "plan": "api.planning",
     "pose_problem": "planning.problem.problems",
     "reach": "api.mapping",
-    "rehearse": "api.trying",
     "run": "api.running",
     "sweep": "api.mapping",
     "trials": "api.trying",
+    "validate": "api.trying",
     "view": "api.viewing",
 }
 
@@ -82,7 +83,7 @@ __all__ = [
     "check",
     "compare",
     "draw",
-    "find_openings",
+    "explain_infeasibility",
     "inspect",
     "load_board",
     "load_ground",
@@ -94,10 +95,10 @@ __all__ = [
     "plan",
     "pose_problem",
     "reach",
-    "rehearse",
     "run",
     "sweep",
     "trials",
+    "validate",
     "view",
 ]
 
@@ -112,8 +113,15 @@ class _Package(ModuleType):
 
 sys.modules[__name__].__class__ = _Package
 
+_RENAMED = {"find_openings": "explain_infeasibility"}
+"""Old name, read for one release -> name."""
+
 
 def __getattr__(name: str) -> Any:
+    if name in _RENAMED:
+        new = _RENAMED[name]
+        warnings.warn(f"clamber.{name} is called {new} now", DeprecationWarning, stacklevel=2)
+        return getattr(sys.modules[__name__], new)
     place = _PLACES.get(name)
     if place is None:
         raise AttributeError(f"module 'clamber' has no attribute {name!r}")

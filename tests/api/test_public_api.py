@@ -41,11 +41,11 @@ def test_every_name_is_there_and_has_a_docstring(name: str) -> None:
         "check",
         "compare",
         "draw",
-        "find_openings",
+        "explain_infeasibility",
         "inspect",
         "plan",
         "reach",
-        "rehearse",
+        "validate",
         "run",
         "sweep",
         "trials",
@@ -76,6 +76,11 @@ def test_type_checkers_are_told_the_same_names_as_readers() -> None:
 def test_a_name_that_is_not_there_is_an_attribute_error() -> None:
     with pytest.raises(AttributeError, match="no attribute 'fly'"):
         clamber.fly  # noqa: B018
+
+
+def test_an_old_name_is_read_for_one_release_and_names_the_new_one() -> None:
+    with pytest.warns(DeprecationWarning, match="clamber.find_openings is called explain_infeasibility now"):
+        assert clamber.find_openings is clamber.explain_infeasibility
 
 
 def test_a_plan_in_ten_lines(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""Robots and worlds alone, sweeps, reach, trials, rehearsals and the viewer from Python: named, short to look at, drawn."""
+"""Robots and worlds alone, sweeps, reach, trials, validation and the viewer from Python: named, short to look at, drawn."""
 
 import os
 import subprocess
@@ -67,7 +67,7 @@ def test_a_sweep_and_a_reach_have_pictures(tmp_path: Path) -> None:
         (lambda: clamber.sweep("ladder"), "0 keys are to vary"),
         (lambda: clamber.sweep(3, "a=1..2"), "task: 3 is not what it takes"),  # type: ignore[arg-type]
         (lambda: clamber.reach("ladder", stances=0.5), "stances: 0.5 is not what it takes"),  # type: ignore[arg-type]
-        (lambda: clamber.rehearse("ladder"), "there is none; `clamber plan` makes one"),
+        (lambda: clamber.validate("ladder"), "there is none; `clamber plan` makes one"),
         (lambda: clamber.check("libra"), "'libra' is a robot; give a plan; `clamber.inspect` looks at the rest"),
         (lambda: clamber.inspect(3), "what: 3 is no robot, world or task"),
         (lambda: clamber.load_world("libra"), "'libra' is a robot"),
@@ -110,8 +110,8 @@ def test_trials_start_from_a_script_that_works_at_its_top_level(tmp_path: Path) 
 
 
 @pytest.mark.slow
-def test_a_plan_is_rehearsed() -> None:
+def test_a_plan_is_validated() -> None:
     plan = clamber.load_plan("ladder-hand")
-    learned = clamber.rehearse(plan, 1, lessons=0, noise="none", workers=1)
+    learned = clamber.validate(plan, 1, lessons=0, noise="none", workers=1)
     assert len(learned.first.trials) == 1 and learned.plan.actions and not learned.lessons
     assert "climbs before" in repr(learned) and "data:image/png;base64," in learned._repr_html_()

@@ -16,7 +16,7 @@ import clamber
 PAGES = ("README", "docs/python-api", "docs/own-robot")
 TEN_LINES = 11
 """Of a block, the import and the empty line after it with it."""
-LONG = ("clamber.run(", "find_openings(")
+LONG = ("clamber.run(", "explain_infeasibility(")
 """What takes more than some seconds."""
 
 

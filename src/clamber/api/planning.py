@@ -12,7 +12,7 @@ from ..inspection.finding import Finding
 from ..inspection.open_file import inspect_file, inspect_thing, kind_of
 from ..planning.exact.costs import read_costs
 from ..planning.infeasibility.find import InfeasibilityExplanation
-from ..planning.infeasibility.find import explain_infeasibility as _find_openings
+from ..planning.infeasibility.find import explain_infeasibility as _explain_infeasibility
 from ..planning.planners import accepts, find_planner
 from ..planning.problem.plan import Plan
 from ..planning.problem.plan_source import is_plan, open_plan
@@ -147,7 +147,7 @@ def explain_infeasibility(
         ClamberError: If the task cannot be had.
     """
     chosen = task.task if isinstance(task, PlanResult) else task_of(task)
-    return _find_openings(chosen, seconds=seconds, threads=threads)
+    return _explain_infeasibility(chosen, seconds=seconds, threads=threads)
 
 
 def load_plan(name_or_path: str | Path, task: str | None = None) -> Plan:

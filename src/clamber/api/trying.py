@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any, Unpack
 
 from ..families.climber.trials.plan_repair import LearnedPlan
-from ..families.climber.trials.plan_repair import validate_plan as _rehearse
+from ..families.climber.trials.plan_repair import validate_plan as _validate
 from ..planning.planners import find_planner
 from ..planning.problem.plan import Plan
 from ..planning.result import PlanResult
@@ -72,7 +72,7 @@ def trials(
     return run_trials(setup, seeds, executor=executor, store=store, resume=options.get("resume", False))
 
 
-def rehearse(
+def validate(
     plan: Plan | PlanResult | str | Path,
     n: int = 24,
     *,
@@ -111,4 +111,4 @@ def rehearse(
     ):
         check_kind(name, value, kind)
     work, widths = work_of(plan, task), texts("noise", noise)
-    return _rehearse(work, widths, executor_for(crew), range(seed, seed + n), lessons=lessons, seconds=float(seconds))
+    return _validate(work, widths, executor_for(crew), range(seed, seed + n), lessons=lessons, seconds=float(seconds))
