@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import Field, GetCoreSchemaHandler, StrictStr
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from ....errors import UnitError, UnknownNameError, describe_choices
+from ....errors import UnitError, describe_choices
 from ....files import Document, check_schema
 from ....notebook import Pictured
 from ....regular_files import user_path
@@ -19,7 +19,7 @@ from ....types import Json
 from ....units import DEGREE, Length, NonNegativeAngle, NonNegativeLength, NonNegativeMass, Quantity, read_quantity
 from .assembly import Choice, LimbChoice, axis_frame, chains_of
 from .chains import Chains
-from .contact_kinds import ContactKind, build_contact, read_contact
+from .contact_kinds import ContactKind, build_contact, stated_contacts
 from .contacts import Contact
 from .model import read_model
 from .tree import Frame, Joint, Tree, rooted_at
@@ -182,16 +182,7 @@ def whole_document(document: Document) -> Document:
     if "parts" in document.data:
         return document
     tree = read_model(model_path(document)).tree
-    limbs = document.data.get("limb")
-    contacts = {}
-    for k, limb in enumerate(limbs if isinstance(limbs, list) else ()):
-        named = limb.get("contact") if isinstance(limb, dict) else None
-        if isinstance(named, str) and named not in contacts:
-            try:
-                contacts[named] = read_contact(named, document.folder).data
-            except UnknownNameError as error:
-                raise document.problem(f"limb.{k}.contact", str(error)) from None
-    return replace(document, data=document.data | {"parts": _plain(tree), "contacts": contacts})
+    return replace(document, data=document.data | {"parts": _plain(tree), "contacts": stated_contacts(document)})
 
 
 def model_path(document: Document) -> Path:
