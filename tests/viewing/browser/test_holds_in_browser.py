@@ -66,7 +66,7 @@ def test_forces_are_arrows_and_margins_bars_while_a_plan_plays(serve: Serve, vis
     shown.picture("space-step")
     margins = shown.page.locator('[data-clamber="margins"] tr')
     assert margins.count() >= 6
-    assert shown.page.get_by_text("Share of each limit that is left").count() == 1
+    assert shown.page.get_by_text("Share of each limit that is left").count() >= 1
     assert any("equilibrium" in words for words in margins.all_inner_texts())
     shown.press("Play")
     wait_for(shown, lambda: app.playback.time > 0.6)

@@ -125,6 +125,9 @@ def inspect_world(world: World, units: ShownUnits = SI) -> Finding:
         "solids": ", ".join(f"{kinds.count(kind)} {kind}" for kind in dict.fromkeys(kinds)) or "none",
         "gravity": f"{gravity:.4g} m/s^2" + ("" if world.gravity[2] <= -0.999 * gravity else " tilted"),
     }
+    if world.fields:
+        grains = ", ".join(units.length(field.grain) for field in world.fields)
+        facts["terrain"] = f"{len(world.fields)} solid, distances from it every {grains}"
     if len(world.holds) > 1:
         facts["nearest two"] = units.length(float(_nearest(world).min()))
     return Finding(kind="world", name=world.name, title=world.title, facts=facts, odd=tuple(_odd_world(world, units)))

@@ -118,7 +118,7 @@ def read_data(words: "WorldOptions", source: str, fit: Fit, name: str) -> Json:
         table |= {"seed": words.seed} if words.seed else {}
     data = measured_data(table, fit, name, length("--spacing", words.spacing))
     built, _ = checked_world(data, words.output.parent)
-    return data | {"title": f"{len(built.holds)} holds of {path.name}", "guide": guide_through(built, fit, str(path))}
+    return data | {"title": f"Holds of {path.name}", "guide": guide_through(built, fit, str(path))}
 
 
 def _size(text: str) -> list[str]:

@@ -6,9 +6,10 @@ from typing import Annotated, Any, Final, Literal, TypeAlias
 
 from pydantic import Field
 
-from ....errors import describe_choices
+from ....errors import UnknownNameError, describe_choices
 from ....files import Document, check_schema, data_names, find_data, read_toml
 from ....specs import Name, build_spec, spec
+from ....types import Json
 from ....units import (
     ConeAngle,
     NonNegativeLength,
@@ -334,6 +335,25 @@ def read_contact(name_or_path: str, folder: Path | None = None) -> Document:
     """
     path, label = find_data("contact", name_or_path, (DATA,), folder)
     return read_toml(path, label)
+
+
+def stated_contacts(document: Document) -> Json:
+    """Documents of the contacts that a robot's limbs name, by these names.
+
+    Raises:
+        SpecError: If there is no such contact.
+        FileError: If a file can't be read.
+    """
+    limbs = document.data.get("limb")
+    found: Json = {}
+    for k, limb in enumerate(limbs if isinstance(limbs, list) else ()):
+        named = limb.get("contact") if isinstance(limb, dict) else None
+        if isinstance(named, str) and named not in found:
+            try:
+                found[named] = read_contact(named, document.folder).data
+            except UnknownNameError as error:
+                raise document.problem(f"limb.{k}.contact", str(error)) from None
+    return found
 
 
 def build_contact(document: Document) -> ContactKind:

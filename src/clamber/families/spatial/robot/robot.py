@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar, Final
 import numpy as np
 from pydantic import Field, StrictStr
 
-from ....errors import UnknownNameError, describe_choices
+from ....errors import describe_choices
 from ....files import Document, check_schema
 from ....notebook import Pictured
 from ....regular_files import user_path
@@ -25,7 +25,7 @@ from ....units import (
 )
 from .assembly import Choice, LimbChoice, axis_frame, chains_of
 from .chains import Chains
-from .contact_kinds import ContactKind, build_contact, read_contact
+from .contact_kinds import ContactKind, build_contact, stated_contacts
 from .contacts import Contact
 from .handling import Handling
 from .model import read_model
@@ -165,16 +165,7 @@ def whole_document(document: Document) -> Document:
     if "parts" in document.data:
         return document
     tree = read_model(model_path(document)).tree
-    limbs = document.data.get("limb")
-    contacts = {}
-    for k, limb in enumerate(limbs if isinstance(limbs, list) else ()):
-        named = limb.get("contact") if isinstance(limb, dict) else None
-        if isinstance(named, str) and named not in contacts:
-            try:
-                contacts[named] = read_contact(named, document.folder).data
-            except UnknownNameError as error:
-                raise document.problem(f"limb.{k}.contact", str(error)) from None
-    return replace(document, data=document.data | {"parts": _plain(tree), "contacts": contacts})
+    return replace(document, data=document.data | {"parts": _plain(tree), "contacts": stated_contacts(document)})
 
 
 def model_path(document: Document) -> Path:
