@@ -61,7 +61,6 @@ def test_a_sweep_and_a_reach_have_pictures(tmp_path: Path) -> None:
         (lambda: clamber.trials("ladder", resume=True), "resume: there is nothing to go on with"),
         (lambda: clamber.trials("ladder", noise=3), "noise: 3 is no text"),  # type: ignore[arg-type]
         (lambda: clamber.trials(3), "what: 3 is no task, plan or walk"),
-        (lambda: clamber.trials("wall-gripper", 1), "contact dynamics"),
         (lambda: clamber.run(3), "what: 3 is no task, plan or walk"),
         (lambda: clamber.run("level-walk", noise="wind=3"), "wind"),
         (lambda: clamber.sweep("ladder"), "0 keys are to vary"),

@@ -14,11 +14,15 @@ from scipy.spatial.transform import Rotation
 import clamber
 from clamber.execution.log_files import read_log
 from clamber.execution.log_scene import rod, turn_of
+from clamber.execution.sample_log import columns_of
 from clamber.families.climber.execution.climb_scene import climb_scene
 from clamber.families.climber.execution.climb_trace import ClimbTrace, TracedClimber
 from clamber.families.climber.execution.executable_plan import climbable
 from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.trials.run_plan import run_plan
+from clamber.families.spatial.execution.run_trace import Named
+from clamber.families.spatial.execution.space_scene import space_scene
+from clamber.families.spatial.pictures.geometry import Posed, link_frames
 from clamber.families.walker.execution.walk_trace import LEG_NAMES, TracedWalker, WalkTrace
 from clamber.planning.problem.plan import Plan
 from clamber.sim.limb_flaws import LimbFlaws
@@ -113,6 +117,32 @@ def test_without_truth_a_climb_is_shown_as_it_is_believed() -> None:
     assert tuple(frames["body"].at) == (0.3, 0.0, 0.4)
     up = Rotation.from_quat(frames["body"].turn).apply((1.0, 0.0, 0.0))
     assert up == pytest.approx((0.0, 0.0, 1.0), abs=1e-12)
+
+
+@pytest.mark.parametrize("name", ["wall-gripper", "stones-quadruped"])
+def test_frames_of_a_robot_in_space_compose_to_its_tips(name: str) -> None:
+    task: Any = clamber.load_task(name)
+    chains, rng = task.robot.chains, np.random.default_rng(1)
+    joints = rng.uniform(-1.0, 1.0, chains.lower.shape)
+    turn = Rotation.from_rotvec(rng.normal(size=3))
+    tips = link_frames(chains, Posed(np.array((0.3, -0.2, 0.5)), turn.as_matrix(), joints)).tips
+    x, y, z, w = turn.as_quat()
+    told = [joints[limb, k] for limb in range(len(chains.limb_names)) for k in range(int(chains.n_joints[limb]))]
+    titles = Named.of(chains).titles(true=False)
+    row = np.zeros(sum(map(len, titles.values())))
+    row[columns_of(titles)["believed"]] = 0.3, -0.2, 0.5, w, x, y, z
+    row[columns_of(titles)["joints"]] = told
+    scene = space_scene(task, true=False)
+    frames = [
+        {
+            "parent_frame_id": frame.parent, "child_frame_id": frame.name,
+            "translation": dict(enumerate(frame.at)), "rotation": dict(enumerate(frame.turn)),
+        }
+        for frame in scene.frames(row)
+    ]  # fmt: skip
+    for limb, tip in zip(chains.limb_names, tips, strict=True):
+        assert place(frames, f"{limb} tip") == pytest.approx(tip, abs=1e-9)
+    assert set(scene.shapes) == {"world", *(frame["child_frame_id"] for frame in frames)}
 
 
 @pytest.mark.parametrize("seed", range(20))

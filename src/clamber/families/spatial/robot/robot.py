@@ -15,14 +15,7 @@ from ....notebook import Pictured
 from ....regular_files import user_path
 from ....specs import Name, Provenance, build_spec, collect_sources, spec
 from ....types import Json
-from ....units import (
-    Length,
-    NonNegativeAngle,
-    NonNegativeLength,
-    NonNegativeMass,
-    PositiveAngularSpeed,
-    Quantity,
-)
+from ....units import Length, NonNegativeAngle, NonNegativeLength, NonNegativeMass, PositiveAngularSpeed, Quantity
 from .assembly import Choice, LimbChoice, axis_frame, chains_of
 from .chains import Chains
 from .contact_kinds import ContactKind, build_contact, stated_contacts

@@ -6,10 +6,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
+from ....execution.log_scene import LoggedScene
 from ....execution.log_stream import LogGap, WantedLog, growing_log
 from ....execution.plant import HoldBreak
 from ....execution.sequencer import Sequencer
 from ....json_form import HIDDEN, INLINE, Jsonable, Key
+from ....notebook import Pictured
 from ....planning.problem.plan import Plan
 from ..control.believed_tree import believed_tree
 from ..execution.carrying import Carrying, Replan
@@ -18,13 +20,14 @@ from ..execution.course import Course
 from ..execution.estimated_base import EstimatedBase
 from ..execution.run_trace import TOPIC, RunTrace, TracedBody
 from ..execution.settings import Pace
+from ..execution.space_scene import space_scene
 from ..planning.task import SpatialTask
 from ..sim.spatial_flaws import Deviations, SpatialFlaws
 from ..sim.spatial_plant import SpatialSim
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SpatialRun(Jsonable):
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
+class SpatialRun(Jsonable, Pictured):
     """A plan that was carried out."""
 
     task: Annotated[SpatialTask, Key(get=lambda task: task.name, kind=str)]
@@ -42,6 +45,15 @@ class SpatialRun(Jsonable):
     def work(self) -> SpatialTask:
         """What was carried out."""
         return self.task
+
+    @property
+    def scene(self) -> LoggedScene:
+        """See `CarriedOut`."""
+        return space_scene(self.task, true=self.trace.true_pose is not None)
+
+    def told(self) -> str:
+        """Of what, and how it ended."""
+        return f"of {self.task.name!r}: {self.reason or 'done'}, {self.report.seconds:.0f} s"
 
     @property
     def done(self) -> bool:
@@ -93,7 +105,8 @@ def run_plan(
         coarse=sensors.encoder_step > 0.0,
     )
     body = TracedBody(task.robot, task.world, plant, belief, Pace.of(task.robot), task.rules.lift)
-    with growing_log(log, body.samples, body.titles, body.named.notes(), TOPIC) as finish:
+    scene = space_scene(task, true="base x true [m]" in body.titles)
+    with growing_log(log, body.samples, body.titles, body.named.notes(), TOPIC, scene) as finish:
         report = Sequencer(Carrying(body, task, course, replan), progress=progress).run()
         notes = report.to_json() | {"task": task.name}
         gap = finish(notes)

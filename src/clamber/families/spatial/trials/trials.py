@@ -123,6 +123,11 @@ class SpatialSetup(Setup[SpatialRun, SpatialTrial]):
     faults: tuple[str, ...] = ()
 
     @property
+    def work(self) -> SpatialTask:
+        """See `Setup`."""
+        return self.task
+
+    @property
     def name(self) -> str:
         """Of the task."""
         return self.task.name
