@@ -10,7 +10,7 @@ LONG = 400
 MANY = 8
 """Parameters of a function."""
 CEILINGS = {
-    "lines": 97_933,
+    "lines": 97_942,
     "files": 655,
     f"files above {LONG} lines": 0,
     f"functions with more than {MANY} parameters": 60,

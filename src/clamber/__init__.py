@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from .api.opening import load_world as load_world
     from .api.planning import answer as answer
     from .api.planning import check as check
-    from .api.planning import find_openings as find_openings
+    from .api.planning import explain_infeasibility as explain_infeasibility
     from .api.planning import inspect as inspect
     from .api.planning import load_plan as load_plan
     from .api.planning import plan as plan

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from .exports.joint_trajectory import Trajectories
     from .files import Document
     from .inspection.finding import Inspection
-    from .planning.openings.relaxations import Relaxation
+    from .planning.infeasibility.relaxations import Relaxation
     from .planning.problem.check import Check
     from .planning.problem.plan_source import OpenedPlan
     from .planning.problem.problems import PlanFamily
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from .tasks.task_format import TaskFormat
     from .trials.dynamics import Dynamics
     from .types import Json
-    from .viewing.browser.exhibit import Scenes
+    from .viewing.browser.viewer_content import Scenes
     from .viewing.pictures import Pictures
 
     Import = Callable[[Path, Path, str], ImportedRobot]

@@ -18,8 +18,8 @@ import pytest
 import typer
 
 from clamber import interrupts
-from clamber.terminal.crew import EndsLine, keeping
 from clamber.terminal.output import stderr
+from clamber.terminal.worker_options import EndsLine, keeping
 
 SCRIPT = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler); from clamber.cli import main; main()"
 """A shell that starts a process with "&" has it ignore SIGINT; one in the foreground does not."""

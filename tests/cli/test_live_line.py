@@ -7,8 +7,8 @@ import pytest
 from rich.console import Console
 
 from clamber.terminal import live_line
-from clamber.terminal.crew import EndsLine
 from clamber.terminal.live_line import LiveLine
+from clamber.terminal.worker_options import EndsLine
 
 
 @pytest.fixture

@@ -16,7 +16,7 @@ from clamber.execution.log_files import read_log
 from clamber.execution.log_scene import rod, turn_of
 from clamber.families.climber.execution.climb_scene import climb_scene
 from clamber.families.climber.execution.climb_trace import ClimbTrace, TracedClimber
-from clamber.families.climber.execution.course import climbable
+from clamber.families.climber.execution.executable_plan import climbable
 from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.trials.run_plan import run_plan
 from clamber.families.walker.execution.walk_trace import LEG_NAMES, TracedWalker, WalkTrace

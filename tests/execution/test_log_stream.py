@@ -27,7 +27,7 @@ from clamber.execution.log_mcap import parse_mcap
 from clamber.execution.log_roles import samples_of
 from clamber.execution.log_stream import LogStream, part_of
 from clamber.families.climber.execution.climb_trace import ClimbTrace
-from clamber.families.climber.execution.course import climbable
+from clamber.families.climber.execution.executable_plan import climbable
 from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.planning.problem.plan import Plan

@@ -77,7 +77,7 @@ def test_it_is_listed_checked_and_inspected(clamber: Run, plan: Path) -> None:
     assert start["reach"] == pytest.approx(0.07)
     assert told(clamber, "check", str(plan))["ok"]
     assert told(clamber, "inventory", "shuttle-line")["modules"] == 14
-    assert told(clamber, "polish", str(plan))["length"] == SHORTEST
+    assert told(clamber, "shorten", str(plan))["length"] == SHORTEST
 
 
 def test_its_reach_is_mapped_and_its_keys_are_swept(clamber: Run) -> None:

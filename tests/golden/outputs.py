@@ -44,7 +44,7 @@ VOLATILE = {
     "speed",
 }
 """Keys of what differs from run to run or from tree to tree: memory, hashes of the source, the machine, times of the clock."""
-CLOCKS = {command: {"seconds"} for command in ("plan", "polish", "learn", "sweep", "reach")} | {"limb": {"tick"}}
+CLOCKS = {command: {"seconds"} for command in ("plan", "shorten", "learn", "sweep", "reach")} | {"limb": {"tick"}}
 """Command -> its keys that hold times of the clock; elsewhere "seconds" are those of a simulation."""
 
 

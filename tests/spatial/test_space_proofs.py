@@ -11,7 +11,7 @@ from clamber.families.spatial.planning.problem import SpatialProblem
 from clamber.families.spatial.planning.task import SpatialTask
 from clamber.planning.beam import plan_beam
 from clamber.planning.exact.planner import plan_exact
-from clamber.planning.openings.find import find_openings
+from clamber.planning.infeasibility.find import explain_infeasibility
 from clamber.planning.problem.codes import HOLD, MOVE, pack
 from clamber.tasks import load_task
 
@@ -134,7 +134,7 @@ def test_motors_that_are_too_weak_are_told_with_what_would_do() -> None:
     it = task("patch-gripper", *SMALL, "robot.torque_share=0.06")
     proved = plan_exact(it, threads=1)
     assert proved.status == "infeasible", proved.reason
-    found = find_openings(it, seconds=None, threads=1)
+    found = explain_infeasibility(it, seconds=None, threads=1)
     opening = next(each for each in found.openings if each.key == "robot.torque_share")
     assert isinstance(opening.after, float) and 0.06 < opening.after < 0.5 and opening.least
     assert plan_exact(task("patch-gripper", *SMALL, *opening.overrides), threads=1).status == "optimal"
@@ -149,7 +149,7 @@ def test_a_hold_that_is_missing_is_told_with_its_place() -> None:
     it = task("patch-gripper", *SMALL[:4], "goal={ along_min = '0.24 m' }", gap)
     proved = plan_exact(it, threads=1)
     assert proved.status == "infeasible", proved.reason
-    found = find_openings(it, seconds=None, spacing=0.12, threads=1)
+    found = explain_infeasibility(it, seconds=None, spacing=0.12, threads=1)
     assert found.places is not None and found.places.openings and found.places.complete
     best = found.places.openings[0]
     opened = task("patch-gripper", *SMALL[:4], "goal={ along_min = '0.24 m' }", *best.overrides)

@@ -85,7 +85,9 @@ def test_walks_are_drawn_as_the_suffix_says(robot: WalkerRobot, walk: TrueWalk, 
 FAR = ((1.0, 0.0), (2.0, 0.0), (0.0, 2.0))
 
 
-@pytest.mark.parametrize("end", [(0.1, 0.0), (1.2, 1.2), *(pytest.param(end, marks=pytest.mark.slow) for end in FAR)])
+@pytest.mark.parametrize(
+    "end", [(0.1, 0.0), *(pytest.param(end, marks=pytest.mark.slow) for end in ((1.2, 1.2), *FAR))]
+)
 def test_views_fill_the_picture_whatever_the_way(
     robot: WalkerRobot, walk: TrueWalk, end: tuple[float, float], tmp_path: Path
 ) -> None:

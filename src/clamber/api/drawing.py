@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ClamberError
-from ..families.climber.trials.lessons import LearnedPlan
+from ..families.climber.trials.plan_repair import LearnedPlan
 from ..family import family_of
 from ..inspection.open_file import kind_of
 from ..limb_bench.pictures.comparison import draw_comparison

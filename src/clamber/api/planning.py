@@ -11,8 +11,8 @@ from ..errors import OptionError, PlannerError, SpecError
 from ..inspection.finding import Finding
 from ..inspection.open_file import inspect_file, inspect_thing, kind_of
 from ..planning.exact.costs import read_costs
-from ..planning.openings.find import Openings
-from ..planning.openings.find import find_openings as _find_openings
+from ..planning.infeasibility.find import InfeasibilityExplanation
+from ..planning.infeasibility.find import explain_infeasibility as _find_openings
 from ..planning.planners import accepts, find_planner
 from ..planning.problem.plan import Plan
 from ..planning.problem.plan_source import is_plan, open_plan
@@ -130,7 +130,9 @@ def inspect(what: Any) -> Finding:
     return finding
 
 
-def find_openings(task: Task | PlanResult | str, *, seconds: float = 60.0, threads: int | None = None) -> Openings:
+def explain_infeasibility(
+    task: Task | PlanResult | str, *, seconds: float = 60.0, threads: int | None = None
+) -> InfeasibilityExplanation:
     """Which single, smallest changes of an infeasible task would allow a plan.
 
     Args:

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Unpack
 
-from ..families.climber.trials.lessons import LearnedPlan
-from ..families.climber.trials.lessons import rehearse as _rehearse
+from ..families.climber.trials.plan_repair import LearnedPlan
+from ..families.climber.trials.plan_repair import validate_plan as _rehearse
 from ..planning.planners import find_planner
 from ..planning.problem.plan import Plan
 from ..planning.result import PlanResult

@@ -11,7 +11,7 @@ from ..planning.result import PlanResult
 from ..trials.dynamics import CarriedOut
 from ..viewing.alone import alone_of
 from ..viewing.browser.app import LOOPBACK, App
-from ..viewing.browser.exhibit import Exhibit, alone_exhibit, exhibit_of, open_exhibit, run_exhibit
+from ..viewing.browser.viewer_content import ViewerContent, alone_exhibit, exhibit_of, open_exhibit, run_exhibit
 from .options import check_kind, short
 
 
@@ -40,7 +40,7 @@ def view(*what: Any, task: str | None = None, port: int = 0, expose: str | None 
     return app
 
 
-def exhibit_for(what: Sequence[Any], task: str | None = None) -> Exhibit:
+def exhibit_for(what: Sequence[Any], task: str | None = None) -> ViewerContent:
     """What the viewer shows of names, files and answers.
 
     Raises:

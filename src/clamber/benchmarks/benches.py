@@ -36,6 +36,8 @@ from .peers import race_rows
 from .planner_trials import Crew, bench_ablation, bench_seeds, filter_rows, macro_rows, run_cases
 from .plant_bench import plant_rows
 from .rows import NOTHING, Row, Say, keep_quiet
+from .space_seeds import bench_worlds
+from .space_speed import space_rows
 from .speed import speed_rows
 from .starts import command_rows, start_rows
 from .tables import rows_of
@@ -252,11 +254,13 @@ BENCHES: Final[dict[str, Callable[..., list[Row]]]] = {
     "climb": climb_rows,
     "plant": plant_rows,
     "hexapod": hexapod_rows,
+    "spatial": space_rows,
+    "worlds": bench_worlds,
 }
 """Name -> benchmark; the command line's choices and the tests read it. Each can be called without arguments, or with `say`."""
 
 
-BATCHED: Final = ("seeds", "ablation", "jobs", "boards", "gaps")
+BATCHED: Final = ("seeds", "ablation", "jobs", "boards", "gaps", "worlds")
 """Those that are batches of items and take a `crew`; the others measure speed, alone."""
 
 

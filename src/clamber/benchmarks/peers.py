@@ -222,7 +222,7 @@ PLAIN_TASK: Final = "ladder"
 
 
 @dataclass(frozen=True, slots=True)
-class Course:
+class RaceTask:
     """A task to race on."""
 
     task: str
@@ -231,10 +231,10 @@ class Course:
     """Genes per plan for libraries whose plans all have the same length: half as many again as our first plans need."""
 
 
-COURSES: Final = (
-    Course("ladder", "ladder, 3 in", 80),
-    Course("modified-ladder", "modified-ladder", 150),
-    Course("h", "h", 200),
+RACE_TASKS: Final = (
+    RaceTask("ladder", "ladder, 3 in", 80),
+    RaceTask("modified-ladder", "modified-ladder", 150),
+    RaceTask("h", "h", 200),
 )
 
 
@@ -245,7 +245,7 @@ def installed(peer: str) -> bool:
 
 def race_rows(
     *,
-    courses: Iterable[Course] = COURSES,
+    courses: Iterable[RaceTask] = RACE_TASKS,
     seeds: tuple[int, ...] = SEEDS,
     seconds: float = SECONDS,
     plain_seconds: float = PLAIN_SECONDS,
@@ -285,7 +285,7 @@ def _plain_rows(seconds: float, say: Say) -> list[Row]:
     module = plain_module()
     if module is None:
         return [Row(f"{PLAIN_TASK}, plain evaluator (needs a checkout: it lies in the tests)", NOTHING, "plans/s")]
-    course = next(course for course in COURSES if course.task == PLAIN_TASK)
+    course = next(course for course in RACE_TASKS if course.task == PLAIN_TASK)
     task: Any = load_task(course.task)
     problem: CompiledProblem = PlainProblem(task, pose_problem(task, threads=1).problem.actions, module)
     rows = []

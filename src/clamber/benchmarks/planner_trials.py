@@ -18,7 +18,7 @@ from ..planning.genetic.planner import plan_genetic
 from ..planning.genetic.profile import Profile, load_profile
 from ..planning.learning import learn_macros
 from ..planning.problem.problems import pose_problem
-from ..planning.progress import Moment
+from ..planning.progress import ProgressEvent
 from ..specs import build_spec
 from ..tasks import Task, load_task, task_from_document
 from ..types import Json
@@ -151,7 +151,7 @@ def run_trials(
     """Plan a task with each seed, one thread per plan and as many plans at once as there are cores."""
     stopped = Event()
 
-    def look(_: Moment) -> None:
+    def look(_: ProgressEvent) -> None:
         if stopped.is_set():
             raise KeyboardInterrupt  # which only the main thread gets by itself
 

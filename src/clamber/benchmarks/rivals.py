@@ -46,7 +46,7 @@ LONGEST: Final = 400
 
 
 @dataclass(slots=True)
-class Hunt:
+class SearchBudget:
     """A rival at work: what it has spent and the best that it has."""
 
     planner: str
@@ -159,7 +159,7 @@ def plan_greedy(
     Args:
         task: What to plan.
         seed: Only written down: nothing here is drawn at random.
-        seconds: Most wall-clock time [s].
+        seconds: Most time [s].
         threads: The search runs on one.
         max_checks: Most actions to judge; a stance being expanded is finished.
         max_stances: Memory: most stances kept.
@@ -171,7 +171,7 @@ def plan_greedy(
     Raises:
         PlannerError: If the task allows actions that can't be listed one by one.
     """
-    hunt = Hunt("greedy", task, seed, max_checks, seconds, progress)
+    hunt = SearchBudget("greedy", task, seed, max_checks, seconds, progress)
     problem = hunt.problem
     params, weights = problem.params.record, guidance(problem)
     capacity = min(max_stances, max_checks + 1) + problem.branching
@@ -239,7 +239,7 @@ def plan_random(
     Args:
         task: What to plan.
         seed: Same seed, same plan.
-        seconds: Most wall-clock time [s].
+        seconds: Most time [s].
         threads: The search runs on one.
         max_checks: Most actions to judge.
         progress: Called now and then.
@@ -251,7 +251,7 @@ def plan_random(
     Raises:
         PlannerError: If the task allows actions that can't be listed one by one.
     """
-    hunt, made = Hunt("random", task, seed, max_checks, seconds, progress), bursts or Bursts()
+    hunt, made = SearchBudget("random", task, seed, max_checks, seconds, progress), bursts or Bursts()
     problem = hunt.problem
     params, weights = problem.params.record, guidance(problem)
     room = scratch_for(problem, 3)

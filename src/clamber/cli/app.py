@@ -20,7 +20,7 @@ from ..interrupts import unanswered
 from ..terminal.command_end import until_command_ends
 from ..terminal.options import UnitsChoice
 from ..terminal.output import fall_silent
-from .commands import add_commands
+from .commands import add_commands, under_new_name
 
 SECONDS: Final = 600.0
 """Of a bench's run [s]: 120 000 samples of every signal at 200 Hz."""
@@ -41,7 +41,7 @@ LARGEST: Final[dict[str, tuple[float, str]]] = {
     "stances": (10**9, "each is kept in memory"),
 }
 """Parameter -> its largest value and why."""
-BENCHES: Final = ("limb", "body", "press")
+BENCHES: Final = ("limb", "body", "hold-force")
 """Commands that keep every sample of a run."""
 RUNS: Final = ("seconds", "lap", "to", "from_")
 """Their parameters that are times of the run [s]."""
@@ -102,7 +102,7 @@ def _whole_names(format_help: Any) -> Any:
     return format_whole
 
 
-SHOWS_UNITS: Final = ("check", "plan", "polish", "reach", "rehearse", "run", "show", "sweep", "trials", "view")
+SHOWS_UNITS: Final = ("check", "plan", "reach", "run", "shorten", "show", "sweep", "trials", "validate", "view")
 """Commands that print or draw quantities of a task."""
 
 
@@ -200,7 +200,9 @@ def run(arguments: Sequence[str] | None = None) -> int | str | None:
     Raises:
         KeyboardInterrupt: After Ctrl-C, where the command does not end with what there is.
     """
-    words = sys.argv[1:] if arguments is None else list(arguments)
+    words, renamed = under_new_name(sys.argv[1:] if arguments is None else arguments)
+    if renamed is not None:
+        print(renamed, file=sys.stderr)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper) and not stream.encoding.lower().startswith("utf"):
             stream.reconfigure(errors="replace")  # a letter that the terminal has not is a "?", and no traceback

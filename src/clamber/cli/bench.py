@@ -10,9 +10,9 @@ import typer
 from rich.console import Console
 
 from ..interrupts import answer, passed_on
-from ..terminal.crew import Batch, EndsLine, check_resume, executor_of, keeping
 from ..terminal.options import AsJson, Output, Ray, Resume, Store, Workers
 from ..terminal.output import announce_compilation, check_writable, print_json, stderr, stdout
+from ..terminal.worker_options import Batch, EndsLine, check_resume, executor_of, keeping
 from ..viewing.text_table import plain_table
 
 if TYPE_CHECKING:

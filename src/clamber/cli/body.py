@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 from rich.console import Console
 
-from ..terminal.crew import EndsLine
 from ..terminal.name_completion import names_of
 from ..terminal.options import AsJson, FlawsChoice, Output, Quiet, takes_options
 from ..terminal.output import announce_compilation, print_json, stderr, stdout
+from ..terminal.worker_options import EndsLine
 from .limb.options import MatchChoice, check_output, show_table, tell_written
 
 if TYPE_CHECKING:

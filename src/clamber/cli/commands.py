@@ -1,6 +1,7 @@
 """The commands of `clamber`, each with its place. A command's module is imported only where the command is called."""
 
 import ast
+from collections.abc import Sequence
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -13,7 +14,7 @@ from ..family import BUILT_IN, families, family_named
 COMMANDS: Final = {
     "list": "list:list_names",
     "plan": "plan.command:plan",
-    "polish": "polish:polish",
+    "shorten": "shorten:shorten",
     "learn": "learn:learn",
     "inventory": "inventory:inventory",
     "check": "check:check",
@@ -30,6 +31,8 @@ COMMANDS: Final = {
     "doctor": "doctor:doctor",
 }
 """Command -> module in this folder and function in it, in the order in which they are listed."""
+RENAMED: Final = {"polish": "shorten", "rehearse": "validate", "press": "hold-force", "most": "max-setting"}
+"""Old name of a command, read for one release -> its name."""
 GROUPS: Final = {
     "limb": "limb.commands:limb",
     "body": "body:body",
@@ -62,6 +65,16 @@ def commands(only: str | None = None) -> dict[str, str]:
 def groups(only: str | None = None) -> dict[str, str]:
     """The same for commands of commands."""
     return {name: f"{__package__}.{place}" for name, place in GROUPS.items()} | _of_families("groups", only)
+
+
+def under_new_name(words: Sequence[str]) -> tuple[list[str], str | None]:
+    """The words after `clamber` with the name that their command has now, and a line about it where it was called by an old one."""
+    at = next((at for at, word in enumerate(words) if not word.startswith("-")), None)
+    if at is None or words[at] not in RENAMED:
+        return list(words), None
+    name = RENAMED[words[at]]
+    line = f"clamber: the command '{words[at]}' is called '{name}' now; the old name will go with the next release"
+    return [*words[:at], name, *words[at + 1 :]], line
 
 
 def read_place(place: str) -> Any:

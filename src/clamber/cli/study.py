@@ -12,11 +12,11 @@ from rich.console import Console
 
 from ..interrupts import answer, passed_on
 from ..studies.library import study_titles
-from ..terminal.crew import EndsLine, executor_of, keeping
 from ..terminal.live_line import LiveLine
 from ..terminal.name_completion import names_of
 from ..terminal.options import AsJson, Quiet, Resume, Store, Workers, takes_options
 from ..terminal.output import announce_compilation, print_indented, print_json, stderr, stdout
+from ..terminal.worker_options import EndsLine, executor_of, keeping
 from ..viewing.text_table import plain_table
 
 if TYPE_CHECKING:

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.console import Console
 
-from ..terminal.crew import CrewWords
 from ..terminal.options import Overrides, PlannerName, TaskName, takes_options
 from ..terminal.output import announce_compilation, print_json, stdout
+from ..terminal.worker_options import WorkerOptions
 from ..viewing.text_table import plain_table
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ def sweep(
     evaluations: Annotated[int, typer.Option(min=1, help="Most plans that the genetic planner tries.")] = 50_000,
     stances: Annotated[int, typer.Option(min=1, help="Most stances that the exact planner keeps.")] = 2_000_000,
     *,
-    words: CrewWords,
+    words: WorkerOptions,
 ) -> None:
     """Plan at every point of a range: where a plan exists, how long the shortest is, how hard it loads the joints."""
     words.check()

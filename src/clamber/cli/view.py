@@ -14,7 +14,7 @@ from ..terminal.output import announce_compilation, check_writable, print_json, 
 
 if TYPE_CHECKING:
     from ..viewing.browser.app import App
-    from ..viewing.browser.exhibit import Exhibit
+    from ..viewing.browser.viewer_content import ViewerContent
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +84,7 @@ def view(
 
     check_viser()
     announce_compilation()
-    from ..viewing.browser.exhibit import open_exhibit
+    from ..viewing.browser.viewer_content import open_exhibit
 
     exhibit = open_exhibit(things, words.task, words.overrides or ())
     if words.save is not None:
@@ -106,7 +106,7 @@ def view(
         app.close()
 
 
-def _save(exhibit: "Exhibit", path: Path, *, as_json: bool) -> None:
+def _save(exhibit: "ViewerContent", path: Path, *, as_json: bool) -> None:
     from ..viewing.browser.page import write_page
 
     size = write_page(exhibit, path)

@@ -23,7 +23,7 @@ SCENE: Final = "scene"
 FOXGLOVE: Final = "foxglove."
 """First part of the names of the schemas; their messages are no table of numbers."""
 EVERY: Final = 0.04
-"""Least time between two messages of frames [s]: as many as a screen shows of it, for a file twice as large and not five times."""
+"""Least time between two messages of frames [s]: as many as a screen shows of it, for a file half as large again."""
 Turn = tuple[float, float, float, float]
 """Quaternion x, y, z, w [-]."""
 STILL: Final[Turn] = (0.0, 0.0, 0.0, 1.0)

@@ -15,7 +15,7 @@ from ..files import is_path, unknown_name, write_atomically
 from ..json_form import Count, Key, in_json
 from ..planning.problem.plan_source import OpenedPlan, is_plan, open_plan, plan_names
 from ..planning.problem.problem import Replay
-from ..planning.problem.problems import plan_family, yardsticks_of
+from ..planning.problem.problems import normalisation_of, plan_family
 from ..planning.problem.verdict import StepVerdict, Verdict
 from ..tasks.robots import Robot, load_robot, robot_names
 from ..units import DEGREE
@@ -31,7 +31,7 @@ def plan_table(opened: OpenedPlan) -> str:
         StartError: If the task's start violates a hard check.
     """
     verdict, plan = opened.check(go_on=True), opened.plan
-    sticks = yardsticks_of(opened.task)
+    sticks = normalisation_of(opened.task)
     loaded = any(row.max_torque is not None for row in verdict.per_step)
     held = any(row.holds for row in verdict.per_step)
     axes = verdict.pose_axes

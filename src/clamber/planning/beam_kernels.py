@@ -9,14 +9,14 @@ from .stance_table import slot_of
 
 
 @kernel
-def choose(p, parents, order, sprouts, width, niche, kept, niches, margins, children, chosen):
+def choose(p, parents, order, scored_children, width, niche, kept, niches, margins, children, chosen):
     """Take children that hold in order of their score: those with a key that no layer had, at most `niche` per niche, up to `width`.
 
     Args:
         p: A family's parameters.
         parents: Stances.
         order: Children, best first: parent times the slots of each parent, plus slot.
-        sprouts: Codes, cells and keys as `Problem.sprout` wrote them; what it left to be judged is judged here.
+        sprouts: Codes, cells and keys as `Problem.expand_scored` wrote them; what it left to be judged is judged here.
         width: Most children to take.
         niche: Most of one niche.
         kept: Keys of all layers so far, with room for `width` more, their number, and a hash table of them; the new ones are added.
@@ -28,7 +28,7 @@ def choose(p, parents, order, sprouts, width, niche, kept, niches, margins, chil
     Returns:
         How many were taken, and how many were judged.
     """
-    codes, cells, keys = sprouts
+    codes, cells, keys = scored_children
     kept_keys, n_kept, table = kept
     niches, counts = niches
     slots = codes.shape[1]

@@ -90,7 +90,7 @@ def search_layers(
     """
     clock = Clock(seconds)
     weights = np.array([dict(beam.weights).get(name, 0.0) for name in problem.features])
-    out = problem.sprouts(beam.width)
+    out = problem.scored_children(beam.width)
     slots, drafts = problem.branching, problem.drafts(weights)
     params, margins = problem.params.record, np.zeros(len(problem.checks))
     kept = _Kept(problem.key_words)
@@ -107,7 +107,7 @@ def search_layers(
         while goal < 0 and len(layer) and depth < beam.longest:
             if clock.is_over:
                 break
-            problem.sprout(layer, weights, beam.toll, out)
+            problem.expand_scored(layer, weights, beam.toll, out)
             count = out.count[: len(layer)]
             children = np.flatnonzero((filled < count[:, None]).ravel())
             scores = out.score[: len(layer)].ravel()[children]

@@ -45,7 +45,7 @@ def plan_hybrid(
         profile: Name or file of a genetic profile, or a profile.
         max_evaluations: Most plans that each genetic search evaluates.
         max_stances: Memory: most stances that the exact search keeps.
-        seconds: Most wall-clock time [s]; a search that it ends is not repeatable.
+        seconds: Most time [s]; a search that it ends is not repeatable.
         threads: Threads; None for one a core.
         progress: Called now and then.
 

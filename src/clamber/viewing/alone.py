@@ -15,9 +15,9 @@ from ..inspection.open_file import family_of_thing, file_kinds, inspect_file, in
 from ..tasks.robots import build_robot, family_in, read_robot
 from ..types import Floats, Json
 from . import style
-from .film import Film, MarginRow
 from .output import CANVASES, check_suffix, save_figure
 from .panel import LINE
+from .recording import MarginRow, Recording
 from .scene import Bounds
 from .style import styled
 from .view import Layout, is_wide
@@ -126,7 +126,7 @@ def draw_alone(shown: ShownAlone, path: str | Path) -> None:
         save_figure(figure, path)
 
 
-class StillFilm(Film[Any]):
+class StillFilm(Recording[Any]):
     """A robot that stands still, or a world without one, with its facts."""
 
     def __init__(self, at: Any, finding: Finding) -> None:
@@ -137,17 +137,17 @@ class StillFilm(Film[Any]):
         self.starts = self.ends = np.zeros(1)
 
     def at(self, time: float) -> Any:
-        """See `Film`."""
+        """See `Recording`."""
         return self._at
 
     def values(self, at: Any) -> tuple[Floats, ...]:
-        """See `Film`."""
+        """See `Recording`."""
         return ()
 
     def facts(self, step: int, at: Any) -> tuple[tuple[str, str], ...]:
-        """See `Film`."""
+        """See `Recording`."""
         return self._facts
 
     def margins(self, step: int) -> list[MarginRow]:
-        """See `Film`."""
+        """See `Recording`."""
         return []

@@ -19,8 +19,8 @@ from ..trials.dynamics import CarriedOut
 from ..types import Floats
 from .alone import DrawsAlone
 from .animation import WRITERS, Animated
-from .film import View
 from .output import CANVASES, StepError, check_suffix, save_figure
+from .recording import View
 from .scene import Bounds
 from .style import styled
 from .view import CloseUp, Picture
@@ -157,8 +157,8 @@ def animate(task: Task, plan: Replay | Plan, path: str | Path, camera: str | Non
     """
     suffix = check_suffix(path, ANIMATIONS)
     if suffix not in WRITERS:
-        from .browser.exhibit import exhibit_of
         from .browser.page import write_page  # loads the viewer
+        from .browser.viewer_content import exhibit_of
 
         write_page(exhibit_of(task, plan), Path(path))
         return
@@ -191,8 +191,8 @@ def draw_run(run: CarriedOut, path: str | Path) -> None:
         write_log(log, file, log.label, run.scene)
         return
     if suffix in ANIMATIONS and suffix not in WRITERS:
-        from .browser.exhibit import run_exhibit  # loads the viewer
         from .browser.page import write_page
+        from .browser.viewer_content import run_exhibit  # loads the viewer
 
         write_page(run_exhibit(run), file)
         return

@@ -15,12 +15,12 @@ from ..planning.problem.problem import Replay
 from ..shown_units import units_of
 from ..types import Floats
 from . import style
-from .browser.exhibit import Scenes
 from .browser.solids import FOV, Camera, Scenery, World, colour
 from .browser.solids import Figure as Solid
-from .film import Part, PlanView
+from .browser.viewer_content import Scenes
 from .panel import Gauges
 from .pictures import Pictures
+from .recording import Part, PlanView
 from .scene import Bounds, draw_region, fit_bounds, goal_box, set_axes
 from .view import Layout, Picture
 

@@ -39,7 +39,7 @@ def draw_reach(reach: Reach, layer: str, path: str | Path) -> None:
     Args:
         reach: The reachable space.
         layer: One of the layers of the robot's family.
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     check_suffix(path, CANVASES)
     with styled():

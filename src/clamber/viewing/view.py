@@ -11,8 +11,8 @@ from matplotlib.patches import Rectangle
 from matplotlib.text import Text
 
 from . import style
-from .film import Frame, Moment, View, make_frames
 from .panel import LINE, GaugeBars, Place, StepStrip
+from .recording import Frame, Moment, View, make_frames
 from .scene import Bounds, halo
 
 Shown = TypeVar("Shown", contravariant=True)

@@ -13,8 +13,8 @@ from clamber.execution.run_report import RunReport
 from clamber.family import Family
 from clamber.files import Document, find_data, read_toml
 from clamber.inspection.finding import Finding, Inspection
-from clamber.planning.openings.relaxations import key_dial
-from clamber.planning.problem.arrays import ActionTable, Params, WayFields
+from clamber.planning.infeasibility.relaxations import key_dial
+from clamber.planning.problem.arrays import ActionTable, CostToGoMap, Params
 from clamber.planning.problem.body_pose import PoseAxis, PoseLattice
 from clamber.planning.problem.check import Check
 from clamber.planning.problem.code_limits import CodeLimits
@@ -176,13 +176,13 @@ class Problem(CompiledProblem):
         low, high = self.task.goals[0].box[:2]
         return max(0.0, low - self.task.start.x, self.task.start.x - high)
 
-    def ways(self) -> WayFields:
+    def ways(self) -> CostToGoMap:
         low, high = self.task.goals[0].box[:2]
         grid = np.arange(-0.2, max(self.task.world.rungs) + 0.2, self.task.step.length)
         away = [
             np.maximum(0.0, np.maximum(low - at, at - high))[None] / self.task.step.length for at in (grid, self.rungs)
         ]
-        return WayFields(np.array((grid[0], 0.0, self.task.step.length)), away[0][None], away[1], np.zeros(1))
+        return CostToGoMap(np.array((grid[0], 0.0, self.task.step.length)), away[0][None], away[1], np.zeros(1))
 
     def is_done(self, stance: Any) -> bool:
         return bool(stance["stage"][0] >= len(self.task.goals))

@@ -13,9 +13,9 @@ import clamber
 from clamber.viewing.browser.app import App
 from clamber.viewing.browser.camera_panel import preset
 from clamber.viewing.browser.curves import Curves
-from clamber.viewing.browser.exhibit import Exhibit, exhibit_of
 from clamber.viewing.browser.recording import encode, file_name, video_times
 from clamber.viewing.browser.solids import Camera
+from clamber.viewing.browser.viewer_content import ViewerContent, exhibit_of
 
 Serve = Callable[..., App]
 Open = Callable[[str], Visit]
@@ -27,12 +27,12 @@ SHORT = {
 }
 
 
-def exhibit(name: str) -> Exhibit:
+def exhibit(name: str) -> ViewerContent:
     task = clamber.load_task(name, SHORT[name])
     return exhibit_of(task, None if not SHORT[name] else clamber.plan(task, "greedy").plan)
 
 
-def planned(name: str) -> Exhibit:
+def planned(name: str) -> ViewerContent:
     """With some actions, whether or not they come to the goal."""
     task = clamber.load_task(name, SHORT[name])
     found = clamber.plan(task, "greedy" if SHORT[name] else "exact", **({} if SHORT[name] else {"max_stances": 300}))

@@ -11,12 +11,13 @@ from clamber.families.spatial.pictures.hold_editor import HoldPanel
 from clamber.planning.beam import plan_beam
 from clamber.tasks import load_task
 from clamber.viewing.browser.app import App
-from clamber.viewing.browser.exhibit import exhibit_of, open_exhibit
+from clamber.viewing.browser.viewer_content import exhibit_of, open_exhibit
 
 Open = Callable[[str], Visit]
 Serve = Callable[..., App]
 
 
+@pytest.mark.slow
 def test_holds_are_picked_moved_added_removed_and_saved_by_clicks(serve: Serve, visit: Open, tmp_path: Path) -> None:
     app = serve(open_exhibit(["wall-gripper"]), folder=tmp_path)
     shown, panel = visit(app.url), app.editor
@@ -44,15 +45,15 @@ def test_holds_are_picked_moved_added_removed_and_saved_by_clicks(serve: Serve, 
     shown.press("remove")
     wait_for(shown, lambda: len(draft.holds) == count)
 
-    page.get_by_label("name", exact=True).fill("mine")
     shown.press("Save")
-    shown.says("mine-world.toml")
-    saved = load_task(str(tmp_path / "mine.toml"))
+    shown.says("written to")
+    saved = load_task(str(tmp_path / "wall-gripper-edited.toml"))
     assert len(saved.world.holds) == count
     assert saved.world.holds[149].at == pytest.approx(draft.holds[149].at, abs=1e-8)
     assert shown.wrong == []
 
 
+@pytest.mark.slow
 def test_forces_are_arrows_and_margins_bars_while_a_plan_plays(serve: Serve, visit: Open) -> None:
     task = load_task("wall-gripper", ["goal={ along_min = '0.2 m' }"])
     found = plan_beam(task, width=20, threads=1)
@@ -64,7 +65,8 @@ def test_forces_are_arrows_and_margins_bars_while_a_plan_plays(serve: Serve, vis
     shown.page.wait_for_timeout(1500)
     shown.picture("space-step")
     margins = shown.page.locator('[data-clamber="margins"] tr')
-    assert margins.count() >= 8
+    assert margins.count() >= 6
+    assert shown.page.get_by_text("Share of each limit that is left").count() == 1
     assert any("equilibrium" in words for words in margins.all_inner_texts())
     shown.press("Play")
     wait_for(shown, lambda: app.playback.time > 0.6)

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Annotated, Any, Final
 import typer
 from rich.console import Console
 
-from ...terminal.crew import EndsLine
 from ...terminal.options import takes_options
 from ...terminal.output import announce_compilation, stderr
+from ...terminal.worker_options import EndsLine
 from . import options as opt
 from .force import force, open_loop
 from .identify import identify, record

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 from rich.console import Console
 
-from ...terminal.crew import CrewWords
 from ...terminal.name_completion import names_of
 from ...terminal.options import ROBOT, AsJson, Quiet, takes_options
 from ...terminal.output import announce_compilation, check_writable, print_json, stdout
+from ...terminal.worker_options import WorkerOptions
 from . import options as opt
 
 if TYPE_CHECKING:
@@ -72,7 +72,7 @@ def sweep(
         typer.Option(help="Of laws without gains of their own: --match to the reference, or as `limb tune` found."),
     ] = GainsChoice.matched,
     limb: opt.NominalLimbWords,
-    words: CrewWords,
+    words: WorkerOptions,
 ) -> None:
     """Run laws at every point of a range: which is best where, and from where on each is unstable."""
     words.check()
@@ -216,7 +216,7 @@ def tune(
     ] = None,
     *,
     limb: opt.NominalLimbWords,
-    words: CrewWords,
+    words: WorkerOptions,
 ) -> None:
     """Find the largest gains at which the limb comes to rest after steps, circles and pushes, and recommend some below."""
     words.check()

@@ -4,9 +4,9 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from ...terminal.crew import EndsLine, executor_of
 from ...terminal.options import TaskName, takes_options
 from ...terminal.output import announce_compilation, print_json, stderr, stdout
+from ...terminal.worker_options import EndsLine, executor_of
 from .options import PlanOptions
 
 if TYPE_CHECKING:

@@ -63,7 +63,7 @@ LISTED: Final[Any] = create_model(
 OURS: Final[dict[str, Any]] = {
     "list": LISTED,
     "plan": Planned | Front | NoStart,
-    "polish": PlanResult,
+    "shorten": PlanResult,
     "learn": Lesson,
     "inventory": SizedInventory,
     "check": CheckedPlan | Finding,

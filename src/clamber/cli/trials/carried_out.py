@@ -7,9 +7,9 @@ import typer
 from ...planning.planners import find_planner
 from ...planning.progress import progress_text
 from ...terminal.compile_ahead import compile_ahead
-from ...terminal.crew import CrewWords
 from ...terminal.live_line import LiveLine
 from ...terminal.output import announce_compilation, print_json, refuse_unused, stderr, stdout, tell_cuts
+from ...terminal.worker_options import WorkerOptions
 from ...trials.dynamics import NoPlanError, RunEvents, TrialsRequest
 from ...trials.fault_trials import fault_rows
 from ...trials.trial_runs import Setup, Trials, run_trials, stored_result, wilson_interval
@@ -18,7 +18,7 @@ from ...viewing.trials_text import any_error, percent
 from .command import TrialsOptions
 
 
-def try_out(work: Work, asked: TrialsOptions, words: CrewWords) -> None:
+def try_out(work: Work, asked: TrialsOptions, words: WorkerOptions) -> None:
     """Carry it out with every seed; leaves with 1 where one failed, or fewer than asked for succeed for sure.
 
     With faults a run may fail: then it leaves with 1 only where one raised.
@@ -89,7 +89,7 @@ def _so_far(trials: Trials[Any, Any], past: str) -> str:
     return f"{n} of {trials.asked}: {trials.done} {past}, {percent(trials.done, n)}"
 
 
-def _planned(work: Work, request: TrialsRequest, words: CrewWords, line: LiveLine) -> Setup[Any, Any]:
+def _planned(work: Work, request: TrialsRequest, words: WorkerOptions, line: LiveLine) -> Setup[Any, Any]:
     """What every trial has in common, planned if it was not; leaves with 1 where there is no plan."""
     cuts: list[None] = []
     events = RunEvents(
@@ -104,7 +104,7 @@ def _planned(work: Work, request: TrialsRequest, words: CrewWords, line: LiveLin
         tell_cuts(len(cuts))
 
 
-def _replay(work: Work, setup: Setup[Any, Any], seed: int, words: CrewWords, line: LiveLine) -> int:
+def _replay(work: Work, setup: Setup[Any, Any], seed: int, words: WorkerOptions, line: LiveLine) -> int:
     """One trial again; the exit code."""
     dynamics = work.dynamics
     kept = stored_result(setup, seed, words.store)

@@ -38,7 +38,7 @@ class WholeBody:
         """Ticks whose programme had no solution."""
         self._solve: Any = daqp.solve
         self._packed, self._programme = gains.packed(), Programme.of(tree, most_rows)
-        self._views: dict[tuple[int, int], tuple[Floats, ...]] = {}
+        self._views: dict[tuple[int, int], tuple[Any, ...]] = {}
         self._damping = DAMPED * float(np.min(limits.torque))
 
     def look(self) -> None:
@@ -62,7 +62,7 @@ class WholeBody:
                 self.wrenches[limb, : aims.components[limb]] = x[at : at + aims.components[limb]]
         return self.torques
 
-    def _view(self, n: int, m: int) -> tuple[Floats, ...]:
+    def _view(self, n: int, m: int) -> tuple[Any, ...]:
         """The programme of so many unknowns and rows as the solver takes it: H, f, A, upper, lower, sense."""
         of = self._programme
         made = self._views[n, m] = (

@@ -11,6 +11,7 @@ from ...json_form import INLINE
 from ...planning.planners import plan_task
 from ...planning.problem.plan import Plan
 from ...trials.dynamics import Conditions, Dynamics, NoPlanError, RunEvents, RunRequest, TrialsRequest
+from .execution.carrying import Replan
 from .planning.task import SpatialTask
 from .sim.spatial_flaws import read_spatial_flaws
 from .trials.noise import SpatialNoise, named_spatial_noise, read_spatial_noise
@@ -38,6 +39,10 @@ class ReplayedRun:
     trial: SpatialTrial
 
 
+RESERVE: Final = 0.15
+"""Of all strengths and torques that plans keep which are made to be carried out [-]: friction and strength a fifth less take so much."""
+
+
 class SpatialDynamics(Dynamics):
     """Climbs and walks of robots in space."""
 
@@ -52,7 +57,7 @@ class SpatialDynamics(Dynamics):
             raise NotOfFamilyError(family_of(work).title, "faults")
 
     def plan(self, task: SpatialTask, asked: RunRequest, events: RunEvents) -> Plan:
-        """As any plan of the task: what is simulated keeps to its checks."""
+        """Found with more in reserve than the checks ask for."""
         return _found(task, asked, events, asked.seed)
 
     def run(
@@ -71,6 +76,8 @@ class SpatialDynamics(Dynamics):
             flaws=noise.flaws(read_spatial_flaws(asked.plant, asked.seed), asked.seed),
             deviations=noise.deviations(work.robot, work.world, asked.seed) if noise.any else None,
             progress=told,
+            log=asked.log,
+            replan=_replanner(asked, events) if asked.replan else None,
             label=label,
         )
 
@@ -125,11 +132,35 @@ class SpatialDynamics(Dynamics):
         print_spatial_trials(console, trials, seeds)
 
 
+def careful(task: SpatialTask) -> SpatialTask:
+    """The task with more in reserve, so that its plans can be carried out where holds, masses and motors are not as believed."""
+    return replace(task, rules=replace(task.rules, need=max(task.rules.need, RESERVE)))
+
+
 def _found(task: SpatialTask, asked: Conditions, events: RunEvents, seed: int) -> Plan:
-    result = plan_task(task, asked.planner, seed=seed, seconds=asked.plan_seconds, progress=events.search)
-    if not result.has_plan:
-        raise NoPlanError(asked.planner, task.name, f"was found: {result.reason}")
-    return result.plan
+    """A plan with more in reserve than the task asks for; where there is none, one as the task asks for."""
+    for tried in (careful(task), task):
+        result = plan_task(tried, asked.planner, seed=seed, seconds=asked.plan_seconds, progress=events.search)
+        if result.has_plan:
+            return result.plan
+        if tried.rules.need > task.rules.need:
+            events.note(
+                f"no plan keeps {100 * tried.rules.need:.0f} % of all strengths in reserve; one with less is looked for"
+            )
+    raise NoPlanError(asked.planner, task.name, f"was found: {result.reason}")
+
+
+def _replanner(asked: RunRequest, events: RunEvents) -> Replan:
+    """What a run asks for another plan."""
+
+    def replan(task: SpatialTask) -> Plan | None:
+        events.note("planning again from where the robot is, as a hold cannot be had")
+        try:
+            return _found(task, asked, events, asked.seed)
+        except NoPlanError:
+            return None
+
+    return replan
 
 
 def _noise(asked: Conditions) -> SpatialNoise:

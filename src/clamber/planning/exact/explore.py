@@ -100,7 +100,7 @@ LEAST_ACTIONS: Final = Aim()
 
 
 @dataclass(frozen=True, slots=True)
-class Way:
+class CostedPlan:
     """A plan that an exact search found."""
 
     codes: Ints
@@ -121,7 +121,7 @@ class Exploration:
     interrupted: bool
     codes: Ints
     """The best plan known; without one, the way to the furthest stance."""
-    ways: tuple[Way, ...]
+    ways: tuple[CostedPlan, ...]
     """Plans found, the shortest first; one, unless a front was asked for."""
     stances: int
     """Different stances seen."""
@@ -240,13 +240,13 @@ def _reached(state: np.ndarray, search: np.void) -> int | float:
     return int(lowest) if search["informed"] else lowest
 
 
-def _ways(problem: CompiledProblem, memory: Memory) -> tuple[Way, ...]:
+def _ways(problem: CompiledProblem, memory: Memory) -> tuple[CostedPlan, ...]:
     """The plans found, the shortest first; of equals in the first cost the last found, which has less of the second."""
-    ways: list[Way] = []
+    ways: list[CostedPlan] = []
     label = int(memory.state["goal"][0])
     while label >= 0:
         made = memory.labels[label]
         if not ways or made["first"] < ways[-1].first:
-            ways.append(Way(memory.trace(problem, label), float(made["first"]), float(made["second"])))
+            ways.append(CostedPlan(memory.trace(problem, label), float(made["first"]), float(made["second"])))
         label = int(made["next"])
     return tuple(ways[::-1])

@@ -45,7 +45,7 @@ class Budget:
     evaluations: int
     """Most plans to evaluate, polishing included; the first generation is always evaluated."""
     seconds: float | None = None
-    """Most wall-clock time [s]; a search that it ends is not repeatable."""
+    """Most time [s]; a search that it ends is not repeatable."""
     checks: int | None = None
     """Most single actions to judge; a generation that has begun is finished."""
 
@@ -243,7 +243,7 @@ def plan_genetic(
         profile: Name or file of a profile, or a profile.
         max_evaluations: Most plans to evaluate, polishing included.
         max_checks: Most single actions to judge, polishing included; a generation that has begun is finished.
-        seconds: Most wall-clock time [s].
+        seconds: Most time [s].
         threads: Threads; None for one a core.
         filters: Whether the inventory's filters are applied.
         macros: Learned modules to add to the inventory.

@@ -140,7 +140,7 @@ def expand(p, parents, first, end, codes, margins, children, parent_of, code_of)
 
 
 @kernel
-def sprout(
+def expand_scored(
     p, parents, first, end, drafts, weights, toll, margins, row, child, codes, count, code, score, niche, met, keys
 ):
     """Every valid child of the stances `first` to `end`, each in a slot of its parent's own, so that threads never meet.

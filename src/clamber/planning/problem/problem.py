@@ -12,9 +12,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ...errors import SpecError
-from .arrays import ActionTable, Children, Params, Sprouts, WayFields
+from .arrays import ActionTable, Children, CostToGoMap, Params, ScoredChildren
 from .code_limits import CodeLimits, indices
-from .loops import expand, features_of, possible, replay, rollout, sprout
+from .loops import expand, expand_scored, features_of, possible, replay, rollout
 
 MAX_FEATURES = 8
 PIECES = 8
@@ -241,10 +241,10 @@ class CompiledProblem:
             np.concatenate([part.stance for part in parts]),
         )
 
-    def sprouts(self, n: int) -> Sprouts:
+    def scored_children(self, n: int) -> ScoredChildren:
         """Memory for the children of up to n stances."""
         slots = self.branching
-        return Sprouts(
+        return ScoredChildren(
             np.zeros(n, np.int32),
             np.zeros((n, slots), np.int32),
             np.zeros((n, slots)),
@@ -257,7 +257,9 @@ class CompiledProblem:
         """Whether children can be scored by these weights of the features before they are judged."""
         return all(name in self.foreseen for name, weight in zip(self.features, weights, strict=True) if weight)
 
-    def sprout(self, stances: Records, weights: npt.NDArray[np.float64], toll: float, out: Sprouts) -> None:
+    def expand_scored(
+        self, stances: Records, weights: npt.NDArray[np.float64], toll: float, out: ScoredChildren
+    ) -> None:
         """Write every valid child of every stance, scored: weights times features, less `toll` times the bound on what is left.
 
         Where the score can be told before an action is judged (`drafts`), children are not judged, and may not be valid.
@@ -272,7 +274,7 @@ class CompiledProblem:
         def part(worker: int, first: int, end: int) -> None:
             params, child, margins, row = self._scratch[worker]
             codes = np.zeros(self.branching, np.int32)
-            sprout(
+            expand_scored(
                 params, stances, first, end, self.drafts(weights), weights, toll, margins, row[0], child, codes,
                 out.count, out.code, out.score, out.cell, out.done, out.keys,
             )  # fmt: skip
@@ -350,7 +352,7 @@ class CompiledProblem:
         """Why `expand` and exact search can't list all that the task allows, or None: they can."""
         return None
 
-    def ways(self) -> WayFields | None:
+    def ways(self) -> CostToGoMap | None:
         """About how far it is from every place of the world to each goal; None: the family has no such map."""
         return None
 

@@ -306,7 +306,7 @@ NOTHING_LIMITS: Final = 1e8
 
 
 @dataclass(frozen=True, slots=True)
-class Yardsticks:
+class Normalisation:
     """What a task's margins are measured against."""
 
     checks: tuple[Check, ...]
@@ -319,7 +319,7 @@ class Yardsticks:
     """In which margins are shown."""
 
 
-def yardsticks_of(task: Task) -> Yardsticks:
+def normalisation_of(task: Task) -> Normalisation:
     """The yardsticks of a task."""
     plans = family_of(task).plans
-    return Yardsticks(plans.checks, plans.hard(task), plans.sizes(task), units_of(task.document))
+    return Normalisation(plans.checks, plans.hard(task), plans.sizes(task), units_of(task.document))

@@ -11,7 +11,7 @@ import numpy as np
 from ...interrupts import answer
 from ..problem.body_pose import PoseLattice
 from ..problem.problem import CompiledProblem, Records
-from ..problem.problems import Yardsticks
+from ..problem.problems import Normalisation
 from ..progress import Clock
 from ..stance_table import rehash, table_size
 from .kernels import (
@@ -85,13 +85,13 @@ class ReachabilityState:
     """The stances seen so far, and the map of them."""
 
     def __init__(
-        self, problem: CompiledProblem, yardsticks: Yardsticks, lattice: PoseLattice, holds: int, most: int
+        self, problem: CompiledProblem, normalisation: Normalisation, lattice: PoseLattice, holds: int, most: int
     ) -> None:
-        names = [check.name for check in yardsticks.checks]
+        names = [check.name for check in normalisation.checks]
         self.sizes = Sizes(
             period=lattice.period,
-            hard=np.array([name in yardsticks.hard for name in names]),
-            margins=np.array([yardsticks.sizes.get(name, 0.0) for name in names]),
+            hard=np.array([name in normalisation.hard for name in names]),
+            margins=np.array([normalisation.sizes.get(name, 0.0) for name in names]),
         )
         self.most = most
         self.state = np.zeros(3, np.int64)
@@ -178,7 +178,7 @@ class Exploration:
 
 def explore_breadth_first(
     problem: CompiledProblem,
-    yardsticks: Yardsticks,
+    normalisation: Normalisation,
     lattice: PoseLattice,
     *,
     holds: int,
@@ -210,7 +210,7 @@ def explore_breadth_first(
     size = max(1, CHILDREN // problem.branching)
     axes = len(lattice.axes)
     pieces = [Piece(problem, axes, size) for _ in range(PIECES * threads if threads > 1 else 1)]
-    reached = ReachabilityState(problem, yardsticks, lattice, holds, most_stances)
+    reached = ReachabilityState(problem, normalisation, lattice, holds, most_stances)
     plant(pieces[0].params.record, problem.without_goals()[1], pieces[0].children.keys)
     pieces[0].born = 1
     reached.absorb(pieces[0])

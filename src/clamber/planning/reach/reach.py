@@ -13,7 +13,7 @@ from ...json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ...notebook import Pictured
 from ...tasks import Task
 from ..problem.body_pose import PoseLattice
-from ..problem.problems import listed_problem, plan_family, without_hangs, yardsticks_of
+from ..problem.problems import listed_problem, normalisation_of, plan_family, without_hangs
 from ..progress import Clock
 from .exploration import Exploration, explore_breadth_first
 from .table import Rim, Table, place_table, pose_table, rim_of
@@ -199,7 +199,7 @@ def find_reach(
         hangs: Whether hangs count as the task's rules have them. They take the body off the lattice of steps, so that with any number
             of them the space has no end; without this they are left out.
         max_stances: Memory: most stances kept. Running out is a result ("incomplete").
-        seconds: Most wall-clock time [s].
+        seconds: Most time [s].
         threads: The answer doesn't depend on them; None for one a core.
         progress: Called now and then with stances, poses tried and actions from the start.
 
@@ -217,7 +217,7 @@ def find_reach(
     lattice = plan_family(posed).lattice(posed, problem)
     seen = explore_breadth_first(
         problem,
-        yardsticks_of(posed),
+        normalisation_of(posed),
         lattice,
         holds=len(holds),
         most_stances=max_stances,

@@ -17,14 +17,14 @@ from ...tasks.task_format import task_files
 from .. import style
 from ..scene import join
 from .camera_panel import CameraPanel
-from .exhibit import Editor, Exhibit, exhibit_of
 from .inputs import by_hand, readable, set_input
 from .own_pages import Guard, UnguardedError, check_guarded, guarded
 from .playback import Playback
 from .recording import RecordingPanel, file_name
 from .save_panel import SavePanel
+from .scene_view import SceneView
 from .solids import FOV, Camera, colour
-from .stage import Stage
+from .viewer_content import Editor, ViewerContent, exhibit_of
 from .work_panel import WorkPanel
 
 if TYPE_CHECKING:
@@ -125,7 +125,7 @@ class App:
         UnguardedError: If its server would answer anybody.
     """
 
-    def __init__(self, exhibit: Exhibit, host: str = LOOPBACK, port: int = 0, folder: Path = Path()) -> None:
+    def __init__(self, exhibit: ViewerContent, host: str = LOOPBACK, port: int = 0, folder: Path = Path()) -> None:
         check_viser()
         import viser
 
@@ -140,7 +140,7 @@ class App:
         server.gui.set_panel_label(exhibit.title)
         server.gui.main_panel.dock_right()
         server.gui.main_panel.set_width(WIDTH)
-        self.stage = Stage(server, exhibit.scenery)
+        self.stage = SceneView(server, exhibit.scenery)
         self.stage.set_film("plan", exhibit.plan_film)
         self.stage.set_film("run", exhibit.run_film)
         self.stage.shown = "both" if len(self.stage.films) > 1 else "plan"
@@ -248,7 +248,7 @@ class App:
     def close(self) -> None:
         """End the work, the clock and the server."""
         if self.work is not None:
-            self.work.labour.stop(wait=1.0)
+            self.work.background_task.stop(wait=1.0)
         self.playback.stop()
         with contextlib.redirect_stdout(io.StringIO()):  # its last words
             self.server.stop()

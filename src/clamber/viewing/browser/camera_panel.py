@@ -6,8 +6,8 @@ import numpy as np
 
 from ...types import Floats
 from .inputs import by_hand
+from .scene_view import SceneView
 from .solids import Camera
-from .stage import Stage
 
 if TYPE_CHECKING:
     import viser
@@ -43,7 +43,7 @@ class CameraPanel:
         stage: Shows the robot.
     """
 
-    def __init__(self, server: "viser.ViserServer", stage: Stage) -> None:
+    def __init__(self, server: "viser.ViserServer", stage: SceneView) -> None:
         self._server, self._stage = server, stage
         self._views = server.gui.add_button_group("view", (HOME, *VIEWS))
         self._follow = server.gui.add_checkbox(

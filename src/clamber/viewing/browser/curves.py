@@ -7,8 +7,8 @@ import numpy as np
 
 from ...types import Floats
 from .. import style
-from ..film import Film
 from ..panel import Gauges
+from ..recording import Recording
 
 POINTS: Final = 240
 """Of a curve, at most."""
@@ -27,7 +27,7 @@ class Curves:
         block: Number of the block.
     """
 
-    def __init__(self, film: Film[Any], block: int) -> None:
+    def __init__(self, film: Recording[Any], block: int) -> None:
         self.seconds, self.gauges = film.seconds, film.gauges[block]
         self.times: Floats = np.linspace(0.0, film.seconds, POINTS)
         self.values: Floats = np.abs([film.values(film.at(time))[block] for time in self.times.tolist()])

@@ -234,10 +234,19 @@ def along_z(ways: Floats) -> Floats:
         ways: Of any length but none, shape (n, 3).
     """
     x, y, z = (ways / np.linalg.norm(ways, axis=1, keepdims=True)).T
-    turns = np.stack((1.0 + z, -y, x, np.zeros(len(z))), axis=-1)
-    turns[z < -1.0 + 1e-9] = (0.0, 1.0, 0.0, 0.0)
+    aside = x * x + y * y
+    up = np.where(z > 0.0, 1.0 + z, aside / np.maximum(1.0 - z, 1.0))  # 1 + z, without its cancellation near -z
+    turns = np.stack((up, -y, x, np.zeros(len(z))), axis=-1)
+    turns[(aside == 0.0) & (z < 0.0)] = (0.0, 1.0, 0.0, 0.0)
     made: Floats = turns / np.linalg.norm(turns, axis=1, keepdims=True)
     return made
+
+
+def _linear(colours: Colours) -> Colours:
+    """Colours as the page takes those of batches, which it does not decode: linear (IEC 61966-2-1), else they are too light."""
+    shares = colours / 255.0
+    light = np.where(shares <= 0.04045, shares / 12.92, ((shares + 0.055) / 1.055) ** 2.4)
+    return np.round(255.0 * light).astype(np.uint8)
 
 
 class _Batch:
@@ -269,7 +278,7 @@ class _Batch:
         self._scales = np.full((n, 3), 1e-6, np.float32)
         self.node = server.scene.add_batched_meshes_simple(
             name, *mesh, np.tile((1.0, 0.0, 0.0, 0.0), (n, 1)), np.zeros((n, 3)), batched_scales=self._scales,
-            batched_colors=colours, opacity=None if opacity >= 1.0 else opacity, lod="off", cast_shadow=opacity >= 1.0,
+            batched_colors=_linear(colours), opacity=None if opacity >= 1.0 else opacity, lod="off", cast_shadow=opacity >= 1.0,
             flat_shading=flat,
         )  # fmt: skip
 
@@ -277,7 +286,7 @@ class _Batch:
         """Give them other colours, shape (n, 3)."""
         if not np.array_equal(colours, self._colours):
             self._colours = colours
-            self.node.batched_colors = colours
+            self.node.batched_colors = _linear(colours)
 
     def _place(self, at: Floats, scales: Floats, seen: npt.NDArray[np.bool_]) -> None:
         self.node.batched_positions = np.where(seen[:, None], at, 0.0).astype(np.float32)

@@ -26,7 +26,7 @@ def draw_cones(lengths: Mapping[str, Mapping[float, int | None]], path: str | Pa
 
     Args:
         lengths: Board -> half angle of the cone [deg] -> actions of the shortest plan, None where there is none.
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     with drawing(path, (7.2, 4.8)) as figure:
         axes = figure.subplots()

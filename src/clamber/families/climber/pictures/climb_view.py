@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from ....planning.problem.problem import Replay
 from ....types import Floats
 from ....units import DEGREE
-from ....viewing.film import Part, PlanView
+from ....viewing.recording import Part, PlanView
 from ....viewing.scene import DIRECTIONS, describe_pose, fit_bounds, length_unit
 from ....viewing.view import CloseUp, Picture
 from ..planning.arrays import CHECKS

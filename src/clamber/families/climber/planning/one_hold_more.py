@@ -15,9 +15,9 @@ import numpy as np
 
 from ....interrupts import answer
 from ....kernel_cache import is_compiled
-from ....planning.openings.find import Opening, Places
-from ....planning.openings.trial import Answer, Trial
-from ....planning.problem.problems import plan_family, pose_problem, yardsticks_of
+from ....planning.infeasibility.find import FeasibleRelaxation, Places
+from ....planning.infeasibility.trial import Answer, Trial
+from ....planning.problem.problems import normalisation_of, plan_family, pose_problem
 from ....planning.reach.exploration import explore_breadth_first
 from ....toml_text import toml_value
 from ....types import Floats
@@ -78,7 +78,7 @@ def _reached(task: LimbedTask, trial: Trial, threads: int) -> Floats | None:
     problem = pose_problem(task, threads=1).problem
     lattice = plan_family(task).lattice(task, problem)
     see = partial(
-        explore_breadth_first, problem, yardsticks_of(task), lattice, holds=len(task.world.holds), threads=threads
+        explore_breadth_first, problem, normalisation_of(task), lattice, holds=len(task.world.holds), threads=threads
     )
     if not is_compiled("spread"):  # compiling is not to count
         see(most_stances=2 * problem.branching)
@@ -172,9 +172,9 @@ def _company(site: _Site, found: set[tuple[int, int]]) -> int:
     return sum((site.column + i, site.row + j) in found for i in (-1, 0, 1) for j in (-1, 0, 1))
 
 
-def _opening(task: LimbedTask, site: _Site, answer: Answer) -> Opening:
+def _opening(task: LimbedTask, site: _Site, answer: Answer) -> FeasibleRelaxation:
     x, y = _written(task, site)
-    return Opening(
+    return FeasibleRelaxation(
         key="board.added",
         before=None,
         after=f"at {x}, {y}",

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ....errors import StartError
-from ....planning.problem.arrays import ActionTable, Params, WayFields
+from ....planning.problem.arrays import ActionTable, CostToGoMap, Params
 from ....planning.problem.code_limits import CodeLimits
 from ....planning.problem.codes import ARGUMENT_MASK, MOVE, NEAREST, NONE, RANDOM, RELEASE, Code, pack
 from ....planning.problem.codes import HOLD as HOLD_KIND
@@ -105,7 +105,7 @@ class LimbedProblem(CompiledProblem):
             else "rules.allowed names single grabs or releases; exact search takes them as kinds: grab, release"
         )
 
-    def ways(self) -> WayFields:
+    def ways(self) -> CostToGoMap:
         """The map of the wall."""
         return way_fields(self.task)
 

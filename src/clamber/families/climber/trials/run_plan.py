@@ -29,7 +29,7 @@ from ..execution.climb_report import ClimbReport
 from ..execution.climb_scene import climb_scene
 from ..execution.climb_trace import TOPIC, ClimbTrace, TracedClimber, limb_notes
 from ..execution.climbing import Climbing, Progress, Replan
-from ..execution.course import climbable, lay_course
+from ..execution.executable_plan import climbable, lay_course
 from ..planning.task import LimbedTask
 from ..robot.robot import LimbedRobot
 from .noise import NO_NOISE, Drawn, Noise, assumed_backlash, check_noise, draw_for, terrain_covariance, true_places

@@ -18,11 +18,11 @@ from ....trials.fault_trials import TriedFault, check_told, told_fault
 from ....trials.trial_runs import Setup, Trials
 from ....types import Json
 from ..execution.climbing import Progress, Replan
-from ..execution.course import lay_course
+from ..execution.executable_plan import lay_course
 from ..planning.task import LimbedTask
 from .noise import NOISE, Noise, check_noise, noise_of
+from .plan_validation import validations
 from .planning import QUIET, no_plan, plan_to_climb, replanner
-from .rehearsal import rehearsals
 from .run_plan import BEGINS, ClimbRun, action_told, climbing_flaws, failing_of, run_plan
 from .warm_up import warm_up
 
@@ -238,7 +238,7 @@ def with_plan(
             seconds=setup.seconds,
             seed=PLAN_SEED,
             events=events,
-            rehearse=rehearsals(flaws, events),
+            validate_plan=validations(flaws, events),
         )
     if plan is None:
         raise no_plan(setup.planner, setup.task)

@@ -54,7 +54,9 @@ class WorldOptions:
     ] = None
     table: Annotated[
         Path | None,
-        typer.Option("--table", metavar="FILE", help="In place of a kind: holds of a CSV file, x [m],y,z,nx,ny,nz a line."),
+        typer.Option(
+            "--table", metavar="FILE", help="In place of a kind: holds of a CSV file, x [m],y,z,nx,ny,nz a line."
+        ),
     ] = None
     heights: Annotated[
         Path | None,
@@ -89,7 +91,9 @@ class WorldOptions:
         files = {f"--{name}": getattr(self, name) for name in SOURCES}
         given = [name for name, value in files.items() if value is not None]
         if len(given) + (kind is not None) > 1:
-            raise typer.BadParameter("are different ways to a world; take one", param_hint=", ".join(("kind", *SOURCES)))
+            raise typer.BadParameter(
+                "are different ways to a world; take one", param_hint=", ".join(("kind", *SOURCES))
+            )
         of_kinds = ("length", "width", "bumps", "gap", "angle")
         of_files = ("size", "scale", "slope")
         for name in of_kinds if given else of_files:

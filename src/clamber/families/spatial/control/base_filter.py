@@ -15,6 +15,7 @@ from .base_filter_kernels import (
     PHI,
     POSITION,
     VELOCITY,
+    add_drift,
     begin_contact,
     correct,
     end_contact,
@@ -45,6 +46,8 @@ class FilterSettings:
     """The same of its direction [rad/sqrt(s)]."""
     encoder: float = 0.1 * DEGREE
     """Of what an encoder tells, with half of the play of its gear [rad]."""
+    drift: float = 2.0
+    """Of what a step moves and turns the robot unnoticed, over what the encoders of one limb tell of its tip [-]."""
     place: float = 2e-3
     """Of where the robot is at the start [m]."""
     turn: float = 0.3 * DEGREE
@@ -144,6 +147,8 @@ class BaseFilter:
 
     def hold_on(self, limb: int, tip: Floats, axes: Floats, variance: float) -> None:
         """A limb's tip stays where it is from now on."""
+        s = self._settings
+        add_drift(self.believed, s.drift**2 * variance, (s.drift * s.encoder) ** 2, self._row)
         begin_contact(self.believed, limb, tip, axes, variance, self._turned)
 
     def let_go(self, limb: int) -> None:

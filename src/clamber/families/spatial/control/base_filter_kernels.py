@@ -212,6 +212,40 @@ def begin_contact(belief, limb, tip, axes, variance, turned):
 
 
 @kernel
+def add_drift(belief, moved, turned, row):
+    """What encoders told wrong all the time, such as the play of gears, has moved and turned the robot with all its contacts unnoticed.
+
+    Args:
+        belief: As in `predict`.
+        moved: Variance of that in place [m^2].
+        turned: Of that in direction, about the base [rad^2].
+        row: Scratch, shape (n,).
+    """
+    p = belief.position
+    for a in range(6):
+        for k in range(row.size):
+            row[k] = 0.0
+        x, y, z = 0.0, 0.0, 0.0
+        if a < 3:
+            x, y, z = 1.0 * (a == 0), 1.0 * (a == 1), 1.0 * (a == 2)
+        else:  # places stay in error as they are, about the base: less the turn times where that is
+            row[PHI + a - 3] = 1.0
+            ux, uy, uz = 1.0 * (a == 3), 1.0 * (a == 4), 1.0 * (a == 5)
+            x, y, z = uz * p[1] - uy * p[2], ux * p[2] - uz * p[0], uy * p[0] - ux * p[1]
+        row[POSITION], row[POSITION + 1], row[POSITION + 2] = x, y, z
+        for limb in range(belief.holds.size):
+            if belief.holds[limb]:
+                at = CONTACTS + 3 * limb
+                row[at], row[at + 1], row[at + 2] = x, y, z
+                if a >= 3 and belief.turn_at[limb] >= 0:
+                    row[belief.turn_at[limb] + a - 3] = 1.0
+        variance = moved if a < 3 else turned
+        for b in range(row.size):
+            for c in range(row.size):
+                belief.covariance[b, c] += variance * row[b] * row[c]
+
+
+@kernel
 def copy_error(covariance, to, source, variance):
     """Three errors that are as three others are, but for a variance of their own."""
     n = covariance.shape[0]

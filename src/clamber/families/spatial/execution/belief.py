@@ -3,12 +3,16 @@
 from typing import Protocol
 
 from ....control.whole_body.tree import State
-from ....types import Ints
+from ....types import Floats, Ints
+from ..world.world import World
 from .plant import Pose, SpatialPlant, SpatialSensed
 
 
 class Belief(Protocol):
     """What writes the believed state, once a tick. An estimator from encoders, IMU and contacts is one; it never sees the truth."""
+
+    places: Floats
+    """Where holds are, as believed [m], shape (holds, 3)."""
 
     def begin(self, pose: Pose, sensed: SpatialSensed) -> None:
         """Begin at rest at a pose that the robot was told, with the first reading of its sensors."""
@@ -28,10 +32,11 @@ class TrueBase:
 
     Args:
         plant: A simulated one.
+        world: As believed.
     """
 
-    def __init__(self, plant: SpatialPlant) -> None:
-        self._plant = plant
+    def __init__(self, plant: SpatialPlant, world: World) -> None:
+        self._plant, self.places = plant, world.places
 
     def begin(self, pose: Pose, sensed: SpatialSensed) -> None:
         """See `Belief`: nothing to do."""

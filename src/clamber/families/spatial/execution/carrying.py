@@ -1,18 +1,28 @@
 """A robot in space that carries out a plan: what the sequencer is told of its motions."""
 
 import math
-from typing import Final
+from collections.abc import Callable
+from typing import Final, TypeAlias
 
 import numpy as np
 
 from ....execution.run_report import BRACED, SETTLED, Ending, Outcome, ending_of
 from ....execution.sequencer import Attempt, Performer
+from ....planning.problem.plan import Plan
 from ....types import Floats
-from .carrying_report import CarryingReport, MotionReport
+from ..planning.task import SpatialTask
+from .carrying_report import CarryingReport, MotionReport, NewPlan
 from .course import BodyMotion, Course, Motion, Regrab
-from .limbed_body import LimbedBody
-from .motions import move_body, regrab, rest
+from .limbed_body import LostHoldError
+from .motions import Landing, move_body, regrab, rest, retake, take
+from .references import quaternion_of
+from .replanning import neighbours, task_from_here, without
+from .run_trace import TracedBody
 
+Replan: TypeAlias = Callable[[SpatialTask], Plan | None]
+"""Makes a plan for the rest of a task; None: there is none."""
+MOST_LOST: Final = 4
+"""Times that holds may be lost and taken again in one motion."""
 AT_FIRST: Final = 0.3
 """The robot stands still for that long before it moves [s]."""
 
@@ -22,13 +32,16 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
 
     Args:
         body: The robot.
+        task: What its plan is for.
         course: What its plan asks for.
+        replan: Makes another plan for the rest of a task; None: none is made.
     """
 
     goes_on = frozenset({"ok"})
 
-    def __init__(self, body: LimbedBody, course: Course) -> None:
-        self.body, self.course = body, course
+    def __init__(self, body: TracedBody, task: SpatialTask, course: Course, replan: Replan | None = None) -> None:
+        self.body, self.task, self.course, self._replan = body, task, course, replan
+        self._missed: set[int] = set()
         self.report = CarryingReport()
         self._at = 0
         self._off = math.nan
@@ -47,7 +60,10 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
     def next(self) -> Motion | None:
         """See `Performer`."""
         motions = self.course.motions
-        return motions[self._at] if self._at < len(motions) else None
+        if self._at == len(motions):
+            return None
+        self.body.action = motions[self._at].first
+        return motions[self._at]
 
     def told(self, action: Motion) -> tuple[int, int]:
         """See `Performer`: the action that begins, and how many there are."""
@@ -56,6 +72,25 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
     def carry_out(self, action: Motion) -> tuple[Outcome, int, str]:
         """See `Performer`."""
         self._off = math.nan
+        lost, caught = 0, ""
+        while True:
+            try:
+                outcome, tries, reason = self._once(action)
+                return outcome, tries + lost, reason or caught
+            except LostHoldError as off:
+                lost += 1
+                name = self.body.robot.limb_names[off.limb]
+                caught = f"{name} came off hold {off.hold + 1} and took it again"
+                if lost > MOST_LOST:
+                    return "missed", lost, f"{name} came off hold {off.hold + 1} again and again"
+                if isinstance(action, Regrab) and off.limb == action.limb:
+                    continue
+                landing = self._catch(off, action)
+                if not landing.taken:
+                    return "missed", lost, f"{name} came off hold {off.hold + 1}: {landing.reason}"
+
+    def _once(self, action: Motion) -> tuple[Outcome, int, str]:
+        """An action from where the robot is."""
         if isinstance(action, BodyMotion):
             move_body(self.body, action)
             self._off = float(np.linalg.norm(self.body.law.aims.position - self.body.law.state.position))
@@ -63,6 +98,15 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
         landing = regrab(self.body, action)
         self._off = landing.off
         return ("ok" if landing.taken else "missed"), landing.tries, landing.reason
+
+    def _catch(self, off: LostHoldError, action: Motion) -> Landing:
+        """Have a limb that came off hold on again, those that come off meanwhile, too."""
+        loads = action.loads if isinstance(action, Regrab) and self.body.holds[action.limb] < 0 else action.start.loads
+        try:
+            return retake(self.body, off, loads)
+        except LostHoldError as other:
+            first = self._catch(other, action)
+            return retake(self.body, off, loads) if first.taken else first
 
     def record(self, action: Motion, attempt: Attempt) -> None:
         """See `Performer`."""
@@ -85,6 +129,31 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
     def done(self, action: Motion) -> None:
         """See `Performer`."""
         self._at += 1
+
+    def plan_again(self, action: Motion, outcome: Outcome) -> bool:
+        """See `Performer`: back on the hold that the limb came from, and on without those that were missed."""
+        if self._replan is None or outcome != "missed" or not isinstance(action, Regrab):
+            return False
+        body, back = self.body, action.before
+        self._missed.add(action.hold)
+        normals = body.world.normals[[action.hold, int(back.holds[action.limb])]]
+        try:
+            landing = take(body, action.limb, int(back.holds[action.limb]), normals, back.loads, back.joints)
+        except LostHoldError:
+            return False
+        task = task_from_here(self.task, back, self._missed) if landing.taken else None
+        if task is None:
+            return False
+        body.plant.pause()
+        plan = self._replan(task)
+        if plan is None:
+            return False
+        self.report.replans.append(
+            NewPlan(len(self.report.motions), [hold + 1 for hold in sorted(self._missed)], len(plan.actions))
+        )
+        self.course = without(Course.of(task, plan, "new plan"), neighbours(self.task, self._missed))
+        self._at = 0
+        return True
 
     def stop_safely(self) -> Ending:
         """See `Performer`: the robot stays where it is."""
@@ -124,7 +193,4 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
 
 def pose_of(position: Floats, rotation: Floats) -> tuple[float, ...]:
     """x, y, z [m], then the unit quaternion w, x, y, z."""
-    from scipy.spatial.transform import Rotation
-
-    x, y, z, w = Rotation.from_matrix(rotation).as_quat().tolist()
-    return (*position.tolist(), w, x, y, z)
+    return (*position.tolist(), *quaternion_of(rotation).tolist())

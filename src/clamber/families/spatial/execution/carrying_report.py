@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from typing import Annotated, Literal
 
-from ....execution.run_report import Outcome, RunReport
+from ....execution.run_report import Moment, Outcome, RunReport
 from ....json_form import Count, Jsonable, Key, OrNull
 
 CarryingOutcome = Literal["ok", "missed", "refused", "stuck", "fell", "fault", "stopped", "interrupted"]
@@ -32,11 +32,43 @@ class MotionReport(Jsonable):
     reason: str = ""
 
 
+@dataclass(frozen=True, slots=True)
+class NewPlan(Jsonable):
+    """A plan that was made on the way."""
+
+    after: Count
+    """Motions that had been carried out."""
+    missed: list[int]
+    """Numbers of the holds that it does without."""
+    actions: Count
+
+
+@dataclass(frozen=True, slots=True)
+class LoggedMotion:
+    """What is read back of a motion; see `MotionReport`."""
+
+    outcome: Outcome
+    start: Moment
+    seconds: Moment
+    limb: str | None = None
+    hold: int | None = None
+    off: float | None = None
+    reason: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class LoggedRun:
+    """What is read back of the report in a run's log."""
+
+    motions: list[LoggedMotion] = field(default_factory=list)
+
+
 @dataclass(slots=True, kw_only=True)
 class CarryingReport(RunReport):
     """How a run went; its pose is that of the body: x, y, z [m], then a quaternion w, x, y, z."""
 
     motions: list[MotionReport] = field(default_factory=list)
+    replans: list[NewPlan] = field(default_factory=list)
     off: float = 0.0
     """Largest distance of the body from where it was to be, as believed [m]."""
     torque: float = 0.0

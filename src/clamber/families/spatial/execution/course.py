@@ -1,8 +1,8 @@
 """A plan of a robot in space as what is carried out in one go: motions of the body over its holds, and limbs that take other holds."""
 
-import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Self, TypeAlias
 
 import numpy as np
@@ -12,6 +12,7 @@ from ....planning.problem.problem import Replay
 from ....planning.problem.problems import plan_family
 from ....types import Floats, Ints
 from ..control.believed_tree import flat
+from ..planning.records import HEIGHT, PITCH, ROLL
 from ..planning.swing_loads import SwingLoads
 from ..planning.task import SpatialTask
 from .plant import Pose
@@ -29,6 +30,18 @@ class Standing:
     """Index of each limb's hold, shape (limbs,)."""
     loads: Floats
     """Wrenches of the contacts on the robot, world frame: force [N], moment about the tip [N m], shape (limbs, 6)."""
+    along: float
+    """On the guide [m] ..."""
+    across: float
+    """... beside it [m] ..."""
+    height: float
+    """... over it [m] ..."""
+    yaw: float
+    """... and about its normal [rad]."""
+    level: bool
+    """Whether the body neither pitches nor rolls on its guide."""
+    stage: int
+    """Goals that are met."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -39,6 +52,11 @@ class BodyMotion:
     """Number of the plan's action that it begins with, from 1."""
     way: tuple[Standing, ...]
     """The stance where it begins, and all that it comes through."""
+
+    @property
+    def start(self) -> Standing:
+        """Where it begins."""
+        return self.way[0]
 
     @property
     def last(self) -> int:
@@ -59,6 +77,11 @@ class Regrab:
     after: Standing
     loads: Floats
     """Wrenches while it swings, as `Standing.loads`; its own are zero."""
+
+    @property
+    def start(self) -> Standing:
+        """Where it begins."""
+        return self.before
 
     @property
     def last(self) -> int:
@@ -87,7 +110,7 @@ class Course:
         standings = [_standing(task, stance) for stance in replay.stances]
         loads = SwingLoads(task)
         motions: list[Motion] = []
-        for k, (before, after) in enumerate(itertools.pairwise(standings)):
+        for k, (before, after) in enumerate(pairwise(standings)):
             moved = np.flatnonzero(before.holds != after.holds)
             if moved.size:
                 limb = int(moved[0])
@@ -110,6 +133,12 @@ def _standing(task: SpatialTask, stance: np.void) -> Standing:
         flat(task.robot, np.asarray(stance["q"])[:limbs, :most]),
         np.array(stance["hold"][:limbs], np.int32),
         np.array(stance["wrench"][:limbs], np.float64),
+        along=float(stance["x"]),
+        across=float(stance["y"]),
+        height=task.start.height + task.step.height * int(stance["pose"][HEIGHT]),
+        yaw=float(stance["angle"]),
+        level=not stance["pose"][[PITCH, ROLL]].any(),
+        stage=int(stance["stage"]),
     )
 
 

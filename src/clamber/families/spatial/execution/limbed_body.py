@@ -20,8 +20,23 @@ from .course import Standing
 from .plant import SpatialPlant, SpatialSensed
 from .settings import Pace
 
+OPEN: Final = 3
+"""Ticks after which a switch is believed that says that an end effector has come off."""
 NESTED: Final = 0.9
 """Of friction and pull that contacts are relied on for: the planner keeps its need within this, and the contacts bear more [-]."""
+
+
+class LostHoldError(Exception):
+    """A limb that held on has come off.
+
+    Args:
+        limb: Which.
+        hold: Index of the hold that it held on to.
+    """
+
+    def __init__(self, limb: int, hold: int) -> None:
+        super().__init__(limb, hold)
+        self.limb, self.hold = limb, hold
 
 
 class LimbedBody:
@@ -59,10 +74,11 @@ class LimbedBody:
         """Wrenches that contacts are to bear, world frame, shape (limbs, 6)."""
         self.places: Floats = np.zeros((limbs, 3))
         """Where the tips of limbs hold on, as believed [m], shape (limbs, 3)."""
+        self._open = np.zeros(limbs, np.int64)
         self.ticks = 0
         self.told: Callable[[], None] | None = None
         """Called after each tick."""
-        self._pressed, self._normal = -1, np.zeros(3)
+        self._pressed, self._normal, self._push = -1, np.zeros(3), 0.0
         self._bears = [end.bears() for end in robot.ends]
 
     @property
@@ -101,7 +117,7 @@ class LimbedBody:
 
     def hold_on(self, limb: int, hold: int) -> None:
         """From now on a limb holds on to a hold where its tip is."""
-        self._pressed = -1
+        self._pressed, self._open[limb] = -1, 0
         aims, dynamics = self.law.aims, self.law.dynamics
         contact, patch = self.robot.contacts[limb], self.world.holds[hold]
         normal = self.world.normals[hold]
@@ -135,28 +151,35 @@ class LimbedBody:
         aims.tip[limb], aims.tip_velocity[limb], aims.tip_acceleration[limb] = path
         aims.points[limb] = 0.0 if points is None else points
 
-    def press(self, limb: int, normal: Floats) -> None:
-        """From now on a swinging limb presses against its aim across a surface of this normal, until it holds on or lets be (limb -1)."""
-        self._pressed, self._normal = limb, normal
+    def press(self, limb: int, normal: Floats, force: float = 0.0) -> None:
+        """From now on a swinging limb presses against a surface, until it holds on or lets be (limb -1).
+
+        Args:
+            limb: Which.
+            normal: Of the surface.
+            force: With which it presses, besides what it misses of its aim makes [N].
+        """
+        self._pressed, self._normal, self._push = limb, normal, force
 
     def tick(self) -> None:
         """Let a control period pass.
 
         Raises:
+            LostHoldError: If an end effector that is attached has come off.
             FallenError: If the body is not where it is to be by far.
             PlantStoppedError: If the plant takes no more commands.
         """
         law, aims = self.law, self.law.aims
         self.sensed = self.plant.sense()
         self._believe()
-        for limb in np.flatnonzero(aims.does == HOLDS):
+        for limb in np.flatnonzero(aims.does == HOLDS).tolist():
             aims.wrench[limb, :3] = aims.frame[limb] @ self.loads[limb, :3]
             aims.wrench[limb, 3:] = aims.frame[limb] @ self.loads[limb, 3:]
         torques = law.tick()
         if self._pressed >= 0:  # what the tip misses of its aim, as a spring would press: its own inertia is too little
             limb, normal, stiffness = self._pressed, self._normal, self.pace.pressing
-            deep = stiffness * max(0.0, float((law.dynamics.tip[limb] - aims.tip[limb]) @ normal))
-            torques -= deep * (normal @ law.dynamics.jacobian[limb, :3, FREE:])
+            force = self._push + stiffness * max(0.0, float((law.dynamics.tip[limb] - aims.tip[limb]) @ normal))
+            torques -= force * (normal @ law.dynamics.jacobian[limb, :3, FREE:])
             np.clip(torques, -law.limits.torque, law.limits.torque, out=torques)
         self.plant.actuate(torques)
         self.plant.step()
@@ -166,6 +189,25 @@ class LimbedBody:
         off = float(np.linalg.norm(aims.position - law.state.position))
         if off > self.pace.lost:
             raise FallenError(f"the body is {1e3 * off:.0f} mm from where it is to be")
+        self._feel_holds()
+
+    def _feel_holds(self) -> None:
+        """Notice what has come off."""
+        for limb, hold in enumerate(self.holds.tolist()):
+            if hold < 0 or not self.attaches(limb) or self.sensed.closed[limb]:
+                self._open[limb] = 0
+                continue
+            self._open[limb] += 1
+            if self._open[limb] == OPEN:
+                self._open[limb] = 0
+                self.let_go(limb)
+                raise LostHoldError(limb, hold)
+
+    def stop(self) -> None:
+        """From now on the body is to stay where it is."""
+        aims, state = self.law.aims, self.law.state
+        aims.position[:], aims.rotation[:] = state.position, state.rotation
+        aims.velocity[:] = aims.acceleration[:] = 0.0
 
     def _believe(self) -> None:
         self.belief.update(self.sensed, np.where(self.law.aims.does == HOLDS, self.holds, -1), self.law.state)

@@ -1,6 +1,12 @@
-"""Motions of a robot in space: the body over its holds, and a limb from hold to hold."""
+"""Motions of a robot in space: the body over its holds, and a limb from hold to hold, which is one behaviour for every end effector.
+
+A limb unloads, lets go, retracts along the normal and swings; it approaches its hold, feels on along the inward normal, and closes or
+presses; it searches beside where there is nothing; and its load is passed to it while the body stays where the others alone hold it, so
+that what comes off under this load test has only to be taken again.
+"""
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final
 
@@ -8,13 +14,19 @@ import numpy as np
 
 from ....types import Floats
 from .course import BodyMotion, Regrab
-from .limbed_body import LimbedBody
+from .limbed_body import LimbedBody, LostHoldError
 from .references import PEAK_SPEED, BodyPath, TipPath, quintic, rotation_vector, seconds_for, swing_seconds
 
 SPEED: Final = 0.7
 """Of a joint's largest speed that motions may ask for [-]."""
 SETTLING: Final = 0.1
 """After a motion [s]."""
+PRESSED: Final = 1.5
+"""Force on something that is to be closed about, of that by which it is noticed [-]."""
+LOW: Final = 0.8
+"""Share of a swing after which a tip may touch [-]."""
+AROUND: Final = math.radians(137.5)
+"""From one of them to the next, about the normal: the golden angle, which leaves no side out [rad]."""
 
 
 @dataclass(slots=True)
@@ -36,32 +48,29 @@ def rest(body: LimbedBody, seconds: float) -> None:
         body.tick()
 
 
-def share_loads(body: LimbedBody, loads: Floats, seconds: float, limb: int = -1, *, fading: bool = False) -> None:
-    """Let the contacts' loads become others, in some time; a limb that is `fading` bears less and less, otherwise ever more."""
+def share_loads(body: LimbedBody, loads: Floats, limb: int, *, fading: bool) -> None:
+    """Let the contacts' loads become others; the limb that is `fading` bears less and less, otherwise ever more."""
     aims = body.law.aims
     aims.velocity[:] = aims.acceleration[:] = 0.0
     before = body.loads.copy()
     most = float(np.abs(before if fading else loads).max()) + body.pace.weight
-    count = max(1, round(seconds / body.plant.period))
+    count = max(1, round(body.pace.shift / body.plant.period))
     for k in range(1, count + 1):
         share = quintic(k / count)[0]
         body.loads[:] = before + share * (loads - before)
-        if limb >= 0:
-            left = (1.0 - share) if fading else share
-            aims.cap[limb] = max(left, 1e-3) * most
+        aims.cap[limb] = max(1.0 - share if fading else share, 1e-3) * most
         body.tick()
-    if limb >= 0 and not fading:
+    if not fading:
         aims.cap[limb] = math.inf
 
 
 def move_body(body: LimbedBody, motion: BodyMotion) -> None:
-    """The body from its first stance to its last, loads passing from the one's to the other's."""
-    start, end = motion.way[0], motion.way[-1]
-    aims, pace, law = body.law.aims, body.pace, body.law
+    """The body to the motion's last stance from where it is, loads passing to those of that."""
+    end, aims, pace = motion.way[-1], body.law.aims, body.pace
     way = float(np.linalg.norm(end.pose.position - aims.position))
     turned = float(np.linalg.norm(rotation_vector(end.pose.rotation @ aims.rotation.T)))
     seconds = seconds_for(max(way, turned * pace.size), pace.body)
-    quick = float(np.max(np.abs(end.joints - start.joints) / law.limits.speed, initial=0.0))
+    quick = float(np.max(np.abs(end.joints - aims.posture) / body.law.limits.speed, initial=0.0))
     seconds = max(seconds, PEAK_SPEED * quick / SPEED, 4.0 * body.plant.period)
     path = BodyPath.between(aims.position, aims.rotation, end.pose.position, end.pose.rotation, seconds)
     before, posture = body.loads.copy(), aims.posture.copy()
@@ -76,63 +85,112 @@ def move_body(body: LimbedBody, motion: BodyMotion) -> None:
 
 
 def regrab(body: LimbedBody, motion: Regrab) -> Landing:
-    """A limb lets go of its hold, swings, and takes another."""
-    pace, _world, limb = body.pace, body.world, motion.limb
-    old = int(body.holds[limb])
-    share_loads(body, motion.loads, pace.shift, limb, fading=True)
-    body.plant.grip(limb, False)
-    body.let_go(limb)
-    path = _path(body, limb, old, motion)
-    _swing(body, motion, path)
-    found = _approach(body, motion, path)
-    off = float(np.linalg.norm(body.tips[limb] - path.end))
-    if not found:
-        return Landing(False, off, reason=f"nothing to hold on to within {1e3 * pace.depth:.0f} mm")
-    body.hold_on(limb, motion.hold)
-    share_loads(body, motion.after.loads, pace.shift, limb)
-    return Landing(True, off)
+    """A limb lets go of its hold, if it has one, swings, and takes another."""
+    limb = motion.limb
+    if body.holds[limb] >= 0:
+        share_loads(body, motion.loads, limb, fading=True)
+        body.plant.grip(limb, False)
+        body.let_go(limb)
+    normals = body.world.normals[[int(motion.before.holds[limb]), motion.hold]]
+    return take(body, limb, motion.hold, normals, motion.after.loads, motion.after.joints)
 
 
-def _path(body: LimbedBody, limb: int, old: int, motion: Regrab) -> TipPath:
-    """From where the tip is to the hold."""
-    world, pace = body.world, body.pace
-    start, end = body.tips[limb].copy(), world.places[motion.hold]
-    lift = body.lift
-    seconds = swing_seconds(float(np.linalg.norm(end - start)), lift, pace.swing)
-    mine = slice(*body.joints_of(limb))
-    moved = np.abs(motion.after.joints - motion.before.joints)[mine] / body.law.limits.speed[mine]
-    seconds = max(seconds, PEAK_SPEED * float(moved.max()) / SPEED / 0.7)
-    return TipPath(start, end, world.normals[[old, motion.hold]], lift, seconds)
+def retake(body: LimbedBody, lost: LostHoldError, loads: Floats) -> Landing:
+    """A limb that has come off takes its hold again, while the body stays where it is.
+
+    Args:
+        body: The robot.
+        lost: What has come off.
+        loads: Of the contacts once it holds on again, world frame, shape (limbs, 6).
+    """
+    body.stop()
+    body.plant.grip(lost.limb, False)
+    normals = body.world.normals[[lost.hold, lost.hold]]
+    return take(body, lost.limb, lost.hold, normals, loads, body.law.aims.posture.copy())
 
 
-def _swing(body: LimbedBody, motion: Regrab, path: TipPath) -> None:
-    """Along the path, to its end or to where a foot that comes down touches."""
-    limb, aims = motion.limb, body.law.aims
-    posture = aims.posture.copy()
+def take(body: LimbedBody, limb: int, hold: int, normals: Floats, loads: Floats, posture: Floats) -> Landing:
+    """A limb in the air takes a hold.
+
+    Args:
+        body: The robot.
+        limb: Which.
+        hold: Index of the hold.
+        normals: Of the surface that its tip is at, and of the hold, shape (2, 3).
+        loads: Of the contacts once it holds on, world frame, shape (limbs, 6).
+        posture: That the joints lean to then, shape (n,).
+    """
+    place = body.belief.places[hold].copy()
+    reason = f"nothing to hold on to within {1e3 * body.pace.depth:.0f} mm"
+    for tries, beside in enumerate(_beside(body, normals[1]), start=1):
+        end = place + beside
+        seconds = swing_seconds(float(np.linalg.norm(end - body.tips[limb])), body.lift, body.pace.swing)
+        mine = slice(*body.joints_of(limb))
+        moved = np.abs(posture - body.law.aims.posture)[mine] / body.law.limits.speed[mine]
+        seconds = max(seconds, PEAK_SPEED * float(moved.max()) / SPEED)
+        path = TipPath(body.tips[limb].copy(), end, normals, body.lift, seconds)
+        _swing(body, limb, path, posture)
+        if _approach(body, limb, path):
+            body.hold_on(limb, hold)
+            off = float(np.linalg.norm(body.tips[limb] - place))
+            try:
+                share_loads(body, loads, limb, fading=False)
+                return Landing(True, off, tries)
+            except LostHoldError as lost:
+                if lost.limb != limb:
+                    raise
+                reason = "it came off when it was loaded"
+        body.plant.grip(limb, False)
+        body.let_go(limb)
+        normals = np.stack((normals[1], normals[1]))
+    return Landing(False, float(np.linalg.norm(body.tips[limb] - place)), body.pace.tries, reason)
+
+
+def _beside(body: LimbedBody, normal: Floats) -> Iterator[Floats]:
+    """Ways from a hold to where it is felt for, on a spiral across the normal [m], shape (3,) each."""
+    across = np.linalg.svd(normal[None])[2][1:]
+    for k in range(body.pace.tries):
+        out = body.pace.beside * math.sqrt(max(0, k - 1)) if k > 1 else 0.0  # the second try is where the first was
+        yield out * (math.cos(k * AROUND) * across[0] + math.sin(k * AROUND) * across[1])
+
+
+def _swing(body: LimbedBody, limb: int, path: TipPath, posture: Floats) -> None:
+    """Along the path, to its end or to where what comes down touches."""
+    aims = body.law.aims
+    before = aims.posture.copy()
     pointed = bool(body.robot.contacts[limb].aligned)
     count = math.ceil(path.seconds / body.plant.period)
     for k in range(1, count + 1):
         time = k * body.plant.period
         body.swing(limb, path.at(time), path.points(time) if pointed else None)
-        aims.posture[:] = posture + quintic(k / count)[0] * (motion.after.joints - posture)
+        aims.posture[:] = before + quintic(k / count)[0] * (posture - before)
         body.tick()
-        if k > 0.8 * count and not body.attaches(limb) and touches(body, limb):
+        if k > LOW * count and presses(body, limb):
             return
 
 
-def _approach(body: LimbedBody, motion: Regrab, path: TipPath) -> bool:
-    """Feel on along the inward normal until the limb has its hold; whether it has."""
-    limb, pace = motion.limb, body.pace
-    inward = -path.normals[1]
+def _approach(body: LimbedBody, limb: int, path: TipPath) -> bool:
+    """Feel on along the inward normal until the limb has its hold; whether it has, before it only presses on something."""
+    pace, inward = body.pace, -path.normals[1]
     speed = pace.approach * inward
-    body.press(limb, path.normals[1])
+    pointed = inward if body.robot.contacts[limb].aligned else None
     if body.attaches(limb):
         body.plant.grip(limb, True)
-    for k in range(1, math.ceil(pace.depth / pace.approach / body.plant.period) + 1):
+    body.press(limb, path.normals[1])
+    deep, closing, met = 0.0, round(pace.shift / body.plant.period), False
+    eager = 0.0
+    while deep < pace.depth and closing > 0:
         if touches(body, limb):
             return True
-        deep = k * body.plant.period * speed
-        body.swing(limb, (path.end + deep, speed, np.zeros(3)), inward if body.robot.contacts[limb].aligned else None)
+        met = met or presses(body, limb)
+        if met:  # on something: pressed on by a force alone, it has a while to close about it
+            closing -= 1
+            body.press(limb, path.normals[1], PRESSED * pace.firm)
+            body.swing(limb, (body.tips[limb].copy(), np.zeros(3), np.zeros(3)), pointed)
+        else:
+            eager = min(1.0, eager + body.plant.period / pace.shift)  # at once would be a knock
+            deep += eager * body.plant.period * pace.approach
+            body.swing(limb, (path.end + deep * inward, eager * speed, np.zeros(3)), pointed)
         body.tick()
     body.press(-1, inward)
     return False
@@ -140,6 +198,10 @@ def _approach(body: LimbedBody, motion: Regrab, path: TipPath) -> bool:
 
 def touches(body: LimbedBody, limb: int) -> bool:
     """Whether a limb's end effector is attached, or what only pushes is pushed against."""
-    if body.attaches(limb):
-        return bool(body.sensed.closed[limb])
-    return float(np.linalg.norm(body.sensed.wrenches[limb, :3])) > body.pace.touch
+    return bool(body.sensed.closed[limb]) if body.attaches(limb) else presses(body, limb)
+
+
+def presses(body: LimbedBody, limb: int) -> bool:
+    """Whether a limb's tip is on something: a foot at once, another end effector when it is pressed on."""
+    least = body.pace.firm if body.attaches(limb) else body.pace.touch
+    return float(np.linalg.norm(body.sensed.wrenches[limb, :3])) > least

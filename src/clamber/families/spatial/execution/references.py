@@ -128,3 +128,11 @@ def rotation_vector(rotation: Floats) -> Floats:
         return half
     made: Floats = math.atan2(sine, cosine) / sine * skew
     return made
+
+
+def quaternion_of(rotation: Floats) -> Floats:
+    """Unit quaternion w, x, y, z of a rotation, w not negative, shape (4,)."""
+    vector = rotation_vector(rotation)
+    angle = float(np.linalg.norm(vector))
+    share = math.sin(0.5 * angle) / angle if angle > 1e-9 else 0.5
+    return np.array((math.cos(0.5 * angle), *(share * vector)))

@@ -25,6 +25,12 @@ class Pace:
     """In which load passes from one set of limbs to another [s]."""
     touch: float
     """A foot that feels such a force stands [N]."""
+    firm: float
+    """An end effector that presses so hard and does not attach has no hold there [N]."""
+    beside: float
+    """From a hold to the next place where it is felt for [m]."""
+    tries: int
+    """Places that are felt for a hold."""
     pressing: float
     """Force of a tip that feels for its hold per way that it misses [N/m]."""
     approach: float
@@ -36,23 +42,26 @@ class Pace:
 
     @classmethod
     def of(cls, robot: SpatialRobot) -> Self:
-        """Of a robot: as quick as its motors can bear, never quicker than what falls."""
+        """Of a robot, as its file has it (`robot.handling`)."""
         chains = robot.chains
         limbs = len(chains.limb_names)
         size = max(stretched(chains, limb) for limb in range(limbs))
         mass = chains.total_mass
         strong = sum(float(chains.torque[limb, : chains.n_joints[limb]].max()) for limb in range(limbs))
         agile = min(GRAVITY, strong / (mass * size))
-        swing = 0.2 * agile
+        weight, how = mass * GRAVITY, robot.spec.handling
         return cls(
             size=size,
-            weight=mass * GRAVITY,
-            body=0.05 * agile,
-            swing=swing,
-            shift=0.5 * math.sqrt(size / agile),
-            touch=0.02 * mass * GRAVITY,
-            pressing=0.1 * mass * GRAVITY / (0.1 * size),
-            approach=0.1 * math.sqrt(size * agile) * 0.3,
-            depth=0.1 * size,
-            lost=0.3 * size,
+            weight=weight,
+            body=how.body * agile,
+            swing=how.swing * agile,
+            shift=how.shift * math.sqrt(size / agile),
+            touch=how.touch * weight,
+            firm=how.firm * weight,
+            beside=how.beside * size,
+            tries=how.tries,
+            pressing=how.press * weight / (how.depth * size),
+            approach=how.approach * math.sqrt(size * agile),
+            depth=how.depth * size,
+            lost=how.lost * size,
         )

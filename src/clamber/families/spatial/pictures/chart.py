@@ -5,6 +5,7 @@ from typing import Final
 from matplotlib.axes import Axes
 from matplotlib.patches import Polygon
 
+from ....tasks.regions import GoalBox
 from ....types import Floats
 from ....viewing import style
 from ....viewing.pictures import Chart
@@ -30,9 +31,12 @@ def draw_chart(axes: Axes, task: SpatialTask, bounds: Bounds) -> None:
     axes.tick_params(labelsize=7, colors=style.QUIET, length=2.5)
     for spine in axes.spines.values():
         spine.set_color(style.FAINT)
-    axes.plot([0.0, GRAIN * (len(task.world.frames) - 1)], [0.0, 0.0], color=style.QUIET, lw=0.9, ls=(0, (5, 4)), zorder=1.5)
+    axes.plot(
+        [0.0, GRAIN * (len(task.world.frames) - 1)], [0.0, 0.0], color=style.QUIET, lw=0.9, ls=(0, (5, 4)), zorder=1.5
+    )
     for k, goal in enumerate(task.goals):
-        corners = goal_box(goal, bounds)
+        along_min, along_max, across_min, across_max = goal.box
+        corners = goal_box(GoalBox(x_min=along_min, x_max=along_max, y_min=across_min, y_max=across_max), bounds)
         if corners is None:
             continue
         last = k == len(task.goals) - 1

@@ -178,7 +178,9 @@ class HoldDraft:
             away = float(terrain_distance(solids, *map(float, at)))
             if away < NEAR:
                 nudge = 1e-3 * np.eye(3)
-                slopes = [terrain_distance(solids, *(at + side)) - terrain_distance(solids, *(at - side)) for side in nudge]
+                slopes = [
+                    terrain_distance(solids, *(at + side)) - terrain_distance(solids, *(at - side)) for side in nudge
+                ]
                 normal = np.array(slopes)
                 return (at, unit(normal)) if float(np.linalg.norm(normal)) > 1e-9 else None
             far += max(away, NEAR)

@@ -1,8 +1,8 @@
-"""The part of the viewer's panel that edits holds in space: picked, added and removed by clicks, moved and turned by a handle or numbers."""
+"""The part of the viewer's panel that edits holds in space: by clicks, by a handle that moves and turns them, or by numbers."""
 
 import threading
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
@@ -151,7 +151,7 @@ class HoldPanel:
         if event.phase == "end":
             self.apply()
 
-    def _clicked(self, event: "viser.SceneClickEvent[Any]") -> None:
+    def _clicked(self, event: "viser.SceneClickEvent") -> None:
         if not self._editing.value:
             return
         eye, towards = np.array(event.ray_origin), np.array(event.ray_direction)

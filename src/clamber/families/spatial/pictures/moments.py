@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from ....types import Floats, Records
-from ....viewing.film import Part
+from ....viewing.recording import Part
 from ..planning.plans import poses_of
 from ..planning.task import SpatialTask
 from .geometry import (

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ....planning.problem.problem import Replay
-from ....planning.problem.problems import yardsticks_of
+from ....planning.problem.problems import normalisation_of
 from ....types import Floats
 from ....viewing import style
 from ....viewing.pictures import Pictures
@@ -23,6 +23,7 @@ from .camera import Camera, camera_for
 from .chart import CHART
 from .moments import Moment, settled_moments
 from .robot_artists import RobotArtists, limb_colour, mixed
+from .run_view import RunPicture, RunView
 from .spatial_view import SpatialView, describe_pose, stance_bounds
 from .world_artists import discs, draw_world, hold_radii
 
@@ -93,7 +94,7 @@ def _write_panel(layout: Layout, panel: Axes, task: SpatialTask, replay: Replay,
         ("End", describe_pose(task, moments[-1].pose).split(", yaw")[0]),
     )
     height = layout.panel[1]
-    write_facts(panel, replay, yardsticks_of(task), facts, height)
+    write_facts(panel, replay, normalisation_of(task), facts, height)
     names = task.robot.chains.limb_names
     for limb, name in enumerate(names):
         x, y = 0.05 + 0.9 * (limb % 4), height - FACTS - 0.1 - 0.16 * (limb // 4)
@@ -120,6 +121,7 @@ def pictures_from(asked: str | None) -> Pictures:
         lambda task, replay: draw_route(task, replay, camera_for(task, asked)),
         lambda task: world_points(task, camera_for(task, asked)),
         lambda axes, task, bounds: draw_bare_world(axes, task, bounds, camera_for(task, asked)),
+        run=lambda run: RunPicture(RunView(run.task, run.trace, camera_for(run.task, asked))),
         robot_alone=robot_alone,
         world_alone=world_alone,
         chart=CHART,

@@ -2,24 +2,31 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from ....viewing.browser.exhibit import Editor, Scenes
+from ....execution.log import Log, LogError
+from ....execution.sample_log import report_of, told_of
+from ....tasks.library import task_names
 from ....viewing.browser.solids import FOV, NARROW, Camera, Scenery
+from ....viewing.browser.viewer_content import Editor, Scenes, ViewerContent
 from ....viewing.scene import Bounds
+from ..execution.carrying_report import LoggedRun
+from ..execution.run_trace import NAMES, Named, RunTrace
 from ..planning.task import SpatialTask
+from ..trials.run_plan import SpatialRun
 from .camera import camera_for
 from .hold_editor import HoldPanel
+from .run_view import RunView
 from .space import SpatialFigure, WorldScene
 from .spatial_view import way_places
 
 if TYPE_CHECKING:
     import viser
 
-    from ....viewing.browser.stage import Stage
+    from ....viewing.browser.scene_view import SceneView
 
 ROOM: Final = 1.08
 """Around what is shown [-]."""
@@ -60,7 +67,7 @@ class SpatialScenes(Scenes):
         return SpatialScenery(bounds, task)
 
     def editor(
-        self, server: "viser.ViserServer", task: SpatialTask, stage: "Stage", changed: Callable[[Any], None]
+        self, server: "viser.ViserServer", task: SpatialTask, stage: "SceneView", changed: Callable[[Any], None]
     ) -> Editor:
         """See `Scenes`."""
 
@@ -69,6 +76,32 @@ class SpatialScenes(Scenes):
             return stage.world
 
         return HoldPanel(server, task, world, changed)
+
+    def run_film(self, exhibit: ViewerContent, run: SpatialRun) -> RunView:
+        """See `Scenes`."""
+        return RunView(run.task, run.trace, camera_for(run.task, None))
+
+    def with_log(self, exhibit: ViewerContent, log: Log) -> ViewerContent:
+        """See `Scenes`."""
+        trace = RunTrace.from_log(log)
+        told_of(trace.report, LoggedRun, log.label)
+        task: SpatialTask = exhibit.task
+        if trace.named != Named.of(task.robot.chains):
+            raise LogError(log.label, None, None, None, f"is of another robot than {task.robot.name}")
+        return replace(exhibit, run_film=RunView(task, trace, camera_for(task, None)))
+
+    def made_with(self, log: Log) -> str | None:
+        """See `Scenes`."""
+        if NAMES not in log.notes:
+            return None
+        made = (report_of(log) or {}).get("task")
+        return made if made in task_names() else ""
+
+    def outcome(self, run: SpatialRun) -> str:
+        """See `Scenes`."""
+        if not run.done:
+            return f"not carried out: {run.reason}"
+        return f"carried out in {run.report.seconds:.0f} s, {run.wall_seconds:.1f} s to compute"
 
 
 SCENES: Final = SpatialScenes()

@@ -10,9 +10,9 @@ import numpy as np
 
 from ....types import Floats
 from ..planning.surface import on_guide
+from ..world.fields import DistanceField
 from ..world.guide import GRAIN
 from ..world.patterns import frame_at
-from ..world.fields import DistanceField
 from ..world.solids import BAR, BOX, CYLINDER, FIELD, PLANE, TUBE
 from ..world.terrain import face_normals
 from ..world.world import World

@@ -10,9 +10,9 @@ from typing import Any, Final
 
 import numpy as np
 
-from ....planning.openings.find import Opening, Places
-from ....planning.openings.trial import Answer, Trial
-from ....planning.problem.problems import plan_family, pose_problem, yardsticks_of
+from ....planning.infeasibility.find import FeasibleRelaxation, Places
+from ....planning.infeasibility.trial import Answer, Trial
+from ....planning.problem.problems import normalisation_of, plan_family, pose_problem
 from ....planning.reach.exploration import explore_breadth_first
 from ....toml_text import toml_value
 from ....types import Floats
@@ -48,7 +48,7 @@ def find_places(
     lattice = plan_family(task).lattice(task, problem)
     seen = explore_breadth_first(
         problem,
-        yardsticks_of(task),
+        normalisation_of(task),
         lattice,
         holds=len(task.world.holds),
         threads=threads,
@@ -109,8 +109,8 @@ def _override(task: SpatialTask, site: Site) -> str:
     return f"world.patterns={toml_value([*task.document['world'].get('patterns', []), hold])}"
 
 
-def _opening(task: SpatialTask, site: Site, answer: Answer) -> Opening:
-    return Opening(
+def _opening(task: SpatialTask, site: Site, answer: Answer) -> FeasibleRelaxation:
+    return FeasibleRelaxation(
         key="world.patterns",
         before=None,
         after=f"a hold at along {site[0]:.4g} m, across {site[1]:.4g} m, height {site[2]:.3g} m",

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ....errors import SpecError
-from ....planning.problem.arrays import ActionTable, Params, WayFields
+from ....planning.problem.arrays import ActionTable, CostToGoMap, Params
 from ....planning.problem.code_limits import CodeLimits
 from ....planning.problem.codes import HOLD, MOVE, NEAREST, NONE, Code, pack
 from ....planning.problem.problem import Beam, CompiledProblem, Records
@@ -106,7 +106,7 @@ class SpatialProblem(CompiledProblem):
         near = np.linalg.norm(places[None] - some[:, None], axis=2) < 0.5 * reach
         return poses * max(1.0, float(np.median(near.sum(axis=1)))) ** limbs
 
-    def ways(self) -> WayFields:
+    def ways(self) -> CostToGoMap:
         """Steps along and across to each goal, straight."""
         task, step = self.task, self.task.step
         goals: Any = self.params.array("goals")
@@ -121,7 +121,7 @@ class SpatialProblem(CompiledProblem):
         after = np.zeros(len(goals))
         for k in range(len(goals) - 2, -1, -1):
             after[k] = (goals["way"][-1] - goals["way"][k]) / (step.far * step.length)
-        return WayFields(np.array((u[0], v[0], step.length)), fields, at_holds / (step.far * step.length), after)
+        return CostToGoMap(np.array((u[0], v[0], step.length)), fields, at_holds / (step.far * step.length), after)
 
     def resolve(self, codes: npt.NDArray[np.int32], stances: Records) -> npt.NDArray[np.int32]:
         """Codes that name the hold which each choice of the nearest came to."""

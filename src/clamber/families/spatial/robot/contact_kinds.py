@@ -24,7 +24,7 @@ from .contacts import Contact, Strength, at_most, cone, hook_rows, moments, pad,
 SCHEMA: Final = "clamber-contact-1"
 DATA: Final = Path(__file__).parent.parent / "data" / "contacts"
 CAPTURE: Final = 0.01
-"""How far from a hold end effectors attach whose files do not say it, chosen: spines, jaws and lips of this size reach so far [m]."""
+"""How far beside a hold end effectors attach whose files do not say it, chosen: spines, jaws and lips of this size reach so far [m]."""
 Title = Annotated[str, Field(max_length=200)]
 
 
@@ -92,7 +92,7 @@ class Gripper:
     pull: PositiveForce
     """Pull-off force along the normal [N]."""
     capture: PositiveLength = CAPTURE
-    """It attaches to a hold's patch that is no farther from its tip [m]."""
+    """It attaches beside a hold's patch by no more than this [m]."""
 
     def contact(self) -> Contact:
         """What it can take: a friction cone whose apex lies at the pull-off force."""
@@ -123,7 +123,7 @@ class Clamp:
     tilt: ConeAngle
     """Largest angle off the normal at which it closes [rad]."""
     capture: PositiveLength = CAPTURE
-    """It attaches to a hold's patch that is no farther from its tip [m]."""
+    """It attaches beside a hold's patch by no more than this [m]."""
 
     def contact(self) -> Contact:
         """What it can take: forces and moments apart from each other."""
@@ -169,7 +169,7 @@ class Hook:
     tilt: ConeAngle
     """Largest angle of the end effector's z from the inward normal at which it hangs safely [rad]."""
     capture: PositiveLength = CAPTURE
-    """It attaches to a hold's patch that is no farther from its tip [m]."""
+    """It attaches beside a hold's patch by no more than this [m]."""
 
     def contact(self) -> Contact:
         """What it can take."""
@@ -214,7 +214,7 @@ class Magnet:
     ankle: bool = False
     """Whether a passive joint lets the face lie flat."""
     capture: PositiveLength = CAPTURE
-    """It attaches to a hold's patch that is no farther from its tip [m]."""
+    """It attaches beside a hold's patch by no more than this [m]."""
 
     def contact(self) -> Contact:
         """What it can take."""
@@ -254,7 +254,7 @@ class Suction:
     ankle: bool = False
     """Whether a passive joint lets the lip lie flat."""
     capture: PositiveLength = CAPTURE
-    """It attaches to a hold's patch that is no farther from its tip [m]."""
+    """It attaches beside a hold's patch by no more than this [m]."""
 
     def contact(self) -> Contact:
         """What it can take."""
@@ -286,7 +286,7 @@ class Spine:
     tilt: ConeAngle
     """Largest angle of the end effector's z from the inward normal [rad]."""
     capture: PositiveLength = CAPTURE
-    """It attaches to a hold's patch that is no farther from its tip [m]."""
+    """It attaches beside a hold's patch by no more than this [m]."""
 
     def contact(self) -> Contact:
         """What it can take."""

@@ -94,7 +94,7 @@ class Strength:
     moments: bool = False
     """Whether it holds its direction, too."""
     capture: float = 0.0
-    """It attaches to a hold's patch that is no farther from its tip [m]; 0: it only pushes."""
+    """It attaches beside a hold's patch by no more than this [m]; 0: it only pushes."""
     tilt: float = math.inf
     """Largest angle of its z from the inward normal at which it attaches [rad]."""
     tilt_loss: float = 0.0

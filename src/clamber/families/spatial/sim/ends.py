@@ -17,6 +17,8 @@ from .spatial_model import THICK, TIP, held_name, patch_name, quaternion, tip_na
 
 GIVING_WAY: Final = 0.02
 """An end effector comes off after that long above its strength; shorter knocks, as when it lands, break nothing [s]."""
+CLOSE: Final = 0.25
+"""An end effector attaches from this part of its capture distance out of the surface, or into it [-]."""
 TOUCH: Final = 0.0002
 """Forces below this part of the strength of a hook or of spines, which nothing pulls on, neither slip nor leave [-]."""
 FAR: Final = 1e3
@@ -26,9 +28,10 @@ FAR: Final = 1e3
 class Ends:
     """End effectors and the holds beneath them.
 
-    An end effector that is told to attach does so as soon as the patch of a hold is within its capture distance and it points into that
-    hold within its tilt. It is then held where it is, with its direction if it bears moments. It comes off when the wrench on it has been
-    outside its exact body (`contacts.Strength`) for `GIVING_WAY`; a hold that was weaker than the end effector is then gone for good.
+    An end effector that is told to attach does so as soon as it is on the patch of a hold, or beside it within its capture distance, and
+    points into that hold within its tilt. It is then held where it is, with its direction if it bears moments. It comes off when the
+    wrench on it has been outside its exact body (`contacts.Strength`) for `GIVING_WAY`; a hold that was weaker than the end effector is
+    then gone for good.
 
     Args:
         robot: Whose they are.
@@ -151,8 +154,13 @@ class Ends:
                 self._come_off(limb, time)
 
     def _catches(self, limb: int, hold: int) -> bool:
-        near = hold >= 0 and self._gaps[limb] <= self._capture[limb]
-        return bool(near and self._tilt(limb, hold) <= self._strengths[limb].tilt)
+        if hold < 0 or self._gaps[limb] > 2.0 * self._capture[limb]:
+            return False
+        capture, off = self._capture[limb], self._site_places[self._sites[limb]] - self._places[hold]
+        out = float(off @ self._normals[hold])
+        aside = math.sqrt(max(0.0, float(off @ off) - out * out)) - self._own_radii[hold]
+        near = abs(out) <= CLOSE * capture and aside <= capture
+        return near and self._tilt(limb, hold) <= self._strengths[limb].tilt
 
     def _tilt(self, limb: int, hold: int) -> float:
         inward = -float(self._site_axes[self._sites[limb]].reshape(3, 3)[:, 2] @ self._normals[hold])

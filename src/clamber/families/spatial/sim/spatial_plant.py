@@ -62,7 +62,9 @@ class SpatialSim:
         self._qpos, self._qvel, self._ctrl = data.qpos, data.qvel, data.ctrl
         self._at = np.array([joint.qposadr[0] for joint in joints])
         self._speed_at = np.array([joint.dofadr[0] for joint in joints])
-        motors = Motors.of(robot)
+        self.motors: Final = Motors.of(robot)
+        """As the robot's files have them."""
+        motors = self.motors
         sliding = motors.sliding
         self._played = np.flatnonzero(~sliding) if flaws.backlash > 0.0 else np.zeros(0, np.intp)
         plays = [model.joint(play_name(names[k])) for k in self._played]
@@ -77,7 +79,8 @@ class SpatialSim:
         self._names = names
         self._ring, self._before = np.zeros((flaws.late + 1, 1, 2, n)), np.zeros((1, n))
         self._wanted, self._given, self._also = np.zeros((1, n)), np.zeros((1, n)), np.zeros((1, n))
-        self._sensed = SpatialSensed.of(chains)
+        self.sensed: Final = SpatialSensed.of(chains)
+        """What the sensors said last."""
         self.ends: Final = Ends(robot, world, true.deviations, flaws, model, data)
         self._imu = Imu(flaws, data.sensordata[:6])
         spread = flaws.force_noise * robot.chains.total_mass * GRAVITY
@@ -137,7 +140,7 @@ class SpatialSim:
 
     def sense(self) -> SpatialSensed:
         """Read the sensors, once a tick."""
-        sensed = self._sensed
+        sensed = self.sensed
         angles, speeds = self._qpos[None, self._at], self._qvel[None, self._speed_at]
         read_encoders(
             angles, speeds, self._counts, self.period, self.tick, self._ring, self._before, sensed.joints[None]

@@ -3,19 +3,20 @@
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Annotated
 
-from ....execution.log_stream import LogGap
+from ....execution.log_stream import LogGap, WantedLog, growing_log
 from ....execution.plant import HoldBreak
 from ....execution.sequencer import Sequencer
 from ....json_form import HIDDEN, INLINE, Jsonable, Key
 from ....planning.problem.plan import Plan
 from ..control.believed_tree import believed_tree
-from ..execution.carrying import Carrying
+from ..execution.carrying import Carrying, Replan
 from ..execution.carrying_report import CarryingReport
 from ..execution.course import Course
 from ..execution.estimated_base import EstimatedBase
-from ..execution.limbed_body import LimbedBody
+from ..execution.run_trace import TOPIC, RunTrace, TracedBody
 from ..execution.settings import Pace
 from ..planning.task import SpatialTask
 from ..sim.spatial_flaws import Deviations, SpatialFlaws
@@ -29,6 +30,8 @@ class SpatialRun(Jsonable):
     task: Annotated[SpatialTask, Key(get=lambda task: task.name, kind=str)]
     plan: Annotated[Plan, HIDDEN]
     report: Annotated[CarryingReport, INLINE]
+    trace: Annotated[RunTrace, HIDDEN]
+    """What happened."""
     wall_seconds: float
     """That it took."""
     broken: tuple[HoldBreak, ...] = ()
@@ -39,11 +42,6 @@ class SpatialRun(Jsonable):
     def work(self) -> SpatialTask:
         """What was carried out."""
         return self.task
-
-    @property
-    def trace(self) -> None:
-        """None is kept."""
-        return None
 
     @property
     def done(self) -> bool:
@@ -63,6 +61,8 @@ def run_plan(
     flaws: SpatialFlaws | None = None,
     deviations: Deviations | None = None,
     progress: Callable[[int, int], None] | None = None,
+    log: Path | WantedLog | None = None,
+    replan: Replan | None = None,
     label: str = "plan",
 ) -> SpatialRun:
     """Carry a plan out.
@@ -73,6 +73,8 @@ def run_plan(
         flaws: Of the plant; None: it is ideal.
         deviations: How robot and world truly are; None: as believed.
         progress: Told before each motion: the action that it begins with, and how many there are.
+        log: An .mcap file that grows as the robot moves (`execution.log_stream`).
+        replan: Makes another plan for the rest of the task where a hold cannot be had; None: none is made.
         label: What errors call the plan.
 
     Raises:
@@ -90,7 +92,17 @@ def run_plan(
         late=sensors.late * plant.period,
         coarse=sensors.encoder_step > 0.0,
     )
-    body = LimbedBody(task.robot, task.world, plant, belief, Pace.of(task.robot), task.rules.lift)
-    report = Sequencer(Carrying(body, course), progress=progress).run()
-    seconds = time.perf_counter() - began
-    return SpatialRun(task=task, plan=plan, report=report, wall_seconds=seconds, broken=plant.truth().broken)
+    body = TracedBody(task.robot, task.world, plant, belief, Pace.of(task.robot), task.rules.lift)
+    with growing_log(log, body.samples, body.titles, body.named.notes(), TOPIC) as finish:
+        report = Sequencer(Carrying(body, task, course, replan), progress=progress).run()
+        notes = report.to_json() | {"task": task.name}
+        gap = finish(notes)
+    return SpatialRun(
+        task=task,
+        plan=plan,
+        report=report,
+        trace=body.trace(notes),
+        wall_seconds=time.perf_counter() - began,
+        broken=plant.truth().broken,
+        log_gap=gap,
+    )

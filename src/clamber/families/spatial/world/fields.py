@@ -8,16 +8,17 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from ....types import Floats, Ints
+from ....types import Floats
 from .solids import FIELD, SOLID
 from .terrain import Mesh, Terrain, face_normals, surface
+from .terrain_files import Long
 
 NODES: Final = 1_200_000
 """Of a grid, about: 5 MB."""
 FINEST: Final = 0.004
 """Least distance of two nodes [m]."""
 BAND: Final = 3.0
-"""Exact distances are worked out so many nodes about the surface; those farther away take the nearest of the places that their neighbours have [-]."""
+"""Exact distances are worked out so many nodes about the surface; farther nodes take the nearest place of a neighbour [-]."""
 ROOM: Final = 0.25
 """Of the grid about the terrain, over its largest extent [-]; farther away a distance is that of the grid's edge and on from there."""
 MOST_ROOM: Final = 0.5
@@ -84,7 +85,7 @@ def coarser(mesh: Mesh, most: int) -> Mesh:
     side = math.sqrt(4.0 * float(areas.sum()) / most / math.sqrt(3.0))
     while True:
         cells, of = np.unique(np.floor(vertices / side).astype(np.int64), axis=0, return_inverse=True)
-        of = of.reshape(-1)
+        of = of.reshape(-1).astype(np.int64)
         kept = _merged(faces, of)
         if len(kept) <= most:
             counts = np.bincount(of, minlength=len(cells)).astype(np.float64)
@@ -93,11 +94,11 @@ def coarser(mesh: Mesh, most: int) -> Mesh:
         side *= 1.25
 
 
-def _merged(faces: Ints, of: Ints) -> Ints:
+def _merged(faces: Long, of: Long) -> Long:
     """Triangles between merged vertices, each once."""
     renamed = of[faces]
     proper = (renamed[:, 0] != renamed[:, 1]) & (renamed[:, 1] != renamed[:, 2]) & (renamed[:, 2] != renamed[:, 0])
     renamed = renamed[proper]
     _, first = np.unique(np.sort(renamed, axis=1), axis=0, return_index=True)
-    found: Ints = renamed[np.sort(first)]
+    found: Long = renamed[np.sort(first)]
     return found

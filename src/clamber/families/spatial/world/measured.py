@@ -61,7 +61,9 @@ def guide_through(world: World, fit: Fit, label: str) -> list[Json]:
     room = min(ENDS * fit.reach, 0.5 * (1.0 - SHORT) * (high - low))
     middle = 0.5 * (own[:, 1].min() + own[:, 1].max())
     near = np.abs(own[:, 1] - middle) <= max(NEAR * fit.reach, np.partition(np.abs(own[:, 1] - middle), 2)[2])
-    slope, level = np.polyfit(own[near, 0], own[near, 2], 1) if np.ptp(own[near, 0]) > 1e-6 else (0.0, own[near, 2].mean())
+    slope, level = (
+        np.polyfit(own[near, 0], own[near, 2], 1) if np.ptp(own[near, 0]) > 1e-6 else (0.0, own[near, 2].mean())
+    )
     ends = np.array([(along, middle, level + slope * along) for along in (low + room, high - room)]) @ axes
     first = {"at": _place(ends[0]), "normal": [round(float(value), 6) + 0.0 for value in normal]}
     return [first, {"at": _place(ends[1])}]

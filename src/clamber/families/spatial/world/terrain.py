@@ -11,7 +11,7 @@ from pydantic import Field, StrictBool, StrictStr
 from ....files import Document
 from ....regular_files import user_path
 from ....specs import spec
-from ....types import Floats, Ints, Json
+from ....types import Floats, Json
 from ....units import (
     DEGREE,
     Length,
@@ -24,9 +24,9 @@ from ....units import (
 from .packed import Packed, pack
 from .patterns import Seed
 from .solids import Direction, frame_about, unit
-from .terrain_files import read_heights, read_mesh, read_points
+from .terrain_files import Long, read_heights, read_mesh, read_points
 
-Mesh = tuple[Floats, Ints]
+Mesh = tuple[Floats, Long]
 """Vertices [m], shape (n, 3), and triangles that turn anticlockwise seen from outside, shape (m, 3)."""
 STEEP: Final = 60.0 * DEGREE
 """Usual slope limit of height maps and clouds [rad]."""
@@ -131,7 +131,11 @@ def check_terrain(terrain: Terrain, key: str, document: Document) -> None:
     if not np.linalg.norm(np.cross(terrain.x, terrain.z)) > 0.0:
         raise document.problem(f"{key}.z", "must not be zero or lie along x")
     if (terrain.kind == "heights") == (terrain.size is None):
-        allowed = "must be given, of a height map" if terrain.size is None else "is of height maps; meshes and points have a scale"
+        allowed = (
+            "must be given, of a height map"
+            if terrain.size is None
+            else "is of height maps; meshes and points have a scale"
+        )
         raise document.problem(f"{key}.size", allowed)
     if not terrain.scale:
         raise document.problem(f"{key}.scale", "must not be 0")
@@ -243,7 +247,7 @@ def _on_points(terrain: Terrain, spacing: float) -> tuple[Floats, Floats]:
     return places[chosen], normals
 
 
-def thinned(places: Floats, spacing: float) -> Ints:
+def thinned(places: Floats, spacing: float) -> Long:
     """Indices of places, the first of them first, that are `spacing` or more from all chosen before."""
     from scipy.spatial import cKDTree
 
@@ -255,5 +259,3 @@ def thinned(places: Floats, spacing: float) -> Ints:
             chosen.append(index)
             free[tree.query_ball_point(places[index], spacing)] = False
     return np.array(chosen, np.int64)
-
-

@@ -7,13 +7,15 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
+import numpy.typing as npt
 
 from ....errors import FileError
 from ....files import csv_rows
 from ....regular_files import read_bytes
-from ....types import Floats, Ints
+from ....types import Floats
 from ....units import UNITS, split_title
 
+Long = npt.NDArray[np.int64]
 MOST_BYTES: Final = 64 * 1024 * 1024
 """Largest file that is read [bytes]: what is kept of one is far smaller, and reading takes ten times as much memory."""
 MOST_HEIGHTS: Final = 600 * 600
@@ -40,10 +42,14 @@ def read_heights(path: Path) -> Floats:
         raise FileError(str(path), "is no height map", f"names end in {', '.join(HEIGHTS)}")
     values = read(path)
     if values.ndim != 2 or min(values.shape) < 2:
-        raise FileError(str(path), f"has values of shape {values.shape}", "a height map has two rows and columns or more")
+        raise FileError(
+            str(path), f"has values of shape {values.shape}", "a height map has two rows and columns or more"
+        )
     if values.size > MOST_HEIGHTS:
         problem = f"has {values.shape[0]} x {values.shape[1]} values"
-        raise FileError(str(path), problem, f"at most {MOST_HEIGHTS} are kept, as plans have their worlds with them; resample it")
+        raise FileError(
+            str(path), problem, f"at most {MOST_HEIGHTS} are kept, as plans have their worlds with them; resample it"
+        )
     bad = np.argwhere(~np.isfinite(values))
     if len(bad):
         row, column = bad[0].tolist()
@@ -77,7 +83,9 @@ def _npy(path: Path) -> Floats:
         if not isinstance(values, np.ndarray) or values.dtype.kind not in "fiu":
             raise ValueError("it has no plain numbers")
     except (ValueError, OSError, EOFError, SyntaxError) as error:
-        raise FileError(str(path), f"is no array that can be read ({_line(error)})", "save numbers by numpy.save") from None
+        raise FileError(
+            str(path), f"is no array that can be read ({_line(error)})", "save numbers by numpy.save"
+        ) from None
     return values.astype(np.float64)
 
 
@@ -161,16 +169,20 @@ def _table(path: Path) -> tuple[Floats, float | None]:
     titles = [split_title(title) for title in header]
     names = [name.lower() for name, _ in titles]
     if names[:3] != ["x", "y", "z"]:
-        raise FileError(f"{path}:{line}", f"begins with {', '.join(header[:3])}", "the header is x, y, z, such as 'x [mm]'")
+        raise FileError(
+            f"{path}:{line}", f"begins with {', '.join(header[:3])}", "the header is x, y, z, such as 'x [mm]'"
+        )
     units = {unit for _, unit in titles[:3]}
     if len(units) > 1 or not units <= {None, "", *UNITS["length"]}:
-        raise FileError(f"{path}:{line}", "has no unit that x, y and z share", f"units are {', '.join(UNITS['length'])}")
+        raise FileError(
+            f"{path}:{line}", "has no unit that x, y and z share", f"units are {', '.join(UNITS['length'])}"
+        )
     unit = units.pop()
     points = np.array([_numbers(path, at, cells, 3) for at, cells in rows[1:]]).reshape(-1, 3)
     return points, UNITS["length"][unit] if unit else None
 
 
-def read_mesh(path: Path) -> tuple[Floats, Ints]:
+def read_mesh(path: Path) -> tuple[Floats, Long]:
     """Vertices, shape (n, 3), and triangles that turn anticlockwise seen from outside, shape (m, 3).
 
     Raises:
@@ -179,14 +191,19 @@ def read_mesh(path: Path) -> tuple[Floats, Ints]:
     if path.suffix.lower() not in MESHES:
         raise FileError(str(path), "is no mesh", f"names end in {', '.join(MESHES)}")
     mesh = _trimesh(path)
-    vertices, faces = np.asarray(mesh.vertices, np.float64), np.asarray(getattr(mesh, "faces", ()), np.int64).reshape(-1, 3)
+    vertices, faces = (
+        np.asarray(mesh.vertices, np.float64),
+        np.asarray(getattr(mesh, "faces", ()), np.int64).reshape(-1, 3),
+    )
     if not len(faces):
         raise FileError(str(path), "has no triangles", "name a mesh of a surface")
     if len(faces) > MOST_TRIANGLES:
         allowed = f"at most {MOST_TRIANGLES} are kept, as plans have their worlds with them; simplify it"
         raise FileError(str(path), f"has {len(faces)} triangles", allowed)
     if not np.isfinite(vertices).all():
-        raise FileError(str(path), f"vertex {int(np.flatnonzero(~np.isfinite(vertices).all(axis=1))[0]) + 1} is not finite", "")
+        raise FileError(
+            str(path), f"vertex {int(np.flatnonzero(~np.isfinite(vertices).all(axis=1))[0]) + 1} is not finite", ""
+        )
     return vertices, faces
 
 

@@ -15,7 +15,7 @@ from matplotlib.patches import Patch, Polygon
 from ....types import Floats
 from ....units import DEGREE
 from ....viewing import style
-from ....viewing.film import Frame
+from ....viewing.recording import Frame
 from ....viewing.scene import draw_forbidden
 from ....viewing.style import bare
 from ..execution.true_walk import TrueWalk

@@ -8,7 +8,7 @@ import numpy as np
 
 from ....types import Floats, Ints
 from ....viewing import style
-from ....viewing.film import Part
+from ....viewing.recording import Part
 from ..execution.true_walk import TrueWalk
 from ..execution.walk_scene import plate_axes
 from ..planning.problem import WalkerOutline, carried_weight, outline

@@ -13,7 +13,7 @@ from ....planning.problem.problem import Replay
 from ....types import Floats
 from ....units import DEGREE
 from ....viewing import style
-from ....viewing.film import Part, PlanView
+from ....viewing.recording import Part, PlanView
 from ....viewing.scene import (
     Bounds,
     describe_pose,

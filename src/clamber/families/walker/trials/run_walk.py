@@ -25,8 +25,8 @@ from ....units import parse_quantity
 from ..control.gait import Limits
 from ..control.quickest import Gait, quickest_way
 from ..control.track import Track, through
-from ..execution.course import Course, PlannedCourse, PlannedStep, TrackCourse
 from ..execution.faulty_walker import FaultyWalker
+from ..execution.footstep_plan import FootstepPlan, PlannedCourse, PlannedStep, TrackCourse
 from ..execution.settings import WalkSettings
 from ..execution.true_walk import TracedPlant, TrueWalk
 from ..execution.walk_report import WalkReport
@@ -273,7 +273,7 @@ def run_walk(
     walker = TracedWalker(walk.robot, plant, settings=how, payload=walk.payload)
     holds: list[LaidHold] = []
 
-    def lay_with_hold(pose: Floats) -> Course:
+    def lay_with_hold(pose: Floats) -> FootstepPlan:
         if walk.hold is not None:
             holds.append(lay_hold(walker, lay_track(walk, pose), walk.hold))
             holds[0].hold.start(walker)

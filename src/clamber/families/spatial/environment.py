@@ -1,0 +1,275 @@
+"""Gymnasium environments of robots in space: torques in, sensors and the planner's plan out, on the plant that `clamber run` uses.
+
+`gymnasium.make("clamber/Climb-v0")` and `"clamber/Walk-v0"`; what they reward and when they end stands in docs/environments.md.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Final
+
+import gymnasium
+import numpy as np
+from gymnasium import spaces
+
+from ...control.whole_body.tree import State
+from ...errors import ClamberError
+from ...planning.planners import plan_task
+from ...planning.problem.plan import Plan
+from ...planning.problem.plan_source import open_plan
+from ...tasks import load_task
+from ...types import Floats, Ints
+from .control.believed_tree import believed_tree
+from .execution.course import Course, Regrab, Standing
+from .execution.estimated_base import EstimatedBase
+from .planning.task import SpatialTask
+from .sim.spatial_flaws import SpatialFlaws
+from .sim.spatial_plant import SpatialSim
+from .trials.noise import named_spatial_noise, read_spatial_noise
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+NEAR: Final = 0.03
+"""The body is at a stance within this part of the length of the robot's longest limb [-] ..."""
+TURNED: Final = 0.15
+"""... and this angle [rad]."""
+LOST: Final = 0.3
+"""A body that is farther from its stance than this part of the length of its longest limb has fallen [-]."""
+FULL: Final = 10.0
+"""Reward of a whole plan."""
+PULL: Final = 1.0
+"""Reward for a body that has come the length of its longest limb nearer to its next stance."""
+STRAIN: Final = 0.002
+"""Cost of a second at all torques' limits."""
+FALL: Final = -1.0
+"""Reward of a fall."""
+
+
+@dataclass(frozen=True, slots=True)
+class Goal:
+    """What the plan asks for next."""
+
+    standing: Standing
+    limb: int
+    """That is to take a hold; -1: the body is to move."""
+
+
+class SpatialEnv(gymnasium.Env[Any, Any]):
+    """A robot in space that is to carry a plan out.
+
+    An action is a number from -1 to 1 for each joint, the part of its torque, then one for each limb: attach above 0, let go below.
+    An observation is of the robot's sensors, of where it works out to be, and of what the plan asks for next.
+
+    Args:
+        task: Name or file of a task.
+        settings: Texts "key=value" that change the task.
+        plan: Its plan or a plan's file; None: one is searched for.
+        noise: Texts as of `clamber trials --noise`, such as "usual"; none without.
+        ticks: Control periods that an action lasts.
+        seconds: An episode lasts so long at most [s]; None: twice what the plan's actions take at one a second.
+    """
+
+    metadata: dict[str, Any] = {"render_modes": []}  # noqa: RUF012  # Gymnasium's own
+
+    def __init__(
+        self,
+        task: str = "wall-gripper",
+        settings: Sequence[str] = (),
+        plan: Plan | str | None = None,
+        noise: Sequence[str] = (),
+        ticks: int = 4,
+        seconds: float | None = None,
+    ) -> None:
+        self.task, self.plan = _planned(task, settings, plan)
+        self._noise = read_spatial_noise(named_spatial_noise("none"), noise)
+        self._ticks = ticks
+        robot, world = self.task.robot, self.task.world
+        course = Course.of(self.task, self.plan)
+        self.start = course.start
+        self._goals = _goals(course)
+        self._tree = believed_tree(robot, world.gravity)
+        self._state = State.of(self._tree)
+        chains = robot.chains
+        self._limbs, self._n = len(chains.limb_names), self._tree.joints
+        self._size = float(np.linalg.norm(chains.offset[:, 1:], axis=2).sum(axis=1).max())
+        self._pull = chains.total_mass * 9.80665
+        self._ends = [end.bears().capture > 0.0 for end in robot.ends]
+        self.plant = SpatialSim(robot, world)
+        self.torques: Floats = self.plant.motors.torque.copy()
+        """Largest torque of each joint [N m] or force [N], shape (n,)."""
+        actions = max(len(self.plan.actions), 1)
+        self._most = math.ceil((2.0 * actions if seconds is None else seconds) / (ticks * self.plant.period))
+        self._at, self._steps, self._away = 0, 0, 0.0
+        self.action_space = spaces.Box(-1.0, 1.0, (self._n + self._limbs,), np.float32)
+        shape = self._observed().shape
+        self.observation_space = spaces.Box(-np.inf, np.inf, shape, np.float32)
+
+    @property
+    def progress(self) -> float:
+        """Part of the plan that has been carried out [-]."""
+        return self._at / max(len(self._goals), 1)
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[np.ndarray[Any, np.dtype[np.float32]], dict[str, Any]]:
+        """Put the robot at the plan's start, with what a seed makes of the noise."""
+        super().reset(seed=seed)
+        robot, world = self.task.robot, self.task.world
+        if self._noise.any:
+            drawn = int(self.np_random.integers(2**31))
+            flaws = self._noise.flaws(SpatialFlaws(), drawn)
+            self.plant = SpatialSim(robot, world, flaws, self._noise.deviations(robot, world, drawn))
+        flaws = self.plant.flaws
+        late, coarse = flaws.late * self.plant.period, flaws.encoder_step > 0.0
+        self._belief = EstimatedBase(robot, world, self._tree, self.plant.period, late=late, coarse=coarse)
+        self.plant.reset(self.start.pose, self.start.joints, self.start.holds)
+        sensed = self.plant.sense()
+        self._belief.begin(self.start.pose, sensed)
+        self._believe()
+        self._at, self._steps = 0, 0
+        self._away = self._distance()
+        return self._observed(), {"progress": 0.0}
+
+    def step(
+        self, action: np.ndarray[Any, np.dtype[np.float32]]
+    ) -> tuple[np.ndarray[Any, np.dtype[np.float32]], float, bool, bool, dict[str, Any]]:
+        """Let an action last for its ticks."""
+        asked = np.clip(np.asarray(action, np.float64), -1.0, 1.0)
+        for limb in range(self._limbs):
+            if asked[self._n + limb] != 0.0:
+                self.plant.grip(limb, bool(asked[self._n + limb] > 0.0))
+        self.plant.actuate(asked[: self._n] * self.torques)
+        for _ in range(self._ticks):
+            self.plant.step()
+            self.plant.sense()
+            self._believe()
+        self._steps += 1
+        before = self._at
+        while self._at < len(self._goals) and self._reached(self._goals[self._at]):
+            self._at += 1
+        reward = FULL * (self._at - before) / len(self._goals)
+        away = self._distance()
+        reward += PULL * (self._away - away) / self._size if self._at == before else 0.0
+        self._away = away
+        reward -= STRAIN * self._ticks * self.plant.period * float(np.mean(asked[: self._n] ** 2))
+        done = self._at == len(self._goals)
+        fell = not done and (away > LOST * self._size or not (self._holding() >= 0).any())
+        reward += FALL if fell else 0.0
+        told = {"progress": self.progress, "done": done, "fell": fell}
+        return self._observed(), float(reward), done or fell, self._steps >= self._most, told
+
+    def _goal(self) -> Goal:
+        return self._goals[min(self._at, len(self._goals) - 1)]
+
+    def _holding(self) -> Ints:
+        return self.plant.ends.attached
+
+    def _believe(self) -> None:
+        sensed = self.plant.sensed
+        stands = np.linalg.norm(sensed.wrenches[:, :3], axis=1) > 0.02 * self._pull
+        holds = np.where(np.where(self._ends, sensed.closed == 1, stands), self._holding(), -1)
+        self._belief.update(sensed, holds, self._state)
+
+    def _distance(self) -> float:
+        return float(np.linalg.norm(self._goal().standing.pose.position - self._state.position))
+
+    def _reached(self, goal: Goal) -> bool:
+        if goal.limb >= 0:
+            return bool(self._holding()[goal.limb] == goal.standing.holds[goal.limb])
+        turned = self._state.rotation @ goal.standing.pose.rotation.T
+        angle = math.acos(min(1.0, max(-1.0, (float(np.trace(turned)) - 1.0) / 2.0)))
+        away = float(np.linalg.norm(goal.standing.pose.position - self._state.position))
+        return away < NEAR * self._size and angle < TURNED
+
+    def _observed(self) -> np.ndarray[Any, np.dtype[np.float32]]:
+        """What the robot knows, in its own frame, lengths by its size and forces by its weight."""
+        state, sensed, goal = self._state, self.plant.sensed, self._goal()
+        turn, aim = state.rotation.T, goal.standing
+        wanted = turn @ aim.pose.rotation
+        hold = np.zeros(3)
+        limbs = np.zeros(self._limbs)
+        if goal.limb >= 0:
+            limbs[goal.limb] = 1.0
+            hold = turn @ (self._belief_places()[aim.holds[goal.limb]] - state.position) / self._size
+        down = np.array(self.task.world.gravity)
+        parts = (
+            state.joints,
+            state.speed[6:],
+            turn @ state.speed[:3] / self._size,
+            state.speed[3:6],
+            turn @ down / max(float(np.linalg.norm(down)), 1e-9),
+            sensed.wrenches[:, :3].ravel() / self._pull,
+            sensed.closed,
+            aim.joints - state.joints,
+            turn @ (aim.pose.position - state.position) / self._size,
+            0.5 * np.array((wanted[2, 1] - wanted[1, 2], wanted[0, 2] - wanted[2, 0], wanted[1, 0] - wanted[0, 1])),
+            limbs,
+            hold,
+            [self.progress],
+        )
+        return np.concatenate([np.asarray(part, np.float64) for part in parts]).astype(np.float32)
+
+    def _belief_places(self) -> Floats:
+        return self._belief.places if hasattr(self, "_belief") else self.task.world.places
+
+
+def _goals(course: Course) -> tuple[Goal, ...]:
+    """Stances that a plan comes to, one for each motion."""
+    return tuple(
+        Goal(motion.after, motion.limb) if isinstance(motion, Regrab) else Goal(motion.way[-1], -1)
+        for motion in course.motions
+    )
+
+
+def _planned(name: str, settings: Sequence[str], plan: Plan | str | None) -> tuple[SpatialTask, Plan]:
+    """A task and its plan.
+
+    Raises:
+        ClamberError: If there is no such task or plan, if it is no robot in space's, or if no plan was found.
+    """
+    if isinstance(plan, str):
+        opened = open_plan(plan, name, list(settings))
+        task, plan = opened.task, opened.plan
+    else:
+        task = load_task(name, list(settings))
+    if not isinstance(task, SpatialTask):
+        raise NotInSpaceError(name)
+    if plan is None:
+        result = plan_task(task, "auto", seed=0, seconds=600.0)
+        if not result.has_plan:
+            raise NoReferenceError(name, result.reason)
+        plan = result.plan
+    return task, plan
+
+
+class NotInSpaceError(ClamberError):
+    """The task is of another family."""
+
+    def __init__(self, task: str) -> None:
+        super().__init__(task)
+        self.task = task
+
+    def __str__(self) -> str:
+        return f"task '{self.task}': environments are of robots in space, such as 'wall-gripper' or 'stones-quadruped'"
+
+
+class NoReferenceError(ClamberError):
+    """There is no plan to follow."""
+
+    def __init__(self, task: str, problem: str) -> None:
+        super().__init__(task, problem)
+        self.task, self.problem = task, problem
+
+    def __str__(self) -> str:
+        return f"task '{self.task}': an environment follows a plan, and none was found: {self.problem}"
+
+
+def register() -> None:
+    """Make the environments known to Gymnasium by their names; it calls this by itself."""
+    entry = f"{__name__}:SpatialEnv"
+    for name, task, goal in (("Climb", "wall-gripper", "0.3 m"), ("Walk", "stones-quadruped", "0.5 m")):
+        if f"clamber/{name}-v0" not in gymnasium.registry:
+            near = (f"goal.along_min={goal}",)
+            gymnasium.register(f"clamber/{name}-v0", entry, kwargs={"task": task, "settings": near})
