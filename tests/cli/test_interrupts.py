@@ -37,13 +37,13 @@ LONG = (
     "plan circle --planner hybrid",
     "plan circle --planner mcts",
     "plan ladder --to-run",
-    "polish examples/across/plan.json",
+    "shorten examples/across/plan.json",
     "learn circle",
     "run circle",
     "run ladder-hand",
     "run slope-walk",
     "trials ladder-hand -n 100",
-    "rehearse ladder-hand",
+    "validate ladder-hand",
     "reach h --hangs",
     "sweep ladder --vary board.spacing=8in..24in:60",
     "study bevly-1997",
@@ -53,7 +53,7 @@ LONG = (
     "limb sweep --vary backlash=0deg..4deg:30",
     "limb step --flaws nominal --trials 400",
     "body push --trials 400",
-    "most level-walk --vary payload=10kg..26kg:17",
+    "max-setting level-walk --vary payload=10kg..26kg:17",
 )
 """At what takes minutes."""
 
@@ -178,7 +178,7 @@ def test_a_batch_that_is_interrupted_goes_on_where_it_was(words: str, first: str
     [
         ("study bevly-1997", r"\n4 of 43", r"3 of 43 results: .*\n"),
         ("trials ladder-hand -n 100 --workers 1", r"\n1 of 100", r"of 1 climbs"),
-        ("rehearse ladder-hand -n 2 --noise peg_error=15mm", r"of 2 climbs; 0 changes", r"of 2 climbs before"),
+        ("validate ladder-hand -n 2 --noise peg_error=15mm", r"of 2 climbs; 0 changes", r"of 2 climbs before"),
         ("reach h --hangs", r"\d\d\d\d+ stances", r"incomplete: interrupted"),
         ("plan circle --planner exact --stances 20000000", r"\d\d\d\d+ stances", r"bounded: no plan"),
         ("bench control seeds", r"seeds each", r"us  "),

@@ -47,6 +47,10 @@ RUNS: Final = ("seconds", "lap", "to", "from_")
 """Their parameters that are times of the run [s]."""
 
 
+NO_GL: Final = "off"
+"""For MuJoCo: no windows."""
+
+
 def limit_numbers(command: Any, path: tuple[str, ...]) -> None:
     """Have a command refuse numbers that are none, not finite, or too large, by the option's name and with the reason.
 
@@ -204,6 +208,9 @@ def run(arguments: Sequence[str] | None = None) -> int | str | None:
             stream.reconfigure(errors="replace")  # a letter that the terminal has not is a "?", and no traceback
     called = next((word for word in words if not word.startswith("-")), "")
     completes = "_CLAMBER_COMPLETE" in os.environ  # the words come another way
+    os.environ.setdefault(
+        "MUJOCO_GL", NO_GL
+    )  # MuJoCo simulates and draws nothing; its windows begin a process that Ctrl-C would end loudly
     try:
         command = command_of(application(None if completes else called))
         return _called(command, words)

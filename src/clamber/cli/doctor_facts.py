@@ -17,6 +17,7 @@ from ..extensions import GROUPS, ExtensionError, all_outside, load_outside, outs
 from ..jobs.ahead import usable_cores
 from ..jobs.release import version_of
 from ..json_form import Count, Key, in_json
+from .app import NO_GL
 
 FIRST_KERNEL: Final = "replay"
 """Every command that judges a stance needs it."""
@@ -226,7 +227,7 @@ def gl(run: Callable[..., Any] = subprocess.run) -> str | None:
     Each is tried in a process of its own: a broken driver may take its process with it.
     """
     said = os.environ.get("MUJOCO_GL")
-    for way in (said,) if said else GL_WAYS:
+    for way in (said,) if said not in (None, "", NO_GL) else GL_WAYS:
         try:
             ended = run(
                 [sys.executable, "-c", GL_PROBE],

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 from rich.console import Console
 
+from ....interrupts import answer
 from ....terminal.live_line import LiveLine
 from ....terminal.name_completion import names_of
 from ....terminal.options import CarriedOutIn, NoiseTexts, Overrides, Ray, Told, Workers, takes_options
@@ -132,6 +133,7 @@ def validate(
                 ended=line.climbs,
             )
         except KeyboardInterrupt:
+            answer()
             stderr().print(
                 "interrupted before the plan had been climbed once as often as asked; nothing is known of it yet"
             )

@@ -10,6 +10,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from ....interrupts import answer
 from ....planning.infeasibility.find import FeasibleRelaxation, Places
 from ....planning.infeasibility.trial import Answer, Trial
 from ....planning.problem.problems import normalisation_of, plan_family, pose_problem
@@ -68,6 +69,7 @@ def find_places(
         try:
             answers += (future.result() for future in asked)
         except KeyboardInterrupt:
+            answer()
             trial.stopped.set()
             pool.shutdown(cancel_futures=True)
     opened = [(site, answer) for site, answer in zip(sites, answers, strict=False) if answer.status == "open"]
