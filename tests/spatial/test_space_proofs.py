@@ -131,27 +131,36 @@ def test_quick_verdicts_are_those_of_whole_judgements(name: str) -> None:
 
 
 def test_motors_that_are_too_weak_are_told_with_what_would_do() -> None:
-    it = task("patch-gripper", *SMALL, "robot.torque_share=0.06")
+    it = task("patch-gripper", *SMALL, "robot.torque_share=0.1")
     proved = plan_exact(it, threads=1)
     assert proved.status == "infeasible", proved.reason
     found = explain_infeasibility(it, seconds=None, threads=1)
     opening = next(each for each in found.openings if each.key == "robot.torque_share")
-    assert isinstance(opening.after, float) and 0.06 < opening.after < 0.5 and opening.least
+    assert isinstance(opening.after, float) and 0.1 < opening.after < 0.5 and opening.least
     assert plan_exact(task("patch-gripper", *SMALL, *opening.overrides), threads=1).status == "optimal"
 
 
+def single_holds(places: Any) -> str:
+    """A world's patterns of one hold each, at places along and across the guide [m]."""
+    one = "{{ along = ['{0} m', '{0} m'], across = ['{1} m', '{1} m'], spacing = '1 m' }}"
+    return f"world.patterns=[{', '.join(one.format(*place) for place in places)}]"
+
+
 def test_a_hold_that_is_missing_is_told_with_its_place() -> None:
-    """Two fields of holds with a gap that no limb bridges, too wide for one step, not for a hold between them."""
-    gap = (
-        "world.patterns=[{ along = ['-0.18 m', '0.18 m'], across = ['-0.18 m', '0.18 m'], spacing = '120 mm' },"
-        " { along = ['0.46 m', '0.46 m'], across = ['-0.18 m', '0.18 m'], spacing = '120 mm' }]"
-    )
-    it = task("patch-gripper", *SMALL[:4], "goal={ along_min = '0.24 m' }", gap)
-    proved = plan_exact(it, threads=1)
-    assert proved.status == "infeasible", proved.reason
+    """Of the holds that a plan on an even grid takes one is left out; the lattice of places tried is that grid."""
+    grid = [(round(0.12 * i, 2), round(0.12 * j, 2)) for i in range(-2, 4) for j in range(-2, 3)]
+    whole = plan_exact(task("patch-gripper", *SMALL[:5], single_holds(grid)), threads=1)
+    stances = SpatialProblem(whole.task, 1).replay(whole.plan.codes(whole.task)).stances  # type: ignore[arg-type]
+    first, used = stances["hold"][0, :4].tolist(), sorted(set(stances["hold"][:, :4].ravel().tolist()))
+    for gone in (hold for hold in used if hold not in first):
+        left = [grid[hold] for hold in used if hold != gone]
+        it = task("patch-gripper", *SMALL[:5], single_holds(left))
+        if plan_exact(it, threads=1).status == "infeasible":
+            break
     found = explain_infeasibility(it, seconds=None, spacing=0.12, threads=1)
-    assert found.places is not None and found.places.openings and found.places.complete
-    best = found.places.openings[0]
-    opened = task("patch-gripper", *SMALL[:4], "goal={ along_min = '0.24 m' }", *best.overrides)
+    assert found.places is not None and found.places.complete
+    along, across = grid[gone]
+    assert any(f"along {along:.4g} m, across {across:.4g} m" in str(each.after) for each in found.places.openings)
+    opened = task("patch-gripper", *SMALL[:5], *found.places.openings[0].overrides)
     assert len(opened.world.holds) == len(it.world.holds) + 1
     assert plan_exact(opened, threads=1).check().ok
