@@ -196,3 +196,16 @@ def test_a_stored_plan_is_checked_where_the_robots_files_are_not(tmp_path: Any) 
 def test_a_task_that_cannot_be_is_refused_by_its_key(override: str, words: str) -> None:
     with pytest.raises(SpecError, match=words):
         SpatialProblem(task("wall-gripper", override), 1)
+
+
+def test_a_worlds_seed_is_added_to_those_of_its_patterns() -> None:
+    overrides = ((), ("world.seed=1",), ("world.patterns.0.seed=2",))
+    places = [task("wall-gripper", *each).world.places for each in overrides]
+    assert not np.allclose(places[0], places[1])
+    assert np.array_equal(places[1], places[2])
+
+
+def test_a_tasks_payload_takes_the_place_of_the_robots() -> None:
+    bare, laden = load_task("corners-magnet", ["payload.mass=0 kg"]), load_task("corners-magnet")
+    assert bare.robot.chains.total_mass == pytest.approx(15.0)  # type: ignore[attr-defined]
+    assert laden.robot.chains.total_mass == pytest.approx(1.65 * 15.0)  # type: ignore[attr-defined]
