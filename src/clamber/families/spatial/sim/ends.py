@@ -17,7 +17,7 @@ from .spatial_model import THICK, TIP, held_name, patch_name, quaternion, tip_na
 
 GIVING_WAY: Final = 0.02
 """An end effector comes off after that long above its strength; shorter knocks, as when it lands, break nothing [s]."""
-CLOSE: Final = 0.25
+CLOSE: Final = 0.1
 """An end effector attaches from this part of its capture distance out of the surface, or into it [-]."""
 TOUCH: Final = 0.0002
 """Forces below this part of the strength of a hook or of spines, which nothing pulls on, neither slip nor leave [-]."""

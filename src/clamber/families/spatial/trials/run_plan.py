@@ -91,6 +91,7 @@ def run_plan(
         plant.period,
         late=sensors.late * plant.period,
         coarse=sensors.encoder_step > 0.0,
+        play=sensors.backlash,
     )
     body = TracedBody(task.robot, task.world, plant, belief, Pace.of(task.robot), task.rules.lift)
     with growing_log(log, body.samples, body.titles, body.named.notes(), TOPIC) as finish:
