@@ -10,14 +10,14 @@ LONG = 400
 MANY = 8
 """Parameters of a function."""
 CEILINGS = {
-    "lines": 96_186,
-    "files": 643,
+    "lines": 97_092,
+    "files": 649,
     f"files above {LONG} lines": 0,
     f"functions with more than {MANY} parameters": 60,
     "median length of a line": 40,
     "90th percentile of the length of a line": 97,
 }
-"""As it is; lower them with every change that makes the source smaller. Lines were 94 971 before plans said whether they would be run,
+"""As it is; lower them with every change that makes the source smaller. Lines were 96 186 before whole-body control, and 94 971 before plans said whether they would be run,
 robots and boards were shown alone, and output had units to choose."""
 GROWING = PACKAGE / "families" / "spatial"
 """A family that is being built: its files and lines are counted apart, until it is whole; all other figures are of the whole package."""

@@ -78,7 +78,7 @@ class LimbedBody:
         self.ticks = 0
         self.told: Callable[[], None] | None = None
         """Called after each tick."""
-        self._pressed, self._normal = -1, np.zeros(3)
+        self._pressed, self._normal, self._push = -1, np.zeros(3), 0.0
         self._bears = [end.bears() for end in robot.ends]
 
     @property
@@ -151,9 +151,15 @@ class LimbedBody:
         aims.tip[limb], aims.tip_velocity[limb], aims.tip_acceleration[limb] = path
         aims.points[limb] = 0.0 if points is None else points
 
-    def press(self, limb: int, normal: Floats) -> None:
-        """From now on a swinging limb presses against its aim across a surface of this normal, until it holds on or lets be (limb -1)."""
-        self._pressed, self._normal = limb, normal
+    def press(self, limb: int, normal: Floats, force: float = 0.0) -> None:
+        """From now on a swinging limb presses against a surface, until it holds on or lets be (limb -1).
+
+        Args:
+            limb: Which.
+            normal: Of the surface.
+            force: With which it presses, besides what it misses of its aim makes [N].
+        """
+        self._pressed, self._normal, self._push = limb, normal, force
 
     def tick(self) -> None:
         """Let a control period pass.
@@ -172,8 +178,8 @@ class LimbedBody:
         torques = law.tick()
         if self._pressed >= 0:  # what the tip misses of its aim, as a spring would press: its own inertia is too little
             limb, normal, stiffness = self._pressed, self._normal, self.pace.pressing
-            deep = stiffness * max(0.0, float((law.dynamics.tip[limb] - aims.tip[limb]) @ normal))
-            torques -= deep * (normal @ law.dynamics.jacobian[limb, :3, FREE:])
+            force = self._push + stiffness * max(0.0, float((law.dynamics.tip[limb] - aims.tip[limb]) @ normal))
+            torques -= force * (normal @ law.dynamics.jacobian[limb, :3, FREE:])
             np.clip(torques, -law.limits.torque, law.limits.torque, out=torques)
         self.plant.actuate(torques)
         self.plant.step()

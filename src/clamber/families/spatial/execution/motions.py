@@ -21,6 +21,10 @@ SPEED: Final = 0.7
 """Of a joint's largest speed that motions may ask for [-]."""
 SETTLING: Final = 0.1
 """After a motion [s]."""
+PRESSED: Final = 1.5
+"""Force on something that is to be closed about, of that by which it is noticed [-]."""
+LOW: Final = 0.8
+"""Share of a swing after which a tip may touch [-]."""
 AROUND: Final = math.radians(137.5)
 """From one of them to the next, about the normal: the golden angle, which leaves no side out [rad]."""
 
@@ -151,7 +155,7 @@ def _beside(body: LimbedBody, normal: Floats) -> Iterator[Floats]:
 
 
 def _swing(body: LimbedBody, limb: int, path: TipPath, posture: Floats) -> None:
-    """Along the path, to its end or to where a foot that comes down touches."""
+    """Along the path, to its end or to where what comes down touches."""
     aims = body.law.aims
     before = aims.posture.copy()
     pointed = bool(body.robot.contacts[limb].aligned)
@@ -161,7 +165,7 @@ def _swing(body: LimbedBody, limb: int, path: TipPath, posture: Floats) -> None:
         body.swing(limb, path.at(time), path.points(time) if pointed else None)
         aims.posture[:] = before + quintic(k / count)[0] * (posture - before)
         body.tick()
-        if k > 0.8 * count and not body.attaches(limb) and touches(body, limb):
+        if k > LOW * count and presses(body, limb):
             return
 
 
@@ -173,12 +177,20 @@ def _approach(body: LimbedBody, limb: int, path: TipPath) -> bool:
     if body.attaches(limb):
         body.plant.grip(limb, True)
     body.press(limb, path.normals[1])
-    for k in range(math.ceil(pace.depth / pace.approach / body.plant.period)):
+    deep, closing, met = 0.0, round(pace.shift / body.plant.period), False
+    eager = 0.0
+    while deep < pace.depth and closing > 0:
         if touches(body, limb):
             return True
-        if body.attaches(limb) and float(np.linalg.norm(body.sensed.wrenches[limb, :3])) > pace.firm:
-            break
-        body.swing(limb, (path.end + k * body.plant.period * speed, speed, np.zeros(3)), pointed)
+        met = met or presses(body, limb)
+        if met:  # on something: pressed on by a force alone, it has a while to close about it
+            closing -= 1
+            body.press(limb, path.normals[1], PRESSED * pace.firm)
+            body.swing(limb, (body.tips[limb].copy(), np.zeros(3), np.zeros(3)), pointed)
+        else:
+            eager = min(1.0, eager + body.plant.period / pace.shift)  # at once would be a knock
+            deep += eager * body.plant.period * pace.approach
+            body.swing(limb, (path.end + deep * inward, eager * speed, np.zeros(3)), pointed)
         body.tick()
     body.press(-1, inward)
     return False
@@ -186,6 +198,10 @@ def _approach(body: LimbedBody, limb: int, path: TipPath) -> bool:
 
 def touches(body: LimbedBody, limb: int) -> bool:
     """Whether a limb's end effector is attached, or what only pushes is pushed against."""
-    if body.attaches(limb):
-        return bool(body.sensed.closed[limb])
-    return float(np.linalg.norm(body.sensed.wrenches[limb, :3])) > body.pace.touch
+    return bool(body.sensed.closed[limb]) if body.attaches(limb) else presses(body, limb)
+
+
+def presses(body: LimbedBody, limb: int) -> bool:
+    """Whether a limb's tip is on something: a foot at once, another end effector when it is pressed on."""
+    least = body.pace.firm if body.attaches(limb) else body.pace.touch
+    return float(np.linalg.norm(body.sensed.wrenches[limb, :3])) > least

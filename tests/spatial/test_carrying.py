@@ -1,0 +1,108 @@
+"""Plans of robots in space carried out: contact dynamics, holds that come off, holds that are not there."""
+
+import numpy as np
+import pytest
+
+from clamber.families.spatial.dynamics import DYNAMICS
+from clamber.families.spatial.execution.course import BodyMotion, Course, Regrab
+from clamber.families.spatial.execution.references import BodyPath, TipPath, quaternion_of, rotation_of, rotation_vector
+from clamber.families.spatial.execution.run_trace import RunTrace
+from clamber.families.spatial.planning.task import SpatialTask
+from clamber.families.spatial.robot.bodies import rotation
+from clamber.families.spatial.sim.spatial_flaws import SpatialFlaws
+from clamber.families.spatial.trials.run_plan import SpatialRun, run_plan
+from clamber.planning.problem.codes import MOVE, NEAREST, pack
+from clamber.planning.problem.plan import Plan
+from clamber.planning.problem.problems import plan_family
+from clamber.tasks.library import load_task
+from clamber.types import Floats
+
+
+def first_steps(name: str, grabs: int = 4) -> tuple[SpatialTask, Plan]:
+    """A task and a short plan of it: a move of the body, limbs to other holds as far as that can be, another move."""
+    task = load_task(name)
+    assert isinstance(task, SpatialTask)
+    problem = plan_family(task).problem(task)
+    moves = [pack(MOVE, 0, argument) for argument in (0, 1, 2, 3, 4)]
+    limbs = range(len(task.robot.limb_names))
+    nearest = [pack(NEAREST, limb, rank) for rank in range(task.step.nearest) for limb in limbs]
+    codes: list[int] = []
+    for choices, most in ((moves, 1), (nearest, grabs), (moves, 1)):
+        for code in choices:
+            if most and problem.replay([*codes, code]).ok:
+                codes.append(code)
+                most -= 1
+    return task, Plan.of_codes(task, codes)
+
+
+def differences(path: BodyPath | TipPath, time: float, step: float = 1e-5) -> tuple[Floats, Floats]:
+    """First and second derivative of a path's places."""
+    before, now, after = (np.asarray(path.at(time + k * step)[0]) for k in (-1, 0, 1))
+    return (after - before) / (2 * step), (after - 2 * now + before) / step**2
+
+
+def test_velocities_and_accelerations_of_paths_are_those_of_their_places() -> None:
+    normals = np.array(((0.0, 0.0, 1.0), (0.0, 0.6, 0.8)))
+    tip = TipPath(np.zeros(3), np.array((0.3, 0.1, 0.05)), normals, 0.06, 1.3)
+    body = BodyPath.between(
+        np.zeros(3), np.eye(3), np.array((0.1, 0.0, 0.2)), rotation_of(np.array((0.1, 0.3, 0.2))), 2.0
+    )
+    for time in (0.1, 0.31, 0.6, 0.83, 1.2):
+        velocity, acceleration = differences(tip, time)
+        assert np.allclose(tip.at(time)[1], velocity, atol=1e-6)
+        assert np.allclose(tip.at(time)[2], acceleration, atol=1e-3)
+        velocity, acceleration = differences(body, time)
+        assert np.allclose(body.at(time)[2][:3], velocity, atol=1e-6)
+        assert np.allclose(body.at(time)[3][:3], acceleration, atol=1e-3)
+        spin = rotation_vector(body.at(time + 1e-5)[1] @ body.at(time - 1e-5)[1].T) / 2e-5
+        assert np.allclose(body.at(time)[2][3:], spin, atol=1e-6)
+
+
+@pytest.mark.parametrize("angle", [0.0, 1e-8, 0.5, 3.0, np.pi])
+def test_rotations_and_their_vectors_and_quaternions_agree(angle: float) -> None:
+    turned = rotation_of(angle * np.array((0.6, 0.0, 0.8)))
+    assert np.allclose(rotation_of(rotation_vector(turned)), turned, atol=1e-9)
+    assert np.allclose(rotation(quaternion_of(turned)), turned, atol=1e-9)
+
+
+def test_a_course_has_every_action_of_its_plan_once() -> None:
+    task, plan = first_steps("wall-gripper")
+    course = Course.of(task, plan)
+    numbers = [number for motion in course.motions for number in range(motion.first, motion.last + 1)]
+    assert numbers == list(range(1, len(plan.actions) + 1))
+    assert any(isinstance(motion, Regrab) for motion in course.motions)
+    assert any(isinstance(motion, BodyMotion) for motion in course.motions)
+    for motion in course.motions:
+        if isinstance(motion, Regrab):
+            assert not motion.loads[motion.limb].any()
+            total = motion.loads[:, :3].sum(axis=0)
+            assert total == pytest.approx(-task.robot.chains.total_mass * np.array(task.world.gravity), abs=1e-6)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["wall-gripper", "stones-quadruped", "rubble-hexapod", "corners-magnet"])
+def test_a_robot_carries_its_first_steps_out(name: str) -> None:
+    """It comes to the end, with every tip within a hundredth of a limb of its hold, and its log tells so."""
+    task, plan = first_steps(name)
+    run: SpatialRun = run_plan(task, plan)
+    assert run.done, run.reason
+    assert not run.broken
+    taken = [motion for motion in run.report.motions if motion.limb is not None]
+    assert taken
+    assert max(motion.off for motion in taken) < 0.01
+    again = RunTrace.from_log(run.trace.to_log())
+    assert again.report == run.trace.report
+    assert np.array_equal(again.true_pose, run.trace.true_pose)  # type: ignore[arg-type]
+
+
+@pytest.mark.slow
+def test_what_fails_to_attach_is_tried_again() -> None:
+    task, plan = first_steps("wall-gripper")
+    run = run_plan(task, plan, flaws=SpatialFlaws(miss=0.5, seed=1))
+    assert run.done, run.reason
+    assert any(motion.tries > 1 for motion in run.report.motions)
+
+
+def test_plans_that_are_refused_move_nothing() -> None:
+    task, plan = first_steps("wall-gripper")
+    assert DYNAMICS.objection(task, plan) is None
