@@ -114,7 +114,7 @@ COMPILE := $(BIN)/pip-compile --quiet --allow-unsafe --generate-hashes --strip-e
 	--no-emit-trusted-host --no-emit-options
 
 lock: setup  ## renew requirements.txt and requirements-run.txt after a change of the dependencies in pyproject.toml
-	$(COMPILE) --extra dev --extra docs --extra view --extra bench --extra video --extra ray -o requirements.txt pyproject.toml
+	$(COMPILE) --extra dev --extra docs --extra view --extra bench --extra video --extra ray --extra gym -o requirements.txt pyproject.toml
 	$(COMPILE) --extra view --extra video --build-deps-for editable -c requirements.txt -o requirements-run.txt pyproject.toml
 
 clean:  ## remove what the targets made, except .venv

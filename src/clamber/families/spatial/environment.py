@@ -122,8 +122,15 @@ class SpatialEnv(gymnasium.Env[Any, Any]):
             flaws = self._noise.flaws(SpatialFlaws(), drawn)
             self.plant = SpatialSim(robot, world, flaws, self._noise.deviations(robot, world, drawn))
         flaws = self.plant.flaws
-        late, coarse = flaws.late * self.plant.period, flaws.encoder_step > 0.0
-        self._belief = EstimatedBase(robot, world, self._tree, self.plant.period, late=late, coarse=coarse)
+        self._belief = EstimatedBase(
+            robot,
+            world,
+            self._tree,
+            self.plant.period,
+            late=flaws.late * self.plant.period,
+            coarse=flaws.encoder_step > 0.0,
+            play=flaws.backlash,
+        )
         self.plant.reset(self.start.pose, self.start.joints, self.start.holds)
         sensed = self.plant.sense()
         self._belief.begin(self.start.pose, sensed)

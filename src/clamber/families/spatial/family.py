@@ -29,6 +29,7 @@ class Spatial(Family):
             "pictures": "clamber.families.spatial.pictures.pictures:PICTURES",
             "scenes": "clamber.families.spatial.pictures.scenes:SCENES",
             "dynamics": "clamber.families.spatial.dynamics:DYNAMICS",
+            "printed": "clamber.families.spatial.printed:PRINTED",
             "trajectories": "clamber.families.spatial.trajectories:TRAJECTORIES",
             "inspection": "clamber.families.spatial.inspection:INSPECTION",
             "imports": "clamber.families.spatial.robot.starter:IMPORTS",

@@ -20,7 +20,7 @@ from .base_filter_kernels import (
     correct,
     end_contact,
     predict,
-    take_place,
+    take_height,
 )
 
 
@@ -52,8 +52,8 @@ class FilterSettings:
     """Of where the robot is at the start [m]."""
     turn: float = 0.3 * DEGREE
     """Of how it stands at the start [rad]."""
-    hold: float = 6e-3
-    """Of where a hold is taken, by the map, before it is touched [m]."""
+    hold: float = 4e-3
+    """Of the height of a hold, by the map, before it is touched [m]."""
     gate: float = 0.02
     """A tip that seems to have moved by more has slipped [m]."""
 
@@ -155,9 +155,9 @@ class BaseFilter:
         """A limb's tip moves from now on."""
         end_contact(self.believed, limb)
 
-    def take_place(self, limb: int, place: Floats, variance: float) -> None:
-        """Take in where the hold is that a limb is on, by the map [m], [m^2]."""
-        take_place(self.believed, limb, place, variance, self._row)
+    def take_height(self, limb: int, place: Floats, normal: Floats, variance: float) -> None:
+        """Take in that a limb is on the surface of a hold, by the map [m], [m^2]; where on it, it does not feel."""
+        take_height(self.believed, limb, place, normal, variance, self._row)
 
     def spread(self, limb: int) -> float:
         """Standard deviation of where a limb's contact is, in any direction [m]."""

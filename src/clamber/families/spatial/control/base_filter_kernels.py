@@ -330,15 +330,16 @@ def correct(belief, tips, axes, variances, turned, gate, off):
 
 
 @kernel
-def take_place(belief, limb, place, variance, row):
-    """Take in where a hold is that a limb is on, by the map; `row` is scratch, shape (n,)."""
+def take_height(belief, limb, place, normal, variance, row):
+    """Take in that a limb is on a surface that goes through a place; `row` is scratch, shape (n,)."""
     d, at = belief.places[limb], CONTACTS + 3 * limb
+    off = 0.0
+    for a in range(row.size):
+        row[a] = 0.0
     for a in range(3):
-        for b in range(row.size):
-            row[b] = 0.0
-        # phi x d, written as a row of phi
         b, c = (a + 1) % 3, (a + 2) % 3
-        row[PHI + b], row[PHI + c] = d[c], -d[b]
-        row[at + a] = 1.0
-        take_row(belief, row, d[a] - place[a], variance)
+        row[PHI + a] = d[b] * normal[c] - d[c] * normal[b]
+        row[at + a] = normal[a]
+        off += normal[a] * (d[a] - place[a])
+    take_row(belief, row, off, variance)
     apply_error(belief)

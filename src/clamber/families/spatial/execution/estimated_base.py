@@ -1,5 +1,6 @@
 """A robot in space that works out where it is: from encoders, IMU and contacts, with a map of holds that its touches correct."""
 
+import math
 from typing import Final
 
 import numpy as np
@@ -9,12 +10,17 @@ from ....control.whole_body.tree_kernels import place_bodies, tip_motion
 from ....types import Floats, Ints
 from ..control.base_filter import BaseFilter, FilterSettings
 from ..control.base_filter_kernels import turn_by
+from ..robot.parts import Motors
 from ..robot.robot import SpatialRobot
 from ..world.world import World
 from .plant import Pose, SpatialSensed
 
 LEAST: Final = 1e-4
 """What links and tips give way, which no encoder tells [m]."""
+FIRM: Final = 0.03
+"""A motor that gives this part of its torque pushes its joint's play to one side [-]."""
+LAG: Final = 0.03
+"""In which it does [s]."""
 SPEED_BAND: Final = 120.0
 """Of the tracking filter that makes speeds of the angles of coarse encoders [rad/s]."""
 
@@ -29,6 +35,7 @@ class EstimatedBase:
         period: Between ticks [s].
         late: By which sensors tell what was, as their data sheets say [s]; beliefs are of now.
         coarse: Whether encoders are too coarse to tell speeds.
+        play: Whole play of each turning joint, as its data sheet says [rad]: its output lies to the side that its motor pushes from.
         settings: Of the filter.
     """
 
@@ -41,6 +48,7 @@ class EstimatedBase:
         *,
         late: float = 0.0,
         coarse: bool = False,
+        play: float = 0.0,
         settings: FilterSettings = FilterSettings(),  # noqa: B008  # frozen
     ) -> None:
         self._tree, self._period, self._late, self._settings = tree, period, late, settings
@@ -49,19 +57,24 @@ class EstimatedBase:
         self.filter: Final = BaseFilter(limbs, directed, np.array(world.gravity), settings)
         self.places: Final = world.places
         """Where holds are, as believed, corrected by touch [m], shape (holds, 3)."""
+        self._normals = world.normals
         self._spreads = np.full(len(world.holds), settings.hold)
         self._on: Ints = np.full(limbs, -1, np.int32)
         self._own, self._work = State.of(tree), Dynamics.of(tree)
         self._variances = np.zeros(limbs)
         self._coarse, self._keep = coarse, float(np.exp(-SPEED_BAND * period))
         self._number = -1
+        motors = Motors.of(robot)
+        self._half_play, self._firm = np.where(motors.sliding, 0.0, play / 2.0), FIRM * motors.torque
+        self._pushed = np.zeros(tree.joints)
+        self._placed = self._own._replace(joints=self._own.joints.copy())
 
     def begin(self, pose: Pose, sensed: SpatialSensed) -> None:
         """See `Belief`."""
         self.filter.begin(pose.rotation, pose.position)
         self._on[:] = -1
         self._own.joints[:] = sensed.joints[0]
-        self._own.speed[:] = 0.0
+        self._own.speed[:] = self._pushed[:] = 0.0
         self._number = int(sensed.number[0])
 
     def update(self, sensed: SpatialSensed, holds: Ints, state: State) -> None:
@@ -71,8 +84,12 @@ class EstimatedBase:
         if passed:
             self.filter.predict(sensed.gyro, sensed.accelerometer, passed * self._period)
         self._follow(sensed.joints, passed)
-        place_bodies(self._tree, self._own, self._work)
-        tip_motion(self._tree, self._own, self._work)
+        share = 1.0 - math.exp(-passed * self._period / LAG)
+        self._pushed += share * (sensed.torques - self._pushed)
+        sides = np.clip(self._pushed / self._firm, -1.0, 1.0)
+        self._placed.joints[:] = self._own.joints - self._half_play * sides
+        place_bodies(self._tree, self._placed, self._work)
+        tip_motion(self._tree, self._placed, self._work)
         levers = np.square(self._work.jacobian[:, :3, FREE:]).sum(axis=(1, 2)) / 3.0
         self._variances[:] = LEAST**2 + self._settings.encoder**2 * levers
         self.filter.correct(self._work.tip, self._work.tip_turn, self._variances)
@@ -102,7 +119,7 @@ class EstimatedBase:
         if hold >= 0:
             work = self._work
             self.filter.hold_on(limb, work.tip[limb], work.tip_turn[limb], float(self._variances[limb]))
-            self.filter.take_place(limb, self.places[hold], float(self._spreads[hold]) ** 2)
+            self.filter.take_height(limb, self.places[hold], self._normals[hold], float(self._spreads[hold]) ** 2)
         self._on[limb] = hold
 
     def _tell(self, sensed: SpatialSensed, state: State) -> None:

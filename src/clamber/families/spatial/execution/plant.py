@@ -37,6 +37,8 @@ class SpatialSensed:
     """Specific force at the base frame's origin (acceleration less gravity), base frame [m/s^2], shape (3,)."""
     wrenches: Floats
     """Force [N] and moment about the tip [N m] by each tip's sensor, end effector's frame (z out of it), shape (limbs, 6)."""
+    torques: Floats
+    """What the motors say that they give, by their currents [N m] or [N], shape (n,)."""
     closed: Ints
     """What each end effector's own switch says: 1 attached, 0 not; of feet always 0. Shape (limbs,)."""
     number: Ints
@@ -51,6 +53,7 @@ class SpatialSensed:
             gyro=np.zeros(3),
             accelerometer=np.zeros(3),
             wrenches=np.zeros((limbs, 6)),
+            torques=np.zeros(n),
             closed=np.zeros(limbs, np.int32),
             number=np.full(1, -1, np.int32),
         )

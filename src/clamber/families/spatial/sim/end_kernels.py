@@ -150,17 +150,20 @@ def feel_ends(ends, axes, readings, wrenches, local, given):
 
 
 @kernel
-def nearest_holds(tips, places, normals, radii, nearest, gaps):
+def nearest_holds(tips, held, places, normals, radii, nearest, gaps):
     """The hold whose patch is nearest each tip.
 
     Args:
         tips: World frame [m], shape (limbs, 3).
+        held: Index of the hold that each is attached to, which stays its nearest; -1: none. Shape (limbs,).
         places, normals: Of the holds, shape (holds, 3); normals out of the surface.
         radii: Of their patches [m], shape (holds,); negative: the hold is no more.
         nearest: Filled: index, -1 where there is none, shape (limbs,).
         gaps: Filled: distance from the patch [m], shape (limbs,).
     """
     for limb in range(tips.shape[0]):
+        if held[limb] >= 0:
+            continue
         nearest[limb] = -1
         best = math.inf
         for k in range(places.shape[0]):

@@ -17,7 +17,7 @@ from .spatial_model import THICK, TIP, held_name, patch_name, quaternion, tip_na
 
 GIVING_WAY: Final = 0.02
 """An end effector comes off after that long above its strength; shorter knocks, as when it lands, break nothing [s]."""
-CLOSE: Final = 0.25
+CLOSE: Final = 0.1
 """An end effector attaches from this part of its capture distance out of the surface, or into it [-]."""
 TOUCH: Final = 0.0002
 """Forces below this part of the strength of a hook or of spines, which nothing pulls on, neither slip nor leave [-]."""
@@ -135,7 +135,7 @@ class Ends:
     def look(self) -> None:
         """Bring the nearest hold beneath every tip, and attach what is to attach: before the physics of a control period."""
         tips = self._site_places[self._sites]
-        nearest_holds(tips, self._places, self._normals, self._radii, self._nearest, self._gaps)
+        nearest_holds(tips, self._ends["hold"], self._places, self._normals, self._radii, self._nearest, self._gaps)
         for limb, hold in enumerate(self._nearest.tolist()):
             if hold != self._under[limb]:
                 self._put_beneath(limb, hold)
@@ -196,6 +196,7 @@ class Ends:
         data.eq_active[self._held[limb]] = 1
         own = strength.pull * max(0.0, 1.0 - strength.tilt_loss * self._tilt(limb, hold))
         end["hold"], end["over"], end["normal"] = hold, 0, self._normals[hold]
+        self._nearest[limb], self._gaps[limb] = hold, 0.0
         end["mu"] = self._friction(limb, hold)
         end["held"] = self._grip_factor[hold] * min(own, self._hold_pull[hold])
         self._touchable(limb, False)

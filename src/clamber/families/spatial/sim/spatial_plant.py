@@ -115,7 +115,7 @@ class SpatialSim:
         self.ends.reset(held)
         mujoco.mj_forward(model, data)
         self.ends.feel(0.0)
-        self._wanted[:] = self._ring[:] = 0.0
+        self._wanted[:] = self._given[:] = self._ring[:] = 0.0
         self._next_push = 0
         self._imu.reset()
         self._feeling.reset()
@@ -147,6 +147,7 @@ class SpatialSim:
         )
         self._imu.read(self.tick, sensed.gyro, sensed.accelerometer)
         sensed.wrenches[:] = self._feeling.read(self.ends.local, self.tick)
+        sensed.torques[:] = self._given[0]
         sensed.closed[:] = self.ends.closed
         sensed.number[0] = self.tick
         return sensed

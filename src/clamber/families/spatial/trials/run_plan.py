@@ -103,6 +103,7 @@ def run_plan(
         plant.period,
         late=sensors.late * plant.period,
         coarse=sensors.encoder_step > 0.0,
+        play=sensors.backlash,
     )
     body = TracedBody(task.robot, task.world, plant, belief, Pace.of(task.robot), task.rules.lift)
     scene = space_scene(task, true="base x true [m]" in body.titles)
